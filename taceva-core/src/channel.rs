@@ -1,0 +1,257 @@
+//! What is measured: the six channels of a contact, and named extra ones.
+
+use std::borrow::Cow;
+use std::fmt;
+
+use crate::unit::Unit;
+
+/// One measured quantity: a name and the unit it is kept in.
+///
+/// # Units
+/// `Px Py Pz` in mm and `Fx Fy Fz` in N. `Pz` is the indentation, positive into the gel; `Fz` is positive in compression;
+/// `Fx`, `Fy` follow the tangential displacement of the indenter relative to the gel.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct Channel {
+    name: Cow<'static, str>,
+    unit: Unit,
+}
+
+impl Channel {
+    /// Contact position along x.
+    pub const PX: Channel = Channel::fixed("Px", Unit::Millimetre);
+    /// Contact position along y.
+    pub const PY: Channel = Channel::fixed("Py", Unit::Millimetre);
+    /// Indentation depth, positive into the gel.
+    pub const PZ: Channel = Channel::fixed("Pz", Unit::Millimetre);
+    /// Shear force along x.
+    pub const FX: Channel = Channel::fixed("Fx", Unit::Newton);
+    /// Shear force along y.
+    pub const FY: Channel = Channel::fixed("Fy", Unit::Newton);
+    /// Normal force, positive in compression.
+    pub const FZ: Channel = Channel::fixed("Fz", Unit::Newton);
+    /// The six channels of a contact in their order everywhere.
+    pub const SIX: [Channel; 6] = [
+        Channel::PX,
+        Channel::PY,
+        Channel::PZ,
+        Channel::FX,
+        Channel::FY,
+        Channel::FZ,
+    ];
+
+    /// Longest name of an extra channel, in bytes.
+    pub const NAME_MAX: usize = 32;
+
+    const fn fixed(name: &'static str, unit: Unit) -> Channel {
+        Channel {
+            name: Cow::Borrowed(name),
+            unit,
+        }
+    }
+
+    /// The channel called `name`: one of the six, or an extra one such as `Rx` in degrees or `shear_x` in mm.
+    ///
+    /// # Errors
+    /// [`ChannelError`] if the name is not an ASCII letter followed by letters, digits or `_` (at most
+    /// [`NAME_MAX`](Channel::NAME_MAX) bytes), or if one of the six is given another unit than its own.
+    pub fn named(name: &str, unit: Unit) -> Result<Channel, ChannelError> {
+        if let Some(known) = Channel::SIX
+            .into_iter()
+            .find(|channel| channel.name == name)
+        {
+            return if known.unit == unit {
+                Ok(known)
+            } else {
+                Err(ChannelError::Unit {
+                    name: name.to_owned(),
+                    expected: known.unit,
+                    found: unit,
+                })
+            };
+        }
+        let starts_with_letter = name.starts_with(|first: char| first.is_ascii_alphabetic());
+        let rest_is_plain = name
+            .bytes()
+            .all(|byte| byte.is_ascii_alphanumeric() || byte == b'_');
+        if !starts_with_letter || !rest_is_plain || name.len() > Channel::NAME_MAX {
+            return Err(ChannelError::Name {
+                name: name.to_owned(),
+            });
+        }
+        Ok(Channel {
+            name: Cow::Owned(name.to_owned()),
+            unit,
+        })
+    }
+
+    /// The name as it stands in tables, maps and reports.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// The unit its values are kept in.
+    pub fn unit(&self) -> Unit {
+        self.unit
+    }
+}
+
+impl fmt::Display for Channel {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.name)
+    }
+}
+
+/// The channels of a stream, each once, in the one order: `Px Py Pz Fx Fy Fz`, then extra ones by name.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Hash)]
+pub struct Channels {
+    list: Vec<Channel>,
+}
+
+impl Channels {
+    /// The given channels in canonical order.
+    ///
+    /// # Errors
+    /// [`ChannelError::Twice`] if a name comes twice.
+    pub fn new(channels: impl IntoIterator<Item = Channel>) -> Result<Channels, ChannelError> {
+        let mut list: Vec<Channel> = channels.into_iter().collect();
+        list.sort_by_cached_key(|channel| {
+            let rank = Channel::SIX
+                .iter()
+                .position(|known| known.name == channel.name);
+            (rank.unwrap_or(Channel::SIX.len()), channel.name.to_string())
+        });
+        if let Some(pair) = list.windows(2).find(|pair| pair[0].name == pair[1].name) {
+            return Err(ChannelError::Twice {
+                name: pair[0].name.to_string(),
+            });
+        }
+        Ok(Channels { list })
+    }
+
+    /// Where the channel called `name` stands.
+    pub fn position(&self, name: &str) -> Option<usize> {
+        self.list.iter().position(|channel| channel.name == name)
+    }
+
+    /// The channel called `name`.
+    pub fn by_name(&self, name: &str) -> Option<&Channel> {
+        self.list.iter().find(|channel| channel.name == name)
+    }
+
+    /// The channels in order.
+    pub fn as_slice(&self) -> &[Channel] {
+        &self.list
+    }
+
+    /// The channels in order.
+    pub fn iter(&self) -> std::slice::Iter<'_, Channel> {
+        self.list.iter()
+    }
+
+    /// How many there are.
+    pub fn len(&self) -> usize {
+        self.list.len()
+    }
+
+    /// Whether there is none.
+    pub fn is_empty(&self) -> bool {
+        self.list.is_empty()
+    }
+}
+
+impl<'a> IntoIterator for &'a Channels {
+    type Item = &'a Channel;
+    type IntoIter = std::slice::Iter<'a, Channel>;
+    fn into_iter(self) -> Self::IntoIter {
+        self.iter()
+    }
+}
+
+/// Why a channel or a list of channels cannot be.
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum ChannelError {
+    /// The name has other characters than letters, digits and `_`, or is too long.
+    Name {
+        /// The name as given.
+        name: String,
+    },
+    /// One of the six channels in a unit that is not its own.
+    Unit {
+        /// The channel.
+        name: String,
+        /// The unit it is kept in.
+        expected: Unit,
+        /// The unit that was given.
+        found: Unit,
+    },
+    /// The same channel twice.
+    Twice {
+        /// The channel.
+        name: String,
+    },
+}
+
+impl fmt::Display for ChannelError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            ChannelError::Name { name } => write!(
+                f,
+                "`{name}` is no channel name: a letter, then letters, digits or `_`, at most {} bytes",
+                Channel::NAME_MAX
+            ),
+            ChannelError::Unit {
+                name,
+                expected,
+                found,
+            } => {
+                write!(f, "channel `{name}` is kept in {expected}, not in {found}")
+            }
+            ChannelError::Twice { name } => write!(f, "channel `{name}` is given twice"),
+        }
+    }
+}
+
+impl std::error::Error for ChannelError {}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn channels_stand_in_one_order_whatever_order_they_came_in() {
+        let extra = Channel::named("Rx", Unit::Degree).expect("a plain name");
+        let first = Channels::new([extra.clone(), Channel::FZ, Channel::PX]).expect("distinct");
+        let second = Channels::new([Channel::PX, extra, Channel::FZ]).expect("distinct");
+        assert_eq!(first, second);
+        assert_eq!(
+            first.iter().map(Channel::name).collect::<Vec<_>>(),
+            ["Px", "Fz", "Rx"]
+        );
+    }
+
+    #[test]
+    fn a_force_in_millimetres_is_refused() {
+        let error = Channel::named("Fz", Unit::Millimetre).expect_err("Fz is in N");
+        assert_eq!(error.to_string(), "channel `Fz` is kept in N, not in mm");
+    }
+
+    #[test]
+    fn names_that_would_break_a_table_are_refused() {
+        for name in ["", "1x", "a b", "a,b", "é", &"x".repeat(33)] {
+            assert!(
+                matches!(
+                    Channel::named(name, Unit::One),
+                    Err(ChannelError::Name { .. })
+                ),
+                "{name}"
+            );
+        }
+    }
+
+    #[test]
+    fn a_channel_given_twice_is_refused() {
+        let error = Channels::new([Channel::FZ, Channel::FZ]).expect_err("twice");
+        assert_eq!(error, ChannelError::Twice { name: "Fz".into() });
+    }
+}

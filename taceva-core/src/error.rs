@@ -1,0 +1,94 @@
+//! The closed list of ways in which a device, a plugin or a file can fail.
+
+use std::fmt;
+
+/// What kind of failure it was, whatever failed; numerically the status of the C boundary, negated.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[repr(i32)]
+pub enum ErrorKind {
+    /// The thing named does not exist.
+    NotFound = 1,
+    /// It exists, and this user may not open it.
+    PermissionDenied = 2,
+    /// Somebody else holds it.
+    Busy = 3,
+    /// No answer within the deadline.
+    Timeout = 4,
+    /// The link is gone.
+    Disconnected = 5,
+    /// The thing cannot do this at all.
+    Unsupported = 6,
+    /// The caller asked for something impossible.
+    InvalidArgument = 7,
+    /// Bytes that do not follow their format.
+    Protocol = 8,
+    /// A value outside what is allowed.
+    OutOfRange = 9,
+    /// Stopped on request.
+    Interrupted = 10,
+    /// The device reports a fault.
+    DeviceFault = 11,
+    /// The two sides of a boundary disagree on its layout.
+    Abi = 12,
+    /// Nothing more will come.
+    EndOfStream = 13,
+    /// Foreign code panicked and was contained.
+    Panicked = 14,
+    /// A bug of ours.
+    Internal = 15,
+}
+
+impl ErrorKind {
+    /// Every kind, in the order of its number.
+    pub const ALL: [ErrorKind; 15] = [
+        ErrorKind::NotFound,
+        ErrorKind::PermissionDenied,
+        ErrorKind::Busy,
+        ErrorKind::Timeout,
+        ErrorKind::Disconnected,
+        ErrorKind::Unsupported,
+        ErrorKind::InvalidArgument,
+        ErrorKind::Protocol,
+        ErrorKind::OutOfRange,
+        ErrorKind::Interrupted,
+        ErrorKind::DeviceFault,
+        ErrorKind::Abi,
+        ErrorKind::EndOfStream,
+        ErrorKind::Panicked,
+        ErrorKind::Internal,
+    ];
+}
+
+impl fmt::Display for ErrorKind {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            ErrorKind::NotFound => "not found",
+            ErrorKind::PermissionDenied => "permission denied",
+            ErrorKind::Busy => "busy",
+            ErrorKind::Timeout => "timeout",
+            ErrorKind::Disconnected => "disconnected",
+            ErrorKind::Unsupported => "unsupported",
+            ErrorKind::InvalidArgument => "invalid argument",
+            ErrorKind::Protocol => "malformed data",
+            ErrorKind::OutOfRange => "out of range",
+            ErrorKind::Interrupted => "interrupted",
+            ErrorKind::DeviceFault => "device fault",
+            ErrorKind::Abi => "incompatible interface",
+            ErrorKind::EndOfStream => "end of stream",
+            ErrorKind::Panicked => "panicked",
+            ErrorKind::Internal => "internal error",
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_numbers_of_the_kinds_count_up_from_one() {
+        for (position, kind) in ErrorKind::ALL.into_iter().enumerate() {
+            assert_eq!(kind as usize, position + 1);
+        }
+    }
+}

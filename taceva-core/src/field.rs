@@ -1,0 +1,144 @@
+//! The parts of a sample, as data: so that what nobody reads is neither decoded nor kept.
+
+use std::fmt;
+use std::ops::BitOr;
+
+/// One part of a [`Sample`](crate::Sample).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[repr(u8)]
+#[non_exhaustive]
+pub enum Field {
+    /// The picture of the gel.
+    Frame,
+    /// What the reference instruments say.
+    Truth,
+    /// What a model says.
+    Prediction,
+    /// The contact location: the cluster of every interval.
+    Point,
+    /// The depth level within a point.
+    DepthStep,
+    /// The number of the repeat.
+    Repeat,
+    /// Load or unload.
+    Phase,
+    /// The lighting scene or the like.
+    Scene,
+    /// The sensor unit.
+    UnitId,
+    /// The time.
+    Stamp,
+}
+
+impl Field {
+    /// Every field.
+    pub const ALL: [Field; 10] = [
+        Field::Frame,
+        Field::Truth,
+        Field::Prediction,
+        Field::Point,
+        Field::DepthStep,
+        Field::Repeat,
+        Field::Phase,
+        Field::Scene,
+        Field::UnitId,
+        Field::Stamp,
+    ];
+
+    /// The word used in plans and messages.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Field::Frame => "frame",
+            Field::Truth => "truth",
+            Field::Prediction => "prediction",
+            Field::Point => "point_id",
+            Field::DepthStep => "depth_step",
+            Field::Repeat => "repeat",
+            Field::Phase => "phase",
+            Field::Scene => "scene",
+            Field::UnitId => "unit_id",
+            Field::Stamp => "t_s",
+        }
+    }
+}
+
+impl fmt::Display for Field {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+/// A set of fields.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub struct FieldSet {
+    bits: u16,
+}
+
+impl FieldSet {
+    /// No field.
+    pub const EMPTY: FieldSet = FieldSet { bits: 0 };
+    /// What scores of predictions read: truth, prediction and the cluster they belong to.
+    pub const PAIRS: FieldSet = FieldSet::EMPTY
+        .with(Field::Truth)
+        .with(Field::Prediction)
+        .with(Field::Point);
+
+    /// This set and `field`.
+    pub const fn with(self, field: Field) -> FieldSet {
+        FieldSet {
+            bits: self.bits | 1 << field as u8,
+        }
+    }
+
+    /// This set without `field`.
+    pub const fn without(self, field: Field) -> FieldSet {
+        FieldSet {
+            bits: self.bits & !(1 << field as u8),
+        }
+    }
+
+    /// Whether `field` is in the set.
+    pub const fn contains(self, field: Field) -> bool {
+        self.bits & 1 << field as u8 != 0
+    }
+
+    /// The fields in order.
+    pub fn iter(self) -> impl Iterator<Item = Field> {
+        Field::ALL
+            .into_iter()
+            .filter(move |field| self.contains(*field))
+    }
+}
+
+impl BitOr for FieldSet {
+    type Output = FieldSet;
+    fn bitor(self, other: FieldSet) -> FieldSet {
+        FieldSet {
+            bits: self.bits | other.bits,
+        }
+    }
+}
+
+impl FromIterator<Field> for FieldSet {
+    fn from_iter<I: IntoIterator<Item = Field>>(fields: I) -> FieldSet {
+        fields.into_iter().fold(FieldSet::EMPTY, FieldSet::with)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_set_holds_what_was_put_in_and_nothing_else() {
+        for field in Field::ALL {
+            let only = FieldSet::EMPTY.with(field);
+            assert_eq!(only.iter().collect::<Vec<_>>(), [field]);
+            assert_eq!(only.without(field), FieldSet::EMPTY);
+        }
+        assert_eq!(
+            Field::ALL.into_iter().collect::<FieldSet>().iter().count(),
+            Field::ALL.len()
+        );
+    }
+}

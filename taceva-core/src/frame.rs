@@ -1,0 +1,236 @@
+//! A picture of the gel: owned, or in the caller's buffer.
+
+use std::fmt;
+
+/// How one pixel is stored. 16-bit samples are little-endian, whatever the machine.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "lowercase"))]
+#[non_exhaustive]
+pub enum PixelFormat {
+    /// One byte: gray.
+    Gray8,
+    /// Two bytes: gray.
+    Gray16,
+    /// Three bytes: red, green, blue.
+    Rgb8,
+    /// Six bytes: red, green, blue.
+    Rgb16,
+}
+
+impl PixelFormat {
+    /// Numbers a pixel: 1 for gray, 3 for RGB.
+    pub const fn samples(self) -> usize {
+        match self {
+            PixelFormat::Gray8 | PixelFormat::Gray16 => 1,
+            PixelFormat::Rgb8 | PixelFormat::Rgb16 => 3,
+        }
+    }
+
+    /// Bytes a number: 1 or 2.
+    pub const fn bytes_per_sample(self) -> usize {
+        match self {
+            PixelFormat::Gray8 | PixelFormat::Rgb8 => 1,
+            PixelFormat::Gray16 | PixelFormat::Rgb16 => 2,
+        }
+    }
+
+    /// The largest number a pixel can hold: 255 or 65535.
+    pub const fn full_scale(self) -> u16 {
+        match self.bytes_per_sample() {
+            1 => 255,
+            _ => 65_535,
+        }
+    }
+
+    /// How the format is written in files.
+    pub const fn name(self) -> &'static str {
+        match self {
+            PixelFormat::Gray8 => "gray8",
+            PixelFormat::Gray16 => "gray16",
+            PixelFormat::Rgb8 => "rgb8",
+            PixelFormat::Rgb16 => "rgb16",
+        }
+    }
+}
+
+/// The size and the pixel format of a frame.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct FrameInfo {
+    /// Pixels a row.
+    pub width: u32,
+    /// Rows.
+    pub height: u32,
+    /// How one pixel is stored.
+    pub format: PixelFormat,
+}
+
+impl FrameInfo {
+    /// Bytes of a whole frame, without padding; `None` beyond the address space.
+    pub fn byte_len(&self) -> Option<usize> {
+        let pixels = usize::try_from(self.width)
+            .ok()?
+            .checked_mul(usize::try_from(self.height).ok()?)?;
+        pixels
+            .checked_mul(self.format.samples())?
+            .checked_mul(self.format.bytes_per_sample())
+    }
+}
+
+impl fmt::Display for FrameInfo {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}×{} {}", self.width, self.height, self.format.name())
+    }
+}
+
+/// A frame that owns its pixels, row by row from the top, without padding.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Frame {
+    info: FrameInfo,
+    bytes: Vec<u8>,
+}
+
+impl Frame {
+    /// A frame of `bytes`.
+    ///
+    /// # Shapes
+    /// `bytes`: height × width × samples × bytes a sample.
+    /// # Errors
+    /// [`FrameError`] if there are more or fewer bytes.
+    pub fn new(info: FrameInfo, bytes: Vec<u8>) -> Result<Frame, FrameError> {
+        check_len(info, bytes.len())?;
+        Ok(Frame { info, bytes })
+    }
+
+    /// Size and format.
+    pub fn info(&self) -> FrameInfo {
+        self.info
+    }
+
+    /// The pixels.
+    pub fn bytes(&self) -> &[u8] {
+        &self.bytes
+    }
+
+    /// The pixels, given away.
+    pub fn into_bytes(self) -> Vec<u8> {
+        self.bytes
+    }
+
+    /// Every number of the frame, in order, 8-bit ones widened.
+    pub fn samples(&self) -> impl Iterator<Item = u16> + '_ {
+        let width = self.info.format.bytes_per_sample();
+        self.bytes.chunks_exact(width).map(|sample| match *sample {
+            [low, high] => u16::from_le_bytes([low, high]),
+            [byte] => u16::from(byte),
+            _ => 0,
+        })
+    }
+}
+
+/// A frame to be written into, in the caller's buffer.
+#[derive(Debug)]
+pub struct FrameMut<'a> {
+    info: FrameInfo,
+    bytes: &'a mut [u8],
+}
+
+impl<'a> FrameMut<'a> {
+    /// A frame over `bytes`.
+    ///
+    /// # Errors
+    /// [`FrameError`] if `bytes` has another length than the frame.
+    pub fn new(info: FrameInfo, bytes: &'a mut [u8]) -> Result<FrameMut<'a>, FrameError> {
+        check_len(info, bytes.len())?;
+        Ok(FrameMut { info, bytes })
+    }
+
+    /// Size and format.
+    pub fn info(&self) -> FrameInfo {
+        self.info
+    }
+
+    /// The pixels to write.
+    pub fn bytes_mut(&mut self) -> &mut [u8] {
+        self.bytes
+    }
+}
+
+fn check_len(info: FrameInfo, found: usize) -> Result<(), FrameError> {
+    match info.byte_len() {
+        Some(expected) if expected == found => Ok(()),
+        expected => Err(FrameError {
+            info,
+            expected,
+            found,
+        }),
+    }
+}
+
+/// A buffer that does not fit its frame.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct FrameError {
+    info: FrameInfo,
+    expected: Option<usize>,
+    found: usize,
+}
+
+impl fmt::Display for FrameError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.expected {
+            Some(expected) => {
+                write!(
+                    f,
+                    "a frame of {} takes {expected} bytes, found {}",
+                    self.info, self.found
+                )
+            }
+            None => write!(
+                f,
+                "a frame of {} is larger than the address space",
+                self.info
+            ),
+        }
+    }
+}
+
+impl std::error::Error for FrameError {}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const TINY: FrameInfo = FrameInfo {
+        width: 2,
+        height: 1,
+        format: PixelFormat::Gray16,
+    };
+
+    #[test]
+    fn sixteen_bit_samples_are_little_endian() {
+        let frame = Frame::new(TINY, vec![0x34, 0x12, 0xff, 0x00]).expect("four bytes");
+        assert_eq!(frame.samples().collect::<Vec<_>>(), [0x1234, 0x00ff]);
+    }
+
+    #[test]
+    fn a_buffer_of_another_length_is_refused() {
+        let error = Frame::new(TINY, vec![0; 3]).expect_err("one byte short");
+        assert_eq!(
+            error.to_string(),
+            "a frame of 2×1 gray16 takes 4 bytes, found 3"
+        );
+        assert!(FrameMut::new(TINY, &mut [0; 5]).is_err());
+    }
+
+    #[test]
+    fn a_frame_beyond_the_address_space_has_no_length() {
+        let info = FrameInfo {
+            width: u32::MAX,
+            height: u32::MAX,
+            format: PixelFormat::Rgb16,
+        };
+        assert_eq!(info.byte_len(), None);
+        assert!(Frame::new(info, Vec::new()).is_err());
+    }
+}

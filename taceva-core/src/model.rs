@@ -1,0 +1,230 @@
+//! What a model promises: an [`Estimator`] is fitted and gives a [`Regressor`]; the unfitted one cannot predict.
+
+use std::error::Error;
+use std::fmt;
+
+use crate::channel::Channels;
+use crate::error::ErrorKind;
+use crate::progress::Progress;
+
+/// The shape of one sample's features: a small picture, or a flat list.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct FeatureShape {
+    /// Rows; 1 for a flat list.
+    pub height: usize,
+    /// Columns; the length of a flat list.
+    pub width: usize,
+    /// Numbers a place: 1 for gray and for a flat list, 3 for RGB.
+    pub depth: usize,
+}
+
+impl FeatureShape {
+    /// A flat list of `length` numbers.
+    pub const fn flat(length: usize) -> FeatureShape {
+        FeatureShape {
+            height: 1,
+            width: length,
+            depth: 1,
+        }
+    }
+
+    /// Numbers a sample.
+    pub const fn len(&self) -> usize {
+        self.height * self.width * self.depth
+    }
+
+    /// Whether a sample has no number.
+    pub const fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+}
+
+/// The features of some samples, sample by sample.
+///
+/// # Shapes
+/// `[samples, height, width, depth]`, contiguous.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Features {
+    shape: FeatureShape,
+    values: Vec<f32>,
+}
+
+impl Features {
+    /// Features of `shape`; the number of samples follows from the number of values.
+    ///
+    /// # Errors
+    /// [`ModelError`] if the values are no whole number of samples.
+    pub fn new(shape: FeatureShape, values: Vec<f32>) -> Result<Features, ModelError> {
+        let whole = match shape.len() {
+            0 => values.is_empty(),
+            length => values.len() % length == 0,
+        };
+        if !whole {
+            let message = format!(
+                "{} values are no whole number of samples of {}",
+                values.len(),
+                shape.len()
+            );
+            return Err(ModelError::new(ErrorKind::InvalidArgument, message));
+        }
+        Ok(Features { shape, values })
+    }
+
+    /// The shape of one sample.
+    pub fn shape(&self) -> FeatureShape {
+        self.shape
+    }
+
+    /// Number of samples.
+    pub fn samples(&self) -> usize {
+        match self.shape.len() {
+            0 => 0,
+            length => self.values.len() / length,
+        }
+    }
+
+    /// All values.
+    pub fn values(&self) -> &[f32] {
+        &self.values
+    }
+
+    /// The values of one sample.
+    pub fn sample(&self, position: usize) -> &[f32] {
+        let length = self.shape.len();
+        &self.values[position * length..(position + 1) * length]
+    }
+
+    /// The samples at `positions`, in that order.
+    pub fn select(&self, positions: &[usize]) -> Features {
+        let values = positions
+            .iter()
+            .flat_map(|&position| self.sample(position))
+            .copied()
+            .collect();
+        Features {
+            shape: self.shape,
+            values,
+        }
+    }
+}
+
+/// What should be predicted, sample by sample.
+///
+/// # Shapes
+/// `values`: `[samples, channels]`.
+#[derive(Clone, Copy, Debug)]
+pub struct Targets<'a> {
+    /// What each column means.
+    pub channels: &'a Channels,
+    /// Every value is finite.
+    pub values: &'a [f64],
+}
+
+/// Samples to learn from, or to choose settings by.
+#[derive(Clone, Copy, Debug)]
+pub struct TrainingSet<'a> {
+    /// What is seen.
+    pub features: &'a Features,
+    /// What is true.
+    pub targets: Targets<'a>,
+    /// Which samples belong together, a number a sample; for settings chosen by leaving one group out.
+    pub groups: Option<&'a [u32]>,
+}
+
+/// A model with its settings, not fitted yet.
+pub trait Estimator: Send + Sync {
+    /// The name by which people choose it: `ridge`.
+    fn name(&self) -> &'static str;
+
+    /// Learns from `training`; settings left open are chosen on `validation`, where there is one.
+    ///
+    /// # Errors
+    /// [`ModelError`] if the sets do not fit each other, nothing can be learnt from them, or `progress` was cancelled.
+    fn fit(
+        &self,
+        training: &TrainingSet<'_>,
+        validation: Option<&TrainingSet<'_>>,
+        progress: &dyn Progress,
+    ) -> Result<Box<dyn Regressor>, ModelError>;
+}
+
+/// A fitted model.
+pub trait Regressor: Send + Sync {
+    /// What it predicts.
+    fn channels(&self) -> &Channels;
+
+    /// The shape of features it takes.
+    fn shape(&self) -> FeatureShape;
+
+    /// Predicts every sample of `features`.
+    ///
+    /// # Shapes
+    /// `into`: `[samples, channels]`, the caller's.
+    /// # Errors
+    /// [`ModelError`] if a shape differs, or a prediction is not finite.
+    fn predict(&self, features: &Features, into: &mut [f64]) -> Result<(), ModelError>;
+}
+
+/// Why a model could not be fitted or used.
+#[derive(Debug)]
+pub struct ModelError {
+    kind: ErrorKind,
+    message: String,
+    source: Option<Box<dyn Error + Send + Sync>>,
+}
+
+impl ModelError {
+    /// An error of `kind` that says what was being done and on what.
+    pub fn new(kind: ErrorKind, message: impl Into<String>) -> ModelError {
+        ModelError {
+            kind,
+            message: message.into(),
+            source: None,
+        }
+    }
+
+    /// The same error with what caused it.
+    #[must_use]
+    pub fn because(mut self, source: impl Into<Box<dyn Error + Send + Sync>>) -> ModelError {
+        self.source = Some(source.into());
+        self
+    }
+
+    /// What kind of failure it was.
+    pub fn kind(&self) -> ErrorKind {
+        self.kind
+    }
+}
+
+impl fmt::Display for ModelError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.message)
+    }
+}
+
+impl Error for ModelError {
+    fn source(&self) -> Option<&(dyn Error + 'static)> {
+        self.source
+            .as_deref()
+            .map(|source| source as &(dyn Error + 'static))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn selected_samples_come_in_the_order_asked_for() {
+        let features = Features::new(FeatureShape::flat(2), vec![0.0, 1.0, 2.0, 3.0, 4.0, 5.0])
+            .expect("three samples");
+        assert_eq!(features.select(&[2, 0]).values(), [4.0, 5.0, 0.0, 1.0]);
+    }
+
+    #[test]
+    fn a_broken_sample_is_refused() {
+        let error =
+            Features::new(FeatureShape::flat(2), vec![0.0; 3]).expect_err("one and a half samples");
+        assert_eq!(error.kind(), ErrorKind::InvalidArgument);
+    }
+}

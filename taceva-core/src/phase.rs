@@ -1,0 +1,37 @@
+//! On which branch of a press a sample was taken.
+
+use std::fmt;
+
+/// The branch of a press.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
+pub enum Phase {
+    /// The indenter moves into the gel.
+    Load,
+    /// The indenter moves out of the gel.
+    Unload,
+}
+
+impl Phase {
+    /// The word used in tables.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Phase::Load => "load",
+            Phase::Unload => "unload",
+        }
+    }
+
+    /// The phase written as `name`.
+    pub fn from_name(name: &str) -> Option<Phase> {
+        [Phase::Load, Phase::Unload]
+            .into_iter()
+            .find(|phase| phase.name() == name)
+    }
+}
+
+impl fmt::Display for Phase {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}

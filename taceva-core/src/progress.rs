@@ -1,0 +1,26 @@
+//! How long work tells a person where it is, and learns that it should stop.
+
+/// Listens to long work; the work never knows whether a terminal, a log or nobody listens.
+pub trait Progress: Send + Sync {
+    /// A stage begins: what it does, and how many steps it has where that is known.
+    fn begin(&self, stage: &str, steps: Option<u64>);
+    /// `steps` more of the current stage are done.
+    fn advance(&self, steps: u64);
+    /// The current stage is over.
+    fn end(&self);
+    /// Whether the work should stop at the next safe place.
+    fn is_cancelled(&self) -> bool;
+}
+
+/// Nobody listens, and nobody cancels.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Silent;
+
+impl Progress for Silent {
+    fn begin(&self, _stage: &str, _steps: Option<u64>) {}
+    fn advance(&self, _steps: u64) {}
+    fn end(&self) {}
+    fn is_cancelled(&self) -> bool {
+        false
+    }
+}

@@ -1,0 +1,99 @@
+//! One aligned observation. A live rig and a recording push the same samples.
+
+use crate::channel::Channels;
+use crate::frame::Frame;
+use crate::geometry::Pose;
+use crate::phase::Phase;
+use crate::stamp::Stamp;
+use crate::wrench::Wrench;
+
+/// One observation; what is absent is `None`, never a placeholder number.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Sample {
+    /// Its name within the recording.
+    pub id: String,
+    /// The sensor model.
+    pub sensor_id: Option<String>,
+    /// The unit of that model.
+    pub unit_id: Option<String>,
+    /// The lighting scene or the like.
+    pub scene_id: Option<String>,
+    /// The contact location: what repeats share, and the cluster of every interval.
+    pub point_id: Option<String>,
+    /// The depth level within the point.
+    pub depth_step: Option<u32>,
+    /// The number of the repeat.
+    pub repeat: Option<u32>,
+    /// Load or unload.
+    pub phase: Option<Phase>,
+    /// When it was taken.
+    pub stamp: Option<Stamp>,
+    /// The picture, decoded.
+    pub frame: Option<Frame>,
+    /// What the reference instruments say, a value a channel of the stream.
+    pub truth: Readings,
+    /// What a model says, a value a channel of the stream.
+    pub prediction: Option<Readings>,
+}
+
+/// A value a channel of the stream, in the order of its [`Channels`]; absent ones are `None`.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Readings {
+    values: Vec<Option<f64>>,
+}
+
+impl Readings {
+    /// The given values, absent ones as `None`.
+    pub fn new(values: Vec<Option<f64>>) -> Readings {
+        Readings { values }
+    }
+
+    /// A value for each channel.
+    pub fn from_values(values: impl IntoIterator<Item = f64>) -> Readings {
+        Readings {
+            values: values.into_iter().map(Some).collect(),
+        }
+    }
+
+    /// The channels of a contact as the robot and the force transducer saw it; other channels are absent.
+    ///
+    /// ```
+    /// use taceva_core::{Channel, Channels, Newton, Readings, Wrench};
+    /// let channels = Channels::new([Channel::PZ, Channel::FZ])?;
+    /// let wrench = Wrench { force: [Newton(0.0), Newton(0.1), Newton(1.5)], ..Wrench::default() };
+    /// let truth = Readings::of_contact(&channels, None, Some(&wrench));
+    /// assert_eq!((truth.get(0), truth.get(1)), (None, Some(1.5)));
+    /// # Ok::<(), taceva_core::ChannelError>(())
+    /// ```
+    pub fn of_contact(
+        channels: &Channels,
+        pose: Option<&Pose>,
+        wrench: Option<&Wrench>,
+    ) -> Readings {
+        let value = |name: &str| match name {
+            "Px" => pose.map(|pose| pose.position.x.0),
+            "Py" => pose.map(|pose| pose.position.y.0),
+            "Pz" => pose.map(|pose| pose.position.z.0),
+            "Fx" => wrench.map(|wrench| wrench.force[0].0),
+            "Fy" => wrench.map(|wrench| wrench.force[1].0),
+            "Fz" => wrench.map(|wrench| wrench.force[2].0),
+            _ => None,
+        };
+        Readings {
+            values: channels
+                .iter()
+                .map(|channel| value(channel.name()))
+                .collect(),
+        }
+    }
+
+    /// The value of the channel at `position`.
+    pub fn get(&self, position: usize) -> Option<f64> {
+        self.values.get(position).copied().flatten()
+    }
+
+    /// The values in order.
+    pub fn as_slice(&self) -> &[Option<f64>] {
+        &self.values
+    }
+}

@@ -1,0 +1,75 @@
+//! What was not done, and why: data with a reason, never a log line.
+
+use std::fmt;
+
+use crate::field::Field;
+
+/// Something that was left out.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Skipped {
+    /// What: `metric:repeatability`, `field:frame`, `stage:fit`.
+    pub what: String,
+    /// Why.
+    pub reason: SkipReason,
+}
+
+/// Why something was left out.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum SkipReason {
+    /// The stream does not carry a field that is needed.
+    FieldAbsent(Field),
+    /// The stream does not carry a channel that is needed.
+    ChannelAbsent(String),
+    /// Nothing that was asked for reads it.
+    NothingReadsIt,
+    /// The user asked for something else.
+    NotWanted,
+    /// A finished result was given, so it need not be made.
+    AlreadyThere,
+}
+
+impl SkipReason {
+    /// One of each kind, so that tests can visit every line.
+    pub fn all() -> Vec<SkipReason> {
+        vec![
+            SkipReason::FieldAbsent(Field::Repeat),
+            SkipReason::ChannelAbsent("Px".to_owned()),
+            SkipReason::NothingReadsIt,
+            SkipReason::NotWanted,
+            SkipReason::AlreadyThere,
+        ]
+    }
+}
+
+impl fmt::Display for SkipReason {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            SkipReason::FieldAbsent(field) => write!(f, "no sample carries `{field}`"),
+            SkipReason::ChannelAbsent(channel) => write!(f, "there is no channel `{channel}`"),
+            SkipReason::NothingReadsIt => f.write_str("nothing that was asked for reads it"),
+            SkipReason::NotWanted => f.write_str("not asked for"),
+            SkipReason::AlreadyThere => f.write_str("a finished one was given"),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_reason_has_its_own_line() {
+        let lines: Vec<String> = SkipReason::all().iter().map(ToString::to_string).collect();
+        assert_eq!(
+            lines,
+            [
+                "no sample carries `repeat`",
+                "there is no channel `Px`",
+                "nothing that was asked for reads it",
+                "not asked for",
+                "a finished one was given",
+            ]
+        );
+    }
+}

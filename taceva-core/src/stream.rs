@@ -1,0 +1,130 @@
+//! How samples flow: pushed, one way, into sinks.
+
+use crate::field::{Field, FieldSet};
+use crate::sample::Sample;
+
+/// What a sink reports when it cannot take a sample.
+pub type SinkError = Box<dyn std::error::Error + Send + Sync>;
+
+/// Takes samples as they come, from a live rig or from a recording; it cannot tell which.
+pub trait SampleSink {
+    /// What it reads of a sample; a source need not fill the rest.
+    fn fields(&self) -> FieldSet;
+
+    /// Takes one sample.
+    ///
+    /// # Errors
+    /// Whatever keeps the sink from taking it; the source stops and hands the error on.
+    fn accept(&mut self, sample: &Sample) -> Result<(), SinkError>;
+}
+
+impl<S: SampleSink + ?Sized> SampleSink for &mut S {
+    fn fields(&self) -> FieldSet {
+        (**self).fields()
+    }
+    fn accept(&mut self, sample: &Sample) -> Result<(), SinkError> {
+        (**self).accept(sample)
+    }
+}
+
+/// Two sinks fed by one stream: record and evaluate in one pass.
+#[derive(Debug)]
+pub struct Tee<A, B> {
+    /// Fed first.
+    pub first: A,
+    /// Fed second, if the first took the sample.
+    pub second: B,
+}
+
+impl<A: SampleSink, B: SampleSink> SampleSink for Tee<A, B> {
+    fn fields(&self) -> FieldSet {
+        self.first.fields() | self.second.fields()
+    }
+    fn accept(&mut self, sample: &Sample) -> Result<(), SinkError> {
+        self.first.accept(sample)?;
+        self.second.accept(sample)
+    }
+}
+
+/// A sink that hides fields from the one behind it, so that the source does not fill them.
+#[derive(Debug)]
+pub struct Select<S> {
+    inner: S,
+    kept: FieldSet,
+}
+
+impl<S: SampleSink> Select<S> {
+    /// `inner`, without the fields outside `kept`.
+    pub fn new(inner: S, kept: FieldSet) -> Select<S> {
+        Select { inner, kept }
+    }
+}
+
+impl<S: SampleSink> SampleSink for Select<S> {
+    fn fields(&self) -> FieldSet {
+        self.inner
+            .fields()
+            .iter()
+            .filter(|field| self.kept.contains(*field))
+            .collect()
+    }
+    fn accept(&mut self, sample: &Sample) -> Result<(), SinkError> {
+        let kept = |field| self.kept.contains(field);
+        let selected = Sample {
+            id: sample.id.clone(),
+            sensor_id: sample.sensor_id.clone(),
+            unit_id: sample.unit_id.clone().filter(|_| kept(Field::UnitId)),
+            scene_id: sample.scene_id.clone().filter(|_| kept(Field::Scene)),
+            point_id: sample.point_id.clone().filter(|_| kept(Field::Point)),
+            depth_step: sample.depth_step.filter(|_| kept(Field::DepthStep)),
+            repeat: sample.repeat.filter(|_| kept(Field::Repeat)),
+            phase: sample.phase.filter(|_| kept(Field::Phase)),
+            stamp: sample.stamp.filter(|_| kept(Field::Stamp)),
+            frame: sample.frame.clone().filter(|_| kept(Field::Frame)),
+            truth: if kept(Field::Truth) {
+                sample.truth.clone()
+            } else {
+                Default::default()
+            },
+            prediction: sample
+                .prediction
+                .clone()
+                .filter(|_| kept(Field::Prediction)),
+        };
+        self.inner.accept(&selected)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    struct Keep(Vec<Sample>);
+
+    impl SampleSink for Keep {
+        fn fields(&self) -> FieldSet {
+            FieldSet::PAIRS.with(Field::Repeat)
+        }
+        fn accept(&mut self, sample: &Sample) -> Result<(), SinkError> {
+            self.0.push(sample.clone());
+            Ok(())
+        }
+    }
+
+    #[test]
+    fn a_tee_asks_for_what_either_reads_and_feeds_both() {
+        let mut tee = Tee {
+            first: Keep(Vec::new()),
+            second: Select::new(Keep(Vec::new()), FieldSet::EMPTY),
+        };
+        assert_eq!(tee.fields(), FieldSet::PAIRS.with(Field::Repeat));
+        tee.accept(&Sample {
+            id: "a".into(),
+            repeat: Some(3),
+            ..Sample::default()
+        })
+        .expect("kept");
+        assert_eq!(tee.first.0[0].repeat, Some(3));
+        assert_eq!(tee.second.inner.0[0].repeat, None);
+    }
+}
