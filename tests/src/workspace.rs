@@ -1,0 +1,34 @@
+//! The workspace as files and as cargo sees it.
+
+use std::path::{Path, PathBuf};
+
+use cargo_metadata::{Metadata, MetadataCommand};
+
+/// The folder of the workspace.
+pub fn root() -> PathBuf {
+    let here = Path::new(env!("CARGO_MANIFEST_DIR"));
+    here.parent()
+        .expect("the tests crate lies in the workspace")
+        .to_owned()
+}
+
+/// A text file of the workspace.
+///
+/// # Panics
+/// If it cannot be read, which ends the test.
+pub fn read(relative: &str) -> String {
+    let path = root().join(relative);
+    std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
+}
+
+/// What cargo knows of the workspace, without its dependencies.
+///
+/// # Panics
+/// If cargo cannot say, which ends the test.
+pub fn metadata() -> Metadata {
+    MetadataCommand::new()
+        .manifest_path(root().join("Cargo.toml"))
+        .no_deps()
+        .exec()
+        .expect("cargo metadata of the workspace that is being tested")
+}
