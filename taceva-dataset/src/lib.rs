@@ -1,1 +1,36 @@
-//! To be written.
+#![doc = include_str!("../README.md")]
+
+mod csv_table;
+mod dataset;
+mod decode;
+mod digest;
+mod encode;
+mod error;
+mod export;
+mod file;
+mod guard;
+mod header;
+mod layout;
+mod limits;
+mod parallel;
+mod samples;
+mod staged;
+mod store;
+mod table;
+mod text;
+mod toml_file;
+mod version;
+
+pub use csv_table::CsvTable;
+pub use dataset::{Dataset, Pass, StreamReport};
+pub use decode::ChannelOrder;
+pub use digest::{Digest, DigestError};
+pub use error::{DatasetError, Place};
+pub use export::export_csv;
+pub use header::{
+    Footprint, FramesInfo, Header, Known, ReferenceInfo, SensorFacts, Shape, Source, TableInfo,
+};
+pub use store::RecordingFacts;
+pub use table::{FrameEntry, Row, Table};
+pub use toml_file::read_toml;
+pub use version::Version;

@@ -1,0 +1,341 @@
+//! A recording on disk, opened for reading.
+
+use std::io::{Seek, SeekFrom};
+use std::num::NonZeroUsize;
+use std::path::{Path, PathBuf};
+
+use taceva_core::{Field, Frame, Progress, SampleSink, SinkError};
+
+use crate::decode::decode;
+use crate::digest::Digest;
+use crate::error::DatasetError;
+use crate::file::{check_relative, open_regular, read_capped};
+use crate::header::{FramesInfo, Header};
+use crate::layout;
+use crate::limits;
+use crate::parallel::ordered_map;
+use crate::samples::from_parquet;
+use crate::store::dataset_digest;
+use crate::table::{FrameEntry, Table};
+
+/// A recording: its header, its labels in memory, and its frames on disk, decoded when asked for.
+#[derive(Debug)]
+pub struct Dataset {
+    path: PathBuf,
+    header: Header,
+    table: Table,
+}
+
+/// Which rows to go through, how, and who listens.
+#[derive(Clone, Copy)]
+pub struct Pass<'a> {
+    /// The rows, from 0, in the order in which they are wanted.
+    pub rows: &'a [usize],
+    /// Threads that read and decode.
+    pub jobs: NonZeroUsize,
+    /// Hears of each row and may stop the pass.
+    pub progress: &'a dyn Progress,
+}
+
+/// What a pass over samples did.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct StreamReport {
+    /// Samples handed to the sink.
+    pub samples: u64,
+    /// Frames that were read and decoded: none, if the sink reads none.
+    pub frames_decoded: u64,
+}
+
+impl Dataset {
+    /// Opens the recording at `path`. The table is verified and loaded; frames are verified as they are read.
+    ///
+    /// # Errors
+    /// [`DatasetError::NoDataset`] if there is none or the recording was not closed; [`DatasetError::Version`] if it is newer;
+    /// [`DatasetError::Digest`] or [`DatasetError::Damaged`] if it is not what was written; [`DatasetError::Io`].
+    pub fn open(path: &Path) -> Result<Dataset, DatasetError> {
+        let header_path = path.join(layout::HEADER);
+        if !header_path.exists() {
+            let problem = if path.join(layout::JOURNAL).exists() {
+                "the recording was not closed; resume and close it"
+            } else {
+                "it has no `dataset.toml`"
+            };
+            return Err(DatasetError::NoDataset {
+                path: path.to_owned(),
+                problem: problem.to_owned(),
+            });
+        }
+        let header = Header::read(&header_path)?;
+        let table = read_table(&path.join(layout::SAMPLES), &header)?;
+        let dataset = Dataset {
+            path: path.to_owned(),
+            header,
+            table,
+        };
+        dataset.check_consistency()?;
+        Ok(dataset)
+    }
+
+    /// The folder.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// What is known about the recording as a whole.
+    pub fn header(&self) -> &Header {
+        &self.header
+    }
+
+    /// The labels.
+    pub fn table(&self) -> &Table {
+        &self.table
+    }
+
+    /// The digest of everything that decides a number computed from this dataset.
+    pub fn digest(&self) -> Digest {
+        self.header.digest
+    }
+
+    /// The rows in order, for a pass over all of them.
+    pub fn all_rows(&self) -> Vec<usize> {
+        (0..self.table.rows()).collect()
+    }
+
+    /// The frame of a row, verified and decoded; `None` if the row has none.
+    ///
+    /// # Errors
+    /// [`DatasetError::Digest`] if its file is not the one recorded; [`DatasetError::Image`] if it does not decode;
+    /// [`DatasetError::Request`] if there is no such row; [`DatasetError::Io`].
+    pub fn frame(&self, row: usize) -> Result<Option<Frame>, DatasetError> {
+        self.check_row(row)?;
+        match (&self.table.frames()[row], &self.header.frames) {
+            (Some(entry), Some(info)) => self.read_frame(entry, info).map(Some),
+            _ => Ok(None),
+        }
+    }
+
+    /// The frame without contact, if the lab knew one.
+    ///
+    /// # Errors
+    /// As [`frame`](Dataset::frame).
+    pub fn reference(&self) -> Result<Option<Frame>, DatasetError> {
+        let Some(info) = &self.header.frames else {
+            return Ok(None);
+        };
+        let Some(reference) = &info.reference else {
+            return Ok(None);
+        };
+        let entry = FrameEntry {
+            path: reference.path.clone(),
+            digest: reference.sha256,
+        };
+        self.read_frame(&entry, info).map(Some)
+    }
+
+    /// Decodes the frame of each row, calls `work` with it on one of the threads and `take` with the results, in order, on this one.
+    ///
+    /// At most a few frames a thread are in memory. The outcome does not depend on the number of threads.
+    ///
+    /// # Errors
+    /// Those of [`frame`](Dataset::frame), for the first row in order that has one; [`DatasetError::Request`] if a row has no
+    /// frame; [`DatasetError::Sink`] if `take` refuses; [`DatasetError::Cancelled`].
+    pub fn map_frames<T: Send>(
+        &self,
+        pass: Pass<'_>,
+        work: impl Fn(usize, Frame) -> T + Sync,
+        mut take: impl FnMut(usize, T) -> Result<(), SinkError>,
+    ) -> Result<(), DatasetError> {
+        let decode_and_work = |row| {
+            let frame = self.frame(row)?.ok_or_else(|| DatasetError::Request {
+                path: self.path.clone(),
+                problem: format!("row {row} has no frame"),
+            })?;
+            Ok(work(row, frame))
+        };
+        self.pass(pass, "decode", decode_and_work, |row, result| {
+            take(row, result).map_err(|source| DatasetError::Sink { row, source })
+        })
+    }
+
+    /// Pushes the sample of each row into `sink`, in order; frames are decoded only if the sink reads them.
+    ///
+    /// # Errors
+    /// Those of [`frame`](Dataset::frame); [`DatasetError::Sink`] if the sink refuses a sample; [`DatasetError::Cancelled`].
+    pub fn stream(
+        &self,
+        pass: Pass<'_>,
+        sink: &mut dyn SampleSink,
+    ) -> Result<StreamReport, DatasetError> {
+        let fields = sink.fields();
+        let wants_frames = fields.contains(Field::Frame);
+        let mut report = StreamReport::default();
+        let read = |row| {
+            self.check_row(row)?;
+            if wants_frames {
+                self.frame(row)
+            } else {
+                Ok(None)
+            }
+        };
+        // Without frames there is nothing to share among threads.
+        let jobs = if wants_frames {
+            pass.jobs
+        } else {
+            NonZeroUsize::MIN
+        };
+        self.pass(Pass { jobs, ..pass }, "read", read, |row, frame| {
+            report.samples += 1;
+            report.frames_decoded += u64::from(frame.is_some());
+            let mut sample = self.table.sample(row, fields, frame);
+            sample.sensor_id = Some(self.header.sensor.model.clone());
+            sink.accept(&sample)
+                .map_err(|source| DatasetError::Sink { row, source })
+        })?;
+        Ok(report)
+    }
+
+    fn pass<T: Send>(
+        &self,
+        pass: Pass<'_>,
+        stage: &str,
+        work: impl Fn(usize) -> Result<T, DatasetError> + Sync,
+        mut take: impl FnMut(usize, T) -> Result<(), DatasetError>,
+    ) -> Result<(), DatasetError> {
+        let Pass {
+            rows,
+            jobs,
+            progress,
+        } = pass;
+        progress.begin(stage, Some(rows.len() as u64));
+        let outcome = ordered_map(
+            rows.len(),
+            jobs,
+            |position| work(rows[position]),
+            |position, result| {
+                if progress.is_cancelled() {
+                    return Err(DatasetError::Cancelled);
+                }
+                take(rows[position], result?)?;
+                progress.advance(1);
+                Ok(())
+            },
+        );
+        progress.end();
+        outcome
+    }
+
+    fn read_frame(&self, entry: &FrameEntry, info: &FramesInfo) -> Result<Frame, DatasetError> {
+        let path = self.path.join(&entry.path);
+        let bytes = read_capped(&path, limits::IMAGE_BYTES)?;
+        check_digest(&path, entry.digest, Digest::of(&bytes))?;
+        let wrong = |problem| DatasetError::Image {
+            place: None,
+            path: path.clone(),
+            problem,
+        };
+        let (_, frame) = decode(&bytes, info.channel_order).map_err(wrong)?;
+        if frame.info() != info.info {
+            return Err(wrong(format!(
+                "{}, expected {} as in the header",
+                frame.info(),
+                info.info
+            )));
+        }
+        Ok(frame)
+    }
+
+    fn check_row(&self, row: usize) -> Result<(), DatasetError> {
+        if row < self.table.rows() {
+            return Ok(());
+        }
+        Err(DatasetError::Request {
+            path: self.path.clone(),
+            problem: format!("no row {row}, there are {}", self.table.rows()),
+        })
+    }
+
+    /// Whether header and table tell one story. Paths are checked here once, so that reading a frame only joins them.
+    fn check_consistency(&self) -> Result<(), DatasetError> {
+        let damaged = |name: &str, problem: String| DatasetError::Damaged {
+            path: self.path.join(name),
+            problem,
+        };
+        let rows = self.table.rows() as u64;
+        if rows != self.header.table.rows {
+            let promised = self.header.table.rows;
+            return Err(damaged(
+                layout::SAMPLES,
+                format!("{rows} rows, the header says {promised}"),
+            ));
+        }
+        let digest = self.table.digest();
+        if digest != self.header.table.digest {
+            return Err(DatasetError::Digest {
+                path: self.path.join(layout::SAMPLES),
+                expected: self.header.table.digest,
+                found: digest,
+            });
+        }
+        let digest = dataset_digest(digest, self.header.frames.as_ref());
+        if digest != self.header.digest {
+            return Err(DatasetError::Digest {
+                path: self.path.join(layout::HEADER),
+                expected: self.header.digest,
+                found: digest,
+            });
+        }
+        let count = self.table.frames().iter().flatten().count() as u64;
+        let promised = self.header.frames.as_ref().map_or(0, |frames| frames.count);
+        if count != promised {
+            return Err(damaged(
+                layout::SAMPLES,
+                format!("{count} frames, the header says {promised}"),
+            ));
+        }
+        let reference = self
+            .header
+            .frames
+            .as_ref()
+            .and_then(|frames| frames.reference.as_ref())
+            .map(|reference| &reference.path);
+        let paths = self
+            .table
+            .frames()
+            .iter()
+            .flatten()
+            .map(|entry| &entry.path);
+        for path in paths.chain(reference) {
+            check_relative(path).map_err(|problem| DatasetError::Path {
+                place: None,
+                written: path.clone(),
+                problem: problem.to_owned(),
+            })?;
+        }
+        Ok(())
+    }
+}
+
+fn read_table(path: &Path, header: &Header) -> Result<Table, DatasetError> {
+    let (mut file, _) = open_regular(path, limits::TABLE_BYTES)?;
+    let found = Digest::of_reader(&mut file).map_err(DatasetError::io("read", path))?;
+    check_digest(path, header.table.sha256, found)?;
+    file.seek(SeekFrom::Start(0))
+        .map_err(DatasetError::io("read", path))?;
+    from_parquet(file, &header.channels, &header.attributes).map_err(|problem| {
+        DatasetError::Damaged {
+            path: path.to_owned(),
+            problem,
+        }
+    })
+}
+
+fn check_digest(path: &Path, expected: Digest, found: Digest) -> Result<(), DatasetError> {
+    if expected == found {
+        return Ok(());
+    }
+    Err(DatasetError::Digest {
+        path: path.to_owned(),
+        expected,
+        found,
+    })
+}

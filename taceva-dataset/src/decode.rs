@@ -1,0 +1,305 @@
+//! Images: from the bytes of a PNG or JPEG file to a frame.
+
+use std::io::Cursor;
+
+use image::codecs::png::PngDecoder;
+use image::{ColorType, ImageDecoder, Limits};
+use serde::{Deserialize, Serialize};
+use taceva_core::{Frame, FrameInfo, PixelFormat};
+use zune_core::bytestream::ZCursor;
+use zune_core::colorspace::ColorSpace;
+use zune_core::options::DecoderOptions;
+use zune_jpeg::JpegDecoder;
+
+use crate::guard::guarded;
+use crate::limits;
+
+/// In which order the colours of a pixel are stored in the image files.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum ChannelOrder {
+    /// Red, green, blue: what image files promise.
+    Rgb,
+    /// Blue, green, red: written by a program that forgot to swap. Frames are swapped back when decoded.
+    Bgr,
+    /// One number a pixel.
+    Gray,
+}
+
+impl ChannelOrder {
+    /// How the order is written in files.
+    pub const fn name(self) -> &'static str {
+        match self {
+            ChannelOrder::Rgb => "rgb",
+            ChannelOrder::Bgr => "bgr",
+            ChannelOrder::Gray => "gray",
+        }
+    }
+}
+
+/// The file formats that frames are kept in.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum ImageKind {
+    Png,
+    Jpeg,
+}
+
+const PNG_SIGNATURE: &[u8] = b"\x89PNG\r\n\x1a\n";
+const PNG_END: &[u8] = b"\0\0\0\0IEND\xaeB`\x82";
+const JPEG_SIGNATURE: &[u8] = b"\xff\xd8\xff";
+const JPEG_END: &[u8] = b"\xff\xd9";
+
+impl ImageKind {
+    /// The kind whose signature `bytes` begin with; the name of the file plays no part.
+    pub(crate) fn of(bytes: &[u8]) -> Option<ImageKind> {
+        if bytes.starts_with(PNG_SIGNATURE) {
+            Some(ImageKind::Png)
+        } else if bytes.starts_with(JPEG_SIGNATURE) {
+            Some(ImageKind::Jpeg)
+        } else {
+            None
+        }
+    }
+
+    /// The usual extension of its files.
+    pub(crate) const fn extension(self) -> &'static str {
+        match self {
+            ImageKind::Png => "png",
+            ImageKind::Jpeg => "jpg",
+        }
+    }
+
+    /// Whether files of this kind are called `*.extension`.
+    pub(crate) fn has_extension(self, extension: &str) -> bool {
+        match self {
+            ImageKind::Png => extension.eq_ignore_ascii_case("png"),
+            ImageKind::Jpeg => ["jpg", "jpeg"]
+                .iter()
+                .any(|known| extension.eq_ignore_ascii_case(known)),
+        }
+    }
+}
+
+/// The frame in the image file `bytes`, whose colours are stored in `order`.
+///
+/// 8 and 16 bit, gray and RGB are kept; palettes and fewer bits become 8-bit RGB or gray; an alpha channel is dropped if it is
+/// opaque everywhere and refused otherwise. A file that does not end in its end marker is refused: it was cut, even where a
+/// decoder would fill the rest with gray.
+pub(crate) fn decode(bytes: &[u8], order: ChannelOrder) -> Result<(ImageKind, Frame), String> {
+    let kind = ImageKind::of(bytes)
+        .ok_or("neither PNG nor JPEG: its first bytes are those of another format")?;
+    let end = match kind {
+        ImageKind::Png => PNG_END,
+        ImageKind::Jpeg => JPEG_END,
+    };
+    if !bytes.ends_with(end) {
+        return Err(
+            "cut short or damaged: the file does not end in the end marker of its format"
+                .to_owned(),
+        );
+    }
+    let (info, pixels) = guarded(|| match kind {
+        ImageKind::Png => decode_png(bytes),
+        ImageKind::Jpeg => decode_jpeg(bytes),
+    })??;
+    let pixels = in_order(info, pixels, order)?;
+    let frame = Frame::new(info, pixels).map_err(|error| error.to_string())?;
+    Ok((kind, frame))
+}
+
+fn decode_png(bytes: &[u8]) -> Result<(FrameInfo, Vec<u8>), String> {
+    let mut limits = Limits::no_limits();
+    limits.max_image_width = Some(limits::IMAGE_SIDE);
+    limits.max_image_height = Some(limits::IMAGE_SIDE);
+    limits.max_alloc = Some(limits::DECODED_BYTES);
+    let text = |error: image::ImageError| error.to_string();
+    let decoder = PngDecoder::with_limits(Cursor::new(bytes), limits).map_err(text)?;
+    let (width, height) = decoder.dimensions();
+    let color = decoder.color_type();
+    let mut pixels = vec![0; checked_length(decoder.total_bytes())?];
+    decoder.read_image(&mut pixels).map_err(text)?;
+    let (format, pixels) = match color {
+        ColorType::L8 => (PixelFormat::Gray8, pixels),
+        ColorType::Rgb8 => (PixelFormat::Rgb8, pixels),
+        ColorType::L16 => (PixelFormat::Gray16, little_endian(pixels)),
+        ColorType::Rgb16 => (PixelFormat::Rgb16, little_endian(pixels)),
+        ColorType::La8 => (PixelFormat::Gray8, without_alpha::<2, 1>(&pixels)?),
+        ColorType::Rgba8 => (PixelFormat::Rgb8, without_alpha::<4, 1>(&pixels)?),
+        ColorType::La16 => (
+            PixelFormat::Gray16,
+            little_endian(without_alpha::<4, 2>(&pixels)?),
+        ),
+        ColorType::Rgba16 => (
+            PixelFormat::Rgb16,
+            little_endian(without_alpha::<8, 2>(&pixels)?),
+        ),
+        other => return Err(format!("pixels of type {other:?} are not read")),
+    };
+    let info = FrameInfo {
+        width,
+        height,
+        format,
+    };
+    Ok((info, pixels))
+}
+
+fn decode_jpeg(bytes: &[u8]) -> Result<(FrameInfo, Vec<u8>), String> {
+    let side = limits::IMAGE_SIDE as usize;
+    let options = DecoderOptions::default()
+        .set_strict_mode(true)
+        .set_max_width(side)
+        .set_max_height(side);
+    let text = |error: zune_jpeg::errors::DecodeErrors| error.to_string();
+    let mut decoder = JpegDecoder::new_with_options(ZCursor::new(bytes), options);
+    decoder.decode_headers().map_err(text)?;
+    let (format, output) = match decoder.input_colorspace() {
+        Some(ColorSpace::Luma) => (PixelFormat::Gray8, ColorSpace::Luma),
+        Some(ColorSpace::YCbCr | ColorSpace::RGB) => (PixelFormat::Rgb8, ColorSpace::RGB),
+        other => return Err(format!("colours of type {other:?} are not read")),
+    };
+    decoder.set_options(options.jpeg_set_out_colorspace(output));
+    let size = decoder.info().ok_or("no size in the file")?;
+    let info = FrameInfo {
+        width: u32::from(size.width),
+        height: u32::from(size.height),
+        format,
+    };
+    let length = info
+        .byte_len()
+        .ok_or("an image larger than the address space")?;
+    checked_length(length as u64)?;
+    let mut pixels = vec![0; length];
+    decoder.decode_into(&mut pixels).map_err(text)?;
+    Ok((info, pixels))
+}
+
+fn checked_length(bytes: u64) -> Result<usize, String> {
+    if bytes > limits::DECODED_BYTES {
+        return Err(format!(
+            "{bytes} bytes when decoded, more than the {} that are accepted",
+            limits::DECODED_BYTES
+        ));
+    }
+    usize::try_from(bytes).map_err(|_| "an image larger than the address space".to_owned())
+}
+
+/// The decoder gives 16-bit numbers in the order of the machine; frames hold them little-endian.
+fn little_endian(mut pixels: Vec<u8>) -> Vec<u8> {
+    if cfg!(target_endian = "big") {
+        pixels
+            .chunks_exact_mut(2)
+            .for_each(|number| number.reverse());
+    }
+    pixels
+}
+
+/// Pixels of `PIXEL` bytes without their last `ALPHA` ones, which must all be opaque.
+fn without_alpha<const PIXEL: usize, const ALPHA: usize>(pixels: &[u8]) -> Result<Vec<u8>, String> {
+    let mut colours = Vec::with_capacity(pixels.len() / PIXEL * (PIXEL - ALPHA));
+    for pixel in pixels.chunks_exact(PIXEL) {
+        let (colour, alpha) = pixel.split_at(PIXEL - ALPHA);
+        if alpha.iter().any(|byte| *byte != 255) {
+            return Err("has transparent pixels, which no camera sends; flatten it".to_owned());
+        }
+        colours.extend_from_slice(colour);
+    }
+    Ok(colours)
+}
+
+fn in_order(info: FrameInfo, mut pixels: Vec<u8>, order: ChannelOrder) -> Result<Vec<u8>, String> {
+    let is_gray = info.format.samples() == 1;
+    if is_gray != (order == ChannelOrder::Gray) {
+        return Err(format!(
+            "channel order `{}` is declared, the image is {info}",
+            order.name()
+        ));
+    }
+    if order == ChannelOrder::Bgr {
+        let width = info.format.bytes_per_sample();
+        for pixel in pixels.chunks_exact_mut(3 * width) {
+            let (first, rest) = pixel.split_at_mut(width);
+            first.swap_with_slice(&mut rest[width..]);
+        }
+    }
+    Ok(pixels)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::encode::encode_png;
+
+    fn frame(format: PixelFormat) -> Frame {
+        let info = FrameInfo {
+            width: 5,
+            height: 3,
+            format,
+        };
+        let length = info.byte_len().expect("small");
+        let bytes = (0..=255).cycle().map(|byte: u8| byte.wrapping_mul(37));
+        Frame::new(info, bytes.take(length).collect()).expect("of that length")
+    }
+
+    #[test]
+    fn every_pixel_format_comes_back_bit_for_bit() {
+        for format in [
+            PixelFormat::Gray8,
+            PixelFormat::Gray16,
+            PixelFormat::Rgb8,
+            PixelFormat::Rgb16,
+        ] {
+            let order = if format.samples() == 1 {
+                ChannelOrder::Gray
+            } else {
+                ChannelOrder::Rgb
+            };
+            let original = frame(format);
+            let file = encode_png(&original).expect("encodes");
+            let (kind, decoded) = decode(&file, order).expect("decodes");
+            assert_eq!((kind, decoded), (ImageKind::Png, original));
+        }
+    }
+
+    #[test]
+    fn blue_green_red_is_swapped_back() {
+        for format in [PixelFormat::Rgb8, PixelFormat::Rgb16] {
+            let original = frame(format);
+            let file = encode_png(&original).expect("encodes");
+            let (_, swapped) = decode(&file, ChannelOrder::Bgr).expect("decodes");
+            let colours: Vec<u16> = original.samples().collect();
+            let reversed: Vec<u16> = colours
+                .chunks(3)
+                .flat_map(|pixel| pixel.iter().rev().copied())
+                .collect();
+            assert_eq!(swapped.samples().collect::<Vec<_>>(), reversed);
+        }
+    }
+
+    #[test]
+    fn an_order_that_the_pixels_contradict_is_refused() {
+        let gray = encode_png(&frame(PixelFormat::Gray8)).expect("encodes");
+        let message = decode(&gray, ChannelOrder::Rgb).expect_err("gray");
+        assert_eq!(
+            message,
+            "channel order `rgb` is declared, the image is 5×3 gray8"
+        );
+    }
+
+    #[test]
+    fn opaque_alpha_is_dropped_and_transparency_is_refused() {
+        let file = |alpha| {
+            let mut bytes = Vec::new();
+            let pixels = image::RgbaImage::from_fn(4, 4, |x, _| {
+                image::Rgba([9, 8, 7, if x == 3 { alpha } else { 255 }])
+            });
+            pixels
+                .write_to(&mut Cursor::new(&mut bytes), image::ImageFormat::Png)
+                .expect("encodes");
+            bytes
+        };
+        let (_, opaque) = decode(&file(255), ChannelOrder::Rgb).expect("opaque");
+        assert_eq!(opaque.bytes(), [9, 8, 7].repeat(16));
+        let message = decode(&file(254), ChannelOrder::Rgb).expect_err("transparent");
+        assert!(message.contains("transparent"), "{message}");
+    }
+}

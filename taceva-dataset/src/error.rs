@@ -1,0 +1,275 @@
+//! Why a recording, a table or a map could not be read or written.
+
+use std::fmt;
+use std::io;
+use std::path::{Path, PathBuf};
+
+use taceva_core::{ErrorKind, SinkError};
+
+use crate::digest::Digest;
+use crate::text::{shown, shown_path};
+use crate::version::Version;
+
+/// Everything that can go wrong with data on disk; each variant says what was met, where, and what would be accepted.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum DatasetError {
+    /// The operating system refused.
+    #[error("cannot {doing} {}: {source}", shown_path(path))]
+    Io {
+        /// What was being done: `read`, `create`, `make durable`, …
+        doing: &'static str,
+        /// On which file or folder.
+        path: PathBuf,
+        /// What the system said.
+        source: io::Error,
+    },
+    /// A map, a header or another TOML file that does not say what it must.
+    #[error("{place}: {problem}")]
+    Toml {
+        /// Where.
+        place: Place,
+        /// What is wrong and what would be accepted.
+        problem: String,
+    },
+    /// A table of labels that cannot be read as one.
+    #[error("{place}: {problem}")]
+    Table {
+        /// Where.
+        place: Place,
+        /// What is wrong and what would be accepted.
+        problem: String,
+    },
+    /// A path that a foreign file names and that is not followed.
+    #[error("{}`{}`: {problem}", named_by(place), shown(written))]
+    Path {
+        /// Where the path is written.
+        place: Option<Box<Place>>,
+        /// The path as written.
+        written: String,
+        /// Why it is not followed.
+        problem: String,
+    },
+    /// An image, or an array of images, that is damaged, too large or unlike the others.
+    #[error("{}{}: {problem}", named_by(place), shown_path(path))]
+    Image {
+        /// Where the image is named.
+        place: Option<Box<Place>>,
+        /// The image.
+        path: PathBuf,
+        /// What is wrong and what would be accepted.
+        problem: String,
+    },
+    /// Something is already there; nothing is ever written over it.
+    #[error(
+        "{} exists already; choose another place or remove it",
+        shown_path(path)
+    )]
+    TargetExists {
+        /// What is there.
+        path: PathBuf,
+    },
+    /// Another process is writing there.
+    #[error("{} is being written by another process", shown_path(path))]
+    Busy {
+        /// Where.
+        path: PathBuf,
+    },
+    /// A folder that is no dataset.
+    #[error("{} is no dataset: {problem}", shown_path(path))]
+    NoDataset {
+        /// The folder.
+        path: PathBuf,
+        /// What is missing.
+        problem: String,
+    },
+    /// A dataset of a format that this version cannot read.
+    #[error(
+        "{}: format {found} needs a newer TacEva; this one reads up to {}.x",
+        shown_path(path),
+        Version::CURRENT.major
+    )]
+    Version {
+        /// The header.
+        path: PathBuf,
+        /// The format it declares.
+        found: Version,
+    },
+    /// A file whose bytes are not those that were recorded.
+    #[error("{}: damaged: expected {expected}, found {found}", shown_path(path))]
+    Digest {
+        /// The file.
+        path: PathBuf,
+        /// The digest that was recorded.
+        expected: Digest,
+        /// The digest of what is there.
+        found: Digest,
+    },
+    /// A file of a dataset that contradicts itself or its header.
+    #[error("{}: damaged: {problem}", shown_path(path))]
+    Damaged {
+        /// The file.
+        path: PathBuf,
+        /// What does not fit.
+        problem: String,
+    },
+    /// A journal whose middle is damaged: what follows was recorded and must not be cut away.
+    #[error("{}: damaged at byte {offset}: {problem}", shown_path(path))]
+    Journal {
+        /// The journal.
+        path: PathBuf,
+        /// Where the damaged record begins.
+        offset: u64,
+        /// What does not fit.
+        problem: String,
+    },
+    /// A sample that cannot be recorded as it is.
+    #[error("sample `{}`: {problem}", shown(id))]
+    Sample {
+        /// The sample.
+        id: String,
+        /// Why it is refused.
+        problem: String,
+    },
+    /// The caller asked for what the dataset does not have.
+    #[error("{}: {problem}", shown_path(path))]
+    Request {
+        /// The dataset.
+        path: PathBuf,
+        /// What was asked for and what there is.
+        problem: String,
+    },
+    /// The work was stopped on request; nothing half-written is left.
+    #[error("stopped on request")]
+    Cancelled,
+    /// Whoever took the samples refused one.
+    #[error("row {row}: {source}")]
+    Sink {
+        /// The row of the dataset, from 0.
+        row: usize,
+        /// Why.
+        source: SinkError,
+    },
+}
+
+impl DatasetError {
+    /// What kind of failure it was, by the closed list that every part shares.
+    pub fn kind(&self) -> ErrorKind {
+        match self {
+            DatasetError::Io { source, .. } => match source.kind() {
+                io::ErrorKind::NotFound => ErrorKind::NotFound,
+                io::ErrorKind::PermissionDenied => ErrorKind::PermissionDenied,
+                io::ErrorKind::StorageFull => ErrorKind::OutOfRange,
+                _ => ErrorKind::DeviceFault,
+            },
+            DatasetError::NoDataset { .. } => ErrorKind::NotFound,
+            DatasetError::Busy { .. } => ErrorKind::Busy,
+            DatasetError::Version { .. } => ErrorKind::Unsupported,
+            DatasetError::TargetExists { .. }
+            | DatasetError::Path { .. }
+            | DatasetError::Sample { .. }
+            | DatasetError::Request { .. } => ErrorKind::InvalidArgument,
+            DatasetError::Toml { .. }
+            | DatasetError::Table { .. }
+            | DatasetError::Image { .. }
+            | DatasetError::Digest { .. }
+            | DatasetError::Damaged { .. }
+            | DatasetError::Journal { .. } => ErrorKind::Protocol,
+            DatasetError::Cancelled => ErrorKind::Interrupted,
+            DatasetError::Sink { .. } => ErrorKind::Internal,
+        }
+    }
+
+    /// An error of the operating system while `doing` something to `path`.
+    pub(crate) fn io(doing: &'static str, path: &Path) -> impl FnOnce(io::Error) -> DatasetError {
+        let path = path.to_owned();
+        move |source| DatasetError::Io {
+            doing,
+            path,
+            source,
+        }
+    }
+
+    /// The same error, saying where the image or path is named.
+    pub(crate) fn named_at(mut self, at: Place) -> DatasetError {
+        if let DatasetError::Path { place, .. } | DatasetError::Image { place, .. } = &mut self {
+            *place = Some(Box::new(at));
+        }
+        self
+    }
+}
+
+/// A place in a text file.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Place {
+    /// The file.
+    pub path: PathBuf,
+    /// Its line, from 1.
+    pub line: Option<u64>,
+    /// Its column, by name.
+    pub column: Option<String>,
+}
+
+impl Place {
+    /// The whole of the file at `path`.
+    pub(crate) fn file(path: &Path) -> Place {
+        Place {
+            path: path.to_owned(),
+            ..Place::default()
+        }
+    }
+
+    /// A line of the file at `path`.
+    pub(crate) fn line(path: &Path, line: u64) -> Place {
+        Place {
+            line: Some(line),
+            ..Place::file(path)
+        }
+    }
+}
+
+impl fmt::Display for Place {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&shown_path(&self.path))?;
+        if let Some(line) = self.line {
+            write!(f, ", line {line}")?;
+        }
+        if let Some(column) = &self.column {
+            write!(f, ", column `{}`", shown(column))?;
+        }
+        Ok(())
+    }
+}
+
+fn named_by(place: &Option<Box<Place>>) -> String {
+    place
+        .as_ref()
+        .map_or_else(String::new, |place| format!("{place}: "))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_message_names_file_line_and_column() {
+        let error = DatasetError::Image {
+            place: Some(Box::new(Place {
+                path: "labels.csv".into(),
+                line: Some(3),
+                column: Some("file".into()),
+            })),
+            path: "frames/2.png".into(),
+            problem: "the file ends before its end marker".into(),
+        };
+        assert_eq!(
+            error.to_string(),
+            "labels.csv, line 3, column `file`: frames/2.png: the file ends before its end marker"
+        );
+    }
+
+    #[test]
+    fn an_error_is_small_enough_to_be_returned_everywhere() {
+        assert!(size_of::<DatasetError>() <= 128);
+    }
+}

@@ -1,0 +1,394 @@
+//! `dataset.toml`: what is known about a recording as a whole.
+
+use std::path::Path;
+
+use serde::{Deserialize, Deserializer, Serialize, Serializer, de};
+use taceva_core::{Channel, Channels, Clock, FrameInfo, Unit};
+
+use crate::decode::ChannelOrder;
+use crate::digest::Digest;
+use crate::error::DatasetError;
+use crate::toml_file::{parse_toml, read_toml_text, toml_error};
+use crate::version::Version;
+
+/// Where the samples come from; carried into every report.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Source {
+    /// A real sensor.
+    #[default]
+    Recorded,
+    /// A simulated bench.
+    Simulated,
+    /// Numbers made up for a test.
+    Synthetic,
+}
+
+/// A fact that the lab may have forgotten to write down.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Known<T> {
+    /// Written down.
+    Is(T),
+    /// Nobody knows.
+    #[default]
+    Unknown,
+}
+
+impl<T: Copy> Known<T> {
+    /// The fact, if somebody wrote it down.
+    pub fn known(self) -> Option<T> {
+        match self {
+            Known::Is(fact) => Some(fact),
+            Known::Unknown => None,
+        }
+    }
+}
+
+impl Serialize for Known<bool> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        match self {
+            Known::Is(fact) => serializer.serialize_bool(*fact),
+            Known::Unknown => serializer.serialize_str("unknown"),
+        }
+    }
+}
+
+impl<'de> Deserialize<'de> for Known<bool> {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Known<bool>, D::Error> {
+        struct Fact;
+
+        impl de::Visitor<'_> for Fact {
+            type Value = Known<bool>;
+
+            fn expecting(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+                f.write_str("true, false or \"unknown\"")
+            }
+            fn visit_bool<E: de::Error>(self, fact: bool) -> Result<Known<bool>, E> {
+                Ok(Known::Is(fact))
+            }
+            fn visit_str<E: de::Error>(self, text: &str) -> Result<Known<bool>, E> {
+                match text {
+                    "unknown" => Ok(Known::Unknown),
+                    _ => Err(E::invalid_value(de::Unexpected::Str(text), &self)),
+                }
+            }
+        }
+
+        deserializer.deserialize_any(Fact)
+    }
+}
+
+/// Which sensor it was. `"unknown"` is an answer, silence is not.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct SensorFacts {
+    /// The sensor model.
+    pub model: String,
+    /// The serial number of the unit, or `unknown`.
+    pub serial: String,
+    /// The id of the gel, or `unknown`.
+    pub gel: String,
+    /// Whether ambient light cannot reach the camera.
+    pub opaque: Known<bool>,
+}
+
+/// The part of the gel that the sensor can sense with.
+///
+/// # Units
+/// mm.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Footprint {
+    /// Its outline.
+    pub shape: Shape,
+    /// Of a disc.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub radius_mm: Option<f64>,
+    /// Half the width of a rectangle along x.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub half_x_mm: Option<f64>,
+    /// Half the width of a rectangle along y.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub half_y_mm: Option<f64>,
+    /// The deepest indentation the gel bears.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub depth_max_mm: Option<f64>,
+}
+
+/// An outline.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Shape {
+    /// All points within a radius of the middle.
+    Disc,
+    /// All points within half a width of the middle along x and along y.
+    Rect,
+}
+
+impl Footprint {
+    /// What is missing, too much or not positive.
+    pub(crate) fn problem(&self) -> Option<String> {
+        let is_disc = self.shape == Shape::Disc;
+        let sides = [
+            ("radius_mm", self.radius_mm, is_disc),
+            ("half_x_mm", self.half_x_mm, !is_disc),
+            ("half_y_mm", self.half_y_mm, !is_disc),
+        ];
+        let side = sides.iter().find_map(|(name, side, wanted)| {
+            (side.is_some() != *wanted).then(|| {
+                let verb = if *wanted { "needs" } else { "has no" };
+                format!("a footprint of this shape {verb} `{name}`")
+            })
+        });
+        let lengths = [
+            self.radius_mm,
+            self.half_x_mm,
+            self.half_y_mm,
+            self.depth_max_mm,
+        ];
+        let is_length = |length: &f64| length.is_finite() && *length > 0.0;
+        side.or_else(|| {
+            let wrong = lengths.iter().flatten().find(|length| !is_length(length))?;
+            Some(format!("{wrong} mm is no length of a footprint"))
+        })
+    }
+}
+
+/// What all frames of a recording share.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct FramesInfo {
+    /// How many there are.
+    pub count: u64,
+    /// Size and pixel format of each, decoded.
+    #[serde(flatten)]
+    pub info: FrameInfo,
+    /// The order of the colours in the files.
+    pub channel_order: ChannelOrder,
+    /// The frame without contact; absent if the lab does not know one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub reference: Option<ReferenceInfo>,
+}
+
+/// The frame without contact.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct ReferenceInfo {
+    /// Relative to the folder of the dataset.
+    pub path: String,
+    /// Of the bytes of the file.
+    pub sha256: Digest,
+}
+
+/// What `samples.parquet` must be.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct TableInfo {
+    /// Number of samples.
+    pub rows: u64,
+    /// Of what the table says.
+    pub digest: Digest,
+    /// Of the bytes of the file.
+    pub sha256: Digest,
+}
+
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+struct ChannelInfo {
+    name: String,
+    unit: Unit,
+}
+
+/// Everything `dataset.toml` says.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Header {
+    /// The format of the folder.
+    pub format: Version,
+    /// Real, simulated or made up.
+    pub source: Source,
+    /// The clock of the times.
+    pub clock: Clock,
+    /// Which sensor it was.
+    pub sensor: SensorFacts,
+    /// Where the sensor senses, if it is known.
+    pub footprint: Option<Footprint>,
+    /// What was measured beside the frames.
+    pub channels: Channels,
+    /// The names of the text columns kept for splits.
+    pub attributes: Vec<String>,
+    /// What all frames share; `None` if there is none.
+    pub frames: Option<FramesInfo>,
+    /// What the table must be.
+    pub table: TableInfo,
+    /// The digest of the dataset.
+    pub digest: Digest,
+}
+
+/// The header in the order in which TOML wants it: plain keys before tables.
+#[derive(Serialize, Deserialize)]
+struct Written {
+    format: Version,
+    source: Source,
+    clock: Clock,
+    attributes: Vec<String>,
+    digest: Digest,
+    sensor: SensorFacts,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    footprint: Option<Footprint>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    frames: Option<FramesInfo>,
+    table: TableInfo,
+    channels: Vec<ChannelInfo>,
+}
+
+impl Header {
+    /// The header at `path`.
+    pub(crate) fn read(path: &Path) -> Result<Header, DatasetError> {
+        #[derive(Deserialize)]
+        struct OnlyFormat {
+            format: Version,
+        }
+
+        let text = read_toml_text(path)?;
+        let OnlyFormat { format } = parse_toml(path, &text)?;
+        if !format.is_readable() {
+            return Err(DatasetError::Version {
+                path: path.to_owned(),
+                found: format,
+            });
+        }
+        let written: Written = parse_toml(path, &text)?;
+        let channels = written
+            .channels
+            .iter()
+            .map(|channel| Channel::named(&channel.name, channel.unit))
+            .collect::<Result<Vec<_>, _>>()
+            .and_then(Channels::new)
+            .map_err(|error| toml_error(path, None, &error.to_string()))?;
+        Ok(Header {
+            format,
+            source: written.source,
+            clock: written.clock,
+            sensor: written.sensor,
+            footprint: written.footprint,
+            channels,
+            attributes: written.attributes,
+            frames: written.frames,
+            table: written.table,
+            digest: written.digest,
+        })
+    }
+
+    /// The text of the header.
+    pub(crate) fn to_toml(&self) -> String {
+        let written = Written {
+            format: self.format,
+            source: self.source,
+            clock: self.clock,
+            attributes: self.attributes.clone(),
+            digest: self.digest,
+            sensor: self.sensor.clone(),
+            footprint: self.footprint,
+            frames: self.frames.clone(),
+            table: self.table,
+            channels: self
+                .channels
+                .iter()
+                .map(|channel| ChannelInfo {
+                    name: channel.name().to_owned(),
+                    unit: channel.unit(),
+                })
+                .collect(),
+        };
+        toml::to_string(&written).expect("text, numbers and tables of them can be written as TOML")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use taceva_core::PixelFormat;
+
+    fn header() -> Header {
+        Header {
+            format: Version::CURRENT,
+            source: Source::Simulated,
+            clock: Clock::Monotonic,
+            sensor: SensorFacts {
+                model: "a \"b\"\n[c]".to_owned(),
+                serial: "unknown".to_owned(),
+                gel: "g1".to_owned(),
+                opaque: Known::Unknown,
+            },
+            footprint: Some(Footprint {
+                shape: Shape::Disc,
+                radius_mm: Some(10.0),
+                half_x_mm: None,
+                half_y_mm: None,
+                depth_max_mm: Some(2.5),
+            }),
+            channels: Channels::new([Channel::FZ, Channel::PZ]).expect("distinct"),
+            attributes: vec!["video".to_owned()],
+            frames: Some(FramesInfo {
+                count: 3,
+                info: FrameInfo {
+                    width: 4,
+                    height: 2,
+                    format: PixelFormat::Rgb8,
+                },
+                channel_order: ChannelOrder::Bgr,
+                reference: None,
+            }),
+            table: TableInfo {
+                rows: 3,
+                digest: Digest::of(b"t"),
+                sha256: Digest::of(b"f"),
+            },
+            digest: Digest::of(b"d"),
+        }
+    }
+
+    #[test]
+    fn a_header_reads_back_as_it_was_written() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("dataset.toml");
+        std::fs::write(&path, header().to_toml()).expect("written");
+        assert_eq!(Header::read(&path).expect("reads"), header());
+    }
+
+    #[test]
+    fn a_newer_major_is_refused_before_anything_else_is_understood() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("dataset.toml");
+        std::fs::write(&path, "format = \"2.0\"\nnews = 1\n").expect("written");
+        let message = Header::read(&path).expect_err("newer").to_string();
+        assert!(
+            message.ends_with("format 2.0 needs a newer TacEva; this one reads up to 1.x"),
+            "{message}"
+        );
+    }
+
+    #[test]
+    fn a_newer_minor_may_say_more() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("dataset.toml");
+        let text = header().to_toml().replace("\"1.0\"", "\"1.9\"");
+        std::fs::write(&path, format!("humidity = 40\n{text}")).expect("written");
+        assert_eq!(
+            Header::read(&path).expect("reads").format,
+            Version { major: 1, minor: 9 }
+        );
+    }
+
+    #[test]
+    fn a_footprint_has_the_lengths_of_its_shape() {
+        let disc = header().footprint.expect("given");
+        assert_eq!(disc.problem(), None);
+        let rect = Footprint {
+            shape: Shape::Rect,
+            ..disc
+        };
+        assert!(rect.problem().expect("no half_x").contains("radius_mm"));
+        let flat = Footprint {
+            radius_mm: Some(0.0),
+            ..disc
+        };
+        assert!(flat.problem().is_some());
+    }
+}

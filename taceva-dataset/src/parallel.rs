@@ -1,0 +1,120 @@
+//! Work on many cores whose results arrive in order, with bounded memory.
+
+use std::num::NonZeroUsize;
+use std::sync::mpsc::sync_channel;
+use std::thread;
+
+/// Results a worker may be ahead of the one that is awaited.
+const AHEAD: usize = 4;
+
+/// The cores of this machine.
+pub(crate) fn all_cores() -> NonZeroUsize {
+    thread::available_parallelism().unwrap_or(NonZeroUsize::MIN)
+}
+
+/// Calls `work` on `0..count` from `jobs` threads and `take` with each result in order, on the calling thread.
+///
+/// Worker `k` does items `k`, `k + jobs`, … and hands them over through its own bounded queue, so order needs no sorting and
+/// the first error in order is the one that is returned, whatever the number of threads.
+pub(crate) fn ordered_map<T: Send, E>(
+    count: usize,
+    jobs: NonZeroUsize,
+    work: impl Fn(usize) -> T + Sync,
+    mut take: impl FnMut(usize, T) -> Result<(), E>,
+) -> Result<(), E> {
+    let jobs = jobs.get().min(count);
+    if jobs <= 1 {
+        return (0..count).try_for_each(|item| take(item, work(item)));
+    }
+    let work = &work;
+    thread::scope(|scope| {
+        let queues: Vec<_> = (0..jobs)
+            .map(|worker| {
+                let (sender, receiver) = sync_channel(AHEAD);
+                scope.spawn(move || {
+                    // A closed queue means that the taker stopped: nobody wants the rest.
+                    let _ = (worker..count)
+                        .step_by(jobs)
+                        .try_for_each(|item| sender.send(work(item)));
+                });
+                receiver
+            })
+            .collect();
+        (0..count).try_for_each(|item| match queues[item % jobs].recv() {
+            Ok(result) => take(item, result),
+            // The worker panicked; leaving the scope raises its panic here.
+            Err(_) => Ok(()),
+        })
+    })
+}
+
+/// Calls `work` on each part from its own thread; the results are in the order of the parts.
+pub(crate) fn each_part<P: Send, T: Send>(parts: Vec<P>, work: impl Fn(P) -> T + Sync) -> Vec<T> {
+    let work = &work;
+    thread::scope(|scope| {
+        let mut parts = parts.into_iter();
+        let first = parts.next();
+        let running: Vec<_> = parts.map(|part| scope.spawn(move || work(part))).collect();
+        let first = first.map(work);
+        let rest = running.into_iter().map(|thread| {
+            thread
+                .join()
+                .unwrap_or_else(|panic| std::panic::resume_unwind(panic))
+        });
+        first.into_iter().chain(rest).collect()
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn jobs(count: usize) -> NonZeroUsize {
+        NonZeroUsize::new(count).expect("at least one")
+    }
+
+    #[test]
+    fn results_arrive_in_order_for_any_number_of_threads() {
+        for threads in [1, 2, 3, 8, 40] {
+            let mut seen = Vec::new();
+            let done: Result<(), ()> = ordered_map(
+                37,
+                jobs(threads),
+                |item| item * item,
+                |item, square| {
+                    seen.push((item, square));
+                    Ok(())
+                },
+            );
+            assert_eq!(done, Ok(()));
+            assert_eq!(seen, (0..37).map(|i| (i, i * i)).collect::<Vec<_>>());
+        }
+    }
+
+    #[test]
+    fn the_first_error_in_order_wins_for_any_number_of_threads() {
+        for threads in [1, 2, 5] {
+            let result = ordered_map(
+                100,
+                jobs(threads),
+                |item| item,
+                |_, item| {
+                    if item % 30 == 29 { Err(item) } else { Ok(()) }
+                },
+            );
+            assert_eq!(result, Err(29));
+        }
+    }
+
+    #[test]
+    fn nothing_to_do_is_done() {
+        assert_eq!(ordered_map(0, jobs(2), |_| (), |_, ()| Err(())), Ok(()));
+        assert_eq!(each_part(Vec::<u8>::new(), |part| part), []);
+    }
+
+    #[test]
+    #[should_panic(expected = "a scoped thread panicked")]
+    fn a_panic_of_the_work_is_not_swallowed() {
+        let _: Result<(), ()> = ordered_map(4, jobs(2), |item| assert_ne!(item, 3), |_, ()| Ok(()));
+    }
+}

@@ -1,0 +1,75 @@
+//! The last step of every dataset: the table and the header are written, and say what each other must be.
+
+use std::path::Path;
+
+use taceva_core::Clock;
+
+use crate::digest::{Digest, PartsDigest};
+use crate::error::DatasetError;
+use crate::file::write_durable;
+use crate::header::{Footprint, FramesInfo, Header, SensorFacts, Source, TableInfo};
+use crate::samples::to_parquet;
+use crate::table::Table;
+use crate::version::Version;
+
+/// What is known about a recording before its first sample.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RecordingFacts {
+    /// Real, simulated or made up.
+    pub source: Source,
+    /// The clock of the times.
+    pub clock: Clock,
+    /// Which sensor it is.
+    pub sensor: SensorFacts,
+    /// Where the sensor senses, if it is known.
+    pub footprint: Option<Footprint>,
+}
+
+/// Writes the table and the header to the given files, durable but for their names.
+pub(crate) fn write_table_and_header(
+    samples: &Path,
+    header: &Path,
+    facts: &RecordingFacts,
+    table: &Table,
+    frames: Option<FramesInfo>,
+) -> Result<Header, DatasetError> {
+    let bytes = to_parquet(table).map_err(|problem| DatasetError::Damaged {
+        path: samples.to_owned(),
+        problem,
+    })?;
+    write_durable(samples, &bytes)?;
+    let table_digest = table.digest();
+    let written = Header {
+        format: Version::CURRENT,
+        source: facts.source,
+        clock: facts.clock,
+        sensor: facts.sensor.clone(),
+        footprint: facts.footprint,
+        channels: table.channels().clone(),
+        attributes: table.attribute_names().to_vec(),
+        digest: dataset_digest(table_digest, frames.as_ref()),
+        frames,
+        table: TableInfo {
+            rows: table.rows() as u64,
+            digest: table_digest,
+            sha256: Digest::of(&bytes),
+        },
+    };
+    write_durable(header, written.to_toml().as_bytes())?;
+    Ok(written)
+}
+
+/// The digest of a dataset: of its table, which holds the digest of each frame in order, and of what else decides what a
+/// frame looks like when decoded.
+pub(crate) fn dataset_digest(table: Digest, frames: Option<&FramesInfo>) -> Digest {
+    let mut digest = PartsDigest::default();
+    digest.part(b"taceva.dataset/1");
+    digest.fixed(table.as_bytes());
+    if let Some(frames) = frames {
+        digest.part(frames.channel_order.name().as_bytes());
+        if let Some(reference) = &frames.reference {
+            digest.fixed(reference.sha256.as_bytes());
+        }
+    }
+    digest.finish()
+}

@@ -1,0 +1,487 @@
+//! The labels of a recording in memory, column by column.
+
+use std::collections::HashSet;
+
+use taceva_core::{
+    Channel, Channels, Column, Field, FieldSet, Frame, Phase, Readings, Sample, Stamp,
+};
+
+use crate::digest::{Digest, PartsDigest};
+
+/// Names that columns beside the channels have on disk; no channel and no attribute may be called so.
+pub(crate) const RESERVED: [&str; 11] = [
+    "sample",
+    "point_id",
+    "unit_id",
+    "scene",
+    "depth_step",
+    "repeat",
+    "phase",
+    "part",
+    "t_s",
+    "frame",
+    "frame_sha256",
+];
+
+/// Where the file of a frame lies within the dataset, and what its bytes must be.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct FrameEntry {
+    /// Relative to the folder of the dataset, with `/`.
+    pub path: String,
+    /// Of the bytes of the file.
+    pub digest: Digest,
+}
+
+/// One row of a [`Table`]; what is absent is `None`.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Row {
+    /// Its name, once in a table.
+    pub sample: String,
+    /// The contact location: what repeats share.
+    pub point_id: Option<String>,
+    /// The sensor unit.
+    pub unit_id: Option<String>,
+    /// The lighting scene or the like.
+    pub scene: Option<String>,
+    /// The depth level within the point.
+    pub depth_step: Option<u32>,
+    /// The number of the repeat.
+    pub repeat: Option<u32>,
+    /// Load or unload.
+    pub phase: Option<Phase>,
+    /// The part of a declared split it belongs to.
+    pub part: Option<String>,
+    /// The time in seconds of the recording's clock.
+    pub t_s: Option<f64>,
+    /// A value a channel of the table.
+    pub truth: Vec<Option<f64>>,
+    /// A text an attribute of the table.
+    pub attributes: Vec<Option<String>>,
+    /// The picture.
+    pub frame: Option<FrameEntry>,
+}
+
+/// All labels of a recording.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Table {
+    channels: Channels,
+    truth: Vec<Column>,
+    sample: Vec<String>,
+    point_id: Vec<Option<String>>,
+    unit_id: Vec<Option<String>>,
+    scene: Vec<Option<String>>,
+    depth_step: Vec<Option<u32>>,
+    repeat: Vec<Option<u32>>,
+    phase: Vec<Option<Phase>>,
+    part: Vec<Option<String>>,
+    t_s: Vec<Option<f64>>,
+    attribute_names: Vec<String>,
+    attributes: Vec<Vec<Option<String>>>,
+    frames: Vec<Option<FrameEntry>>,
+}
+
+impl Table {
+    /// A table without rows.
+    pub fn new(channels: Channels, attribute_names: Vec<String>) -> Table {
+        Table {
+            truth: vec![Column::default(); channels.len()],
+            attributes: vec![Vec::new(); attribute_names.len()],
+            channels,
+            attribute_names,
+            ..Table::default()
+        }
+    }
+
+    /// Adds a row.
+    ///
+    /// # Panics
+    /// If the row has not a value a channel and a text an attribute.
+    pub fn push(&mut self, row: Row) {
+        assert_eq!(row.truth.len(), self.truth.len(), "a value a channel");
+        assert_eq!(
+            row.attributes.len(),
+            self.attributes.len(),
+            "a text an attribute"
+        );
+        self.sample.push(row.sample);
+        self.point_id.push(row.point_id);
+        self.unit_id.push(row.unit_id);
+        self.scene.push(row.scene);
+        self.depth_step.push(row.depth_step);
+        self.repeat.push(row.repeat);
+        self.phase.push(row.phase);
+        self.part.push(row.part);
+        self.t_s.push(row.t_s);
+        self.frames.push(row.frame);
+        for (column, value) in self.truth.iter_mut().zip(row.truth) {
+            column.push(value);
+        }
+        for (column, text) in self.attributes.iter_mut().zip(row.attributes) {
+            column.push(text);
+        }
+    }
+
+    /// Number of rows.
+    pub fn rows(&self) -> usize {
+        self.sample.len()
+    }
+
+    /// The channels of the truth.
+    pub fn channels(&self) -> &Channels {
+        &self.channels
+    }
+
+    /// What the reference instruments said, of the channel at `position`.
+    pub fn truth(&self, position: usize) -> &Column {
+        &self.truth[position]
+    }
+
+    /// The name of each row.
+    pub fn samples(&self) -> &[String] {
+        &self.sample
+    }
+
+    /// The contact location of each row.
+    pub fn point_id(&self) -> &[Option<String>] {
+        &self.point_id
+    }
+
+    /// The sensor unit of each row.
+    pub fn unit_id(&self) -> &[Option<String>] {
+        &self.unit_id
+    }
+
+    /// The scene of each row.
+    pub fn scene(&self) -> &[Option<String>] {
+        &self.scene
+    }
+
+    /// The depth level of each row within its point.
+    pub fn depth_step(&self) -> &[Option<u32>] {
+        &self.depth_step
+    }
+
+    /// The number of the repeat of each row.
+    pub fn repeat(&self) -> &[Option<u32>] {
+        &self.repeat
+    }
+
+    /// Load or unload, of each row.
+    pub fn phase(&self) -> &[Option<Phase>] {
+        &self.phase
+    }
+
+    /// The declared part of each row.
+    pub fn part(&self) -> &[Option<String>] {
+        &self.part
+    }
+
+    /// The time of each row in seconds.
+    pub fn t_s(&self) -> &[Option<f64>] {
+        &self.t_s
+    }
+
+    /// The frame of each row.
+    pub fn frames(&self) -> &[Option<FrameEntry>] {
+        &self.frames
+    }
+
+    /// The names of the text columns kept for splits.
+    pub fn attribute_names(&self) -> &[String] {
+        &self.attribute_names
+    }
+
+    /// The text column called `name`.
+    pub fn attribute(&self, name: &str) -> Option<&[Option<String>]> {
+        let position = self
+            .attribute_names
+            .iter()
+            .position(|known| known == name)?;
+        Some(&self.attributes[position])
+    }
+
+    /// The column called `name` as text, whatever it holds: an id, an attribute, a count, a phase or a number.
+    pub fn as_text(&self, name: &str) -> Option<Vec<Option<String>>> {
+        let named = self
+            .columns()
+            .into_iter()
+            .find(|column| column.name == name)?;
+        Some((0..self.rows()).map(|row| named.cells.text(row)).collect())
+    }
+
+    /// The fields that at least one row carries.
+    pub fn fields(&self) -> FieldSet {
+        let carried = [
+            (Field::Frame, self.frames.iter().any(Option::is_some)),
+            (Field::Truth, !self.channels.is_empty() && self.rows() > 0),
+            (Field::Point, self.point_id.iter().any(Option::is_some)),
+            (
+                Field::DepthStep,
+                self.depth_step.iter().any(Option::is_some),
+            ),
+            (Field::Repeat, self.repeat.iter().any(Option::is_some)),
+            (Field::Phase, self.phase.iter().any(Option::is_some)),
+            (Field::Scene, self.scene.iter().any(Option::is_some)),
+            (Field::UnitId, self.unit_id.iter().any(Option::is_some)),
+            (Field::Stamp, self.t_s.iter().any(Option::is_some)),
+        ];
+        carried
+            .into_iter()
+            .filter_map(|(field, is_carried)| is_carried.then_some(field))
+            .collect()
+    }
+
+    /// The sample of a row, with the given frame and of the rest what `fields` asks for.
+    pub fn sample(&self, row: usize, fields: FieldSet, frame: Option<Frame>) -> Sample {
+        let wanted = |field| fields.contains(field);
+        let text = |field, column: &[Option<String>]| {
+            if wanted(field) {
+                column[row].clone()
+            } else {
+                None
+            }
+        };
+        let truth = if wanted(Field::Truth) {
+            Readings::new(self.truth.iter().map(|column| column.get(row)).collect())
+        } else {
+            Readings::default()
+        };
+        Sample {
+            id: self.sample[row].clone(),
+            sensor_id: None,
+            unit_id: text(Field::UnitId, &self.unit_id),
+            scene_id: text(Field::Scene, &self.scene),
+            point_id: text(Field::Point, &self.point_id),
+            depth_step: self.depth_step[row].filter(|_| wanted(Field::DepthStep)),
+            repeat: self.repeat[row].filter(|_| wanted(Field::Repeat)),
+            phase: self.phase[row].filter(|_| wanted(Field::Phase)),
+            stamp: self.t_s[row]
+                .filter(|_| wanted(Field::Stamp))
+                .map(|valid_s| Stamp {
+                    valid_s,
+                    received_s: None,
+                }),
+            frame,
+            truth,
+            prediction: None,
+        }
+    }
+
+    /// The digest of what the table says, however it is stored and wherever its frames lie.
+    pub fn digest(&self) -> Digest {
+        let mut digest = PartsDigest::default();
+        digest.part(b"taceva.table/1");
+        digest.fixed(&(self.rows() as u64).to_le_bytes());
+        for channel in &self.channels {
+            digest.part(channel.name().as_bytes());
+            digest.part(channel.unit().symbol().as_bytes());
+        }
+        for column in self.columns() {
+            if column.name == "frame" {
+                continue;
+            }
+            digest.part(column.name.as_bytes());
+            for row in 0..self.rows() {
+                column.cells.digest(row, &mut digest);
+            }
+        }
+        digest.finish()
+    }
+
+    /// The first sample name that two rows share.
+    pub(crate) fn first_duplicate(&self) -> Option<usize> {
+        let mut seen = HashSet::with_capacity(self.rows());
+        self.sample.iter().position(|name| !seen.insert(name))
+    }
+
+    /// Says where the file of a row's frame lies.
+    pub(crate) fn set_frame(&mut self, row: usize, entry: FrameEntry) {
+        self.frames[row] = Some(entry);
+    }
+
+    /// Every column that says something, in the one order in which tables are digested, stored and exported.
+    pub(crate) fn columns(&self) -> Vec<NamedColumn<'_>> {
+        let named = |name, cells| NamedColumn { name, cells };
+        let mut columns = vec![
+            named("sample", Cells::Name(&self.sample)),
+            named("point_id", Cells::Text(&self.point_id)),
+            named("unit_id", Cells::Text(&self.unit_id)),
+            named("scene", Cells::Text(&self.scene)),
+            named("depth_step", Cells::Count(&self.depth_step)),
+            named("repeat", Cells::Count(&self.repeat)),
+            named("phase", Cells::Phase(&self.phase)),
+            named("part", Cells::Text(&self.part)),
+            named("t_s", Cells::Time(&self.t_s)),
+        ];
+        columns.extend(
+            self.attribute_names
+                .iter()
+                .zip(&self.attributes)
+                .map(|(name, cells)| named(name, Cells::Text(cells))),
+        );
+        columns.push(named("frame", Cells::FramePath(&self.frames)));
+        columns.push(named("frame_sha256", Cells::FrameDigest(&self.frames)));
+        columns.retain(|column| (0..self.rows()).any(|row| column.cells.is_present(row)));
+        columns.extend(
+            self.channels
+                .iter()
+                .zip(&self.truth)
+                .map(|(channel, cells)| named(channel.name(), Cells::Number(cells))),
+        );
+        columns
+    }
+}
+
+/// Whether a text column may be called `name`.
+pub(crate) fn is_attribute_name(name: &str) -> bool {
+    !RESERVED.contains(&name) && Channel::named(name, taceva_core::Unit::One).is_ok()
+}
+
+/// A column with the name it has on disk.
+pub(crate) struct NamedColumn<'a> {
+    pub(crate) name: &'a str,
+    pub(crate) cells: Cells<'a>,
+}
+
+/// The cells of a column of any kind.
+pub(crate) enum Cells<'a> {
+    Name(&'a [String]),
+    Text(&'a [Option<String>]),
+    Count(&'a [Option<u32>]),
+    Phase(&'a [Option<Phase>]),
+    Time(&'a [Option<f64>]),
+    Number(&'a Column),
+    FramePath(&'a [Option<FrameEntry>]),
+    FrameDigest(&'a [Option<FrameEntry>]),
+}
+
+impl Cells<'_> {
+    fn is_present(&self, row: usize) -> bool {
+        match self {
+            Cells::Name(_) => true,
+            Cells::Text(cells) => cells[row].is_some(),
+            Cells::Count(cells) => cells[row].is_some(),
+            Cells::Phase(cells) => cells[row].is_some(),
+            Cells::Time(cells) => cells[row].is_some(),
+            Cells::Number(cells) => cells.get(row).is_some(),
+            Cells::FramePath(cells) | Cells::FrameDigest(cells) => cells[row].is_some(),
+        }
+    }
+
+    /// The number in a row, of a column of numbers.
+    pub(crate) fn number(&self, row: usize) -> Option<f64> {
+        match self {
+            Cells::Time(cells) => cells[row],
+            Cells::Number(cells) => cells.get(row),
+            _ => None,
+        }
+    }
+
+    /// The cell as text; numbers in the shortest form that reads back to the same binary64.
+    pub(crate) fn text(&self, row: usize) -> Option<String> {
+        match self {
+            Cells::Name(cells) => Some(cells[row].clone()),
+            Cells::Text(cells) => cells[row].clone(),
+            Cells::Count(cells) => cells[row].map(|count| count.to_string()),
+            Cells::Phase(cells) => cells[row].map(|phase| phase.to_string()),
+            Cells::Time(_) | Cells::Number(_) => {
+                self.number(row).map(|number| format!("{number:?}"))
+            }
+            Cells::FramePath(cells) => cells[row].as_ref().map(|entry| entry.path.clone()),
+            Cells::FrameDigest(cells) => cells[row].as_ref().map(|entry| entry.digest.to_string()),
+        }
+    }
+
+    fn digest(&self, row: usize, digest: &mut PartsDigest) {
+        digest.fixed(&[u8::from(self.is_present(row))]);
+        match self {
+            Cells::Time(_) | Cells::Number(_) => {
+                if let Some(number) = self.number(row) {
+                    digest.fixed(&number.to_le_bytes());
+                }
+            }
+            Cells::Name(cells) => digest.part(cells[row].as_bytes()),
+            Cells::Text(cells) => {
+                if let Some(text) = &cells[row] {
+                    digest.part(text.as_bytes());
+                }
+            }
+            _ => {
+                if let Some(text) = self.text(row) {
+                    digest.part(text.as_bytes());
+                }
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn table(rows: impl IntoIterator<Item = Row>) -> Table {
+        let channels = Channels::new([Channel::FZ]).expect("one channel");
+        let mut table = Table::new(channels, vec!["video".to_owned()]);
+        rows.into_iter().for_each(|row| table.push(row));
+        table
+    }
+
+    fn row(name: &str, force: Option<f64>) -> Row {
+        Row {
+            sample: name.to_owned(),
+            truth: vec![force],
+            attributes: vec![None],
+            ..Row::default()
+        }
+    }
+
+    #[test]
+    fn the_digest_tells_absent_from_zero_and_one_order_from_another() {
+        let digest = |rows: Vec<Row>| table(rows).digest();
+        let some = digest(vec![row("a", Some(0.0)), row("b", None)]);
+        assert_ne!(some, digest(vec![row("a", None), row("b", Some(0.0))]));
+        assert_ne!(some, digest(vec![row("b", None), row("a", Some(0.0))]));
+        assert_ne!(some, digest(vec![row("a", Some(-0.0)), row("b", None)]));
+        assert_eq!(some, digest(vec![row("a", Some(0.0)), row("b", None)]));
+    }
+
+    #[test]
+    fn the_digest_does_not_depend_on_where_a_frame_lies() {
+        let with = |path: &str, bytes: &[u8]| {
+            let entry = FrameEntry {
+                path: path.to_owned(),
+                digest: Digest::of(bytes),
+            };
+            table([Row {
+                frame: Some(entry),
+                ..row("a", None)
+            }])
+            .digest()
+        };
+        assert_eq!(with("x.png", b"1"), with("y.png", b"1"));
+        assert_ne!(with("x.png", b"1"), with("x.png", b"2"));
+    }
+
+    #[test]
+    fn columns_that_say_nothing_are_not_there_and_channels_always_are() {
+        let names: Vec<String> = table([row("a", None)])
+            .columns()
+            .iter()
+            .map(|column| column.name.to_owned())
+            .collect();
+        assert_eq!(names, ["sample", "Fz"]);
+    }
+
+    #[test]
+    fn fields_are_those_that_a_row_carries() {
+        let fields = table([Row {
+            repeat: Some(1),
+            ..row("a", None)
+        }])
+        .fields();
+        assert_eq!(
+            fields,
+            FieldSet::EMPTY.with(Field::Truth).with(Field::Repeat)
+        );
+    }
+}

@@ -1,0 +1,65 @@
+//! Foreign text in messages: no control character reaches a terminal, and nothing runs on for ever.
+
+use std::path::Path;
+
+const SHOWN_CHARACTERS: usize = 80;
+
+/// `text` with control characters written out, cut after 80 characters.
+pub(crate) fn shown(text: &str) -> String {
+    let mut result: String = text.chars().take(SHOWN_CHARACTERS).map(harmless).collect();
+    if text.chars().nth(SHOWN_CHARACTERS).is_some() {
+        result.push('…');
+    }
+    result
+}
+
+/// `path` with control characters written out.
+pub(crate) fn shown_path(path: &Path) -> String {
+    path.to_string_lossy().chars().map(harmless).collect()
+}
+
+fn harmless(character: char) -> String {
+    if character.is_control() {
+        character.escape_default().to_string()
+    } else {
+        character.to_string()
+    }
+}
+
+/// The candidate most like `wrong`, if one is like it at all.
+pub(crate) fn nearest<'a>(
+    wrong: &str,
+    candidates: impl IntoIterator<Item = &'a str>,
+) -> Option<&'a str> {
+    let folded = wrong.to_lowercase();
+    candidates
+        .into_iter()
+        .map(|candidate| {
+            (
+                strsim::jaro_winkler(&folded, &candidate.to_lowercase()),
+                candidate,
+            )
+        })
+        .filter(|(likeness, _)| *likeness > 0.75)
+        .max_by(|a, b| a.0.total_cmp(&b.0).then(b.1.cmp(a.1)))
+        .map(|(_, candidate)| candidate)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn control_characters_are_written_out_and_long_text_is_cut() {
+        assert_eq!(shown("a\u{1b}[31m\n"), "a\\u{1b}[31m\\n");
+        assert_eq!(shown(&"x".repeat(100)).chars().count(), 81);
+    }
+
+    #[test]
+    fn the_nearest_name_is_found_and_a_stranger_is_not() {
+        let names = ["depth_step", "sample", "Fz_N"];
+        assert_eq!(nearest("depht_step", names), Some("depth_step"));
+        assert_eq!(nearest("fz_n", names), Some("Fz_N"));
+        assert_eq!(nearest("quux", names), None);
+    }
+}

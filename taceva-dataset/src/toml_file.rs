@@ -1,0 +1,122 @@
+//! TOML files, read strictly: an unknown key is an error with its line and the nearest key there is.
+
+use std::path::Path;
+
+use serde::de::DeserializeOwned;
+
+use crate::error::{DatasetError, Place};
+use crate::file::read_capped;
+use crate::limits;
+use crate::text::{nearest, shown};
+
+/// The TOML file at `path` as a `T`.
+///
+/// # Errors
+/// [`DatasetError::Toml`] with the line, if it is no TOML or not what `T` accepts; [`DatasetError::Path`] if it is no regular
+/// file or above 1 MiB; [`DatasetError::Io`].
+pub fn read_toml<T: DeserializeOwned>(path: &Path) -> Result<T, DatasetError> {
+    parse_toml(path, &read_toml_text(path)?)
+}
+
+pub(crate) fn read_toml_text(path: &Path) -> Result<String, DatasetError> {
+    let bytes = read_capped(path, limits::TOML_BYTES)?;
+    String::from_utf8(bytes).map_err(|error| {
+        let valid = error.utf8_error().valid_up_to();
+        toml_error(path, Some(line_of(error.as_bytes(), valid)), "not UTF-8")
+    })
+}
+
+/// `text`, which stands in the file at `path`, as a `T`.
+pub(crate) fn parse_toml<T: DeserializeOwned>(path: &Path, text: &str) -> Result<T, DatasetError> {
+    toml::from_str(text).map_err(|error| {
+        let line = error
+            .span()
+            .map(|span| line_of(text.as_bytes(), span.start));
+        toml_error(path, line, &explained(error.message()))
+    })
+}
+
+/// A problem on a line of the TOML file at `path`.
+pub(crate) fn toml_error(path: &Path, line: Option<u64>, problem: &str) -> DatasetError {
+    DatasetError::Toml {
+        place: Place {
+            line,
+            ..Place::file(path)
+        },
+        problem: problem.to_owned(),
+    }
+}
+
+/// The line, from 1, of the byte at `offset`.
+pub(crate) fn line_of(text: &[u8], offset: usize) -> u64 {
+    let before = &text[..offset.min(text.len())];
+    1 + before.iter().filter(|byte| **byte == b'\n').count() as u64
+}
+
+/// The parser's message with what helps: the nearest key, or that `unknown` may be said.
+fn explained(message: &str) -> String {
+    let quoted: Vec<&str> = message.split('`').skip(1).step_by(2).collect();
+    match quoted.as_slice() {
+        [wrong, known @ ..] if message.starts_with("unknown field") => {
+            let guess = nearest(wrong, known.iter().copied())
+                .map_or_else(String::new, |guess| format!(", did you mean `{guess}`?"));
+            let known = known.join(", ");
+            format!("`{}`: unknown key{guess} known here: {known}", shown(wrong))
+                .replace("unknown key known", "unknown key; known")
+        }
+        [missing] if message.starts_with("missing field") => {
+            format!("the key `{missing}` is missing{}", hint_for(missing))
+        }
+        _ => message.trim_end().replace('\n', "; "),
+    }
+}
+
+fn hint_for(missing: &str) -> &'static str {
+    match missing {
+        "serial" | "gel" | "clock" | "reference" | "opaque" => {
+            "; write \"unknown\" if nobody wrote it down"
+        }
+        "unit" => "; every column states its unit, \"1\" if it has none",
+        _ => "",
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use serde::Deserialize;
+
+    #[derive(Debug, Deserialize)]
+    #[serde(deny_unknown_fields)]
+    #[expect(dead_code, reason = "only the errors are looked at")]
+    struct Sensor {
+        model: String,
+        serial: String,
+    }
+
+    fn message(text: &str) -> String {
+        let parsed: Result<Sensor, _> = parse_toml(Path::new("m.toml"), text);
+        parsed.expect_err("wrong").to_string()
+    }
+
+    #[test]
+    fn an_unknown_key_names_its_line_and_the_nearest_key() {
+        assert_eq!(
+            message("model = \"x\"\nseriel = \"y\"\n"),
+            "m.toml, line 2: `seriel`: unknown key, did you mean `serial`? known here: model, serial"
+        );
+        assert_eq!(
+            message("zzz = 1\n"),
+            "m.toml, line 1: `zzz`: unknown key; known here: model, serial"
+        );
+    }
+
+    #[test]
+    fn a_missing_fact_says_that_unknown_is_an_answer() {
+        let message = message("model = \"x\"\n");
+        assert!(
+            message.contains("`serial` is missing; write \"unknown\""),
+            "{message}"
+        );
+    }
+}
