@@ -1,1 +1,37 @@
-//! To be written.
+#![doc = include_str!("../README.md")]
+
+mod accumulator;
+mod accuracy;
+pub mod catalogue;
+mod clusters;
+mod error;
+mod evaluate;
+mod evaluation;
+mod exact;
+mod merge;
+mod metric;
+mod pair_sums;
+mod paired;
+mod plan;
+mod plane_sums;
+mod score;
+mod state;
+mod stats;
+mod streams;
+mod value;
+
+pub use accuracy::EPSILON;
+pub use clusters::{Clusters, HASHED_CLUSTERS, NAMED_CLUSTERS};
+pub use error::{MetricError, UnknownMetric};
+pub use evaluate::Evaluator;
+pub use evaluation::Evaluation;
+pub use exact::{Canonical, CanonicalError, ExactSum};
+pub use metric::{Better, Metric, ScoreUnit};
+pub use pair_sums::{PairSpec, PairSums};
+pub use paired::{GREATEST, Paired};
+pub use plan::MetricPlan;
+pub use plane_sums::PlaneSums;
+pub use score::{Interval, Parameter, Score};
+pub use state::{Record, State};
+pub use streams::{Stream, Streams};
+pub use value::{InapplicableReason, UndefinedReason, Value};

@@ -1,0 +1,24 @@
+//! Scores another program's predictions: samples go in one by one, a table comes out.
+
+#![expect(clippy::print_stdout, reason = "an example shows its result")]
+
+use taceva_core::{Channel, Channels, FieldSet, Readings, Sample, SampleSink};
+use taceva_metrics::{Evaluator, MetricPlan, catalogue};
+
+fn main() -> Result<(), Box<dyn std::error::Error + Send + Sync>> {
+    let channels = Channels::new([Channel::PZ, Channel::FZ])?;
+    let plan = MetricPlan::new(&catalogue::ALL, channels, FieldSet::PAIRS);
+    let mut evaluator = Evaluator::new(&plan);
+    for press in 0..40 {
+        let depth_mm = 0.025 * f64::from(press);
+        evaluator.accept(&Sample {
+            id: format!("press {press}"),
+            point_id: Some(format!("point {}", press / 4)),
+            truth: Readings::from_values([depth_mm, 1.5 * depth_mm]),
+            prediction: Some(Readings::from_values([depth_mm + 0.01, 1.4 * depth_mm])),
+            ..Sample::default()
+        })?;
+    }
+    println!("{}", evaluator.finish()?);
+    Ok(())
+}

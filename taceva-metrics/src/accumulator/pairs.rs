@@ -1,0 +1,213 @@
+//! The family of scores that are finished from the sums of each channel's pairs.
+
+use std::collections::BTreeMap;
+
+use taceva_core::{Batch, Channels, Column, Unit};
+
+use super::clustered::{Family, Output};
+use super::plane::planes;
+use crate::accuracy::{EPSILON, gate};
+use crate::exact::ExactSum;
+use crate::metric::{Finish, Formula, Metric};
+use crate::pair_sums::{PairSpec, PairSums};
+use crate::paired::Paired;
+use crate::state::Record;
+use crate::streams::{Stream, Streams};
+use crate::value::InapplicableReason;
+
+/// Sums of the pairs of each channel.
+pub(crate) struct Pairs {
+    streams: Streams,
+    gated: bool,
+    specs: Vec<PairSpec>,
+    outputs: Vec<Output>,
+    scratch: Paired<Vec<f64>>,
+}
+
+impl Pairs {
+    /// What `metrics` need of `channels`; `None` if they need nothing of the kind.
+    pub(crate) fn for_metrics(metrics: &[&Metric], channels: &Channels) -> Option<Pairs> {
+        let mut streams = Streams::NONE;
+        let mut any_gated = false;
+        for metric in metrics {
+            if let Formula::Pairs {
+                streams: needed,
+                gated,
+                ..
+            } = metric.formula
+            {
+                streams = streams | needed;
+                any_gated |= gated;
+            }
+        }
+        let specs = channels.iter().map(|channel| PairSpec {
+            streams,
+            gate: gate(channel.unit()).filter(|_| any_gated),
+        });
+        (streams != Streams::NONE).then(|| Pairs {
+            streams,
+            gated: any_gated,
+            specs: specs.collect(),
+            outputs: outputs(channels),
+            scratch: Paired::default(),
+        })
+    }
+}
+
+/// Each channel, then each plane as the mean of its axes.
+fn outputs(channels: &Channels) -> Vec<Output> {
+    let single = channels
+        .iter()
+        .enumerate()
+        .map(|(position, channel)| Output {
+            label: channel.name().to_owned(),
+            unit: channel.unit(),
+            of: Vec::new(),
+            parts: vec![position],
+        });
+    let groups = planes(channels).into_iter().map(|plane| Output {
+        parts: plane.axes.to_vec(),
+        ..plane.output()
+    });
+    single.chain(groups).collect()
+}
+
+impl Family for Pairs {
+    type Sums = PairSums;
+    const SCHEMA: &'static str = "taceva.pairs/1";
+
+    fn parameters(&self) -> BTreeMap<String, String> {
+        let mut parameters = BTreeMap::from([("streams".to_owned(), self.streams.to_string())]);
+        if self.streams.contains(Stream::Symmetric) {
+            parameters.insert("eps".to_owned(), format!("{EPSILON:e}"));
+        }
+        if self.gated {
+            for unit in [Unit::Newton, Unit::Millimetre] {
+                let gate = gate(unit).map_or(String::new(), |gate| gate.to_string());
+                parameters.insert(format!("gate_{unit}"), gate);
+            }
+        }
+        parameters
+    }
+
+    fn empty(&self) -> Vec<PairSums> {
+        self.specs.iter().copied().map(PairSums::new).collect()
+    }
+
+    fn deposit(&mut self, sums: &mut [PairSums], batch: &Batch, rows: Option<&[u32]>) {
+        for (position, sums) in sums.iter_mut().enumerate() {
+            let columns = Paired {
+                estimate: batch.prediction(position),
+                reference: batch.truth(position),
+            };
+            sums.update(gather(&mut self.scratch, columns, rows));
+        }
+    }
+
+    fn invalid(sums: &PairSums) -> u64 {
+        sums.n_invalid()
+    }
+
+    fn to_record(&self, sums: &PairSums) -> Record {
+        let mut record = Record {
+            counts: vec![sums.n, sums.n_invalid],
+            sums: self
+                .streams
+                .iter()
+                .map(|stream| sums.sum(stream).clone())
+                .collect(),
+        };
+        if sums.gate().is_some() {
+            record.counts.push(sums.n_gated);
+            record.sums.push(sums.gated.clone());
+        }
+        record
+    }
+
+    fn read_record(&self, position: usize, record: &Record) -> Result<PairSums, String> {
+        let mut sums = PairSums::new(self.specs[position]);
+        let gated = usize::from(sums.gate().is_some());
+        let expected = (2 + gated, self.streams.iter().count() + gated);
+        let found = (record.counts.len(), record.sums.len());
+        if found != expected {
+            return Err(format!(
+                "{} counts and {} sums, expected {} and {}",
+                found.0, found.1, expected.0, expected.1
+            ));
+        }
+        let mut kept = record.sums.iter().cloned();
+        let mut next = || kept.next().unwrap_or_else(ExactSum::default);
+        (sums.n, sums.n_invalid) = (record.counts[0], record.counts[1]);
+        for stream in self.streams.iter() {
+            sums.sums[stream as usize] = next();
+        }
+        if gated == 1 {
+            sums.n_gated = record.counts[2];
+            sums.gated = next();
+        }
+        Ok(sums)
+    }
+
+    fn outputs(&self) -> &[Output] {
+        &self.outputs
+    }
+
+    fn finish(metric: &Metric) -> Option<&Finish<PairSums>> {
+        match &metric.formula {
+            Formula::Pairs { finish, .. } => Some(finish),
+            Formula::Plane(_) => None,
+        }
+    }
+
+    fn inapplicable(metric: &Metric, unit: Unit) -> Option<InapplicableReason> {
+        let gated = matches!(metric.formula, Formula::Pairs { gated: true, .. });
+        (gated && gate(unit).is_none()).then_some(InapplicableReason::NoGate(unit))
+    }
+}
+
+/// The pairs of `rows` that have both values, side by side; the columns themselves if those are all.
+fn gather<'a>(
+    scratch: &'a mut Paired<Vec<f64>>,
+    columns: Paired<&'a Column>,
+    rows: Option<&[u32]>,
+) -> Paired<&'a [f64]> {
+    let Paired {
+        estimate,
+        reference,
+    } = columns;
+    let full = estimate.present().is_none() && reference.present().is_none();
+    scratch.estimate.clear();
+    scratch.reference.clear();
+    match rows {
+        None if full => {
+            return Paired {
+                estimate: estimate.values(),
+                reference: reference.values(),
+            };
+        }
+        Some(rows) if full => {
+            let pick = |column: &'a Column| {
+                let values = column.values();
+                rows.iter().map(move |&row| values[row as usize])
+            };
+            scratch.estimate.extend(pick(estimate));
+            scratch.reference.extend(pick(reference));
+        }
+        _ => {
+            let mut keep = |row: usize| {
+                if let (Some(estimate), Some(reference)) = (estimate.get(row), reference.get(row)) {
+                    scratch.estimate.push(estimate);
+                    scratch.reference.push(reference);
+                }
+            };
+            match rows {
+                Some(rows) => rows.iter().for_each(|&row| keep(row as usize)),
+                None => (0..estimate.len()).for_each(keep),
+            }
+        }
+    }
+    Paired {
+        estimate: &scratch.estimate,
+        reference: &scratch.reference,
+    }
+}

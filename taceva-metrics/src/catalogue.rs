@@ -1,0 +1,112 @@
+//! Every metric there is: the only source of names, units, directions, definitions and texts.
+
+use crate::accuracy::{BIAS, MAE, MAE_EUCLID, R2, RMSE, SMAPE, SMAPE_GATED};
+use crate::error::UnknownMetric;
+use crate::metric::Metric;
+
+/// Every metric, in the order of reports.
+pub static ALL: [&Metric; 7] = [&MAE, &RMSE, &BIAS, &R2, &SMAPE, &SMAPE_GATED, &MAE_EUCLID];
+
+/// Names that stand for several metrics.
+pub static GROUPS: [(&str, &[&Metric]); 2] = [("accuracy", &[&MAE, &R2, &SMAPE]), ("all", &ALL)];
+
+/// The metric called `id`.
+pub fn find(id: &str) -> Option<&'static Metric> {
+    ALL.into_iter().find(|metric| metric.id == id)
+}
+
+/// The metrics called by `names`, of metrics or groups, each once and in the order of reports.
+///
+/// ```
+/// use taceva_metrics::catalogue;
+/// let ids: Vec<&str> = catalogue::select(["rmse", "accuracy"])?.iter().map(|metric| metric.id).collect();
+/// assert_eq!(ids, ["mae", "rmse", "r2", "smape"]);
+/// let error = catalogue::select(["smap"]).unwrap_err();
+/// assert_eq!(error.to_string(), "`smap`: unknown metric, did you mean `smape`?");
+/// # Ok::<(), taceva_metrics::UnknownMetric>(())
+/// ```
+///
+/// # Errors
+/// [`UnknownMetric`], with the nearest name.
+pub fn select<'a>(
+    names: impl IntoIterator<Item = &'a str>,
+) -> Result<Vec<&'static Metric>, UnknownMetric> {
+    let mut wanted = Vec::new();
+    for name in names {
+        let group = GROUPS.into_iter().find(|(group, _)| *group == name);
+        match (find(name), group) {
+            (Some(metric), _) => wanted.push(metric.id),
+            (None, Some((_, metrics))) => wanted.extend(metrics.iter().map(|metric| metric.id)),
+            (None, None) => {
+                return Err(UnknownMetric {
+                    name: name.to_owned(),
+                    nearest: nearest(name),
+                });
+            }
+        }
+    }
+    let kept = ALL.into_iter().filter(|metric| wanted.contains(&metric.id));
+    Ok(kept.collect())
+}
+
+/// Every name that [`select`] knows.
+pub fn names() -> impl Iterator<Item = &'static str> {
+    let groups = GROUPS.into_iter().map(|(group, _)| group);
+    ALL.into_iter().map(|metric| metric.id).chain(groups)
+}
+
+/// The known name nearest to `name`, if it takes at most a third of the letters to get there.
+fn nearest(name: &str) -> Option<&'static str> {
+    let nearest = names().min_by_key(|known| edit_distance(name, known))?;
+    let near = edit_distance(name, nearest) <= (nearest.len() / 3).max(1);
+    near.then_some(nearest)
+}
+
+/// Letters to insert, remove or replace between two words (Levenshtein).
+fn edit_distance(left: &str, right: &str) -> usize {
+    let right: Vec<char> = right.chars().collect();
+    let mut row: Vec<usize> = (0..=right.len()).collect();
+    for (above, letter) in left.chars().enumerate() {
+        let mut diagonal = row[0];
+        row[0] = above + 1;
+        for (position, other) in right.iter().enumerate() {
+            let replaced = diagonal + usize::from(letter != *other);
+            diagonal = row[position + 1];
+            row[position + 1] = replaced.min(row[position] + 1).min(diagonal + 1);
+        }
+    }
+    row[right.len()]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_metric_has_its_own_name_definition_and_text() {
+        let mut names: Vec<&str> = names().collect();
+        names.sort_unstable();
+        let count = names.len();
+        names.dedup();
+        assert_eq!(names.len(), count);
+        for metric in ALL {
+            assert_eq!(metric.definition, format!("{}/1", metric.id));
+            assert!(metric.documentation.ends_with('.') && !metric.title.is_empty());
+        }
+    }
+
+    #[test]
+    fn distances_between_words_are_levenshtein_s() {
+        let distances = [("kitten", "sitting", 3), ("", "mae", 3), ("r2", "r2", 0)];
+        for (left, right, expected) in distances {
+            assert_eq!(edit_distance(left, right), expected);
+        }
+    }
+
+    #[test]
+    fn a_name_near_none_lists_them_all() {
+        let error = select(["hysteresis_area"]).expect_err("unknown");
+        assert_eq!(error.nearest, None);
+        assert!(error.to_string().contains("mae, rmse, bias"), "{error}");
+    }
+}

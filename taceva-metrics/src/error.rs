@@ -1,0 +1,105 @@
+//! What can go wrong between metrics and their callers.
+
+use std::error::Error;
+use std::fmt;
+
+/// Why columns, batches or states do not fit.
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum MetricError {
+    /// Two columns of different length.
+    Lengths {
+        /// Rows of the estimate.
+        estimate: usize,
+        /// Rows of the reference.
+        reference: usize,
+    },
+    /// A batch or a state of other channels.
+    Channels {
+        /// Those that are evaluated, with their units.
+        expected: String,
+        /// Those that came.
+        found: String,
+    },
+    /// A state that nothing in the plan reads.
+    Schema {
+        /// The schemas that are read.
+        expected: String,
+        /// The schema of the state.
+        found: String,
+    },
+    /// A state made with another parameter.
+    Parameter {
+        /// Which one.
+        name: &'static str,
+        /// Its value here.
+        expected: String,
+        /// Its value there.
+        found: String,
+    },
+    /// A state whose parts are not those of its schema.
+    Malformed {
+        /// The schema.
+        schema: &'static str,
+        /// What is wrong with it.
+        what: String,
+    },
+}
+
+impl fmt::Display for MetricError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            MetricError::Lengths {
+                estimate,
+                reference,
+            } => write!(
+                f,
+                "{estimate} estimates beside {reference} references, expected as many"
+            ),
+            MetricError::Channels { expected, found } => {
+                write!(f, "channels {found}, expected {expected}")
+            }
+            MetricError::Schema { expected, found } => {
+                write!(f, "state of schema `{found}`, expected {expected}")
+            }
+            MetricError::Parameter {
+                name,
+                expected,
+                found,
+            } => write!(f, "state with {name} `{found}`, expected `{expected}`"),
+            MetricError::Malformed { schema, what } => {
+                write!(f, "broken state of schema `{schema}`: {what}")
+            }
+        }
+    }
+}
+
+impl Error for MetricError {}
+
+/// A metric or group that nobody defined.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct UnknownMetric {
+    /// The name as given.
+    pub name: String,
+    /// The nearest name that is known, if one is near.
+    pub nearest: Option<&'static str>,
+}
+
+impl fmt::Display for UnknownMetric {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "`{}`: unknown metric", self.name)?;
+        match self.nearest {
+            Some(nearest) => write!(f, ", did you mean `{nearest}`?"),
+            None => {
+                f.write_str(", expected one of ")?;
+                for (position, name) in crate::catalogue::names().enumerate() {
+                    let separator = if position == 0 { "" } else { ", " };
+                    write!(f, "{separator}{name}")?;
+                }
+                Ok(())
+            }
+        }
+    }
+}
+
+impl Error for UnknownMetric {}

@@ -1,0 +1,49 @@
+//! Finished scores: printed as a table, serialized as a report, or walked one by one.
+
+#[cfg(feature = "serde")]
+mod json;
+mod table;
+
+use taceva_core::Skipped;
+
+use crate::metric::Metric;
+use crate::score::Score;
+
+/// Every score of an evaluation, in the order of reports, and what was left out.
+#[derive(Clone, Debug)]
+pub struct Evaluation {
+    entries: Vec<Entry>,
+    skipped: Vec<Skipped>,
+}
+
+/// One score, with what it is of.
+#[derive(Clone, Debug)]
+pub(crate) struct Entry {
+    pub(crate) metric: &'static Metric,
+    pub(crate) channel: String,
+    pub(crate) score: Score,
+}
+
+impl Evaluation {
+    pub(crate) fn new(entries: Vec<Entry>, skipped: Vec<Skipped>) -> Evaluation {
+        Evaluation { entries, skipped }
+    }
+
+    /// Every score with its metric and the name of its channel or plane.
+    pub fn scores(&self) -> impl Iterator<Item = (&'static Metric, &str, &Score)> {
+        let entries = self.entries.iter();
+        entries.map(|entry| (entry.metric, entry.channel.as_str(), &entry.score))
+    }
+
+    /// The score of one metric and channel or plane.
+    pub fn score(&self, metric: &str, channel: &str) -> Option<&Score> {
+        let mut scores = self.scores();
+        let found = scores.find(|(found, of, _)| found.id == metric && *of == channel);
+        found.map(|(_, _, score)| score)
+    }
+
+    /// What was left out, and why.
+    pub fn skipped(&self) -> &[Skipped] {
+        &self.skipped
+    }
+}

@@ -1,0 +1,183 @@
+//! Numbers with a finite binary expansion, and quotients of two of them rounded once.
+
+use std::ops::{Add, Mul, Neg, Sub};
+
+use super::canonical::Canonical;
+use super::integer::Natural;
+use super::round::round;
+use super::sum::UNIT_EXPONENT;
+
+/// An integer times a power of two, exactly.
+#[derive(Clone, Debug)]
+pub(crate) struct Dyadic {
+    negative: bool,
+    magnitude: Natural,
+    exponent: i32,
+}
+
+impl Dyadic {
+    pub(super) fn from_canonical(canonical: &Canonical) -> Dyadic {
+        let limb = |pair: &[u32]| {
+            u64::from(pair[0]) | u64::from(pair.get(1).copied().unwrap_or_default()) << 32
+        };
+        let first = i32::try_from(canonical.first()).expect("a digit's index is below 140");
+        Dyadic {
+            negative: canonical.is_negative(),
+            magnitude: Natural::from_limbs(canonical.digits().chunks(2).map(limb).collect()),
+            exponent: 32 * first + UNIT_EXPONENT,
+        }
+    }
+
+    pub(crate) fn is_zero(&self) -> bool {
+        self.magnitude.is_zero()
+    }
+
+    /// The nearest binary64, ties to even.
+    pub(crate) fn to_f64(&self) -> f64 {
+        self.over(&Dyadic::from(1))
+    }
+
+    /// The binary64 nearest to `self / divisor`, ties to even: one rounding, also among denormals.
+    ///
+    /// # Panics
+    /// If `divisor` is zero.
+    pub(crate) fn over(&self, divisor: &Dyadic) -> f64 {
+        assert!(!divisor.is_zero(), "a quotient needs a divisor");
+        if self.is_zero() {
+            return 0.0;
+        }
+        let (leading, inexact, power) = self.magnitude.leading_quotient(&divisor.magnitude);
+        let power = i32::try_from(power).expect("sums have fewer than 2^31 bits");
+        let exponent = self.exponent - divisor.exponent + power;
+        round(
+            self.negative != divisor.negative,
+            leading,
+            inexact,
+            exponent,
+        )
+    }
+
+    /// The same value with its last place at `exponent`, which is not above its own.
+    fn magnitude_at(&self, exponent: i32) -> Natural {
+        let places = usize::try_from(self.exponent - exponent).expect("the lower exponent of two");
+        self.magnitude.shifted_up(places)
+    }
+}
+
+impl From<u64> for Dyadic {
+    fn from(value: u64) -> Dyadic {
+        Dyadic {
+            negative: false,
+            magnitude: Natural::from(value),
+            exponent: 0,
+        }
+    }
+}
+
+impl Neg for Dyadic {
+    type Output = Dyadic;
+    fn neg(self) -> Dyadic {
+        Dyadic {
+            negative: !self.negative,
+            ..self
+        }
+    }
+}
+
+impl Add for &Dyadic {
+    type Output = Dyadic;
+    fn add(self, other: &Dyadic) -> Dyadic {
+        if self.is_zero() {
+            return other.clone();
+        }
+        if other.is_zero() {
+            return self.clone();
+        }
+        let exponent = self.exponent.min(other.exponent);
+        let (left, right) = (self.magnitude_at(exponent), other.magnitude_at(exponent));
+        let (negative, magnitude) = if self.negative == other.negative {
+            (self.negative, left.plus(&right))
+        } else if left >= right {
+            (self.negative, left.minus(&right))
+        } else {
+            (other.negative, right.minus(&left))
+        };
+        Dyadic {
+            negative,
+            magnitude,
+            exponent,
+        }
+    }
+}
+
+impl Sub for &Dyadic {
+    type Output = Dyadic;
+    fn sub(self, other: &Dyadic) -> Dyadic {
+        self + &-other.clone()
+    }
+}
+
+impl Mul for &Dyadic {
+    type Output = Dyadic;
+    fn mul(self, other: &Dyadic) -> Dyadic {
+        Dyadic {
+            negative: self.negative != other.negative,
+            magnitude: self.magnitude.times(&other.magnitude),
+            exponent: self.exponent + other.exponent,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::exact::ExactSum;
+
+    fn exact(value: f64) -> Dyadic {
+        [value].into_iter().collect::<ExactSum>().to_dyadic()
+    }
+
+    #[test]
+    fn a_quotient_of_two_binary64_is_the_machine_s_own() {
+        let values = [
+            1.0,
+            -3.0,
+            0.1,
+            1e-300,
+            -7e299,
+            f64::MIN_POSITIVE,
+            f64::from_bits(1),
+            f64::from_bits(0xf_ffff_ffff_fff1),
+            f64::MAX,
+        ];
+        for left in values {
+            for right in values {
+                let quotient = exact(left).over(&exact(right));
+                assert_eq!(
+                    quotient.to_bits(),
+                    (left / right).to_bits(),
+                    "{left:e} / {right:e}"
+                );
+                let sum = (&exact(left) + &exact(right)).to_f64();
+                assert_eq!(
+                    sum.to_bits(),
+                    (left + right).to_bits(),
+                    "{left:e} + {right:e}"
+                );
+                let product = (&exact(left) * &exact(right)).to_f64();
+                assert_eq!(
+                    product.to_bits(),
+                    (left * right).to_bits(),
+                    "{left:e} × {right:e}"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn a_difference_of_equals_is_zero() {
+        let difference = &exact(0.1) - &exact(0.1);
+        assert!(difference.is_zero());
+        assert_eq!(difference.to_f64().to_bits(), 0.0_f64.to_bits());
+    }
+}

@@ -1,0 +1,372 @@
+//! A sum of binary64 numbers, and of their products, that never rounds.
+
+use std::fmt;
+
+use super::canonical::Canonical;
+use super::rational::Dyadic;
+
+/// Digits that are kept in place; a sum of one quantity rarely spans more.
+const WINDOW: usize = 8;
+/// Digits of the whole range: from below the square of the least denormal to above 2⁶⁴ squares of the greatest number.
+pub(super) const DIGITS: usize = 140;
+/// The weight of bit 0 of digit 0 is 2 to this power.
+pub(super) const UNIT_EXPONENT: i32 = -2176;
+/// The bit of weight one.
+const UNIT_POSITION: usize = 2176;
+/// A deposit changes a digit by less than 2⁵³, so that 1000 of them stay within an `i64`.
+const DEPOSITS: u32 = 1000;
+/// Where the mantissa of the least denormal begins.
+const DENORMAL_POSITION: usize = UNIT_POSITION - 1074;
+/// Where the square of the least denormal begins.
+const DENORMAL_SQUARE_POSITION: usize = UNIT_POSITION - 2148;
+
+/// An exact sum of binary64 numbers and of products of two of them.
+///
+/// Adding, merging and subtracting never round; [`to_f64`](ExactSum::to_f64) rounds once. Two sums are equal if their
+/// values are, however they came about.
+///
+/// It is a fixed-point number of 32-bit digits, each in an `i64` whose upper half collects carries, so that a deposit
+/// touches a few neighbouring digits and nothing else. Eight digits are kept in place, where the values happen to lie; the
+/// whole range is only allocated for sums that span more.
+///
+/// ```
+/// use taceva_metrics::ExactSum;
+/// let mut sum = ExactSum::default();
+/// for value in [1e100, 1.0, -1e100] {
+///     sum.add(value);
+/// }
+/// assert_eq!(sum.to_f64(), 1.0);
+/// ```
+#[derive(Clone, Default)]
+pub struct ExactSum {
+    window: [i64; WINDOW],
+    /// Which digit `window[0]` is.
+    first: u32,
+    /// Deposits before carries must be passed on; nothing is in place yet when it starts at zero.
+    deposits_left: u32,
+    /// All digits, once the window was too narrow.
+    full: Option<Box<[i64; DIGITS]>>,
+}
+
+impl ExactSum {
+    /// Adds `value`.
+    ///
+    /// # Panics
+    /// If it is NaN or infinite: what such a value means is for the caller to decide.
+    pub fn add(&mut self, value: f64) {
+        assert!(value.is_finite(), "only finite numbers have a sum");
+        self.deposit(value);
+    }
+
+    /// Adds the product of `left` and `right`, all of its bits.
+    ///
+    /// # Panics
+    /// If either is NaN or infinite.
+    pub fn add_product(&mut self, left: f64, right: f64) {
+        assert!(
+            left.is_finite() && right.is_finite(),
+            "only finite numbers have a product"
+        );
+        let (left, right) = (Binary::of(left), Binary::of(right));
+        let product = u128::from(left.mantissa) * u128::from(right.mantissa);
+        let parts = split(product, left.position + right.position);
+        let sign = left.sign * right.sign;
+        self.deposit_parts(
+            left.position + right.position + DENORMAL_SQUARE_POSITION,
+            parts.map(|part| sign * part),
+        );
+    }
+
+    /// Adds another sum.
+    pub fn merge(&mut self, other: &ExactSum) {
+        other.for_each_digit(|index, digit| self.deposit_digits(index, [digit]));
+    }
+
+    /// Takes another sum away, exactly.
+    pub fn subtract(&mut self, other: &ExactSum) {
+        other.for_each_digit(|index, digit| self.deposit_digits(index, [-digit]));
+    }
+
+    /// The nearest binary64, ties to even; beyond its range an infinity, below it a zero with the sum's sign.
+    pub fn to_f64(&self) -> f64 {
+        self.to_dyadic().to_f64()
+    }
+
+    /// The one form that all sums of equal value share.
+    pub fn to_canonical(&self) -> Canonical {
+        let mut digits = [0; DIGITS];
+        let mut top = None;
+        self.for_each_digit(|index, digit| {
+            digits[index] = digit;
+            top = Some(index);
+        });
+        let Some(top) = top else {
+            return Canonical::default();
+        };
+        // A balanced number has the sign of its highest digit.
+        let negative = digits[top] < 0;
+        let digits = &mut digits[..=top];
+        if negative {
+            digits.iter_mut().for_each(|digit| *digit = -*digit);
+        }
+        Canonical::from_digits(negative, digits)
+    }
+
+    /// The sum that `canonical` describes.
+    pub fn from_canonical(canonical: &Canonical) -> ExactSum {
+        let mut sum = ExactSum::default();
+        let sign = if canonical.is_negative() { -1 } else { 1 };
+        for (index, &digit) in (canonical.first()..).zip(canonical.digits()) {
+            sum.deposit_digits(index, [sign * i64::from(digit)]);
+        }
+        sum
+    }
+
+    pub(crate) fn to_dyadic(&self) -> Dyadic {
+        Dyadic::from_canonical(&self.to_canonical())
+    }
+
+    /// Adds a value known to be finite.
+    #[inline]
+    pub(super) fn deposit(&mut self, value: f64) {
+        let Binary {
+            sign,
+            mantissa,
+            position,
+        } = Binary::of(value);
+        let position = position + DENORMAL_POSITION;
+        let shifted = u128::from(mantissa) << (position % 32);
+        let parts = [low_digit(shifted), high_digits(shifted)];
+        self.deposit_parts(position, parts.map(|part| sign * part));
+    }
+
+    /// Adds the square of a value known to be finite.
+    #[inline]
+    pub(super) fn deposit_square(&mut self, value: f64) {
+        let Binary {
+            mantissa, position, ..
+        } = Binary::of(value);
+        let square = u128::from(mantissa) * u128::from(mantissa);
+        let position = 2 * position + DENORMAL_SQUARE_POSITION;
+        self.deposit_parts(position, split(square, position));
+    }
+
+    /// A zero is left out: it lies far below other values and would only widen the window.
+    #[inline]
+    fn deposit_parts<const PARTS: usize>(&mut self, position: usize, parts: [i64; PARTS]) {
+        if parts != [0; PARTS] {
+            self.deposit_digits(position / 32, parts);
+        }
+    }
+
+    #[inline]
+    fn deposit_digits<const PARTS: usize>(&mut self, index: usize, parts: [i64; PARTS]) {
+        let offset = index.wrapping_sub(self.first as usize);
+        if offset > WINDOW - PARTS || self.deposits_left == 0 {
+            return self.deposit_with_room(index, &parts);
+        }
+        self.deposits_left -= 1;
+        add_to(&mut self.window[offset..offset + PARTS], &parts);
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn deposit_with_room(&mut self, index: usize, parts: &[i64]) {
+        if self.full.is_none() {
+            self.make_room(index, index + parts.len());
+        }
+        match &mut self.full {
+            Some(full) => {
+                if self.deposits_left == 0 {
+                    carry(&mut full[..]);
+                    self.deposits_left = DEPOSITS;
+                }
+                add_to(&mut full[index..], parts);
+            }
+            None => add_to(&mut self.window[index - self.first as usize..], parts),
+        }
+        self.deposits_left -= 1;
+    }
+
+    /// Passes carries on and moves the window so that it covers digits `low..high` too, or gives it up.
+    fn make_room(&mut self, low: usize, high: usize) {
+        let (digits, old_first) = self.carried_window();
+        let (mut low, mut high) = (low, high);
+        if let Some(lowest) = digits.iter().position(|&digit| digit != 0) {
+            let highest = digits
+                .iter()
+                .rposition(|&digit| digit != 0)
+                .unwrap_or(lowest);
+            low = low.min(old_first + lowest);
+            high = high.max(old_first + highest + 1);
+        }
+        self.deposits_left = DEPOSITS;
+        if high - low > WINDOW {
+            let mut full = Box::new([0; DIGITS]);
+            add_to(&mut full[old_first..], &digits);
+            self.full = Some(full);
+            // No index is within reach of the window from here on, however wide a `usize` is.
+            self.first = u32::MAX / 2;
+            return;
+        }
+        // One digit of room above for the growth of the sum, the rest below for smaller values.
+        let spare = WINDOW - (high - low);
+        let first = (low + spare.min(1))
+            .saturating_sub(spare)
+            .min(DIGITS - WINDOW);
+        let at = |index: usize| {
+            index
+                .checked_sub(old_first)
+                .and_then(|offset| digits.get(offset))
+        };
+        self.window = std::array::from_fn(|offset| at(first + offset).copied().unwrap_or_default());
+        self.first = u32::try_from(first).expect("a digit's index is below 140");
+    }
+
+    /// The window with its carries passed on, and which digit it begins with.
+    fn carried_window(&self) -> ([i64; WINDOW + 2], usize) {
+        let mut digits = [0; WINDOW + 2];
+        digits[..WINDOW].copy_from_slice(&self.window);
+        carry(&mut digits);
+        (digits, self.first as usize)
+    }
+
+    /// Visits the digits that are not zero, from the lowest; each is in −2³¹..2³¹.
+    fn for_each_digit(&self, visit: impl FnMut(usize, i64)) {
+        match &self.full {
+            Some(full) => {
+                let mut digits = **full;
+                carry(&mut digits);
+                visit_digits(0, &digits, visit);
+            }
+            None => {
+                let (digits, first) = self.carried_window();
+                visit_digits(first, &digits, visit);
+            }
+        }
+    }
+}
+
+impl PartialEq for ExactSum {
+    fn eq(&self, other: &ExactSum) -> bool {
+        self.to_canonical() == other.to_canonical()
+    }
+}
+
+impl Eq for ExactSum {}
+
+impl fmt::Debug for ExactSum {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "ExactSum({:?})", self.to_f64())
+    }
+}
+
+impl Extend<f64> for ExactSum {
+    fn extend<I: IntoIterator<Item = f64>>(&mut self, values: I) {
+        values.into_iter().for_each(|value| self.add(value));
+    }
+}
+
+impl FromIterator<f64> for ExactSum {
+    fn from_iter<I: IntoIterator<Item = f64>>(values: I) -> ExactSum {
+        let mut sum = ExactSum::default();
+        sum.extend(values);
+        sum
+    }
+}
+
+#[cfg(feature = "serde")]
+impl serde::Serialize for ExactSum {
+    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        self.to_canonical().serialize(serializer)
+    }
+}
+
+#[cfg(feature = "serde")]
+impl<'de> serde::Deserialize<'de> for ExactSum {
+    fn deserialize<D: serde::Deserializer<'de>>(deserializer: D) -> Result<ExactSum, D::Error> {
+        Canonical::deserialize(deserializer).map(|canonical| ExactSum::from_canonical(&canonical))
+    }
+}
+
+/// A finite binary64 as `sign × mantissa × 2^(position − 1074)`.
+struct Binary {
+    sign: i64,
+    mantissa: u64,
+    position: usize,
+}
+
+impl Binary {
+    #[inline]
+    fn of(value: f64) -> Binary {
+        const FRACTION: u64 = (1 << 52) - 1;
+        let bits = value.to_bits();
+        let exponent = (bits >> 52) & 0x7ff;
+        let implicit = u64::from(exponent != 0) << 52;
+        Binary {
+            sign: 1 - 2 * i64::from(value.is_sign_negative()),
+            mantissa: (bits & FRACTION) | implicit,
+            position: exponent.saturating_sub(1) as usize,
+        }
+    }
+}
+
+/// The digits of `product × 2^(position mod 32)`; a product of two mantissas has at most 106 bits.
+#[inline]
+fn split(product: u128, position: usize) -> [i64; 4] {
+    let shift = position % 32;
+    let low = (product & u128::from(u64::MAX)) << shift;
+    let high = (product >> 64) << shift;
+    [
+        low_digit(low),
+        low_digit(low >> 32),
+        high_digits(low >> 32) + low_digit(high),
+        high_digits(high),
+    ]
+}
+
+/// The lowest 32 bits.
+#[inline]
+fn low_digit(value: u128) -> i64 {
+    (value & 0xffff_ffff) as i64
+}
+
+/// All above the lowest 32 bits, of a number below 2⁹⁵.
+#[inline]
+fn high_digits(value: u128) -> i64 {
+    #[expect(
+        clippy::cast_possible_truncation,
+        reason = "at most 63 bits are left, as the callers' numbers are below 2^95"
+    )]
+    let digits = (value >> 32) as i64;
+    digits
+}
+
+#[inline]
+fn add_to(digits: &mut [i64], parts: &[i64]) {
+    for (digit, part) in digits.iter_mut().zip(parts) {
+        *digit += part;
+    }
+}
+
+/// Brings every digit but the highest into −2³¹..2³¹; balanced, so that a small negative sum stays short.
+fn carry(digits: &mut [i64]) {
+    let Some((highest, others)) = digits.split_last_mut() else {
+        return;
+    };
+    let mut carried = 0;
+    for digit in others {
+        let value = *digit + carried;
+        *digit = value << 32 >> 32;
+        carried = (value - *digit) >> 32;
+    }
+    *highest += carried;
+}
+
+fn visit_digits(first: usize, digits: &[i64], mut visit: impl FnMut(usize, i64)) {
+    for (index, &digit) in (first..).zip(digits) {
+        if digit != 0 {
+            visit(index, digit);
+        }
+    }
+}

@@ -1,0 +1,104 @@
+//! A metric as data: what it is called, what it needs, and how it is finished from what was kept.
+
+use taceva_core::{Needs, Unit};
+
+use crate::pair_sums::PairSums;
+use crate::plane_sums::PlaneSums;
+use crate::score::Parameter;
+use crate::streams::Streams;
+use crate::value::UndefinedReason;
+
+/// A way to say in one number how well predictions meet the truth.
+#[derive(Debug)]
+#[non_exhaustive]
+pub struct Metric {
+    /// The name in commands, plans and reports.
+    pub id: &'static str,
+    /// The name in words.
+    pub title: &'static str,
+    /// Which values are good.
+    pub better: Better,
+    /// The unit of its values.
+    pub unit: ScoreUnit,
+    /// The definition and its version; another number means another meaning.
+    pub definition: &'static str,
+    /// Where it is defined.
+    pub reference: &'static str,
+    /// What it says, in a few sentences.
+    pub documentation: &'static str,
+    /// Without what there is no value.
+    pub needs: Needs,
+    pub(crate) constants: Constants,
+    pub(crate) formula: Formula,
+}
+
+/// Which values of a metric are good.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Better {
+    /// Small ones.
+    Lower,
+    /// Large ones.
+    Higher,
+    /// Those near zero.
+    NearZero,
+}
+
+/// The unit of a metric's values.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum ScoreUnit {
+    /// That of the channel.
+    OfChannel,
+    /// None: a ratio.
+    One,
+}
+
+impl ScoreUnit {
+    /// The unit for a channel kept in `channel`.
+    pub fn of(self, channel: Unit) -> Unit {
+        match self {
+            ScoreUnit::OfChannel => channel,
+            ScoreUnit::One => Unit::One,
+        }
+    }
+}
+
+/// The constants that are reported with a score.
+pub(crate) type Constants = fn(Unit) -> Vec<Parameter>;
+
+/// What a metric is finished from, and how.
+#[derive(Debug)]
+pub(crate) enum Formula {
+    /// From the sums of each channel's pairs.
+    Pairs {
+        /// The sums it reads.
+        streams: Streams,
+        /// Whether it counts only samples that reach the gate.
+        gated: bool,
+        /// How it is finished.
+        finish: Finish<PairSums>,
+    },
+    /// From the distances in a plane of two channels.
+    Plane(Finish<PlaneSums>),
+}
+
+/// From sums to a value.
+#[derive(Debug)]
+pub(crate) struct Finish<S> {
+    /// The samples that take part.
+    pub(crate) count: fn(&S) -> u64,
+    /// The value; a number that is not finite counts as overflow.
+    pub(crate) evaluate: fn(&S) -> Result<f64, UndefinedReason>,
+}
+
+impl<S> Finish<S> {
+    pub(crate) fn value(&self, sums: &S) -> Result<f64, UndefinedReason> {
+        let value = (self.evaluate)(sums)?;
+        if value.is_finite() {
+            Ok(value)
+        } else {
+            Err(UndefinedReason::Overflow)
+        }
+    }
+}

@@ -1,0 +1,114 @@
+//! What was predicted beside what is true, by role: swapped arguments would pass every check of shapes.
+
+use crate::accuracy::EPSILON;
+use crate::error::MetricError;
+
+/// Greatest magnitude of a value that is a sample: sums, differences and means of two such values stay finite.
+pub const GREATEST: f64 = f64::from_bits(0x7fc0_0000_0000_0000);
+
+/// An estimate and its reference: two values, or two columns.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Paired<T> {
+    /// ŷ: what the model says.
+    pub estimate: T,
+    /// y: what the reference instrument says.
+    pub reference: T,
+}
+
+impl Paired<f64> {
+    /// d = RN(y − ŷ).
+    #[inline]
+    pub fn residual(self) -> f64 {
+        self.reference - self.estimate
+    }
+
+    /// The term of sMAPE: t = RN(|d| / RN(RN(RN(|y| + |ŷ|) × 0.5) + ε)); 0 for two zeros, because of ε.
+    #[inline]
+    pub fn symmetric_term(self) -> f64 {
+        let scale = (self.reference.abs() + self.estimate.abs()) * 0.5 + EPSILON;
+        self.residual().abs() / scale
+    }
+
+    /// Whether both are numbers of a magnitude up to [`GREATEST`]; other pairs are counted and left out.
+    #[inline]
+    pub fn is_valid(self) -> bool {
+        is_valid(self.estimate) && is_valid(self.reference)
+    }
+}
+
+impl<'a> Paired<&'a [f64]> {
+    /// Two columns of one length.
+    ///
+    /// # Errors
+    /// [`MetricError::Lengths`] if they differ.
+    pub fn try_columns(
+        estimate: &'a [f64],
+        reference: &'a [f64],
+    ) -> Result<Paired<&'a [f64]>, MetricError> {
+        if estimate.len() != reference.len() {
+            return Err(MetricError::Lengths {
+                estimate: estimate.len(),
+                reference: reference.len(),
+            });
+        }
+        Ok(Paired {
+            estimate,
+            reference,
+        })
+    }
+
+    /// The pairs, row by row.
+    #[inline]
+    pub fn iter(self) -> impl Iterator<Item = Paired<f64>> + 'a {
+        let rows = self.estimate.iter().zip(self.reference);
+        rows.map(|(&estimate, &reference)| Paired {
+            estimate,
+            reference,
+        })
+    }
+
+    /// Whether every pair is valid.
+    pub(crate) fn all_valid(self) -> bool {
+        // No early end: this way the loop runs on whole vectors.
+        let sound = |column: &[f64]| {
+            column
+                .iter()
+                .fold(true, |all, &value| all & is_valid(value))
+        };
+        sound(self.estimate) && sound(self.reference)
+    }
+}
+
+#[inline]
+fn is_valid(value: f64) -> bool {
+    value.abs() <= GREATEST
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_greatest_value_is_two_to_the_1021() {
+        assert_eq!(GREATEST.to_bits(), 2.0_f64.powi(1021).to_bits());
+        assert!(is_valid(-GREATEST) && !is_valid(GREATEST.next_up()) && !is_valid(f64::NAN));
+    }
+
+    #[test]
+    fn columns_of_two_lengths_are_refused() {
+        let error = Paired::try_columns(&[1.0], &[]).expect_err("one and none");
+        assert_eq!(
+            error.to_string(),
+            "1 estimates beside 0 references, expected as many"
+        );
+    }
+
+    #[test]
+    fn two_zeros_differ_by_nothing() {
+        let pair = Paired {
+            estimate: -0.0,
+            reference: 0.0,
+        };
+        assert_eq!(pair.symmetric_term().to_bits(), 0.0_f64.to_bits());
+    }
+}

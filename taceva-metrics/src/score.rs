@@ -1,0 +1,73 @@
+//! One number of a report with all that is needed to trust and repeat it.
+
+use taceva_core::Unit;
+
+use crate::value::{UndefinedReason, Value};
+
+/// A metric of a channel, or of the two channels of a plane.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Score {
+    /// The value, in `unit`.
+    pub value: Value,
+    /// The unit of value and interval.
+    pub unit: Unit,
+    /// Samples it is made of; of two channels the smaller number.
+    pub n: u64,
+    /// Samples left out because a value was no usable number; of two channels the larger number.
+    pub n_invalid: u64,
+    /// Where the value would lie with other contact locations, at 95 %.
+    pub interval: Interval,
+    /// Which definition was computed: `mae/1`.
+    pub definition: &'static str,
+    /// The constants of the definition.
+    pub parameters: Vec<Parameter>,
+    /// The channels it is made of, if it is not one channel's own.
+    pub of: Vec<String>,
+}
+
+/// A constant of a definition.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Parameter {
+    /// What it is called: `eps`, `gate`.
+    pub name: &'static str,
+    /// How large it is, in the unit of the channel.
+    pub value: f64,
+}
+
+/// A confidence interval of 95 %.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum Interval {
+    /// By leaving out one contact location after the other.
+    Jackknife {
+        /// Lower end.
+        low: f64,
+        /// Upper end.
+        high: f64,
+        /// Number of clusters with samples.
+        clusters: usize,
+    },
+    /// There is none.
+    Undefined(UndefinedReason),
+}
+
+impl Interval {
+    /// Both ends, if there is an interval.
+    pub fn ends(&self) -> Option<[f64; 2]> {
+        match *self {
+            Interval::Jackknife { low, high, .. } => Some([low, high]),
+            Interval::Undefined(_) => None,
+        }
+    }
+
+    /// How it was found, in words: `jackknife by point_id, G=32`.
+    pub fn method(&self) -> Option<String> {
+        match self {
+            Interval::Jackknife { clusters, .. } => {
+                Some(format!("jackknife by point_id, G={clusters}"))
+            }
+            Interval::Undefined(_) => None,
+        }
+    }
+}

@@ -1,0 +1,109 @@
+//! What an accumulator holds, as data: written to a file, sent to another lab, merged there.
+
+use std::collections::BTreeMap;
+
+use taceva_core::{Channels, Unit};
+
+use crate::clusters::{Clusters, HASHED_CLUSTERS};
+use crate::error::MetricError;
+use crate::exact::ExactSum;
+
+/// The mergeable summary of some samples.
+///
+/// States of the same samples are equal, whatever order, split or merges led to them.
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct State {
+    pub(crate) schema: String,
+    pub(crate) parameters: BTreeMap<String, String>,
+    pub(crate) channels: Vec<(String, Unit)>,
+    pub(crate) clusters: Clusters<Vec<Record>>,
+}
+
+impl State {
+    /// What the state is of, with its version: `taceva.pairs/1`.
+    pub fn schema(&self) -> &str {
+        &self.schema
+    }
+
+    /// The parameters it was made with; only equal ones merge.
+    pub fn parameters(&self) -> &BTreeMap<String, String> {
+        &self.parameters
+    }
+
+    /// The channels of its samples with their units.
+    pub fn channels(&self) -> &[(String, Unit)] {
+        &self.channels
+    }
+
+    /// What is kept, apart by contact location: a record a channel or plane.
+    pub fn clusters(&self) -> &Clusters<Vec<Record>> {
+        &self.clusters
+    }
+
+    /// Refuses a state that was made of something else or otherwise than `own`, or is not whole.
+    pub(crate) fn check(&self, own: &Shape) -> Result<(), MetricError> {
+        if self.schema != own.schema {
+            return Err(MetricError::Schema {
+                expected: format!("`{}`", own.schema),
+                found: self.schema.clone(),
+            });
+        }
+        if self.channels != own.channels {
+            return Err(MetricError::Channels {
+                expected: describe(&own.channels),
+                found: describe(&self.channels),
+            });
+        }
+        if self.parameters != own.parameters {
+            return Err(MetricError::Parameter {
+                name: "parameters",
+                expected: format!("{:?}", own.parameters),
+                found: format!("{:?}", self.parameters),
+            });
+        }
+        match &self.clusters {
+            Clusters::Hashed(cells) if cells.len() != HASHED_CLUSTERS => {
+                Err(MetricError::Malformed {
+                    schema: own.schema,
+                    what: format!("{} clusters, expected {HASHED_CLUSTERS}", cells.len()),
+                })
+            }
+            _ => Ok(()),
+        }
+    }
+}
+
+/// Counts and exact sums; the schema says of what.
+#[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Record {
+    /// Counts, those of the schema in its order.
+    pub counts: Vec<u64>,
+    /// Sums, those of the schema in its order.
+    pub sums: Vec<ExactSum>,
+}
+
+/// What a state must look like to be merged.
+pub(crate) struct Shape {
+    pub(crate) schema: &'static str,
+    pub(crate) parameters: BTreeMap<String, String>,
+    pub(crate) channels: Vec<(String, Unit)>,
+}
+
+/// Channels as a state writes them.
+pub(crate) fn written(channels: &Channels) -> Vec<(String, Unit)> {
+    channels
+        .iter()
+        .map(|channel| (channel.name().to_owned(), channel.unit()))
+        .collect()
+}
+
+/// Channels as a message names them: `Px [mm], Fz [N]`.
+pub(crate) fn describe(channels: &[(String, Unit)]) -> String {
+    let names: Vec<String> = channels
+        .iter()
+        .map(|(name, unit)| format!("{name} [{unit}]"))
+        .collect();
+    names.join(", ")
+}

@@ -1,0 +1,4 @@
+//! Pure statistics behind the intervals.
+
+pub(crate) mod jackknife;
+mod student;

@@ -1,0 +1,141 @@
+//! How far a score would move with other contact locations: the delete-one-cluster jackknife.
+
+use super::student::quantile;
+use crate::score::Interval;
+use crate::value::UndefinedReason;
+
+/// Clusters below which there is no interval.
+pub(crate) const LEAST_CLUSTERS: usize = 5;
+/// What share of intervals should cover the truth.
+const COVERAGE: f64 = 0.95;
+
+/// The score with one cluster left out.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct LeftOut {
+    /// Samples of the cluster, at least one.
+    pub(crate) count: u64,
+    /// The score of all the others.
+    pub(crate) value: Result<f64, UndefinedReason>,
+}
+
+/// The interval about `value`, the score of all clusters.
+///
+/// With n samples, m_j of them in cluster j, h_j = n / m_j and θ_(−j) the score without cluster j: the pseudo-values are
+/// h_j θ − (h_j − 1) θ_(−j), the variance is (1/g) Σ (pseudo_j − mean)² / (h_j − 1), and the interval is
+/// θ ± t(g − 1) √variance.
+///
+/// # Reference
+/// Busing, Meijer and van der Leeden, Delete-m jackknife for unequal m, Statistics and Computing 9 (1999).
+pub(crate) fn interval(value: f64, left_out: &[LeftOut]) -> Interval {
+    let clusters = left_out.len();
+    if clusters < LEAST_CLUSTERS {
+        return Interval::Undefined(UndefinedReason::TooFewClusters { have: clusters });
+    }
+    let n = as_f64(left_out.iter().map(|cluster| cluster.count).sum());
+    let mut pseudo_values = Vec::with_capacity(clusters);
+    for cluster in left_out {
+        let others = match cluster.value {
+            Ok(others) => others,
+            Err(reason) => return Interval::Undefined(reason),
+        };
+        let share = n / as_f64(cluster.count);
+        pseudo_values.push((share, share * value - (share - 1.0) * others));
+    }
+    let g = pseudo_values.iter().fold(0.0, |g, _| g + 1.0);
+    let mean = pseudo_values.iter().map(|(_, pseudo)| pseudo).sum::<f64>() / g;
+    let variance = pseudo_values
+        .iter()
+        .map(|(share, pseudo)| (pseudo - mean) * (pseudo - mean) / (share - 1.0))
+        .sum::<f64>()
+        / g;
+    let freedom = u32::try_from(clusters - 1).expect("at most 64 clusters");
+    let half = quantile(COVERAGE, freedom) * variance.sqrt();
+    let (low, high) = (value - half, value + half);
+    if !low.is_finite() || !high.is_finite() {
+        return Interval::Undefined(UndefinedReason::Overflow);
+    }
+    Interval::Jackknife {
+        low,
+        high,
+        clusters,
+    }
+}
+
+fn as_f64(count: u64) -> f64 {
+    #[expect(
+        clippy::cast_precision_loss,
+        reason = "beyond 2^53 samples the interval has no digits left to lose"
+    )]
+    let count = count as f64;
+    count
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The mean of `clusters`, left out one by one.
+    fn means(clusters: &[&[f64]]) -> (f64, Vec<LeftOut>) {
+        let all: Vec<f64> = clusters.concat();
+        let mean = |sum: f64, n: usize| sum / as_f64(n as u64);
+        let total: f64 = all.iter().sum();
+        let left_out = clusters.iter().map(|cluster| LeftOut {
+            count: cluster.len() as u64,
+            value: Ok(mean(
+                total - cluster.iter().sum::<f64>(),
+                all.len() - cluster.len(),
+            )),
+        });
+        (mean(total, all.len()), left_out.collect())
+    }
+
+    #[test]
+    fn clusters_of_one_give_the_textbook_interval_of_a_mean() {
+        // Mean 3, standard error √(2.5 / 5) = √0.5, t(4) = 2.776445105.
+        let (mean, left_out) = means(&[&[1.0], &[2.0], &[3.0], &[4.0], &[5.0]]);
+        let Interval::Jackknife {
+            low,
+            high,
+            clusters,
+        } = interval(mean, &left_out)
+        else {
+            panic!("five clusters are enough");
+        };
+        let half = 2.776_445_105 * 0.5_f64.sqrt();
+        assert_eq!(clusters, 5);
+        assert!((low - (3.0 - half)).abs() < 1e-8 && (high - (3.0 + half)).abs() < 1e-8);
+    }
+
+    #[test]
+    fn unequal_clusters_agree_with_a_calculation_by_hand() {
+        // n = 6, θ = 16/6. Left out: 13/4 = 3.25 (m = 2, h = 3), 13/5, 12/5, 11/5, 15/5 (m = 1, h = 6).
+        // Pseudo-values: 1.5, 3, 4, 5, 1; mean 2.9; squared deviations 1.96, .01, 1.21, 4.41, 3.61.
+        // Variance: (1.96/2 + (.01 + 1.21 + 4.41 + 3.61)/5) / 5 = (.98 + 1.848) / 5 = .5656.
+        let (mean, left_out) = means(&[&[1.0, 2.0], &[3.0], &[4.0], &[5.0], &[1.0]]);
+        let Interval::Jackknife { low, high, .. } = interval(mean, &left_out) else {
+            panic!("five clusters are enough");
+        };
+        let half = 2.776_445_105 * 0.5656_f64.sqrt();
+        assert!((low - (16.0 / 6.0 - half)).abs() < 1e-8);
+        assert!((high - (16.0 / 6.0 + half)).abs() < 1e-8);
+    }
+
+    #[test]
+    fn four_clusters_are_too_few() {
+        let (mean, left_out) = means(&[&[1.0], &[2.0], &[3.0], &[4.0]]);
+        assert_eq!(
+            interval(mean, &left_out),
+            Interval::Undefined(UndefinedReason::TooFewClusters { have: 4 })
+        );
+    }
+
+    #[test]
+    fn a_score_that_hangs_on_one_cluster_has_no_interval() {
+        let (mean, mut left_out) = means(&[&[1.0], &[2.0], &[3.0], &[4.0], &[5.0]]);
+        left_out[2].value = Err(UndefinedReason::ConstantTruth { perfect: false });
+        assert_eq!(
+            interval(mean, &left_out),
+            Interval::Undefined(UndefinedReason::ConstantTruth { perfect: false })
+        );
+    }
+}
