@@ -1,1 +1,30 @@
-//! To be written.
+#![doc = include_str!("../README.md")]
+
+mod baseline;
+mod choice;
+mod features;
+mod label_scaling;
+mod linalg;
+mod linear;
+mod pls;
+mod problem;
+mod progress;
+mod random;
+mod registry;
+mod ridge;
+mod settings;
+mod split;
+
+pub use baseline::Baseline;
+pub use choice::{ChannelChoice, Choice, ChosenBy};
+pub use features::{Color, Extractor, FeatureError, FeatureSpec, Pca};
+pub use label_scaling::LabelScaling;
+pub use linear::{LinearEstimator, LinearFit, LinearRegressor};
+pub use pls::Pls;
+pub use registry::{ALL, ModelInfo, UnknownModel, find};
+pub use ridge::Ridge;
+pub use settings::{SettingError, SettingInfo, Settings, Suggestion};
+pub use split::{
+    ColumnSplit, Fractions, Part, Split, SplitCounts, SplitError, SplitInput, SplitKind,
+    SplitManifest, SplitSpec,
+};

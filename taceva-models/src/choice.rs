@@ -1,0 +1,75 @@
+//! Which settings were chosen, and by what.
+
+use serde::{Deserialize, Serialize};
+
+/// What a setting was chosen by.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum ChosenBy {
+    /// There is nothing to choose, or a person set it.
+    Nobody,
+    /// The least squared error on the validation part.
+    Validation,
+    /// The least squared error on groups left out one after the other.
+    LeaveOneGroupOut,
+    /// The least squared error on samples left out one after the other.
+    LeaveOneOut,
+    /// The least squared error on ten runs of neighbouring samples left out one after the other.
+    TenFolds,
+}
+
+/// The choice for every channel.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Choice {
+    /// What it was chosen by.
+    pub by: ChosenBy,
+    /// The name of what was chosen: `strength`, `components`.
+    pub setting: Option<String>,
+    /// A choice a channel.
+    pub channels: Vec<ChannelChoice>,
+}
+
+/// The choice for one channel.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ChannelChoice {
+    /// The value of the setting.
+    pub value: Option<f64>,
+    /// The root mean square error there, in the unit of the channel, on what the choice was made by or on the validation
+    /// part; `None` if there was neither, or rounding left no number.
+    pub rmse: Option<f64>,
+    /// Whether the value is the first or the last that was tried: a better one may lie beyond.
+    pub at_edge: bool,
+}
+
+/// The mean squared error of each channel (inner) at each candidate (outer).
+pub(crate) type Errors = Vec<Vec<f64>>;
+
+/// The candidate of least error for each channel; of equals, the one that `candidates` lists last: the plainer model.
+pub(crate) fn least(errors: &Errors, channel: usize) -> usize {
+    let mut best = errors.len().saturating_sub(1);
+    for candidate in (0..best).rev() {
+        if errors[candidate][channel] < errors[best][channel] {
+            best = candidate;
+        }
+    }
+    best
+}
+
+/// The root of a mean squared error in the unit of a channel whose labels span `span`.
+pub(crate) fn rmse(mean_squared: f64, span: f64) -> Option<f64> {
+    let rmse = mean_squared.sqrt() * span;
+    rmse.is_finite().then_some(rmse)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn of_equal_errors_the_plainest_model_wins() {
+        let errors = vec![vec![2.0], vec![1.0], vec![1.0], vec![3.0]];
+        assert_eq!(least(&errors, 0), 2);
+    }
+}

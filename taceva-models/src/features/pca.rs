@@ -1,0 +1,151 @@
+//! Principal components of the training part.
+
+use faer::Mat;
+use taceva_core::{FeatureShape, Features, ModelError, Progress};
+
+use crate::linalg::{Design, FeatureScale, Spectrum};
+use crate::problem::invalid;
+
+/// The directions in which the training part varies most, orthonormal, largest first.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Pca {
+    shape: FeatureShape,
+    mean: Vec<f64>,
+    components: Vec<f64>,
+    variance_ratio: Vec<f64>,
+}
+
+impl Pca {
+    /// The first `count` components of `training`. Of its two signs each has the one that makes its largest entry positive.
+    ///
+    /// # Errors
+    /// [`ModelError`] if a feature is not finite, if `training` varies in fewer than `count` directions, or if
+    /// `progress` was cancelled.
+    pub fn fit(
+        training: &Features,
+        count: usize,
+        progress: &dyn Progress,
+    ) -> Result<Pca, ModelError> {
+        if !training.values().iter().all(|value| value.is_finite()) {
+            return Err(invalid(
+                "principal components of features that are not finite",
+            ));
+        }
+        if training.samples() == 0 {
+            return Err(invalid("principal components of no sample"));
+        }
+        let design = Design::new(training, FeatureScale::None);
+        let spectrum = Spectrum::new(&design, progress)?;
+        let eigenvalues = spectrum.eigenvalues();
+        let known = eigenvalues
+            .iter()
+            .filter(|&&eigenvalue| eigenvalue > spectrum.noise())
+            .count();
+        if count > known {
+            return Err(invalid(format!(
+                "`pca={count}`: {} training samples vary in {known} directions",
+                training.samples()
+            )));
+        }
+        let mut vectors = spectrum.leading_feature_vectors(count);
+        orthonormalise(&mut vectors);
+        let total: f64 = eigenvalues.iter().sum();
+        Ok(Pca {
+            shape: training.shape(),
+            mean: design.centre().to_vec(),
+            components: (0..count)
+                .flat_map(|column| with_fixed_sign(vectors.col_as_slice(column)))
+                .collect(),
+            variance_ratio: eigenvalues
+                .iter()
+                .rev()
+                .take(count)
+                .map(|value| value / total)
+                .collect(),
+        })
+    }
+
+    /// The shape of the features it was fitted on.
+    pub fn shape(&self) -> FeatureShape {
+        self.shape
+    }
+
+    /// The mean of each feature over the training part.
+    pub fn mean(&self) -> &[f64] {
+        &self.mean
+    }
+
+    /// The components, each of the length of a sample.
+    pub fn components(&self) -> std::slice::ChunksExact<'_, f64> {
+        self.components.chunks_exact(self.mean.len())
+    }
+
+    /// The share of the variance that lies along each component.
+    pub fn variance_ratio(&self) -> &[f64] {
+        &self.variance_ratio
+    }
+
+    /// The coordinates of `features` along the components.
+    ///
+    /// # Shapes
+    /// In: samples of [`shape`](Pca::shape); out: flat samples, a number a component.
+    /// # Errors
+    /// [`ModelError`] if the shape differs.
+    #[expect(
+        clippy::cast_possible_truncation,
+        reason = "features are kept in single precision"
+    )]
+    pub fn transform(&self, features: &Features) -> Result<Features, ModelError> {
+        if features.shape() != self.shape {
+            return Err(invalid(format!(
+                "features of shape {:?} for principal components of {:?}",
+                features.shape(),
+                self.shape
+            )));
+        }
+        let count = self.variance_ratio.len();
+        let width = self.mean.len();
+        let directions = Mat::from_fn(width, count, |row, column| {
+            self.components[column * width + row]
+        });
+        let coordinates =
+            Design::centred_at(features, self.mean.clone()).times(directions.as_ref());
+        let values = (0..features.samples())
+            .flat_map(|sample| (0..count).map(move |component| (sample, component)))
+            .map(|place| coordinates[place] as f32)
+            .collect();
+        Features::new(FeatureShape::flat(count), values)
+    }
+}
+
+/// Gram–Schmidt, twice: products through the Gram matrix lose half the digits of the smallest components.
+fn orthonormalise(vectors: &mut Mat<f64>) {
+    for column in 0..vectors.ncols() {
+        let mut own = vectors.col_as_slice(column).to_vec();
+        for _ in 0..2 {
+            for earlier in 0..column {
+                let earlier = vectors.col_as_slice(earlier);
+                let along: f64 = own.iter().zip(earlier).map(|(a, b)| a * b).sum();
+                own.iter_mut()
+                    .zip(earlier)
+                    .for_each(|(value, earlier)| *value -= along * earlier);
+            }
+            let norm = own.iter().map(|value| value * value).sum::<f64>().sqrt();
+            own.iter_mut().for_each(|value| *value /= norm);
+        }
+        vectors.col_as_slice_mut(column).copy_from_slice(&own);
+    }
+}
+
+fn with_fixed_sign(vector: &[f64]) -> Vec<f64> {
+    let mut largest = 0.0_f64;
+    for &value in vector {
+        if value.abs() > largest.abs() {
+            largest = value;
+        }
+    }
+    vector
+        .iter()
+        .map(|value| value * largest.signum())
+        .collect()
+}

@@ -1,0 +1,212 @@
+//! What a model sees of a frame: size, colour, difference from a reference, principal components.
+
+use std::fmt;
+
+use serde::{Deserialize, Serialize};
+use taceva_core::FeatureShape;
+
+use crate::settings::{SettingError, SettingInfo, Settings, number};
+
+/// Whether colour is kept.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Color {
+    /// One number a place; of an RGB frame (299 R + 587 G + 114 B) / 1000, the luma of Rec. ITU-R BT.601.
+    Gray,
+    /// Three numbers a place.
+    Rgb,
+}
+
+impl Color {
+    /// Numbers a place: 1 or 3.
+    pub const fn depth(self) -> usize {
+        match self {
+            Color::Gray => 1,
+            Color::Rgb => 3,
+        }
+    }
+
+    /// How it is written in settings.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Color::Gray => "gray",
+            Color::Rgb => "rgb",
+        }
+    }
+}
+
+/// Which features are asked for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct FeatureSpec {
+    /// Columns after the reduction.
+    pub width: u32,
+    /// Rows after the reduction.
+    pub height: u32,
+    /// Whether colour is kept.
+    pub color: Color,
+    /// Whether the no-contact reference frame is subtracted.
+    pub difference: bool,
+    /// How many principal components of the training part replace the pixels; all pixels where absent.
+    pub pca: Option<u32>,
+}
+
+impl Default for FeatureSpec {
+    fn default() -> FeatureSpec {
+        FeatureSpec {
+            width: 32,
+            height: 32,
+            color: Color::Gray,
+            difference: false,
+            pca: None,
+        }
+    }
+}
+
+const SIZE: SettingInfo = SettingInfo {
+    key: "size",
+    accepts: "WIDTHxHEIGHT or one number for both, from 1 to 1024",
+    default: "32x32",
+    about: "the size every frame is reduced to by averaging areas",
+};
+const COLOR: SettingInfo = SettingInfo {
+    key: "color",
+    accepts: "gray or rgb",
+    default: "gray",
+    about: "whether colour is kept",
+};
+const DIFFERENCE: SettingInfo = SettingInfo {
+    key: "difference",
+    accepts: "true or false",
+    default: "false",
+    about: "whether the no-contact reference frame is subtracted",
+};
+const PCA: SettingInfo = SettingInfo {
+    key: "pca",
+    accepts: "a number of components from 1 to 65536",
+    default: "all pixels",
+    about: "how many principal components of the training part replace the pixels",
+};
+
+impl FeatureSpec {
+    /// Largest width and height.
+    pub const SIDE_MAX: u32 = 1024;
+
+    /// Largest number of principal components.
+    pub const PCA_MAX: u32 = 65_536;
+
+    /// What can be set.
+    pub const SETTINGS: &'static [SettingInfo] = &[SIZE, COLOR, DIFFERENCE, PCA];
+
+    /// The features that `settings` ask for.
+    ///
+    /// ```
+    /// use taceva_models::{FeatureSpec, Settings};
+    /// let spec = FeatureSpec::from_settings(&Settings::parse(["size=24x18", "pca=60"])?)?;
+    /// assert_eq!((spec.width, spec.height, spec.pca), (24, 18, Some(60)));
+    /// # Ok::<(), taceva_models::SettingError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`SettingError`] for an unknown key or a value out of range.
+    pub fn from_settings(settings: &Settings) -> Result<FeatureSpec, SettingError> {
+        settings.check_keys(FeatureSpec::SETTINGS)?;
+        let default = FeatureSpec::default();
+        let (width, height) = settings.value(&SIZE, (default.width, default.height), |text| {
+            let side = |text| number(text, 1..=FeatureSpec::SIDE_MAX);
+            match text.split_once('x') {
+                Some((width, height)) => Some((side(width)?, side(height)?)),
+                None => side(text).map(|side| (side, side)),
+            }
+        })?;
+        Ok(FeatureSpec {
+            width,
+            height,
+            color: settings.value(&COLOR, default.color, |text| {
+                [Color::Gray, Color::Rgb]
+                    .into_iter()
+                    .find(|color| color.name() == text)
+            })?,
+            difference: settings
+                .value(&DIFFERENCE, default.difference, |text| text.parse().ok())?,
+            pca: settings.value(&PCA, default.pca, |text| {
+                number(text, 1..=FeatureSpec::PCA_MAX).map(Some)
+            })?,
+        })
+    }
+
+    /// The shape of one sample's features, before principal components.
+    pub fn shape(&self) -> FeatureShape {
+        FeatureShape {
+            height: self.height as usize,
+            width: self.width as usize,
+            depth: self.color.depth(),
+        }
+    }
+
+    /// Whether every number is within what [`from_settings`](FeatureSpec::from_settings) accepts.
+    pub(crate) fn is_valid(&self) -> bool {
+        let sides = 1..=FeatureSpec::SIDE_MAX;
+        sides.contains(&self.width)
+            && sides.contains(&self.height)
+            && self
+                .pca
+                .is_none_or(|count| (1..=FeatureSpec::PCA_MAX).contains(&count))
+    }
+}
+
+impl fmt::Display for FeatureSpec {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let FeatureSpec { width, height, .. } = self;
+        write!(f, "{width}×{height} {}", self.color.name())?;
+        if self.difference {
+            f.write_str(", difference from the reference")?;
+        }
+        match self.pca {
+            Some(count) => write!(f, ", {count} principal components"),
+            None => Ok(()),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn parse(words: &[&str]) -> Result<FeatureSpec, SettingError> {
+        FeatureSpec::from_settings(&Settings::parse(words.iter().copied())?)
+    }
+
+    #[test]
+    fn one_number_gives_both_sides() {
+        let spec = parse(&["size=20", "color=rgb", "difference=true"]).expect("valid");
+        assert_eq!(spec.to_string(), "20×20 rgb, difference from the reference");
+        assert_eq!(spec.shape().len(), 1200);
+    }
+
+    #[test]
+    fn sizes_out_of_range_are_refused() {
+        for word in [
+            "size=0",
+            "size=32x",
+            "size=x32",
+            "size=1025",
+            "pca=0",
+            "difference=1",
+        ] {
+            assert!(
+                matches!(parse(&[word]), Err(SettingError::Value { .. })),
+                "{word}"
+            );
+        }
+    }
+
+    #[test]
+    fn american_and_british_colours_are_told_apart_by_name() {
+        let error = parse(&["colour=gray"]).expect_err("unknown");
+        assert_eq!(
+            error.to_string(),
+            "`colour`: unknown key, did you mean `color`?"
+        );
+    }
+}

@@ -1,0 +1,194 @@
+//! The centred, possibly scaled features of a training part as a matrix that is never stored whole.
+
+use std::ops::Range;
+
+use faer::{Mat, MatRef};
+use rayon::prelude::*;
+use taceva_core::Features;
+
+use super::gram::{add_product, slabs};
+
+/// Samples or features a block: large enough for full speed, small enough for many threads and the cache.
+const BLOCK: usize = 256;
+
+/// What each centred feature is divided by.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum FeatureScale {
+    /// 1.
+    None,
+    /// Its standard deviation over the training part; 1 where that is 0.
+    Unit,
+}
+
+/// The matrix X with a row a sample: (feature − centre) / scale.
+#[derive(Clone, Debug)]
+pub(crate) struct Design<'a> {
+    features: &'a Features,
+    centre: Vec<f64>,
+    scale: Option<Vec<f64>>,
+}
+
+impl<'a> Design<'a> {
+    /// Centred by the mean of `features`, which must hold a sample.
+    pub(crate) fn new(features: &'a Features, scale: FeatureScale) -> Design<'a> {
+        let centre = mean_of(features, |value, _| value);
+        let scale = (scale == FeatureScale::Unit).then(|| {
+            let variance = mean_of(features, |value, position| {
+                (value - centre[position]).powi(2)
+            });
+            variance
+                .into_iter()
+                .map(|variance| if variance > 0.0 { variance.sqrt() } else { 1.0 })
+                .collect()
+        });
+        Design {
+            features,
+            centre,
+            scale,
+        }
+    }
+
+    /// The same samples and scale as `self`, seen in `features`, centred by their own mean.
+    pub(crate) fn recentred<'b>(&self, features: &'b Features) -> Design<'b> {
+        Design {
+            features,
+            centre: mean_of(features, |value, _| value),
+            scale: self.scale.clone(),
+        }
+    }
+
+    /// Other samples in the coordinates of `self`.
+    pub(crate) fn of<'b>(&self, features: &'b Features) -> Design<'b> {
+        Design {
+            features,
+            centre: self.centre.clone(),
+            scale: self.scale.clone(),
+        }
+    }
+
+    /// Unscaled, centred at `centre`.
+    pub(crate) fn centred_at(features: &'a Features, centre: Vec<f64>) -> Design<'a> {
+        Design {
+            features,
+            centre,
+            scale: None,
+        }
+    }
+
+    pub(crate) fn samples(&self) -> usize {
+        self.features.samples()
+    }
+
+    pub(crate) fn width(&self) -> usize {
+        self.centre.len()
+    }
+
+    pub(crate) fn centre(&self) -> &[f64] {
+        &self.centre
+    }
+
+    /// What each feature was divided by; `None` for 1.
+    pub(crate) fn scale(&self) -> Option<&[f64]> {
+        self.scale.as_deref()
+    }
+
+    /// The transposed block: a column a sample.
+    pub(crate) fn block(&self, samples: Range<usize>, features: Range<usize>) -> Mat<f64> {
+        let mut block = Mat::zeros(features.len(), samples.len());
+        let centre = &self.centre[features.clone()];
+        for (position, sample) in samples.enumerate() {
+            let values = &self.features.sample(sample)[features.clone()];
+            let column = block.col_as_slice_mut(position);
+            for ((place, &value), centre) in column.iter_mut().zip(values).zip(centre) {
+                *place = f64::from(value) - centre;
+            }
+            if let Some(scale) = &self.scale {
+                for (place, scale) in column.iter_mut().zip(&scale[features.clone()]) {
+                    *place /= scale;
+                }
+            }
+        }
+        block
+    }
+
+    /// X `right`.
+    pub(crate) fn times(&self, right: MatRef<'_, f64>) -> Mat<f64> {
+        stacked(self.samples(), right.ncols(), |samples, product| {
+            for slab in slabs(self.width()) {
+                let block = self.block(samples.clone(), slab.clone());
+                let right = right.subrows(slab.start, slab.len());
+                add_product(product, block.transpose(), right);
+            }
+        })
+    }
+
+    /// Xᵀ `right`.
+    pub(crate) fn transpose_times(&self, right: MatRef<'_, f64>) -> Mat<f64> {
+        stacked(self.width(), right.ncols(), |features, product| {
+            for slab in slabs(self.samples()) {
+                let block = self.block(slab.clone(), features.clone());
+                let right = right.subrows(slab.start, slab.len());
+                add_product(product, block.as_ref(), right);
+            }
+        })
+    }
+}
+
+/// The mean over samples of a function of each feature and its position.
+fn mean_of(features: &Features, of: impl Fn(f64, usize) -> f64) -> Vec<f64> {
+    let mut sums = vec![0.0; features.shape().len()];
+    for sample in 0..features.samples() {
+        for (position, (sum, &value)) in sums.iter_mut().zip(features.sample(sample)).enumerate() {
+            *sum += of(f64::from(value), position);
+        }
+    }
+    let count = features.samples() as f64;
+    sums.iter_mut().for_each(|sum| *sum /= count);
+    sums
+}
+
+/// A matrix of `rows` × `columns`, its blocks of rows filled independently.
+fn stacked(
+    rows: usize,
+    columns: usize,
+    fill: impl Fn(Range<usize>, &mut Mat<f64>) + Sync,
+) -> Mat<f64> {
+    let starts: Vec<usize> = (0..rows).step_by(BLOCK).collect();
+    let blocks: Vec<Mat<f64>> = starts
+        .par_iter()
+        .map(|&start| {
+            let rows = start..rows.min(start + BLOCK);
+            let mut block = Mat::zeros(rows.len(), columns);
+            fill(rows, &mut block);
+            block
+        })
+        .collect();
+    let mut whole = Mat::zeros(rows, columns);
+    for (&start, block) in starts.iter().zip(&blocks) {
+        whole.subrows_mut(start, block.nrows()).copy_from(block);
+    }
+    whole
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use taceva_core::FeatureShape;
+
+    #[test]
+    fn products_are_those_of_the_centred_scaled_matrix() {
+        let features =
+            Features::new(FeatureShape::flat(2), vec![1.0, 5.0, 3.0, 5.0]).expect("two samples");
+        let design = Design::new(&features, FeatureScale::Unit);
+        let right = Mat::from_fn(2, 1, |row, _| [2.0, 7.0][row]);
+        // Centred: [[-1, 0], [1, 0]]; deviations 1 and 0, the latter taken as 1.
+        assert_eq!(
+            design.times(right.as_ref()),
+            Mat::from_fn(2, 1, |row, _| [-2.0, 2.0][row])
+        );
+        assert_eq!(
+            design.transpose_times(right.as_ref()),
+            Mat::from_fn(2, 1, |row, _| [5.0, 0.0][row])
+        );
+    }
+}

@@ -1,0 +1,287 @@
+//! Partial least squares: few directions, each the one that goes best with the labels.
+
+mod simpls;
+
+use faer::Mat;
+use taceva_core::{Estimator, ModelError, Progress, Regressor, TrainingSet};
+
+use self::simpls::Directions;
+use crate::choice::{ChannelChoice, Choice, ChosenBy, Errors, least, rmse};
+use crate::linalg::{Design, FeatureScale};
+use crate::linear::{LinearEstimator, LinearFit, LinearRegressor};
+use crate::problem::{Problem, Validation, centred, joined, stacked};
+use crate::registry::ModelInfo;
+use crate::settings::{SettingError, SettingInfo, Settings, number};
+
+/// Partial least squares of all channels at once.
+///
+/// Each channel gets its own number of directions: the one of least squared error on the validation part; without one, on
+/// the groups of the training part left out one after the other, or on ten runs of neighbouring samples (neighbours in
+/// time look alike, so samples are not left out singly).
+///
+/// # Reference
+/// S. de Jong, Chemometr. Intell. Lab. Syst. 18 (1993) 251 (SIMPLS).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Pls {
+    components: Option<usize>,
+    most: usize,
+    refit: bool,
+}
+
+const COMPONENTS: SettingInfo = SettingInfo {
+    key: "components",
+    accepts: "a number from 1 to 1000",
+    default: "chosen for each channel",
+    about: "how many directions are used",
+};
+const MOST: SettingInfo = SettingInfo {
+    key: "most",
+    accepts: "a number from 1 to 1000",
+    default: "40",
+    about: "how many directions are tried at most where their number is chosen",
+};
+const REFIT: SettingInfo = SettingInfo {
+    key: "refit",
+    accepts: "true or false",
+    default: "true",
+    about: "whether the validation part is learnt from too, once the numbers are chosen",
+};
+
+/// Runs of neighbouring samples that are left out where there are neither groups nor a validation part.
+const FOLDS: usize = 10;
+
+impl Default for Pls {
+    fn default() -> Pls {
+        Pls {
+            components: None,
+            most: 40,
+            refit: true,
+        }
+    }
+}
+
+impl Pls {
+    /// What the registry says of it.
+    pub const INFO: ModelInfo = ModelInfo {
+        name: "pls",
+        about: "partial least squares: few directions, each the one that goes best with the labels",
+        settings: &[COMPONENTS, MOST, REFIT],
+        make: |settings| Ok(Box::new(Pls::from_settings(settings)?)),
+    };
+
+    /// Partial least squares as `settings` ask for.
+    ///
+    /// # Errors
+    /// [`SettingError`] for an unknown key or a value out of range.
+    pub fn from_settings(settings: &Settings) -> Result<Pls, SettingError> {
+        settings.check_keys(Pls::INFO.settings)?;
+        let default = Pls::default();
+        Ok(Pls {
+            components: settings.value(&COMPONENTS, default.components, |text| {
+                number(text, 1..=1000).map(Some)
+            })?,
+            most: settings.value(&MOST, default.most, |text| number(text, 1..=1000))?,
+            refit: settings.value(&REFIT, default.refit, |text| text.parse().ok())?,
+        })
+    }
+
+    /// Errors of 1, 2 … directions, most directions first: of equals the last is the plainest.
+    fn choose(
+        &self,
+        problem: &Problem<'_>,
+        directions: &Directions,
+        design: &Design<'_>,
+        validation: Option<&Validation<'_>>,
+        progress: &dyn Progress,
+    ) -> Result<(ChosenBy, Option<Errors>), ModelError> {
+        match (validation, self.components) {
+            (Some(part), fixed) => {
+                let by = fixed.map_or(ChosenBy::Validation, |_| ChosenBy::Nobody);
+                let squares = squares_on(directions, &design.of(part.features), &part.labels);
+                Ok((by, Some(mean(squares, part.labels.nrows()))))
+            }
+            (None, Some(_)) => Ok((ChosenBy::Nobody, None)),
+            (None, None) => {
+                let (by, groups) = match problem.groups() {
+                    Some(groups) => (ChosenBy::LeaveOneGroupOut, groups),
+                    None => (ChosenBy::TenFolds, folds(problem.centred.nrows())),
+                };
+                let squares = left_out(problem, &groups, directions.count(), progress)?;
+                Ok((by, Some(mean(squares, problem.centred.nrows()))))
+            }
+        }
+    }
+}
+
+/// Ten runs of neighbouring samples, or as many as there are samples.
+fn folds(samples: usize) -> Vec<Vec<usize>> {
+    let count = FOLDS.min(samples);
+    (0..count)
+        .map(|fold| (fold * samples / count..(fold + 1) * samples / count).collect())
+        .collect()
+}
+
+/// The summed squares of each channel for every number of directions, each group predicted by a fit that never saw it.
+fn left_out(
+    problem: &Problem<'_>,
+    groups: &[Vec<usize>],
+    count: usize,
+    progress: &dyn Progress,
+) -> Result<Errors, ModelError> {
+    let channels = problem.channels();
+    let mut total = vec![vec![0.0; channels]; count];
+    for group in groups {
+        let mut inside = vec![false; problem.centred.nrows()];
+        group.iter().for_each(|&row| inside[row] = true);
+        let others: Vec<usize> = (0..inside.len()).filter(|&row| !inside[row]).collect();
+        let rows = |positions: &[usize]| {
+            Mat::from_fn(positions.len(), channels, |row, channel| {
+                problem.centred[(positions[row], channel)]
+            })
+        };
+        let features = problem.training.features.select(&others);
+        let design = Design::new(&features, FeatureScale::None);
+        let (shift, targets) = centred(rows(&others));
+        let directions = Directions::find(&design, &targets, count, progress)?;
+        let held = problem.training.features.select(group);
+        let labels = Mat::from_fn(group.len(), channels, |row, channel| {
+            problem.centred[(group[row], channel)] - shift[channel]
+        });
+        let squares = squares_on(&directions, &design.of(&held), &labels);
+        for (step, sums) in total.iter_mut().enumerate() {
+            // Fewer directions than elsewhere: the last fit stands for the larger ones.
+            let own = &squares[squares.len() - 1 - step.min(squares.len() - 1)];
+            sums.iter_mut().zip(own).for_each(|(sum, own)| *sum += own);
+        }
+    }
+    total.reverse();
+    Ok(total)
+}
+
+/// The summed squares of each channel, most directions first.
+fn squares_on(directions: &Directions, design: &Design<'_>, labels: &Mat<f64>) -> Errors {
+    let scores = design.times(directions.weights());
+    let mut residuals = labels.clone();
+    let mut squares: Errors = (0..directions.count())
+        .map(|step| {
+            for channel in 0..labels.ncols() {
+                let loading = directions.loading(step, channel);
+                residuals
+                    .col_as_slice_mut(channel)
+                    .iter_mut()
+                    .zip(scores.col_as_slice(step))
+                    .for_each(|(residual, score)| *residual -= score * loading);
+            }
+            (0..labels.ncols())
+                .map(|channel| {
+                    residuals
+                        .col_as_slice(channel)
+                        .iter()
+                        .map(|value| value * value)
+                        .sum()
+                })
+                .collect()
+        })
+        .collect();
+    squares.reverse();
+    squares
+}
+
+fn mean(mut squares: Errors, samples: usize) -> Errors {
+    squares
+        .iter_mut()
+        .flatten()
+        .for_each(|square| *square /= samples as f64);
+    squares
+}
+
+impl LinearEstimator for Pls {
+    fn fit_linear(
+        &self,
+        training: &TrainingSet<'_>,
+        validation: Option<&TrainingSet<'_>>,
+        progress: &dyn Progress,
+    ) -> Result<LinearFit, ModelError> {
+        let problem = Problem::new(*training)?;
+        let validation = problem.validation(validation)?;
+        let design = Design::new(training.features, FeatureScale::None);
+        let wanted = self.components.unwrap_or(self.most);
+        let directions = Directions::find(&design, &problem.centred, wanted, progress)?;
+        let found = directions.count();
+        let (by, errors) = self.choose(
+            &problem,
+            &directions,
+            &design,
+            validation.as_ref(),
+            progress,
+        )?;
+        let counts: Vec<usize> = (0..problem.channels())
+            .map(|channel| match (&errors, self.components) {
+                (Some(errors), None) if found > 0 => found - least(errors, channel),
+                _ => found,
+            })
+            .collect();
+        let choices = counts.iter().enumerate().map(|(channel, &count)| {
+            let errors = errors.as_ref().filter(|_| count > 0);
+            let error = errors.map(|errors| errors[found - count][channel]);
+            ChannelChoice {
+                value: Some(count as f64),
+                rmse: error.and_then(|error| rmse(error, problem.scaling.span()[channel])),
+                at_edge: self.components.is_none() && count == self.most,
+            }
+        });
+        let choice = Choice {
+            by,
+            setting: Some(COMPONENTS.key.into()),
+            channels: choices.collect(),
+        };
+        let refitted = self.refit && validation.is_some();
+        let regressor = match validation.filter(|_| self.refit) {
+            Some(part) => {
+                let features = joined(training.features, part.features);
+                let design = design.recentred(&features);
+                let (shift, labels) = centred(stacked(&problem.centred, &part.labels));
+                let most = counts.iter().copied().max().unwrap_or(0);
+                let directions = Directions::find(&design, &labels, most, progress)?;
+                let mean: Vec<f64> = problem
+                    .mean
+                    .iter()
+                    .zip(&shift)
+                    .map(|(mean, shift)| mean + shift)
+                    .collect();
+                LinearRegressor::from_scaled(
+                    &problem,
+                    &design,
+                    &directions.solution(&counts),
+                    &mean,
+                )?
+            }
+            None => {
+                let weights = directions.solution(&counts);
+                LinearRegressor::from_scaled(&problem, &design, &weights, &problem.mean)?
+            }
+        };
+        Ok(LinearFit {
+            regressor,
+            choice,
+            scaling: problem.scaling,
+            refitted,
+        })
+    }
+}
+
+impl Estimator for Pls {
+    fn name(&self) -> &'static str {
+        Pls::INFO.name
+    }
+
+    fn fit(
+        &self,
+        training: &TrainingSet<'_>,
+        validation: Option<&TrainingSet<'_>>,
+        progress: &dyn Progress,
+    ) -> Result<Box<dyn Regressor>, ModelError> {
+        let fit = self.fit_linear(training, validation, progress)?;
+        Ok(Box::new(fit.regressor))
+    }
+}

@@ -1,0 +1,36 @@
+//! Reporting to whoever listens, and stopping when asked.
+
+use taceva_core::{ErrorKind, ModelError, Progress};
+
+/// A stage of long work; it ends when dropped, on every way out.
+pub(crate) struct Stage<'a> {
+    progress: &'a dyn Progress,
+}
+
+impl<'a> Stage<'a> {
+    pub(crate) fn begin(progress: &'a dyn Progress, name: &str, steps: usize) -> Stage<'a> {
+        progress.begin(name, u64::try_from(steps).ok());
+        Stage { progress }
+    }
+
+    pub(crate) fn advance(&self) {
+        self.progress.advance(1);
+    }
+}
+
+impl Drop for Stage<'_> {
+    fn drop(&mut self) {
+        self.progress.end();
+    }
+}
+
+/// Stops with an error if the work was cancelled.
+pub(crate) fn interrupted(progress: &dyn Progress) -> Result<(), ModelError> {
+    if progress.is_cancelled() {
+        return Err(ModelError::new(
+            ErrorKind::Interrupted,
+            "fitting was cancelled",
+        ));
+    }
+    Ok(())
+}

@@ -1,0 +1,62 @@
+//! The models by name.
+
+use crate::baseline::Baseline;
+use crate::linear::LinearEstimator;
+use crate::pls::Pls;
+use crate::ridge::Ridge;
+use crate::settings::{SettingError, SettingInfo, Settings, Suggestion};
+
+/// A model that people can choose: its name, what it is, and what can be set.
+#[derive(Clone, Copy, Debug)]
+pub struct ModelInfo {
+    /// The word people type.
+    pub name: &'static str,
+    /// What it is, in one line.
+    pub about: &'static str,
+    /// What can be set.
+    pub settings: &'static [SettingInfo],
+    pub(crate) make: fn(&Settings) -> Result<Box<dyn LinearEstimator>, SettingError>,
+}
+
+impl ModelInfo {
+    /// The model as `settings` ask for, not fitted yet.
+    ///
+    /// # Errors
+    /// [`SettingError`] for an unknown key or a value out of range.
+    pub fn estimator(&self, settings: &Settings) -> Result<Box<dyn LinearEstimator>, SettingError> {
+        (self.make)(settings)
+    }
+}
+
+/// Every model, the plainest first.
+pub const ALL: &[ModelInfo] = &[Baseline::INFO, Ridge::INFO, Pls::INFO];
+
+/// The model called `name`.
+///
+/// ```
+/// let ridge = taceva_models::find("ridge")?;
+/// let estimator = ridge.estimator(&taceva_models::Settings::parse(["strength=0.1"])?)?;
+/// assert_eq!(estimator.name(), "ridge");
+/// let error = taceva_models::find("rigde").unwrap_err();
+/// assert_eq!(error.to_string(), "no model is called `rigde`, did you mean `ridge`?");
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # Errors
+/// [`UnknownModel`] with the nearest name.
+pub fn find(name: &str) -> Result<&'static ModelInfo, UnknownModel> {
+    ALL.iter()
+        .find(|info| info.name == name)
+        .ok_or_else(|| UnknownModel {
+            name: name.to_owned(),
+            suggestion: Suggestion::of(name, ALL.iter().map(|info| info.name)),
+        })
+}
+
+/// A name that no model has.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("no model is called `{name}`, {suggestion}")]
+pub struct UnknownModel {
+    name: String,
+    suggestion: Suggestion,
+}

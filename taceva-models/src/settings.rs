@@ -1,0 +1,240 @@
+//! Settings as people type them: `key=value` words, checked against what a consumer knows.
+
+use std::collections::BTreeMap;
+use std::fmt;
+use std::str::FromStr;
+
+/// One thing that may be set: its key, what it means and what it accepts, for help texts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct SettingInfo {
+    /// The word before `=`.
+    pub key: &'static str,
+    /// What the word after `=` may be.
+    pub accepts: &'static str,
+    /// What holds when it is not set.
+    pub default: &'static str,
+    /// What it changes.
+    pub about: &'static str,
+}
+
+/// Keys with their values as typed, each key once.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Settings {
+    values: BTreeMap<String, String>,
+}
+
+impl Settings {
+    /// The settings written as `key=value` words.
+    ///
+    /// ```
+    /// use taceva_models::Settings;
+    /// let settings = Settings::parse(["size=32", "color=gray"])?;
+    /// assert_eq!(settings.get("size"), Some("32"));
+    /// # Ok::<(), taceva_models::SettingError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`SettingError::Form`] without `=`, [`SettingError::Twice`] for a key given twice.
+    pub fn parse<'a>(words: impl IntoIterator<Item = &'a str>) -> Result<Settings, SettingError> {
+        let mut values = BTreeMap::new();
+        for word in words {
+            let (key, value) = word
+                .split_once('=')
+                .ok_or_else(|| SettingError::Form { word: word.into() })?;
+            if values.insert(key.into(), value.into()).is_some() {
+                return Err(SettingError::Twice { key: key.into() });
+            }
+        }
+        Ok(Settings { values })
+    }
+
+    /// The value of `key` as typed.
+    pub fn get(&self, key: &str) -> Option<&str> {
+        self.values.get(key).map(String::as_str)
+    }
+
+    /// The settings in two: those with one of the keys of `known`, and the others.
+    pub fn partition(self, known: &[SettingInfo]) -> (Settings, Settings) {
+        let is_known = |key: &String| known.iter().any(|info| info.key == key);
+        let (inside, outside) = self.values.into_iter().partition(|(key, _)| is_known(key));
+        (Settings { values: inside }, Settings { values: outside })
+    }
+
+    /// Refuses every key outside `known`.
+    ///
+    /// # Errors
+    /// [`SettingError::Unknown`] with the nearest known key.
+    pub fn check_keys(&self, known: &[SettingInfo]) -> Result<(), SettingError> {
+        let keys = || known.iter().map(|info| info.key);
+        match self
+            .values
+            .keys()
+            .find(|key| !keys().any(|known| known == *key))
+        {
+            None => Ok(()),
+            Some(key) => Err(SettingError::Unknown {
+                key: key.clone(),
+                suggestion: Suggestion::of(key, keys()),
+            }),
+        }
+    }
+
+    /// The value of `key` read by `read`, or `default` where it is not set.
+    ///
+    /// # Errors
+    /// [`SettingError::Value`] if `read` gives nothing; it names what `info` accepts.
+    pub fn value<T>(
+        &self,
+        info: &SettingInfo,
+        default: T,
+        read: impl FnOnce(&str) -> Option<T>,
+    ) -> Result<T, SettingError> {
+        let Some(text) = self.get(info.key) else {
+            return Ok(default);
+        };
+        read(text).ok_or_else(|| SettingError::Value {
+            key: info.key,
+            found: text.into(),
+            accepts: info.accepts,
+        })
+    }
+}
+
+/// Reads a number within `range`.
+pub(crate) fn number<T: FromStr + PartialOrd>(
+    text: &str,
+    range: impl std::ops::RangeBounds<T>,
+) -> Option<T> {
+    text.parse().ok().filter(|value| range.contains(value))
+}
+
+/// The nearest of some known words, where one is near; otherwise all of them.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Suggestion {
+    nearest: Option<String>,
+    known: Vec<String>,
+}
+
+impl Suggestion {
+    /// Least Jaro–Winkler similarity at which a typing mistake is more likely than another meaning.
+    const NEAR: f64 = 0.75;
+
+    /// What `word` may have been meant to be.
+    pub fn of<'a>(word: &str, known: impl IntoIterator<Item = &'a str>) -> Suggestion {
+        let known: Vec<String> = known.into_iter().map(str::to_owned).collect();
+        let similarity = |candidate: &&String| strsim::jaro_winkler(word, candidate);
+        let nearest = known
+            .iter()
+            .max_by(|a, b| similarity(a).total_cmp(&similarity(b)))
+            .filter(|best| similarity(best) >= Suggestion::NEAR)
+            .cloned();
+        Suggestion { nearest, known }
+    }
+
+    /// The nearest word, if one is near.
+    pub fn nearest(&self) -> Option<&str> {
+        self.nearest.as_deref()
+    }
+}
+
+impl fmt::Display for Suggestion {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match &self.nearest {
+            Some(nearest) => write!(f, "did you mean `{nearest}`?"),
+            None if self.known.is_empty() => f.write_str("none is accepted here"),
+            None => write!(f, "expected one of {}", self.known.join(", ")),
+        }
+    }
+}
+
+/// Why settings cannot be used.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum SettingError {
+    /// A word without `=`.
+    #[error("`{word}`: expected key=value")]
+    Form {
+        /// The word as typed.
+        word: String,
+    },
+    /// A key given twice.
+    #[error("`{key}`: given twice")]
+    Twice {
+        /// The key.
+        key: String,
+    },
+    /// A key that nobody reads.
+    #[error("`{key}`: unknown key, {suggestion}")]
+    Unknown {
+        /// The key as typed.
+        key: String,
+        /// What it may have been meant to be.
+        suggestion: Suggestion,
+    },
+    /// A value outside what its key accepts.
+    #[error("`{key}={found}`: expected {accepts}")]
+    Value {
+        /// The key.
+        key: &'static str,
+        /// The value as typed.
+        found: String,
+        /// What would be accepted.
+        accepts: &'static str,
+    },
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const SIZE: SettingInfo = SettingInfo {
+        key: "size",
+        accepts: "a number from 1 to 9",
+        default: "3",
+        about: "how large",
+    };
+
+    #[test]
+    fn an_unknown_key_names_the_nearest_one() {
+        let settings = Settings::parse(["sise=3"]).expect("well formed");
+        let error = settings.check_keys(&[SIZE]).expect_err("unknown");
+        assert_eq!(
+            error.to_string(),
+            "`sise`: unknown key, did you mean `size`?"
+        );
+    }
+
+    #[test]
+    fn a_key_near_to_nothing_lists_what_is_known() {
+        let settings = Settings::parse(["qqq=3"]).expect("well formed");
+        let error = settings.check_keys(&[SIZE]).expect_err("unknown");
+        assert_eq!(
+            error.to_string(),
+            "`qqq`: unknown key, expected one of size"
+        );
+    }
+
+    #[test]
+    fn a_value_out_of_range_says_what_is_accepted() {
+        let settings = Settings::parse(["size=12"]).expect("well formed");
+        let error = settings
+            .value(&SIZE, 3, |text| number(text, 1..=9))
+            .expect_err("too large");
+        assert_eq!(
+            error.to_string(),
+            "`size=12`: expected a number from 1 to 9"
+        );
+    }
+
+    #[test]
+    fn a_word_without_a_value_and_a_key_given_twice_are_refused() {
+        assert!(matches!(
+            Settings::parse(["size"]),
+            Err(SettingError::Form { .. })
+        ));
+        assert!(matches!(
+            Settings::parse(["size=1", "size=2"]),
+            Err(SettingError::Twice { .. })
+        ));
+    }
+}

@@ -1,0 +1,426 @@
+//! The part of every sample.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::fmt;
+
+use serde::{Deserialize, Serialize};
+
+use super::spec::{ColumnSplit, Fractions, SplitKind, SplitSpec};
+use crate::random::SplitMix64;
+use crate::settings::Suggestion;
+
+/// What a sample is used for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Part {
+    /// Learnt from.
+    Train,
+    /// Settings are chosen by it.
+    Validation,
+    /// Measured on, and never seen before.
+    Test,
+}
+
+impl Part {
+    /// Every part, in order.
+    pub const ALL: [Part; 3] = [Part::Train, Part::Validation, Part::Test];
+
+    /// The part called `train`, `val`, `validation` or `test`.
+    pub fn from_name(name: &str) -> Option<Part> {
+        match name {
+            "train" => Some(Part::Train),
+            "val" | "validation" => Some(Part::Validation),
+            "test" => Some(Part::Test),
+            _ => None,
+        }
+    }
+
+    /// How it is written.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Part::Train => "train",
+            Part::Validation => "validation",
+            Part::Test => "test",
+        }
+    }
+
+    pub(super) const fn short_name(self) -> &'static str {
+        match self {
+            Part::Validation => "val",
+            _ => self.name(),
+        }
+    }
+}
+
+impl fmt::Display for Part {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+/// What a split may look at.
+///
+/// # Shapes
+/// Every list has a value a row.
+#[derive(Clone, Debug, Default)]
+pub struct SplitInput<'a> {
+    /// Number of samples.
+    pub rows: usize,
+    /// The contact location of each sample.
+    pub points: Option<&'a [String]>,
+    /// The time of each sample in s.
+    pub times_s: Option<&'a [f64]>,
+    /// The part that the recording itself names.
+    pub parts: Option<&'a [String]>,
+    /// Columns by name.
+    pub columns: BTreeMap<&'a str, &'a [String]>,
+}
+
+/// The rows of each part, ascending.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Split {
+    /// Learnt from.
+    pub train: Vec<usize>,
+    /// Settings are chosen by them.
+    pub validation: Vec<usize>,
+    /// Measured on.
+    pub test: Vec<usize>,
+    /// Rows in none of the parts.
+    pub left_out: Vec<usize>,
+    /// What a reader of the result should know.
+    pub note: Option<String>,
+}
+
+impl Split {
+    /// The rows of `part`.
+    pub fn rows(&self, part: Part) -> &[usize] {
+        match part {
+            Part::Train => &self.train,
+            Part::Validation => &self.validation,
+            Part::Test => &self.test,
+        }
+    }
+
+    fn of(parts: impl IntoIterator<Item = Option<Part>>) -> Split {
+        let mut split = Split::default();
+        for (row, part) in parts.into_iter().enumerate() {
+            match part {
+                Some(Part::Train) => split.train.push(row),
+                Some(Part::Validation) => split.validation.push(row),
+                Some(Part::Test) => split.test.push(row),
+                None => split.left_out.push(row),
+            }
+        }
+        split
+    }
+}
+
+impl SplitSpec {
+    /// The part of every row of `input`; the same for the same seed on every machine.
+    ///
+    /// ```
+    /// use taceva_models::{SplitInput, SplitSpec};
+    /// let points: Vec<String> = (0..20).map(|row| format!("p{}", row / 2)).collect();
+    /// let input = SplitInput { rows: 20, points: Some(&points), ..SplitInput::default() };
+    /// let split = "by-point".parse::<SplitSpec>()?.assign(&input, 7)?;
+    /// assert_eq!((split.train.len(), split.validation.len(), split.test.len()), (14, 4, 2));
+    /// # Ok::<(), taceva_models::SplitError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`SplitError`] if `input` lacks what decides, or a part would stay empty. Validation may stay empty where a person
+    /// or the recording names the parts.
+    pub fn assign(&self, input: &SplitInput<'_>, seed: u64) -> Result<Split, SplitError> {
+        input.check()?;
+        let split = match &self.kind {
+            SplitKind::Random => {
+                let names: Vec<usize> = (0..input.rows).collect();
+                by_cluster(&names, self.fractions, seed, "samples")
+            }
+            SplitKind::Chronological => chronological(input, self.fractions),
+            SplitKind::ByPoint => {
+                let points = input.points.ok_or(SplitError::NoPoints)?;
+                by_cluster(points, self.fractions, seed, "points").map(|mut split| {
+                    if points.iter().collect::<BTreeSet<_>>().len() == input.rows {
+                        split.note =
+                            Some("every sample is a point of its own: by-point is random".into());
+                    }
+                    split
+                })
+            }
+            SplitKind::ByColumn(column) => by_column(input, column, self.fractions, seed),
+            SplitKind::Declared => declared(input),
+        }?;
+        let needed = |part| part != Part::Validation;
+        match Part::ALL
+            .into_iter()
+            .find(|&part| needed(part) && split.rows(part).is_empty())
+        {
+            Some(part) if self.share_of(part) > 0.0 => Err(SplitError::Empty { part }),
+            _ => Ok(split),
+        }
+    }
+
+    /// What the person asked for; parts that are named always count as asked for.
+    fn share_of(&self, part: Part) -> f64 {
+        let named = match &self.kind {
+            SplitKind::Declared => true,
+            SplitKind::ByColumn(column) => !column.parts.is_empty(),
+            _ => false,
+        };
+        if named {
+            1.0
+        } else {
+            self.fractions.shares()[part as usize]
+        }
+    }
+}
+
+impl SplitInput<'_> {
+    fn check(&self) -> Result<(), SplitError> {
+        let lengths = [
+            ("points", self.points.map(<[_]>::len)),
+            ("times", self.times_s.map(<[_]>::len)),
+            ("parts", self.parts.map(<[_]>::len)),
+        ];
+        let columns = self
+            .columns
+            .iter()
+            .map(|(name, column)| (*name, Some(column.len())));
+        match lengths
+            .into_iter()
+            .chain(columns)
+            .find(|(_, length)| length.is_some_and(|length| length != self.rows))
+        {
+            None => Ok(()),
+            Some((what, found)) => Err(SplitError::Length {
+                what: what.to_owned(),
+                found: found.unwrap_or(0),
+                rows: self.rows,
+            }),
+        }
+    }
+}
+
+/// Whole clusters, by chance. Clusters count alike, however many rows they have; where each row is one, this is the
+/// random split. Clusters are numbered by their first row, so a seed gives rows, not names, their part.
+fn by_cluster<N: Ord>(
+    names: &[N],
+    fractions: Fractions,
+    seed: u64,
+    what: &'static str,
+) -> Result<Split, SplitError> {
+    let mut numbers = BTreeMap::new();
+    let clusters: Vec<usize> = names
+        .iter()
+        .map(|name| {
+            let next = numbers.len();
+            *numbers.entry(name).or_insert(next)
+        })
+        .collect();
+    let mut order: Vec<usize> = (0..numbers.len()).collect();
+    SplitMix64::new(seed).shuffle(&mut order);
+    let ranked = parts_in_order(order.len(), fractions, what)?;
+    let mut parts = vec![Part::Train; order.len()];
+    for (cluster, part) in order.into_iter().zip(ranked) {
+        parts[cluster] = part;
+    }
+    Ok(Split::of(
+        clusters.into_iter().map(|cluster| Some(parts[cluster])),
+    ))
+}
+
+/// `total` parts: training first, then validation, then test; each with a share gets at least one.
+fn parts_in_order(
+    total: usize,
+    fractions: Fractions,
+    what: &'static str,
+) -> Result<Vec<Part>, SplitError> {
+    let mut counts = fractions.counts(total);
+    for part in 0..counts.len() {
+        if fractions.shares()[part] > 0.0 && counts[part] == 0 {
+            let largest = (0..counts.len())
+                .rev()
+                .max_by_key(|&other| counts[other])
+                .filter(|&other| counts[other] > 1);
+            let largest = largest.ok_or(SplitError::Few { what, found: total })?;
+            counts[largest] -= 1;
+            counts[part] += 1;
+        }
+    }
+    Ok(Part::ALL
+        .into_iter()
+        .zip(counts)
+        .flat_map(|(part, count)| std::iter::repeat_n(part, count))
+        .collect())
+}
+
+fn chronological(input: &SplitInput<'_>, fractions: Fractions) -> Result<Split, SplitError> {
+    let times = input.times_s.ok_or(SplitError::NoTimes)?;
+    if let Some(row) = times.iter().position(|time| !time.is_finite()) {
+        return Err(SplitError::Time { row });
+    }
+    let mut order: Vec<usize> = (0..input.rows).collect();
+    // Stable, so ties keep the order of rows; -0 and 0 are one time.
+    order.sort_by(|&a, &b| (times[a] + 0.0).total_cmp(&(times[b] + 0.0)));
+    let mut parts = vec![None; input.rows];
+    for (row, part) in order
+        .into_iter()
+        .zip(parts_in_order(input.rows, fractions, "samples")?)
+    {
+        parts[row] = Some(part);
+    }
+    Ok(Split::of(parts))
+}
+
+fn by_column(
+    input: &SplitInput<'_>,
+    split: &ColumnSplit,
+    fractions: Fractions,
+    seed: u64,
+) -> Result<Split, SplitError> {
+    let name = split.column.as_str();
+    let values = *input
+        .columns
+        .get(name)
+        .ok_or_else(|| SplitError::NoColumn {
+            name: name.to_owned(),
+            suggestion: Suggestion::of(name, input.columns.keys().copied()),
+        })?;
+    if split.parts.is_empty() {
+        return by_cluster(values, fractions, seed, "values");
+    }
+    if let Some(value) = split.parts.keys().find(|value| !values.contains(value)) {
+        return Err(SplitError::NoValue {
+            column: name.to_owned(),
+            value: value.clone(),
+            suggestion: Suggestion::of(
+                value,
+                values.iter().map(String::as_str).collect::<BTreeSet<_>>(),
+            ),
+        });
+    }
+    let mut assigned = Split::of(values.iter().map(|value| split.parts.get(value).copied()));
+    if !assigned.left_out.is_empty() {
+        assigned.note = Some(format!(
+            "{} samples are left out: nobody assigned their `{name}`",
+            assigned.left_out.len()
+        ));
+    }
+    Ok(assigned)
+}
+
+fn declared(input: &SplitInput<'_>) -> Result<Split, SplitError> {
+    let names = input.parts.ok_or(SplitError::NoParts)?;
+    let parts: Result<Vec<Option<Part>>, SplitError> = names
+        .iter()
+        .enumerate()
+        .map(|(row, name)| match Part::from_name(name) {
+            Some(part) => Ok(Some(part)),
+            None => Err(SplitError::Part {
+                row,
+                found: name.clone(),
+            }),
+        })
+        .collect();
+    Ok(Split::of(parts?))
+}
+
+/// Why a recording cannot be split as asked.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum SplitError {
+    /// A word that names no split.
+    #[error("no split is called `{given}`, {suggestion}")]
+    Kind {
+        /// The word.
+        given: String,
+        /// What it may have been meant to be.
+        suggestion: Suggestion,
+    },
+    /// Values of a column that are not assigned as they should be.
+    #[error(
+        "`{found}`: expected by-column:NAME or by-column:NAME=train:1,2;val:3;test:4, with train and test"
+    )]
+    Assignment {
+        /// What was found instead.
+        found: String,
+    },
+    /// A value in two parts.
+    #[error("value `{value}` is assigned twice")]
+    Twice {
+        /// The value.
+        value: String,
+    },
+    /// Shares that are no shares.
+    #[error("fractions {given:?}: expected numbers from 0, the first above 0")]
+    Fractions {
+        /// The shares as given.
+        given: [f64; 3],
+    },
+    /// A list that is shorter or longer than the recording.
+    #[error("{what}: {found} values for {rows} samples")]
+    Length {
+        /// The list.
+        what: String,
+        /// Its length.
+        found: usize,
+        /// The number of samples.
+        rows: usize,
+    },
+    /// Too few samples or clusters for one a part.
+    #[error("{found} {what} are too few for one in each part")]
+    Few {
+        /// What would be shared out.
+        what: &'static str,
+        /// How many there are.
+        found: usize,
+    },
+    /// A part that is needed and has no sample.
+    #[error("the part `{part}` has no sample")]
+    Empty {
+        /// The part.
+        part: Part,
+    },
+    /// Nobody named contact locations.
+    #[error("split by-point: the recording names no `point_id`")]
+    NoPoints,
+    /// Nobody wrote down times.
+    #[error("split chronological: the recording has no times")]
+    NoTimes,
+    /// A time that is no number.
+    #[error("row {row}: the time is not finite")]
+    Time {
+        /// The row, counted from 0.
+        row: usize,
+    },
+    /// A column that the recording lacks.
+    #[error("split by-column: no column `{name}`, {suggestion}")]
+    NoColumn {
+        /// The name as given.
+        name: String,
+        /// What it may have been meant to be.
+        suggestion: Suggestion,
+    },
+    /// A value that no sample has.
+    #[error("split by-column: no sample has `{column}` = `{value}`, {suggestion}")]
+    NoValue {
+        /// The column.
+        column: String,
+        /// The value.
+        value: String,
+        /// What it may have been meant to be.
+        suggestion: Suggestion,
+    },
+    /// The recording declares no parts.
+    #[error("split declared: the recording declares no parts")]
+    NoParts,
+    /// A declared part that is none.
+    #[error("row {row}: part `{found}`, expected train, val, validation or test")]
+    Part {
+        /// The row, counted from 0.
+        row: usize,
+        /// What it declares.
+        found: String,
+    },
+}

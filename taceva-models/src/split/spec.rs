@@ -1,0 +1,285 @@
+//! How a recording is to be split, as people write it.
+
+use std::collections::BTreeMap;
+use std::fmt;
+use std::str::FromStr;
+
+use super::assign::{Part, SplitError};
+use crate::settings::Suggestion;
+
+/// How a recording is split into training, validation and test parts.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SplitSpec {
+    /// By what.
+    pub kind: SplitKind,
+    /// How large the parts are; not used where the parts are named.
+    pub fractions: Fractions,
+}
+
+/// What decides on the part of a sample.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub enum SplitKind {
+    /// Chance, sample by sample.
+    Random,
+    /// Time: the first samples are learnt from, the last ones tested on.
+    Chronological,
+    /// Chance, contact location by contact location: repeats never straddle.
+    #[default]
+    ByPoint,
+    /// A column of the recording.
+    ByColumn(ColumnSplit),
+    /// The recording itself.
+    Declared,
+}
+
+/// A column whose values decide.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ColumnSplit {
+    /// The name of the column.
+    pub column: String,
+    /// The part of each value; empty: chance, value by value.
+    pub parts: BTreeMap<String, Part>,
+}
+
+/// The shares of the three parts.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Fractions {
+    shares: [f64; 3],
+}
+
+impl Default for Fractions {
+    /// 70 % training, 20 % validation, 10 % test.
+    fn default() -> Fractions {
+        Fractions {
+            shares: [0.7, 0.2, 0.1],
+        }
+    }
+}
+
+impl Fractions {
+    /// The shares of `train`, `validation` and `test`; any unit, they are divided by their sum.
+    ///
+    /// # Errors
+    /// [`SplitError::Fractions`] unless all are finite, none is negative, and training has a share.
+    pub fn new(train: f64, validation: f64, test: f64) -> Result<Fractions, SplitError> {
+        let given = [train, validation, test];
+        let sum: f64 = given.iter().sum();
+        if train > 0.0 && given.iter().all(|share| *share >= 0.0) && sum.is_finite() {
+            Ok(Fractions {
+                shares: given.map(|share| share / sum),
+            })
+        } else {
+            Err(SplitError::Fractions { given })
+        }
+    }
+
+    /// The shares in the order of [`Part::ALL`]; they sum to 1.
+    pub fn shares(&self) -> [f64; 3] {
+        self.shares
+    }
+
+    /// Whole numbers of `total` things by the largest remainder; of equal remainders the earlier part gets more.
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "a share of a count is neither negative nor above the count"
+    )]
+    pub(super) fn counts(&self, total: usize) -> [usize; 3] {
+        let exact = self.shares.map(|share| share * total as f64);
+        // 0.7 × 10 is 7.000…: what is a whole number but for rounding counts as one.
+        let whole = exact.map(|exact| (exact + 1e-9).floor());
+        let mut counts = whole.map(|whole| whole as usize);
+        let mut order = [0, 1, 2];
+        order.sort_by(|&a, &b| (exact[b] - whole[b]).total_cmp(&(exact[a] - whole[a])));
+        let left = total.saturating_sub(counts.iter().sum());
+        for part in order
+            .into_iter()
+            .filter(|&part| self.shares[part] > 0.0)
+            .cycle()
+            .take(left)
+        {
+            counts[part] += 1;
+        }
+        counts
+    }
+}
+
+impl fmt::Display for Fractions {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let [train, validation, test] = self.shares.map(|share| (share * 1e6).round() / 1e4);
+        write!(f, "{train}/{validation}/{test}")
+    }
+}
+
+const KINDS: [&str; 5] = [
+    "random",
+    "chronological",
+    "by-point",
+    "by-column:NAME",
+    "declared",
+];
+
+impl FromStr for SplitSpec {
+    type Err = SplitError;
+
+    /// Reads `random`, `chronological`, `by-point`, `by-column:NAME`, `by-column:NAME=train:1,2;val:3;test:4` or `declared`.
+    fn from_str(text: &str) -> Result<SplitSpec, SplitError> {
+        let kind = match text {
+            "random" => SplitKind::Random,
+            "chronological" => SplitKind::Chronological,
+            "by-point" => SplitKind::ByPoint,
+            "declared" => SplitKind::Declared,
+            _ => match text.strip_prefix("by-column:") {
+                Some(rest) => SplitKind::ByColumn(column_split(rest)?),
+                None => {
+                    return Err(SplitError::Kind {
+                        given: text.to_owned(),
+                        suggestion: Suggestion::of(text, KINDS),
+                    });
+                }
+            },
+        };
+        Ok(SplitSpec {
+            kind,
+            fractions: Fractions::default(),
+        })
+    }
+}
+
+fn column_split(text: &str) -> Result<ColumnSplit, SplitError> {
+    let malformed = |found: &str| SplitError::Assignment {
+        found: found.to_owned(),
+    };
+    let (column, assignment) = match text.split_once('=') {
+        Some((column, assignment)) => (column, Some(assignment)),
+        None => (text, None),
+    };
+    if column.is_empty() {
+        return Err(malformed(text));
+    }
+    let mut parts = BTreeMap::new();
+    for section in assignment.into_iter().flat_map(|all| all.split(';')) {
+        let (name, values) = section.split_once(':').ok_or_else(|| malformed(section))?;
+        let part = Part::from_name(name).ok_or_else(|| malformed(section))?;
+        for value in values.split(',') {
+            if value.is_empty() {
+                return Err(malformed(section));
+            }
+            if parts.insert(value.to_owned(), part).is_some() {
+                return Err(SplitError::Twice {
+                    value: value.to_owned(),
+                });
+            }
+        }
+    }
+    let named = |wanted: Part| parts.values().any(|&part| part == wanted);
+    if assignment.is_some() && !(named(Part::Train) && named(Part::Test)) {
+        return Err(malformed(text));
+    }
+    Ok(ColumnSplit {
+        column: column.to_owned(),
+        parts,
+    })
+}
+
+impl fmt::Display for SplitSpec {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match &self.kind {
+            SplitKind::Random => f.write_str("random")?,
+            SplitKind::Chronological => f.write_str("chronological")?,
+            SplitKind::ByPoint => f.write_str("by-point")?,
+            SplitKind::Declared => return f.write_str("declared"),
+            SplitKind::ByColumn(split) => {
+                write!(f, "by-column:{}", split.column)?;
+                if !split.parts.is_empty() {
+                    return write_parts(&split.parts, f);
+                }
+            }
+        }
+        write!(f, " {}", self.fractions)
+    }
+}
+
+fn write_parts(parts: &BTreeMap<String, Part>, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+    let mut separator = '=';
+    for part in Part::ALL {
+        let values: Vec<&str> = parts
+            .iter()
+            .filter(|(_, own)| **own == part)
+            .map(|(value, _)| value.as_str())
+            .collect();
+        if !values.is_empty() {
+            write!(f, "{separator}{}:{}", part.short_name(), values.join(","))?;
+            separator = ';';
+        }
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_form_reads_and_prints() {
+        for (text, printed) in [
+            ("random", "random 70/20/10"),
+            ("chronological", "chronological 70/20/10"),
+            ("by-point", "by-point 70/20/10"),
+            ("by-column:object", "by-column:object 70/20/10"),
+            (
+                "by-column:repeat=train:1,2;val:3;test:4",
+                "by-column:repeat=train:1,2;val:3;test:4",
+            ),
+            (
+                "by-column:repeat=test:2;train:1",
+                "by-column:repeat=train:1;test:2",
+            ),
+            ("declared", "declared"),
+        ] {
+            let spec: SplitSpec = text.parse().expect(text);
+            assert_eq!(spec.to_string(), printed);
+        }
+    }
+
+    #[test]
+    fn what_cannot_be_read_says_what_would_be_accepted() {
+        let error = "by-pont".parse::<SplitSpec>().expect_err("misspelt");
+        assert_eq!(
+            error.to_string(),
+            "no split is called `by-pont`, did you mean `by-point`?"
+        );
+        for text in [
+            "by-column:",
+            "by-column:a=",
+            "by-column:a=train:1",
+            "by-column:a=train:1;exam:2",
+            "by-column:a=train:1,;test:2",
+            "by-column:a=train",
+        ] {
+            assert!(
+                matches!(
+                    text.parse::<SplitSpec>(),
+                    Err(SplitError::Assignment { .. })
+                ),
+                "{text}"
+            );
+        }
+        assert!(matches!(
+            "by-column:a=train:1;test:1".parse::<SplitSpec>(),
+            Err(SplitError::Twice { .. })
+        ));
+    }
+
+    #[test]
+    fn counts_follow_the_largest_remainder() {
+        let fractions = Fractions::default();
+        assert_eq!(fractions.counts(10), [7, 2, 1]);
+        assert_eq!(fractions.counts(457), [320, 91, 46]);
+        assert_eq!(fractions.counts(0), [0, 0, 0]);
+        let halves = Fractions::new(1.0, 0.0, 1.0).expect("valid");
+        assert_eq!(halves.counts(5), [3, 0, 2]);
+        assert!(Fractions::new(0.0, 1.0, 1.0).is_err());
+        assert!(Fractions::new(f64::NAN, 1.0, 1.0).is_err());
+    }
+}
