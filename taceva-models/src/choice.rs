@@ -20,7 +20,6 @@ pub enum ChosenBy {
 
 /// The choice for every channel.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
 pub struct Choice {
     /// What it was chosen by.
     pub by: ChosenBy,
@@ -32,7 +31,6 @@ pub struct Choice {
 
 /// The choice for one channel.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
 pub struct ChannelChoice {
     /// The value of the setting.
     pub value: Option<f64>,

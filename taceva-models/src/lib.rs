@@ -6,6 +6,7 @@ mod features;
 mod label_scaling;
 mod linalg;
 mod linear;
+mod model;
 mod pls;
 mod problem;
 mod progress;
@@ -20,6 +21,10 @@ pub use choice::{ChannelChoice, Choice, ChosenBy};
 pub use features::{Color, Extractor, FeatureError, FeatureSpec, Pca};
 pub use label_scaling::LabelScaling;
 pub use linear::{LinearEstimator, LinearFit, LinearRegressor};
+pub use model::{
+    ChannelCard, FitInput, FormatError, Model, ModelCard, ModelFileError, Provenance, SampleCounts,
+    Source, SplitCard,
+};
 pub use pls::Pls;
 pub use registry::{ALL, ModelInfo, UnknownModel, find};
 pub use ridge::Ridge;

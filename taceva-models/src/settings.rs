@@ -53,6 +53,13 @@ impl Settings {
         self.values.get(key).map(String::as_str)
     }
 
+    /// The settings as `key=value` words, by key.
+    pub fn words(&self) -> impl Iterator<Item = String> + '_ {
+        self.values
+            .iter()
+            .map(|(key, value)| format!("{key}={value}"))
+    }
+
     /// The settings in two: those with one of the keys of `known`, and the others.
     pub fn partition(self, known: &[SettingInfo]) -> (Settings, Settings) {
         let is_known = |key: &String| known.iter().any(|info| info.key == key);

@@ -1,0 +1,161 @@
+//! A fitted model with all that is needed to use it and to know where it comes from.
+
+mod bytes;
+mod card;
+mod disk;
+
+use taceva_core::{
+    Channel, Channels, ErrorKind, Features, Frame, FrameInfo, ModelError, Progress, Regressor,
+    TrainingSet,
+};
+
+pub use self::bytes::FormatError;
+pub use self::card::{ChannelCard, ModelCard, Provenance, SampleCounts, Source, SplitCard};
+pub use self::disk::ModelFileError;
+use crate::features::{Extractor, FeatureError, FeatureSpec, Pca};
+use crate::linear::{LinearEstimator, LinearRegressor};
+use crate::problem::invalid;
+use crate::settings::Settings;
+
+/// All that a model is fitted from.
+pub struct FitInput<'a> {
+    /// The model, not fitted yet.
+    pub estimator: &'a dyn LinearEstimator,
+    /// The settings it was made with, as typed.
+    pub settings: &'a Settings,
+    /// What it sees of a frame.
+    pub features: FeatureSpec,
+    /// The kind of frame that the features were taken from.
+    pub frame: FrameInfo,
+    /// What is learnt from. Its features are those of an [`Extractor`]; principal components are found here.
+    pub training: TrainingSet<'a>,
+    /// What settings are chosen by.
+    pub validation: Option<TrainingSet<'a>>,
+    /// Where the samples come from.
+    pub provenance: Provenance,
+}
+
+/// A fitted model: from pixels to the channels, in their units.
+///
+/// Every step after the extraction is linear, so scaling, principal components and weights are kept as one set of weights.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Model {
+    card: ModelCard,
+    regressor: LinearRegressor,
+}
+
+impl Model {
+    /// Fits `input.estimator`, and the principal components before it, if any are asked for.
+    ///
+    /// # Errors
+    /// [`ModelError`] if the parts do not fit each other, nothing can be learnt from them, or `progress` was cancelled.
+    pub fn fit(input: FitInput<'_>, progress: &dyn Progress) -> Result<Model, ModelError> {
+        let shape = input.features.shape();
+        if input.training.features.shape() != shape {
+            return Err(invalid(format!(
+                "training features of shape {:?}, asked for {:?}",
+                input.training.features.shape(),
+                shape
+            )));
+        }
+        let (fit, pca_variance, regressor) = match input.features.pca {
+            None => {
+                let validation = input.validation.as_ref();
+                let fit = input
+                    .estimator
+                    .fit_linear(&input.training, validation, progress)?;
+                let regressor = fit.regressor.clone();
+                (fit, None, regressor)
+            }
+            Some(count) => {
+                let pca = Pca::fit(input.training.features, count as usize, progress)?;
+                let training = pca.transform(input.training.features)?;
+                let held = match &input.validation {
+                    Some(set) => Some(pca.transform(set.features)?),
+                    None => None,
+                };
+                let validation = held.as_ref().zip(input.validation);
+                let validation = validation.map(|(features, set)| TrainingSet { features, ..set });
+                let training = TrainingSet {
+                    features: &training,
+                    ..input.training
+                };
+                let fit = input
+                    .estimator
+                    .fit_linear(&training, validation.as_ref(), progress)?;
+                let regressor = fit.regressor.through(&pca)?;
+                (fit, Some(pca.variance_ratio().iter().sum()), regressor)
+            }
+        };
+        let card = ModelCard::new(&input, &fit, pca_variance);
+        Ok(Model { card, regressor })
+    }
+
+    /// What it is and where it comes from.
+    pub fn card(&self) -> &ModelCard {
+        &self.card
+    }
+
+    /// What it predicts.
+    pub fn channels(&self) -> &Channels {
+        self.regressor.channels()
+    }
+
+    /// The weights of the pixels.
+    pub fn regressor(&self) -> &LinearRegressor {
+        &self.regressor
+    }
+
+    /// Takes the features that this model was fitted on from frames of `info`.
+    ///
+    /// # Errors
+    /// [`FeatureError`] if the model was fitted on frames of another kind, or needs a `reference` frame and gets none.
+    pub fn extractor(
+        &self,
+        info: FrameInfo,
+        reference: Option<&Frame>,
+    ) -> Result<Extractor, FeatureError> {
+        if info != self.card.frame {
+            return Err(FeatureError::Kind {
+                expected: self.card.frame,
+                found: info,
+            });
+        }
+        Extractor::new(self.card.features, info, reference)
+    }
+
+    /// The prediction for every sample of `features`.
+    ///
+    /// # Shapes
+    /// `[samples, channels]`.
+    /// # Units
+    /// Those of the channels.
+    /// # Errors
+    /// [`ModelError`] if the features are of another shape, or a prediction is not finite.
+    pub fn predict(&self, features: &Features) -> Result<Vec<f64>, ModelError> {
+        let mut predictions = vec![0.0; features.samples() * self.channels().len()];
+        self.regressor.predict(features, &mut predictions)?;
+        Ok(predictions)
+    }
+}
+
+/// The channels that a card lists.
+fn channels_of(card: &ModelCard) -> Result<Channels, ModelError> {
+    let named = |channel: &ChannelCard| Channel::named(&channel.name, channel.unit);
+    let list: Result<Vec<Channel>, _> = card.channels.iter().map(named).collect();
+    let refuse =
+        |error| ModelError::new(ErrorKind::Protocol, "a channel of the card").because(error);
+    let channels = Channels::new(list.map_err(refuse)?).map_err(refuse)?;
+    let in_order = channels
+        .iter()
+        .zip(&card.channels)
+        .all(|(channel, own)| channel.name() == own.name);
+    if in_order && !channels.is_empty() {
+        Ok(channels)
+    } else {
+        Err(ModelError::new(
+            ErrorKind::Protocol,
+            "the channels of the card are not in canonical order",
+        ))
+    }
+}

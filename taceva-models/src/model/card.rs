@@ -1,0 +1,137 @@
+//! What a model is, what it was fitted on, and how well it did there.
+
+use serde::{Deserialize, Serialize};
+use taceva_core::{FrameInfo, Unit};
+
+use super::FitInput;
+use crate::choice::Choice;
+use crate::features::FeatureSpec;
+use crate::linear::LinearFit;
+
+/// The description kept in a model file.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ModelCard {
+    /// The version of the file format, `major.minor`.
+    pub format: String,
+    /// The version of TacEva that fitted it.
+    pub taceva: String,
+    /// The name of the model.
+    pub model: String,
+    /// The settings a person gave, as `key=value`.
+    pub settings: Vec<String>,
+    /// What was chosen for each channel, and the error there.
+    pub choice: Choice,
+    /// Whether the validation part was learnt from too, once the settings were chosen.
+    pub refitted: bool,
+    /// What it sees of a frame.
+    pub features: FeatureSpec,
+    /// The share of the training part's variance that the principal components keep, if there are any.
+    pub pca_variance: Option<f64>,
+    /// The kind of frame it was fitted on, and the only one it takes.
+    pub frame: FrameInfo,
+    /// What it predicts.
+    pub channels: Vec<ChannelCard>,
+    /// How many samples it was fitted on.
+    pub samples: SampleCounts,
+    /// Where the samples come from.
+    pub provenance: Provenance,
+}
+
+/// A channel, and the labels it was learnt from.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ChannelCard {
+    /// The name.
+    pub name: String,
+    /// The unit of predictions.
+    pub unit: Unit,
+    /// The least label of the training part.
+    pub minimum: f64,
+    /// Greatest minus least label of the training part; 1 where that is 0.
+    pub span: f64,
+    /// Whether every label of the training part is the same: the channel is predicted as that.
+    pub constant_label: bool,
+}
+
+/// Samples of each part.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct SampleCounts {
+    /// Learnt from.
+    pub train: usize,
+    /// Settings were chosen by them.
+    pub validation: usize,
+}
+
+/// Where samples come from.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Provenance {
+    /// The digest of the recording, `sha256:…`.
+    pub data: Option<String>,
+    /// What made the recording.
+    pub source: Source,
+    /// How it was split.
+    pub split: Option<SplitCard>,
+    /// What else a reader should know.
+    pub notes: Vec<String>,
+}
+
+/// What made a recording.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Source {
+    /// A real sensor.
+    Recorded,
+    /// A simulated sensor.
+    Simulated,
+    /// Numbers made up for a test.
+    Synthetic,
+    /// Nobody wrote it down.
+    #[default]
+    Unknown,
+}
+
+/// A split and its seed.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct SplitCard {
+    /// As people write it, with its fractions.
+    pub split: String,
+    /// The seed.
+    pub seed: u64,
+}
+
+impl ModelCard {
+    /// The version of the format that this crate writes.
+    pub const FORMAT: &'static str = "1.0";
+
+    pub(super) fn new(
+        input: &FitInput<'_>,
+        fit: &LinearFit,
+        pca_variance: Option<f64>,
+    ) -> ModelCard {
+        let channels = input.training.targets.channels.iter().enumerate();
+        ModelCard {
+            format: ModelCard::FORMAT.into(),
+            taceva: env!("CARGO_PKG_VERSION").into(),
+            model: input.estimator.name().into(),
+            settings: input.settings.words().collect(),
+            choice: fit.choice.clone(),
+            refitted: fit.refitted,
+            features: input.features,
+            pca_variance,
+            frame: input.frame,
+            channels: channels
+                .map(|(position, channel)| ChannelCard {
+                    name: channel.name().into(),
+                    unit: channel.unit(),
+                    minimum: fit.scaling.minimum()[position],
+                    span: fit.scaling.span()[position],
+                    constant_label: fit.scaling.is_constant(position),
+                })
+                .collect(),
+            samples: SampleCounts {
+                train: input.training.features.samples(),
+                validation: input.validation.map_or(0, |set| set.features.samples()),
+            },
+            provenance: input.provenance.clone(),
+        }
+    }
+}

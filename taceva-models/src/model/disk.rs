@@ -1,0 +1,126 @@
+//! A model on disk: there whole, or not at all.
+
+use std::fs::{self, File, OpenOptions};
+use std::io::{self, Read, Write};
+use std::path::{Path, PathBuf};
+
+use sha2::{Digest, Sha256};
+
+use super::Model;
+use super::bytes::{FILE_MAX, FormatError};
+
+impl Model {
+    /// Writes the model to `path`, in place of what was there: into a file beside it first, then renamed, so that a
+    /// reader sees the old model or the new one whatever happens in between.
+    ///
+    /// # Errors
+    /// [`ModelFileError`], naming the path.
+    pub fn save(&self, path: &Path) -> Result<(), ModelFileError> {
+        let bytes = self.to_bytes().map_err(|source| ModelFileError::Format {
+            path: path.into(),
+            source,
+        })?;
+        write_whole(path, &bytes).map_err(|source| ModelFileError::Write {
+            path: path.into(),
+            source,
+        })
+    }
+
+    /// Reads the model at `path`, trusting nothing in it.
+    ///
+    /// # Errors
+    /// [`ModelFileError`], naming the path and what is wrong there.
+    pub fn open(path: &Path) -> Result<Model, ModelFileError> {
+        let bytes = read_capped(path).map_err(|source| ModelFileError::Read {
+            path: path.into(),
+            source,
+        })?;
+        Model::from_bytes(&bytes).map_err(|source| ModelFileError::Format {
+            path: path.into(),
+            source,
+        })
+    }
+
+    /// The digest of the file that [`save`](Model::save) writes, `sha256:` and 64 hexadecimal digits.
+    ///
+    /// # Errors
+    /// [`FormatError`] as [`to_bytes`](Model::to_bytes).
+    pub fn digest(&self) -> Result<String, FormatError> {
+        let digest = Sha256::digest(self.to_bytes()?);
+        let digits: String = digest.iter().map(|byte| format!("{byte:02x}")).collect();
+        Ok(format!("sha256:{digits}"))
+    }
+}
+
+/// At most one byte more than a model has, which is enough to refuse it.
+fn read_capped(path: &Path) -> io::Result<Vec<u8>> {
+    let mut bytes = Vec::new();
+    File::open(path)?
+        .take(FILE_MAX + 1)
+        .read_to_end(&mut bytes)?;
+    Ok(bytes)
+}
+
+fn write_whole(path: &Path, bytes: &[u8]) -> io::Result<()> {
+    let name = path.file_name().ok_or(io::ErrorKind::InvalidFilename)?;
+    let folder = match path.parent() {
+        Some(parent) if !parent.as_os_str().is_empty() => parent,
+        _ => Path::new("."),
+    };
+    let beside = folder.join(format!(
+        ".{}.{}.part",
+        name.to_string_lossy(),
+        std::process::id()
+    ));
+    let written = write_new(&beside, bytes).and_then(|()| fs::rename(&beside, path));
+    if written.is_err() {
+        // The first error is the one to tell of; a file left behind does no harm.
+        let _ = fs::remove_file(&beside);
+    }
+    written?;
+    sync_folder(folder)
+}
+
+fn write_new(path: &Path, bytes: &[u8]) -> io::Result<()> {
+    let mut file = OpenOptions::new().write(true).create_new(true).open(path)?;
+    file.write_all(bytes)?;
+    file.sync_all()
+}
+
+/// Makes the new name last; elsewhere than on Unix a folder cannot be opened as a file.
+fn sync_folder(folder: &Path) -> io::Result<()> {
+    if cfg!(unix) {
+        File::open(folder)?.sync_all()?;
+    }
+    Ok(())
+}
+
+/// Why a model file cannot be read or written.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum ModelFileError {
+    /// The file cannot be read.
+    #[error("cannot read model {}: {source}", path.display())]
+    Read {
+        /// The file.
+        path: PathBuf,
+        /// What the system says.
+        source: io::Error,
+    },
+    /// The file cannot be written.
+    #[error("cannot write model {}: {source}", path.display())]
+    Write {
+        /// The file.
+        path: PathBuf,
+        /// What the system says.
+        source: io::Error,
+    },
+    /// The file holds no model, or the model does not fit a file.
+    #[error("model {}: {source}", path.display())]
+    Format {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong.
+        source: FormatError,
+    },
+}
