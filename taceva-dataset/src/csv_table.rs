@@ -39,7 +39,6 @@ pub(crate) use number::number_hint;
 #[derive(Debug)]
 pub struct CsvTable {
     path: PathBuf,
-    jobs: NonZeroUsize,
     names: Vec<String>,
     text: String,
     blocks: Vec<Block>,
@@ -74,7 +73,7 @@ impl CsvTable {
         let first_line = text.lines().next().unwrap_or("");
         let delimiter = delimiter_of(first_line);
         let table = if text.as_bytes().contains(&b'"') {
-            quoted::read(path, &text, delimiter, jobs)?
+            quoted::read(path, &text, delimiter)?
         } else {
             split::read(path, text, delimiter, jobs)?
         };

@@ -10,6 +10,7 @@ mod export;
 mod file;
 mod guard;
 mod header;
+mod import;
 mod layout;
 mod limits;
 mod parallel;
@@ -29,6 +30,11 @@ pub use error::{DatasetError, Place};
 pub use export::export_csv;
 pub use header::{
     Footprint, FramesInfo, Header, Known, ReferenceInfo, SensorFacts, Shape, Source, TableInfo,
+};
+pub use import::{
+    ArrayFrames, ColumnMap, Conversion, DropRules, FrameMap, FrameNames, IdMap, ImportMap,
+    ImportPlan, ImportReport, ImportSummary, Placeholder, Preset, Suspicion, TimeMap,
+    magnitude_suspicion,
 };
 pub use store::RecordingFacts;
 pub use table::{FrameEntry, Row, Table};

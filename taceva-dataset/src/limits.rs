@@ -14,7 +14,7 @@ pub(crate) const IMAGE_SIDE: u32 = 16_384;
 pub(crate) const DECODED_BYTES: u64 = 256 << 20;
 /// The header of an array file.
 pub(crate) const ARRAY_HEADER_BYTES: usize = 1 << 16;
-/// One record of a journal.
+/// The payload of one record of a journal.
 pub(crate) const RECORD_BYTES: u32 = 1 << 20;
 /// Rows of a dataset.
 pub(crate) const ROWS: u64 = 1 << 28;

@@ -1,7 +1,5 @@
 //! The labels of a recording in memory, column by column.
 
-use std::collections::HashSet;
-
 use taceva_core::{
     Channel, Channels, Column, Field, FieldSet, Frame, Phase, Readings, Sample, Stamp,
 };
@@ -286,12 +284,6 @@ impl Table {
             }
         }
         digest.finish()
-    }
-
-    /// The first sample name that two rows share.
-    pub(crate) fn first_duplicate(&self) -> Option<usize> {
-        let mut seen = HashSet::with_capacity(self.rows());
-        self.sample.iter().position(|name| !seen.insert(name))
     }
 
     /// Says where the file of a row's frame lies.

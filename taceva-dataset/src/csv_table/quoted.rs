@@ -1,6 +1,5 @@
 //! Tables with quoted cells: unquoted into a text of their own.
 
-use std::num::NonZeroUsize;
 use std::path::Path;
 
 use super::CsvTable;
@@ -8,12 +7,7 @@ use super::split::Block;
 use crate::error::{DatasetError, Place};
 use crate::limits;
 
-pub(super) fn read(
-    path: &Path,
-    text: &str,
-    delimiter: u8,
-    jobs: NonZeroUsize,
-) -> Result<CsvTable, DatasetError> {
+pub(super) fn read(path: &Path, text: &str, delimiter: u8) -> Result<CsvTable, DatasetError> {
     let wrong = |line: u64, problem: String| DatasetError::Table {
         place: Place::line(path, line),
         problem,
@@ -70,7 +64,6 @@ pub(super) fn read(
     };
     Ok(CsvTable {
         path: path.to_owned(),
-        jobs,
         names,
         rows: lines.len(),
         text: unquoted,

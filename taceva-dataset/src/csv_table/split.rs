@@ -73,7 +73,6 @@ pub(super) fn read(
     }
     Ok(CsvTable {
         path: path.to_owned(),
-        jobs,
         names,
         text,
         blocks,

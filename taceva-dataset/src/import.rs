@@ -1,0 +1,19 @@
+//! A lab's folder becomes a dataset, by a map that says what its columns are.
+
+mod copy;
+mod explain;
+mod map;
+mod npy;
+mod plan;
+mod preset;
+mod rows;
+mod source;
+mod suspicion;
+
+pub use copy::ImportReport;
+pub use map::{
+    ArrayFrames, ColumnMap, DropRules, FrameMap, FrameNames, IdMap, ImportMap, Placeholder, TimeMap,
+};
+pub use plan::{Conversion, ImportPlan, ImportSummary};
+pub use preset::Preset;
+pub use suspicion::{Suspicion, magnitude_suspicion};

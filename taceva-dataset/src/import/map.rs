@@ -1,0 +1,610 @@
+//! The map of an import: which column is which channel, in which unit, and what nobody knows.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use serde::Deserialize;
+use taceva_core::{Channel, Channels, Clock, SourceUnit};
+use toml::Spanned;
+
+use crate::decode::ChannelOrder;
+use crate::error::DatasetError;
+use crate::file::check_relative;
+use crate::header::{Footprint, SensorFacts, Source};
+use crate::store::RecordingFacts;
+use crate::table::{RESERVED, is_attribute_name};
+use crate::toml_file::{line_of, parse_toml, read_toml_text, toml_error};
+
+/// A checked map.
+///
+/// ```
+/// let map = taceva_dataset::ImportMap::parse(
+///     "map.toml".as_ref(),
+///     r#"
+///     map_version = 1
+///     table = "labels.csv"
+///     [columns]
+///     Fz = { from = "force", unit = "mN" }
+///     [time]
+///     clock = "unknown"
+///     [sensor]
+///     model = "my gel"
+///     serial = "unknown"
+///     gel = "unknown"
+///     opaque = true
+///     "#,
+/// )?;
+/// assert_eq!(map.channels.len(), 1);
+/// # Ok::<(), taceva_dataset::DatasetError>(())
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct ImportMap {
+    /// Table of labels, or a pattern with `*`, relative to the source folder.
+    pub table: String,
+    /// Where the frames are; without it the dataset has none.
+    pub frame: Option<FrameMap>,
+    /// The channels, in order.
+    pub channels: Channels,
+    /// For each channel the column it comes from.
+    pub columns: Vec<ColumnMap>,
+    /// The columns of the ids.
+    pub ids: IdMap,
+    /// Text columns kept for splits: name and column.
+    pub attributes: BTreeMap<String, String>,
+    /// The column of the time, and its unit.
+    pub time: Option<TimeMap>,
+    /// Which rows are left out.
+    pub drop: DropRules,
+    /// Sensor, clock, source and footprint.
+    pub facts: RecordingFacts,
+}
+
+/// The column a channel comes from.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ColumnMap {
+    /// Its name in the table.
+    pub from: String,
+    /// The unit it is in there.
+    pub unit: SourceUnit,
+    /// Whether its sign is turned.
+    pub is_negated: bool,
+}
+
+/// Where the frames are.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct FrameMap {
+    /// How a row names its frame.
+    pub names: FrameNames,
+    /// The folder that file names are relative to, relative to the source folder; `None`: that of the table.
+    pub folder: Option<String>,
+    /// The order of the colours in the files.
+    pub channel_order: ChannelOrder,
+    /// The frame without contact, relative to the source folder; `None` if nobody knows one.
+    pub reference: Option<String>,
+}
+
+/// How a row names its frame.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum FrameNames {
+    /// A column holds the path.
+    Column(String),
+    /// A path in which `{column}` stands for the cell of that column.
+    Pattern(String),
+    /// Frames in one array.
+    Array(ArrayFrames),
+}
+
+/// Frames in one array.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ArrayFrames {
+    /// The `.npy` file, relative to the source folder.
+    pub file: String,
+    /// The column that holds the position in the array, from 0.
+    pub index: String,
+}
+
+/// The columns of the ids.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct IdMap {
+    /// The name of a sample; absent: the number of its row, from 0.
+    pub sample: Option<String>,
+    /// The contact location; several columns are joined with `:`.
+    #[serde(deserialize_with = "one_or_more")]
+    pub point_id: Vec<String>,
+    /// The sensor unit.
+    pub unit_id: Option<String>,
+    /// The lighting scene or the like.
+    pub scene: Option<String>,
+    /// The depth level.
+    pub depth_step: Option<String>,
+    /// The number of the repeat.
+    pub repeat: Option<String>,
+    /// Load or unload.
+    pub phase: Option<String>,
+    /// The part of a declared split.
+    pub part: Option<String>,
+}
+
+/// The column of the time.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TimeMap {
+    /// Its name in the table.
+    pub column: String,
+    /// The unit it is in there.
+    pub unit: SourceUnit,
+}
+
+/// Which rows are left out; each is counted.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct DropRules {
+    /// The column of flags, separated by `;` or blanks.
+    pub flag_column: String,
+    /// A row with one of these is left out.
+    pub quality_flags: Vec<String>,
+    /// A row whose frame is called one of these is left out.
+    pub frames_named: Vec<String>,
+    /// A row in which all these columns hold these numbers is left out.
+    pub placeholders: Vec<Placeholder>,
+}
+
+/// A number that stands for "not measured".
+#[derive(Clone, Debug, PartialEq)]
+pub struct Placeholder {
+    /// The channel.
+    pub channel: String,
+    /// The number in the table, before it is converted.
+    pub number: f64,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct WrittenMap {
+    map_version: Spanned<u32>,
+    table: Spanned<String>,
+    #[serde(default)]
+    source: Source,
+    frame: Option<Spanned<WrittenFrame>>,
+    #[serde(default)]
+    columns: BTreeMap<String, Spanned<WrittenColumn>>,
+    #[serde(default)]
+    ids: IdMap,
+    #[serde(default)]
+    attributes: BTreeMap<String, Spanned<String>>,
+    time: WrittenTime,
+    #[serde(default)]
+    drop: WrittenDrop,
+    sensor: SensorFacts,
+    footprint: Option<Spanned<Footprint>>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct WrittenFrame {
+    column: Option<String>,
+    pattern: Option<String>,
+    array: Option<String>,
+    index: Option<String>,
+    folder: Option<String>,
+    channel_order: ChannelOrder,
+    reference: String,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct WrittenColumn {
+    from: String,
+    unit: Spanned<String>,
+    #[serde(default = "positive")]
+    sign: i64,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct WrittenTime {
+    column: Option<String>,
+    unit: Option<Spanned<String>>,
+    clock: Clock,
+}
+
+#[derive(Default, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+struct WrittenDrop {
+    column: Option<String>,
+    quality_flags: Vec<String>,
+    frames_named: Vec<String>,
+    placeholders: BTreeMap<String, f64>,
+}
+
+fn positive() -> i64 {
+    1
+}
+
+fn one_or_more<'de, D: serde::Deserializer<'de>>(deserializer: D) -> Result<Vec<String>, D::Error> {
+    struct Names;
+
+    impl<'de> serde::de::Visitor<'de> for Names {
+        type Value = Vec<String>;
+
+        fn expecting(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+            f.write_str("a column or a list of columns")
+        }
+        fn visit_str<E: serde::de::Error>(self, name: &str) -> Result<Vec<String>, E> {
+            Ok(vec![name.to_owned()])
+        }
+        fn visit_seq<A: serde::de::SeqAccess<'de>>(
+            self,
+            mut names: A,
+        ) -> Result<Vec<String>, A::Error> {
+            let mut list = Vec::new();
+            while let Some(name) = names.next_element()? {
+                list.push(name);
+            }
+            Ok(list)
+        }
+    }
+
+    deserializer.deserialize_any(Names)
+}
+
+impl ImportMap {
+    /// The map at `path`.
+    ///
+    /// # Errors
+    /// [`DatasetError::Toml`] naming the line; [`DatasetError::Path`] if it is no regular file or above 1 MiB;
+    /// [`DatasetError::Io`].
+    pub fn read(path: &Path) -> Result<ImportMap, DatasetError> {
+        ImportMap::parse(path, &read_toml_text(path)?)
+    }
+
+    /// The map that `text` says; `path` is only named in messages.
+    ///
+    /// # Errors
+    /// [`DatasetError::Toml`] naming the line.
+    pub fn parse(path: &Path, text: &str) -> Result<ImportMap, DatasetError> {
+        let written: WrittenMap = parse_toml(path, text)?;
+        let check = Check { path, text };
+        check.version(&written.map_version)?;
+        check.relative(written.table.get_ref(), written.table.span().start)?;
+        let (channels, columns) = check.columns(&written.columns)?;
+        if channels.is_empty() && written.frame.is_none() {
+            return Err(toml_error(
+                path,
+                None,
+                "neither [columns] nor [frame]: there is nothing to import",
+            ));
+        }
+        for (name, column) in &written.attributes {
+            if !is_attribute_name(name) || channels.position(name).is_some() {
+                return Err(check.at(
+                    column.span().start,
+                    &format!("`{name}` is taken or no name: a letter, then letters, digits or `_`"),
+                ));
+            }
+        }
+        if let Some(footprint) = &written.footprint
+            && let Some(problem) = footprint.get_ref().problem()
+        {
+            return Err(check.at(footprint.span().start, &problem));
+        }
+        Ok(ImportMap {
+            frame: written.frame.map(|frame| check.frame(frame)).transpose()?,
+            time: check.time(&written.time)?,
+            drop: check.drop(written.drop, &channels)?,
+            table: written.table.into_inner(),
+            channels,
+            columns,
+            ids: written.ids,
+            attributes: written
+                .attributes
+                .into_iter()
+                .map(|(name, column)| (name, column.into_inner()))
+                .collect(),
+            facts: RecordingFacts {
+                source: written.source,
+                clock: written.time.clock,
+                sensor: written.sensor,
+                footprint: written.footprint.map(Spanned::into_inner),
+            },
+        })
+    }
+}
+
+/// Checks what a parser of types cannot, and says where.
+struct Check<'a> {
+    path: &'a Path,
+    text: &'a str,
+}
+
+impl Check<'_> {
+    fn at(&self, offset: usize, problem: &str) -> DatasetError {
+        let line = line_of(self.text.as_bytes(), offset);
+        toml_error(self.path, Some(line), problem)
+    }
+
+    fn version(&self, version: &Spanned<u32>) -> Result<(), DatasetError> {
+        match version.get_ref() {
+            1 => Ok(()),
+            other => Err(self.at(
+                version.span().start,
+                &format!("map version {other} is not known here, expected 1"),
+            )),
+        }
+    }
+
+    fn relative(&self, written: &str, offset: usize) -> Result<(), DatasetError> {
+        check_relative(written)
+            .map_err(|problem| self.at(offset, &format!("`{written}`: {problem}")))
+    }
+
+    fn unit(&self, unit: &Spanned<String>) -> Result<SourceUnit, DatasetError> {
+        SourceUnit::parse(unit.get_ref())
+            .map_err(|error| self.at(unit.span().start, &error.to_string()))
+    }
+
+    fn columns(
+        &self,
+        written: &BTreeMap<String, Spanned<WrittenColumn>>,
+    ) -> Result<(Channels, Vec<ColumnMap>), DatasetError> {
+        let mut channels = Vec::new();
+        let mut by_name = BTreeMap::new();
+        for (name, column) in written {
+            let offset = column.span().start;
+            let column = column.get_ref();
+            let unit = self.unit(&column.unit)?;
+            if RESERVED.contains(&name.as_str()) {
+                return Err(self.at(
+                    offset,
+                    &format!("`{name}` is the name of an id, not of a channel"),
+                ));
+            }
+            let channel = Channel::named(name, unit.unit())
+                .map_err(|error| self.at(offset, &error.to_string()))?;
+            let is_negated = match column.sign {
+                1 => false,
+                -1 => true,
+                other => {
+                    return Err(self.at(offset, &format!("sign = {other}, expected 1 or -1")));
+                }
+            };
+            let map = ColumnMap {
+                from: column.from.clone(),
+                unit,
+                is_negated,
+            };
+            by_name.insert(name.clone(), map);
+            channels.push(channel);
+        }
+        let channels = Channels::new(channels)
+            .map_err(|error| toml_error(self.path, None, &error.to_string()))?;
+        let columns = channels
+            .iter()
+            .filter_map(|channel| by_name.remove(channel.name()))
+            .collect();
+        Ok((channels, columns))
+    }
+
+    fn frame(&self, written: Spanned<WrittenFrame>) -> Result<FrameMap, DatasetError> {
+        let offset = written.span().start;
+        let written = written.into_inner();
+        let names = match (
+            written.column,
+            written.pattern,
+            written.array,
+            written.index,
+        ) {
+            (Some(column), None, None, None) => FrameNames::Column(column),
+            (None, Some(pattern), None, None) => {
+                self.relative(&pattern, offset)?;
+                FrameNames::Pattern(pattern)
+            }
+            (None, None, Some(file), Some(index)) => {
+                self.relative(&file, offset)?;
+                FrameNames::Array(ArrayFrames { file, index })
+            }
+            _ => {
+                return Err(self.at(
+                    offset,
+                    "frames are named by `column`, by `pattern`, or by `array` and `index`: expected one of the three",
+                ));
+            }
+        };
+        let reference = Some(written.reference).filter(|path| path != "unknown");
+        for path in reference.iter().chain(&written.folder) {
+            self.relative(path, offset)?;
+        }
+        Ok(FrameMap {
+            names,
+            folder: written.folder,
+            channel_order: written.channel_order,
+            reference,
+        })
+    }
+
+    fn time(&self, written: &WrittenTime) -> Result<Option<TimeMap>, DatasetError> {
+        let Some(column) = &written.column else {
+            return Ok(None);
+        };
+        let unit = written.unit.as_ref().ok_or_else(|| {
+            toml_error(
+                self.path,
+                None,
+                "[time] has a `column` and no `unit`, such as \"s\" or \"ns\"",
+            )
+        })?;
+        let source_unit = self.unit(unit)?;
+        if source_unit.unit() != taceva_core::Unit::Second {
+            return Err(self.at(
+                unit.span().start,
+                &format!(
+                    "`{source_unit}` is no unit of time",
+                    source_unit = unit.get_ref()
+                ),
+            ));
+        }
+        Ok(Some(TimeMap {
+            column: column.clone(),
+            unit: source_unit,
+        }))
+    }
+
+    fn drop(&self, written: WrittenDrop, channels: &Channels) -> Result<DropRules, DatasetError> {
+        let stranger = written
+            .placeholders
+            .keys()
+            .find(|name| channels.position(name).is_none());
+        if let Some(name) = stranger {
+            return Err(toml_error(
+                self.path,
+                None,
+                &format!("[drop.placeholders] names `{name}`, which is no channel of [columns]"),
+            ));
+        }
+        Ok(DropRules {
+            flag_column: written.column.unwrap_or_else(|| "quality_flags".to_owned()),
+            quality_flags: written.quality_flags,
+            frames_named: written.frames_named,
+            placeholders: written
+                .placeholders
+                .into_iter()
+                .map(|(channel, number)| Placeholder { channel, number })
+                .collect(),
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const GOOD: &str = r#"map_version = 1
+table = "labels.csv"
+[frame]
+column = "file"
+channel_order = "gray"
+reference = "unknown"
+[columns]
+Fz = { from = "Fz_N", unit = "N", sign = -1 }
+Rx = { from = "rx", unit = "rad" }
+[ids]
+sample = "sample"
+point_id = ["x", "y"]
+[time]
+clock = "unknown"
+[sensor]
+model = "TacTip"
+serial = "unknown"
+gel = "unknown"
+opaque = "unknown"
+"#;
+
+    fn message(from: &str, to: &str) -> String {
+        assert!(GOOD.contains(from), "{from}");
+        ImportMap::parse(Path::new("m.toml"), &GOOD.replace(from, to))
+            .expect_err("wrong")
+            .to_string()
+    }
+
+    #[test]
+    fn a_whole_map_is_understood() {
+        let map = ImportMap::parse(Path::new("m.toml"), GOOD).expect("good");
+        assert_eq!(map.ids.point_id, ["x", "y"]);
+        assert!(map.columns[0].is_negated && !map.columns[1].is_negated);
+        assert_eq!(map.facts.sensor.opaque.known(), None);
+        assert_eq!(map.frame.expect("frames").reference, None);
+    }
+
+    #[test]
+    fn each_mistake_names_its_line_and_what_is_accepted() {
+        for (from, to, expected) in [
+            (
+                "map_version = 1",
+                "map_version = 2",
+                "line 1: map version 2",
+            ),
+            (
+                "\"N\"",
+                "\"newton\"",
+                "line 8: unknown unit `newton`, expected one of mm",
+            ),
+            (
+                "\"N\"",
+                "\"mm\"",
+                "line 8: channel `Fz` is kept in N, not in mm",
+            ),
+            (
+                "sign = -1",
+                "sign = 2",
+                "line 8: sign = 2, expected 1 or -1",
+            ),
+            (
+                ", unit = \"N\"",
+                "",
+                "line 8: the key `unit` is missing; every column states",
+            ),
+            (
+                "clock = \"unknown\"",
+                "",
+                "the key `clock` is missing; write \"unknown\"",
+            ),
+            (
+                "reference = \"unknown\"\n",
+                "",
+                "the key `reference` is missing; write \"unknown\"",
+            ),
+            (
+                "serial = \"unknown\"\n",
+                "",
+                "the key `serial` is missing; write \"unknown\"",
+            ),
+            (
+                "gel = \"unknown\"\n",
+                "",
+                "the key `gel` is missing; write \"unknown\"",
+            ),
+            (
+                "opaque = \"unknown\"",
+                "opaque = \"maybe\"",
+                "true, false or \"unknown\"",
+            ),
+            (
+                "column = \"file\"",
+                "colunm = \"file\"",
+                "line 4: `colunm`: unknown key, did you mean `column`?",
+            ),
+            (
+                "column = \"file\"",
+                "column = \"file\"\narray = \"x.npy\"",
+                "expected one of the three",
+            ),
+            (
+                "\"labels.csv\"",
+                "\"../labels.csv\"",
+                "line 2: `../labels.csv`: `..` is not followed",
+            ),
+            ("Rx =", "phase =", "line 9: `phase` is the name of an id"),
+            (
+                "clock = \"unknown\"",
+                "clock = \"unix\"\ncolumn = \"t\"",
+                "no `unit`",
+            ),
+            (
+                "clock = \"unknown\"",
+                "clock = \"unix\"\ncolumn = \"t\"\nunit = \"mm\"",
+                "no unit of time",
+            ),
+        ] {
+            let message = message(from, to);
+            assert!(message.contains(expected), "{from} → {to}: {message}");
+        }
+    }
+
+    #[test]
+    fn a_map_above_one_mebibyte_is_not_read() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("m.toml");
+        std::fs::write(&path, "#".repeat((1 << 20) + 1)).expect("written");
+        let message = ImportMap::read(&path).expect_err("large").to_string();
+        assert!(message.contains("more than the 1048576"), "{message}");
+    }
+}

@@ -1,0 +1,279 @@
+//! What an import would read, convert and leave out, before anything is written.
+
+use std::collections::{BTreeMap, BTreeSet, HashSet};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use taceva_core::{SourceUnit, Unit};
+
+use super::map::{FrameMap, FrameNames, ImportMap};
+use super::npy::NpyFrames;
+use super::rows::{FrameName, MappedTable};
+use super::source::{matching_files, unnamed_images};
+use super::suspicion::{Suspicion, magnitude_suspicion};
+use crate::decode::ChannelOrder;
+use crate::error::{DatasetError, Place};
+use crate::file::SourceFolder;
+use crate::store::RecordingFacts;
+use crate::table::Table;
+
+/// How many images that no row names are listed.
+const LISTED_IMAGES: usize = 20;
+
+/// A decided import: every label is read and converted, every frame is found; frames are verified when it is run.
+#[derive(Debug)]
+pub struct ImportPlan {
+    pub(super) summary: ImportSummary,
+    pub(super) facts: RecordingFacts,
+    pub(super) table: Table,
+    pub(super) frames: Option<PlannedFrames>,
+}
+
+/// The counts of an import.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct ImportSummary {
+    /// The tables, in order.
+    pub tables: Vec<PathBuf>,
+    /// Rows in them.
+    pub rows_read: u64,
+    /// Rows that become samples.
+    pub rows_kept: u64,
+    /// Rows left out by each rule; a row may be left out by several.
+    pub dropped: BTreeMap<String, u64>,
+    /// What happens to each channel.
+    pub conversions: Vec<Conversion>,
+    /// How the colours of the frames are stored; `None` without frames.
+    pub channel_order: Option<ChannelOrder>,
+    /// The frame without contact; `None` if nobody knows one.
+    pub reference: Option<PathBuf>,
+    /// Images beside the table that no row names.
+    pub unnamed_images: u64,
+    /// The first of them.
+    pub first_unnamed_images: Vec<PathBuf>,
+    /// Numbers that contradict their unit.
+    pub suspicions: Vec<Suspicion>,
+}
+
+/// What happens to one channel.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Conversion {
+    /// The channel.
+    pub channel: String,
+    /// Its column in the table.
+    pub column: String,
+    /// The unit there.
+    pub from: SourceUnit,
+    /// The unit it is kept in.
+    pub to: Unit,
+    /// Whether its sign is turned.
+    pub is_negated: bool,
+    /// Samples that have a value.
+    pub present: u64,
+}
+
+/// Where the frames come from.
+#[derive(Debug)]
+pub(super) struct PlannedFrames {
+    pub(super) order: ChannelOrder,
+    pub(super) reference: Option<PathBuf>,
+    /// For each kept row.
+    pub(super) of_rows: Vec<PlannedFrame>,
+}
+
+/// Where one frame comes from, and which cell says so.
+#[derive(Debug)]
+pub(super) struct PlannedFrame {
+    pub(super) from: FrameSource,
+    pub(super) named_at: Place,
+}
+
+#[derive(Debug)]
+pub(super) enum FrameSource {
+    File(PathBuf),
+    Array(Arc<NpyFrames>, usize),
+}
+
+impl ImportPlan {
+    /// Reads the tables that `map` names in the folder at `source`, and finds every frame.
+    ///
+    /// # Errors
+    /// [`DatasetError::Table`] naming line and column; [`DatasetError::Path`] if a path is missing, leaves the folder or is no
+    /// regular file; [`DatasetError::Image`] if an array cannot be used; [`DatasetError::Io`].
+    pub fn new(source: &Path, map: &ImportMap) -> Result<ImportPlan, DatasetError> {
+        let folder = SourceFolder::open(source)?;
+        let tables = matching_files(&folder, &map.table)?;
+        let mut reading = Reading::new(&folder, map)?;
+        for path in &tables {
+            reading.read(path)?;
+        }
+        reading.summary.tables = tables;
+        reading.into_plan()
+    }
+
+    /// What would be done.
+    pub fn summary(&self) -> &ImportSummary {
+        &self.summary
+    }
+}
+
+/// The rows of all tables as they are read.
+struct Reading<'a> {
+    folder: &'a SourceFolder,
+    map: &'a ImportMap,
+    table: Table,
+    array: Option<Arc<NpyFrames>>,
+    frames: Vec<PlannedFrame>,
+    samples: HashSet<String>,
+    /// Every image that a row names, dropped ones too.
+    named: BTreeSet<PathBuf>,
+    /// The folders that images are relative to.
+    bases: BTreeSet<PathBuf>,
+    summary: ImportSummary,
+}
+
+impl<'a> Reading<'a> {
+    fn new(folder: &'a SourceFolder, map: &'a ImportMap) -> Result<Reading<'a>, DatasetError> {
+        let array = match map.frame.as_ref().map(|frame| &frame.names) {
+            Some(FrameNames::Array(array)) => {
+                let path = folder.file(folder.path(), &array.file)?;
+                Some(Arc::new(NpyFrames::open(&path)?))
+            }
+            _ => None,
+        };
+        let attributes = map.attributes.keys().cloned().collect();
+        Ok(Reading {
+            folder,
+            map,
+            array,
+            table: Table::new(map.channels.clone(), attributes),
+            frames: Vec::new(),
+            samples: HashSet::new(),
+            named: BTreeSet::new(),
+            bases: BTreeSet::new(),
+            summary: ImportSummary::default(),
+        })
+    }
+
+    fn read(&mut self, path: &Path) -> Result<(), DatasetError> {
+        let rows = MappedTable::open(self.map, path)?;
+        let frame = self.map.frame.as_ref();
+        let base = match frame.and_then(|frame| frame.folder.as_ref()) {
+            Some(folder) => self.folder.path().join(folder),
+            None => rows.folder(),
+        };
+        for row in 0..rows.rows() {
+            self.read_row(&rows, row, &base)?;
+        }
+        self.bases.insert(base);
+        Ok(())
+    }
+
+    fn read_row(
+        &mut self,
+        rows: &MappedTable<'_>,
+        row: usize,
+        base: &Path,
+    ) -> Result<(), DatasetError> {
+        let number = self.summary.rows_read;
+        self.summary.rows_read += 1;
+        let reasons = rows.drop_reasons(row);
+        if !reasons.is_empty() {
+            if let Ok(Some((FrameName::File(name), _))) = rows.frame_name(row) {
+                self.named.insert(base.join(name));
+            }
+            for reason in reasons {
+                *self.summary.dropped.entry(reason).or_default() += 1;
+            }
+            return Ok(());
+        }
+        let labels = rows.row(row, number)?;
+        if !self.samples.insert(labels.sample.clone()) {
+            return Err(rows.duplicate(row, &labels.sample));
+        }
+        if let Some((name, named_at)) = rows.frame_name(row)? {
+            let from = self
+                .frame_source(base, name)
+                .map_err(|error| error.named_at(named_at.clone()))?;
+            self.frames.push(PlannedFrame { from, named_at });
+        }
+        self.table.push(labels);
+        self.summary.rows_kept += 1;
+        Ok(())
+    }
+
+    fn frame_source(&mut self, base: &Path, name: FrameName) -> Result<FrameSource, DatasetError> {
+        match (name, &self.array) {
+            (FrameName::Index(index), Some(array)) => {
+                array.check_index(index)?;
+                Ok(FrameSource::Array(Arc::clone(array), index))
+            }
+            (FrameName::Index(index), None) => Err(DatasetError::Path {
+                place: None,
+                written: index.to_string(),
+                problem: "a position without an array".to_owned(),
+            }),
+            (FrameName::File(name), _) => {
+                let path = self.folder.file(base, &name)?;
+                self.named.insert(path.clone());
+                Ok(FrameSource::File(path))
+            }
+        }
+    }
+
+    fn into_plan(mut self) -> Result<ImportPlan, DatasetError> {
+        let frames = match &self.map.frame {
+            Some(frame) => Some(self.planned_frames(frame)?),
+            None => None,
+        };
+        self.describe_channels();
+        Ok(ImportPlan {
+            summary: self.summary,
+            facts: self.map.facts.clone(),
+            table: self.table,
+            frames,
+        })
+    }
+
+    fn planned_frames(&mut self, frame: &FrameMap) -> Result<PlannedFrames, DatasetError> {
+        let reference = match &frame.reference {
+            Some(path) => Some(self.folder.file(self.folder.path(), path)?),
+            None => None,
+        };
+        self.named.extend(reference.clone());
+        if self.array.is_none() {
+            let unnamed: BTreeSet<PathBuf> = self
+                .bases
+                .iter()
+                .flat_map(|base| unnamed_images(base, &self.named))
+                .collect();
+            self.summary.unnamed_images = unnamed.len() as u64;
+            self.summary.first_unnamed_images = unnamed.into_iter().take(LISTED_IMAGES).collect();
+        }
+        self.summary.channel_order = Some(frame.channel_order);
+        self.summary.reference.clone_from(&reference);
+        Ok(PlannedFrames {
+            order: frame.channel_order,
+            reference,
+            of_rows: std::mem::take(&mut self.frames),
+        })
+    }
+
+    fn describe_channels(&mut self) {
+        for (position, channel) in self.map.channels.iter().enumerate() {
+            let map = &self.map.columns[position];
+            let column = self.table.truth(position);
+            let values = || (0..column.len()).filter_map(|row| column.get(row));
+            self.summary.conversions.push(Conversion {
+                channel: channel.name().to_owned(),
+                column: map.from.clone(),
+                from: map.unit,
+                to: channel.unit(),
+                is_negated: map.is_negated,
+                present: values().count() as u64,
+            });
+            self.summary
+                .suspicions
+                .extend(magnitude_suspicion(channel, values()));
+        }
+    }
+}

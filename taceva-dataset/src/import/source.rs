@@ -1,0 +1,135 @@
+//! Finding tables and images in a stranger's folder, without leaving it.
+
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use crate::error::DatasetError;
+use crate::file::SourceFolder;
+use crate::limits;
+use crate::text::shown;
+
+/// The files that `pattern` names, sorted; `*` stands for any characters within one name.
+pub(super) fn matching_files(
+    folder: &SourceFolder,
+    pattern: &str,
+) -> Result<Vec<PathBuf>, DatasetError> {
+    if !pattern.contains('*') {
+        return Ok(vec![folder.file(folder.path(), pattern)?]);
+    }
+    let mut found: Vec<String> = vec![String::new()];
+    for part in pattern.split('/').filter(|part| !part.is_empty()) {
+        let mut next = Vec::new();
+        for before in &found {
+            for name in names_like(&folder.path().join(before), part) {
+                next.push(if before.is_empty() {
+                    name
+                } else {
+                    format!("{before}/{name}")
+                });
+            }
+        }
+        found = next;
+    }
+    found.sort_unstable();
+    if found.is_empty() {
+        return Err(DatasetError::Path {
+            place: None,
+            written: pattern.to_owned(),
+            problem: format!(
+                "matches nothing in {}",
+                shown(&folder.path().to_string_lossy())
+            ),
+        });
+    }
+    found
+        .iter()
+        .map(|relative| folder.file(folder.path(), relative))
+        .collect()
+}
+
+fn names_like(folder: &Path, pattern: &str) -> Vec<String> {
+    if !pattern.contains('*') {
+        let exists = folder.join(pattern).exists();
+        return exists.then(|| pattern.to_owned()).into_iter().collect();
+    }
+    let entries = fs::read_dir(folder).into_iter().flatten().flatten();
+    entries
+        .filter_map(|entry| entry.file_name().into_string().ok())
+        .filter(|name| !name.starts_with('.') && is_like(name, pattern))
+        .collect()
+}
+
+/// Whether `name` follows `pattern`, in which each `*` stands for any characters.
+fn is_like(name: &str, pattern: &str) -> bool {
+    let mut parts = pattern.split('*');
+    let first = parts.next().unwrap_or("");
+    let Some(mut rest) = name.strip_prefix(first) else {
+        return false;
+    };
+    let middle: Vec<&str> = parts.collect();
+    let Some((last, middle)) = middle.split_last() else {
+        return rest.is_empty();
+    };
+    for part in middle {
+        match rest.find(part) {
+            Some(at) => rest = &rest[at + part.len()..],
+            None => return false,
+        }
+    }
+    rest.ends_with(last)
+}
+
+/// The images below `folder` that are not among `named`, sorted; links are not followed.
+pub(super) fn unnamed_images(folder: &Path, named: &BTreeSet<PathBuf>) -> Vec<PathBuf> {
+    let mut unnamed = Vec::new();
+    let mut folders = vec![folder.to_owned()];
+    let mut looked_at = 0;
+    while let Some(folder) = folders.pop() {
+        for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
+            looked_at += 1;
+            if looked_at > limits::WALKED_FILES {
+                break;
+            }
+            let path = entry.path();
+            match entry.file_type() {
+                Ok(kind) if kind.is_dir() => folders.push(path),
+                Ok(kind) if kind.is_file() && is_image(&path) && !named.contains(&path) => {
+                    unnamed.push(path);
+                }
+                _ => {}
+            }
+        }
+    }
+    unnamed.sort_unstable();
+    unnamed
+}
+
+fn is_image(path: &Path) -> bool {
+    path.extension().is_some_and(|extension| {
+        ["png", "jpg", "jpeg"]
+            .iter()
+            .any(|known| extension.eq_ignore_ascii_case(known))
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_star_stands_for_any_characters_within_a_name() {
+        for (name, pattern, expected) in [
+            ("run_1.csv", "run_*.csv", true),
+            ("run_1.csv", "*", true),
+            ("run_1.txt", "run_*.csv", false),
+            ("a-b-c", "a*b*c", true),
+            ("a-c", "a*b*c", false),
+            ("ab", "ab*b", false),
+            ("aa", "a*a", true),
+            ("a", "a*a", false),
+        ] {
+            assert_eq!(is_like(name, pattern), expected, "{name} {pattern}");
+        }
+    }
+}
