@@ -67,6 +67,15 @@ impl<'a> Paired<&'a [f64]> {
         })
     }
 
+    /// The pairs in stretches of at most `rows`.
+    pub(crate) fn blocks(self, rows: usize) -> impl Iterator<Item = Paired<&'a [f64]>> {
+        let blocks = self.estimate.chunks(rows).zip(self.reference.chunks(rows));
+        blocks.map(|(estimate, reference)| Paired {
+            estimate,
+            reference,
+        })
+    }
+
     /// Whether every pair is valid.
     pub(crate) fn all_valid(self) -> bool {
         // No early end: this way the loop runs on whole vectors.
@@ -91,7 +100,11 @@ mod tests {
     #[test]
     fn the_greatest_value_is_two_to_the_1021() {
         assert_eq!(GREATEST.to_bits(), 2.0_f64.powi(1021).to_bits());
-        assert!(is_valid(-GREATEST) && !is_valid(GREATEST.next_up()) && !is_valid(f64::NAN));
+        assert!(
+            is_valid(-GREATEST)
+                && !is_valid(f64::from_bits(GREATEST.to_bits() + 1))
+                && !is_valid(f64::NAN)
+        );
     }
 
     #[test]

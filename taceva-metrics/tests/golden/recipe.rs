@@ -198,7 +198,7 @@ impl SplitMix64 {
         (self.next() >> 11) as f64 * (1.0 / 9_007_199_254_740_992.0)
     }
 
-    fn bell(&mut self) -> f64 {
+    pub(crate) fn bell(&mut self) -> f64 {
         (1..12).fold(self.unit(), |sum, _| sum + self.unit()) - 6.0
     }
 

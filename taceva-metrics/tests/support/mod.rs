@@ -1,0 +1,72 @@
+//! What several test files build: samples in, evaluators out.
+
+#![allow(
+    dead_code,
+    reason = "each test file is a program of its own and uses some of it"
+)]
+
+use taceva_core::{Batch, Channel, Channels, Column, FieldSet, Labels};
+use taceva_metrics::{Evaluation, Evaluator, MetricPlan, catalogue};
+
+/// One sample of two channels, Fx and Fy.
+#[derive(Clone, Debug)]
+pub(crate) struct Row {
+    pub(crate) truth: [Option<f64>; 2],
+    pub(crate) prediction: [Option<f64>; 2],
+    pub(crate) point: Option<u32>,
+}
+
+impl Row {
+    /// A sample whose two channels agree.
+    pub(crate) fn same(truth: f64, prediction: f64, point: u32) -> Row {
+        Row {
+            truth: [Some(truth); 2],
+            prediction: [Some(prediction); 2],
+            point: Some(point),
+        }
+    }
+}
+
+/// Every metric of Fx and Fy.
+pub(crate) fn plan() -> MetricPlan {
+    let channels = Channels::new([Channel::FX, Channel::FY]).expect("two channels");
+    MetricPlan::new(&catalogue::ALL, channels, FieldSet::PAIRS)
+}
+
+/// The rows as columns; with points if every row names one.
+pub(crate) fn batch(rows: &[Row]) -> Batch {
+    let columns = |values: fn(&Row) -> [Option<f64>; 2]| {
+        let column = |channel: usize| {
+            let mut column = Column::default();
+            rows.iter()
+                .for_each(|row| column.push(values(row)[channel]));
+            column
+        };
+        vec![column(0), column(1)]
+    };
+    let mut points = Labels::default();
+    let named: Option<Vec<u32>> = rows.iter().map(|row| row.point).collect();
+    let named = named.filter(|named| !named.is_empty());
+    named
+        .iter()
+        .flatten()
+        .for_each(|point| points.push(&format!("point {point}")));
+    Batch::from_columns(
+        plan().channels().clone(),
+        columns(|row| row.truth),
+        columns(|row| row.prediction),
+        named.is_some().then_some(points),
+    )
+}
+
+/// An evaluator that has seen the rows in one batch.
+pub(crate) fn evaluator(rows: &[Row]) -> Evaluator {
+    let mut evaluator = Evaluator::new(&plan());
+    evaluator.update(&batch(rows)).expect("the plan's channels");
+    evaluator
+}
+
+/// The scores of the rows.
+pub(crate) fn evaluate(rows: &[Row]) -> Evaluation {
+    evaluator(rows).finish().expect("the plan's channels")
+}
