@@ -11,9 +11,11 @@ mod file;
 mod guard;
 mod header;
 mod import;
+mod journal;
 mod layout;
 mod limits;
 mod parallel;
+mod recorder;
 mod samples;
 mod staged;
 mod store;
@@ -36,6 +38,7 @@ pub use import::{
     ImportPlan, ImportReport, ImportSummary, Placeholder, Preset, Suspicion, TimeMap,
     magnitude_suspicion,
 };
+pub use recorder::{Recorder, RecordingSpec};
 pub use store::RecordingFacts;
 pub use table::{FrameEntry, Row, Table};
 pub use toml_file::read_toml;

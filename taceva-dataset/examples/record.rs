@@ -1,0 +1,81 @@
+//! Records made-up samples: `record FOLDER COUNT`. Prints `ACK n` once sample `n` is durable.
+//!
+//! Killed or cut off at any moment, it goes on where it stopped when run again.
+#![expect(
+    clippy::print_stdout,
+    reason = "whoever kills it reads what was acknowledged"
+)]
+
+use std::error::Error;
+use std::io::Write;
+use std::path::Path;
+
+use taceva_core::{
+    Channel, Channels, Clock, Frame, FrameInfo, PixelFormat, Readings, Sample, Stamp,
+};
+use taceva_dataset::{
+    Dataset, Known, Recorder, RecordingFacts, RecordingSpec, SensorFacts, Source,
+};
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    let [folder, count] = arguments.as_slice() else {
+        return Err("usage: record FOLDER COUNT".into());
+    };
+    let (folder, count) = (Path::new(folder), count.parse::<u16>()?);
+    if Dataset::open(folder).is_ok() {
+        println!("CLOSED");
+        return Ok(());
+    }
+    let mut recorder = Recorder::open(folder, &spec()?)?;
+    println!("RESUMED {}", recorder.table().rows());
+    for number in 1..=count {
+        let sample = sample(number)?;
+        if !recorder.has(&sample.id) {
+            let sequence = recorder.append(&sample)?;
+            println!("ACK {sequence}");
+            std::io::stdout().flush()?;
+        }
+    }
+    println!("CLOSED {}", recorder.close()?.digest);
+    Ok(())
+}
+
+fn spec() -> Result<RecordingSpec, Box<dyn Error>> {
+    Ok(RecordingSpec {
+        facts: RecordingFacts {
+            source: Source::Synthetic,
+            clock: Clock::Monotonic,
+            sensor: SensorFacts {
+                model: "made up".into(),
+                serial: "1".into(),
+                gel: "1".into(),
+                opaque: Known::Is(true),
+            },
+            footprint: None,
+        },
+        channels: Channels::new([Channel::PZ, Channel::FZ])?,
+    })
+}
+
+/// Sample `number`, the same each time.
+fn sample(number: u16) -> Result<Sample, Box<dyn Error>> {
+    let info = FrameInfo {
+        width: 16,
+        height: 12,
+        format: PixelFormat::Gray8,
+    };
+    let pixels = (0..192_u16).map(|pixel| pixel.wrapping_mul(number).to_le_bytes()[0]);
+    let depth = f64::from(number) / 100.0;
+    Ok(Sample {
+        id: format!("press {number}"),
+        point_id: Some(format!("point {}", number % 7)),
+        stamp: Some(Stamp {
+            valid_s: f64::from(number),
+            received_s: None,
+        }),
+        frame: Some(Frame::new(info, pixels.collect())?),
+        truth: Readings::from_values([depth, 2.0 * depth]),
+        ..Sample::default()
+    })
+}

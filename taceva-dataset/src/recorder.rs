@@ -1,0 +1,457 @@
+//! A recording while it is made: each sample is durable before it counts.
+
+use std::collections::HashSet;
+use std::fs::{self, File};
+use std::path::{Path, PathBuf};
+
+use taceva_core::{Channels, Field, FieldSet, Frame, FrameInfo, Sample, SampleSink, SinkError};
+
+use crate::decode::ChannelOrder;
+use crate::digest::Digest;
+use crate::encode::encode_png;
+use crate::error::DatasetError;
+use crate::file::{parent_of, sync_folder, write_durable};
+use crate::header::{FramesInfo, Header, ReferenceInfo};
+use crate::journal::{Journal, Record, RecordKind};
+use crate::layout;
+use crate::samples::from_parquet;
+use crate::staged::lock_folder;
+use crate::store::{RecordingFacts, write_table_and_header};
+use crate::table::{FrameEntry, Row, Table};
+
+mod written;
+
+use written::{WrittenFrame, WrittenSample, WrittenStart};
+
+/// What a recording is of.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RecordingSpec {
+    /// Sensor, clock, source and footprint.
+    pub facts: RecordingFacts,
+    /// The channels of the truth of each sample.
+    pub channels: Channels,
+}
+
+/// Writes samples as they come. A killed process or a power cut loses at most the sample that was not yet acknowledged.
+///
+/// ```
+/// use taceva_core::{Channel, Channels, Clock, Readings, Sample};
+/// use taceva_dataset::{Dataset, Known, Recorder, RecordingFacts, RecordingSpec, SensorFacts, Source};
+///
+/// # let folder = tempfile::tempdir()?;
+/// # let path = folder.path().join("recording");
+/// let spec = RecordingSpec {
+///     facts: RecordingFacts {
+///         source: Source::Synthetic,
+///         clock: Clock::Unknown,
+///         sensor: SensorFacts {
+///             model: "my gel".into(),
+///             serial: "7".into(),
+///             gel: "unknown".into(),
+///             opaque: Known::Is(true),
+///         },
+///         footprint: None,
+///     },
+///     channels: Channels::new([Channel::FZ])?,
+/// };
+/// let mut recorder = Recorder::create(&path, &spec)?;
+/// recorder.append(&Sample {
+///     id: "press 1".into(),
+///     truth: Readings::from_values([0.5]),
+///     ..Sample::default()
+/// })?;
+/// recorder.close()?;
+/// assert_eq!(Dataset::open(&path)?.table().truth(0).get(0), Some(0.5));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Debug)]
+pub struct Recorder {
+    path: PathBuf,
+    _lock: File,
+    journal: Journal,
+    facts: RecordingFacts,
+    table: Table,
+    finished: HashSet<String>,
+    frame_info: Option<FrameInfo>,
+    reference: Option<ReferenceInfo>,
+    cut_bytes: u64,
+}
+
+impl Recorder {
+    /// Begins a recording in a new folder at `path`.
+    ///
+    /// # Errors
+    /// [`DatasetError::TargetExists`] if anything was recorded there; [`DatasetError::Busy`] if another process writes there;
+    /// [`DatasetError::Io`].
+    pub fn create(path: &Path, spec: &RecordingSpec) -> Result<Recorder, DatasetError> {
+        let lock = empty_folder(path)?;
+        let frames = path.join(layout::FRAMES);
+        fs::create_dir_all(&frames).map_err(DatasetError::io("create", &frames))?;
+        sync_folder(parent_of(path))?;
+        let start = WrittenStart::new(spec).to_toml();
+        let journal = Journal::create(&path.join(layout::JOURNAL), start.as_bytes())?;
+        Ok(Recorder::new(path, lock, journal, spec.clone()))
+    }
+
+    /// Goes on with a recording that was not closed; what was torn by the interruption is cut away.
+    ///
+    /// # Errors
+    /// [`DatasetError::NoDataset`] if nothing was recorded there; [`DatasetError::TargetExists`] if it was closed;
+    /// [`DatasetError::Busy`] if another process writes there; [`DatasetError::Journal`] if the journal is damaged before its
+    /// end; [`DatasetError::Io`].
+    pub fn resume(path: &Path) -> Result<Recorder, DatasetError> {
+        let journal_path = path.join(layout::JOURNAL);
+        let lock = lock_folder(path)?;
+        if path.join(layout::HEADER).exists() {
+            if journal_path.exists() {
+                // Closed, and interrupted before the last step.
+                remove_journal(path)?;
+            }
+            return Err(DatasetError::TargetExists {
+                path: path.join(layout::HEADER),
+            });
+        }
+        let nothing = || DatasetError::NoDataset {
+            path: path.to_owned(),
+            problem: "nothing was recorded there".to_owned(),
+        };
+        if !journal_path.exists() {
+            return Err(nothing());
+        }
+        let (journal, recovered) = Journal::open(&journal_path)?;
+        let mut records = recovered.records.into_iter().enumerate();
+        let (_, start) = records.next().ok_or_else(nothing)?;
+        let spec = WrittenStart::parse(&journal_path, &start.payload)?;
+        let mut recorder = Recorder::new(path, lock, journal, spec);
+        recorder.cut_bytes = recovered.cut_bytes;
+        for (sequence, record) in records {
+            recorder.replay(&record).map_err(|error| {
+                let problem = format!("record {sequence}: {error}");
+                DatasetError::Damaged {
+                    path: journal_path.clone(),
+                    problem,
+                }
+            })?;
+        }
+        Ok(recorder)
+    }
+
+    /// Resumes the recording at `path`, or begins it if nothing was recorded there yet.
+    ///
+    /// # Errors
+    /// As [`create`](Recorder::create) and [`resume`](Recorder::resume); [`DatasetError::Request`] if the recording is of
+    /// something else than `spec` says.
+    pub fn open(path: &Path, spec: &RecordingSpec) -> Result<Recorder, DatasetError> {
+        if !path.exists() {
+            return Recorder::create(path, spec);
+        }
+        let recorder = match Recorder::resume(path) {
+            Err(DatasetError::NoDataset { .. }) => return Recorder::create(path, spec),
+            resumed => resumed?,
+        };
+        if recorder.facts != spec.facts || recorder.table.channels() != &spec.channels {
+            return Err(DatasetError::Request {
+                path: path.to_owned(),
+                problem: "the recording that was begun there is of another sensor, clock or set of channels"
+                    .to_owned(),
+            });
+        }
+        Ok(recorder)
+    }
+
+    fn new(path: &Path, lock: File, journal: Journal, spec: RecordingSpec) -> Recorder {
+        Recorder {
+            path: path.to_owned(),
+            _lock: lock,
+            journal,
+            facts: spec.facts,
+            table: Table::new(spec.channels, Vec::new()),
+            finished: HashSet::new(),
+            frame_info: None,
+            reference: None,
+            cut_bytes: 0,
+        }
+    }
+
+    /// Whether a sample of this name is recorded.
+    pub fn has(&self, id: &str) -> bool {
+        self.finished.contains(id)
+    }
+
+    /// The samples recorded so far, in order.
+    pub fn table(&self) -> &Table {
+        &self.table
+    }
+
+    /// Bytes of a torn last record that were cut away when the recording was resumed.
+    pub fn cut_bytes(&self) -> u64 {
+        self.cut_bytes
+    }
+
+    /// Records a sample and returns its number in the journal, from 1, once it is durable. Predictions are not recorded.
+    ///
+    /// # Errors
+    /// [`DatasetError::Sample`] if its name is empty or taken, a number is not finite, there are more values than channels, or
+    /// its frame is unlike the first; [`DatasetError::Io`], after which the recording must be resumed.
+    pub fn append(&mut self, sample: &Sample) -> Result<u64, DatasetError> {
+        self.check(sample)?;
+        let frame = sample
+            .frame
+            .as_ref()
+            .map(|frame| self.write_frame(frame))
+            .transpose()?;
+        let row = self.row(sample, frame);
+        let info = sample.frame.as_ref().map(Frame::info);
+        let written = WrittenSample::new(&row, self.table.channels(), info).to_toml();
+        let sequence = self
+            .journal
+            .append(RecordKind::Sample, written.as_bytes())?;
+        self.take(row, info);
+        Ok(sequence)
+    }
+
+    /// Records the frame without contact; the last one counts.
+    ///
+    /// # Errors
+    /// [`DatasetError::Sample`] if it is unlike the other frames; [`DatasetError::Io`].
+    pub fn append_reference(&mut self, frame: &Frame) -> Result<u64, DatasetError> {
+        self.check_frame("reference", frame)?;
+        let relative = layout::reference_path("png");
+        let digest = self.write_image(&relative, frame)?;
+        let written = WrittenFrame {
+            path: relative,
+            sha256: digest,
+            info: frame.info(),
+        };
+        let sequence = self
+            .journal
+            .append(RecordKind::Reference, written.to_toml().as_bytes())?;
+        self.take_reference(written);
+        Ok(sequence)
+    }
+
+    /// Makes the recording a dataset. Until its header is in place the journal stays and the recording can be resumed.
+    ///
+    /// # Errors
+    /// [`DatasetError::Damaged`] if what was written does not read back; [`DatasetError::Io`].
+    pub fn close(self) -> Result<Header, DatasetError> {
+        let name = |name: &str| self.path.join(format!("{name}.partial"));
+        let (samples, header_path) = (name(layout::SAMPLES), name(layout::HEADER));
+        let header = write_table_and_header(
+            &samples,
+            &header_path,
+            &self.facts,
+            &self.table,
+            self.frames_info(),
+        )?;
+        self.verify(&samples, &header)?;
+        self.put_in_place(&samples, layout::SAMPLES)?;
+        self.put_in_place(&header_path, layout::HEADER)?;
+        remove_journal(&self.path)?;
+        Ok(header)
+    }
+
+    fn replay(&mut self, record: &Record) -> Result<(), String> {
+        match record.kind {
+            RecordKind::Start => Err("a second beginning".to_owned()),
+            RecordKind::Sample => {
+                let (row, info) =
+                    WrittenSample::parse(&record.payload)?.into_row(self.table.channels())?;
+                self.take(row, info);
+                Ok(())
+            }
+            RecordKind::Reference => {
+                self.take_reference(WrittenFrame::parse(&record.payload)?);
+                Ok(())
+            }
+        }
+    }
+
+    fn take(&mut self, row: Row, info: Option<FrameInfo>) {
+        self.frame_info = self.frame_info.or(info);
+        self.finished.insert(row.sample.clone());
+        self.table.push(row);
+    }
+
+    fn take_reference(&mut self, written: WrittenFrame) {
+        self.frame_info = self.frame_info.or(Some(written.info));
+        self.reference = Some(ReferenceInfo {
+            path: written.path,
+            sha256: written.sha256,
+        });
+    }
+
+    fn check(&self, sample: &Sample) -> Result<(), DatasetError> {
+        let refused = |problem: String| DatasetError::Sample {
+            id: sample.id.clone(),
+            problem,
+        };
+        if sample.id.is_empty() || self.has(&sample.id) {
+            return Err(refused("the name is empty or taken".to_owned()));
+        }
+        let (values, channels) = (sample.truth.as_slice(), self.table.channels());
+        if values.len() > channels.len() {
+            return Err(refused(format!(
+                "{} values for {} channels",
+                values.len(),
+                channels.len()
+            )));
+        }
+        let times = sample.stamp.iter().map(|stamp| stamp.valid_s);
+        let mut numbers = values.iter().copied().flatten().chain(times);
+        if let Some(number) = numbers.find(|number| !number.is_finite()) {
+            return Err(refused(format!("{number} is no finite number")));
+        }
+        match &sample.frame {
+            Some(frame) => self.check_frame(&sample.id, frame),
+            None => Ok(()),
+        }
+    }
+
+    fn check_frame(&self, id: &str, frame: &Frame) -> Result<(), DatasetError> {
+        match self.frame_info {
+            Some(expected) if expected != frame.info() => Err(DatasetError::Sample {
+                id: id.to_owned(),
+                problem: format!(
+                    "a frame of {}, expected {expected} as the first",
+                    frame.info()
+                ),
+            }),
+            _ => Ok(()),
+        }
+    }
+
+    fn row(&self, sample: &Sample, frame: Option<FrameEntry>) -> Row {
+        let channels = self.table.channels().len();
+        Row {
+            sample: sample.id.clone(),
+            point_id: sample.point_id.clone(),
+            unit_id: sample.unit_id.clone(),
+            scene: sample.scene_id.clone(),
+            depth_step: sample.depth_step,
+            repeat: sample.repeat,
+            phase: sample.phase,
+            part: None,
+            t_s: sample.stamp.map(|stamp| stamp.valid_s),
+            truth: (0..channels)
+                .map(|position| sample.truth.get(position))
+                .collect(),
+            attributes: Vec::new(),
+            frame,
+        }
+    }
+
+    fn write_frame(&self, frame: &Frame) -> Result<FrameEntry, DatasetError> {
+        let number = self.table.rows();
+        let folder = self.path.join(layout::frame_folder(number));
+        if !folder.exists() {
+            fs::create_dir(&folder).map_err(DatasetError::io("create", &folder))?;
+            sync_folder(parent_of(&folder))?;
+        }
+        let path = layout::frame_path(number, "png");
+        let digest = self.write_image(&path, frame)?;
+        Ok(FrameEntry { path, digest })
+    }
+
+    /// Writes a frame; its bytes and its name are durable.
+    fn write_image(&self, relative: &str, frame: &Frame) -> Result<Digest, DatasetError> {
+        let path = self.path.join(relative);
+        let bytes = encode_png(frame).map_err(|problem| DatasetError::Image {
+            place: None,
+            path: path.clone(),
+            problem,
+        })?;
+        write_durable(&path, &bytes)?;
+        sync_folder(parent_of(&path))?;
+        Ok(Digest::of(&bytes))
+    }
+
+    fn frames_info(&self) -> Option<FramesInfo> {
+        let info = self.frame_info?;
+        let is_gray = info.format.samples() == 1;
+        Some(FramesInfo {
+            count: self.table.frames().iter().flatten().count() as u64,
+            info,
+            channel_order: if is_gray {
+                ChannelOrder::Gray
+            } else {
+                ChannelOrder::Rgb
+            },
+            reference: self.reference.clone(),
+        })
+    }
+
+    fn verify(&self, samples: &Path, header: &Header) -> Result<(), DatasetError> {
+        let damaged = |problem: String| DatasetError::Damaged {
+            path: samples.to_owned(),
+            problem,
+        };
+        let file = File::open(samples).map_err(DatasetError::io("open", samples))?;
+        let read = from_parquet(file, &header.channels, &header.attributes).map_err(damaged)?;
+        if read != self.table {
+            return Err(damaged(
+                "it does not read back as it was written".to_owned(),
+            ));
+        }
+        Ok(())
+    }
+
+    fn put_in_place(&self, from: &Path, name: &str) -> Result<(), DatasetError> {
+        let to = self.path.join(name);
+        fs::rename(from, &to).map_err(DatasetError::io("rename into place", &to))?;
+        sync_folder(&self.path)
+    }
+}
+
+impl SampleSink for Recorder {
+    fn fields(&self) -> FieldSet {
+        Field::ALL
+            .into_iter()
+            .filter(|field| *field != Field::Prediction)
+            .collect()
+    }
+
+    fn accept(&mut self, sample: &Sample) -> Result<(), SinkError> {
+        self.append(sample)?;
+        Ok(())
+    }
+}
+
+/// A locked folder in which nothing was recorded: a new one, or one whose creation was interrupted.
+fn empty_folder(path: &Path) -> Result<File, DatasetError> {
+    match fs::create_dir(path) {
+        Ok(()) => return lock_folder(path),
+        Err(error) if error.kind() == std::io::ErrorKind::AlreadyExists => {}
+        Err(error) => return Err(DatasetError::io("create", path)(error)),
+    }
+    let taken = || DatasetError::TargetExists {
+        path: path.to_owned(),
+    };
+    if !path.is_dir() {
+        return Err(taken());
+    }
+    let lock = lock_folder(path)?;
+    let entries = fs::read_dir(path).map_err(DatasetError::io("list", path))?;
+    for entry in entries {
+        let entry = entry.map_err(DatasetError::io("list", path))?;
+        let name = entry.file_name();
+        if name != layout::JOURNAL && name != layout::FRAMES {
+            return Err(taken());
+        }
+    }
+    let journal = path.join(layout::JOURNAL);
+    if journal.exists() {
+        let (_, recovered) = Journal::open(&journal)?;
+        if !recovered.records.is_empty() {
+            return Err(taken());
+        }
+        fs::remove_file(&journal).map_err(DatasetError::io("remove", &journal))?;
+    }
+    Ok(lock)
+}
+
+fn remove_journal(path: &Path) -> Result<(), DatasetError> {
+    let journal = path.join(layout::JOURNAL);
+    fs::remove_file(&journal).map_err(DatasetError::io("remove", &journal))?;
+    sync_folder(path)
+}

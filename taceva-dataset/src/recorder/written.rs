@@ -1,0 +1,201 @@
+//! The payloads of a journal: TOML, so that a person can read what a broken recording holds.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use serde::{Deserialize, Serialize};
+use taceva_core::{Channel, Channels, Clock, FrameInfo, Phase, Unit};
+
+use super::RecordingSpec;
+use crate::digest::Digest;
+use crate::error::DatasetError;
+use crate::file::check_relative;
+use crate::header::{Footprint, SensorFacts, Source};
+use crate::store::RecordingFacts;
+use crate::table::{FrameEntry, Row};
+use crate::toml_file::{parse_toml, toml_error};
+
+/// What a recording is of.
+#[derive(Serialize, Deserialize)]
+pub(super) struct WrittenStart {
+    source: Source,
+    clock: Clock,
+    sensor: SensorFacts,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    footprint: Option<Footprint>,
+    channels: BTreeMap<String, Unit>,
+}
+
+impl WrittenStart {
+    pub(super) fn new(spec: &RecordingSpec) -> WrittenStart {
+        WrittenStart {
+            source: spec.facts.source,
+            clock: spec.facts.clock,
+            sensor: spec.facts.sensor.clone(),
+            footprint: spec.facts.footprint,
+            channels: spec
+                .channels
+                .iter()
+                .map(|channel| (channel.name().to_owned(), channel.unit()))
+                .collect(),
+        }
+    }
+
+    pub(super) fn to_toml(&self) -> String {
+        to_toml(self)
+    }
+
+    pub(super) fn parse(path: &Path, payload: &[u8]) -> Result<RecordingSpec, DatasetError> {
+        let wrong = |problem: &str| toml_error(path, None, problem);
+        let text = std::str::from_utf8(payload).map_err(|_| wrong("not UTF-8"))?;
+        let written: WrittenStart = parse_toml(path, text)?;
+        let channels = written
+            .channels
+            .iter()
+            .map(|(name, unit)| Channel::named(name, *unit))
+            .collect::<Result<Vec<_>, _>>()
+            .and_then(Channels::new)
+            .map_err(|error| wrong(&error.to_string()))?;
+        Ok(RecordingSpec {
+            facts: RecordingFacts {
+                source: written.source,
+                clock: written.clock,
+                sensor: written.sensor,
+                footprint: written.footprint,
+            },
+            channels,
+        })
+    }
+}
+
+/// One sample; absent values are not written.
+#[derive(Serialize, Deserialize)]
+pub(super) struct WrittenSample {
+    sample: String,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    point_id: Option<String>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    unit_id: Option<String>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    scene: Option<String>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    depth_step: Option<u32>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    repeat: Option<u32>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    phase: Option<Phase>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    t_s: Option<f64>,
+    truth: BTreeMap<String, f64>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    frame: Option<WrittenFrame>,
+}
+
+/// The file of a frame.
+#[derive(Serialize, Deserialize)]
+pub(super) struct WrittenFrame {
+    pub(super) path: String,
+    pub(super) sha256: Digest,
+    #[serde(flatten)]
+    pub(super) info: FrameInfo,
+}
+
+impl WrittenFrame {
+    pub(super) fn to_toml(&self) -> String {
+        to_toml(self)
+    }
+
+    pub(super) fn parse(payload: &[u8]) -> Result<WrittenFrame, String> {
+        let written: WrittenFrame = from_toml(payload)?;
+        check_relative(&written.path)?;
+        Ok(written)
+    }
+}
+
+impl WrittenSample {
+    pub(super) fn new(row: &Row, channels: &Channels, info: Option<FrameInfo>) -> WrittenSample {
+        let truth = channels.iter().zip(&row.truth);
+        WrittenSample {
+            sample: row.sample.clone(),
+            point_id: row.point_id.clone(),
+            unit_id: row.unit_id.clone(),
+            scene: row.scene.clone(),
+            depth_step: row.depth_step,
+            repeat: row.repeat,
+            phase: row.phase,
+            t_s: row.t_s,
+            truth: truth
+                .filter_map(|(channel, value)| Some((channel.name().to_owned(), (*value)?)))
+                .collect(),
+            frame: row
+                .frame
+                .as_ref()
+                .zip(info)
+                .map(|(entry, info)| WrittenFrame {
+                    path: entry.path.clone(),
+                    sha256: entry.digest,
+                    info,
+                }),
+        }
+    }
+
+    pub(super) fn to_toml(&self) -> String {
+        to_toml(self)
+    }
+
+    pub(super) fn parse(payload: &[u8]) -> Result<WrittenSample, String> {
+        from_toml(payload)
+    }
+
+    pub(super) fn into_row(self, channels: &Channels) -> Result<(Row, Option<FrameInfo>), String> {
+        let stranger = self
+            .truth
+            .keys()
+            .find(|name| channels.position(name).is_none());
+        if let Some(name) = stranger {
+            return Err(format!("`{name}` is no channel of this recording"));
+        }
+        if self
+            .truth
+            .values()
+            .chain(&self.t_s)
+            .any(|number| !number.is_finite())
+        {
+            return Err("a number that is not finite".to_owned());
+        }
+        if let Some(frame) = &self.frame {
+            check_relative(&frame.path)?;
+        }
+        let info = self.frame.as_ref().map(|frame| frame.info);
+        let row = Row {
+            sample: self.sample,
+            point_id: self.point_id,
+            unit_id: self.unit_id,
+            scene: self.scene,
+            depth_step: self.depth_step,
+            repeat: self.repeat,
+            phase: self.phase,
+            part: None,
+            t_s: self.t_s,
+            truth: channels
+                .iter()
+                .map(|channel| self.truth.get(channel.name()).copied())
+                .collect(),
+            attributes: Vec::new(),
+            frame: self.frame.map(|frame| FrameEntry {
+                path: frame.path,
+                digest: frame.sha256,
+            }),
+        };
+        Ok((row, info))
+    }
+}
+
+fn to_toml(value: &impl Serialize) -> String {
+    toml::to_string(value).expect("text, numbers and tables of them can be written as TOML")
+}
+
+fn from_toml<T: for<'de> Deserialize<'de>>(payload: &[u8]) -> Result<T, String> {
+    let text = std::str::from_utf8(payload).map_err(|_| "not UTF-8".to_owned())?;
+    toml::from_str(text).map_err(|error| error.message().to_owned())
+}
