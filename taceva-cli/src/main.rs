@@ -1,2 +1,93 @@
-//! To be written.
-fn main() {}
+//! `taceva`: how well does a vision-based tactile sensor measure?
+//!
+//! Arguments in, renderings out. What a command does lives in `taceva-study` and `taceva-dataset`, so that another program
+//! can do it too.
+
+mod args;
+mod cmd;
+mod exit;
+mod output;
+mod progress;
+mod report;
+
+use std::process::ExitCode;
+
+use anyhow::Error;
+use clap::Parser;
+use taceva_core::{ErrorKind, ModelError};
+use taceva_dataset::DatasetError;
+use taceva_study::StudyError;
+
+use args::{Cli, Command};
+use cmd::Context;
+
+fn main() -> ExitCode {
+    let cli = Cli::parse();
+    progress::listen_for_signals();
+    let context = Context::new(&cli.everywhere);
+    let done = match &cli.command {
+        Command::Import(args) => cmd::import::run(args, &context),
+        Command::Check(args) => cmd::check::run(args, &context),
+        Command::Fit(args) => cmd::fit::run(args, &context),
+        Command::Evaluate(args) => cmd::evaluate::run(args, &context),
+        Command::Predict(args) => cmd::predict::run(args, &context),
+        Command::Score(args) => cmd::score::run(args, &context),
+        Command::Completions(args) => cmd::completions::run(args),
+    };
+    let code = done.unwrap_or_else(|error| {
+        complain(&error);
+        code_of(&error)
+    });
+    ExitCode::from(code)
+}
+
+/// One line: what could not be done, on what, and why.
+#[expect(clippy::print_stderr, reason = "errors are for standard error")]
+fn complain(error: &Error) {
+    let text = format!("{error:#}");
+    let shown: String = text.chars().flat_map(visible).collect();
+    eprintln!("taceva: {shown}");
+}
+
+/// Control characters of foreign text must not reach the terminal.
+fn visible(letter: char) -> Vec<char> {
+    match letter {
+        '\n' | '\t' => vec![letter],
+        _ if letter.is_control() => letter.escape_unicode().collect(),
+        _ => vec![letter],
+    }
+}
+
+/// The exit code that a script may rely on.
+fn code_of(error: &Error) -> u8 {
+    if progress::is_stopped() {
+        return exit::STOPPED;
+    }
+    for cause in error.chain() {
+        if let Some(usage) = cause.downcast_ref::<cmd::Usage>() {
+            return usage.code();
+        }
+        if let Some(study) = cause.downcast_ref::<StudyError>() {
+            return if study.is_usage() {
+                exit::USAGE
+            } else {
+                code_of_kind(study.kind())
+            };
+        }
+        if let Some(dataset) = cause.downcast_ref::<DatasetError>() {
+            return code_of_kind(dataset.kind());
+        }
+        if let Some(model) = cause.downcast_ref::<ModelError>() {
+            return code_of_kind(model.kind());
+        }
+    }
+    exit::BAD_INPUT
+}
+
+fn code_of_kind(kind: ErrorKind) -> u8 {
+    match kind {
+        ErrorKind::Interrupted => exit::STOPPED,
+        ErrorKind::Internal => exit::BUG,
+        _ => exit::BAD_INPUT,
+    }
+}

@@ -1,6 +1,7 @@
 //! Samples as columns: what metrics eat.
 
 use std::collections::HashMap;
+use std::ops::Range;
 
 use crate::channel::Channels;
 use crate::field::{Field, FieldSet};
@@ -129,6 +130,21 @@ impl Column {
     /// Which rows have a value; `None` if all have.
     pub fn present(&self) -> Option<&[bool]> {
         self.present.as_deref()
+    }
+
+    /// The rows of `range` as a column of their own.
+    ///
+    /// # Panics
+    /// If the range reaches beyond the last row.
+    pub fn slice(&self, range: Range<usize>) -> Column {
+        let present = self
+            .present
+            .as_ref()
+            .map(|present| present[range.clone()].to_vec());
+        Column {
+            values: self.values[range].to_vec(),
+            present,
+        }
     }
 
     /// Number of rows.

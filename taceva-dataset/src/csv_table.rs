@@ -10,6 +10,7 @@ use std::path::{Path, PathBuf};
 
 use taceva_core::Column;
 
+use crate::digest::Digest;
 use crate::error::{DatasetError, Place};
 use crate::file::read_capped;
 use crate::limits;
@@ -84,6 +85,11 @@ impl CsvTable {
     /// The file it was read from.
     pub fn path(&self) -> &Path {
         &self.path
+    }
+
+    /// The digest of its text.
+    pub fn digest(&self) -> Digest {
+        Digest::of(self.text.as_bytes())
     }
 
     /// The names of the columns.

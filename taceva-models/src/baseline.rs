@@ -18,6 +18,7 @@ impl Baseline {
         name: "baseline",
         about: "predicts the mean of the training part: the line every model must beat",
         settings: &[],
+        reads_features: false,
         make: |settings| Ok(Box::new(Baseline::from_settings(settings)?)),
     };
 

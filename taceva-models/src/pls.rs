@@ -15,7 +15,7 @@ use crate::settings::{SettingError, SettingInfo, Settings, number};
 
 /// Partial least squares of all channels at once.
 ///
-/// Each channel gets its own number of directions: the one of least squared error on the validation part; without one, on
+/// Each channel gets its own number of directions (none is the mean): the one of least squared error on the validation part; without one, on
 /// the groups of the training part left out one after the other, or on ten runs of neighbouring samples (neighbours in
 /// time look alike, so samples are not left out singly).
 ///
@@ -23,11 +23,13 @@ use crate::settings::{SettingError, SettingInfo, Settings, number};
 /// S. de Jong, Chemometr. Intell. Lab. Syst. 18 (1993) 251 (SIMPLS).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Pls {
+    scale: FeatureScale,
     components: Option<usize>,
     most: usize,
     refit: bool,
 }
 
+const SCALE: SettingInfo = FeatureScale::SETTING;
 const COMPONENTS: SettingInfo = SettingInfo {
     key: "components",
     accepts: "a number from 1 to 1000",
@@ -37,7 +39,7 @@ const COMPONENTS: SettingInfo = SettingInfo {
 const MOST: SettingInfo = SettingInfo {
     key: "most",
     accepts: "a number from 1 to 1000",
-    default: "40",
+    default: "60",
     about: "how many directions are tried at most where their number is chosen",
 };
 const REFIT: SettingInfo = SettingInfo {
@@ -53,8 +55,9 @@ const FOLDS: usize = 10;
 impl Default for Pls {
     fn default() -> Pls {
         Pls {
+            scale: FeatureScale::default(),
             components: None,
-            most: 40,
+            most: 60,
             refit: true,
         }
     }
@@ -65,7 +68,8 @@ impl Pls {
     pub const INFO: ModelInfo = ModelInfo {
         name: "pls",
         about: "partial least squares: few directions, each the one that goes best with the labels",
-        settings: &[COMPONENTS, MOST, REFIT],
+        settings: &[SCALE, COMPONENTS, MOST, REFIT],
+        reads_features: true,
         make: |settings| Ok(Box::new(Pls::from_settings(settings)?)),
     };
 
@@ -77,6 +81,7 @@ impl Pls {
         settings.check_keys(Pls::INFO.settings)?;
         let default = Pls::default();
         Ok(Pls {
+            scale: settings.value(&SCALE, default.scale, FeatureScale::from_name)?,
             components: settings.value(&COMPONENTS, default.components, |text| {
                 number(text, 1..=1000).map(Some)
             })?,
@@ -85,7 +90,7 @@ impl Pls {
         })
     }
 
-    /// Errors of 1, 2 … directions, most directions first: of equals the last is the plainest.
+    /// Errors of each number of directions, most first and none last: of equals the last is the plainest.
     fn choose(
         &self,
         problem: &Problem<'_>,
@@ -106,7 +111,7 @@ impl Pls {
                     Some(groups) => (ChosenBy::LeaveOneGroupOut, groups),
                     None => (ChosenBy::TenFolds, folds(problem.centred.nrows())),
                 };
-                let squares = left_out(problem, &groups, directions.count(), progress)?;
+                let squares = left_out(problem, design, &groups, directions.count(), progress)?;
                 Ok((by, Some(mean(squares, problem.centred.nrows()))))
             }
         }
@@ -124,12 +129,13 @@ fn folds(samples: usize) -> Vec<Vec<usize>> {
 /// The summed squares of each channel for every number of directions, each group predicted by a fit that never saw it.
 fn left_out(
     problem: &Problem<'_>,
+    whole: &Design<'_>,
     groups: &[Vec<usize>],
     count: usize,
     progress: &dyn Progress,
 ) -> Result<Errors, ModelError> {
     let channels = problem.channels();
-    let mut total = vec![vec![0.0; channels]; count];
+    let mut total = vec![vec![0.0; channels]; count + 1];
     for group in groups {
         let mut inside = vec![false; problem.centred.nrows()];
         group.iter().for_each(|&row| inside[row] = true);
@@ -140,7 +146,7 @@ fn left_out(
             })
         };
         let features = problem.training.features.select(&others);
-        let design = Design::new(&features, FeatureScale::None);
+        let design = whole.recentred(&features);
         let (shift, targets) = centred(rows(&others));
         let directions = Directions::find(&design, &targets, count, progress)?;
         let held = problem.training.features.select(group);
@@ -148,9 +154,9 @@ fn left_out(
             problem.centred[(group[row], channel)] - shift[channel]
         });
         let squares = squares_on(&directions, &design.of(&held), &labels);
-        for (step, sums) in total.iter_mut().enumerate() {
-            // Fewer directions than elsewhere: the last fit stands for the larger ones.
-            let own = &squares[squares.len() - 1 - step.min(squares.len() - 1)];
+        for (used, sums) in total.iter_mut().enumerate() {
+            // Where fewer directions were found than elsewhere, all of them stand for more.
+            let own = &squares[directions.count() - used.min(directions.count())];
             sums.iter_mut().zip(own).for_each(|(sum, own)| *sum += own);
         }
     }
@@ -158,33 +164,32 @@ fn left_out(
     Ok(total)
 }
 
-/// The summed squares of each channel, most directions first.
+/// The summed squares of each channel, most directions first and none at all last.
 fn squares_on(directions: &Directions, design: &Design<'_>, labels: &Mat<f64>) -> Errors {
     let scores = design.times(directions.weights());
     let mut residuals = labels.clone();
-    let mut squares: Errors = (0..directions.count())
-        .map(|step| {
-            for channel in 0..labels.ncols() {
-                let loading = directions.loading(step, channel);
-                residuals
-                    .col_as_slice_mut(channel)
-                    .iter_mut()
-                    .zip(scores.col_as_slice(step))
-                    .for_each(|(residual, score)| *residual -= score * loading);
-            }
-            (0..labels.ncols())
-                .map(|channel| {
-                    residuals
-                        .col_as_slice(channel)
-                        .iter()
-                        .map(|value| value * value)
-                        .sum()
-                })
-                .collect()
-        })
-        .collect();
+    let mut squares = vec![squares_of(&residuals)];
+    for direction in 0..directions.count() {
+        for channel in 0..labels.ncols() {
+            let loading = directions.loading(direction, channel);
+            residuals
+                .col_as_slice_mut(channel)
+                .iter_mut()
+                .zip(scores.col_as_slice(direction))
+                .for_each(|(residual, score)| *residual -= score * loading);
+        }
+        squares.push(squares_of(&residuals));
+    }
     squares.reverse();
     squares
+}
+
+fn squares_of(residuals: &Mat<f64>) -> Vec<f64> {
+    let square = |channel| -> f64 {
+        let residuals = residuals.col_as_slice(channel).iter();
+        residuals.map(|value| value * value).sum()
+    };
+    (0..residuals.ncols()).map(square).collect()
 }
 
 fn mean(mut squares: Errors, samples: usize) -> Errors {
@@ -204,7 +209,7 @@ impl LinearEstimator for Pls {
     ) -> Result<LinearFit, ModelError> {
         let problem = Problem::new(*training)?;
         let validation = problem.validation(validation)?;
-        let design = Design::new(training.features, FeatureScale::None);
+        let design = Design::new(training.features, self.scale);
         let wanted = self.components.unwrap_or(self.most);
         let directions = Directions::find(&design, &problem.centred, wanted, progress)?;
         let found = directions.count();
@@ -217,13 +222,12 @@ impl LinearEstimator for Pls {
         )?;
         let counts: Vec<usize> = (0..problem.channels())
             .map(|channel| match (&errors, self.components) {
-                (Some(errors), None) if found > 0 => found - least(errors, channel),
+                (Some(errors), None) => found - least(errors, channel),
                 _ => found,
             })
             .collect();
         let choices = counts.iter().enumerate().map(|(channel, &count)| {
-            let errors = errors.as_ref().filter(|_| count > 0);
-            let error = errors.map(|errors| errors[found - count][channel]);
+            let error = errors.as_ref().map(|errors| errors[found - count][channel]);
             ChannelChoice {
                 value: Some(count as f64),
                 rmse: error.and_then(|error| rmse(error, problem.scaling.span()[channel])),

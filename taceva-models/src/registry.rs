@@ -15,6 +15,8 @@ pub struct ModelInfo {
     pub about: &'static str,
     /// What can be set.
     pub settings: &'static [SettingInfo],
+    /// Whether its predictions depend on what is seen; if not, no frame need be decoded for it.
+    pub reads_features: bool,
     pub(crate) make: fn(&Settings) -> Result<Box<dyn LinearEstimator>, SettingError>,
 }
 

@@ -30,12 +30,7 @@ pub struct Ridge {
     refit: bool,
 }
 
-const SCALE: SettingInfo = SettingInfo {
-    key: "scale",
-    accepts: "none or unit",
-    default: "none",
-    about: "whether each feature is divided by its standard deviation over the training part",
-};
+const SCALE: SettingInfo = FeatureScale::SETTING;
 const STRENGTH: SettingInfo = SettingInfo {
     key: "strength",
     accepts: "a number from 1e-12 to 1e12",
@@ -52,7 +47,7 @@ const REFIT: SettingInfo = SettingInfo {
 impl Default for Ridge {
     fn default() -> Ridge {
         Ridge {
-            scale: FeatureScale::None,
+            scale: FeatureScale::default(),
             strength: None,
             refit: true,
         }
@@ -65,6 +60,7 @@ impl Ridge {
         name: "ridge",
         about: "least squares with a penalty on large weights; fast, and hard to beat on few recordings",
         settings: &[SCALE, STRENGTH, REFIT],
+        reads_features: true,
         make: |settings| Ok(Box::new(Ridge::from_settings(settings)?)),
     };
 
@@ -76,11 +72,7 @@ impl Ridge {
         settings.check_keys(Ridge::INFO.settings)?;
         let default = Ridge::default();
         Ok(Ridge {
-            scale: settings.value(&SCALE, default.scale, |text| match text {
-                "none" => Some(FeatureScale::None),
-                "unit" => Some(FeatureScale::Unit),
-                _ => None,
-            })?,
+            scale: settings.value(&SCALE, default.scale, FeatureScale::from_name)?,
             strength: settings.value(&STRENGTH, default.strength, |text| {
                 number(text, 1e-12..=1e12).map(Some)
             })?,

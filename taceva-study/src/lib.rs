@@ -1,1 +1,27 @@
-//! To be written.
+#![doc = include_str!("../README.md")]
+
+pub mod check;
+mod error;
+mod evaluate;
+mod features;
+mod fit;
+mod plan;
+mod predict;
+mod provenance;
+mod report;
+mod rows;
+mod score;
+mod subject;
+mod tally;
+
+pub use check::{CheckReport, CheckRequest, Finding, Severity, check, check_plan};
+pub use error::StudyError;
+pub use evaluate::{EvaluateRequest, Evaluated, ModelChoice, evaluate, evaluate_plan};
+pub use fit::{FitRequest, Fitted, fit};
+pub use plan::{Plan, Step};
+pub use predict::{Predicted, predict};
+pub use provenance::{ModelProvenance, Provenance};
+pub use report::{EVALUATION_SCHEMA, EvaluationReport};
+pub use rows::{Divided, Part};
+pub use score::{ScoreRequest, Scoring};
+pub use subject::Subject;

@@ -1,0 +1,51 @@
+"""Compares our scores with scikit-learn's on our own predictions.
+
+usage: python3 benches/peers/check_scores.py DATASET MODEL
+
+`taceva predict` writes the predictions and the truth, scikit-learn scores them, and MAE and R² of `taceva score` and of
+`taceva evaluate` must agree to 1e-12 relative. Exit code 1 if one does not.
+"""
+import pathlib
+import sys
+import tempfile
+
+from common import evaluation, need, run
+
+TOLERANCE = 1e-12
+
+
+def main(dataset, model):
+    need("pandas", "sklearn")
+    import pandas
+    from sklearn.metrics import mean_absolute_error, r2_score
+
+    with tempfile.TemporaryDirectory() as folder:
+        truth_csv, pred_csv = pathlib.Path(folder, "truth.csv"), pathlib.Path(folder, "pred.csv")
+        run("predict", dataset, "--with", model, "--out", pred_csv, "--truth-out", truth_csv, "--quiet")
+        scored = evaluation("score", "--truth", truth_csv, "--pred", pred_csv)["metrics"]
+        evaluated = evaluation("evaluate", dataset, "--with", model)["metrics"]
+        truth = pandas.read_csv(truth_csv, float_precision="round_trip", dtype={"id": str, "point_id": str})
+        pred = pandas.read_csv(pred_csv, float_precision="round_trip", dtype={"id": str})
+
+    assert list(truth["id"]) == list(pred["id"]), "the two tables hold the same samples"
+    channels = [name for name in pred.columns if name in scored["mae"]]
+    assert channels, "there is something to compare"
+    worst = 0.0
+    for channel in channels:
+        both = truth[channel].notna() & pred[channel].notna()
+        y, yhat = truth[channel][both], pred[channel][both]
+        for metric, theirs in (("mae", mean_absolute_error(y, yhat)), ("r2", r2_score(y, yhat))):
+            for source, ours in (("score", scored), ("evaluate", evaluated)):
+                value = ours[metric][channel]["value"]
+                difference = abs(value - theirs) / max(abs(theirs), 1e-300)
+                worst = max(worst, difference)
+                verdict = "ok" if difference <= TOLERANCE else "DIFFERS"
+                print(f"{metric:4} {channel:12} {source:8} ours {value!r:24} scikit-learn {float(theirs)!r:24} {difference:.1e} {verdict}")
+    print(f"{len(channels)} channels, {len(y)} samples, worst relative difference {worst:.1e}")
+    return 0 if worst <= TOLERANCE else 1
+
+
+if __name__ == "__main__":
+    if len(sys.argv) != 3:
+        sys.exit(__doc__)
+    sys.exit(main(*sys.argv[1:]))

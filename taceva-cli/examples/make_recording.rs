@@ -1,0 +1,236 @@
+//! Draws a small recording to try TacEva on: 400 pictures of a marker gel, 100 contact points pressed at four depths.
+//!
+//! ```text
+//! cargo run --release --example make_recording -- demo
+//! cargo run --release -- evaluate demo --model ridge
+//! ```
+//!
+//! Nothing here was measured. The labels follow closed forms (below), the pictures are drawn from the labels, and the dataset says
+//! `source = "synthetic"`, which every report repeats.
+
+use std::path::Path;
+
+use taceva_core::{
+    Channel, Channels, Clock, Frame, FrameInfo, PixelFormat, Readings, Sample, Stamp,
+};
+use taceva_dataset::{
+    Footprint, Known, Recorder, RecordingFacts, RecordingSpec, SensorFacts, Shape, Source,
+};
+
+const SIZE: u32 = 96;
+const POINTS: u32 = 100;
+const DEPTHS: u32 = 4;
+/// Of the gel that is pressed, mm; the picture shows a little more.
+const RADIUS_MM: f64 = 5.0;
+const PIXELS_A_MM: f64 = 6.4;
+const SEED: u64 = 20_260_101;
+
+/// One press in closed form.
+struct Press {
+    x_mm: f64,
+    y_mm: f64,
+    depth_mm: f64,
+    shear_x_mm: f64,
+    shear_y_mm: f64,
+}
+
+impl Press {
+    /// Points lie on a sunflower spiral; depth and shear are drawn by their place in the protocol, so any press can be made alone.
+    fn planned(point: u32, step: u32) -> Press {
+        let golden_angle = std::f64::consts::PI * (3.0 - 5.0_f64.sqrt());
+        let radius = RADIUS_MM * (f64::from(point) + 0.5).sqrt() / f64::from(POINTS).sqrt();
+        let angle = golden_angle * f64::from(point);
+        let draw = |purpose| unit_draw(SEED, point, step, purpose);
+        let (shear, direction) = (0.5 * draw(1).sqrt(), std::f64::consts::TAU * draw(2));
+        Press {
+            x_mm: radius * angle.cos(),
+            y_mm: radius * angle.sin(),
+            depth_mm: 0.15 + 0.3 * (f64::from(step) + draw(0)),
+            shear_x_mm: shear * direction.cos(),
+            shear_y_mm: shear * direction.sin(),
+        }
+    }
+
+    /// Hertz for a sphere: F ∝ δ^1.5; shear stiffness grows with the contact radius, ∝ δ^0.5.
+    fn forces_newton(&self) -> [f64; 3] {
+        let stiffness = 1.2 * self.depth_mm.sqrt();
+        [
+            stiffness * self.shear_x_mm,
+            stiffness * self.shear_y_mm,
+            1.3 * self.depth_mm.powf(1.5),
+        ]
+    }
+
+    /// Where a marker at rest in `(x, y)` is seen: dragged along by the shear, pushed outward by the indentation.
+    fn displaced(&self, x: f64, y: f64) -> (f64, f64) {
+        let (from_x, from_y) = (x - self.x_mm, y - self.y_mm);
+        let near = (-(from_x * from_x + from_y * from_y) / (2.0 * 1.6 * 1.6)).exp();
+        let outward = 0.35 * self.depth_mm * near;
+        (
+            x + self.shear_x_mm * near + outward * from_x,
+            y + self.shear_y_mm * near + outward * from_y,
+        )
+    }
+
+    /// Light lost to the dent.
+    fn shade(&self, x: f64, y: f64) -> f64 {
+        let (from_x, from_y) = (x - self.x_mm, y - self.y_mm);
+        28.0 * self.depth_mm * (-(from_x * from_x + from_y * from_y) / (2.0 * 1.1 * 1.1)).exp()
+    }
+
+    fn draw(&self, point: u32, step: u32) -> Frame {
+        let side = SIZE as usize;
+        let place = |pixel: usize| (to_f64(pixel) - to_f64(side - 1) / 2.0) / PIXELS_A_MM;
+        let mut light: Vec<f64> = (0..side * side)
+            .map(|pixel| {
+                let (x, y) = (place(pixel % side), place(pixel / side));
+                90.0 - 0.35 * (x * x + y * y) - self.shade(x, y)
+            })
+            .collect();
+        for marker_y in -7..=7_i32 {
+            for marker_x in -7..=7_i32 {
+                let (x, y) = self.displaced(f64::from(marker_x), f64::from(marker_y));
+                add_marker(&mut light, side, x, y);
+            }
+        }
+        let noise = |pixel: usize| {
+            2.0 * (unit_draw(SEED ^ 1, point * DEPTHS + step, to_u32(pixel), 3) - 0.5)
+        };
+        let bytes = light
+            .iter()
+            .enumerate()
+            .map(|(pixel, light)| to_byte(light + noise(pixel)))
+            .collect();
+        let info = FrameInfo {
+            width: SIZE,
+            height: SIZE,
+            format: PixelFormat::Gray8,
+        };
+        Frame::new(info, bytes).expect("a byte for each pixel")
+    }
+}
+
+/// A white pin of 0.25 mm, blurred, drawn where it touches pixels.
+fn add_marker(light: &mut [f64], side: usize, x_mm: f64, y_mm: f64) {
+    let middle = to_f64(side - 1) / 2.0;
+    let (x, y) = (x_mm * PIXELS_A_MM + middle, y_mm * PIXELS_A_MM + middle);
+    for row in 0..side {
+        for column in 0..side {
+            let (from_x, from_y) = (to_f64(column) - x, to_f64(row) - y);
+            let squared = from_x * from_x + from_y * from_y;
+            if squared < 25.0 {
+                light[row * side + column] += 120.0 * (-squared / (2.0 * 1.6 * 1.6)).exp();
+            }
+        }
+    }
+}
+
+/// A number in [0, 1) that depends on its place alone.
+fn unit_draw(seed: u64, point: u32, step: u32, purpose: u32) -> f64 {
+    let place = [point, step, purpose]
+        .into_iter()
+        .fold(seed, |mixed, number| mix(mixed ^ u64::from(number)));
+    f64::from(u32::try_from(place >> 32).unwrap_or_default()) / 4_294_967_296.0
+}
+
+/// The finaliser of splitmix64.
+fn mix(state: u64) -> u64 {
+    let state = state.wrapping_add(0x9E37_79B9_7F4A_7C15);
+    let state = (state ^ state >> 30).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+    let state = (state ^ state >> 27).wrapping_mul(0x94D0_49BB_1331_11EB);
+    state ^ state >> 31
+}
+
+fn record(path: &Path) -> Result<(), Box<dyn std::error::Error>> {
+    let spec = RecordingSpec {
+        facts: RecordingFacts {
+            source: Source::Synthetic,
+            clock: Clock::Monotonic,
+            sensor: SensorFacts {
+                model: "drawn marker gel".to_owned(),
+                serial: "none".to_owned(),
+                gel: "none".to_owned(),
+                opaque: Known::Is(true),
+            },
+            footprint: Some(Footprint {
+                shape: Shape::Disc,
+                radius_mm: Some(RADIUS_MM),
+                half_x_mm: None,
+                half_y_mm: None,
+                depth_max_mm: Some(1.5),
+            }),
+        },
+        channels: Channels::new(Channel::SIX)?,
+    };
+    let mut recorder = Recorder::create(path, &spec)?;
+    let untouched = Press {
+        x_mm: 0.0,
+        y_mm: 0.0,
+        depth_mm: 0.0,
+        shear_x_mm: 0.0,
+        shear_y_mm: 0.0,
+    };
+    recorder.append_reference(&untouched.draw(POINTS, 0))?;
+    for point in 0..POINTS {
+        for step in 0..DEPTHS {
+            let press = Press::planned(point, step);
+            let [fx, fy, fz] = press.forces_newton();
+            recorder.append(&Sample {
+                id: format!("{point:03}-{step}"),
+                point_id: Some(format!("{point:03}")),
+                depth_step: Some(step),
+                stamp: Some(Stamp {
+                    valid_s: 2.5 * f64::from(point * DEPTHS + step),
+                    received_s: None,
+                }),
+                frame: Some(press.draw(point, step)),
+                truth: Readings::from_values([press.x_mm, press.y_mm, press.depth_mm, fx, fy, fz]),
+                ..Sample::default()
+            })?;
+        }
+    }
+    recorder.close()?;
+    Ok(())
+}
+
+#[expect(
+    clippy::print_stdout,
+    clippy::print_stderr,
+    reason = "a program of its own"
+)]
+fn main() -> std::process::ExitCode {
+    let Some(path) = std::env::args_os().nth(1) else {
+        eprintln!("usage: make_recording FOLDER");
+        return std::process::ExitCode::from(2);
+    };
+    let path = Path::new(&path);
+    match record(path) {
+        Ok(()) => {
+            let (shown, samples) = (path.display(), POINTS * DEPTHS);
+            println!("{shown}: {samples} drawn pictures with closed-form labels (synthetic)");
+            println!("next: cargo run --release -- evaluate {shown} --model ridge");
+            std::process::ExitCode::SUCCESS
+        }
+        Err(error) => {
+            eprintln!("make_recording: {error}");
+            std::process::ExitCode::from(3)
+        }
+    }
+}
+
+fn to_f64(number: usize) -> f64 {
+    f64::from(to_u32(number))
+}
+
+fn to_u32(number: usize) -> u32 {
+    u32::try_from(number).expect("a place in a small picture")
+}
+
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "rounded and clamped to a byte first"
+)]
+fn to_byte(light: f64) -> u8 {
+    light.round().clamp(0.0, 255.0) as u8
+}

@@ -1,0 +1,317 @@
+//! What was typed. Meaning is given to it in `cmd/`; nothing here has a side effect.
+
+use std::path::PathBuf;
+
+use clap::{Args, Parser, Subcommand, ValueEnum};
+
+const AFTER_HELP: &str = "\
+Start here:
+  taceva import FOLDER --map MAP.toml --to DATASET     a lab's folder becomes a dataset
+  taceva evaluate DATASET --model ridge                how well does the sensor measure?
+
+Exit codes:
+  0 done   1 done, but a check failed   2 usage   3 bad input   5 stopped by a signal   70 a bug of ours";
+
+/// How well does a vision-based tactile sensor measure?
+#[derive(Debug, Parser)]
+#[command(name = "taceva", version, after_help = AFTER_HELP, max_term_width = 110)]
+pub(crate) struct Cli {
+    #[command(subcommand)]
+    pub(crate) command: Command,
+    #[command(flatten)]
+    pub(crate) everywhere: Everywhere,
+}
+
+/// What every command understands.
+#[derive(Debug, Args)]
+pub(crate) struct Everywhere {
+    /// Worker threads; the result does not depend on it [default: all cores]
+    #[arg(long, global = true, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    pub(crate) jobs: Option<u16>,
+    /// Print results and errors only
+    #[arg(long, short, global = true)]
+    pub(crate) quiet: bool,
+    /// Say more on standard error
+    #[arg(long, short, global = true, action = clap::ArgAction::Count)]
+    pub(crate) verbose: u8,
+}
+
+#[derive(Debug, Subcommand)]
+pub(crate) enum Command {
+    /// Turn a lab's folder of pictures and labels into a dataset
+    Import(Import),
+    /// Look for what spoils a recording, before any number is computed
+    Check(Check),
+    /// Fit a model on the training part of a dataset and write it to a file
+    Fit(Fit),
+    /// Fit or take a model, and say how well it measures on data it has not seen
+    Evaluate(Evaluate),
+    /// Write a model's predictions as a table
+    Predict(Predict),
+    /// Score someone else's predictions: no pictures, no model
+    Score(Score),
+    /// Print a script that completes taceva's arguments in a shell
+    Completions(Completions),
+}
+
+/// The map says, in TOML, which column is which channel, in which unit, and where the pictures are.
+#[derive(Debug, Args)]
+pub(crate) struct Import {
+    /// The folder that holds the table and the pictures
+    pub(crate) source: PathBuf,
+    /// The map; see the documentation of taceva-dataset for its keys
+    #[arg(
+        long,
+        value_name = "MAP.toml",
+        conflicts_with = "preset",
+        required_unless_present = "preset"
+    )]
+    pub(crate) map: Option<PathBuf>,
+    /// A layout that is known already: bristol, py3dcal
+    #[arg(long, value_name = "NAME")]
+    pub(crate) preset: Option<String>,
+    /// The dataset to write: a new folder
+    #[arg(long, value_name = "DATASET", required_unless_present = "explain")]
+    pub(crate) to: Option<PathBuf>,
+    /// Say what would be read, converted and dropped, and stop
+    #[arg(long)]
+    pub(crate) explain: bool,
+    /// Replace a dataset that stands there already
+    #[arg(long)]
+    pub(crate) force: bool,
+}
+
+/// Every finding has a stable code and a hint. Exit code 1 if there is an error among them.
+#[derive(Debug, Args)]
+pub(crate) struct Check {
+    /// The dataset to look at
+    pub(crate) dataset: PathBuf,
+    /// Look for these codes only, separated by commas
+    #[arg(long, value_name = "CODES", value_delimiter = ',')]
+    pub(crate) only: Vec<String>,
+    #[command(flatten)]
+    pub(crate) split: SplitArgs,
+    /// Say what is looked for, and stop
+    #[arg(long)]
+    pub(crate) explain: bool,
+    #[command(flatten)]
+    pub(crate) output: Output,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct Fit {
+    /// The dataset to learn from
+    pub(crate) dataset: PathBuf,
+    #[command(flatten)]
+    pub(crate) model: ModelArgs,
+    #[command(flatten)]
+    pub(crate) split: SplitArgs,
+    /// The model file to write
+    #[arg(long, value_name = "MODEL")]
+    pub(crate) out: PathBuf,
+    /// Write the ids of the training, validation and test samples as JSON
+    #[arg(long, value_name = "SPLIT.json")]
+    pub(crate) split_out: Option<PathBuf>,
+    /// Replace a file that stands there already
+    #[arg(long)]
+    pub(crate) force: bool,
+}
+
+/// With --model, the model is fitted on the training part, its settings are chosen on the validation part, and the test
+/// part is scored. With --with, a fitted model is used: on its own dataset only the part it has not seen is scored.
+#[derive(Debug, Args)]
+pub(crate) struct Evaluate {
+    /// The dataset to evaluate
+    pub(crate) dataset: PathBuf,
+    /// A fitted model file
+    #[arg(
+        long,
+        value_name = "MODEL",
+        conflicts_with = "name",
+        required_unless_present = "name"
+    )]
+    pub(crate) with: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) model: OptionalModelArgs,
+    #[command(flatten)]
+    pub(crate) split: SplitArgs,
+    /// Which samples to score [default: test, or all if the model was fitted on another dataset]
+    #[arg(long, value_enum)]
+    pub(crate) part: Option<PartArg>,
+    /// Metrics, separated by commas: ids, or the groups accuracy and all
+    #[arg(
+        long,
+        value_name = "METRICS",
+        value_delimiter = ',',
+        default_value = "all"
+    )]
+    pub(crate) metrics: Vec<String>,
+    /// Say what would be read, decoded, fitted and skipped, and stop
+    #[arg(long)]
+    pub(crate) explain: bool,
+    /// Write the ids of the training, validation and test samples as JSON
+    #[arg(long, value_name = "SPLIT.json")]
+    pub(crate) split_out: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) output: Output,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct Predict {
+    /// The dataset to predict
+    pub(crate) dataset: PathBuf,
+    /// A fitted model file
+    #[arg(long, value_name = "MODEL")]
+    pub(crate) with: PathBuf,
+    /// Which samples to predict [default: test, or all if the model was fitted on another dataset]
+    #[arg(long, value_enum)]
+    pub(crate) part: Option<PartArg>,
+    /// The table of predictions to write; `score --pred` reads it
+    #[arg(long, value_name = "PRED.csv")]
+    pub(crate) out: PathBuf,
+    /// Also write what is true of the same samples; `score --truth` reads it
+    #[arg(long, value_name = "TRUTH.csv")]
+    pub(crate) truth_out: Option<PathBuf>,
+    /// Replace files that stand there already
+    #[arg(long)]
+    pub(crate) force: bool,
+}
+
+/// Both tables have a header with channel names; rows are matched by `id` where both have one, else by order.
+#[derive(Debug, Args)]
+pub(crate) struct Score {
+    /// What is true: a table with columns Px,Py,Pz [mm], Fx,Fy,Fz [N] or named others
+    #[arg(long, value_name = "TRUTH.csv")]
+    pub(crate) truth: PathBuf,
+    /// What was predicted: a table with the same channels
+    #[arg(long, value_name = "PRED.csv")]
+    pub(crate) pred: PathBuf,
+    /// Units of channels beside the six, as NAME=UNIT, separated by commas [default: 1]
+    #[arg(long, value_name = "NAME=UNIT", value_delimiter = ',')]
+    pub(crate) units: Vec<String>,
+    /// Metrics, separated by commas: ids, or the groups accuracy and all
+    #[arg(
+        long,
+        value_name = "METRICS",
+        value_delimiter = ',',
+        default_value = "all"
+    )]
+    pub(crate) metrics: Vec<String>,
+    /// Count NaN and infinite cells as n_invalid instead of refusing the file
+    #[arg(long)]
+    pub(crate) allow_invalid: bool,
+    /// Say what would be read and computed, and stop
+    #[arg(long)]
+    pub(crate) explain: bool,
+    #[command(flatten)]
+    pub(crate) output: Output,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct Completions {
+    /// The shell
+    pub(crate) shell: clap_complete::Shell,
+}
+
+/// A model to fit, and its settings.
+#[derive(Debug, Args)]
+pub(crate) struct ModelArgs {
+    /// The model: baseline, ridge, pls
+    #[arg(long = "model", value_name = "NAME")]
+    pub(crate) name: String,
+    #[command(flatten)]
+    pub(crate) settings: SettingArgs,
+}
+
+/// As [`ModelArgs`], where a fitted model may stand instead.
+#[derive(Debug, Args)]
+pub(crate) struct OptionalModelArgs {
+    /// The model to fit: baseline, ridge, pls
+    #[arg(long = "model", value_name = "NAME")]
+    pub(crate) name: Option<String>,
+    #[command(flatten)]
+    pub(crate) settings: SettingArgs,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct SettingArgs {
+    /// A setting of the features or of the model, such as size=32x32, color=gray, strength=0.1; may be repeated
+    #[arg(long = "set", value_name = "KEY=VALUE")]
+    pub(crate) set: Vec<String>,
+    /// Channels to predict, separated by commas [default: all]
+    #[arg(long, value_name = "CHANNELS", value_delimiter = ',')]
+    pub(crate) channels: Vec<String>,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct SplitArgs {
+    /// How samples are divided: random, chronological, by-point, declared, or
+    /// by-column:NAME[=train:1,2;val:3;test:4] [default: by-point where points have repeats, else random]
+    #[arg(long, value_name = "SPLIT")]
+    pub(crate) split: Option<String>,
+    /// The seed of everything that is drawn
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    pub(crate) seed: u64,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct Output {
+    /// The form of the result
+    #[arg(long, value_enum, default_value_t = Format::Text)]
+    pub(crate) format: Format,
+    /// Write the result to a file instead of standard output
+    #[arg(long = "out", value_name = "PATH")]
+    pub(crate) path: Option<PathBuf>,
+    /// Replace a file that stands there already
+    #[arg(long)]
+    pub(crate) force: bool,
+}
+
+/// The form of a result.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Format {
+    /// For people
+    Text,
+    /// For programs: schema taceva.evaluation/1
+    Json,
+    /// One row a score
+    Csv,
+    /// A Markdown table
+    Md,
+    /// A LaTeX table (booktabs)
+    Tex,
+}
+
+/// The part of a dataset.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum PartArg {
+    /// What the model was fitted on
+    Train,
+    /// What its settings were chosen on
+    Validation,
+    /// What it has not seen
+    Test,
+    /// Every sample
+    All,
+}
+
+#[cfg(test)]
+mod tests {
+    use clap::CommandFactory;
+
+    use super::*;
+
+    #[test]
+    fn the_arguments_are_consistent() {
+        Cli::command().debug_assert();
+    }
+
+    #[test]
+    fn evaluate_needs_a_model_or_a_name_but_not_both() {
+        let parse = |words: &str| Cli::try_parse_from(words.split(' '));
+        assert!(parse("taceva evaluate d").is_err());
+        assert!(parse("taceva evaluate d --model ridge").is_ok());
+        assert!(parse("taceva evaluate d --with m").is_ok());
+        assert!(parse("taceva evaluate d --with m --model ridge").is_err());
+    }
+}

@@ -1,0 +1,119 @@
+//! One file a command: resolve what was typed, call, render.
+
+pub(crate) mod check;
+pub(crate) mod completions;
+pub(crate) mod evaluate;
+pub(crate) mod fit;
+pub(crate) mod import;
+pub(crate) mod predict;
+pub(crate) mod score;
+
+use std::num::NonZeroUsize;
+use std::path::Path;
+
+use taceva_dataset::Dataset;
+use taceva_models::Settings;
+use taceva_study::{FitRequest, Part, Plan, StudyError};
+
+use crate::args::{Everywhere, PartArg, SettingArgs, SplitArgs};
+use crate::exit;
+use crate::progress::Terminal;
+
+/// What every command works with.
+pub(crate) struct Context {
+    pub(crate) progress: Terminal,
+    pub(crate) jobs: NonZeroUsize,
+    quiet: bool,
+    verbose: bool,
+}
+
+impl Context {
+    pub(crate) fn new(everywhere: &Everywhere) -> Context {
+        let all_cores = || std::thread::available_parallelism().unwrap_or(NonZeroUsize::MIN);
+        let asked = everywhere
+            .jobs
+            .and_then(|jobs| NonZeroUsize::new(usize::from(jobs)));
+        Context {
+            progress: Terminal::new(everywhere.quiet),
+            jobs: asked.unwrap_or_else(all_cores),
+            quiet: everywhere.quiet,
+            verbose: everywhere.verbose > 0,
+        }
+    }
+
+    /// A line on standard error, for people.
+    #[expect(clippy::print_stderr, reason = "notes are for standard error")]
+    pub(crate) fn note(&self, line: &str) {
+        if !self.quiet {
+            eprintln!("taceva: {line}");
+        }
+    }
+
+    /// With `-v`, says what is going to be done.
+    #[expect(
+        clippy::print_stderr,
+        reason = "plans that were not asked for are for standard error"
+    )]
+    pub(crate) fn tell(
+        &self,
+        plan: impl FnOnce() -> Result<Plan, StudyError>,
+    ) -> anyhow::Result<()> {
+        if self.verbose {
+            eprint!("{}", plan()?);
+        }
+        Ok(())
+    }
+}
+
+/// Arguments that parse and cannot be meant.
+#[derive(Debug)]
+pub(crate) struct Usage(String);
+
+impl Usage {
+    pub(crate) fn error(message: impl Into<String>) -> anyhow::Error {
+        anyhow::Error::new(Usage(message.into()))
+    }
+
+    pub(crate) fn code(&self) -> u8 {
+        exit::USAGE
+    }
+}
+
+impl std::fmt::Display for Usage {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(&self.0)
+    }
+}
+
+impl std::error::Error for Usage {}
+
+pub(crate) fn open(path: &Path) -> anyhow::Result<Dataset> {
+    Ok(Dataset::open(path)?)
+}
+
+/// The fit that was asked for.
+pub(crate) fn fit_request(
+    name: &str,
+    settings: &SettingArgs,
+    split: &SplitArgs,
+) -> anyhow::Result<FitRequest> {
+    let words = settings.set.iter().map(String::as_str);
+    Ok(FitRequest {
+        model: name.to_owned(),
+        settings: Settings::parse(words).map_err(StudyError::from)?,
+        channels: settings.channels.clone(),
+        split: split.split.clone(),
+        seed: split.seed,
+    })
+}
+
+impl From<PartArg> for Part {
+    fn from(part: PartArg) -> Part {
+        match part {
+            PartArg::Train => Part::Train,
+            PartArg::Validation => Part::Validation,
+            PartArg::Test => Part::Test,
+            PartArg::All => Part::All,
+        }
+    }
+}

@@ -1,0 +1,54 @@
+//! `taceva evaluate`.
+
+use taceva_models::Model;
+use taceva_study::{EvaluateRequest, ModelChoice, Part, evaluate, evaluate_plan};
+
+use super::{Context, Usage, fit_request, open};
+use crate::args::Evaluate;
+use crate::{exit, output, report};
+
+pub(crate) fn run(args: &Evaluate, context: &Context) -> anyhow::Result<u8> {
+    for path in args.output.path.iter().chain(&args.split_out) {
+        output::check_free(path, args.output.force)?;
+    }
+    let model = match (&args.with, &args.model.name) {
+        (Some(path), _) => ModelChoice::Fitted(Box::new(Model::open(path)?)),
+        (None, Some(name)) => {
+            ModelChoice::Fit(fit_request(name, &args.model.settings, &args.split)?)
+        }
+        (None, None) => {
+            return Err(Usage::error(
+                "either --model NAME or --with MODEL is needed",
+            ));
+        }
+    };
+    if args.with.is_some() && args.split.split.is_some() {
+        return Err(Usage::error(
+            "--split cannot be used with --with: a fitted model knows its own split",
+        ));
+    }
+    let dataset = open(&args.dataset)?;
+    let request = EvaluateRequest {
+        model,
+        metrics: args.metrics.clone(),
+        part: args.part.map(Part::from),
+        jobs: context.jobs,
+    };
+    if args.explain {
+        let plan = evaluate_plan(&dataset, &request)?;
+        output::write(None, |out| write!(out, "{plan}"))?;
+        return Ok(exit::DONE);
+    }
+    context.tell(|| evaluate_plan(&dataset, &request))?;
+    let evaluated = evaluate(&dataset, &request, &context.progress)?;
+    output::write(args.output.path.as_deref(), |out| {
+        report::evaluation(&evaluated.report, args.output.format, out)
+    })?;
+    if let (Some(path), Some(manifest)) = (&args.split_out, &evaluated.manifest) {
+        output::write(Some(path), |out| {
+            serde_json::to_writer_pretty(&mut *out, manifest)?;
+            writeln!(out)
+        })?;
+    }
+    Ok(exit::DONE)
+}

@@ -1,0 +1,34 @@
+//! `taceva predict`.
+
+use taceva_models::Model;
+use taceva_study::{Part, predict};
+
+use super::{Context, open};
+use crate::args::Predict;
+use crate::{exit, output};
+
+pub(crate) fn run(args: &Predict, context: &Context) -> anyhow::Result<u8> {
+    output::check_free(&args.out, args.force)?;
+    for path in args.truth_out.iter() {
+        output::check_free(path, args.force)?;
+    }
+    let dataset = open(&args.dataset)?;
+    let model = Model::open(&args.with)?;
+    let predicted = predict(
+        &dataset,
+        &model,
+        args.part.map(Part::from),
+        context.jobs,
+        &context.progress,
+    )?;
+    output::write(Some(&args.out), |out| predicted.write_predictions(out))?;
+    if let Some(path) = &args.truth_out {
+        output::write(Some(path), |out| predicted.write_truth(out))?;
+    }
+    context.note(&format!(
+        "{} predictions of the part `{}`",
+        predicted.rows(),
+        predicted.part()
+    ));
+    Ok(exit::DONE)
+}

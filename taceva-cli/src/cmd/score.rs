@@ -1,0 +1,58 @@
+//! `taceva score`.
+
+use anyhow::Context as _;
+use taceva_core::{SourceUnit, Unit};
+use taceva_study::{ScoreRequest, Scoring};
+
+use super::{Context, Usage};
+use crate::args::Score;
+use crate::{exit, output, report};
+
+pub(crate) fn run(args: &Score, context: &Context) -> anyhow::Result<u8> {
+    if let Some(path) = args.output.path.as_deref() {
+        output::check_free(path, args.output.force)?;
+    }
+    let request = ScoreRequest {
+        truth: args.truth.clone(),
+        prediction: args.pred.clone(),
+        units: args
+            .units
+            .iter()
+            .map(|word| unit(word))
+            .collect::<anyhow::Result<_>>()?,
+        metrics: args.metrics.clone(),
+        allow_invalid: args.allow_invalid,
+        jobs: context.jobs,
+    };
+    let scoring = Scoring::read(request)?;
+    if args.explain {
+        output::write(None, |out| write!(out, "{}", scoring.plan()))?;
+        return Ok(exit::DONE);
+    }
+    context.tell(|| Ok(scoring.plan()))?;
+    let finished = scoring.run(&context.progress)?;
+    output::write(args.output.path.as_deref(), |out| {
+        report::evaluation(&finished, args.output.format, out)
+    })?;
+    Ok(exit::DONE)
+}
+
+/// `NAME=UNIT`: a unit that values are kept in, since tables of scores are not converted.
+fn unit(word: &str) -> anyhow::Result<(String, Unit)> {
+    let (name, symbol) = word
+        .split_once('=')
+        .with_context(|| format!("`{word}`: expected NAME=UNIT"))
+        .map_err(|error| Usage::error(error.to_string()))?;
+    let unit = Unit::from_symbol(symbol).ok_or_else(|| {
+        let kept: Vec<&str> = Unit::ALL.iter().map(|unit| unit.symbol()).collect();
+        let hint = match SourceUnit::parse(symbol) {
+            Ok(source) => format!("; convert {symbol} to {} first", source.unit()),
+            Err(_) => String::new(),
+        };
+        Usage::error(format!(
+            "`{word}`: expected a unit among {}{hint}",
+            kept.join(", ")
+        ))
+    })?;
+    Ok((name.to_owned(), unit))
+}

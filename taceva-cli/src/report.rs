@@ -1,0 +1,46 @@
+//! How results look. Each file is one form: a pure function of a finished report.
+
+mod check;
+mod csv;
+mod grid;
+mod json;
+mod latex;
+mod markdown;
+mod number;
+mod text;
+
+use std::io::{self, Write};
+
+use taceva_study::{CheckReport, EvaluationReport};
+
+use crate::args::Format;
+
+/// Writes an evaluation in the form asked for.
+pub(crate) fn evaluation(
+    report: &EvaluationReport,
+    format: Format,
+    out: &mut dyn Write,
+) -> io::Result<()> {
+    match format {
+        Format::Text => text::write(report, out),
+        Format::Json => json::write(report, out),
+        Format::Csv => csv::write(report, out),
+        Format::Md => markdown::write(report, out),
+        Format::Tex => latex::write(report, out),
+    }
+}
+
+/// Writes findings in the form asked for.
+pub(crate) fn findings(
+    report: &CheckReport,
+    format: Format,
+    out: &mut dyn Write,
+) -> io::Result<()> {
+    match format {
+        Format::Text => check::text(report, out),
+        Format::Json => json::write(report, out),
+        Format::Csv => check::csv(report, out),
+        Format::Md => check::markdown(report, out),
+        Format::Tex => check::latex(report, out),
+    }
+}

@@ -1,0 +1,100 @@
+//! Scores laid out as papers print them: a row a metric, a column a channel.
+
+use taceva_study::EvaluationReport;
+
+use super::number::Printed;
+
+/// Scores by metric and channel.
+pub(super) struct Grid {
+    /// The channels and groups, in the order of their first score.
+    pub(super) channels: Vec<String>,
+    /// Metric by metric, a cell a channel.
+    pub(super) rows: Vec<(&'static str, Vec<Option<Cell>>)>,
+}
+
+/// One score as printed.
+pub(super) struct Cell {
+    /// The number, or why there is none.
+    pub(super) value: String,
+    /// The ends of its interval.
+    pub(super) interval: Option<[String; 2]>,
+    /// Its unit; empty if it has none.
+    pub(super) unit: String,
+}
+
+impl Grid {
+    pub(super) fn of(report: &EvaluationReport) -> Grid {
+        let mut grid = Grid {
+            channels: Vec::new(),
+            rows: Vec::new(),
+        };
+        for (_, channel, _) in report.evaluation.scores() {
+            if !grid.channels.iter().any(|known| known == channel) {
+                grid.channels.push(channel.to_owned());
+            }
+        }
+        for (metric, channel, score) in report.evaluation.scores() {
+            if grid.rows.last().is_none_or(|(last, _)| *last != metric.id) {
+                let empty = grid.channels.iter().map(|_| None).collect();
+                grid.rows.push((metric.id, empty));
+            }
+            let printed = Printed::of(score);
+            let has_value = !printed.value.is_empty();
+            let cell = Cell {
+                value: if has_value {
+                    printed.value
+                } else {
+                    printed.reason.unwrap_or_default()
+                },
+                interval: printed.interval,
+                unit: if has_value && score.unit.symbol() != "1" {
+                    score.unit.to_string()
+                } else {
+                    String::new()
+                },
+            };
+            let column = grid.channels.iter().position(|known| known == channel);
+            if let (Some((_, cells)), Some(column)) = (grid.rows.last_mut(), column) {
+                cells[column] = Some(cell);
+            }
+        }
+        grid
+    }
+}
+
+/// What a reader of the table must know.
+pub(super) fn caption(report: &EvaluationReport) -> String {
+    let subject = &report.subject;
+    let n = report
+        .evaluation
+        .scores()
+        .map(|(_, _, score)| score.n)
+        .max()
+        .unwrap_or(0);
+    let methods: std::collections::BTreeSet<String> = report
+        .evaluation
+        .scores()
+        .filter_map(|(_, _, score)| score.interval.method())
+        .collect();
+    let intervals = match methods.len() {
+        0 => "no intervals".to_owned(),
+        _ => format!(
+            "95 % intervals: {}",
+            methods.into_iter().collect::<Vec<_>>().join("; ")
+        ),
+    };
+    let model = report
+        .provenance
+        .model
+        .as_ref()
+        .map_or_else(String::new, |model| format!(" Model: {}.", model.name));
+    let split = report
+        .provenance
+        .split
+        .as_ref()
+        .map_or_else(String::new, |split| format!(" Split: {split}."));
+    format!(
+        "{} ({} samples), n = {n}.{model}{split} {intervals}. TacEva {}.",
+        subject.sensor, subject.source, report.provenance.taceva
+    )
+}

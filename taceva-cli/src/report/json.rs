@@ -1,0 +1,10 @@
+//! JSON, with one line a value and every number in its shortest round-trip form.
+
+use std::io::{self, Write};
+
+use serde::Serialize;
+
+pub(super) fn write(report: &impl Serialize, out: &mut dyn Write) -> io::Result<()> {
+    serde_json::to_writer_pretty(&mut *out, report)?;
+    writeln!(out)
+}

@@ -1,0 +1,73 @@
+//! Numbers as people read them: as many digits as their interval supports.
+
+use taceva_metrics::{Interval, Score, Value};
+
+/// The value of a score and the ends of its interval, to the digit that the interval supports.
+pub(super) struct Printed {
+    /// The value; empty if there is none.
+    pub(super) value: String,
+    /// `[low, high]`; empty if there is none.
+    pub(super) interval: Option<[String; 2]>,
+    /// Why there is no value, or no interval.
+    pub(super) reason: Option<String>,
+}
+
+impl Printed {
+    pub(super) fn of(score: &Score) -> Printed {
+        let Value::Scalar(value) = score.value else {
+            return Printed {
+                value: String::new(),
+                interval: None,
+                reason: Some(reason(&score.value)),
+            };
+        };
+        let ends = score.interval.ends();
+        let decimals = ends.map_or_else(
+            || decimals(value / 1e3),
+            |[low, high]| decimals((high - low) / 20.0),
+        );
+        let print = |number: f64| format!("{number:.decimals$}");
+        Printed {
+            value: print(value),
+            interval: ends.map(|ends| ends.map(print)),
+            reason: no_interval(&score.interval),
+        }
+    }
+}
+
+/// Why there is no interval, in words.
+pub(super) fn no_interval(interval: &Interval) -> Option<String> {
+    match interval {
+        Interval::Undefined(reason) => Some(format!("none: {reason}")),
+        _ => None,
+    }
+}
+
+/// Why there is no value, in words.
+pub(super) fn reason(value: &Value) -> String {
+    match value {
+        Value::Undefined(reason) => format!("undefined: {reason}"),
+        Value::NotApplicable(reason) => format!("not applicable: {reason}"),
+        _ => String::new(),
+    }
+}
+
+/// Decimals that show a step of `step`, from 0 to 12.
+fn decimals(step: f64) -> usize {
+    (0..12)
+        .find(|&decimals| 10_f64.powi(-decimals) <= step.abs())
+        .map_or(12, |decimals| decimals.unsigned_abs() as usize)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_step_is_shown_with_the_decimals_it_needs() {
+        assert_eq!(
+            [20.0, 1.0, 0.5, 0.1, 0.0004, 0.0].map(decimals),
+            [0, 0, 1, 1, 4, 12]
+        );
+    }
+}

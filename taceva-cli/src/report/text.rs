@@ -1,0 +1,163 @@
+//! For people: what it is about, the scores, what was left out, and where it all comes from.
+
+use std::io::{self, Write};
+
+use taceva_study::EvaluationReport;
+
+use super::number::Printed;
+
+pub(super) fn write(report: &EvaluationReport, out: &mut dyn Write) -> io::Result<()> {
+    heading(report, out)?;
+    let rows: Vec<[String; 6]> = report
+        .evaluation
+        .scores()
+        .map(|(metric, channel, score)| {
+            let printed = Printed::of(score);
+            let interval = printed
+                .interval
+                .map(|[low, high]| format!("{low} … {high}"));
+            let n = match score.n_invalid {
+                0 => score.n.to_string(),
+                invalid => format!("{} (+{invalid} invalid)", score.n),
+            };
+            [
+                metric.id.to_owned(),
+                channel.to_owned(),
+                if printed.value.is_empty() {
+                    "–".to_owned()
+                } else {
+                    printed.value
+                },
+                unit(score.unit.symbol()),
+                interval.or(printed.reason).unwrap_or_default(),
+                n,
+            ]
+        })
+        .collect();
+    table(
+        ["metric", "channel", "value", "unit", "95 % interval", "n"],
+        &rows,
+        out,
+    )?;
+    footer(report, out)
+}
+
+fn heading(report: &EvaluationReport, out: &mut dyn Write) -> io::Result<()> {
+    let subject = &report.subject;
+    let provenance = &report.provenance;
+    if subject.source == "unknown" {
+        writeln!(out, "Scores of two tables")?;
+    } else {
+        writeln!(
+            out,
+            "{}   serial {}   gel {}   {}",
+            subject.sensor, subject.serial, subject.gel, subject.source
+        )?;
+    }
+    if subject.source == "synthetic" || subject.source == "simulated" {
+        writeln!(
+            out,
+            "Nothing here was measured: the samples are {}.",
+            subject.source
+        )?;
+    }
+    if let Some(model) = &provenance.model {
+        let settings: Vec<String> = model
+            .settings
+            .iter()
+            .map(|(key, value)| format!("{key}={value}"))
+            .collect();
+        writeln!(out, "model {}   {}", model.name, settings.join(" "))?;
+    }
+    if let Some(split) = &provenance.split {
+        let parts: Vec<String> = provenance
+            .samples
+            .iter()
+            .map(|(part, count)| format!("{part} {count}"))
+            .collect();
+        let seed = provenance
+            .seed
+            .map_or_else(String::new, |seed| format!(", seed {seed}"));
+        writeln!(out, "split {split}{seed}: {}", parts.join(", "))?;
+    }
+    if let Some(part) = &provenance.part {
+        writeln!(out, "scored on the part `{part}`")?;
+    }
+    writeln!(out)
+}
+
+fn footer(report: &EvaluationReport, out: &mut dyn Write) -> io::Result<()> {
+    let methods: std::collections::BTreeSet<String> = report
+        .evaluation
+        .scores()
+        .filter_map(|(_, _, score)| score.interval.method())
+        .collect();
+    writeln!(out)?;
+    for method in methods {
+        writeln!(out, "intervals  {method}")?;
+    }
+    for skipped in report.evaluation.skipped() {
+        writeln!(out, "skipped    {}: {}", skipped.what, skipped.reason)?;
+    }
+    for note in &report.provenance.notes {
+        writeln!(out, "note       {note}")?;
+    }
+    if let Some(dataset) = &report.provenance.dataset {
+        writeln!(out, "dataset    {dataset}")?;
+    }
+    if let Some(model) = &report.provenance.model {
+        writeln!(out, "model      {}", model.digest)?;
+    }
+    for (role, digest) in &report.provenance.tables {
+        writeln!(out, "{role:<10} {digest}")?;
+    }
+    writeln!(
+        out,
+        "frames     {} decoded",
+        report.provenance.frames_decoded
+    )
+}
+
+fn unit(symbol: &str) -> String {
+    if symbol == "1" {
+        String::new()
+    } else {
+        symbol.to_owned()
+    }
+}
+
+/// Columns as wide as their longest cell; numbers to the right.
+pub(super) fn table<const N: usize>(
+    head: [&str; N],
+    rows: &[[String; N]],
+    out: &mut dyn Write,
+) -> io::Result<()> {
+    let width = |column: usize| {
+        let cells = rows.iter().map(|row| row[column].chars().count());
+        cells
+            .chain([head[column].chars().count()])
+            .max()
+            .unwrap_or(0)
+    };
+    let widths: [usize; N] = std::array::from_fn(width);
+    let is_number = |cell: &str| cell.parse::<f64>().is_ok();
+    let head = head.map(str::to_owned);
+    for (position, row) in std::iter::once(&head).chain(rows).enumerate() {
+        let cells: Vec<String> = row
+            .iter()
+            .enumerate()
+            .map(|(column, cell)| {
+                let width = widths[column];
+                let to_the_right = is_number(cell)
+                    || (position == 0 && rows.iter().any(|row| is_number(&row[column])));
+                if to_the_right {
+                    format!("{cell:>width$}")
+                } else {
+                    format!("{cell:<width$}")
+                }
+            })
+            .collect();
+        writeln!(out, "{}", cells.join("  ").trim_end())?;
+    }
+    Ok(())
+}

@@ -1,0 +1,39 @@
+//! Looks for what spoils a recording, before any number is computed from it.
+//!
+//! One file a check under `check/`; each is a pure function of the [`Evidence`] and has a stable code.
+
+mod channel_order;
+mod clusters;
+mod duplicate_frames;
+mod evidence;
+mod facts;
+mod finding;
+mod leakage;
+mod missing_labels;
+mod placeholder;
+mod pressed_reference;
+mod run;
+mod saturation;
+mod stuck_channel;
+mod timing;
+mod units;
+
+pub use evidence::{Evidence, FrameFacts};
+pub use finding::{Check, CheckReport, Finding, Severity};
+pub use run::{CheckRequest, check, check_plan};
+
+/// Every check, in the order of its code.
+pub static ALL: [&Check; 12] = [
+    &units::CHECK,
+    &duplicate_frames::CHECK,
+    &channel_order::CHECK,
+    &saturation::CHECK,
+    &placeholder::CHECK,
+    &pressed_reference::CHECK,
+    &leakage::CHECK,
+    &timing::CHECK,
+    &stuck_channel::CHECK,
+    &clusters::CHECK,
+    &missing_labels::CHECK,
+    &facts::CHECK,
+];

@@ -1,0 +1,180 @@
+//! Gathers the evidence, lets every check look at it, and reports.
+
+use std::num::NonZeroUsize;
+
+use taceva_core::{Field, Progress, SkipReason, Skipped};
+use taceva_dataset::{Dataset, Pass};
+
+use super::ALL;
+use super::evidence::{Evidence, FrameFacts};
+use super::finding::{Check, CheckReport, Finding};
+use crate::error::StudyError;
+use crate::plan::Plan;
+use crate::rows::Divided;
+
+/// What to look for.
+#[derive(Clone, Debug)]
+pub struct CheckRequest {
+    /// Codes or names of checks; empty for all.
+    pub only: Vec<String>,
+    /// The split that is looked at for leakage, as people write it.
+    pub split: Option<String>,
+    /// Its seed.
+    pub seed: u64,
+    /// Threads.
+    pub jobs: NonZeroUsize,
+}
+
+/// Says what [`check`] would look for; reads no frame.
+///
+/// # Errors
+/// [`StudyError::Request`] for a code that does not exist.
+pub fn check_plan(dataset: &Dataset, request: &CheckRequest) -> Result<Plan, StudyError> {
+    let (wanted, skipped) = wanted(dataset, &request.only)?;
+    let mut plan = Plan {
+        skipped,
+        ..Plan::default()
+    };
+    plan.step(
+        "read",
+        format!(
+            "{} rows of {}",
+            dataset.table().rows(),
+            dataset.path().display()
+        ),
+    );
+    if wanted.iter().any(|check| check.reads_frames) {
+        plan.step(
+            "decode",
+            format!(
+                "{} frames",
+                dataset.table().frames().iter().flatten().count()
+            ),
+        );
+    }
+    for check in wanted {
+        plan.step(
+            "look",
+            format!("{} {}: {}", check.code, check.name, check.looks_for),
+        );
+    }
+    Ok(plan)
+}
+
+/// Looks for what spoils `dataset`.
+///
+/// # Errors
+/// [`StudyError`] if a code does not exist, the split cannot be made, or a frame is damaged.
+pub fn check(
+    dataset: &Dataset,
+    request: &CheckRequest,
+    progress: &dyn Progress,
+) -> Result<CheckReport, StudyError> {
+    let (wanted, skipped) = wanted(dataset, &request.only)?;
+    let divided = match (&request.split, dataset.table().rows()) {
+        (None, 0..3) => None,
+        (split, _) => Some(Divided::new(
+            dataset.table(),
+            split.as_deref(),
+            request.seed,
+        )?),
+    };
+    let reads_frames = wanted.iter().any(|check| check.reads_frames);
+    let (frames, reference) = if reads_frames {
+        look(dataset, request.jobs, progress)?
+    } else {
+        Default::default()
+    };
+    let evidence = Evidence {
+        header: dataset.header(),
+        table: dataset.table(),
+        split: divided.as_ref().map(|divided| &divided.split),
+        frames: &frames,
+        reference: reference.as_ref(),
+    };
+    let mut findings: Vec<Finding> = wanted
+        .iter()
+        .flat_map(|check| {
+            (check.find)(&evidence)
+                .into_iter()
+                .map(|found| Finding::new(check, found))
+        })
+        .collect();
+    // Stable, so that findings of one severity stay in the order of their codes.
+    findings.sort_by_key(|finding| std::cmp::Reverse(finding.severity));
+    Ok(CheckReport {
+        schema: "taceva.check/1",
+        dataset: format!("sha256:{}", dataset.digest()),
+        samples: dataset.table().rows(),
+        frames_decoded: frames.iter().flatten().count() as u64,
+        looked_for: wanted.iter().map(|check| check.code).collect(),
+        findings,
+        skipped,
+    })
+}
+
+type Wanted = (Vec<&'static Check>, Vec<Skipped>);
+
+fn wanted(dataset: &Dataset, only: &[String]) -> Result<Wanted, StudyError> {
+    let is_called =
+        |check: &Check, word: &str| check.code.eq_ignore_ascii_case(word) || check.name == word;
+    if let Some(unknown) = only
+        .iter()
+        .find(|word| !ALL.iter().any(|check| is_called(check, word)))
+    {
+        let known: Vec<&str> = ALL.iter().map(|check| check.code).collect();
+        return Err(StudyError::Request(format!(
+            "`{unknown}`: no such check, expected one of {}",
+            known.join(", ")
+        )));
+    }
+    let has_frames = dataset.table().fields().contains(Field::Frame);
+    let mut skipped = Vec::new();
+    let mut skip = |check: &Check, reason| {
+        skipped.push(Skipped {
+            what: format!("check:{}", check.code),
+            reason,
+        })
+    };
+    let mut kept = Vec::new();
+    for check in ALL {
+        if !only.is_empty() && !only.iter().any(|word| is_called(check, word)) {
+            continue;
+        }
+        if check.reads_frames && !has_frames {
+            skip(check, SkipReason::FieldAbsent(Field::Frame));
+        } else {
+            kept.push(check);
+        }
+    }
+    Ok((kept, skipped))
+}
+
+type Looked = (Vec<Option<FrameFacts>>, Option<FrameFacts>);
+
+fn look(
+    dataset: &Dataset,
+    jobs: NonZeroUsize,
+    progress: &dyn Progress,
+) -> Result<Looked, StudyError> {
+    let reference = dataset.reference()?;
+    let framed = |row: &usize| dataset.table().frames()[*row].is_some();
+    let rows: Vec<usize> = dataset.all_rows().into_iter().filter(framed).collect();
+    let mut facts = vec![None; dataset.table().rows()];
+    dataset.map_frames(
+        Pass {
+            rows: &rows,
+            jobs,
+            progress,
+        },
+        |_, frame| FrameFacts::of(&frame, reference.as_ref()),
+        |row, found| {
+            facts[row] = Some(found);
+            Ok(())
+        },
+    )?;
+    Ok((
+        facts,
+        reference.map(|reference| FrameFacts::of(&reference, None)),
+    ))
+}

@@ -1,0 +1,83 @@
+//! Why a study cannot be run.
+
+use std::path::PathBuf;
+
+use taceva_core::{ErrorKind, ModelError};
+use taceva_dataset::DatasetError;
+use taceva_metrics::{MetricError, UnknownMetric};
+use taceva_models::{FeatureError, FormatError, SettingError, SplitError, UnknownModel};
+
+/// Why a study cannot be run.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum StudyError {
+    /// The dataset or a table cannot be read as it should.
+    #[error(transparent)]
+    Dataset(#[from] DatasetError),
+    /// The model cannot be fitted, read or used.
+    #[error(transparent)]
+    Model(#[from] ModelError),
+    /// A model that does not exist.
+    #[error(transparent)]
+    UnknownModel(#[from] UnknownModel),
+    /// Features that cannot be taken from these frames.
+    #[error(transparent)]
+    Features(#[from] FeatureError),
+    /// A model that cannot be written down.
+    #[error(transparent)]
+    ModelFormat(#[from] FormatError),
+    /// A model that does not suit the dataset.
+    #[error("the model does not suit the dataset: {0}")]
+    Unsuited(String),
+    /// A setting that no model or feature has.
+    #[error(transparent)]
+    Setting(#[from] SettingError),
+    /// Samples cannot be divided as asked.
+    #[error(transparent)]
+    Split(#[from] SplitError),
+    /// A metric that does not exist.
+    #[error(transparent)]
+    Metric(#[from] UnknownMetric),
+    /// Samples that a metric cannot take.
+    #[error("cannot score: {0}")]
+    Scores(#[from] MetricError),
+    /// Two tables that do not belong together.
+    #[error("{}: {problem}", path.display())]
+    Tables {
+        /// The table that does not fit the other.
+        path: PathBuf,
+        /// What does not fit, and what was expected.
+        problem: String,
+    },
+    /// Something was asked for that the dataset or the model does not have.
+    #[error("{0}")]
+    Request(String),
+}
+
+impl StudyError {
+    /// What kind of failure it was, by the closed list that every part shares.
+    pub fn kind(&self) -> ErrorKind {
+        match self {
+            StudyError::Dataset(error) => error.kind(),
+            StudyError::Model(error) => error.kind(),
+            StudyError::Tables { .. } | StudyError::Scores(_) => ErrorKind::Protocol,
+            _ => ErrorKind::InvalidArgument,
+        }
+    }
+
+    /// Whether what was typed is at fault, rather than what was read.
+    pub fn is_usage(&self) -> bool {
+        matches!(
+            self,
+            StudyError::Setting(_)
+                | StudyError::Metric(_)
+                | StudyError::UnknownModel(_)
+                | StudyError::Request(_)
+                | StudyError::Split(
+                    SplitError::Kind { .. }
+                        | SplitError::Assignment { .. }
+                        | SplitError::Twice { .. }
+                )
+        )
+    }
+}

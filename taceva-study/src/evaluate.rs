@@ -1,0 +1,226 @@
+//! From a dataset to scores, step by step: divide, fit, predict, score.
+
+use std::num::NonZeroUsize;
+
+use taceva_core::{Channels, Field, FieldSet, Progress, SkipReason, Skipped};
+use taceva_dataset::Dataset;
+use taceva_metrics::{MetricPlan, catalogue};
+use taceva_models::{Model, SplitManifest};
+
+use crate::error::StudyError;
+use crate::features::Work;
+use crate::fit::{FitPlan, FitRequest};
+use crate::plan::Plan;
+use crate::predict::{self, Predicted, Target, reads_frames};
+use crate::provenance::{ModelProvenance, Provenance};
+use crate::report::EvaluationReport;
+use crate::rows::{Divided, Part};
+use crate::subject::Subject;
+use crate::tally::Columns;
+
+/// What to evaluate.
+#[derive(Debug)]
+pub struct EvaluateRequest {
+    /// The model, fitted or to be fitted.
+    pub model: ModelChoice,
+    /// Metrics and groups by name.
+    pub metrics: Vec<String>,
+    /// The part that is scored; what the model has not seen, if `None`.
+    pub part: Option<Part>,
+    /// Threads.
+    pub jobs: NonZeroUsize,
+}
+
+/// Where the model comes from.
+#[derive(Debug)]
+pub enum ModelChoice {
+    /// Fitted on the training part first.
+    Fit(FitRequest),
+    /// Fitted before.
+    Fitted(Box<Model>),
+}
+
+/// A finished evaluation.
+#[derive(Debug)]
+pub struct Evaluated {
+    /// The scores and where they come from.
+    pub report: EvaluationReport,
+    /// How the dataset was divided, if it was.
+    pub manifest: Option<SplitManifest>,
+}
+
+/// Says what [`evaluate`] would do; reads no frame.
+///
+/// # Errors
+/// [`StudyError`] if the request cannot be meant.
+pub fn evaluate_plan(dataset: &Dataset, request: &EvaluateRequest) -> Result<Plan, StudyError> {
+    let mut plan = Plan::default();
+    let rows = dataset.table().rows();
+    plan.step(
+        "read",
+        format!("{rows} rows of {}", dataset.path().display()),
+    );
+    let (target, channels, reads_frames) = match &request.model {
+        ModelChoice::Fit(fit) => {
+            let fit = FitPlan::new(dataset, fit)?;
+            plan.step("divide", divided_as(&fit.divided));
+            fit.explain(&mut plan);
+            let (channels, reads_frames) = (fit.channels.clone(), fit.reads_frames());
+            (
+                Target::of(dataset, Some(fit.divided), request.part, reads_frames)?,
+                channels,
+                reads_frames,
+            )
+        }
+        ModelChoice::Fitted(model) => {
+            plan.skipped.push(Skipped {
+                what: "stage:fit".to_owned(),
+                reason: SkipReason::AlreadyThere,
+            });
+            (
+                Target::new(dataset, model, request.part)?,
+                model.channels().clone(),
+                reads_frames(model),
+            )
+        }
+    };
+    let count = target.rows.len();
+    if reads_frames {
+        plan.step(
+            "decode",
+            format!("{count} frames of the part `{}`", target.part.name()),
+        );
+    } else {
+        plan.skipped.push(Skipped {
+            what: "field:frame".to_owned(),
+            reason: SkipReason::NothingReadsIt,
+        });
+    }
+    let metrics = metrics(dataset, &channels, &request.metrics)?;
+    let ids: Vec<&str> = metrics.kept().iter().map(|metric| metric.id).collect();
+    plan.step("predict", format!("{count} samples"));
+    plan.step("score", ids.join(", "));
+    plan.skipped.extend(metrics.skipped().iter().cloned());
+    Ok(plan)
+}
+
+/// Evaluates `dataset`: fits the model if that was asked for, predicts what it has not seen, and scores.
+///
+/// # Errors
+/// [`StudyError`] if the request cannot be meant, the model does not fit the dataset, or the dataset cannot be read.
+pub fn evaluate(
+    dataset: &Dataset,
+    request: &EvaluateRequest,
+    progress: &dyn Progress,
+) -> Result<Evaluated, StudyError> {
+    let work = Work {
+        jobs: request.jobs,
+        progress,
+    };
+    match &request.model {
+        ModelChoice::Fit(fit) => {
+            // Asked before the work: an unknown metric must not cost a fit.
+            catalogue::select(request.metrics.iter().map(String::as_str))?;
+            let fitted = FitPlan::new(dataset, fit)?.run(work)?;
+            let model = &fitted.model;
+            let target = Target::of(
+                dataset,
+                Some(fitted.divided),
+                request.part,
+                reads_frames(model),
+            )?;
+            let predicted = predict::run(dataset, model, &target, work)?;
+            let mut report = score(dataset, request, model, &target, &predicted)?;
+            report.provenance.frames_decoded += fitted.frames_decoded;
+            report
+                .provenance
+                .notes
+                .extend(left_out_note("training and validation", fitted.left_out));
+            Ok(Evaluated {
+                report,
+                manifest: Some(fitted.manifest),
+            })
+        }
+        ModelChoice::Fitted(model) => {
+            let target = Target::new(dataset, model, request.part)?;
+            let predicted = predict::run(dataset, model, &target, work)?;
+            let report = score(dataset, request, model, &target, &predicted)?;
+            let manifest = target
+                .divided
+                .map(|divided| divided.manifest(dataset.table()))
+                .transpose()?;
+            Ok(Evaluated { report, manifest })
+        }
+    }
+}
+
+fn metrics(
+    dataset: &Dataset,
+    channels: &Channels,
+    wanted: &[String],
+) -> Result<MetricPlan, StudyError> {
+    let wanted = catalogue::select(wanted.iter().map(String::as_str))?;
+    let available: FieldSet = dataset.table().fields().with(Field::Prediction);
+    Ok(MetricPlan::new(&wanted, channels.clone(), available))
+}
+
+fn score(
+    dataset: &Dataset,
+    request: &EvaluateRequest,
+    model: &Model,
+    target: &Target,
+    predicted: &Predicted,
+) -> Result<EvaluationReport, StudyError> {
+    let plan = metrics(dataset, predicted.channels(), &request.metrics)?;
+    let points: Option<Vec<&str>> = predicted
+        .points()
+        .map(|points| points.iter().map(String::as_str).collect());
+    let columns = Columns {
+        truth: predicted.truth(),
+        prediction: predicted.prediction(),
+        points: points.as_deref(),
+    };
+    let evaluation = columns.score(&plan, request.jobs)?;
+    let divided = target.divided.as_ref();
+    let note = divided.and_then(|divided| divided.split.note.clone());
+    let provenance = Provenance {
+        taceva: env!("CARGO_PKG_VERSION").to_owned(),
+        dataset: Some(format!("sha256:{}", dataset.digest())),
+        model: Some(ModelProvenance::of(model)?),
+        split: divided.map(|divided| divided.spec.to_string()),
+        seed: divided.map(|divided| divided.seed),
+        part: Some(target.part.name().to_owned()),
+        samples: divided.map(Divided::counts).unwrap_or_default(),
+        frames_decoded: predicted.frames_decoded,
+        notes: note
+            .into_iter()
+            .chain(left_out_note(target.part.name(), predicted.left_out))
+            .collect(),
+        ..Provenance::default()
+    };
+    Ok(EvaluationReport::new(
+        Subject::of(dataset),
+        evaluation,
+        provenance,
+    ))
+}
+
+fn divided_as(divided: &Divided) -> String {
+    let parts = [Part::Train, Part::Validation, Part::Test];
+    let counts: Vec<String> = parts
+        .iter()
+        .map(|part| format!("{} {}", part.name(), divided.rows(*part).len()))
+        .collect();
+    format!(
+        "{}, seed {}: {}",
+        divided.spec,
+        divided.seed,
+        counts.join(", ")
+    )
+}
+
+fn left_out_note(part: &str, count: usize) -> Option<String> {
+    (count > 0).then(|| {
+        format!("{count} samples of the part {part} lack a label or a frame and were left out")
+    })
+}

@@ -1,0 +1,68 @@
+//! Frames of a dataset, turned into features: one decoded frame a worker, only the features stay.
+
+use std::num::NonZeroUsize;
+
+use taceva_core::{FeatureShape, Features, Progress};
+use taceva_dataset::{Dataset, Pass};
+use taceva_models::{Extractor, FeatureSpec};
+
+use crate::error::StudyError;
+
+/// Threads and listener of a stage.
+#[derive(Clone, Copy)]
+pub(crate) struct Work<'a> {
+    pub(crate) jobs: NonZeroUsize,
+    pub(crate) progress: &'a dyn Progress,
+}
+
+/// The extractor that `spec` asks for on the frames of `dataset`.
+pub(crate) fn extractor(dataset: &Dataset, spec: FeatureSpec) -> Result<Extractor, StudyError> {
+    let frames = dataset.header().frames.as_ref();
+    let info = frames
+        .ok_or_else(|| {
+            StudyError::Request("the dataset has no frames, the model needs them".to_owned())
+        })?
+        .info;
+    let reference = if spec.difference {
+        dataset.reference()?
+    } else {
+        None
+    };
+    Ok(Extractor::new(spec, info, reference.as_ref())?)
+}
+
+/// The features of `rows`, in that order.
+///
+/// # Shapes
+/// `[rows, height, width, depth]`; memory is that of the features and a few frames a worker.
+pub(crate) fn extract(
+    dataset: &Dataset,
+    extractor: &Extractor,
+    rows: &[usize],
+    work: Work<'_>,
+) -> Result<Features, StudyError> {
+    let shape = extractor.shape();
+    let mut values = Vec::with_capacity(rows.len() * shape.len());
+    let pass = Pass {
+        rows,
+        jobs: work.jobs,
+        progress: work.progress,
+    };
+    dataset.map_frames(
+        pass,
+        |_, frame| {
+            let mut sample = vec![0.0; shape.len()];
+            extractor.extract(&frame, &mut sample).map(|()| sample)
+        },
+        |_, sample| {
+            values.extend(sample?);
+            Ok(())
+        },
+    )?;
+    Ok(Features::new(shape, values)?)
+}
+
+/// Features of no information, for models that look at none: no frame is decoded for them.
+pub(crate) fn blank(shape: FeatureShape, rows: usize) -> Result<Features, StudyError> {
+    Ok(Features::new(shape, vec![0.0; rows * shape.len()])?)
+}

@@ -1,0 +1,258 @@
+//! The stage that learns: a dataset and a request in, a model out.
+
+use std::collections::BTreeMap;
+use std::num::NonZeroUsize;
+
+use taceva_core::{Channels, FrameInfo, PixelFormat, Progress, Targets, TrainingSet};
+use taceva_dataset::{Dataset, Source};
+use taceva_models::{
+    FeatureSpec, FitInput, LinearEstimator, Model, ModelInfo, Provenance, Settings, SplitCard,
+    SplitManifest,
+};
+
+use crate::error::StudyError;
+use crate::features::{Work, blank, extract, extractor};
+use crate::plan::Plan;
+use crate::rows::{Divided, Need, Part, chosen_channels, usable};
+
+/// What to fit.
+#[derive(Clone, Debug)]
+pub struct FitRequest {
+    /// The name of the model.
+    pub model: String,
+    /// Settings of its features and of itself.
+    pub settings: Settings,
+    /// Channels by name; empty for all.
+    pub channels: Vec<String>,
+    /// The split as people write it; by point where points have repeats, else random, if `None`.
+    pub split: Option<String>,
+    /// The seed of everything that is drawn.
+    pub seed: u64,
+}
+
+/// A fitted model and how its dataset was divided.
+#[derive(Debug)]
+pub struct Fitted {
+    /// The model.
+    pub model: Model,
+    /// How the dataset was divided.
+    pub divided: Divided,
+    /// The same as a record.
+    pub manifest: SplitManifest,
+    /// Frames decoded for it.
+    pub frames_decoded: u64,
+    /// Samples of the training and validation parts that lack a label or a frame.
+    pub left_out: usize,
+}
+
+/// A request made definite.
+pub(crate) struct FitPlan<'a> {
+    dataset: &'a Dataset,
+    info: &'static ModelInfo,
+    estimator: Box<dyn LinearEstimator>,
+    settings: Settings,
+    features: FeatureSpec,
+    pub(crate) channels: Channels,
+    pub(crate) divided: Divided,
+    pub(crate) train: Vec<usize>,
+    pub(crate) validation: Vec<usize>,
+    left_out: usize,
+}
+
+impl<'a> FitPlan<'a> {
+    pub(crate) fn new(
+        dataset: &'a Dataset,
+        request: &FitRequest,
+    ) -> Result<FitPlan<'a>, StudyError> {
+        let info = taceva_models::find(&request.model)?;
+        let (of_features, of_model) = request.settings.clone().partition(FeatureSpec::SETTINGS);
+        let known: Vec<_> = info
+            .settings
+            .iter()
+            .chain(FeatureSpec::SETTINGS)
+            .copied()
+            .collect();
+        request.settings.check_keys(&known)?;
+        let estimator = info.estimator(&of_model)?;
+        let features = FeatureSpec::from_settings(&of_features)?;
+        let channels = chosen_channels(dataset, &request.channels)?;
+        let divided = Divided::new(dataset.table(), request.split.as_deref(), request.seed)?;
+        let need = || Need {
+            frame: info.reads_features,
+            labels: Some(&channels),
+        };
+        let whole = [divided.rows(Part::Train), divided.rows(Part::Validation)];
+        let [train, validation] = [&whole[0], &whole[1]].map(|rows| usable(dataset, rows, need()));
+        let left_out = whole[0].len() + whole[1].len() - train.len() - validation.len();
+        Ok(FitPlan {
+            dataset,
+            info,
+            estimator,
+            settings: request.settings.clone(),
+            features,
+            channels,
+            divided,
+            train,
+            validation,
+            left_out,
+        })
+    }
+
+    pub(crate) fn reads_frames(&self) -> bool {
+        self.info.reads_features
+    }
+
+    /// Says what [`run`](FitPlan::run) would do.
+    pub(crate) fn explain(&self, plan: &mut Plan) {
+        let rows = self.train.len() + self.validation.len();
+        if self.reads_frames() {
+            plan.step(
+                "decode",
+                format!("{rows} frames to features {}", self.features),
+            );
+        }
+        let names: Vec<&str> = self.channels.iter().map(|channel| channel.name()).collect();
+        plan.step(
+            "fit",
+            format!(
+                "{} of {} on {} training samples, settings chosen on {}",
+                self.info.name,
+                names.join(", "),
+                self.train.len(),
+                match self.validation.len() {
+                    0 => "the training part, leaving groups out".to_owned(),
+                    count => format!("{count} validation samples"),
+                }
+            ),
+        );
+    }
+
+    pub(crate) fn run(self, work: Work<'_>) -> Result<Fitted, StudyError> {
+        let rows = [self.train.clone(), self.validation.clone()].concat();
+        let (features, frame) = if self.reads_frames() {
+            let extractor = extractor(self.dataset, self.features)?;
+            (
+                extract(self.dataset, &extractor, &rows, work)?,
+                extractor.frame_info(),
+            )
+        } else {
+            (blank(self.features.shape(), rows.len())?, self.any_frame())
+        };
+        let positions = |rows: std::ops::Range<usize>| rows.collect::<Vec<usize>>();
+        let train_features = features.select(&positions(0..self.train.len()));
+        let held_features = features.select(&positions(self.train.len()..rows.len()));
+        drop(features);
+        let (train_labels, held_labels) = (self.labels(&self.train), self.labels(&self.validation));
+        let groups = groups(self.dataset, &self.train);
+        let set = |features, values, groups| TrainingSet {
+            features,
+            targets: Targets {
+                channels: &self.channels,
+                values,
+            },
+            groups,
+        };
+        let model = Model::fit(
+            FitInput {
+                estimator: self.estimator.as_ref(),
+                settings: &self.settings,
+                features: self.features,
+                frame,
+                training: set(&train_features, &train_labels, groups.as_deref()),
+                validation: (!self.validation.is_empty())
+                    .then(|| set(&held_features, &held_labels, None)),
+                provenance: self.provenance(),
+            },
+            work.progress,
+        )?;
+        let frames_decoded = if self.reads_frames() {
+            rows.len() as u64
+        } else {
+            0
+        };
+        let manifest = self.divided.manifest(self.dataset.table())?;
+        Ok(Fitted {
+            model,
+            manifest,
+            divided: self.divided,
+            frames_decoded,
+            left_out: self.left_out,
+        })
+    }
+
+    fn labels(&self, rows: &[usize]) -> Vec<f64> {
+        let table = self.dataset.table();
+        let positions: Vec<usize> = self
+            .channels
+            .iter()
+            .filter_map(|channel| table.channels().position(channel.name()))
+            .collect();
+        let value = |row: usize, position: usize| {
+            table
+                .truth(position)
+                .get(row)
+                .expect("rows without a label were left out")
+        };
+        rows.iter()
+            .flat_map(|&row| positions.iter().map(move |&position| (row, position)))
+            .map(|(row, position)| value(row, position))
+            .collect()
+    }
+
+    /// What the card says of frames where none is looked at.
+    fn any_frame(&self) -> FrameInfo {
+        let unseen = FrameInfo {
+            width: 1,
+            height: 1,
+            format: PixelFormat::Gray8,
+        };
+        self.dataset
+            .header()
+            .frames
+            .as_ref()
+            .map_or(unseen, |frames| frames.info)
+    }
+
+    fn provenance(&self) -> Provenance {
+        let source = match self.dataset.header().source {
+            Source::Recorded => taceva_models::Source::Recorded,
+            Source::Simulated => taceva_models::Source::Simulated,
+            Source::Synthetic => taceva_models::Source::Synthetic,
+        };
+        Provenance {
+            data: Some(format!("sha256:{}", self.dataset.digest())),
+            source,
+            split: Some(SplitCard {
+                split: self.divided.spec.to_string(),
+                seed: self.divided.seed,
+            }),
+            notes: self.divided.split.note.iter().cloned().collect(),
+        }
+    }
+}
+
+/// Fits a model on the training part of `dataset`.
+///
+/// # Errors
+/// [`StudyError`] if the request cannot be meant, the dataset cannot be read, or nothing can be learnt from it.
+pub fn fit(
+    dataset: &Dataset,
+    request: &FitRequest,
+    jobs: NonZeroUsize,
+    progress: &dyn Progress,
+) -> Result<Fitted, StudyError> {
+    FitPlan::new(dataset, request)?.run(Work { jobs, progress })
+}
+
+/// A number a row for its contact location, if every row has one.
+fn groups(dataset: &Dataset, rows: &[usize]) -> Option<Vec<u32>> {
+    let points = dataset.table().point_id();
+    let mut numbers: BTreeMap<&str, u32> = BTreeMap::new();
+    rows.iter()
+        .map(|&row| {
+            let point = points[row].as_deref()?;
+            let next = u32::try_from(numbers.len()).ok()?;
+            Some(*numbers.entry(point).or_insert(next))
+        })
+        .collect()
+}

@@ -1,0 +1,277 @@
+//! The stage that predicts, and the tables it can be written as.
+
+use std::io::{self, Write};
+use std::num::NonZeroUsize;
+
+use taceva_core::{Channels, Column, Progress};
+use taceva_dataset::Dataset;
+use taceva_models::{FeatureError, Model};
+
+use crate::error::StudyError;
+use crate::features::{Work, blank, extract};
+use crate::rows::{Divided, Need, Part, usable};
+
+/// Predictions of some rows of a dataset, beside what is true of them.
+#[derive(Debug)]
+pub struct Predicted {
+    part: Part,
+    channels: Channels,
+    ids: Vec<String>,
+    points: Option<Vec<String>>,
+    truth: Vec<Column>,
+    prediction: Vec<Column>,
+    pub(crate) frames_decoded: u64,
+    pub(crate) left_out: usize,
+}
+
+impl Predicted {
+    /// The part of the dataset.
+    pub fn part(&self) -> &'static str {
+        self.part.name()
+    }
+
+    /// Number of samples.
+    pub fn rows(&self) -> usize {
+        self.ids.len()
+    }
+
+    /// What was predicted.
+    pub fn channels(&self) -> &Channels {
+        &self.channels
+    }
+
+    pub(crate) fn truth(&self) -> &[Column] {
+        &self.truth
+    }
+
+    pub(crate) fn prediction(&self) -> &[Column] {
+        &self.prediction
+    }
+
+    pub(crate) fn points(&self) -> Option<&[String]> {
+        self.points.as_deref()
+    }
+
+    /// Writes the predictions as `score` reads them: `id` and a column a channel.
+    ///
+    /// # Errors
+    /// Those of `out`.
+    pub fn write_predictions(&self, out: &mut dyn Write) -> io::Result<()> {
+        self.write(&self.prediction, false, out)
+    }
+
+    /// Writes the truth of the same samples: `id`, `point_id` where every sample has one, and a column a channel.
+    ///
+    /// # Errors
+    /// Those of `out`.
+    pub fn write_truth(&self, out: &mut dyn Write) -> io::Result<()> {
+        self.write(&self.truth, true, out)
+    }
+
+    fn write(&self, columns: &[Column], with_points: bool, out: &mut dyn Write) -> io::Result<()> {
+        let points = self.points.as_ref().filter(|_| with_points);
+        let mut writer = csv::Writer::from_writer(out);
+        let names = self.channels.iter().map(|channel| channel.name());
+        writer.write_record(
+            ["id"]
+                .into_iter()
+                .chain(points.map(|_| "point_id"))
+                .chain(names),
+        )?;
+        for row in 0..self.rows() {
+            let cell = |column: &Column| {
+                column
+                    .get(row)
+                    .map_or_else(String::new, |value| format!("{value:?}"))
+            };
+            let point = points.map(|points| points[row].clone());
+            let values = columns.iter().map(cell);
+            writer.write_record(
+                [self.ids[row].clone()]
+                    .into_iter()
+                    .chain(point)
+                    .chain(values),
+            )?;
+        }
+        writer.flush()
+    }
+}
+
+/// Predicts a part of `dataset`; by default what the model has not seen: the test part of its own dataset, all of another.
+///
+/// # Errors
+/// [`StudyError`] if the model does not fit the dataset, or the dataset cannot be read.
+pub fn predict(
+    dataset: &Dataset,
+    model: &Model,
+    part: Option<Part>,
+    jobs: NonZeroUsize,
+    progress: &dyn Progress,
+) -> Result<Predicted, StudyError> {
+    let target = Target::new(dataset, model, part)?;
+    run(dataset, model, &target, Work { jobs, progress })
+}
+
+/// The rows that are predicted, and how that was decided.
+pub(crate) struct Target {
+    pub(crate) part: Part,
+    pub(crate) rows: Vec<usize>,
+    pub(crate) divided: Option<Divided>,
+    pub(crate) left_out: usize,
+}
+
+impl Target {
+    /// Decides for a fitted model: on the dataset it was fitted on, its own split is made again.
+    pub(crate) fn new(
+        dataset: &Dataset,
+        model: &Model,
+        part: Option<Part>,
+    ) -> Result<Target, StudyError> {
+        let provenance = &model.card().provenance;
+        let is_own =
+            provenance.data.as_deref() == Some(format!("sha256:{}", dataset.digest()).as_str());
+        let divided = match &provenance.split {
+            Some(card) if is_own => {
+                Some(Divided::new(dataset.table(), Some(&card.split), card.seed)?)
+            }
+            _ => None,
+        };
+        Target::of(dataset, divided, part, reads_frames(model))
+    }
+
+    pub(crate) fn of(
+        dataset: &Dataset,
+        divided: Option<Divided>,
+        part: Option<Part>,
+        reads_frames: bool,
+    ) -> Result<Target, StudyError> {
+        let part = part.unwrap_or(if divided.is_some() {
+            Part::Test
+        } else {
+            Part::All
+        });
+        let all = match (&divided, part) {
+            (Some(divided), part) => divided.rows(part),
+            (None, Part::All) => dataset.all_rows(),
+            (None, part) => {
+                return Err(StudyError::Request(format!(
+                    "part `{}`: the model was fitted on another dataset, only `all` of this one can be taken",
+                    part.name()
+                )));
+            }
+        };
+        let rows = usable(
+            dataset,
+            &all,
+            Need {
+                frame: reads_frames,
+                labels: None,
+            },
+        );
+        if rows.is_empty() {
+            return Err(StudyError::Request(format!(
+                "the part `{}` has no sample that can be predicted",
+                part.name()
+            )));
+        }
+        Ok(Target {
+            part,
+            left_out: all.len() - rows.len(),
+            rows,
+            divided,
+        })
+    }
+}
+
+/// Whether a prediction depends on what is seen at all: a model without weights needs no frame.
+pub(crate) fn reads_frames(model: &Model) -> bool {
+    model
+        .regressor()
+        .weights()
+        .iter()
+        .any(|weight| weight.abs() > 0.0)
+}
+
+pub(crate) fn run(
+    dataset: &Dataset,
+    model: &Model,
+    target: &Target,
+    work: Work<'_>,
+) -> Result<Predicted, StudyError> {
+    let rows = &target.rows;
+    let reads_frames = reads_frames(model);
+    let features = if reads_frames {
+        extract(dataset, &extractor(dataset, model)?, rows, work)?
+    } else {
+        blank(model.card().features.shape(), rows.len())?
+    };
+    let predictions = model.predict(&features)?;
+    let channels = model.channels().clone();
+    let width = channels.len();
+    let column = |position: usize| {
+        Column::full(
+            predictions
+                .iter()
+                .skip(position)
+                .step_by(width)
+                .copied()
+                .collect(),
+        )
+    };
+    let points: Option<Vec<String>> = rows
+        .iter()
+        .map(|&row| dataset.table().point_id()[row].clone())
+        .collect();
+    Ok(Predicted {
+        part: target.part,
+        ids: rows
+            .iter()
+            .map(|&row| dataset.table().samples()[row].clone())
+            .collect(),
+        points,
+        truth: channels
+            .iter()
+            .map(|channel| truth(dataset, channel, rows))
+            .collect::<Result<_, _>>()?,
+        prediction: (0..width).map(column).collect(),
+        frames_decoded: if reads_frames { rows.len() as u64 } else { 0 },
+        left_out: target.left_out,
+        channels,
+    })
+}
+
+/// The extractor of a fitted model on the frames of `dataset`.
+fn extractor(dataset: &Dataset, model: &Model) -> Result<taceva_models::Extractor, StudyError> {
+    let frames = dataset.header().frames.as_ref();
+    let info = frames
+        .ok_or_else(|| StudyError::Unsuited(FeatureError::NoReference.to_string()))?
+        .info;
+    let reference = if model.card().features.difference {
+        dataset.reference()?
+    } else {
+        None
+    };
+    Ok(model.extractor(info, reference.as_ref())?)
+}
+
+/// What is true of `rows`; a channel that the dataset has not is absent in every row.
+fn truth(
+    dataset: &Dataset,
+    channel: &taceva_core::Channel,
+    rows: &[usize],
+) -> Result<Column, StudyError> {
+    let table = dataset.table();
+    let known = table.channels().by_name(channel.name());
+    if let Some(known) = known.filter(|known| known.unit() != channel.unit()) {
+        return Err(StudyError::Unsuited(format!(
+            "the model predicts {channel} in {}, the dataset has it in {}",
+            channel.unit(),
+            known.unit()
+        )));
+    }
+    let position = table.channels().position(channel.name());
+    let mut column = Column::default();
+    rows.iter()
+        .for_each(|&row| column.push(position.and_then(|position| table.truth(position).get(row))));
+    Ok(column)
+}

@@ -1,0 +1,96 @@
+//! From what, and how, a result was made: enough to make it again.
+
+use std::collections::BTreeMap;
+
+use serde::Serialize;
+use taceva_models::{ChosenBy, Model};
+
+use crate::error::StudyError;
+
+/// From what, and how, a result was made.
+///
+/// Nothing here depends on the machine, the time or the number of jobs: the same inputs give the same bytes.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct Provenance {
+    /// The version of TacEva.
+    pub taceva: String,
+    /// The digest of the dataset.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub dataset: Option<String>,
+    /// The digests of the tables, where there is no dataset.
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    pub tables: BTreeMap<String, String>,
+    /// The model and its digest.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub model: Option<ModelProvenance>,
+    /// How samples were divided.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub split: Option<String>,
+    /// The seed of everything that was drawn.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub seed: Option<u64>,
+    /// The part that was scored: `test`, `all`, …
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub part: Option<String>,
+    /// Samples a part, where there is a split.
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    pub samples: BTreeMap<String, usize>,
+    /// Frames decoded for it.
+    pub frames_decoded: u64,
+    /// Third-party code that took part.
+    pub plugins: Vec<String>,
+    /// What a reader should know.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub notes: Vec<String>,
+}
+
+/// The model behind a result.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct ModelProvenance {
+    /// Its name: `ridge`.
+    pub name: String,
+    /// Its settings, chosen ones included.
+    pub settings: BTreeMap<String, String>,
+    /// The digest of the model file.
+    pub digest: String,
+    /// The digest of the dataset it was fitted on.
+    pub fitted_on: String,
+}
+
+impl ModelProvenance {
+    /// What a model's card says of it.
+    pub(crate) fn of(model: &Model) -> Result<ModelProvenance, StudyError> {
+        let card = model.card();
+        let mut settings: BTreeMap<String, String> = card
+            .settings
+            .iter()
+            .filter_map(|word| word.split_once('='))
+            .map(|(key, value)| (key.to_owned(), value.to_owned()))
+            .collect();
+        settings.insert("features".to_owned(), card.features.to_string());
+        if let Some(name) = card
+            .choice
+            .setting
+            .as_ref()
+            .filter(|_| card.choice.by != ChosenBy::Nobody)
+        {
+            let channels = card.channels.iter().zip(&card.choice.channels);
+            let chosen: Vec<String> = channels
+                .filter_map(|(channel, choice)| {
+                    Some(format!("{}:{:.3e}", channel.name, choice.value?))
+                })
+                .collect();
+            settings.insert(name.clone(), chosen.join(","));
+        }
+        Ok(ModelProvenance {
+            name: card.model.clone(),
+            settings,
+            digest: model.digest()?,
+            fitted_on: card
+                .provenance
+                .data
+                .clone()
+                .unwrap_or_else(|| "unknown".to_owned()),
+        })
+    }
+}

@@ -1,0 +1,58 @@
+//! A finished evaluation: the scores, what they are about, and where they come from.
+
+use serde::ser::SerializeSeq;
+use serde::{Serialize, Serializer};
+use taceva_core::Skipped;
+use taceva_metrics::Evaluation;
+
+use crate::provenance::Provenance;
+use crate::subject::Subject;
+
+/// The schema of [`EvaluationReport`] as JSON.
+pub const EVALUATION_SCHEMA: &str = "taceva.evaluation/1";
+
+/// A finished evaluation. Its JSON follows [`EVALUATION_SCHEMA`].
+#[derive(Clone, Debug, Serialize)]
+pub struct EvaluationReport {
+    /// [`EVALUATION_SCHEMA`].
+    pub schema: &'static str,
+    /// What was evaluated.
+    pub subject: Subject,
+    /// The scores, and what was skipped.
+    #[serde(flatten)]
+    pub evaluation: Evaluation,
+    /// From what, and how.
+    pub provenance: Provenance,
+}
+
+impl EvaluationReport {
+    pub(crate) fn new(
+        subject: Subject,
+        evaluation: Evaluation,
+        provenance: Provenance,
+    ) -> EvaluationReport {
+        EvaluationReport {
+            schema: EVALUATION_SCHEMA,
+            subject,
+            evaluation,
+            provenance,
+        }
+    }
+}
+
+/// Skipped things as `[{"what": …, "reason": …}]`.
+pub(crate) fn skipped<S: Serializer>(list: &[Skipped], serializer: S) -> Result<S::Ok, S::Error> {
+    #[derive(Serialize)]
+    struct Line<'a> {
+        what: &'a str,
+        reason: String,
+    }
+    let mut sequence = serializer.serialize_seq(Some(list.len()))?;
+    for skipped in list {
+        sequence.serialize_element(&Line {
+            what: &skipped.what,
+            reason: skipped.reason.to_string(),
+        })?;
+    }
+    sequence.end()
+}
