@@ -1,0 +1,109 @@
+//! How fast tables are parsed and frames decoded: `cargo bench -p taceva-dataset`.
+
+use std::fmt::Write;
+use std::num::NonZeroUsize;
+use std::path::PathBuf;
+
+use divan::Bencher;
+use taceva_core::{Channels, Clock};
+use taceva_core::{Frame, FrameInfo, PixelFormat, Sample, Silent};
+use taceva_dataset::{
+    CsvTable, Dataset, Known, Pass, Recorder, RecordingFacts, RecordingSpec, SensorFacts, Source,
+};
+
+fn main() {
+    divan::main();
+}
+
+/// Numbers of 16 or 17 digits in seven columns, as a program prints them: 110 MB for a million rows.
+#[divan::bench(args = [10_000, 1_000_000], sample_count = 5)]
+fn parse_every_column(bencher: Bencher<'_, '_>, rows: usize) {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("table.csv");
+    let names = ["id", "Px", "Py", "Pz", "Fx", "Fy", "Fz"];
+    let mut text = names.join(",") + "\n";
+    let mut state = 7_u64;
+    for row in 0..rows {
+        write!(text, "{row}").expect("text grows");
+        for _ in 1..names.len() {
+            state = state
+                .wrapping_mul(6_364_136_223_846_793_005)
+                .wrapping_add(1);
+            let unit = f64::from((state >> 32) as u32) / f64::from(u32::MAX);
+            write!(text, ",{}", unit.sqrt() * 6.0 - 3.0).expect("text grows");
+        }
+        text.push('\n');
+    }
+    std::fs::write(&path, &text).expect("written");
+    bencher.bench(|| {
+        let table = CsvTable::read(&path).expect("reads");
+        names.map(|name| table.numbers(name).expect("numbers").len())
+    });
+}
+
+/// A recording of 64 smooth frames of 640×480 with noise in the last bits.
+fn recording() -> (tempfile::TempDir, PathBuf) {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("recording");
+    let spec = RecordingSpec {
+        facts: RecordingFacts {
+            source: Source::Synthetic,
+            clock: Clock::Unknown,
+            sensor: SensorFacts {
+                model: "bench".into(),
+                serial: "1".into(),
+                gel: "1".into(),
+                opaque: Known::Unknown,
+            },
+            footprint: None,
+        },
+        channels: Channels::default(),
+    };
+    let mut recorder = Recorder::create(&path, &spec).expect("created");
+    let info = FrameInfo {
+        width: 640,
+        height: 480,
+        format: PixelFormat::Gray8,
+    };
+    let mut state = 7_u32;
+    for number in 0..64_u32 {
+        let pixels = (0..640 * 480_u32).map(|pixel| {
+            state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            ((pixel % 640) / 8 + pixel / 640 / 8 + number + (state >> 30)).to_le_bytes()[0]
+        });
+        let sample = Sample {
+            id: number.to_string(),
+            frame: Some(Frame::new(info, pixels.collect()).expect("of that size")),
+            ..Sample::default()
+        };
+        recorder.append(&sample).expect("recorded");
+    }
+    recorder.close().expect("closed");
+    (folder, path)
+}
+
+#[divan::bench(args = [1, 2], sample_count = 10)]
+fn decode_64_frames(bencher: Bencher<'_, '_>, jobs: usize) {
+    let (_folder, path) = recording();
+    let dataset = Dataset::open(&path).expect("opens");
+    let rows = dataset.all_rows();
+    let pass = Pass {
+        rows: &rows,
+        jobs: NonZeroUsize::new(jobs).expect("at least one"),
+        progress: &Silent,
+    };
+    bencher.bench(|| {
+        let mut bytes = 0;
+        dataset
+            .map_frames(
+                pass,
+                |_, frame| frame.bytes().len(),
+                |_, length| {
+                    bytes += length;
+                    Ok(())
+                },
+            )
+            .expect("decodes");
+        bytes
+    });
+}

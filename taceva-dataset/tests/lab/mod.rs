@@ -1,0 +1,233 @@
+//! A lab's folder, drawn: a table, a map and frames.
+#![allow(dead_code, reason = "each test binary uses its own part")]
+
+use std::fs;
+use std::io::Cursor;
+use std::num::NonZeroUsize;
+use std::path::{Path, PathBuf};
+
+use image::{DynamicImage, GrayImage, ImageFormat, Luma, Rgb, RgbImage};
+use taceva_core::Silent;
+use taceva_dataset::{DatasetError, ImportMap, ImportPlan, ImportReport};
+use tempfile::TempDir;
+
+pub(crate) const MAP: &str = r#"map_version = 1
+table = "labels.csv"
+
+[frame]
+column = "file"
+channel_order = "gray"
+reference = "unknown"
+
+[columns]
+Fz = { from = "force", unit = "mN", sign = -1 }
+Pz = { from = "depth", unit = "um" }
+
+[ids]
+sample = "name"
+point_id = ["x", "y"]
+repeat = "repeat"
+phase = "phase"
+
+[attributes]
+video = "video"
+
+[time]
+column = "t"
+unit = "ms"
+clock = "monotonic"
+
+[drop]
+quality_flags = ["bad"]
+
+[sensor]
+model = "drawn"
+serial = "unknown"
+gel = "unknown"
+opaque = true
+"#;
+
+/// A folder with a good table, map and frames, for a test to spoil.
+pub(crate) struct Lab {
+    pub(crate) folder: TempDir,
+}
+
+impl Lab {
+    pub(crate) fn new() -> Lab {
+        let folder = tempfile::tempdir().expect("a folder");
+        let lab = Lab { folder };
+        fs::create_dir_all(lab.path("source/images")).expect("created");
+        let mut table = "file,name,x,y,repeat,phase,video,force,depth,t,quality_flags\n".to_owned();
+        for row in 0..5 {
+            table += &format!(
+                "images/{row}.png,press {row},{row},1,{row}.0,load,\"clip, {row}\",{},{},{},\n",
+                -100.5 * f64::from(row) - 1500.0,
+                1234.5 + f64::from(row),
+                1000 + row,
+            );
+            lab.write(&format!("source/images/{row}.png"), &png(8, 6, row));
+        }
+        table += "images/9.png,press 9,1,1,,,,1e6,,,bad;worse\n";
+        lab.write("source/labels.csv", table.as_bytes());
+        lab.write("map.toml", MAP.as_bytes());
+        lab
+    }
+
+    pub(crate) fn path(&self, relative: &str) -> PathBuf {
+        self.folder.path().join(relative)
+    }
+
+    pub(crate) fn write(&self, relative: &str, bytes: &[u8]) {
+        fs::write(self.path(relative), bytes).expect("written");
+    }
+
+    pub(crate) fn replace(&self, relative: &str, from: &str, to: &str) {
+        let text = fs::read_to_string(self.path(relative)).expect("read");
+        assert!(text.contains(from), "{relative} has no {from:?}");
+        self.write(relative, text.replacen(from, to, 1).as_bytes());
+    }
+
+    pub(crate) fn import_to(
+        &self,
+        target: &str,
+        jobs: usize,
+    ) -> Result<ImportReport, DatasetError> {
+        let map = ImportMap::read(&self.path("map.toml"))?;
+        import(&self.path("source"), &map, &self.path(target), jobs)
+    }
+
+    pub(crate) fn import(&self) -> Result<ImportReport, DatasetError> {
+        self.import_to("set", 2)
+    }
+
+    /// The message of an import that must fail, and that it left nothing behind.
+    #[track_caller]
+    pub(crate) fn refusal(&self) -> String {
+        let before = names(self.folder.path());
+        let message = match self.import() {
+            Ok(report) => panic!("accepted: {report}"),
+            Err(error) => error.to_string(),
+        };
+        assert_eq!(
+            names(self.folder.path()),
+            before,
+            "something was left: {message}"
+        );
+        message
+    }
+
+    #[track_caller]
+    pub(crate) fn is_refused_with(&self, parts: &[&str]) {
+        let message = self.refusal();
+        for part in parts {
+            assert!(message.contains(part), "no {part:?} in: {message}");
+        }
+    }
+}
+
+pub(crate) fn import(
+    source: &Path,
+    map: &ImportMap,
+    target: &Path,
+    jobs: usize,
+) -> Result<ImportReport, DatasetError> {
+    let jobs = NonZeroUsize::new(jobs).expect("at least one");
+    ImportPlan::new(source, map)?.run(target, jobs, &Silent)
+}
+
+/// Everything below a folder: relative paths in order, with their bytes.
+pub(crate) fn contents(folder: &Path) -> Vec<(PathBuf, Vec<u8>)> {
+    let mut found = Vec::new();
+    let mut folders = vec![folder.to_owned()];
+    while let Some(current) = folders.pop() {
+        for entry in fs::read_dir(&current).expect("listed") {
+            let path = entry.expect("listed").path();
+            if path.is_dir() {
+                folders.push(path);
+            } else {
+                let relative = path.strip_prefix(folder).expect("below").to_owned();
+                found.push((relative, fs::read(&path).expect("read")));
+            }
+        }
+    }
+    found.sort();
+    found
+}
+
+fn names(folder: &Path) -> Vec<PathBuf> {
+    let entries = fs::read_dir(folder).expect("listed");
+    let mut names: Vec<PathBuf> = entries.map(|entry| entry.expect("listed").path()).collect();
+    names.sort();
+    names
+}
+
+/// A gray picture that differs by `seed`.
+pub(crate) fn png(width: u32, height: u32, seed: u32) -> Vec<u8> {
+    let image = GrayImage::from_fn(width, height, |x, y| {
+        Luma([(x * 31 + y * 17 + seed * 7).to_le_bytes()[0]])
+    });
+    encoded(image.into(), ImageFormat::Png)
+}
+
+/// A coloured picture that differs by `seed`.
+pub(crate) fn jpeg(width: u32, height: u32, seed: u32) -> Vec<u8> {
+    encoded(coloured(width, height, seed), ImageFormat::Jpeg)
+}
+
+/// A coloured picture that differs by `seed`.
+pub(crate) fn rgb_png(width: u32, height: u32, seed: u32) -> Vec<u8> {
+    encoded(coloured(width, height, seed), ImageFormat::Png)
+}
+
+fn coloured(width: u32, height: u32, seed: u32) -> DynamicImage {
+    RgbImage::from_fn(width, height, |x, y| {
+        Rgb([x * 9 + seed, y * 11, x * y].map(|value| value.to_le_bytes()[0]))
+    })
+    .into()
+}
+
+fn encoded(image: DynamicImage, format: ImageFormat) -> Vec<u8> {
+    let mut bytes = Vec::new();
+    image
+        .write_to(&mut Cursor::new(&mut bytes), format)
+        .expect("encodes");
+    bytes
+}
+
+/// Random numbers that are the same each time (Steele, Lea & Flood 2014: SplitMix64).
+pub(crate) struct Random(pub(crate) u64);
+
+impl Random {
+    pub(crate) fn below(&mut self, limit: usize) -> usize {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut mixed = self.0;
+        mixed = (mixed ^ (mixed >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        mixed = (mixed ^ (mixed >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        usize::try_from((mixed ^ (mixed >> 31)) % limit as u64).expect("below a usize")
+    }
+
+    /// `bytes` with a few random changes: overwritten, cut, doubled or removed.
+    pub(crate) fn mutated(&mut self, bytes: &[u8]) -> Vec<u8> {
+        let mut changed = bytes.to_vec();
+        for _ in 0..=self.below(4) {
+            if changed.is_empty() {
+                break;
+            }
+            let at = self.below(changed.len());
+            match self.below(5) {
+                0 => changed[at] ^= 1 << self.below(8),
+                1 => changed[at] = self.below(256).to_le_bytes()[0],
+                2 => changed.truncate(at),
+                3 => {
+                    changed.remove(at);
+                }
+                _ => {
+                    let end = (at + 1 + self.below(9)).min(changed.len());
+                    let piece = changed[at..end].to_vec();
+                    changed.splice(at..at, piece);
+                }
+            }
+        }
+        changed
+    }
+}
