@@ -112,9 +112,9 @@ impl LinearRegressor {
                     .iter()
                     .map(|weight| weight * span),
             );
-            if let Some(scale) = design.scale() {
-                let scaled = flat[start..].iter_mut().zip(scale);
-                scaled.for_each(|(weight, scale)| *weight /= scale);
+            if let Some(factor) = design.factor() {
+                let places = flat[start..].iter_mut().zip(factor);
+                places.for_each(|(weight, factor)| *weight *= factor);
             }
             let at_centre: f64 = flat[start..]
                 .iter()

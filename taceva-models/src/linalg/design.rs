@@ -6,45 +6,74 @@ use faer::{Mat, MatRef};
 use rayon::prelude::*;
 use taceva_core::Features;
 
+use crate::settings::SettingInfo;
+
 use super::gram::{add_product, slabs};
 
 /// Samples or features a block: large enough for full speed, small enough for many threads and the cache.
 const BLOCK: usize = 256;
 
 /// What each centred feature is divided by.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) enum FeatureScale {
     /// 1.
     None,
     /// Its standard deviation over the training part; 1 where that is 0.
+    #[default]
     Unit,
 }
 
-/// The matrix X with a row a sample: (feature − centre) / scale.
+impl FeatureScale {
+    /// How people set it.
+    pub(crate) const SETTING: SettingInfo = SettingInfo {
+        key: "scale",
+        accepts: "none or unit",
+        default: "unit",
+        about: "whether each feature is divided by its standard deviation over the training part",
+    };
+
+    /// The scale written as `name`.
+    pub(crate) fn from_name(name: &str) -> Option<FeatureScale> {
+        match name {
+            "none" => Some(FeatureScale::None),
+            "unit" => Some(FeatureScale::Unit),
+            _ => None,
+        }
+    }
+}
+
+/// The matrix X with a row a sample: (feature − centre) · factor.
 #[derive(Clone, Debug)]
 pub(crate) struct Design<'a> {
     features: &'a Features,
     centre: Vec<f64>,
-    scale: Option<Vec<f64>>,
+    /// What each centred feature is multiplied by; `None` for 1.
+    factor: Option<Vec<f64>>,
 }
 
 impl<'a> Design<'a> {
     /// Centred by the mean of `features`, which must hold a sample.
     pub(crate) fn new(features: &'a Features, scale: FeatureScale) -> Design<'a> {
         let centre = mean_of(features, |value, _| value);
-        let scale = (scale == FeatureScale::Unit).then(|| {
+        let factor = (scale == FeatureScale::Unit).then(|| {
             let variance = mean_of(features, |value, position| {
                 (value - centre[position]).powi(2)
             });
             variance
                 .into_iter()
-                .map(|variance| if variance > 0.0 { variance.sqrt() } else { 1.0 })
+                .map(|variance| {
+                    if variance > 0.0 {
+                        1.0 / variance.sqrt()
+                    } else {
+                        1.0
+                    }
+                })
                 .collect()
         });
         Design {
             features,
             centre,
-            scale,
+            factor,
         }
     }
 
@@ -53,7 +82,7 @@ impl<'a> Design<'a> {
         Design {
             features,
             centre: mean_of(features, |value, _| value),
-            scale: self.scale.clone(),
+            factor: self.factor.clone(),
         }
     }
 
@@ -62,7 +91,7 @@ impl<'a> Design<'a> {
         Design {
             features,
             centre: self.centre.clone(),
-            scale: self.scale.clone(),
+            factor: self.factor.clone(),
         }
     }
 
@@ -71,7 +100,7 @@ impl<'a> Design<'a> {
         Design {
             features,
             centre,
-            scale: None,
+            factor: None,
         }
     }
 
@@ -87,9 +116,9 @@ impl<'a> Design<'a> {
         &self.centre
     }
 
-    /// What each feature was divided by; `None` for 1.
-    pub(crate) fn scale(&self) -> Option<&[f64]> {
-        self.scale.as_deref()
+    /// What each centred feature is multiplied by; `None` for 1.
+    pub(crate) fn factor(&self) -> Option<&[f64]> {
+        self.factor.as_deref()
     }
 
     /// The transposed block: a column a sample.
@@ -102,9 +131,9 @@ impl<'a> Design<'a> {
             for ((place, &value), centre) in column.iter_mut().zip(values).zip(centre) {
                 *place = f64::from(value) - centre;
             }
-            if let Some(scale) = &self.scale {
-                for (place, scale) in column.iter_mut().zip(&scale[features.clone()]) {
-                    *place /= scale;
+            if let Some(factor) = &self.factor {
+                for (place, factor) in column.iter_mut().zip(&factor[features.clone()]) {
+                    *place *= factor;
                 }
             }
         }

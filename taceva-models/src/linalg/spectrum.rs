@@ -92,6 +92,11 @@ impl<'d, 'a> Spectrum<'d, 'a> {
         largest * self.eigenvalues.len() as f64 * f64::EPSILON
     }
 
+    /// Whether the [sample vectors](Spectrum::sample_vectors) span everything that samples can do.
+    pub(crate) fn spans_samples(&self) -> bool {
+        self.side == Side::Samples
+    }
+
     /// `targets` (a row a sample) in the basis of the vectors, ready for [`weights`](Spectrum::weights).
     pub(crate) fn rotate(&self, targets: MatRef<'_, f64>) -> Mat<f64> {
         match self.side {

@@ -3,18 +3,20 @@
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::cholesky::llt::factor::{cholesky_in_place, cholesky_in_place_scratch};
 use faer::linalg::cholesky::llt::solve::{solve_in_place, solve_in_place_scratch};
-use faer::{Mat, MatRef, Par};
+use faer::{Mat, Par};
 use rayon::prelude::*;
 use taceva_core::{ModelError, Progress};
 
 use crate::choice::Errors;
 use crate::linalg::{Spectrum, multiply};
+use crate::problem::centred;
 use crate::progress::{Stage, interrupted};
 
 /// The mean squared error of each target at each penalty, each group predicted by a fit that never saw it.
 ///
-/// With H = U diag(σ² / (σ² + λ)) Uᵀ + 11ᵀ/n, the residuals of the group g left out are (I − H_gg)⁻¹ e_g of the residuals
-/// e of the fit to all (exact for a penalty that does not depend on the group).
+/// With the hat matrix H of the fit to all, the residuals of a group g left out are (I − H_gg)⁻¹ e_g of the residuals
+/// e = (I − H)y (exact for a penalty that does not depend on the group). I − H is computed as U diag(λ / (σ² + λ)) Uᵀ + R,
+/// U without its part along 1 and R what U does not span: at small λ, where I and H nearly cancel, nothing is subtracted.
 pub(super) fn errors(
     spectrum: &Spectrum<'_, '_>,
     targets: &Mat<f64>,
@@ -22,11 +24,30 @@ pub(super) fn errors(
     groups: &[Vec<usize>],
     progress: &dyn Progress,
 ) -> Result<Errors, ModelError> {
-    let vectors = spectrum.sample_vectors();
+    let (_, vectors) = centred(spectrum.sample_vectors());
     let rotated = multiply(vectors.transpose(), targets.as_ref());
+    let parts: Vec<Group> = groups
+        .iter()
+        .map(|group| {
+            let vectors = rows(&vectors, group);
+            let size = group.len();
+            let (unspanned, residuals) = if spectrum.spans_samples() {
+                (Mat::zeros(size, size), Mat::zeros(size, targets.ncols()))
+            } else {
+                let projector = centring(size, targets.nrows());
+                let spanned = multiply(vectors.as_ref(), vectors.transpose());
+                let fitted = multiply(vectors.as_ref(), rotated.as_ref());
+                (projector - spanned, rows(targets, group) - fitted)
+            };
+            Group {
+                vectors,
+                unspanned,
+                residuals,
+            }
+        })
+        .collect();
     let left_out = LeftOut {
-        parts: groups.iter().map(|group| rows(&vectors, group)).collect(),
-        targets: groups.iter().map(|group| rows(targets, group)).collect(),
+        groups: parts,
         eigenvalues: spectrum.eigenvalues(),
         rotated,
         samples: targets.nrows(),
@@ -44,43 +65,43 @@ pub(super) fn errors(
 }
 
 struct LeftOut<'s> {
-    /// For each group, its rows of U.
-    parts: Vec<Mat<f64>>,
-    /// For each group, its rows of the targets.
-    targets: Vec<Mat<f64>>,
+    groups: Vec<Group>,
     eigenvalues: &'s [f64],
     /// Uᵀ of the targets.
     rotated: Mat<f64>,
     samples: usize,
 }
 
+/// What the rows of one group know, whatever the penalty.
+struct Group {
+    /// Its rows of U.
+    vectors: Mat<f64>,
+    /// Its block of R.
+    unspanned: Mat<f64>,
+    /// Its rows of R times the targets.
+    residuals: Mat<f64>,
+}
+
 impl LeftOut<'_> {
     fn errors(&self, penalty: f64) -> Vec<f64> {
         let channels = self.rotated.ncols();
-        let shrinkage = |row: usize| self.eigenvalues[row] / (self.eigenvalues[row] + penalty);
+        let shrinkage = |row: usize| penalty / (self.eigenvalues[row] + penalty);
         let coefficients = Mat::from_fn(self.eigenvalues.len(), channels, |row, channel| {
             shrinkage(row) * self.rotated[(row, channel)]
         });
         let mut squares = vec![0.0; channels];
-        for (part, targets) in self.parts.iter().zip(&self.targets) {
-            let fitted = multiply(part.as_ref(), coefficients.as_ref());
-            let shrunk = Mat::from_fn(part.nrows(), part.ncols(), |row, column| {
-                part[(row, column)] * shrinkage(column)
+        for group in &self.groups {
+            let vectors = &group.vectors;
+            let shrunk = Mat::from_fn(vectors.nrows(), vectors.ncols(), |row, column| {
+                vectors[(row, column)] * shrinkage(column)
             });
-            let hat = multiply(shrunk.as_ref(), part.transpose());
-            let mean_hat = 1.0 / self.samples as f64;
-            let complement = Mat::from_fn(part.nrows(), part.nrows(), |row, column| {
-                let identity = if row == column { 1.0 } else { 0.0 };
-                identity - hat[(row, column)] - mean_hat
-            });
-            let residuals = solve(complement, (targets - &fitted).as_ref());
+            let complement = multiply(shrunk.as_ref(), vectors.transpose()) + &group.unspanned;
+            let residuals = multiply(vectors.as_ref(), coefficients.as_ref()) + &group.residuals;
+            let left_out = solve(complement, residuals);
             for (channel, square) in squares.iter_mut().enumerate() {
-                *square += residuals.as_ref().map_or(f64::INFINITY, |residuals| {
-                    residuals
-                        .col_as_slice(channel)
-                        .iter()
-                        .map(|value| value * value)
-                        .sum()
+                *square += left_out.as_ref().map_or(f64::INFINITY, |left_out| {
+                    let left_out = left_out.col_as_slice(channel).iter();
+                    left_out.map(|value| value * value).sum()
                 });
             }
         }
@@ -91,8 +112,16 @@ impl LeftOut<'_> {
     }
 }
 
+/// A diagonal block of I − 11ᵀ/n.
+fn centring(size: usize, samples: usize) -> Mat<f64> {
+    Mat::from_fn(size, size, |row, column| {
+        let identity = if row == column { 1.0 } else { 0.0 };
+        identity - 1.0 / samples as f64
+    })
+}
+
 /// The solution for a positive definite matrix; `None` where rounding leaves none, at penalties too weak to judge.
-fn solve(mut matrix: Mat<f64>, right: MatRef<'_, f64>) -> Option<Mat<f64>> {
+fn solve(mut matrix: Mat<f64>, mut right: Mat<f64>) -> Option<Mat<f64>> {
     let size = matrix.nrows();
     let scratch = cholesky_in_place_scratch::<f64>(size, Par::Seq, Default::default())
         .or(solve_in_place_scratch::<f64>(size, right.ncols(), Par::Seq));
@@ -106,9 +135,8 @@ fn solve(mut matrix: Mat<f64>, right: MatRef<'_, f64>) -> Option<Mat<f64>> {
         Default::default(),
     )
     .ok()?;
-    let mut solution = right.to_owned();
-    solve_in_place(matrix.as_ref(), solution.as_mut(), Par::Seq, stack);
-    Some(solution)
+    solve_in_place(matrix.as_ref(), right.as_mut(), Par::Seq, stack);
+    Some(right)
 }
 
 fn rows(matrix: &Mat<f64>, positions: &[usize]) -> Mat<f64> {
