@@ -187,7 +187,11 @@ fn a_constant_label_is_predicted_exactly_and_named() {
                 let fit = fit(&*estimator, &set);
                 let found = predict(&fit.regressor, &recording.features);
                 assert!(
-                    found.iter().skip(1).step_by(3).all(|value| *value == 0.1),
+                    found
+                        .iter()
+                        .skip(1)
+                        .step_by(3)
+                        .all(|value| value.to_bits() == 0.1_f64.to_bits()),
                     "{}",
                     estimator.name()
                 );
