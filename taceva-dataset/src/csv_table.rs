@@ -181,7 +181,7 @@ impl CsvTable {
     /// If there is no such row or column.
     pub fn number(&self, row: usize, column: usize) -> Result<Option<f64>, DatasetError> {
         let cell = self.cell(row, column);
-        match parse_number(cell.as_bytes()) {
+        match parse_number(cell) {
             Some(number) => Ok(number),
             None => Err(self.not_a_number(row, column)),
         }
@@ -238,10 +238,9 @@ impl CsvTable {
         values: &mut [f64],
         invalid: Invalid,
     ) -> Result<Vec<usize>, usize> {
-        let text = self.text.as_bytes();
         let mut absent = Vec::new();
         for (row, value) in values.iter_mut().enumerate() {
-            match parse_number(&text[block.cell(row, column)]) {
+            match parse_number(self.slice(block.cell(row, column))) {
                 Some(Some(number)) => *value = number,
                 Some(None) => absent.push(block.first_row + row),
                 None if invalid == Invalid::AsNan => *value = f64::NAN,

@@ -345,8 +345,10 @@ impl Recorder {
         let number = self.table.rows();
         let folder = self.path.join(layout::frame_folder(number));
         if !folder.exists() {
-            fs::create_dir(&folder).map_err(DatasetError::io("create", &folder))?;
+            // All of them: a power cut may have taken the name of the outer one, too.
+            fs::create_dir_all(&folder).map_err(DatasetError::io("create", &folder))?;
             sync_folder(parent_of(&folder))?;
+            sync_folder(&self.path)?;
         }
         let path = layout::frame_path(number, "png");
         let digest = self.write_image(&path, frame)?;

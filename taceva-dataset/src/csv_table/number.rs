@@ -9,12 +9,15 @@ const EXACT_POWERS: [f64; 23] = [
 /// The largest integer below which binary64 holds every one.
 const EXACT_INTEGERS: u64 = 1 << 53;
 
+/// 16 digits and a point: more are beyond 2^53 unless they begin with zeros.
+const PLAIN_BYTES: usize = 17;
+
 /// The finite number in `cell`: `Some(None)` if the cell is empty, `None` if it holds something else.
-pub(super) fn parse_number(cell: &[u8]) -> Option<Option<f64>> {
-    if let Some(number) = parse_plain(cell) {
+pub(super) fn parse_number(cell: &str) -> Option<Option<f64>> {
+    if let Some(number) = parse_plain(cell.as_bytes()) {
         return Some(Some(number));
     }
-    let text = std::str::from_utf8(cell).ok()?.trim();
+    let text = cell.trim();
     if text.is_empty() {
         return Some(None);
     }
@@ -28,8 +31,7 @@ fn parse_plain(cell: &[u8]) -> Option<f64> {
         (b'-', rest) => (true, rest),
         _ => (false, cell),
     };
-    // 18 digits and a point cannot overflow 64 bits.
-    if digits.len() > 19 {
+    if digits.len() > PLAIN_BYTES {
         return None;
     }
     let mut mantissa: u64 = 0;
@@ -44,7 +46,7 @@ fn parse_plain(cell: &[u8]) -> Option<f64> {
     if digits.len() == usize::from(point.is_some()) {
         return None;
     }
-    if mantissa > EXACT_INTEGERS || (point.is_none() && digits.len() > 18) {
+    if mantissa > EXACT_INTEGERS {
         return None;
     }
     let places = point.map_or(0, |position| digits.len() - position - 1);
@@ -95,7 +97,7 @@ mod tests {
             "0.00000000000000000000001",
         ] {
             let expected: f64 = text.parse().expect("a number");
-            let found = parse_number(text.as_bytes()).flatten().expect(text);
+            let found = parse_number(text).flatten().expect(text);
             assert_eq!(found.to_bits(), expected.to_bits(), "{text}");
         }
     }
@@ -116,18 +118,18 @@ mod tests {
             "1.2.3",
             "1_0",
         ] {
-            assert_eq!(parse_number(text.as_bytes()), None, "{text}");
+            assert_eq!(parse_number(text), None, "{text}");
         }
-        assert_eq!(parse_number(b""), Some(None));
-        assert_eq!(parse_number(b"  "), Some(None));
-        assert_eq!(parse_number(b" 1.5\r"), Some(Some(1.5)));
+        assert_eq!(parse_number(""), Some(None));
+        assert_eq!(parse_number("  "), Some(None));
+        assert_eq!(parse_number(" 1.5\r"), Some(Some(1.5)));
     }
 
     proptest! {
         #[test]
         fn any_decimal_text_is_read_as_the_standard_library_reads_it(text in "-?[0-9]{0,20}\\.?[0-9]{0,20}") {
             let expected: Option<f64> = text.parse().ok();
-            let found = parse_number(text.as_bytes()).flatten();
+            let found = parse_number(&text).flatten();
             prop_assert_eq!(found.map(f64::to_bits), expected.map(f64::to_bits));
         }
     }
