@@ -19,8 +19,11 @@ use crate::staged::lock_folder;
 use crate::store::{RecordingFacts, write_table_and_header};
 use crate::table::{FrameEntry, Row, Table};
 
+mod check;
+mod folder;
 mod written;
 
+use folder::{empty_folder, remove_journal};
 use written::{WrittenFrame, WrittenSample, WrittenStart};
 
 /// What a recording is of.
@@ -281,46 +284,6 @@ impl Recorder {
         });
     }
 
-    fn check(&self, sample: &Sample) -> Result<(), DatasetError> {
-        let refused = |problem: String| DatasetError::Sample {
-            id: sample.id.clone(),
-            problem,
-        };
-        if sample.id.is_empty() || self.has(&sample.id) {
-            return Err(refused("the name is empty or taken".to_owned()));
-        }
-        let (values, channels) = (sample.truth.as_slice(), self.table.channels());
-        if values.len() > channels.len() {
-            return Err(refused(format!(
-                "{} values for {} channels",
-                values.len(),
-                channels.len()
-            )));
-        }
-        let times = sample.stamp.iter().map(|stamp| stamp.valid_s);
-        let mut numbers = values.iter().copied().flatten().chain(times);
-        if let Some(number) = numbers.find(|number| !number.is_finite()) {
-            return Err(refused(format!("{number} is no finite number")));
-        }
-        match &sample.frame {
-            Some(frame) => self.check_frame(&sample.id, frame),
-            None => Ok(()),
-        }
-    }
-
-    fn check_frame(&self, id: &str, frame: &Frame) -> Result<(), DatasetError> {
-        match self.frame_info {
-            Some(expected) if expected != frame.info() => Err(DatasetError::Sample {
-                id: id.to_owned(),
-                problem: format!(
-                    "a frame of {}, expected {expected} as the first",
-                    frame.info()
-                ),
-            }),
-            _ => Ok(()),
-        }
-    }
-
     fn row(&self, sample: &Sample, frame: Option<FrameEntry>) -> Row {
         let channels = self.table.channels().len();
         Row {
@@ -417,43 +380,4 @@ impl SampleSink for Recorder {
         self.append(sample)?;
         Ok(())
     }
-}
-
-/// A locked folder in which nothing was recorded: a new one, or one whose creation was interrupted.
-fn empty_folder(path: &Path) -> Result<File, DatasetError> {
-    match fs::create_dir(path) {
-        Ok(()) => return lock_folder(path),
-        Err(error) if error.kind() == std::io::ErrorKind::AlreadyExists => {}
-        Err(error) => return Err(DatasetError::io("create", path)(error)),
-    }
-    let taken = || DatasetError::TargetExists {
-        path: path.to_owned(),
-    };
-    if !path.is_dir() {
-        return Err(taken());
-    }
-    let lock = lock_folder(path)?;
-    let entries = fs::read_dir(path).map_err(DatasetError::io("list", path))?;
-    for entry in entries {
-        let entry = entry.map_err(DatasetError::io("list", path))?;
-        let name = entry.file_name();
-        if name != layout::JOURNAL && name != layout::FRAMES {
-            return Err(taken());
-        }
-    }
-    let journal = path.join(layout::JOURNAL);
-    if journal.exists() {
-        let (_, recovered) = Journal::open(&journal)?;
-        if !recovered.records.is_empty() {
-            return Err(taken());
-        }
-        fs::remove_file(&journal).map_err(DatasetError::io("remove", &journal))?;
-    }
-    Ok(lock)
-}
-
-fn remove_journal(path: &Path) -> Result<(), DatasetError> {
-    let journal = path.join(layout::JOURNAL);
-    fs::remove_file(&journal).map_err(DatasetError::io("remove", &journal))?;
-    sync_folder(path)
 }

@@ -1,25 +1,12 @@
 //! The labels of a recording in memory, column by column.
 
-use taceva_core::{
-    Channel, Channels, Column, Field, FieldSet, Frame, Phase, Readings, Sample, Stamp,
-};
+mod cells;
+
+use taceva_core::{Channels, Column, Field, FieldSet, Frame, Phase, Readings, Sample, Stamp};
 
 use crate::digest::{Digest, PartsDigest};
 
-/// Names that columns beside the channels have on disk; no channel and no attribute may be called so.
-pub(crate) const RESERVED: [&str; 11] = [
-    "sample",
-    "point_id",
-    "unit_id",
-    "scene",
-    "depth_step",
-    "repeat",
-    "phase",
-    "part",
-    "t_s",
-    "frame",
-    "frame_sha256",
-];
+pub(crate) use cells::{Cells, NamedColumn, RESERVED, is_attribute_name};
 
 /// Where the file of a frame lies within the dataset, and what its bytes must be.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -324,92 +311,10 @@ impl Table {
     }
 }
 
-/// Whether a text column may be called `name`.
-pub(crate) fn is_attribute_name(name: &str) -> bool {
-    !RESERVED.contains(&name) && Channel::named(name, taceva_core::Unit::One).is_ok()
-}
-
-/// A column with the name it has on disk.
-pub(crate) struct NamedColumn<'a> {
-    pub(crate) name: &'a str,
-    pub(crate) cells: Cells<'a>,
-}
-
-/// The cells of a column of any kind.
-pub(crate) enum Cells<'a> {
-    Name(&'a [String]),
-    Text(&'a [Option<String>]),
-    Count(&'a [Option<u32>]),
-    Phase(&'a [Option<Phase>]),
-    Time(&'a [Option<f64>]),
-    Number(&'a Column),
-    FramePath(&'a [Option<FrameEntry>]),
-    FrameDigest(&'a [Option<FrameEntry>]),
-}
-
-impl Cells<'_> {
-    fn is_present(&self, row: usize) -> bool {
-        match self {
-            Cells::Name(_) => true,
-            Cells::Text(cells) => cells[row].is_some(),
-            Cells::Count(cells) => cells[row].is_some(),
-            Cells::Phase(cells) => cells[row].is_some(),
-            Cells::Time(cells) => cells[row].is_some(),
-            Cells::Number(cells) => cells.get(row).is_some(),
-            Cells::FramePath(cells) | Cells::FrameDigest(cells) => cells[row].is_some(),
-        }
-    }
-
-    /// The number in a row, of a column of numbers.
-    pub(crate) fn number(&self, row: usize) -> Option<f64> {
-        match self {
-            Cells::Time(cells) => cells[row],
-            Cells::Number(cells) => cells.get(row),
-            _ => None,
-        }
-    }
-
-    /// The cell as text; numbers in the shortest form that reads back to the same binary64.
-    pub(crate) fn text(&self, row: usize) -> Option<String> {
-        match self {
-            Cells::Name(cells) => Some(cells[row].clone()),
-            Cells::Text(cells) => cells[row].clone(),
-            Cells::Count(cells) => cells[row].map(|count| count.to_string()),
-            Cells::Phase(cells) => cells[row].map(|phase| phase.to_string()),
-            Cells::Time(_) | Cells::Number(_) => {
-                self.number(row).map(|number| format!("{number:?}"))
-            }
-            Cells::FramePath(cells) => cells[row].as_ref().map(|entry| entry.path.clone()),
-            Cells::FrameDigest(cells) => cells[row].as_ref().map(|entry| entry.digest.to_string()),
-        }
-    }
-
-    fn digest(&self, row: usize, digest: &mut PartsDigest) {
-        digest.fixed(&[u8::from(self.is_present(row))]);
-        match self {
-            Cells::Time(_) | Cells::Number(_) => {
-                if let Some(number) = self.number(row) {
-                    digest.fixed(&number.to_le_bytes());
-                }
-            }
-            Cells::Name(cells) => digest.part(cells[row].as_bytes()),
-            Cells::Text(cells) => {
-                if let Some(text) = &cells[row] {
-                    digest.part(text.as_bytes());
-                }
-            }
-            _ => {
-                if let Some(text) = self.text(row) {
-                    digest.part(text.as_bytes());
-                }
-            }
-        }
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use taceva_core::Channel;
 
     fn table(rows: impl IntoIterator<Item = Row>) -> Table {
         let channels = Channels::new([Channel::FZ]).expect("one channel");

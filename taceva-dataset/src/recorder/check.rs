@@ -1,0 +1,48 @@
+//! What can be recorded: refused before anything is written.
+
+use taceva_core::{Frame, Sample};
+
+use super::Recorder;
+use crate::error::DatasetError;
+
+impl Recorder {
+    pub(super) fn check(&self, sample: &Sample) -> Result<(), DatasetError> {
+        let refused = |problem: String| DatasetError::Sample {
+            id: sample.id.clone(),
+            problem,
+        };
+        if sample.id.is_empty() || self.has(&sample.id) {
+            return Err(refused("the name is empty or taken".to_owned()));
+        }
+        let (values, channels) = (sample.truth.as_slice(), self.table.channels());
+        if values.len() > channels.len() {
+            return Err(refused(format!(
+                "{} values for {} channels",
+                values.len(),
+                channels.len()
+            )));
+        }
+        let times = sample.stamp.iter().map(|stamp| stamp.valid_s);
+        let mut numbers = values.iter().copied().flatten().chain(times);
+        if let Some(number) = numbers.find(|number| !number.is_finite()) {
+            return Err(refused(format!("{number} is no finite number")));
+        }
+        match &sample.frame {
+            Some(frame) => self.check_frame(&sample.id, frame),
+            None => Ok(()),
+        }
+    }
+
+    pub(super) fn check_frame(&self, id: &str, frame: &Frame) -> Result<(), DatasetError> {
+        match self.frame_info {
+            Some(expected) if expected != frame.info() => Err(DatasetError::Sample {
+                id: id.to_owned(),
+                problem: format!(
+                    "a frame of {}, expected {expected} as the first",
+                    frame.info()
+                ),
+            }),
+            _ => Ok(()),
+        }
+    }
+}

@@ -1,0 +1,49 @@
+//! The folder of a recording at its beginning and at its end.
+
+use std::fs::{self, File};
+use std::path::Path;
+
+use crate::error::DatasetError;
+use crate::file::sync_folder;
+use crate::journal::Journal;
+use crate::layout;
+use crate::staged::lock_folder;
+
+/// A locked folder in which nothing was recorded: a new one, or one whose creation was interrupted.
+pub(super) fn empty_folder(path: &Path) -> Result<File, DatasetError> {
+    match fs::create_dir(path) {
+        Ok(()) => return lock_folder(path),
+        Err(error) if error.kind() == std::io::ErrorKind::AlreadyExists => {}
+        Err(error) => return Err(DatasetError::io("create", path)(error)),
+    }
+    let taken = || DatasetError::TargetExists {
+        path: path.to_owned(),
+    };
+    if !path.is_dir() {
+        return Err(taken());
+    }
+    let lock = lock_folder(path)?;
+    let entries = fs::read_dir(path).map_err(DatasetError::io("list", path))?;
+    for entry in entries {
+        let entry = entry.map_err(DatasetError::io("list", path))?;
+        let name = entry.file_name();
+        if name != layout::JOURNAL && name != layout::FRAMES {
+            return Err(taken());
+        }
+    }
+    let journal = path.join(layout::JOURNAL);
+    if journal.exists() {
+        let (_, recovered) = Journal::open(&journal)?;
+        if !recovered.records.is_empty() {
+            return Err(taken());
+        }
+        fs::remove_file(&journal).map_err(DatasetError::io("remove", &journal))?;
+    }
+    Ok(lock)
+}
+
+pub(super) fn remove_journal(path: &Path) -> Result<(), DatasetError> {
+    let journal = path.join(layout::JOURNAL);
+    fs::remove_file(&journal).map_err(DatasetError::io("remove", &journal))?;
+    sync_folder(path)
+}
