@@ -6,6 +6,7 @@ mod strength;
 use faer::Mat;
 use taceva_core::{Estimator, Features, ModelError, Progress, Regressor, TrainingSet};
 
+use self::leave_out::LeaveOut;
 use crate::choice::{ChannelChoice, Choice, ChosenBy, Errors, least, rmse};
 use crate::linalg::{Design, FeatureScale, Spectrum};
 use crate::linear::{LinearEstimator, LinearFit, LinearRegressor};
@@ -97,28 +98,26 @@ impl Ridge {
         validation: Option<&Validation<'_>>,
         progress: &dyn Progress,
     ) -> Result<(ChosenBy, Option<Errors>), ModelError> {
-        let by = match (validation, self.strength, problem.training.groups) {
-            (Some(part), strength, _) => {
+        match (validation, self.strength) {
+            (Some(part), strength) => {
                 let _stage = Stage::begin(progress, "error on validation", 1);
                 let by = strength.map_or(ChosenBy::Validation, |_| ChosenBy::Nobody);
                 return Ok((by, Some(path.errors_on(part))));
             }
-            (None, Some(_), _) => return Ok((ChosenBy::Nobody, None)),
-            (None, None, _) => problem
-                .groups()
-                .map_or(ChosenBy::LeaveOneOut, |_| ChosenBy::LeaveOneGroupOut),
-        };
-        let groups = problem
-            .groups()
-            .unwrap_or_else(|| (0..problem.centred.nrows()).map(|row| vec![row]).collect());
-        let errors = leave_out::errors(
-            path.spectrum,
-            &problem.centred,
-            &path.penalties,
-            &groups,
-            progress,
-        )?;
-        Ok((by, Some(errors)))
+            (None, Some(_)) => return Ok((ChosenBy::Nobody, None)),
+            (None, None) => {}
+        }
+        let left_out = LeaveOut::new(path.spectrum, &problem.centred);
+        Ok(match problem.groups() {
+            Some(groups) => (
+                ChosenBy::LeaveOneGroupOut,
+                Some(left_out.groups(&groups, &path.penalties, progress)?),
+            ),
+            None => (
+                ChosenBy::LeaveOneOut,
+                Some(left_out.singles(&path.penalties, progress)?),
+            ),
+        })
     }
 }
 
