@@ -1,0 +1,78 @@
+//! The programs of the workspace as users start them, built once a test program.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+use std::sync::{Mutex, OnceLock};
+
+use cargo_metadata::Message;
+
+use crate::workspace::root;
+
+/// The built command line program.
+///
+/// # Panics
+/// If it does not build, which ends the test.
+pub fn taceva() -> PathBuf {
+    built(&["--package", "taceva-cli", "--bin", "taceva"])
+}
+
+/// The built example `name` of the crate `package`.
+///
+/// # Panics
+/// If it does not build, which ends the test.
+pub fn example(package: &str, name: &str) -> PathBuf {
+    built(&["--package", package, "--example", name])
+}
+
+fn built(what: &[&str]) -> PathBuf {
+    static BUILT: OnceLock<Mutex<BTreeMap<String, PathBuf>>> = OnceLock::new();
+    let built = BUILT.get_or_init(Mutex::default);
+    // A build that failed in another test fails again here, with its own message.
+    let mut built = built
+        .lock()
+        .unwrap_or_else(std::sync::PoisonError::into_inner);
+    built
+        .entry(what.join(" "))
+        .or_insert_with(|| build(what))
+        .clone()
+}
+
+fn build(what: &[&str]) -> PathBuf {
+    let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
+    let output = Command::new(cargo)
+        .args(["build", "--message-format=json", "--manifest-path"])
+        .arg(root().join("Cargo.toml"))
+        .args(what)
+        .args(as_this_test())
+        .stderr(Stdio::piped())
+        .output()
+        .expect("cargo runs, it runs this test");
+    let complaint = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "cargo build {what:?}: {complaint}");
+    Message::parse_stream(output.stdout.as_slice())
+        .filter_map(Result::ok)
+        .filter_map(|message| match message {
+            Message::CompilerArtifact(artifact) => artifact.executable,
+            _ => None,
+        })
+        .last()
+        .expect("cargo names the program it built")
+        .into_std_path_buf()
+}
+
+/// Arguments that put the program where this test was put, so that nothing is built twice.
+fn as_this_test() -> Vec<std::ffi::OsString> {
+    let test = std::env::current_exe().expect("a test knows where it is");
+    // target/debug/deps/test-0123
+    let profile = test.parent().and_then(Path::parent);
+    let Some((profile, target)) = profile.and_then(|profile| Some((profile, profile.parent()?)))
+    else {
+        return Vec::new();
+    };
+    let mut arguments = vec!["--target-dir".into(), target.into()];
+    if profile.ends_with("release") {
+        arguments.push("--release".into());
+    }
+    arguments
+}

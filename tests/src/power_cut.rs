@@ -1,0 +1,16 @@
+//! What a power cut could leave of a real program's work.
+//!
+//! A program runs once under `strace`. Its system calls are replayed on a model of the disk that knows what is durable, and at
+//! every moment all states are made that a cut could leave: changes that were not made durable kept, lost, torn or zero, names
+//! of each folder up to any point. Whoever asks puts a state on a real disk, recovers, and says whether a promise is broken.
+//!
+//! Killing a process cannot find a missing `fsync`: the system keeps what it was given. Only this can.
+
+mod model;
+mod states;
+mod syscall;
+mod trace;
+
+pub use model::{Disk, Kind, ObjectId, Operation, ROOT, Tree, read_tree, write_tree};
+pub use states::{State, Tally};
+pub use trace::{Trace, TraceError};

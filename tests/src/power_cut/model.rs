@@ -1,0 +1,439 @@
+//! A disk as a power cut sees it: what is durable, and what is only promised to be.
+//!
+//! A file and its name are separate things. Making a file durable keeps its bytes and says nothing of its name; making a
+//! folder durable keeps the names in it and says nothing of the bytes behind them. Names of one folder become durable in the
+//! order in which they were made; between folders and between files there is no order at all.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+use std::sync::Arc;
+
+/// The number of a file or a folder, which it keeps whatever it is called; the watched folder is 0.
+pub type ObjectId = usize;
+
+/// The watched folder itself.
+pub const ROOT: ObjectId = 0;
+
+/// What a program did to the watched folder, or told whoever started it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Operation {
+    /// A new file or folder; its number is the next free one.
+    Create {
+        /// Where.
+        folder: ObjectId,
+        /// Its name.
+        name: String,
+        /// Which of the two.
+        kind: Kind,
+    },
+    /// One more name for something that is there.
+    Link {
+        /// Where.
+        folder: ObjectId,
+        /// The name.
+        name: String,
+        /// What it names.
+        object: ObjectId,
+    },
+    /// A name that is taken away.
+    Remove {
+        /// Where.
+        folder: ObjectId,
+        /// The name.
+        name: String,
+    },
+    /// A name that becomes another, replacing what had it.
+    Rename {
+        /// Folder and name before.
+        from: (ObjectId, String),
+        /// Folder and name after.
+        to: (ObjectId, String),
+    },
+    /// Bytes that a file got.
+    Write {
+        /// The file.
+        file: ObjectId,
+        /// From which byte on.
+        offset: usize,
+        /// The bytes.
+        bytes: Vec<u8>,
+    },
+    /// A file that was cut or filled up with zeros.
+    Resize {
+        /// The file.
+        file: ObjectId,
+        /// Its length now.
+        length: usize,
+    },
+    /// A file or folder that was made durable.
+    Sync {
+        /// Which.
+        object: ObjectId,
+        /// Operations that had been applied when the call began: only these are covered.
+        covers: usize,
+    },
+    /// A line on standard output: what whoever reads it relies on from now on.
+    Print(String),
+}
+
+/// A file or a folder.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// Bytes.
+    File,
+    /// Names.
+    Folder,
+}
+
+/// A change of a file that is not durable yet.
+#[derive(Clone, Debug)]
+pub(super) enum ByteChange {
+    Write { offset: usize, bytes: Vec<u8> },
+    Resize(usize),
+}
+
+/// A change of the names in a folder: one that goes, one that comes, or both at once.
+#[derive(Clone, Debug)]
+pub(super) struct NameChange {
+    pub(super) gone: Option<String>,
+    pub(super) come: Option<(String, ObjectId)>,
+}
+
+/// Something that is partly durable: what is, what it looks like to programs, and the changes between, oldest first.
+#[derive(Clone, Debug)]
+pub(super) struct Layered<T, C> {
+    pub(super) durable: T,
+    pub(super) live: T,
+    pub(super) pending: Vec<(usize, C)>,
+}
+
+pub(super) type Bytes = Vec<u8>;
+pub(super) type Names = BTreeMap<String, ObjectId>;
+
+#[derive(Clone, Debug)]
+pub(super) enum Object {
+    File(Layered<Bytes, ByteChange>),
+    Folder(Layered<Names, NameChange>),
+}
+
+/// A watched folder with everything in it, and what was printed so far.
+#[derive(Clone, Debug)]
+pub struct Disk {
+    pub(super) objects: Vec<Object>,
+    printed: Vec<String>,
+    applied: usize,
+}
+
+/// What stands in a folder: `None` for a folder, bytes for a file, by the path from the watched folder.
+pub type Tree = BTreeMap<String, Option<Arc<Vec<u8>>>>;
+
+impl Disk {
+    /// The folder at `path`, all of it durable.
+    ///
+    /// # Errors
+    /// Those of reading it.
+    pub fn load(path: &Path) -> std::io::Result<Disk> {
+        let mut disk = Disk {
+            objects: vec![Object::Folder(Layered::settled(Names::new()))],
+            printed: Vec::new(),
+            applied: 0,
+        };
+        disk.load_folder(path, ROOT)?;
+        Ok(disk)
+    }
+
+    fn load_folder(&mut self, path: &Path, id: ObjectId) -> std::io::Result<()> {
+        let mut names = Names::new();
+        for entry in std::fs::read_dir(path)? {
+            let entry = entry?;
+            let child = self.objects.len();
+            if entry.file_type()?.is_dir() {
+                self.objects
+                    .push(Object::Folder(Layered::settled(Names::new())));
+                self.load_folder(&entry.path(), child)?;
+            } else {
+                let bytes = std::fs::read(entry.path())?;
+                self.objects.push(Object::File(Layered::settled(bytes)));
+            }
+            names.insert(entry.file_name().to_string_lossy().into_owned(), child);
+        }
+        self.objects[id] = Object::Folder(Layered::settled(names));
+        Ok(())
+    }
+
+    /// Lines printed so far.
+    pub fn printed(&self) -> &[String] {
+        &self.printed
+    }
+
+    /// Operations applied so far.
+    pub fn applied(&self) -> usize {
+        self.applied
+    }
+
+    /// What `name` in `folder` is to programs.
+    pub fn lookup(&self, folder: ObjectId, name: &str) -> Option<ObjectId> {
+        match &self.objects[folder] {
+            Object::Folder(folder) => folder.live.get(name).copied(),
+            Object::File(_) => None,
+        }
+    }
+
+    /// How long a file is to programs.
+    pub fn length(&self, id: ObjectId) -> usize {
+        match &self.objects[id] {
+            Object::File(file) => file.live.len(),
+            Object::Folder(_) => 0,
+        }
+    }
+
+    /// The next number that is free.
+    pub fn next_id(&self) -> ObjectId {
+        self.objects.len()
+    }
+
+    /// Does what `operation` says.
+    pub fn apply(&mut self, operation: &Operation) {
+        match operation {
+            Operation::Create { folder, name, kind } => {
+                let id = self.objects.len();
+                self.objects.push(match kind {
+                    Kind::File => Object::File(Layered::settled(Bytes::new())),
+                    Kind::Folder => Object::Folder(Layered::settled(Names::new())),
+                });
+                self.rename(*folder, None, Some((name.clone(), id)));
+            }
+            Operation::Link {
+                folder,
+                name,
+                object,
+            } => self.rename(*folder, None, Some((name.clone(), *object))),
+            Operation::Remove { folder, name } => self.rename(*folder, Some(name.clone()), None),
+            Operation::Rename { from, to } => self.move_name(from, to),
+            Operation::Write {
+                file,
+                offset,
+                bytes,
+            } => self.change(
+                *file,
+                ByteChange::Write {
+                    offset: *offset,
+                    bytes: bytes.clone(),
+                },
+            ),
+            Operation::Resize { file, length } => self.change(*file, ByteChange::Resize(*length)),
+            Operation::Sync { object, covers } => self.sync(*object, *covers),
+            Operation::Print(line) => self.printed.push(line.clone()),
+        }
+        self.applied += 1;
+    }
+
+    fn move_name(&mut self, from: &(ObjectId, String), to: &(ObjectId, String)) {
+        let Some(object) = self.lookup(from.0, &from.1) else {
+            return;
+        };
+        let come = Some((to.1.clone(), object));
+        if from.0 == to.0 {
+            self.rename(from.0, Some(from.1.clone()), come);
+        } else {
+            self.rename(to.0, None, come);
+            self.rename(from.0, Some(from.1.clone()), None);
+        }
+    }
+
+    fn rename(&mut self, id: ObjectId, gone: Option<String>, come: Option<(String, ObjectId)>) {
+        if let Object::Folder(folder) = &mut self.objects[id] {
+            let change = NameChange { gone, come };
+            change.apply(&mut folder.live);
+            folder.pending.push((self.applied, change));
+        }
+    }
+
+    fn change(&mut self, id: ObjectId, change: ByteChange) {
+        if let Object::File(file) = &mut self.objects[id] {
+            change.apply(&mut file.live);
+            file.pending.push((self.applied, change));
+        }
+    }
+
+    fn sync(&mut self, id: ObjectId, covers: usize) {
+        match &mut self.objects[id] {
+            Object::File(file) => file.settle(covers, ByteChange::apply),
+            Object::Folder(folder) => folder.settle(covers, NameChange::apply),
+        }
+    }
+
+    /// What programs see.
+    pub fn live_tree(&self) -> Tree {
+        let mut tree = Tree::new();
+        self.add_live(ROOT, "", &mut tree);
+        tree
+    }
+
+    fn add_live(&self, id: ObjectId, prefix: &str, tree: &mut Tree) {
+        let Object::Folder(folder) = &self.objects[id] else {
+            return;
+        };
+        for (name, child) in &folder.live {
+            let path = joined(prefix, name);
+            match &self.objects[*child] {
+                Object::File(file) => {
+                    tree.insert(path, Some(Arc::new(file.live.clone())));
+                }
+                Object::Folder(_) => {
+                    self.add_live(*child, &path, tree);
+                    tree.insert(path, None);
+                }
+            }
+        }
+    }
+}
+
+impl<T: Clone, C> Layered<T, C> {
+    /// All of it durable.
+    fn settled(value: T) -> Layered<T, C> {
+        Layered {
+            durable: value.clone(),
+            live: value,
+            pending: Vec::new(),
+        }
+    }
+
+    /// Makes the changes of the first `covers` operations durable.
+    fn settle(&mut self, covers: usize, apply: impl Fn(&C, &mut T)) {
+        let kept = self.pending.partition_point(|(number, _)| *number < covers);
+        for (_, change) in self.pending.drain(..kept) {
+            apply(&change, &mut self.durable);
+        }
+    }
+}
+
+impl ByteChange {
+    pub(super) fn apply(&self, bytes: &mut Bytes) {
+        match self {
+            ByteChange::Write {
+                offset,
+                bytes: written,
+            } => {
+                let end = offset + written.len();
+                if bytes.len() < end {
+                    bytes.resize(end, 0);
+                }
+                bytes[*offset..end].copy_from_slice(written);
+            }
+            ByteChange::Resize(length) => bytes.resize(*length, 0),
+        }
+    }
+}
+
+impl NameChange {
+    pub(super) fn apply(&self, names: &mut Names) {
+        if let Some(gone) = &self.gone {
+            names.remove(gone);
+        }
+        if let Some((name, id)) = &self.come {
+            names.insert(name.clone(), *id);
+        }
+    }
+}
+
+pub(super) fn joined(prefix: &str, name: &str) -> String {
+    if prefix.is_empty() {
+        name.to_owned()
+    } else {
+        format!("{prefix}/{name}")
+    }
+}
+
+/// What stands in the folder at `path` right now.
+///
+/// # Errors
+/// Those of reading it.
+pub fn read_tree(path: &Path) -> std::io::Result<Tree> {
+    Ok(Disk::load(path)?.live_tree())
+}
+
+/// Puts everything in `tree` into the folder at `path`.
+///
+/// # Errors
+/// Those of writing.
+pub fn write_tree(tree: &Tree, path: &Path) -> std::io::Result<()> {
+    for (relative, content) in tree {
+        let target = path.join(relative);
+        match content {
+            None => std::fs::create_dir_all(target)?,
+            Some(bytes) => {
+                if let Some(folder) = target.parent() {
+                    std::fs::create_dir_all(folder)?;
+                }
+                std::fs::write(target, bytes.as_slice())?;
+            }
+        }
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn create(name: &str) -> Operation {
+        Operation::Create {
+            folder: ROOT,
+            name: name.to_owned(),
+            kind: Kind::File,
+        }
+    }
+
+    fn disk(operations: &[Operation]) -> Disk {
+        let folder = tempfile::tempdir().expect("a folder");
+        let mut disk = Disk::load(folder.path()).expect("empty");
+        operations
+            .iter()
+            .for_each(|operation| disk.apply(operation));
+        disk
+    }
+
+    #[test]
+    fn a_durable_file_has_no_durable_name() {
+        let write = Operation::Write {
+            file: 1,
+            offset: 0,
+            bytes: b"x".to_vec(),
+        };
+        let sync = Operation::Sync {
+            object: 1,
+            covers: 2,
+        };
+        let disk = disk(&[create("a"), write, sync]);
+        let Object::Folder(root) = &disk.objects[ROOT] else {
+            panic!("the root is a folder")
+        };
+        assert!(root.durable.is_empty() && root.live.contains_key("a"));
+        let Object::File(file) = &disk.objects[1] else {
+            panic!("a file")
+        };
+        assert_eq!(
+            (file.durable.as_slice(), file.pending.len()),
+            (&b"x"[..], 0)
+        );
+    }
+
+    #[test]
+    fn what_was_written_after_a_sync_began_is_not_covered() {
+        let write = |offset| Operation::Write {
+            file: 1,
+            offset,
+            bytes: b"x".to_vec(),
+        };
+        let sync = Operation::Sync {
+            object: 1,
+            covers: 2,
+        };
+        let disk = disk(&[create("a"), write(0), write(1), sync]);
+        let Object::File(file) = &disk.objects[1] else {
+            panic!("a file")
+        };
+        assert_eq!((file.durable.len(), file.pending.len()), (1, 1));
+    }
+}

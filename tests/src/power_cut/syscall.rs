@@ -1,0 +1,125 @@
+//! One line of a system call trace, taken apart.
+
+use std::collections::HashMap;
+
+/// A system call that came back.
+#[derive(Debug, PartialEq, Eq)]
+pub(super) struct Call {
+    pub(super) name: String,
+    pub(super) arguments: Vec<String>,
+    pub(super) result: i64,
+    /// What [`Lexer::line`] was told when the call began.
+    pub(super) begun: usize,
+}
+
+/// Joins the halves of calls during which another thread was heard.
+#[derive(Debug, Default)]
+pub(super) struct Lexer {
+    unfinished: HashMap<String, (String, usize)>,
+}
+
+impl Lexer {
+    /// The call that `line` completes; `now` is kept for calls that begin with it.
+    pub(super) fn line(&mut self, line: &str, now: usize) -> Option<Call> {
+        let (thread, text) = line.split_once(' ')?;
+        let text = text.trim_start();
+        if let Some(head) = text.strip_suffix("<unfinished ...>") {
+            let head = head.trim_end().to_owned();
+            self.unfinished.insert(thread.to_owned(), (head, now));
+            return None;
+        }
+        if let Some(resumed) = text.strip_prefix("<... ") {
+            let (_, tail) = resumed.split_once(" resumed>")?;
+            let (head, begun) = self.unfinished.remove(thread)?;
+            return parse(&format!("{head}{tail}"), begun);
+        }
+        parse(text, now)
+    }
+}
+
+/// `name(argument, argument) = result …`
+fn parse(text: &str, begun: usize) -> Option<Call> {
+    let (name, rest) = text.split_once('(')?;
+    let (arguments, result) = rest.rsplit_once(" = ")?;
+    let arguments = arguments.trim_end().strip_suffix(')')?;
+    let result = result.split_whitespace().next()?;
+    let result = match result.strip_prefix("0x") {
+        Some(address) => i64::from_str_radix(address, 16).ok()?,
+        None => result.parse().ok()?,
+    };
+    let is_name = |letter: char| letter.is_ascii_alphanumeric() || letter == '_';
+    name.chars().all(is_name).then(|| Call {
+        name: name.to_owned(),
+        arguments: split(arguments),
+        result,
+        begun,
+    })
+}
+
+/// Arguments lie between commas that are in no brackets; strings are hexadecimal and hold neither.
+fn split(arguments: &str) -> Vec<String> {
+    let mut parts = vec![String::new()];
+    let mut depth = 0_usize;
+    for letter in arguments.chars() {
+        match letter {
+            '{' | '[' | '(' => depth += 1,
+            '}' | ']' | ')' => depth = depth.saturating_sub(1),
+            ',' if depth == 0 => {
+                parts.push(String::new());
+                continue;
+            }
+            _ => {}
+        }
+        if let Some(part) = parts.last_mut() {
+            part.push(letter);
+        }
+    }
+    parts.iter().map(|part| part.trim().to_owned()).collect()
+}
+
+/// The bytes of every string in `argument`, in order, one after the other.
+pub(super) fn bytes_of(argument: &str) -> Vec<u8> {
+    let quoted = argument.split('"').skip(1).step_by(2);
+    quoted
+        .flat_map(|text| text.split("\\x").skip(1))
+        .filter_map(|digits| u8::from_str_radix(digits, 16).ok())
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_call_is_taken_apart() {
+        let mut lexer = Lexer::default();
+        let line = r#"17  writev(5, [{iov_base="\x41\x42", iov_len=2}, {iov_base="\x43", iov_len=1}], 2) = 3"#;
+        let call = lexer.line(line, 4).expect("a call");
+        assert_eq!((call.name.as_str(), call.result), ("writev", 3));
+        assert_eq!(call.arguments.len(), 3);
+        assert_eq!(bytes_of(&call.arguments[1]), b"ABC");
+    }
+
+    #[test]
+    fn halves_of_two_threads_find_each_other() {
+        let mut lexer = Lexer::default();
+        assert_eq!(lexer.line("1  fsync(3 <unfinished ...>", 7), None);
+        assert_eq!(lexer.line("2  fsync(4 <unfinished ...>", 8), None);
+        let first = lexer.line("1  <... fsync resumed>) = 0", 9).expect("whole");
+        assert_eq!((first.arguments[0].as_str(), first.begun), ("3", 7));
+        let second = lexer.line("2  <... fsync resumed>) = 0", 9).expect("whole");
+        assert_eq!((second.arguments[0].as_str(), second.begun), ("4", 8));
+    }
+
+    #[test]
+    fn what_is_no_call_is_nothing() {
+        let mut lexer = Lexer::default();
+        for line in [
+            "1  +++ exited with 0 +++",
+            "1  --- SIGCHLD {} ---",
+            "1  exit_group(0) = ?",
+        ] {
+            assert_eq!(lexer.line(line, 0), None, "{line}");
+        }
+    }
+}

@@ -1,0 +1,129 @@
+//! The power is cut at every moment of an import and of a recording; what was promised by then is there.
+
+use std::ops::Range;
+use std::path::Path;
+use std::process::Command;
+
+use taceva_dataset::Digest;
+use taceva_tests::power_cut::{Disk, Tally, Trace, TraceError};
+use taceva_tests::recorded::{Recorded, open_whole};
+use taceva_tests::{Form, Lab, scratch, taceva};
+
+/// Runs `command` in the folder at `watched`; `None` where programs cannot be traced.
+#[expect(clippy::print_stderr, reason = "a skipped test must say why")]
+fn traced(command: &Command, watched: &Path, initial: Disk) -> Option<Trace> {
+    match Trace::run(command, watched, initial) {
+        Err(TraceError::NoStrace(why)) => {
+            eprintln!("skipped: {why}");
+            None
+        }
+        trace => Some(trace.expect("every call can be followed")),
+    }
+}
+
+#[expect(clippy::print_stderr, reason = "the counts are the result")]
+fn assert_kept(what: &str, tally: &Tally, at_least: usize) {
+    eprintln!("{what}: {tally}");
+    assert_eq!(tally.violations, 0, "{what}: {tally}");
+    assert!(tally.states >= at_least, "{what}: {tally}");
+}
+
+fn import(lab: &Lab, target: &Path) -> Command {
+    let mut command = Command::new(taceva());
+    command
+        .args(["import", "--quiet", "--jobs", "2"])
+        .arg(lab.path())
+        .arg("--map")
+        .arg(lab.map())
+        .arg("--to")
+        .arg(target);
+    command
+}
+
+fn run(command: &mut Command) -> Result<(), String> {
+    let output = command.output().map_err(|error| error.to_string())?;
+    if output.status.success() {
+        return Ok(());
+    }
+    Err(String::from_utf8_lossy(&output.stderr).into_owned())
+}
+
+/// The dataset is absent or whole, and can be imported where it is absent.
+fn whole_or_absent(lab: &Lab, target: &Path, expected: Digest) -> Result<(), String> {
+    if !target.exists() {
+        run(&mut import(lab, target)).map_err(|error| format!("importing again: {error}"))?;
+    }
+    let dataset = open_whole(target)?;
+    if dataset.digest() == expected {
+        Ok(())
+    } else {
+        Err(format!("another dataset: {}", dataset.digest()))
+    }
+}
+
+#[test]
+fn an_import_leaves_the_whole_dataset_or_none() {
+    let lab = Lab::drawn(Form::Png, 6);
+    let folder = scratch();
+    let watched = folder.path();
+    let target = watched.join("set");
+    let initial = Disk::load(watched).expect("empty");
+    let Some(trace) = traced(&import(&lab, &target), watched, initial) else {
+        return;
+    };
+    assert!(trace.status.success(), "{}", trace.complaint);
+    let expected = open_whole(&target).expect("imported").digest();
+    let tally = trace.each_state(0..trace.operations.len() + 1, |state| {
+        let restarted = scratch();
+        let target = restarted.path().join("set");
+        state
+            .write_to(restarted.path())
+            .expect("room for a small folder");
+        let was_reported = state.printed.iter().any(|line| line.starts_with("digest"));
+        if was_reported && !target.exists() {
+            return Err("reported and lost".to_owned());
+        }
+        whole_or_absent(&lab, &target, expected)
+    });
+    assert_kept("import", &tally, 100);
+}
+
+/// A recording, traced, and the operation after which the last sample was acknowledged.
+fn recording(recorded: &Recorded) -> Option<(Trace, usize)> {
+    let folder = scratch();
+    let watched = folder.path();
+    let initial = Disk::load(watched).expect("empty");
+    let trace = traced(&recorded.command(&watched.join("set")), watched, initial)?;
+    assert!(trace.status.success(), "{}", trace.complaint);
+    let last = format!("ACK {}", recorded.most());
+    let end = (0..trace.operations.len())
+        .find(|count| trace.after(*count).printed().contains(&last))
+        .expect("the last sample was acknowledged");
+    Some((trace, end))
+}
+
+fn try_all(recorded: &Recorded, trace: &Trace, cuts: Range<usize>) -> Tally {
+    trace.each_state(cuts, |state| {
+        let restarted = scratch();
+        let target = restarted.path().join("set");
+        state
+            .write_to(restarted.path())
+            .expect("room for a small folder");
+        if state.printed.iter().any(|line| line.starts_with("CLOSED")) {
+            return recorded.check_closed(&target, recorded.most());
+        }
+        recorded.check(&target, state.acknowledged())
+    })
+}
+
+#[test]
+fn every_acknowledged_sample_survives_and_closing_loses_none() {
+    let recorded = Recorded::up_to(12);
+    let Some((trace, end)) = recording(&recorded) else {
+        return;
+    };
+    let tally = try_all(&recorded, &trace, 0..end);
+    assert_kept("recording", &tally, 100);
+    let tally = try_all(&recorded, &trace, end..trace.operations.len() + 1);
+    assert_kept("closing", &tally, 100);
+}
