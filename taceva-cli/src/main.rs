@@ -44,7 +44,14 @@ fn main() -> ExitCode {
 /// One line: what could not be done, on what, and why.
 #[expect(clippy::print_stderr, reason = "errors are for standard error")]
 fn complain(error: &Error) {
-    let text = format!("{error:#}");
+    let mut text = String::new();
+    for cause in error.chain().map(ToString::to_string) {
+        // An error that already names its cause need not be followed by it.
+        if !text.contains(&cause) {
+            text.push_str(if text.is_empty() { "" } else { ": " });
+            text.push_str(&cause);
+        }
+    }
     let shown: String = text.chars().flat_map(visible).collect();
     eprintln!("taceva: {shown}");
 }

@@ -185,7 +185,7 @@ fn score(
     let note = divided.and_then(|divided| divided.split.note.clone());
     let provenance = Provenance {
         taceva: env!("CARGO_PKG_VERSION").to_owned(),
-        dataset: Some(format!("sha256:{}", dataset.digest())),
+        dataset: Some(dataset.digest().to_string()),
         model: Some(ModelProvenance::of(model)?),
         split: divided.map(|divided| divided.spec.to_string()),
         seed: divided.map(|divided| divided.seed),

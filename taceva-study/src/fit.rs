@@ -220,7 +220,7 @@ impl<'a> FitPlan<'a> {
             Source::Synthetic => taceva_models::Source::Synthetic,
         };
         Provenance {
-            data: Some(format!("sha256:{}", self.dataset.digest())),
+            data: Some(self.dataset.digest().to_string()),
             source,
             split: Some(SplitCard {
                 split: self.divided.spec.to_string(),

@@ -128,8 +128,7 @@ impl Target {
         part: Option<Part>,
     ) -> Result<Target, StudyError> {
         let provenance = &model.card().provenance;
-        let is_own =
-            provenance.data.as_deref() == Some(format!("sha256:{}", dataset.digest()).as_str());
+        let is_own = provenance.data.as_deref() == Some(dataset.digest().to_string().as_str());
         let divided = match &provenance.split {
             Some(card) if is_own => {
                 Some(Divided::new(dataset.table(), Some(&card.split), card.seed)?)

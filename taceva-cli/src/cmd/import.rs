@@ -26,7 +26,7 @@ pub(crate) fn run(args: &Import, context: &Context) -> anyhow::Result<u8> {
     output::write(None, |out| {
         write!(out, "{}", report.summary)?;
         writeln!(out, "wrote    {}", report.path.display())?;
-        writeln!(out, "digest   sha256:{}", report.digest)
+        writeln!(out, "digest   {}", report.digest)
     })?;
     Ok(exit::DONE)
 }

@@ -8,10 +8,17 @@ use super::number::Printed;
 
 pub(super) fn write(report: &EvaluationReport, out: &mut dyn Write) -> io::Result<()> {
     heading(report, out)?;
+    let mut last = "";
     let rows: Vec<[String; 6]> = report
         .evaluation
         .scores()
         .map(|(metric, channel, score)| {
+            // A metric is named once, above its channels.
+            let name = if std::mem::replace(&mut last, metric.id) == metric.id {
+                ""
+            } else {
+                metric.id
+            };
             let printed = Printed::of(score);
             let interval = printed
                 .interval
@@ -21,7 +28,7 @@ pub(super) fn write(report: &EvaluationReport, out: &mut dyn Write) -> io::Resul
                 invalid => format!("{} (+{invalid} invalid)", score.n),
             };
             [
-                metric.id.to_owned(),
+                name.to_owned(),
                 channel.to_owned(),
                 if printed.value.is_empty() {
                     "–".to_owned()

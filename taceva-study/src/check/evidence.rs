@@ -161,7 +161,10 @@ mod tests {
         let high = frame(PixelFormat::Rgb16, wide);
         let facts = FrameFacts::of(&low, Some(&low));
         assert_eq!(facts, FrameFacts::of(&high, Some(&high)));
-        assert_eq!(facts.mean.map(f64::to_bits), [0.0, 0.4, 1.0].map(f64::to_bits));
+        assert_eq!(
+            facts.mean.map(f64::to_bits),
+            [0.0, 0.4, 1.0].map(f64::to_bits)
+        );
         assert_eq!(
             (facts.full, facts.zero, facts.distance),
             (2.0 / 6.0, 2.0 / 6.0, Some(0.0))

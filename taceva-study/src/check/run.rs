@@ -104,7 +104,7 @@ pub fn check(
     findings.sort_by_key(|finding| std::cmp::Reverse(finding.severity));
     Ok(CheckReport {
         schema: "taceva.check/1",
-        dataset: format!("sha256:{}", dataset.digest()),
+        dataset: dataset.digest().to_string(),
         samples: dataset.table().rows(),
         frames_decoded: frames.iter().flatten().count() as u64,
         looked_for: wanted.iter().map(|check| check.code).collect(),

@@ -1,0 +1,218 @@
+//! A lab's folder, drawn; and the program, run as a person would.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+use taceva_core::{Channel, Channels, Clock, Frame, FrameInfo, PixelFormat, Readings, Sample};
+use taceva_dataset::{
+    Dataset, Known, Recorder, RecordingFacts, RecordingSpec, SensorFacts, Source,
+};
+use tempfile::TempDir;
+
+/// Samples of the drawn folder: ten points, six presses each.
+pub const SAMPLES: u32 = 60;
+
+/// A temporary folder to work in.
+pub struct Bench {
+    folder: TempDir,
+}
+
+/// What the program did.
+pub struct Ran {
+    pub code: i32,
+    pub out: String,
+    pub err: String,
+}
+
+impl Bench {
+    pub fn new() -> Bench {
+        Bench {
+            folder: tempfile::tempdir().expect("a temporary folder"),
+        }
+    }
+
+    pub fn path(&self, name: &str) -> PathBuf {
+        self.folder.path().join(name)
+    }
+
+    pub fn write(&self, name: &str, text: &str) {
+        fs::write(self.path(name), text).expect("written");
+    }
+
+    /// The program, to be started in this folder.
+    pub fn command(&self, words: &str) -> Command {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_taceva"));
+        command
+            .current_dir(self.folder.path())
+            .args(words.split_whitespace());
+        command
+    }
+
+    /// Runs `taceva WORDS` in this folder.
+    pub fn run(&self, words: &str) -> Ran {
+        let Output {
+            status,
+            stdout,
+            stderr,
+        } = self.command(words).output().expect("the program starts");
+        let text = |bytes| String::from_utf8(bytes).expect("UTF-8");
+        Ran {
+            code: status.code().expect("not ended by a signal"),
+            out: text(stdout),
+            err: text(stderr),
+        }
+    }
+
+    /// Runs, and expects success.
+    pub fn ok(&self, words: &str) -> String {
+        let ran = self.run(words);
+        assert_eq!(ran.code, 0, "taceva {words}\n{}{}", ran.out, ran.err);
+        ran.out
+    }
+
+    /// Runs with JSON output, and expects success.
+    pub fn json(&self, words: &str) -> serde_json::Value {
+        serde_json::from_str(&self.ok(&format!("{words} --format json -q"))).expect("JSON")
+    }
+
+    /// Expects `code`, one line on standard error that holds `message`, and nothing on standard output.
+    pub fn refused(&self, words: &str, code: i32, message: &str) {
+        let ran = self.run(&format!("{words} -q"));
+        assert_eq!(ran.code, code, "taceva {words}\n{}{}", ran.out, ran.err);
+        assert!(
+            ran.err.contains(message),
+            "expected `{message}` in: {}",
+            ran.err
+        );
+        assert_eq!(ran.out, "", "taceva {words}");
+    }
+
+    /// A recording of pictures of `side` pixels at `name`.
+    pub fn record(&self, name: &str, side: u32) -> PathBuf {
+        let path = self.path(name);
+        let spec = RecordingSpec {
+            facts: RecordingFacts {
+                source: Source::Synthetic,
+                clock: Clock::Unknown,
+                sensor: SensorFacts {
+                    model: "drawn".into(),
+                    serial: "1".into(),
+                    gel: "1".into(),
+                    opaque: Known::Is(true),
+                },
+                footprint: None,
+            },
+            channels: Channels::new([Channel::PX, Channel::FZ]).expect("two channels"),
+        };
+        let mut recorder = Recorder::create(&path, &spec).expect("a new recording");
+        for number in 0..SAMPLES {
+            let (place, force) = label(number);
+            recorder
+                .append(&Sample {
+                    id: format!("s{number:02}"),
+                    point_id: Some(format!("p{}", number / 6)),
+                    frame: Some(draw(number, side)),
+                    truth: Readings::from_values([place, force]),
+                    ..Sample::default()
+                })
+                .expect("recorded");
+        }
+        recorder.close().expect("closed");
+        path
+    }
+
+    /// A lab's folder `lab` with `labels.csv`, `pictures/` and `map.toml`.
+    pub fn lab(&self) {
+        let recording = self.record("drawn", 32);
+        let dataset = Dataset::open(&recording).expect("a dataset");
+        fs::create_dir_all(self.path("lab/pictures")).expect("created");
+        let mut labels = String::from("file,place_mm,force_N,point,sample\n");
+        for (number, entry) in (0..SAMPLES).zip(dataset.table().frames()) {
+            let entry = entry.as_ref().expect("every sample has a frame");
+            let file = format!("pictures/{number:02}.png");
+            fs::copy(recording.join(&entry.path), self.path("lab").join(&file)).expect("copied");
+            let (place, force) = label(number);
+            labels.push_str(&format!(
+                "{file},{place:?},{force:?},p{},s{number:02}\n",
+                number / 6
+            ));
+        }
+        fs::write(self.path("lab/labels.csv"), labels).expect("written");
+        fs::write(self.path("map.toml"), MAP).expect("written");
+    }
+}
+
+pub const MAP: &str = r#"map_version = 1
+table = "labels.csv"
+
+[frame]
+column = "file"
+channel_order = "gray"
+reference = "unknown"
+
+[columns]
+Px = { from = "place_mm", unit = "mm" }
+Fz = { from = "force_N", unit = "N" }
+
+[ids]
+sample = "sample"
+point_id = "point"
+
+[sensor]
+model = "drawn"
+serial = "unknown"
+gel = "unknown"
+opaque = true
+"#;
+
+/// Where the blob is, and how bright.
+fn label(number: u32) -> (f64, f64) {
+    let mixed = f64::from(number * 37 % SAMPLES) / f64::from(SAMPLES);
+    (8.0 * (mixed - 0.5), 0.2 + f64::from(number % 6) * 0.3)
+}
+
+/// A blob at the place, as bright as the force.
+fn draw(number: u32, side: u32) -> Frame {
+    let (place, force) = label(number);
+    let middle = f64::from(side) / 2.0 + place * f64::from(side) / 12.0;
+    let mut bytes = Vec::new();
+    for y in 0..side {
+        for x in 0..side {
+            let (from_x, from_y) = (f64::from(x) - middle, f64::from(y) - f64::from(side) / 2.0);
+            let light = 20.0
+                + 110.0 * force * (-(from_x * from_x + from_y * from_y) / f64::from(side)).exp();
+            let noise = f64::from((x * 7919 + y * 104_729 + number * 1_299_709) % 7);
+            #[expect(
+                clippy::cast_possible_truncation,
+                clippy::cast_sign_loss,
+                reason = "clamped to a byte"
+            )]
+            bytes.push((light + noise).clamp(0.0, 255.0) as u8);
+        }
+    }
+    Frame::new(
+        FrameInfo {
+            width: side,
+            height: side,
+            format: PixelFormat::Gray8,
+        },
+        bytes,
+    )
+    .expect("whole")
+}
+
+/// Whether anything but what is named lies in the folder, such as a half-written file.
+pub fn leftovers(folder: &Path, known: &[&str]) -> Vec<String> {
+    let entries = fs::read_dir(folder).expect("a folder");
+    let names = entries.map(|entry| {
+        entry
+            .expect("readable")
+            .file_name()
+            .into_string()
+            .expect("UTF-8")
+    });
+    names
+        .filter(|name| !known.contains(&name.as_str()))
+        .collect()
+}
