@@ -17,7 +17,7 @@ use crate::settings::{SettingError, SettingInfo, Settings, number};
 
 /// Ridge regression: minimises Σ (y − b − wᵀx)² + λ‖w‖² for each channel, the intercept b unpenalised.
 ///
-/// λ is [`strength`](Ridge::strength) × the mean eigenvalue of the centred Gram matrix, so that a strength means the same for
+/// λ is the strength × the mean eigenvalue of the centred Gram matrix, so that a strength means the same for
 /// bright and dark pictures, many and few. Of the 41 strengths 10⁻⁶, 10⁻⁵·⁷⁵ … 10⁴ each channel gets its own: the one of least
 /// squared error on the validation part; without one, on the groups of the training part left out one after the
 /// other, or on its samples. Leaving out is exact, by the blocks of the hat matrix, and costs no refit.

@@ -1,9 +1,11 @@
 //! Which samples are learnt from, chosen by, and tested on.
 
 mod assign;
+mod error;
 mod manifest;
 mod spec;
 
-pub use assign::{Part, Split, SplitError, SplitInput};
+pub use assign::{Part, Split, SplitInput};
+pub use error::SplitError;
 pub use manifest::{SplitCounts, SplitManifest};
 pub use spec::{ColumnSplit, Fractions, SplitKind, SplitSpec};

@@ -1,121 +1,16 @@
-//! What every estimator promises, and what each promises on top of that.
+//! What every estimator promises.
+
+mod common;
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use taceva_core::{
-    Channel, Channels, ErrorKind, FeatureShape, Features, ModelError, Progress, Regressor, Silent,
-    Targets, TrainingSet,
-};
-use taceva_models::{ALL, ChosenBy, LinearEstimator, LinearFit, Pca, Settings, find};
-
-/// Reproducible numbers for tests: a linear congruential generator (Knuth's MMIX constants).
-struct Numbers(u64);
-
-impl Numbers {
-    /// Evenly distributed in -0.5..0.5.
-    fn next(&mut self) -> f64 {
-        self.0 = self
-            .0
-            .wrapping_mul(6_364_136_223_846_793_005)
-            .wrapping_add(1_442_695_040_888_963_407);
-        let high = u32::try_from(self.0 >> 32).expect("32 bits");
-        f64::from(high) / 2_f64.powi(32) - 0.5
-    }
-}
-
-/// Samples whose labels are linear in their features, with a little noise.
-#[derive(Clone)]
-struct Recording {
-    features: Features,
-    channels: Channels,
-    labels: Vec<f64>,
-    groups: Vec<u32>,
-}
-
-#[expect(
-    clippy::cast_possible_truncation,
-    reason = "features are kept in single precision"
-)]
-fn recording(samples: usize, width: usize, noise: f64, seed: u64) -> Recording {
-    let mut map = Numbers(42);
-    let weights: Vec<f64> = (0..3 * width).map(|_| map.next()).collect();
-    let mut numbers = Numbers(seed);
-    let values: Vec<f32> = (0..samples * width)
-        .map(|_| (0.5 + numbers.next()) as f32)
-        .collect();
-    let features = Features::new(FeatureShape::flat(width), values).expect("whole samples");
-    let mut labels = Vec::new();
-    for sample in 0..samples {
-        for row in weights.chunks_exact(width) {
-            let seen = features.sample(sample).iter().zip(row);
-            let clean: f64 = seen.map(|(&value, weight)| f64::from(value) * weight).sum();
-            labels.push(2.0 + clean + noise * numbers.next());
-        }
-    }
-    Recording {
-        features,
-        channels: Channels::new([Channel::FX, Channel::FY, Channel::FZ]).expect("distinct"),
-        labels,
-        groups: (0..samples)
-            .map(|sample| u32::try_from(sample * 5 / samples).expect("below 5"))
-            .collect(),
-    }
-}
-
-impl Recording {
-    fn set(&self) -> TrainingSet<'_> {
-        TrainingSet {
-            features: &self.features,
-            targets: Targets {
-                channels: &self.channels,
-                values: &self.labels,
-            },
-            groups: None,
-        }
-    }
-
-    fn grouped(&self) -> TrainingSet<'_> {
-        TrainingSet {
-            groups: Some(&self.groups),
-            ..self.set()
-        }
-    }
-
-    fn select(&self, rows: &[usize]) -> Recording {
-        Recording {
-            features: self.features.select(rows),
-            channels: self.channels.clone(),
-            labels: rows
-                .iter()
-                .flat_map(|&row| self.labels[row * 3..row * 3 + 3].to_vec())
-                .collect(),
-            groups: rows.iter().map(|&row| self.groups[row]).collect(),
-        }
-    }
-}
-
-fn model(name: &str, words: &[&str]) -> Box<dyn LinearEstimator> {
-    let settings = Settings::parse(words.iter().copied()).expect("well formed");
-    find(name)
-        .expect("registered")
-        .estimator(&settings)
-        .expect("valid settings")
-}
+use common::{Recording, both_shapes, distance, fit, model, predict, recording};
+use taceva_core::TrainingSet;
+use taceva_core::{ErrorKind, FeatureShape, Features, ModelError, Progress, Regressor, Silent};
+use taceva_models::{ALL, LinearEstimator, LinearFit};
 
 fn every_model() -> impl Iterator<Item = Box<dyn LinearEstimator>> {
     ALL.iter().map(|info| model(info.name, &[]))
-}
-
-fn fit(estimator: &dyn LinearEstimator, set: &TrainingSet<'_>) -> LinearFit {
-    estimator
-        .fit_linear(set, None, &Silent)
-        .unwrap_or_else(|error| panic!("{}: {error}", estimator.name()))
-}
-
-fn predict(regressor: &dyn Regressor, features: &Features) -> Vec<f64> {
-    let mut into = vec![0.0; features.samples() * regressor.channels().len()];
-    regressor.predict(features, &mut into).expect("finite");
-    into
 }
 
 fn refusal(result: Result<LinearFit, ModelError>, name: &str) -> String {
@@ -123,25 +18,6 @@ fn refusal(result: Result<LinearFit, ModelError>, name: &str) -> String {
         Ok(_) => panic!("{name} accepted what it should refuse"),
         Err(error) => error.to_string(),
     }
-}
-
-/// Largest difference, relative to the largest expected number.
-fn distance(found: &[f64], expected: &[f64]) -> f64 {
-    let largest = expected
-        .iter()
-        .fold(0.0_f64, |most, value| most.max(value.abs()));
-    let difference = |(a, b): (&f64, &f64)| (a - b).abs();
-    found
-        .iter()
-        .zip(expected)
-        .map(difference)
-        .fold(0.0, f64::max)
-        / largest
-}
-
-/// Wide (fewer samples than features) and tall, because the two take different ways.
-fn both_shapes(noise: f64) -> [Recording; 2] {
-    [recording(60, 90, noise, 1), recording(300, 40, noise, 2)]
 }
 
 #[test]
@@ -304,24 +180,25 @@ fn predicting_another_shape_is_an_error() {
 #[test]
 fn any_number_of_threads_gives_the_same_bits() {
     // Larger than a block and a slab, so that there is work to share.
-    for recording in [recording(300, 1100, 0.1, 11), recording(1100, 300, 0.1, 12)] {
+    let (wide, tall) = (recording(280, 1040, 0.1, 11), recording(1040, 280, 0.1, 12));
+    for (recording, set) in [(&wide, wide.grouped()), (&tall, tall.set())] {
         for estimator in every_model() {
-            for set in [recording.set(), recording.grouped()] {
-                let with = |threads: usize| {
-                    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
-                    let fit = || {
-                        let fit = fit(&*estimator, &set);
-                        let found = predict(&fit.regressor, &recording.features);
-                        let weights = fit.regressor.weights().iter();
-                        weights
-                            .chain(&found)
-                            .map(|value| value.to_bits())
-                            .collect::<Vec<_>>()
-                    };
-                    pool.build().expect("threads").install(fit)
-                };
-                assert_eq!(with(1), with(2), "{}", estimator.name());
-                assert_eq!(with(1), with(5), "{}", estimator.name());
+            let with = |threads: usize| -> Vec<u64> {
+                let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
+                pool.build().expect("threads").install(|| {
+                    let fit = fit(&*estimator, &set);
+                    let found = predict(&fit.regressor, &recording.features);
+                    let numbers = fit.regressor.weights().iter().chain(&found);
+                    numbers.map(|value| value.to_bits()).collect()
+                })
+            };
+            let alone = with(1);
+            for threads in [2, 5] {
+                assert!(
+                    with(threads) == alone,
+                    "{} with {threads}",
+                    estimator.name()
+                );
             }
         }
     }
@@ -427,214 +304,5 @@ fn learning_from_validation_too_equals_learning_from_both_at_once() {
         let expected = predict(&both.regressor, &recording.features);
         let found = predict(&refitted.regressor, &recording.features);
         assert!(distance(&found, &expected) < 1e-9);
-    }
-}
-
-#[test]
-fn an_endless_penalty_leaves_the_mean() {
-    for recording in both_shapes(0.1) {
-        let ridge = fit(&*model("ridge", &["strength=1e12"]), &recording.set());
-        let baseline = fit(&*model("baseline", &[]), &recording.set());
-        let expected = predict(&baseline.regressor, &recording.features);
-        let found = predict(&ridge.regressor, &recording.features);
-        assert!(distance(&found, &expected) < 1e-9);
-    }
-}
-
-#[test]
-fn ridge_solves_the_normal_equations() {
-    for recording in both_shapes(0.1) {
-        let words = ["strength=0.03", "scale=none"];
-        let fit = fit(&*model("ridge", &words), &recording.set());
-        let (samples, width) = (
-            recording.features.samples(),
-            recording.features.shape().len(),
-        );
-        let mean = |feature: usize| {
-            let values = (0..samples).map(|row| f64::from(recording.features.sample(row)[feature]));
-            values.sum::<f64>() / samples as f64
-        };
-        let means: Vec<f64> = (0..width).map(mean).collect();
-        let centred = |row: usize, feature: usize| {
-            f64::from(recording.features.sample(row)[feature]) - means[feature]
-        };
-        let trace: f64 = (0..samples)
-            .flat_map(|row| (0..width).map(move |feature| (row, feature)))
-            .map(|(row, feature)| centred(row, feature).powi(2))
-            .sum();
-        let penalty = 0.03 * trace / samples.min(width) as f64;
-        let predictions = predict(&fit.regressor, &recording.features);
-        // Xᵀ(y − Xw − b) = λw, and the residuals sum to 0.
-        for channel in 0..3 {
-            let residual =
-                |row: usize| recording.labels[row * 3 + channel] - predictions[row * 3 + channel];
-            let total: f64 = (0..samples).map(residual).sum();
-            assert!(total.abs() < 1e-9, "{total}");
-            for feature in 0..width {
-                let left: f64 = (0..samples)
-                    .map(|row| centred(row, feature) * residual(row))
-                    .sum();
-                let right = penalty * fit.regressor.weights()[channel * width + feature];
-                assert!((left - right).abs() < 1e-9, "{left} for {right}");
-            }
-        }
-    }
-}
-
-#[test]
-fn leaving_groups_out_equals_fitting_without_them() {
-    for recording in both_shapes(0.3) {
-        for grouped in [true, false] {
-            let set = if grouped {
-                recording.grouped()
-            } else {
-                recording.set()
-            };
-            let chosen = fit(&*model("ridge", &["scale=none"]), &set);
-            let samples = recording.features.samples();
-            let groups: Vec<Vec<usize>> = if grouped {
-                let rows = |group| {
-                    (0..samples)
-                        .filter(|&row| recording.groups[row] == group)
-                        .collect()
-                };
-                (0..5).map(rows).collect()
-            } else {
-                (0..samples).map(|row| vec![row]).collect()
-            };
-            let by = if grouped {
-                ChosenBy::LeaveOneGroupOut
-            } else {
-                ChosenBy::LeaveOneOut
-            };
-            assert_eq!(chosen.choice.by, by);
-            for (channel, choice) in chosen.choice.channels.iter().enumerate() {
-                let strength = choice.value.expect("chosen");
-                let squares: f64 = groups
-                    .iter()
-                    .map(|group| without(&recording, group, strength, channel))
-                    .sum();
-                let expected = (squares / samples as f64).sqrt();
-                let found = choice.rmse.expect("known");
-                assert!(
-                    (found / expected - 1.0).abs() < 1e-9,
-                    "{found} for {expected} at {strength}, {samples} samples, grouped {grouped}"
-                );
-            }
-        }
-    }
-}
-
-/// The squared error on `group` of a ridge regression that never saw it, at the penalty of all samples.
-fn without(recording: &Recording, group: &[usize], strength: f64, channel: usize) -> f64 {
-    let samples = recording.features.samples();
-    let others: Vec<usize> = (0..samples).filter(|row| !group.contains(row)).collect();
-    let rest = recording.select(&others);
-    // The penalty is relative to the mean eigenvalue of the part: make it the same in absolute terms.
-    let relative = strength * mean_eigenvalue(recording) / mean_eigenvalue(&rest);
-    let words = [format!("strength={relative:e}"), "scale=none".to_owned()];
-    let estimator = model("ridge", &[words[0].as_str(), words[1].as_str()]);
-    let found = predict(
-        &fit(&*estimator, &rest.set()).regressor,
-        &recording.features,
-    );
-    let error =
-        |&row: &usize| (found[row * 3 + channel] - recording.labels[row * 3 + channel]).powi(2);
-    group.iter().map(error).sum()
-}
-
-fn mean_eigenvalue(recording: &Recording) -> f64 {
-    let (samples, width) = (
-        recording.features.samples(),
-        recording.features.shape().len(),
-    );
-    let mut trace = 0.0;
-    for feature in 0..width {
-        let column = || (0..samples).map(|row| f64::from(recording.features.sample(row)[feature]));
-        let mean = column().sum::<f64>() / samples as f64;
-        trace += column().map(|value| (value - mean).powi(2)).sum::<f64>();
-    }
-    trace / samples.min(width) as f64
-}
-
-#[test]
-fn all_directions_of_pls_give_least_squares() {
-    let recording = recording(120, 12, 0.3, 14);
-    let pls = fit(&*model("pls", &["components=12"]), &recording.set());
-    assert_eq!(pls.choice.channels[0].value, Some(12.0));
-    let ridge = fit(&*model("ridge", &["strength=1e-12"]), &recording.set());
-    let expected = predict(&ridge.regressor, &recording.features);
-    let found = predict(&pls.regressor, &recording.features);
-    assert!(distance(&found, &expected) < 1e-9);
-}
-
-#[test]
-fn the_first_direction_of_pls_is_that_of_the_covariance() {
-    let mut recording = recording(50, 6, 0.3, 15);
-    recording.labels = recording
-        .labels
-        .iter()
-        .step_by(3)
-        .flat_map(|l| [*l; 3])
-        .collect();
-    let fit = fit(
-        &*model("pls", &["components=1", "scale=none"]),
-        &recording.set(),
-    );
-    let mean = recording.labels.iter().sum::<f64>() / 150.0;
-    let covariance: Vec<f64> = (0..6)
-        .map(|feature| {
-            let value = |row: usize| f64::from(recording.features.sample(row)[feature]);
-            (0..50)
-                .map(|row| value(row) * (recording.labels[row * 3] - mean))
-                .sum()
-        })
-        .collect();
-    let weights = &fit.regressor.weights()[..6];
-    let ratio = weights[0] / covariance[0];
-    let expected: Vec<f64> = covariance.iter().map(|value| value * ratio).collect();
-    assert!(distance(weights, &expected) < 1e-9);
-}
-
-#[test]
-fn principal_components_are_orthonormal_and_keep_all_distances() {
-    for recording in both_shapes(0.1) {
-        let (samples, width) = (
-            recording.features.samples(),
-            recording.features.shape().len(),
-        );
-        let rank = (samples - 1).min(width);
-        let pca = Pca::fit(&recording.features, rank, &Silent).expect("as many directions");
-        let components: Vec<&[f64]> = pca.components().collect();
-        for (position, first) in components.iter().enumerate() {
-            for (other, second) in components.iter().enumerate() {
-                let product: f64 = first.iter().zip(*second).map(|(a, b)| a * b).sum();
-                let expected = f64::from(u8::from(position == other));
-                assert!(
-                    (product - expected).abs() < 1e-12,
-                    "{position} {other}: {product}"
-                );
-            }
-        }
-        let ratio = pca.variance_ratio();
-        assert!(ratio.windows(2).all(|pair| pair[0] >= pair[1]));
-        assert!((ratio.iter().sum::<f64>() - 1.0).abs() < 1e-9);
-        let reduced = pca.transform(&recording.features).expect("same shape");
-        let distance = |features: &Features| -> f64 {
-            let pairs = features.sample(0).iter().zip(features.sample(1));
-            pairs
-                .map(|(&a, &b)| (f64::from(a) - f64::from(b)).powi(2))
-                .sum()
-        };
-        // Coordinates are rounded to f32.
-        assert!((distance(&reduced) / distance(&recording.features) - 1.0).abs() < 1e-5);
-        let error = Pca::fit(&recording.features, rank + 1, &Silent).expect_err("too many");
-        assert_eq!(
-            error.to_string(),
-            format!(
-                "`pca={}`: {samples} training samples vary in {rank} directions",
-                rank + 1
-            )
-        );
     }
 }

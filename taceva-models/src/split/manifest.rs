@@ -2,7 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::assign::{Part, Split, SplitError};
+use super::assign::{Part, Split};
+use super::error::SplitError;
 use super::spec::SplitSpec;
 
 /// Which samples went where, by their ids.

@@ -1,0 +1,103 @@
+//! Why a split cannot be.
+
+use super::assign::Part;
+use crate::settings::Suggestion;
+
+/// Why a recording cannot be split as asked.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum SplitError {
+    /// A word that names no split.
+    #[error("no split is called `{given}`, {suggestion}")]
+    Kind {
+        /// The word.
+        given: String,
+        /// What it may have been meant to be.
+        suggestion: Suggestion,
+    },
+    /// Values of a column that are not assigned as they should be.
+    #[error(
+        "`{found}`: expected by-column:NAME or by-column:NAME=train:1,2;val:3;test:4, with train and test"
+    )]
+    Assignment {
+        /// What was found instead.
+        found: String,
+    },
+    /// A value in two parts.
+    #[error("value `{value}` is assigned twice")]
+    Twice {
+        /// The value.
+        value: String,
+    },
+    /// Shares that are no shares.
+    #[error("fractions {given:?}: expected numbers from 0, the first above 0")]
+    Fractions {
+        /// The shares as given.
+        given: [f64; 3],
+    },
+    /// A list that is shorter or longer than the recording.
+    #[error("{what}: {found} values for {rows} samples")]
+    Length {
+        /// The list.
+        what: String,
+        /// Its length.
+        found: usize,
+        /// The number of samples.
+        rows: usize,
+    },
+    /// Too few samples or clusters for one a part.
+    #[error("{found} {what} are too few for one in each part")]
+    Few {
+        /// What would be shared out.
+        what: &'static str,
+        /// How many there are.
+        found: usize,
+    },
+    /// A part that is needed and has no sample.
+    #[error("the part `{part}` has no sample")]
+    Empty {
+        /// The part.
+        part: Part,
+    },
+    /// Nobody named contact locations.
+    #[error("split by-point: the recording names no `point_id`")]
+    NoPoints,
+    /// Nobody wrote down times.
+    #[error("split chronological: the recording has no times")]
+    NoTimes,
+    /// A time that is no number.
+    #[error("row {row}: the time is not finite")]
+    Time {
+        /// The row, counted from 0.
+        row: usize,
+    },
+    /// A column that the recording lacks.
+    #[error("split by-column: no column `{name}`, {suggestion}")]
+    NoColumn {
+        /// The name as given.
+        name: String,
+        /// What it may have been meant to be.
+        suggestion: Suggestion,
+    },
+    /// A value that no sample has.
+    #[error("split by-column: no sample has `{column}` = `{value}`, {suggestion}")]
+    NoValue {
+        /// The column.
+        column: String,
+        /// The value.
+        value: String,
+        /// What it may have been meant to be.
+        suggestion: Suggestion,
+    },
+    /// The recording declares no parts.
+    #[error("split declared: the recording declares no parts")]
+    NoParts,
+    /// A declared part that is none.
+    #[error("row {row}: part `{found}`, expected train, val, validation or test")]
+    Part {
+        /// The row, counted from 0.
+        row: usize,
+        /// What it declares.
+        found: String,
+    },
+}

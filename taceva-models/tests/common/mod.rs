@@ -1,0 +1,135 @@
+//! Recordings made up from a known linear map, and what both suites do with them.
+
+use taceva_core::{
+    Channel, Channels, FeatureShape, Features, Regressor, Silent, Targets, TrainingSet,
+};
+use taceva_models::{LinearEstimator, LinearFit, Settings, find};
+
+/// Reproducible numbers for tests: a linear congruential generator (Knuth's MMIX constants).
+struct Numbers(u64);
+
+impl Numbers {
+    /// Evenly distributed in -0.5..0.5.
+    fn next(&mut self) -> f64 {
+        self.0 = self
+            .0
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1_442_695_040_888_963_407);
+        let high = u32::try_from(self.0 >> 32).expect("32 bits");
+        f64::from(high) / 2_f64.powi(32) - 0.5
+    }
+}
+
+/// Samples whose labels are linear in their features, with a little noise.
+#[derive(Clone)]
+pub(crate) struct Recording {
+    pub(crate) features: Features,
+    pub(crate) channels: Channels,
+    pub(crate) labels: Vec<f64>,
+    pub(crate) groups: Vec<u32>,
+}
+
+/// Samples × features; the map is always the same, the seed draws features and noise.
+#[expect(
+    clippy::cast_possible_truncation,
+    reason = "features are kept in single precision"
+)]
+pub(crate) fn recording(samples: usize, width: usize, noise: f64, seed: u64) -> Recording {
+    let mut map = Numbers(42);
+    let weights: Vec<f64> = (0..3 * width).map(|_| map.next()).collect();
+    let mut numbers = Numbers(seed);
+    let values: Vec<f32> = (0..samples * width)
+        .map(|_| (0.5 + numbers.next()) as f32)
+        .collect();
+    let features = Features::new(FeatureShape::flat(width), values).expect("whole samples");
+    let mut labels = Vec::new();
+    for sample in 0..samples {
+        for row in weights.chunks_exact(width) {
+            let seen = features.sample(sample).iter().zip(row);
+            let clean: f64 = seen.map(|(&value, weight)| f64::from(value) * weight).sum();
+            labels.push(2.0 + clean + noise * numbers.next());
+        }
+    }
+    Recording {
+        features,
+        channels: Channels::new([Channel::FX, Channel::FY, Channel::FZ]).expect("distinct"),
+        labels,
+        groups: (0..samples)
+            .map(|sample| u32::try_from(sample * 5 / samples).expect("below 5"))
+            .collect(),
+    }
+}
+
+impl Recording {
+    pub(crate) fn set(&self) -> TrainingSet<'_> {
+        TrainingSet {
+            features: &self.features,
+            targets: Targets {
+                channels: &self.channels,
+                values: &self.labels,
+            },
+            groups: None,
+        }
+    }
+
+    pub(crate) fn grouped(&self) -> TrainingSet<'_> {
+        TrainingSet {
+            groups: Some(&self.groups),
+            ..self.set()
+        }
+    }
+
+    pub(crate) fn select(&self, rows: &[usize]) -> Recording {
+        Recording {
+            features: self.features.select(rows),
+            channels: self.channels.clone(),
+            labels: rows
+                .iter()
+                .flat_map(|&row| self.labels[row * 3..row * 3 + 3].to_vec())
+                .collect(),
+            groups: rows.iter().map(|&row| self.groups[row]).collect(),
+        }
+    }
+}
+
+/// The model called `name`, with settings.
+pub(crate) fn model(name: &str, words: &[&str]) -> Box<dyn LinearEstimator> {
+    let settings = Settings::parse(words.iter().copied()).expect("well formed");
+    find(name)
+        .expect("registered")
+        .estimator(&settings)
+        .expect("valid settings")
+}
+
+/// Fitted without a validation part.
+pub(crate) fn fit(estimator: &dyn LinearEstimator, set: &TrainingSet<'_>) -> LinearFit {
+    estimator
+        .fit_linear(set, None, &Silent)
+        .unwrap_or_else(|error| panic!("{}: {error}", estimator.name()))
+}
+
+/// The predictions of every sample.
+pub(crate) fn predict(regressor: &dyn Regressor, features: &Features) -> Vec<f64> {
+    let mut into = vec![0.0; features.samples() * regressor.channels().len()];
+    regressor.predict(features, &mut into).expect("finite");
+    into
+}
+
+/// Largest difference, relative to the largest expected number.
+pub(crate) fn distance(found: &[f64], expected: &[f64]) -> f64 {
+    let largest = expected
+        .iter()
+        .fold(0.0_f64, |most, value| most.max(value.abs()));
+    let difference = |(a, b): (&f64, &f64)| (a - b).abs();
+    found
+        .iter()
+        .zip(expected)
+        .map(difference)
+        .fold(0.0, f64::max)
+        / largest
+}
+
+/// Wide (fewer samples than features) and tall, because the two take different ways.
+pub(crate) fn both_shapes(noise: f64) -> [Recording; 2] {
+    [recording(60, 90, noise, 1), recording(300, 40, noise, 2)]
+}
