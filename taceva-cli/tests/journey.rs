@@ -15,7 +15,7 @@ fn imported() -> Bench {
 #[test]
 fn a_folder_of_pictures_becomes_scores_in_two_commands() {
     let bench = imported();
-    let text = bench.ok("evaluate data --model ridge --set size=8");
+    let text = bench.ok("evaluate data --model ridge --set size=8 --part all");
     for word in [
         "mae",
         "r2",
@@ -73,7 +73,7 @@ fn an_evaluation_that_reads_no_frame_decodes_none() {
     assert_eq!(report["provenance"]["frames_decoded"], 0);
     let plan = bench.ok("evaluate data --model baseline --explain");
     assert!(
-        plan.contains("skip     field:frame  nothing that was asked for reads it"),
+        plan.contains("field:frame") && plan.contains("nothing that was asked for reads it"),
         "{plan}"
     );
     let plan = bench.ok("evaluate data --model ridge --explain");

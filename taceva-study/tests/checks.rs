@@ -101,7 +101,7 @@ fn picture(number: u32, force: f64) -> Frame {
             .unwrap_or(255)
     };
     let bytes = (0..64_u32).flat_map(|pixel| {
-        let light = 90.0 + f64::from((pixel * 31 + number * 17) % 5) - 40.0 * force;
+        let light = 90.0 + f64::from((pixel * 31 + number * number * 17 + pixel * number * 7) % 11) - 40.0 * force;
         [byte(light + 60.0), byte(light + 20.0), byte(light)]
     });
     Frame::new(info, bytes.collect()).expect("whole")

@@ -110,7 +110,7 @@ impl Bench {
             let (place, force) = label(number);
             recorder
                 .append(&Sample {
-                    id: format!("s{number:02}"),
+                    id: format!("{name}-{number:02}"),
                     point_id: Some(format!("p{}", number / 6)),
                     frame: Some(draw(number, side)),
                     truth: Readings::from_values([place, force]),
@@ -158,6 +158,9 @@ Fz = { from = "force_N", unit = "N" }
 [ids]
 sample = "sample"
 point_id = "point"
+
+[time]
+clock = "unknown"
 
 [sensor]
 model = "drawn"

@@ -123,8 +123,18 @@ const KINDS: [&str; 5] = [
 impl FromStr for SplitSpec {
     type Err = SplitError;
 
-    /// Reads `random`, `chronological`, `by-point`, `by-column:NAME`, `by-column:NAME=train:1,2;val:3;test:4` or `declared`.
+    /// Reads `random`, `chronological`, `by-point`, `by-column:NAME`, `by-column:NAME=train:1,2;val:3;test:4` or `declared`, and
+    /// after a blank the shares: `random 70/20/10`. What a split is displayed as reads back as the same split.
     fn from_str(text: &str) -> Result<SplitSpec, SplitError> {
+        let shares = text
+            .rsplit_once(' ')
+            .and_then(|(word, shares)| Some((word, three_numbers(shares)?)));
+        let (text, fractions) = match shares {
+            Some((word, [train, validation, test])) => {
+                (word, Fractions::new(train, validation, test)?)
+            }
+            None => (text, Fractions::default()),
+        };
         let kind = match text {
             "random" => SplitKind::Random,
             "chronological" => SplitKind::Chronological,
@@ -140,11 +150,14 @@ impl FromStr for SplitSpec {
                 }
             },
         };
-        Ok(SplitSpec {
-            kind,
-            fractions: Fractions::default(),
-        })
+        Ok(SplitSpec { kind, fractions })
     }
+}
+
+/// `70/20/10`.
+fn three_numbers(text: &str) -> Option<[f64; 3]> {
+    let numbers: Option<Vec<f64>> = text.split('/').map(|number| number.parse().ok()).collect();
+    numbers?.try_into().ok()
 }
 
 fn column_split(text: &str) -> Result<ColumnSplit, SplitError> {
@@ -240,7 +253,10 @@ mod tests {
         ] {
             let spec: SplitSpec = text.parse().expect(text);
             assert_eq!(spec.to_string(), printed);
+            assert_eq!(printed.parse(), Ok(spec));
         }
+        let other: SplitSpec = "random 80/10/10".parse().expect("shares");
+        assert_eq!(other.to_string(), "random 80/10/10");
     }
 
     #[test]

@@ -19,7 +19,7 @@ use crate::table::{RESERVED, is_attribute_name};
 use crate::toml_file::{line_of, parse_toml, toml_error};
 
 #[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(deny_unknown_fields, expecting = "a table")]
 struct WrittenMap {
     map_version: Spanned<u32>,
     table: Spanned<String>,
@@ -40,7 +40,7 @@ struct WrittenMap {
 }
 
 #[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(deny_unknown_fields, expecting = "a table")]
 struct WrittenFrame {
     column: Option<String>,
     pattern: Option<String>,
@@ -52,7 +52,7 @@ struct WrittenFrame {
 }
 
 #[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(deny_unknown_fields, expecting = "a table")]
 struct WrittenColumn {
     from: String,
     unit: Spanned<String>,
@@ -61,7 +61,7 @@ struct WrittenColumn {
 }
 
 #[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(deny_unknown_fields, expecting = "a table")]
 struct WrittenTime {
     column: Option<String>,
     unit: Option<Spanned<String>>,
@@ -69,7 +69,7 @@ struct WrittenTime {
 }
 
 #[derive(Default, Deserialize)]
-#[serde(deny_unknown_fields, default)]
+#[serde(deny_unknown_fields, default, expecting = "a table")]
 struct WrittenDrop {
     column: Option<String>,
     quality_flags: Vec<String>,
