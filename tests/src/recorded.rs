@@ -4,7 +4,7 @@ use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use taceva_core::Silent;
+use taceva_core::{Frame, FrameInfo, PixelFormat, Silent};
 use taceva_dataset::{Dataset, DatasetError, Digest, Pass, Recorder};
 
 use crate::binary::example;
@@ -117,4 +117,17 @@ pub fn open_whole(target: &Path) -> Result<Dataset, String> {
         .map_frames(pass, |_, _| (), |_, ()| Ok(()))
         .map_err(|error| error.to_string())?;
     Ok(dataset)
+}
+
+/// A small frame in which each pixel is `shade`.
+///
+/// # Panics
+/// Never: it has a byte for each pixel.
+pub fn reference(shade: u8) -> Frame {
+    let info = FrameInfo {
+        width: 40,
+        height: 30,
+        format: PixelFormat::Gray8,
+    };
+    Frame::new(info, vec![shade; 1_200]).expect("a byte for each pixel")
 }

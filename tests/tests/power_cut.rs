@@ -4,10 +4,13 @@ use std::ops::Range;
 use std::path::Path;
 use std::process::Command;
 
-use taceva_dataset::Digest;
-use taceva_tests::power_cut::{Disk, Tally, Trace, TraceError};
-use taceva_tests::recorded::{Recorded, open_whole};
-use taceva_tests::{Form, Lab, scratch, taceva};
+use taceva_dataset::{Digest, Recorder};
+use taceva_tests::power_cut::{Disk, State, Tally, Trace, TraceError, write_tree};
+use taceva_tests::recorded::{Recorded, open_whole, reference};
+use taceva_tests::{Form, Lab, example, scratch, taceva};
+
+/// States of a first cut from which a second recorder is traced; each takes a tenth of a second.
+const MOST_RESUMED: usize = 60;
 
 /// Runs `command` in the folder at `watched`; `None` where programs cannot be traced.
 #[expect(clippy::print_stderr, reason = "a skipped test must say why")]
@@ -103,17 +106,20 @@ fn recording(recorded: &Recorded) -> Option<(Trace, usize)> {
 }
 
 fn try_all(recorded: &Recorded, trace: &Trace, cuts: Range<usize>) -> Tally {
-    trace.each_state(cuts, |state| {
-        let restarted = scratch();
-        let target = restarted.path().join("set");
-        state
-            .write_to(restarted.path())
-            .expect("room for a small folder");
-        if state.printed.iter().any(|line| line.starts_with("CLOSED")) {
-            return recorded.check_closed(&target, recorded.most());
-        }
-        recorded.check(&target, state.acknowledged())
-    })
+    trace.each_state(cuts, |state| recovers(recorded, state, 0))
+}
+
+/// What was acknowledged, here or `before`, is recovered; what was said to be closed needs no recovery.
+fn recovers(recorded: &Recorded, state: &State<'_>, before: usize) -> Result<(), String> {
+    let restarted = scratch();
+    let target = restarted.path().join("set");
+    state
+        .write_to(restarted.path())
+        .expect("room for a small folder");
+    if state.printed.iter().any(|line| line.starts_with("CLOSED")) {
+        return recorded.check_closed(&target, recorded.most());
+    }
+    recorded.check(&target, state.acknowledged().max(before))
 }
 
 #[test]
@@ -125,5 +131,96 @@ fn every_acknowledged_sample_survives_and_closing_loses_none() {
     let tally = try_all(&recorded, &trace, 0..end);
     assert_kept("recording", &tally, 100);
     let tally = try_all(&recorded, &trace, end..trace.operations.len() + 1);
-    assert_kept("closing", &tally, 100);
+    assert_kept("closing", &tally, 25);
+}
+
+#[test]
+fn a_recorder_that_was_killed_and_resumed_survives_a_power_cut() {
+    let recorded = Recorded::up_to(2);
+    let Some((first, _)) = recording(&recorded) else {
+        return;
+    };
+    let mut sum = Tally::default();
+    for killed_after in 0..first.operations.len() {
+        // What the killed process did not make durable is still not durable when the next one starts.
+        let left = first.after(killed_after);
+        let folder = scratch();
+        write_tree(&left.live_tree(), folder.path()).expect("room for a small folder");
+        let command = recorded.command(&folder.path().join("set"));
+        let Some(second) = traced(&command, folder.path(), left) else {
+            return;
+        };
+        assert!(
+            second.status.success(),
+            "killed after {killed_after}: {}",
+            second.complaint
+        );
+        let tally = try_all(&recorded, &second, 0..second.operations.len() + 1);
+        sum = sum.and(tally);
+    }
+    assert_kept("killed, resumed and cut", &sum, 1_000);
+}
+
+#[test]
+fn a_power_cut_while_a_recording_is_resumed_loses_nothing() {
+    let recorded = Recorded::up_to(2);
+    let Some((first, _)) = recording(&recorded) else {
+        return;
+    };
+    let mut left = Vec::new();
+    first.each_state(0..first.operations.len(), |state| {
+        left.push((state.tree.clone(), state.acknowledged()));
+        Ok(())
+    });
+    let mut sum = Tally::default();
+    for (tree, acknowledged) in left.iter().step_by(left.len().div_ceil(MOST_RESUMED)) {
+        let folder = scratch();
+        write_tree(tree, folder.path()).expect("room for a small folder");
+        let initial = Disk::load(folder.path()).expect("just written");
+        let command = recorded.command(&folder.path().join("set"));
+        let Some(second) = traced(&command, folder.path(), initial) else {
+            return;
+        };
+        assert!(second.status.success(), "{}", second.complaint);
+        let tally = second.each_state(0..second.operations.len() + 1, |state| {
+            recovers(&recorded, state, *acknowledged)
+        });
+        sum = sum.and(tally);
+    }
+    assert_kept("cut, resumed and cut again", &sum, 1_000);
+}
+
+#[test]
+fn a_reference_that_is_taken_anew_never_spoils_the_one_before() {
+    let folder = scratch();
+    let watched = folder.path();
+    let mut command = Command::new(example("taceva-tests", "two_references"));
+    command.arg(watched.join("set"));
+    let initial = Disk::load(watched).expect("empty");
+    let Some(trace) = traced(&command, watched, initial) else {
+        return;
+    };
+    assert!(trace.status.success(), "{}", trace.complaint);
+    let tally = trace.each_state(0..trace.operations.len() + 1, |state| {
+        let restarted = scratch();
+        let target = restarted.path().join("set");
+        state
+            .write_to(restarted.path())
+            .expect("room for a small folder");
+        let acknowledged = state.acknowledged();
+        if acknowledged == 0 {
+            return Ok(());
+        }
+        let recorder = Recorder::resume(&target).map_err(|error| error.to_string())?;
+        recorder.close().map_err(|error| error.to_string())?;
+        let dataset = open_whole(&target)?;
+        let found = dataset.reference().map_err(|error| error.to_string())?;
+        let is_new = found == Some(reference(2));
+        if is_new || (acknowledged < 3 && found == Some(reference(1))) {
+            Ok(())
+        } else {
+            Err(format!("{acknowledged} acknowledged, another reference"))
+        }
+    });
+    assert_kept("reference", &tally, 40);
 }

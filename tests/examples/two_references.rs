@@ -1,0 +1,46 @@
+//! Records the frame without contact, a sample, and that frame anew: `two_references FOLDER`. Prints `ACK n` once the n-th is
+//! durable.
+#![expect(
+    clippy::print_stdout,
+    reason = "whoever cuts its power reads what was acknowledged"
+)]
+
+use std::error::Error;
+use std::path::Path;
+
+use taceva_core::{Channel, Channels, Clock, Readings, Sample};
+use taceva_dataset::{Known, Recorder, RecordingFacts, RecordingSpec, SensorFacts, Source};
+use taceva_tests::recorded::reference;
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let folder = std::env::args()
+        .nth(1)
+        .ok_or("usage: two_references FOLDER")?;
+    let spec = RecordingSpec {
+        facts: RecordingFacts {
+            source: Source::Synthetic,
+            clock: Clock::Unknown,
+            sensor: SensorFacts {
+                model: "made up".into(),
+                serial: "1".into(),
+                gel: "1".into(),
+                opaque: Known::Is(true),
+            },
+            footprint: None,
+        },
+        channels: Channels::new([Channel::FZ])?,
+    };
+    let mut recorder = Recorder::create(Path::new(&folder), &spec)?;
+    recorder.append_reference(&reference(1))?;
+    println!("ACK 1");
+    recorder.append(&Sample {
+        id: "press".into(),
+        frame: Some(reference(0)),
+        truth: Readings::from_values([1.0]),
+        ..Sample::default()
+    })?;
+    println!("ACK 2");
+    recorder.append_reference(&reference(2))?;
+    println!("ACK 3");
+    Ok(())
+}

@@ -1,0 +1,209 @@
+//! The disk is full at every stage: the error says so, nothing half-written is left, and the work goes on where there is room.
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+use taceva_tests::recorded::{Recorded, open_whole};
+use taceva_tests::{Form, Lab, scratch, taceva};
+
+/// The exit code of bad input and of what the system refuses.
+const REFUSED: i32 = 3;
+
+fn import(lab: &Lab, target: &Path) -> Vec<PathBuf> {
+    let mut words: Vec<PathBuf> = vec![taceva()];
+    words.extend(["import", "--quiet", "--jobs", "1"].map(PathBuf::from));
+    words.extend([lab.path().to_owned(), "--map".into(), lab.map()]);
+    words.extend(["--to".into(), target.to_owned()]);
+    words
+}
+
+fn recorder(recorded: &Recorded, target: &Path) -> Vec<PathBuf> {
+    let command = recorded.command(target);
+    let arguments = command.get_args().map(PathBuf::from);
+    std::iter::once(PathBuf::from(command.get_program()))
+        .chain(arguments)
+        .collect()
+}
+
+/// Runs a command whose files may not grow beyond `blocks` of 512 bytes: to write more fails, as on a full disk.
+fn with_small_files(blocks: usize, words: &[PathBuf]) -> Output {
+    // Signals that the shell ignores stay ignored: the write fails instead of the process.
+    let script = format!("trap '' XFSZ; ulimit -f {blocks}; exec \"$@\"");
+    Command::new("sh")
+        .args(["-c", &script, "sh"])
+        .args(words)
+        .output()
+        .expect("there is a shell")
+}
+
+fn complaint(output: &Output) -> String {
+    String::from_utf8_lossy(&output.stderr).into_owned()
+}
+
+/// What an import that failed must leave: no target and nothing beside it, and an error that names what could not be done.
+fn assert_left_nothing(output: &Output, folder: &Path, reason: &str) {
+    let complaint = complaint(output);
+    assert_eq!(output.status.code(), Some(REFUSED), "{complaint}");
+    assert!(complaint.contains("cannot write"), "{complaint}");
+    assert!(complaint.contains(reason), "{complaint}");
+    let left: Vec<_> = folder.read_dir().expect("there").collect();
+    assert!(left.is_empty(), "{left:?}");
+}
+
+#[test]
+fn an_import_whose_files_cannot_grow_says_so_and_leaves_nothing() {
+    let lab = Lab::drawn(Form::Png, 6);
+    let folder = scratch();
+    let target = folder.path().join("set");
+    let mut refusals = 0;
+    // The pictures are smaller than the table: some limits stop at a picture, some later.
+    for blocks in 0..64 {
+        let output = with_small_files(blocks, &import(&lab, &target));
+        if output.status.success() {
+            break;
+        }
+        assert_left_nothing(&output, folder.path(), "File too large");
+        refusals += 1;
+    }
+    assert!(refusals >= 3, "{refusals} limits were met");
+    open_whole(&target).expect("imported once there was room");
+}
+
+#[test]
+fn a_recording_whose_files_cannot_grow_is_resumed_where_there_is_room() {
+    let recorded = Recorded::up_to(30);
+    let mut refusals = 0;
+    for blocks in [0, 1, 2, 4, 8, 16] {
+        let folder = scratch();
+        let target = folder.path().join("set");
+        let output = with_small_files(blocks, &recorder(&recorded, &target));
+        assert!(!output.status.success(), "{blocks} blocks held a journal");
+        let complaint = complaint(&output);
+        assert!(complaint.contains("FileTooLarge"), "{complaint}");
+        refusals += 1;
+        let said = String::from_utf8_lossy(&output.stdout);
+        assert_eq!(recorded.check(&target, highest_acknowledged(&said)), Ok(()));
+    }
+    assert_eq!(refusals, 6);
+}
+
+fn highest_acknowledged(said: &str) -> usize {
+    said.lines()
+        .filter_map(|line| line.strip_prefix("ACK ")?.parse().ok())
+        .max()
+        .unwrap_or(0)
+}
+
+/// What a command did on a disk that was too small, and again when there was room.
+struct TwoRuns {
+    /// Exit code, standard output and error of both.
+    runs: [(i32, String, String); 2],
+    /// The names on the disk after the first.
+    left: String,
+    /// What the target had become after the second, copied to a disk that stays.
+    copied: tempfile::TempDir,
+}
+
+/// Runs a command twice on a disk seen by it alone, of `kib` KiB and then of enough; `None` where this needs more rights.
+#[expect(clippy::print_stderr, reason = "a skipped test must say why")]
+fn on_small_disk(disk: &Path, kib: usize, words: &[PathBuf]) -> Option<TwoRuns> {
+    let copied = scratch();
+    let output = Command::new("unshare")
+        .args(["--mount", "sh", "-c", TWO_RUNS])
+        .arg(disk)
+        .arg(copied.path())
+        .arg(format!("size={kib}k"))
+        .args(words)
+        .output();
+    let problem = match output {
+        Ok(output) if output.status.success() => {
+            let read = |name: &str| {
+                std::fs::read_to_string(copied.path().join(name)).expect("the script wrote it")
+            };
+            let code = |name| read(name).trim().parse().expect("a number");
+            return Some(TwoRuns {
+                runs: [
+                    (code("code.1"), read("out.1"), read("error.1")),
+                    (code("code.2"), read("out.2"), read("error.2")),
+                ],
+                left: read("left"),
+                copied,
+            });
+        }
+        Ok(output) => complaint(&output),
+        Err(error) => error.to_string(),
+    };
+    eprintln!("skipped: no small disk: {problem}");
+    None
+}
+
+const TWO_RUNS: &str = r#"
+set -e
+disk=$0 copied=$1 size=$2
+shift 2
+mount -t tmpfs -o "$size" tmpfs "$disk"
+shift
+set +e
+"$@" >"$copied/out.1" 2>"$copied/error.1"; echo $? >"$copied/code.1"
+ls -A "$disk" >"$copied/left"
+mount -o remount,size=64m "$disk" || exit
+"$@" >"$copied/out.2" 2>"$copied/error.2"; echo $? >"$copied/code.2"
+cp -r "$disk/set" "$copied/set"
+"#;
+
+#[test]
+fn an_import_to_a_full_disk_says_so_and_leaves_nothing() {
+    let lab = Lab::drawn(Form::Png, 24);
+    let folder = scratch();
+    let words = import(&lab, &folder.path().join("set"));
+    let mut refusals = 0;
+    // Every third page of the disk from one to enough.
+    for kib in (4..400).step_by(12) {
+        let Some(tried) = on_small_disk(folder.path(), kib, &words) else {
+            return;
+        };
+        let [(code, _, complaint), (second, _, again)] = &tried.runs;
+        if *code == 0 {
+            break;
+        }
+        assert_eq!(*code, REFUSED, "{kib} KiB: {complaint}");
+        assert!(complaint.contains("No space left"), "{complaint}");
+        assert_eq!(tried.left, "", "{kib} KiB: {complaint}");
+        assert_eq!(*second, 0, "{kib} KiB: {again}");
+        open_whole(&tried.copied.path().join("set")).expect("imported once there was room");
+        refusals += 1;
+    }
+    assert!(refusals >= 5, "{refusals} disks were too small");
+}
+
+#[test]
+fn a_recording_on_a_full_disk_goes_on_where_there_is_room() {
+    let recorded = Recorded::up_to(30);
+    let folder = scratch();
+    let words = recorder(&recorded, &folder.path().join("set"));
+    let mut refusals = 0;
+    for kib in (4..240).step_by(12) {
+        let Some(tried) = on_small_disk(folder.path(), kib, &words) else {
+            return;
+        };
+        let [(code, said, complaint), (second, resumed, again)] = &tried.runs;
+        if *code == 0 {
+            break;
+        }
+        assert!(complaint.contains("StorageFull"), "{kib} KiB: {complaint}");
+        assert_eq!(*second, 0, "{kib} KiB: {again}");
+        let rows: usize = resumed
+            .lines()
+            .find_map(|line| line.strip_prefix("RESUMED ")?.parse().ok())
+            .expect("the recorder says where it goes on");
+        let before = highest_acknowledged(said);
+        assert!(
+            rows >= before,
+            "{kib} KiB: {rows} of {before} samples are left"
+        );
+        let copy = tried.copied.path().join("set");
+        assert_eq!(recorded.check_closed(&copy, recorded.most()), Ok(()));
+        refusals += 1;
+    }
+    assert!(refusals >= 5, "{refusals} disks were too small");
+}

@@ -1,0 +1,194 @@
+//! Programs are killed at random moments, again and again: nothing is lost, nothing doubled, and the end is the same.
+
+use std::io::{BufRead, BufReader};
+use std::path::Path;
+use std::process::{Child, Command, Stdio};
+use std::time::{Duration, Instant};
+
+use taceva_tests::recorded::{Recorded, open_whole};
+use taceva_tests::{Form, Lab, Random, scratch, taceva};
+
+const SEED: u64 = 20_261_121;
+const KILLS_OF_RECORDINGS: usize = 100;
+const KILLS_OF_CLOSING: usize = 40;
+const KILLS_OF_IMPORTS: usize = 60;
+const PICTURES: u32 = 60;
+
+/// What the lines of a killed recorder said.
+#[derive(Debug, Default)]
+struct Heard {
+    resumed: Option<usize>,
+    acknowledged: usize,
+    is_closed: bool,
+}
+
+/// Starts `command`, hears `acks` acknowledgements, waits `more` and kills it; lines that were under way are heard, too.
+fn killed(command: &mut Command, acks: usize, more: Duration) -> Heard {
+    let mut child = command
+        .stdout(Stdio::piped())
+        .spawn()
+        .expect("the recorder was built");
+    let output = child.stdout.take().expect("its output is a pipe");
+    let mut lines = BufReader::new(output).lines().map_while(Result::ok);
+    let mut heard = Heard::default();
+    let mut count = 0;
+    while count < acks {
+        let Some(line) = lines.next() else { break };
+        count += usize::from(hear(&line, &mut heard));
+    }
+    spin(more);
+    kill(&mut child);
+    lines.for_each(|line| {
+        hear(&line, &mut heard);
+    });
+    heard
+}
+
+/// Whether the line was an acknowledgement.
+fn hear(line: &str, heard: &mut Heard) -> bool {
+    let number = |prefix: &str| line.strip_prefix(prefix)?.parse().ok();
+    if let Some(rows) = number("RESUMED ") {
+        heard.resumed = Some(rows);
+    }
+    let acknowledged = number("ACK ");
+    heard.acknowledged = heard.acknowledged.max(acknowledged.unwrap_or(0));
+    heard.is_closed |= line.starts_with("CLOSED");
+    acknowledged.is_some()
+}
+
+fn kill(child: &mut Child) {
+    // It may have ended by itself.
+    let _ = child.kill();
+    child.wait().expect("a child that was started here");
+}
+
+/// Waits without giving the processor away: sleeping is too coarse for moments a few microseconds apart.
+fn spin(time: Duration) {
+    let start = Instant::now();
+    while start.elapsed() < time {
+        std::hint::spin_loop();
+    }
+}
+
+fn micros(random: &mut Random, end: usize) -> Duration {
+    Duration::from_micros(random.below(end) as u64)
+}
+
+/// Kills one recording after another until `kills` are done; each kill falls after up to `most_acks` acknowledgements.
+#[expect(clippy::print_stderr, reason = "the counts are the result")]
+fn kill_recordings(recorded: &Recorded, kills: usize, most_acks: usize, window_us: usize) {
+    let mut random = Random::new(SEED);
+    let (mut done, mut recordings) = (0, 0);
+    let mut unresumed = 0;
+    while done < kills {
+        recordings += 1;
+        let folder = scratch();
+        let target = folder.path().join("set");
+        let mut acknowledged = 0;
+        loop {
+            let acks = random.below(most_acks + 1);
+            let more = micros(&mut random, window_us);
+            let heard = killed(&mut recorded.command(&target), acks, more);
+            let context = format!("seed {SEED}, kill {done}: {heard:?}, before {acknowledged}");
+            if let Some(rows) = heard.resumed {
+                assert!(rows >= acknowledged, "lost: {context}");
+            }
+            acknowledged = acknowledged.max(heard.acknowledged);
+            if heard.is_closed {
+                let kept = recorded.check_closed(&target, recorded.most());
+                assert_eq!(kept, Ok(()), "{context}");
+                break;
+            }
+            done += 1;
+            unresumed += usize::from(heard.resumed.is_none());
+            if done == kills {
+                let kept = recorded.check(&target, acknowledged);
+                assert_eq!(kept, Ok(()), "{context}");
+                break;
+            }
+        }
+    }
+    eprintln!(
+        "recorders killed: {done}, {unresumed} before they had resumed, in {recordings} recordings"
+    );
+}
+
+#[test]
+fn a_recorder_killed_at_any_moment_loses_and_doubles_nothing() {
+    // Without an acknowledgement the kill falls into the start or into the resumption.
+    kill_recordings(&Recorded::up_to(60), KILLS_OF_RECORDINGS, 8, 1_500);
+}
+
+#[test]
+fn a_recorder_killed_while_it_closes_loses_nothing() {
+    kill_recordings(&Recorded::up_to(1), KILLS_OF_CLOSING, 1, 1_500);
+}
+
+#[test]
+#[expect(clippy::print_stderr, reason = "the counts are the result")]
+fn an_import_killed_at_any_moment_leaves_the_whole_dataset_or_none() {
+    let lab = Lab::drawn(Form::Png, PICTURES);
+    let folder = scratch();
+    let target = folder.path().join("set");
+    assert!(import(&lab, &target).status().expect("built").success());
+    let expected = open_whole(&target).expect("imported").digest();
+    let entries = entries_below(folder.path());
+    std::fs::remove_dir_all(&target).expect("removed");
+
+    let mut random = Random::new(SEED);
+    let (mut before, mut amid, mut whole) = (0, 0, 0);
+    for number in 0..KILLS_OF_IMPORTS {
+        let mut child = import(&lab, &target).spawn().expect("built");
+        let awaited = random.below(entries + 1);
+        while entries_below(folder.path()) < awaited && is_running(&mut child) {}
+        spin(micros(&mut random, 500));
+        kill(&mut child);
+        if target.exists() {
+            whole += 1;
+            let dataset = open_whole(&target).expect("whole");
+            assert_eq!(dataset.digest(), expected, "seed {SEED}, kill {number}");
+            std::fs::remove_dir_all(&target).expect("removed");
+        } else if entries_below(folder.path()) > 0 {
+            amid += 1;
+        } else {
+            before += 1;
+        }
+    }
+    eprintln!(
+        "imports killed: {before} before the first file, {amid} amid, {whole} after the last"
+    );
+    assert!(
+        amid >= KILLS_OF_IMPORTS / 4,
+        "the moments were chosen badly"
+    );
+    assert!(import(&lab, &target).status().expect("built").success());
+    assert_eq!(open_whole(&target).expect("whole").digest(), expected);
+    let left: Vec<_> = folder.path().read_dir().expect("there").collect();
+    assert_eq!(left.len(), 1, "{left:?}");
+}
+
+/// Files and folders at any depth; what vanishes meanwhile is not counted.
+fn entries_below(folder: &Path) -> usize {
+    let entries = folder.read_dir().into_iter().flatten().flatten();
+    entries.map(|entry| 1 + entries_below(&entry.path())).sum()
+}
+
+fn is_running(child: &mut Child) -> bool {
+    child
+        .try_wait()
+        .expect("a child that was started here")
+        .is_none()
+}
+
+fn import(lab: &Lab, target: &Path) -> Command {
+    let mut command = Command::new(taceva());
+    command
+        .args(["import", "--quiet"])
+        .arg(lab.path())
+        .arg("--map")
+        .arg(lab.map())
+        .arg("--to")
+        .arg(target)
+        .stdout(Stdio::null());
+    command
+}
