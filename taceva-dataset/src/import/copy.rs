@@ -80,6 +80,10 @@ struct Copied {
     entry: FrameEntry,
 }
 
+/// Frames copied at a time by each job: most of a copy is waiting until the disk has it, and disks like to be asked for
+/// several files at once.
+const COPIES_A_JOB: NonZeroUsize = NonZeroUsize::new(4).expect("four");
+
 /// Copies all frames; returns what they share and the folders they lie in.
 fn copy_frames(
     staged: &StagedFolder,
@@ -98,7 +102,7 @@ fn copy_frames(
     progress.begin("verify and copy frames", Some(count as u64));
     let outcome = ordered_map(
         count,
-        jobs,
+        jobs.saturating_mul(COPIES_A_JOB),
         |row| copy_frame(staged, frames, row),
         |row, copied| {
             if progress.is_cancelled() {
