@@ -6,11 +6,18 @@
 //!
 //! Killing a process cannot find a missing `fsync`: the system keeps what it was given. Only this can.
 
+mod follower;
 mod model;
+mod operation;
+mod remains;
+mod seen;
 mod states;
 mod syscall;
 mod trace;
+mod tree;
 
-pub use model::{Disk, Kind, ObjectId, Operation, ROOT, Tree, read_tree, write_tree};
+pub use model::Disk;
+pub use operation::{Kind, ObjectId, Operation, ROOT};
 pub use states::{State, Tally};
 pub use trace::{Trace, TraceError};
+pub use tree::{Tree, read_tree, write_tree};

@@ -10,7 +10,7 @@ use taceva_tests::recorded::{Recorded, open_whole, reference};
 use taceva_tests::{Form, Lab, example, scratch, taceva};
 
 /// States of a first cut from which a second recorder is traced; each takes a tenth of a second.
-const MOST_RESUMED: usize = 60;
+const MOST_RESUMED: usize = 80;
 
 /// Runs `command` in the folder at `watched`; `None` where programs cannot be traced.
 #[expect(clippy::print_stderr, reason = "a skipped test must say why")]
@@ -91,6 +91,49 @@ fn an_import_leaves_the_whole_dataset_or_none() {
     assert_kept("import", &tally, 100);
 }
 
+fn digest_of(path: &Path) -> Option<Digest> {
+    open_whole(path).ok().map(|dataset| dataset.digest())
+}
+
+#[test]
+fn an_import_that_replaces_a_dataset_never_loses_both() {
+    let (old, new) = (Lab::drawn(Form::Png, 2), Lab::drawn(Form::Png, 3));
+    let folder = scratch();
+    let watched = folder.path();
+    let target = watched.join("set");
+    assert_eq!(run(&mut import(&old, &target)), Ok(()));
+    let replaced = open_whole(&target).expect("imported").digest();
+    let initial = Disk::load(watched).expect("one dataset");
+    let mut command = import(&new, &target);
+    command.arg("--force");
+    let Some(trace) = traced(&command, watched, initial) else {
+        return;
+    };
+    assert!(trace.status.success(), "{}", trace.complaint);
+    let expected = open_whole(&target).expect("imported").digest();
+    let tally = trace.each_state(0..trace.operations.len() + 1, |state| {
+        let restarted = scratch();
+        state
+            .write_to(restarted.path())
+            .expect("room for a small folder");
+        let in_place = digest_of(&restarted.path().join("set"));
+        if in_place == Some(expected) {
+            return Ok(());
+        }
+        let was_reported = state.printed.iter().any(|line| line.starts_with("digest"));
+        let entries = restarted.path().read_dir().expect("there").flatten();
+        let set_aside = entries
+            .map(|entry| entry.path())
+            .filter(|path| path.extension().is_some_and(|last| last == "replaced"))
+            .find_map(|path| digest_of(&path));
+        if !was_reported && in_place.or(set_aside) == Some(replaced) {
+            return Ok(());
+        }
+        Err(format!("in place {in_place:?}, set aside {set_aside:?}"))
+    });
+    assert_kept("import --force", &tally, 100);
+}
+
 /// A recording, traced, and the operation after which the last sample was acknowledged.
 fn recording(recorded: &Recorded) -> Option<(Trace, usize)> {
     let folder = scratch();
@@ -136,7 +179,7 @@ fn every_acknowledged_sample_survives_and_closing_loses_none() {
 
 #[test]
 fn a_recorder_that_was_killed_and_resumed_survives_a_power_cut() {
-    let recorded = Recorded::up_to(2);
+    let recorded = Recorded::up_to(4);
     let Some((first, _)) = recording(&recorded) else {
         return;
     };
@@ -158,12 +201,12 @@ fn a_recorder_that_was_killed_and_resumed_survives_a_power_cut() {
         let tally = try_all(&recorded, &second, 0..second.operations.len() + 1);
         sum = sum.and(tally);
     }
-    assert_kept("killed, resumed and cut", &sum, 1_000);
+    assert_kept("killed, resumed and cut", &sum, 3_000);
 }
 
 #[test]
 fn a_power_cut_while_a_recording_is_resumed_loses_nothing() {
-    let recorded = Recorded::up_to(2);
+    let recorded = Recorded::up_to(4);
     let Some((first, _)) = recording(&recorded) else {
         return;
     };
@@ -187,7 +230,7 @@ fn a_power_cut_while_a_recording_is_resumed_loses_nothing() {
         });
         sum = sum.and(tally);
     }
-    assert_kept("cut, resumed and cut again", &sum, 1_000);
+    assert_kept("cut, resumed and cut again", &sum, 2_500);
 }
 
 #[test]

@@ -62,3 +62,53 @@ fn the_five_planted_faults_are_found_and_the_two_right_protocols_pass() {
         );
     }
 }
+
+/// What `program` does to a folder that holds the file `a` and the folder `b` with the file `c`.
+fn followed(program: &str, arguments: &[&str]) -> Result<Trace, TraceError> {
+    let folder = tempfile::tempdir().expect("a folder");
+    let watched = folder.path().canonicalize().expect("it is there");
+    std::fs::write(watched.join("a"), "one").expect("written");
+    std::fs::create_dir(watched.join("b")).expect("made");
+    std::fs::write(watched.join("b/c"), "two").expect("written");
+    let mut command = Command::new(program);
+    command.args(arguments);
+    Trace::run(&command, &watched, Disk::load(&watched).expect("read"))
+}
+
+#[test]
+#[expect(clippy::print_stderr, reason = "a skipped test must say why")]
+fn programs_of_the_system_are_followed_to_the_byte() {
+    for (program, arguments, left) in [
+        ("mv", &["a", "b/d"][..], &["b", "b/c", "b/d"][..]),
+        ("ln", &["a", "e"], &["a", "b", "b/c", "e"]),
+        ("rm", &["-r", "b"], &["a"]),
+        (
+            "mkdir",
+            &["x", "x/y", "x/y/z"],
+            &["a", "b", "b/c", "x", "x/y", "x/y/z"],
+        ),
+        ("truncate", &["-s", "9", "a"], &["a", "b", "b/c"]),
+    ] {
+        // Model and disk are compared at the end of each run.
+        let trace = match followed(program, arguments) {
+            Err(TraceError::NoStrace(why)) => {
+                eprintln!("skipped: {why}");
+                return;
+            }
+            trace => trace.unwrap_or_else(|error| panic!("{program}: {error}")),
+        };
+        let tree = trace.after(trace.operations.len()).live_tree();
+        let names: Vec<&str> = tree.keys().map(String::as_str).collect();
+        assert_eq!(names, left, "{program}: {}", trace.complaint);
+    }
+}
+
+#[test]
+#[expect(clippy::print_stderr, reason = "a skipped test must say why")]
+fn what_cannot_be_followed_is_refused_loudly() {
+    match followed("ln", &["-s", "a", "link"]) {
+        Err(TraceError::Unfollowed(what)) => assert!(what.contains("symlink"), "{what}"),
+        Err(TraceError::NoStrace(why)) => eprintln!("skipped: {why}"),
+        Ok(trace) => panic!("{:?}", trace.operations),
+    }
+}

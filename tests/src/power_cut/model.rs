@@ -8,82 +8,8 @@ use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::Arc;
 
-/// The number of a file or a folder, which it keeps whatever it is called; the watched folder is 0.
-pub type ObjectId = usize;
-
-/// The watched folder itself.
-pub const ROOT: ObjectId = 0;
-
-/// What a program did to the watched folder, or told whoever started it.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Operation {
-    /// A new file or folder; its number is the next free one.
-    Create {
-        /// Where.
-        folder: ObjectId,
-        /// Its name.
-        name: String,
-        /// Which of the two.
-        kind: Kind,
-    },
-    /// One more name for something that is there.
-    Link {
-        /// Where.
-        folder: ObjectId,
-        /// The name.
-        name: String,
-        /// What it names.
-        object: ObjectId,
-    },
-    /// A name that is taken away.
-    Remove {
-        /// Where.
-        folder: ObjectId,
-        /// The name.
-        name: String,
-    },
-    /// A name that becomes another, replacing what had it.
-    Rename {
-        /// Folder and name before.
-        from: (ObjectId, String),
-        /// Folder and name after.
-        to: (ObjectId, String),
-    },
-    /// Bytes that a file got.
-    Write {
-        /// The file.
-        file: ObjectId,
-        /// From which byte on.
-        offset: usize,
-        /// The bytes.
-        bytes: Vec<u8>,
-    },
-    /// A file that was cut or filled up with zeros.
-    Resize {
-        /// The file.
-        file: ObjectId,
-        /// Its length now.
-        length: usize,
-    },
-    /// A file or folder that was made durable.
-    Sync {
-        /// Which.
-        object: ObjectId,
-        /// Operations that had been applied when the call began: only these are covered.
-        covers: usize,
-    },
-    /// A line on standard output: what whoever reads it relies on from now on.
-    Print(String),
-}
-
-/// A file or a folder.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
-    /// Bytes.
-    File,
-    /// Names.
-    Folder,
-}
+use super::operation::{Kind, ObjectId, Operation, ROOT};
+use super::tree::{Tree, joined};
 
 /// A change of a file that is not durable yet.
 #[derive(Clone, Debug)]
@@ -123,9 +49,6 @@ pub struct Disk {
     printed: Vec<String>,
     applied: usize,
 }
-
-/// What stands in a folder: `None` for a folder, bytes for a file, by the path from the watched folder.
-pub type Tree = BTreeMap<String, Option<Arc<Vec<u8>>>>;
 
 impl Disk {
     /// The folder at `path`, all of it durable.
@@ -335,42 +258,6 @@ impl NameChange {
             names.insert(name.clone(), *id);
         }
     }
-}
-
-pub(super) fn joined(prefix: &str, name: &str) -> String {
-    if prefix.is_empty() {
-        name.to_owned()
-    } else {
-        format!("{prefix}/{name}")
-    }
-}
-
-/// What stands in the folder at `path` right now.
-///
-/// # Errors
-/// Those of reading it.
-pub fn read_tree(path: &Path) -> std::io::Result<Tree> {
-    Ok(Disk::load(path)?.live_tree())
-}
-
-/// Puts everything in `tree` into the folder at `path`.
-///
-/// # Errors
-/// Those of writing.
-pub fn write_tree(tree: &Tree, path: &Path) -> std::io::Result<()> {
-    for (relative, content) in tree {
-        let target = path.join(relative);
-        match content {
-            None => std::fs::create_dir_all(target)?,
-            Some(bytes) => {
-                if let Some(folder) = target.parent() {
-                    std::fs::create_dir_all(folder)?;
-                }
-                std::fs::write(target, bytes.as_slice())?;
-            }
-        }
-    }
-    Ok(())
 }
 
 #[cfg(test)]

@@ -1,0 +1,46 @@
+//! A folder with everything in it, as a value.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+use std::sync::Arc;
+
+use super::model::Disk;
+
+/// What stands in a folder: `None` for a folder, bytes for a file, by the path from the watched folder.
+pub type Tree = BTreeMap<String, Option<Arc<Vec<u8>>>>;
+
+pub(super) fn joined(prefix: &str, name: &str) -> String {
+    if prefix.is_empty() {
+        name.to_owned()
+    } else {
+        format!("{prefix}/{name}")
+    }
+}
+
+/// What stands in the folder at `path` right now.
+///
+/// # Errors
+/// Those of reading it.
+pub fn read_tree(path: &Path) -> std::io::Result<Tree> {
+    Ok(Disk::load(path)?.live_tree())
+}
+
+/// Puts everything in `tree` into the folder at `path`.
+///
+/// # Errors
+/// Those of writing.
+pub fn write_tree(tree: &Tree, path: &Path) -> std::io::Result<()> {
+    for (relative, content) in tree {
+        let target = path.join(relative);
+        match content {
+            None => std::fs::create_dir_all(target)?,
+            Some(bytes) => {
+                if let Some(folder) = target.parent() {
+                    std::fs::create_dir_all(folder)?;
+                }
+                std::fs::write(target, bytes.as_slice())?;
+            }
+        }
+    }
+    Ok(())
+}
