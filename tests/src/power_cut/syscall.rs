@@ -25,6 +25,10 @@ impl Lexer {
         let text = text.trim_start();
         if let Some(head) = text.strip_suffix("<unfinished ...>") {
             let head = head.trim_end().to_owned();
+            if head.starts_with("close(") {
+                // The descriptor is free from here on: another thread may get it before this call is heard of again.
+                return parse(&format!("{head}) = 0"), now);
+            }
             self.unfinished.insert(thread.to_owned(), (head, now));
             return None;
         }
@@ -109,6 +113,14 @@ mod tests {
         assert_eq!((first.arguments[0].as_str(), first.begun), ("3", 7));
         let second = lexer.line("2  <... fsync resumed>) = 0", 9).expect("whole");
         assert_eq!((second.arguments[0].as_str(), second.begun), ("4", 8));
+    }
+
+    #[test]
+    fn a_descriptor_is_free_as_soon_as_its_close_begins() {
+        let mut lexer = Lexer::default();
+        let close = lexer.line("1  close(5 <unfinished ...>", 3);
+        assert_eq!(close.map(|call| call.arguments), Some(vec!["5".to_owned()]));
+        assert_eq!(lexer.line("1  <... close resumed>) = 0", 4), None);
     }
 
     #[test]

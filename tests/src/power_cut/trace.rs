@@ -1,6 +1,5 @@
 //! A program run under `strace`, and what it did to a watched folder.
 
-use std::collections::BTreeSet;
 use std::path::Path;
 use std::process::{Command, ExitStatus, Stdio};
 
@@ -93,12 +92,9 @@ impl Trace {
             follower.disk.live_tree(),
             read_tree(watched).map_err(unfollowed)?,
         );
-        if expected != found {
-            let names = |tree: &Tree| tree.keys().cloned().collect::<BTreeSet<_>>();
+        if let Some(path) = first_difference(&expected, &found) {
             return Err(TraceError::Unfollowed(format!(
-                "the model holds {:?}, the disk {:?}; where names agree, bytes do not",
-                names(&expected),
-                names(&found)
+                "model and disk differ in `{path}`"
             )));
         }
         Ok(Trace {
@@ -117,4 +113,10 @@ impl Trace {
             .for_each(|operation| disk.apply(operation));
         disk
     }
+}
+
+/// The first path that is not the same in both.
+fn first_difference<'a>(expected: &'a Tree, found: &'a Tree) -> Option<&'a String> {
+    let mut paths = expected.keys().chain(found.keys());
+    paths.find(|path| expected.get(*path) != found.get(*path))
 }
