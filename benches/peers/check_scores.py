@@ -24,8 +24,8 @@ def main(dataset, model):
         run("predict", dataset, "--with", model, "--out", pred_csv, "--truth-out", truth_csv, "--quiet")
         scored = evaluation("score", "--truth", truth_csv, "--pred", pred_csv)["metrics"]
         evaluated = evaluation("evaluate", dataset, "--with", model)["metrics"]
-        truth = pandas.read_csv(truth_csv, float_precision="round_trip", dtype={"id": str, "point_id": str})
-        pred = pandas.read_csv(pred_csv, float_precision="round_trip", dtype={"id": str})
+        truth = pandas.read_csv(truth_csv, dtype={"id": str, "point_id": str})
+        pred = pandas.read_csv(pred_csv, dtype={"id": str})
 
     assert list(truth["id"]) == list(pred["id"]), "the two tables hold the same samples"
     channels = [name for name in pred.columns if name in scored["mae"]]

@@ -14,7 +14,7 @@ pub enum ChosenBy {
     LeaveOneGroupOut,
     /// The least squared error on samples left out one after the other.
     LeaveOneOut,
-    /// The least squared error on ten runs of neighbouring samples left out one after the other.
+    /// The least squared error on ten folds left out one after the other: whole groups, or runs of neighbouring samples.
     TenFolds,
 }
 

@@ -16,8 +16,8 @@ use crate::settings::{SettingError, SettingInfo, Settings, number};
 /// Partial least squares of all channels at once.
 ///
 /// Each channel gets its own number of directions (none is the mean): the one of least squared error on the validation part; without one, on
-/// the groups of the training part left out one after the other, or on ten runs of neighbouring samples (neighbours in
-/// time look alike, so samples are not left out singly).
+/// up to ten groups of the training part left out one after the other, more groups dealt into ten, or ten runs of
+/// neighbouring samples (neighbours in time look alike, so samples are not left out singly).
 ///
 /// # Reference
 /// S. de Jong, Chemometr. Intell. Lab. Syst. 18 (1993) 251 (SIMPLS).
@@ -49,7 +49,7 @@ const REFIT: SettingInfo = SettingInfo {
     about: "whether the validation part is learnt from too, once the numbers are chosen",
 };
 
-/// Runs of neighbouring samples that are left out where there are neither groups nor a validation part.
+/// Fits that choosing without a validation part costs at most.
 const FOLDS: usize = 10;
 
 impl Default for Pls {
@@ -108,7 +108,8 @@ impl Pls {
             (None, Some(_)) => Ok((ChosenBy::Nobody, None)),
             (None, None) => {
                 let (by, groups) = match problem.groups() {
-                    Some(groups) => (ChosenBy::LeaveOneGroupOut, groups),
+                    Some(groups) if groups.len() <= FOLDS => (ChosenBy::LeaveOneGroupOut, groups),
+                    Some(groups) => (ChosenBy::TenFolds, dealt(groups)),
                     None => (ChosenBy::TenFolds, folds(problem.centred.nrows())),
                 };
                 let squares = left_out(problem, design, &groups, directions.count(), progress)?;
@@ -116,6 +117,15 @@ impl Pls {
             }
         }
     }
+}
+
+/// Many groups dealt into ten, each kept whole: every one left out costs a fit.
+fn dealt(groups: Vec<Vec<usize>>) -> Vec<Vec<usize>> {
+    let mut folds = vec![Vec::new(); FOLDS];
+    for (position, group) in groups.into_iter().enumerate() {
+        folds[position % FOLDS].extend(group);
+    }
+    folds
 }
 
 /// Ten runs of neighbouring samples, or as many as there are samples.
