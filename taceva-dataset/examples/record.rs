@@ -14,7 +14,7 @@ use taceva_core::{
     Channel, Channels, Clock, Frame, FrameInfo, PixelFormat, Readings, Sample, Stamp,
 };
 use taceva_dataset::{
-    Dataset, Known, Recorder, RecordingFacts, RecordingSpec, SensorFacts, Source,
+    Dataset, DatasetError, Known, Recorder, RecordingFacts, RecordingSpec, SensorFacts, Source,
 };
 
 fn main() -> Result<(), Box<dyn Error>> {
@@ -23,11 +23,13 @@ fn main() -> Result<(), Box<dyn Error>> {
         return Err("usage: record FOLDER COUNT".into());
     };
     let (folder, count) = (Path::new(folder), count.parse::<u16>()?);
-    if Dataset::open(folder).is_ok() {
-        println!("CLOSED");
-        return Ok(());
-    }
-    let mut recorder = Recorder::open(folder, &spec()?)?;
+    let mut recorder = match Recorder::open(folder, &spec()?) {
+        Err(DatasetError::TargetExists { .. }) => {
+            println!("CLOSED {}", Dataset::open(folder)?.digest());
+            return Ok(());
+        }
+        recorder => recorder?,
+    };
     println!("RESUMED {}", recorder.table().rows());
     for number in 1..=count {
         let sample = sample(number)?;

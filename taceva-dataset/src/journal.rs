@@ -104,9 +104,12 @@ impl Journal {
         let cut_bytes = (bytes.len() - scanned.whole) as u64;
         if cut_bytes > 0 {
             file.set_len(scanned.whole as u64)
-                .and_then(|()| file.sync_all())
                 .map_err(DatasetError::io("cut the torn tail of", path))?;
         }
+        // A killed process leaves records and a name that nobody made durable: nothing may be appended behind them before.
+        file.sync_all()
+            .map_err(DatasetError::io("make durable", path))?;
+        sync_folder(parent_of(path))?;
         let journal = Journal {
             file,
             path: path.to_owned(),

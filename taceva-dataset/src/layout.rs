@@ -23,6 +23,14 @@ pub(crate) fn reference_path(extension: &str) -> String {
     format!("{FRAMES}/reference.{extension}")
 }
 
+/// The file of the frame without contact when `before` were taken already, relative to the dataset.
+pub(crate) fn reference_path_anew(before: usize, extension: &str) -> String {
+    match before {
+        0 => reference_path(extension),
+        _ => format!("{FRAMES}/reference-{}.{extension}", before + 1),
+    }
+}
+
 /// The folders that `count` frames lie in, relative to the dataset.
 pub(crate) fn frame_folders(count: usize) -> impl Iterator<Item = String> {
     (0..count).step_by(FRAMES_A_FOLDER).map(frame_folder)

@@ -78,6 +78,10 @@ pub struct Recorder {
     frame_info: Option<FrameInfo>,
     reference: Option<ReferenceInfo>,
     cut_bytes: u64,
+    /// Of frames, the one whose name is known to be durable.
+    synced_folder: Option<PathBuf>,
+    /// Frames without contact recorded so far.
+    references: usize,
 }
 
 impl Recorder {
@@ -173,6 +177,8 @@ impl Recorder {
             frame_info: None,
             reference: None,
             cut_bytes: 0,
+            synced_folder: None,
+            references: 0,
         }
     }
 
@@ -219,7 +225,8 @@ impl Recorder {
     /// [`DatasetError::Sample`] if it is unlike the other frames; [`DatasetError::Io`].
     pub fn append_reference(&mut self, frame: &Frame) -> Result<u64, DatasetError> {
         self.check_frame("reference", frame)?;
-        let relative = layout::reference_path("png");
+        // The one before keeps its file: the journal names it until this one is durable.
+        let relative = layout::reference_path_anew(self.references, "png");
         let digest = self.write_image(&relative, frame)?;
         let written = WrittenFrame {
             path: relative,
@@ -278,6 +285,7 @@ impl Recorder {
 
     fn take_reference(&mut self, written: WrittenFrame) {
         self.frame_info = self.frame_info.or(Some(written.info));
+        self.references += 1;
         self.reference = Some(ReferenceInfo {
             path: written.path,
             sha256: written.sha256,
@@ -304,14 +312,15 @@ impl Recorder {
         }
     }
 
-    fn write_frame(&self, frame: &Frame) -> Result<FrameEntry, DatasetError> {
+    fn write_frame(&mut self, frame: &Frame) -> Result<FrameEntry, DatasetError> {
         let number = self.table.rows();
         let folder = self.path.join(layout::frame_folder(number));
-        if !folder.exists() {
-            // All of them: a power cut may have taken the name of the outer one, too.
+        if self.synced_folder.as_ref() != Some(&folder) {
+            // Even where it is there: a killed process leaves names that nobody made durable.
             fs::create_dir_all(&folder).map_err(DatasetError::io("create", &folder))?;
             sync_folder(parent_of(&folder))?;
             sync_folder(&self.path)?;
+            self.synced_folder = Some(folder);
         }
         let path = layout::frame_path(number, "png");
         let digest = self.write_image(&path, frame)?;

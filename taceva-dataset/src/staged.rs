@@ -74,8 +74,13 @@ impl StagedFolder {
         }
         fs::rename(&self.path, &self.target)
             .map_err(DatasetError::io("rename into place", &self.target))?;
+        if let Err(error) = sync_folder(parent_of(&self.target)) {
+            // Nobody knows whether the name would survive: an error promises that the target is absent.
+            let _ = fs::rename(&self.target, &self.path);
+            return Err(error);
+        }
         self.is_in_place = true;
-        sync_folder(parent_of(&self.target))
+        Ok(())
     }
 }
 
