@@ -101,7 +101,13 @@ fn picture(number: u32, force: f64) -> Frame {
             .unwrap_or(255)
     };
     let bytes = (0..64_u32).flat_map(|pixel| {
-        let light = 90.0 + f64::from((pixel * 64 + number).wrapping_mul(2_654_435_761).rotate_left(13) % 11) - 40.0 * force;
+        let light =
+            90.0 + f64::from(
+                (pixel * 64 + number)
+                    .wrapping_mul(2_654_435_761)
+                    .rotate_left(13)
+                    % 11,
+            ) - 40.0 * force;
         [byte(light + 60.0), byte(light + 20.0), byte(light)]
     });
     Frame::new(info, bytes.collect()).expect("whole")
