@@ -270,11 +270,7 @@ fn times_that_repeat_run_backwards_or_are_whole_seconds_are_noticed() {
         "TAC008",
         Severity::Warning,
     );
-    found(
-        with_times(|number| f64::from(number)),
-        "TAC008",
-        Severity::Warning,
-    );
+    found(with_times(f64::from), "TAC008", Severity::Warning);
 }
 
 #[test]

@@ -1,5 +1,10 @@
 //! A lab's folder, drawn; and the program, run as a person would.
 
+#![allow(
+    dead_code,
+    reason = "each test file is a program of its own and uses some of it"
+)]
+
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
@@ -11,37 +16,37 @@ use taceva_dataset::{
 use tempfile::TempDir;
 
 /// Samples of the drawn folder: ten points, six presses each.
-pub const SAMPLES: u32 = 60;
+pub(crate) const SAMPLES: u32 = 60;
 
 /// A temporary folder to work in.
-pub struct Bench {
+pub(crate) struct Bench {
     folder: TempDir,
 }
 
 /// What the program did.
-pub struct Ran {
-    pub code: i32,
-    pub out: String,
-    pub err: String,
+pub(crate) struct Ran {
+    pub(crate) code: i32,
+    pub(crate) out: String,
+    pub(crate) err: String,
 }
 
 impl Bench {
-    pub fn new() -> Bench {
+    pub(crate) fn new() -> Bench {
         Bench {
             folder: tempfile::tempdir().expect("a temporary folder"),
         }
     }
 
-    pub fn path(&self, name: &str) -> PathBuf {
+    pub(crate) fn path(&self, name: &str) -> PathBuf {
         self.folder.path().join(name)
     }
 
-    pub fn write(&self, name: &str, text: &str) {
+    pub(crate) fn write(&self, name: &str, text: &str) {
         fs::write(self.path(name), text).expect("written");
     }
 
     /// The program, to be started in this folder.
-    pub fn command(&self, words: &str) -> Command {
+    pub(crate) fn command(&self, words: &str) -> Command {
         let mut command = Command::new(env!("CARGO_BIN_EXE_taceva"));
         command
             .current_dir(self.folder.path())
@@ -50,7 +55,7 @@ impl Bench {
     }
 
     /// Runs `taceva WORDS` in this folder.
-    pub fn run(&self, words: &str) -> Ran {
+    pub(crate) fn run(&self, words: &str) -> Ran {
         let Output {
             status,
             stdout,
@@ -65,19 +70,19 @@ impl Bench {
     }
 
     /// Runs, and expects success.
-    pub fn ok(&self, words: &str) -> String {
+    pub(crate) fn ok(&self, words: &str) -> String {
         let ran = self.run(words);
         assert_eq!(ran.code, 0, "taceva {words}\n{}{}", ran.out, ran.err);
         ran.out
     }
 
     /// Runs with JSON output, and expects success.
-    pub fn json(&self, words: &str) -> serde_json::Value {
+    pub(crate) fn json(&self, words: &str) -> serde_json::Value {
         serde_json::from_str(&self.ok(&format!("{words} --format json -q"))).expect("JSON")
     }
 
     /// Expects `code`, one line on standard error that holds `message`, and nothing on standard output.
-    pub fn refused(&self, words: &str, code: i32, message: &str) {
+    pub(crate) fn refused(&self, words: &str, code: i32, message: &str) {
         let ran = self.run(&format!("{words} -q"));
         assert_eq!(ran.code, code, "taceva {words}\n{}{}", ran.out, ran.err);
         assert!(
@@ -89,7 +94,7 @@ impl Bench {
     }
 
     /// A recording of pictures of `side` pixels at `name`.
-    pub fn record(&self, name: &str, side: u32) -> PathBuf {
+    pub(crate) fn record(&self, name: &str, side: u32) -> PathBuf {
         let path = self.path(name);
         let spec = RecordingSpec {
             facts: RecordingFacts {
@@ -123,7 +128,7 @@ impl Bench {
     }
 
     /// A lab's folder `lab` with `labels.csv`, `pictures/` and `map.toml`.
-    pub fn lab(&self) {
+    pub(crate) fn lab(&self) {
         let recording = self.record("drawn", 32);
         let dataset = Dataset::open(&recording).expect("a dataset");
         fs::create_dir_all(self.path("lab/pictures")).expect("created");
@@ -143,7 +148,7 @@ impl Bench {
     }
 }
 
-pub const MAP: &str = r#"map_version = 1
+pub(crate) const MAP: &str = r#"map_version = 1
 table = "labels.csv"
 
 [frame]
@@ -206,7 +211,7 @@ fn draw(number: u32, side: u32) -> Frame {
 }
 
 /// Whether anything but what is named lies in the folder, such as a half-written file.
-pub fn leftovers(folder: &Path, known: &[&str]) -> Vec<String> {
+pub(crate) fn leftovers(folder: &Path, known: &[&str]) -> Vec<String> {
     let entries = fs::read_dir(folder).expect("a folder");
     let names = entries.map(|entry| {
         entry
