@@ -1,20 +1,18 @@
 //! A table of text, read whole and fast: columns are parsed when asked for.
 
+mod columns;
 mod number;
 mod quoted;
 mod split;
 
 use std::num::NonZeroUsize;
-use std::ops::Range;
 use std::path::{Path, PathBuf};
-
-use taceva_core::Column;
 
 use crate::digest::Digest;
 use crate::error::{DatasetError, Place};
 use crate::file::read_capped;
 use crate::limits;
-use crate::parallel::{all_cores, each_part};
+use crate::parallel::all_cores;
 use crate::text::{nearest, shown};
 
 use number::parse_number;
@@ -46,13 +44,6 @@ pub struct CsvTable {
     rows: usize,
     /// The line of each row, where quoted cells may hold line ends; else lines are counted in the text.
     lines: Option<Vec<u64>>,
-}
-
-/// What to do with a cell that is neither empty nor a finite number.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Invalid {
-    Refuse,
-    AsNan,
 }
 
 impl CsvTable {
@@ -107,35 +98,6 @@ impl CsvTable {
         self.names.iter().any(|known| known == name)
     }
 
-    /// The numbers of the column called `name`; empty cells are absent.
-    ///
-    /// # Errors
-    /// [`DatasetError::Table`] if there is no such column, or at the first cell that is no finite number.
-    pub fn numbers(&self, name: &str) -> Result<Column, DatasetError> {
-        self.parse(name, Invalid::Refuse)
-    }
-
-    /// The numbers of the column called `name`, with NaN for each cell that is no finite number, so that they can be counted.
-    ///
-    /// # Errors
-    /// [`DatasetError::Table`] if there is no such column.
-    pub fn numbers_with_invalid(&self, name: &str) -> Result<Column, DatasetError> {
-        self.parse(name, Invalid::AsNan)
-    }
-
-    /// The cells of the column called `name` as they are written, without surrounding blanks.
-    ///
-    /// # Errors
-    /// [`DatasetError::Table`] if there is no such column.
-    pub fn text(&self, name: &str) -> Result<Vec<&str>, DatasetError> {
-        let column = self.position(name)?;
-        let mut cells = Vec::with_capacity(self.rows);
-        for block in &self.blocks {
-            cells.extend((0..block.rows()).map(|row| self.slice(block.cell(row, column)).trim()));
-        }
-        Ok(cells)
-    }
-
     /// Where the column called `name` stands.
     ///
     /// # Errors
@@ -166,11 +128,7 @@ impl CsvTable {
     /// # Panics
     /// If there is no such row or column.
     pub fn cell(&self, row: usize, column: usize) -> &str {
-        let block = self
-            .blocks
-            .partition_point(|block| block.first_row + block.rows() <= row);
-        let block = &self.blocks[block];
-        self.slice(block.cell(row - block.first_row, column)).trim()
+        self.text[self.block_of(row).cell(row, column)].trim()
     }
 
     /// The finite number in a cell, or `None` if it is empty.
@@ -180,11 +138,8 @@ impl CsvTable {
     /// # Panics
     /// If there is no such row or column.
     pub fn number(&self, row: usize, column: usize) -> Result<Option<f64>, DatasetError> {
-        let cell = self.cell(row, column);
-        match parse_number(cell) {
-            Some(number) => Ok(number),
-            None => Err(self.not_a_number(row, column)),
-        }
+        parse_number(&self.text, self.block_of(row).cell(row, column))
+            .ok_or_else(|| self.not_a_number(row, column))
     }
 
     /// Where a row (from 0) stands in the file, in the column at `column`.
@@ -200,54 +155,19 @@ impl CsvTable {
         match &self.lines {
             Some(lines) => lines[row],
             None => {
-                let block = self
-                    .blocks
-                    .partition_point(|block| block.first_row + block.rows() <= row);
-                let block = &self.blocks[block];
-                let start = block.cell(row - block.first_row, 0).start;
+                let start = self.block_of(row).cell(row, 0).start;
                 line_at(self.text.as_bytes(), start)
             }
         }
     }
 
-    fn parse(&self, name: &str, invalid: Invalid) -> Result<Column, DatasetError> {
-        let column = self.position(name)?;
-        let mut values = vec![0.0; self.rows];
-        let mut rest = values.as_mut_slice();
-        let mut parts = Vec::with_capacity(self.blocks.len());
-        for block in &self.blocks {
-            let (part, after) = rest.split_at_mut(block.rows());
-            parts.push((block, part));
-            rest = after;
-        }
-        let outcomes = each_part(parts, |(block, values)| {
-            self.parse_block(block, column, values, invalid)
-        });
-        let mut absent = Vec::new();
-        for outcome in outcomes {
-            absent.extend(outcome.map_err(|row| self.not_a_number(row, column))?);
-        }
-        Ok(with_absent(values, &absent))
-    }
-
-    /// Fills `values`; returns the rows that are absent, or the first row that is wrong.
-    fn parse_block(
-        &self,
-        block: &Block,
-        column: usize,
-        values: &mut [f64],
-        invalid: Invalid,
-    ) -> Result<Vec<usize>, usize> {
-        let mut absent = Vec::new();
-        for (row, value) in values.iter_mut().enumerate() {
-            match parse_number(self.slice(block.cell(row, column))) {
-                Some(Some(number)) => *value = number,
-                Some(None) => absent.push(block.first_row + row),
-                None if invalid == Invalid::AsNan => *value = f64::NAN,
-                None => return Err(block.first_row + row),
-            }
-        }
-        Ok(absent)
+    /// The block that holds `row`.
+    ///
+    /// # Panics
+    /// If there is no such row.
+    fn block_of(&self, row: usize) -> &Block {
+        let position = self.blocks.partition_point(|block| block.rows.end <= row);
+        &self.blocks[position]
     }
 
     fn not_a_number(&self, row: usize, column: usize) -> DatasetError {
@@ -256,10 +176,6 @@ impl CsvTable {
             place: self.place(row, column),
             problem: format!("`{}` is no finite number{}", shown(cell), number_hint(cell)),
         }
-    }
-
-    fn slice(&self, range: Range<usize>) -> &str {
-        &self.text[range]
     }
 
     fn check_names(&self) -> Result<(), DatasetError> {
@@ -328,17 +244,4 @@ fn delimiter_of(header: &str) -> u8 {
         }
     }
     best
-}
-
-fn with_absent(values: Vec<f64>, absent: &[usize]) -> Column {
-    if absent.is_empty() {
-        return Column::full(values);
-    }
-    let mut absent = absent.iter().copied().peekable();
-    let mut column = Column::default();
-    for (row, value) in values.into_iter().enumerate() {
-        let is_absent = absent.next_if_eq(&row).is_some();
-        column.push((!is_absent).then_some(value));
-    }
-    column
 }

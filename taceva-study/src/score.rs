@@ -2,9 +2,10 @@
 
 use std::collections::{BTreeMap, HashMap};
 use std::num::NonZeroUsize;
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 
-use taceva_core::{Channel, Channels, Column, Field, FieldSet, Progress, Unit};
+use taceva_core::{Batch, Channel, Channels, Column, Field, FieldSet, Progress, Unit};
 use taceva_dataset::{CsvTable, Digest};
 use taceva_metrics::{MetricPlan, catalogue};
 
@@ -13,7 +14,7 @@ use crate::plan::Plan;
 use crate::provenance::Provenance;
 use crate::report::EvaluationReport;
 use crate::subject::Subject;
-use crate::tally::Columns;
+use crate::tally::{self, Rows};
 
 /// Columns of a table that are no channels.
 const NOT_CHANNELS: [&str; 13] = [
@@ -147,27 +148,8 @@ impl Scoring {
     }
 
     fn evaluate(&self) -> Result<EvaluationReport, StudyError> {
-        let [truth, mut prediction] = side_by_side(
-            self.request.jobs,
-            || self.columns(&self.truth),
-            || self.columns(&self.prediction),
-        )?;
-        let points = match (self.truth.has("point_id"), self.prediction.has("point_id")) {
-            (true, _) => Some(self.truth.text("point_id")?),
-            (false, true) => Some(self.in_order(&self.prediction.text("point_id")?)),
-            (false, false) => None,
-        };
-        if let Pairing::ById(rows) = &self.pairing {
-            for column in &mut prediction {
-                *column = gather(column, rows);
-            }
-        }
-        let columns = Columns {
-            truth: &truth,
-            prediction: &prediction,
-            points: points.as_deref(),
-        };
-        let evaluation = columns.score(&self.metrics, self.request.jobs)?;
+        let rows = PairedRows::of(self)?;
+        let evaluation = tally::score(&rows, &self.metrics, self.request.jobs)?;
         let provenance = Provenance {
             taceva: env!("CARGO_PKG_VERSION").to_owned(),
             tables: self.digests.clone(),
@@ -179,26 +161,113 @@ impl Scoring {
             provenance,
         ))
     }
+}
 
-    fn columns(&self, table: &CsvTable) -> Result<Vec<Column>, StudyError> {
-        let channels = self.metrics.channels().iter();
-        let read = |channel: &Channel| match self.request.allow_invalid {
-            true => table.numbers_with_invalid(channel.name()),
-            false => table.numbers(channel.name()),
+/// The rows of both tables, parsed where they are scored: no column ever lies in memory as a whole.
+struct PairedRows<'a> {
+    truth: &'a CsvTable,
+    prediction: &'a CsvTable,
+    pairing: &'a Pairing,
+    /// For each channel, where it stands in the truth and in the prediction.
+    channels: Vec<[usize; 2]>,
+    /// Where the contact locations are named, in the truth if it names them.
+    points: Option<Points>,
+    allow_invalid: bool,
+}
+
+/// The column of the contact locations.
+enum Points {
+    OfTruth(usize),
+    OfPrediction(usize),
+}
+
+impl PairedRows<'_> {
+    fn of(scoring: &Scoring) -> Result<PairedRows<'_>, StudyError> {
+        let (truth, prediction) = (&scoring.truth, &scoring.prediction);
+        let stand = |channel: &Channel| {
+            let name = channel.name();
+            Ok([truth.position(name)?, prediction.position(name)?])
         };
-        channels.map(|channel| Ok(read(channel)?)).collect()
+        let channels: Result<_, StudyError> =
+            scoring.metrics.channels().iter().map(stand).collect();
+        let points = match (truth.has("point_id"), prediction.has("point_id")) {
+            (true, _) => Some(Points::OfTruth(truth.position("point_id")?)),
+            (false, true) => Some(Points::OfPrediction(prediction.position("point_id")?)),
+            (false, false) => None,
+        };
+        Ok(PairedRows {
+            truth,
+            prediction,
+            pairing: &scoring.pairing,
+            channels: channels?,
+            points,
+            allow_invalid: scoring.request.allow_invalid,
+        })
     }
 
-    /// Cells of the prediction in the order of the truth.
-    fn in_order<'a>(&self, cells: &[&'a str]) -> Vec<&'a str> {
-        match &self.pairing {
-            Pairing::ByOrder => cells.to_vec(),
-            Pairing::ById(rows) => rows.iter().map(|&row| cells[row]).collect(),
+    fn numbers(
+        &self,
+        table: &CsvTable,
+        column: usize,
+        rows: impl ExactSizeIterator<Item = usize>,
+    ) -> Result<Column, StudyError> {
+        Ok(match self.allow_invalid {
+            true => table.numbers_in_with_invalid(column, rows),
+            false => table.numbers_in(column, rows),
+        }?)
+    }
+
+    /// The rows of the truth, each with what is read of its row of the prediction.
+    fn side_by_side(
+        &self,
+        plan: &MetricPlan,
+        rows: Range<usize>,
+        paired: impl ExactSizeIterator<Item = usize> + Clone,
+    ) -> Result<Batch, StudyError> {
+        let truth: Result<_, StudyError> = self
+            .channels
+            .iter()
+            .map(|[column, _]| self.numbers(self.truth, *column, rows.clone()))
+            .collect();
+        let prediction: Result<_, StudyError> = self
+            .channels
+            .iter()
+            .map(|[_, column]| self.numbers(self.prediction, *column, paired.clone()))
+            .collect();
+        let points = self.points.as_ref().map(|points| match points {
+            Points::OfTruth(column) => tally::labels(self.truth.text_in(*column, rows.clone())),
+            Points::OfPrediction(column) => {
+                tally::labels(self.prediction.text_in(*column, paired.clone()))
+            }
+        });
+        Ok(Batch::from_columns(
+            plan.channels().clone(),
+            truth?,
+            prediction?,
+            points,
+        ))
+    }
+}
+
+impl Rows for PairedRows<'_> {
+    fn rows(&self) -> usize {
+        self.truth.rows()
+    }
+
+    fn batch(&self, plan: &MetricPlan, rows: Range<usize>) -> Result<Batch, StudyError> {
+        match self.pairing {
+            Pairing::ByOrder => self.side_by_side(plan, rows.clone(), rows),
+            Pairing::ById(paired) => {
+                let paired = paired[rows.clone()].iter().copied();
+                self.side_by_side(plan, rows, paired)
+            }
         }
     }
 }
 
-/// Both tables with their digests.
+/// Both tables with their digests, read at the same time where two threads are allowed.
+///
+/// The two take about as long as each other, so this shares work better than threads within each of them.
 fn read_both(request: &ScoreRequest) -> Result<[(CsvTable, Digest); 2], StudyError> {
     let share = NonZeroUsize::new(request.jobs.get() / 2).unwrap_or(NonZeroUsize::MIN);
     let read = |path: &Path| -> Result<(CsvTable, Digest), StudyError> {
@@ -206,38 +275,17 @@ fn read_both(request: &ScoreRequest) -> Result<[(CsvTable, Digest); 2], StudyErr
         let digest = table.digest();
         Ok((table, digest))
     };
-    side_by_side(
-        request.jobs,
-        || read(&request.truth),
-        || read(&request.prediction),
-    )
-}
-
-/// Does the same for the truth and for the prediction, at the same time where two threads are allowed.
-///
-/// The two tables take about as long as each other, so this shares work better than threads within each of them.
-fn side_by_side<T: Send>(
-    jobs: NonZeroUsize,
-    truth: impl FnOnce() -> Result<T, StudyError> + Send,
-    prediction: impl FnOnce() -> Result<T, StudyError>,
-) -> Result<[T; 2], StudyError> {
-    if jobs == NonZeroUsize::MIN {
-        return Ok([truth()?, prediction()?]);
+    if request.jobs == NonZeroUsize::MIN {
+        return Ok([read(&request.truth)?, read(&request.prediction)?]);
     }
     std::thread::scope(|scope| {
-        let truth = scope.spawn(truth);
-        let prediction = prediction();
+        let truth = scope.spawn(|| read(&request.truth));
+        let prediction = read(&request.prediction);
         let truth = truth
             .join()
             .unwrap_or_else(|panic| std::panic::resume_unwind(panic));
         Ok([truth?, prediction?])
     })
-}
-
-fn gather(column: &Column, rows: &[usize]) -> Column {
-    let mut gathered = Column::default();
-    rows.iter().for_each(|&row| gathered.push(column.get(row)));
-    gathered
 }
 
 /// The channels of the prediction; the truth must have each, and no channel of the six that the prediction lacks.

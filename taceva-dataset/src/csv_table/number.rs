@@ -1,5 +1,7 @@
 //! Decimal text to the nearest binary64.
 
+use std::ops::Range;
+
 /// Powers of ten that binary64 holds exactly.
 const EXACT_POWERS: [f64; 23] = [
     1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15, 1e16,
@@ -12,8 +14,15 @@ const EXACT_INTEGERS: u64 = 1 << 53;
 /// 16 digits and a point: more are beyond 2^53 unless they begin with zeros.
 const PLAIN_BYTES: usize = 17;
 
-/// The finite number in `cell`: `Some(None)` if the cell is empty, `None` if it holds something else.
-pub(super) fn parse_number(cell: &str) -> Option<Option<f64>> {
+/// The longest cell that is read at once, without its sign.
+const WINDOW: usize = 8;
+
+/// The finite number in a cell of `text`: `Some(None)` if the cell is empty, `None` if it holds something else.
+pub(super) fn parse_number(text: &str, cell: Range<usize>) -> Option<Option<f64>> {
+    if let Some(number) = parse_short(text.as_bytes(), cell.clone()) {
+        return Some(Some(number));
+    }
+    let cell = &text[cell];
     if let Some(number) = parse_plain(cell.as_bytes()) {
         return Some(Some(number));
     }
@@ -55,6 +64,61 @@ fn parse_plain(cell: &[u8]) -> Option<f64> {
     Some(if negative { -magnitude } else { magnitude })
 }
 
+/// As [`parse_plain`], of up to eight bytes and a sign, all looked at together: branches on where the point is and on how many
+/// digits follow cannot be predicted.
+///
+/// The window ends with the cell, so that the last digit always stands in its highest byte.
+fn parse_short(text: &[u8], cell: Range<usize>) -> Option<f64> {
+    let negative = *text.get(cell.start)? == b'-';
+    let length = cell.len().checked_sub(usize::from(negative))?;
+    let window = text.get(cell.end.checked_sub(WINDOW)?..cell.end)?;
+    if length == 0 || length > WINDOW {
+        return None;
+    }
+    let window = u64::from_le_bytes(window.try_into().expect("a window of eight bytes"));
+    let before = 8 * (WINDOW - length);
+    // A byte of zero is the digit 0, and none is a point.
+    let bytes = (window ^ repeated(b'0')) >> before << before;
+    let points = zero_bytes(bytes ^ repeated(b'0' ^ b'.'));
+    let (digits, places) = if points == 0 {
+        (bytes, 0)
+    } else if length == 1 {
+        return None;
+    } else {
+        let point = points.trailing_zeros() as usize / 8;
+        // What stands before the point moves up by a byte, over the point.
+        let ahead = (1 << (8 * point)) - 1;
+        let kept = bytes & !(ahead << 8 | 0xff);
+        (kept | (bytes & ahead) << 8, WINDOW - 1 - point)
+    };
+    let beyond_nine = ((digits & repeated(0x7f)) + repeated(0x7f - 9)) | digits;
+    if beyond_nine & repeated(0x80) != 0 {
+        return None;
+    }
+    #[expect(clippy::cast_precision_loss, reason = "eight digits are exact")]
+    let magnitude = eight_digits(digits) as f64 / EXACT_POWERS[places];
+    Some(f64::from_bits(
+        magnitude.to_bits() | u64::from(negative) << 63,
+    ))
+}
+
+const fn repeated(byte: u8) -> u64 {
+    u64::from_le_bytes([byte; WINDOW])
+}
+
+/// The high bit of each byte that is zero (exact: no carry runs from one byte into the next).
+fn zero_bytes(bytes: u64) -> u64 {
+    const LOW_BITS: u64 = repeated(0x7f);
+    !(((bytes & LOW_BITS) + LOW_BITS) | bytes | LOW_BITS)
+}
+
+/// The number whose decimal digits are the bytes, the first in the lowest: neighbours are joined to pairs, fours, eight.
+fn eight_digits(digits: u64) -> u64 {
+    let pairs = digits.wrapping_mul((10 << 8) + 1) >> 8 & 0x00ff_00ff_00ff_00ff;
+    let fours = pairs.wrapping_mul((100 << 16) + 1) >> 16 & 0x0000_ffff_0000_ffff;
+    fours.wrapping_mul((10_000 << 32) + 1) >> 32
+}
+
 /// What to write instead of `cell`, where that can be guessed.
 pub(crate) fn number_hint(cell: &str) -> &'static str {
     let is_numeric = cell
@@ -71,6 +135,21 @@ pub(crate) fn number_hint(cell: &str) -> &'static str {
 mod tests {
     use super::*;
     use proptest::prelude::*;
+
+    /// What is read from `cell`, wherever in a text it stands.
+    fn read(cell: &str) -> Option<Option<f64>> {
+        let found = parse_number(cell, 0..cell.len());
+        for before in ["7", "12.5,-8,9.", "1.5\n-1234567.25,", "µ,µ,µ,µ,µ,µ,-"] {
+            let text = format!("{before}{cell},3");
+            let again = parse_number(&text, before.len()..before.len() + cell.len());
+            assert_eq!(bits(again), bits(found), "`{cell}` in `{text}`");
+        }
+        found
+    }
+
+    fn bits(found: Option<Option<f64>>) -> Option<Option<u64>> {
+        found.map(|number| number.map(f64::to_bits))
+    }
 
     #[test]
     fn plain_decimals_are_the_nearest_binary64() {
@@ -95,9 +174,13 @@ mod tests {
             "+2.5",
             "0.0000000000000000001",
             "0.00000000000000000000001",
+            "9007199254740.993",
+            "1234567890123456",
+            "-.123456789012345",
+            "123456789012345.",
         ] {
             let expected: f64 = text.parse().expect("a number");
-            let found = parse_number(text).flatten().expect(text);
+            let found = read(text).flatten().expect(text);
             assert_eq!(found.to_bits(), expected.to_bits(), "{text}");
         }
     }
@@ -117,19 +200,32 @@ mod tests {
             "--1",
             "1.2.3",
             "1_0",
+            "1.2-3",
+            "12:3",
+            "1/2",
+            "1µ2",
+            "\u{b0}1",
         ] {
-            assert_eq!(parse_number(text), None, "{text}");
+            assert_eq!(read(text), None, "{text}");
         }
-        assert_eq!(parse_number(""), Some(None));
-        assert_eq!(parse_number("  "), Some(None));
-        assert_eq!(parse_number(" 1.5\r"), Some(Some(1.5)));
+        assert_eq!(read(""), Some(None));
+        assert_eq!(read("  "), Some(None));
+        assert_eq!(read(" 1.5\r"), Some(Some(1.5)));
     }
 
     proptest! {
         #[test]
         fn any_decimal_text_is_read_as_the_standard_library_reads_it(text in "-?[0-9]{0,20}\\.?[0-9]{0,20}") {
             let expected: Option<f64> = text.parse().ok();
-            let found = parse_number(&text).flatten();
+            let found = read(&text).flatten();
+            prop_assert_eq!(found.map(f64::to_bits), expected.map(f64::to_bits));
+        }
+
+        #[test]
+        fn any_short_text_is_read_as_the_standard_library_reads_it(text in "[-+.0-9eµ: /]{0,17}") {
+            let text = text.trim();
+            let expected: Option<f64> = text.parse().ok().filter(|number: &f64| number.is_finite());
+            let found = read(text).flatten();
             prop_assert_eq!(found.map(f64::to_bits), expected.map(f64::to_bits));
         }
     }

@@ -58,7 +58,7 @@ pub(super) fn read(path: &Path, text: &str, delimiter: u8) -> Result<CsvTable, D
         )
     })?;
     let block = Block {
-        first_row: 0,
+        rows: 0..lines.len(),
         columns: names.len(),
         bounds,
     };

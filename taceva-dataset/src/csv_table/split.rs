@@ -14,20 +14,17 @@ const LEAST_PART: usize = 1 << 16;
 /// Some rows of a table: where each cell begins in the text, and where the row ends.
 #[derive(Debug)]
 pub(super) struct Block {
-    pub(super) first_row: usize,
+    /// Which rows of the table these are.
+    pub(super) rows: Range<usize>,
     pub(super) columns: usize,
     /// For each row the start of each cell, then one past the end of the last.
     pub(super) bounds: Vec<u32>,
 }
 
 impl Block {
-    pub(super) fn rows(&self) -> usize {
-        self.bounds.len() / (self.columns + 1)
-    }
-
-    /// Where the cell of a row of this block lies; one byte separates it from the next.
+    /// Where the cell of a row of the table lies; one byte separates it from the next.
     pub(super) fn cell(&self, row: usize, column: usize) -> Range<usize> {
-        let first = row * (self.columns + 1) + column;
+        let first = (row - self.rows.start) * (self.columns + 1) + column;
         self.bounds[first] as usize..self.bounds[first + 1] as usize - 1
     }
 }
@@ -63,13 +60,13 @@ pub(super) fn read(
                 ragged.found
             ),
         })?;
-        let block = Block {
-            first_row: rows,
+        let first = rows;
+        rows += bounds.len() / (columns + 1);
+        blocks.push(Block {
+            rows: first..rows,
             columns,
             bounds,
-        };
-        rows += block.rows();
-        blocks.push(block);
+        });
     }
     Ok(CsvTable {
         path: path.to_owned(),

@@ -1,0 +1,170 @@
+//! Columns out of a table, of all rows or of some.
+
+use std::ops::Range;
+
+use taceva_core::Column;
+
+use super::CsvTable;
+use super::number::parse_number;
+use super::split::Block;
+use crate::error::DatasetError;
+use crate::parallel::each_part;
+
+/// What to do with a cell that is neither empty nor a finite number.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Invalid {
+    Refuse,
+    AsNan,
+}
+
+impl CsvTable {
+    /// The numbers of the column called `name`; empty cells are absent.
+    ///
+    /// # Errors
+    /// [`DatasetError::Table`] if there is no such column, or at the first cell that is no finite number.
+    pub fn numbers(&self, name: &str) -> Result<Column, DatasetError> {
+        self.whole(name, Invalid::Refuse)
+    }
+
+    /// The numbers of the column called `name`, with NaN for each cell that is no finite number, so that they can be counted.
+    ///
+    /// # Errors
+    /// [`DatasetError::Table`] if there is no such column.
+    pub fn numbers_with_invalid(&self, name: &str) -> Result<Column, DatasetError> {
+        self.whole(name, Invalid::AsNan)
+    }
+
+    /// The numbers that the column at `column` has in `rows`, in their order; empty cells are absent.
+    ///
+    /// # Errors
+    /// [`DatasetError::Table`] at the first cell that is no finite number.
+    /// # Panics
+    /// If there is no such row or column.
+    pub fn numbers_in(
+        &self,
+        column: usize,
+        rows: impl ExactSizeIterator<Item = usize>,
+    ) -> Result<Column, DatasetError> {
+        self.some(column, rows, Invalid::Refuse)
+    }
+
+    /// As [`numbers_in`](CsvTable::numbers_in), with NaN for each cell that is no finite number.
+    ///
+    /// # Errors
+    /// Never: the type is that of [`numbers_in`](CsvTable::numbers_in), so that a caller can choose between the two.
+    /// # Panics
+    /// If there is no such row or column.
+    pub fn numbers_in_with_invalid(
+        &self,
+        column: usize,
+        rows: impl ExactSizeIterator<Item = usize>,
+    ) -> Result<Column, DatasetError> {
+        self.some(column, rows, Invalid::AsNan)
+    }
+
+    /// The cells of the column called `name` as they are written, without surrounding blanks.
+    ///
+    /// # Errors
+    /// [`DatasetError::Table`] if there is no such column.
+    pub fn text(&self, name: &str) -> Result<Vec<&str>, DatasetError> {
+        let column = self.position(name)?;
+        Ok(self.text_in(column, 0..self.rows).collect())
+    }
+
+    /// What the column at `column` has in `rows`, in their order, as it is written, without surrounding blanks.
+    ///
+    /// # Panics
+    /// If there is no such row or column.
+    pub fn text_in(
+        &self,
+        column: usize,
+        rows: impl Iterator<Item = usize>,
+    ) -> impl Iterator<Item = &str> {
+        self.cells(column, rows)
+            .map(|(_, cell)| self.text[cell].trim())
+    }
+
+    fn whole(&self, name: &str, invalid: Invalid) -> Result<Column, DatasetError> {
+        let column = self.position(name)?;
+        let mut values = vec![0.0; self.rows];
+        let mut rest = values.as_mut_slice();
+        let mut parts = Vec::with_capacity(self.blocks.len());
+        for block in &self.blocks {
+            let (part, after) = rest.split_at_mut(block.rows.len());
+            parts.push((block.rows.clone(), part));
+            rest = after;
+        }
+        let outcomes = each_part(parts, |(rows, values)| {
+            let first = rows.start;
+            let absent = self.parse(column, rows, values, invalid)?;
+            Ok((first, absent))
+        });
+        let mut absent = Vec::new();
+        for outcome in outcomes {
+            let (first, positions): (usize, Vec<usize>) = outcome?;
+            absent.extend(positions.into_iter().map(|position| first + position));
+        }
+        Ok(with_absent(values, &absent))
+    }
+
+    fn some(
+        &self,
+        column: usize,
+        rows: impl ExactSizeIterator<Item = usize>,
+        invalid: Invalid,
+    ) -> Result<Column, DatasetError> {
+        let mut values = vec![0.0; rows.len()];
+        let absent = self.parse(column, rows, &mut values, invalid)?;
+        Ok(with_absent(values, &absent))
+    }
+
+    /// Fills `values`; returns which of them are absent.
+    fn parse(
+        &self,
+        column: usize,
+        rows: impl Iterator<Item = usize>,
+        values: &mut [f64],
+        invalid: Invalid,
+    ) -> Result<Vec<usize>, DatasetError> {
+        let mut absent = Vec::new();
+        for (position, (row, cell)) in self.cells(column, rows).enumerate() {
+            match parse_number(&self.text, cell) {
+                Some(Some(number)) => values[position] = number,
+                Some(None) => absent.push(position),
+                None if invalid == Invalid::AsNan => values[position] = f64::NAN,
+                None => return Err(self.not_a_number(row, column)),
+            }
+        }
+        Ok(absent)
+    }
+
+    /// Where the cells of `rows` lie in the text; a block is looked up only where they leave the last one.
+    fn cells(
+        &self,
+        column: usize,
+        rows: impl Iterator<Item = usize>,
+    ) -> impl Iterator<Item = (usize, Range<usize>)> {
+        let mut last: Option<&Block> = None;
+        rows.map(move |row| {
+            let block = match last {
+                Some(block) if block.rows.contains(&row) => block,
+                _ => self.block_of(row),
+            };
+            last = Some(block);
+            (row, block.cell(row, column))
+        })
+    }
+}
+
+fn with_absent(values: Vec<f64>, absent: &[usize]) -> Column {
+    if absent.is_empty() {
+        return Column::full(values);
+    }
+    let mut absent = absent.iter().copied().peekable();
+    let mut column = Column::default();
+    for (row, value) in values.into_iter().enumerate() {
+        let is_absent = absent.next_if_eq(&row).is_some();
+        column.push((!is_absent).then_some(value));
+    }
+    column
+}
