@@ -180,7 +180,7 @@ pub(crate) struct Predict {
 /// Both tables have a header with channel names; rows are matched by `id` where both have one, else by order.
 #[derive(Debug, Args)]
 pub(crate) struct Score {
-    /// What is true: a table with columns Px,Py,Pz [mm], Fx,Fy,Fz [N] or named others
+    /// What is true: a table with columns Px,Py,Pz (mm), Fx,Fy,Fz (N) or named others
     #[arg(long, value_name = "TRUTH.csv")]
     pub(crate) truth: PathBuf,
     /// What was predicted: a table with the same channels
