@@ -263,6 +263,45 @@ fn a_damaged_frame_is_named_before_any_number() {
 
 #[cfg(unix)]
 #[test]
+fn a_pipe_in_place_of_any_file_is_refused_and_not_waited_for() {
+    let bench = imported();
+    let pipe = std::process::Command::new("mkfifo")
+        .arg(bench.path("pipe"))
+        .status();
+    assert!(pipe.is_ok_and(|status| status.success()), "mkfifo is there");
+    bench.refused("evaluate data --with pipe", 3, "not a regular file");
+    bench.refused("import lab --map pipe --to new", 3, "pipe");
+    bench.refused("score --truth pipe --pred pipe", 3, "pipe");
+    bench.refused("check pipe", 3, "pipe is no dataset");
+}
+
+#[test]
+fn the_first_bad_cell_is_the_same_for_any_number_of_jobs() {
+    let bench = Bench::new();
+    let rows = |bad: [usize; 2]| -> String {
+        let cell = |row| {
+            if bad.contains(&row) {
+                "x".to_owned()
+            } else {
+                row.to_string()
+            }
+        };
+        (0..30_000)
+            .map(|row| format!("{},{}\n", row, cell(row)))
+            .collect()
+    };
+    bench.write("truth.csv", &format!("Fx,Fz\n{}", rows([25_000, 9_000])));
+    for jobs in 1..=3 {
+        bench.refused(
+            &format!("score --truth truth.csv --pred truth.csv --jobs {jobs}"),
+            3,
+            "line 9002, column `Fz`",
+        );
+    }
+}
+
+#[cfg(unix)]
+#[test]
 fn a_signal_ends_an_import_with_its_own_code_and_leaves_nothing() {
     use std::os::unix::process::ExitStatusExt as _;
     let bench = imported();

@@ -54,6 +54,10 @@ impl Model {
 
 /// At most one byte more than a model has, which is enough to refuse it.
 fn read_capped(path: &Path) -> io::Result<Vec<u8>> {
+    // Asked before opening: opening a pipe would wait for whoever writes into it.
+    if !fs::metadata(path)?.is_file() {
+        return Err(io::Error::other("not a regular file"));
+    }
     let mut bytes = Vec::new();
     File::open(path)?
         .take(FILE_MAX + 1)
