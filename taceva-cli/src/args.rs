@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use clap::{Args, Parser, Subcommand, ValueEnum};
+use clap::{ArgGroup, Args, Parser, Subcommand, ValueEnum};
 
 const AFTER_HELP: &str = "\
 Start here:
@@ -56,16 +56,12 @@ pub(crate) enum Command {
 
 /// The map says, in TOML, which column is which channel, in which unit, and where the pictures are.
 #[derive(Debug, Args)]
+#[command(group = ArgGroup::new("layout").required(true).args(["map", "preset"]))]
 pub(crate) struct Import {
     /// The folder that holds the table and the pictures
     pub(crate) source: PathBuf,
     /// The map; see the documentation of taceva-dataset for its keys
-    #[arg(
-        long,
-        value_name = "MAP.toml",
-        conflicts_with = "preset",
-        required_unless_present = "preset"
-    )]
+    #[arg(long, value_name = "MAP.toml")]
     pub(crate) map: Option<PathBuf>,
     /// A layout that is known already: bristol, py3dcal
     #[arg(long, value_name = "NAME")]
@@ -120,16 +116,12 @@ pub(crate) struct Fit {
 /// With --model, the model is fitted on the training part, its settings are chosen on the validation part, and the test
 /// part is scored. With --with, a fitted model is used: on its own dataset only the part it has not seen is scored.
 #[derive(Debug, Args)]
+#[command(group = ArgGroup::new("which").required(true).args(["with", "name"]))]
 pub(crate) struct Evaluate {
     /// The dataset to evaluate
     pub(crate) dataset: PathBuf,
     /// A fitted model file
-    #[arg(
-        long,
-        value_name = "MODEL",
-        conflicts_with = "name",
-        required_unless_present = "name"
-    )]
+    #[arg(long, value_name = "MODEL")]
     pub(crate) with: Option<PathBuf>,
     #[command(flatten)]
     pub(crate) model: OptionalModelArgs,
@@ -272,9 +264,9 @@ pub(crate) struct Output {
 pub(crate) enum Format {
     /// For people
     Text,
-    /// For programs: schema taceva.evaluation/1
+    /// For programs; the key `schema` says which form it has
     Json,
-    /// One row a score
+    /// One row a score or finding
     Csv,
     /// A Markdown table
     Md,

@@ -23,7 +23,6 @@ use crate::progress::Terminal;
 pub(crate) struct Context {
     pub(crate) progress: Terminal,
     pub(crate) jobs: NonZeroUsize,
-    quiet: bool,
     verbose: bool,
 }
 
@@ -36,16 +35,7 @@ impl Context {
         Context {
             progress: Terminal::new(everywhere.quiet),
             jobs: asked.unwrap_or_else(all_cores),
-            quiet: everywhere.quiet,
             verbose: everywhere.verbose > 0,
-        }
-    }
-
-    /// A line on standard error, for people.
-    #[expect(clippy::print_stderr, reason = "notes are for standard error")]
-    pub(crate) fn note(&self, line: &str) {
-        if !self.quiet {
-            eprintln!("taceva: {line}");
         }
     }
 

@@ -111,6 +111,8 @@ const SOURCE_UNITS: &[(&str, Unit, Scale)] = &[
     ("cm", Unit::Millimetre, Scale::Times(10.0)),
     ("um", Unit::Millimetre, Scale::Over(1e3)),
     ("µm", Unit::Millimetre, Scale::Over(1e3)),
+    // The micro sign and the Greek letter look the same.
+    ("\u{3bc}m", Unit::Millimetre, Scale::Over(1e3)),
     ("nm", Unit::Millimetre, Scale::Over(1e6)),
     ("N", Unit::Newton, Scale::Times(1.0)),
     ("mN", Unit::Newton, Scale::Over(1e3)),
@@ -132,6 +134,7 @@ const SOURCE_UNITS: &[(&str, Unit, Scale)] = &[
     ("ms", Unit::Second, Scale::Over(1e3)),
     ("us", Unit::Second, Scale::Over(1e6)),
     ("µs", Unit::Second, Scale::Over(1e6)),
+    ("\u{3bc}s", Unit::Second, Scale::Over(1e6)),
     ("ns", Unit::Second, Scale::Over(1e9)),
     ("Hz", Unit::Hertz, Scale::Times(1.0)),
     ("lx", Unit::Lux, Scale::Times(1.0)),

@@ -1,5 +1,6 @@
 //! From a dataset to scores, step by step: divide, fit, predict, score.
 
+use std::collections::BTreeSet;
 use std::num::NonZeroUsize;
 
 use taceva_core::{Channels, Field, FieldSet, Progress, SkipReason, Skipped};
@@ -194,6 +195,7 @@ fn score(
         frames_decoded: predicted.frames_decoded,
         notes: note
             .into_iter()
+            .chain(few_points_note(points.as_deref()))
             .chain(left_out_note(target.part.name(), predicted.left_out))
             .collect(),
         ..Provenance::default()
@@ -222,5 +224,16 @@ fn divided_as(divided: &Divided) -> String {
 fn left_out_note(part: &str, count: usize) -> Option<String> {
     (count > 0).then(|| {
         format!("{count} samples of the part {part} lack a label or a frame and were left out")
+    })
+}
+
+/// What to do where the scored part has too few contact points for any interval.
+fn few_points_note(points: Option<&[&str]>) -> Option<String> {
+    let distinct: BTreeSet<&str> = points?.iter().copied().collect();
+    (distinct.len() < 5).then(|| {
+        format!(
+            "scored on {} contact points, too few for intervals; test on more of them: --split 'by-point 50/10/40'",
+            distinct.len()
+        )
     })
 }

@@ -13,6 +13,11 @@ pub(crate) fn run(args: &Evaluate, context: &Context) -> anyhow::Result<u8> {
     }
     let model = match (&args.with, &args.model.name) {
         (Some(path), _) => ModelChoice::Fitted(Box::new(Model::open(path)?)),
+        (None, Some(name)) if name.contains('.') && std::path::Path::new(name).is_file() => {
+            return Err(Usage::error(format!(
+                "{name} is a file: use --with {name} for a fitted model"
+            )));
+        }
         (None, Some(name)) => {
             ModelChoice::Fit(fit_request(name, &args.model.settings, &args.split)?)
         }

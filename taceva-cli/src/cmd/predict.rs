@@ -25,10 +25,21 @@ pub(crate) fn run(args: &Predict, context: &Context) -> anyhow::Result<u8> {
     if let Some(path) = &args.truth_out {
         output::write(Some(path), |out| predicted.write_truth(out))?;
     }
-    context.note(&format!(
-        "{} predictions of the part `{}`",
-        predicted.rows(),
-        predicted.part()
-    ));
+    output::write(None, |out| {
+        writeln!(
+            out,
+            "wrote    {}: {} predictions of the part `{}`",
+            args.out.display(),
+            predicted.rows(),
+            predicted.part()
+        )?;
+        args.truth_out.iter().try_for_each(|path| {
+            writeln!(
+                out,
+                "wrote    {}: the truth of the same samples",
+                path.display()
+            )
+        })
+    })?;
     Ok(exit::DONE)
 }

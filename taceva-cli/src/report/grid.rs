@@ -77,7 +77,7 @@ pub(super) fn caption(report: &EvaluationReport) -> String {
         .filter_map(|(_, _, score)| score.interval.method())
         .collect();
     let intervals = match methods.len() {
-        0 => "no intervals".to_owned(),
+        0 => "No intervals".to_owned(),
         _ => format!(
             "95 % intervals: {}",
             methods.into_iter().collect::<Vec<_>>().join("; ")
@@ -93,8 +93,12 @@ pub(super) fn caption(report: &EvaluationReport) -> String {
         .split
         .as_ref()
         .map_or_else(String::new, |split| format!(" Split: {split}."));
+    let subject = match subject.source.as_str() {
+        "unknown" => "Scores of two tables".to_owned(),
+        source => format!("{} ({source} samples)", subject.sensor),
+    };
     format!(
-        "{} ({} samples), n = {n}.{model}{split} {intervals}. TacEva {}.",
-        subject.sensor, subject.source, report.provenance.taceva
+        "{subject}, n = {n}.{model}{split} {intervals}. TacEva {}.",
+        report.provenance.taceva
     )
 }

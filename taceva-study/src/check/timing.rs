@@ -81,6 +81,13 @@ fn rate(times: &[(usize, f64)]) -> Found {
     };
     let gaps = steps.iter().filter(|step| **step > GAP * usual).count();
     let longest = steps.last().copied().unwrap_or(usual);
+    if gaps == 0 {
+        let message = format!(
+            "{:.4} Hz by the median step of {usual:.4} s, without gaps",
+            1.0 / usual
+        );
+        return Found::overall(Severity::Note, message);
+    }
     let message = format!(
         "{:.4} Hz by the median step of {usual:.4} s; {gaps} steps are over {GAP} times that, the longest {longest:.4} s",
         1.0 / usual
