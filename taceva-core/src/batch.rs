@@ -1,10 +1,13 @@
 //! Samples as columns: what metrics eat.
 
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap};
 use std::ops::Range;
 
 use crate::channel::Channels;
 use crate::field::{Field, FieldSet};
+use crate::grating::GratingKind;
+use crate::nanometre::Nanometre;
+use crate::phase::Phase;
 use crate::sample::{Readings, Sample};
 
 /// Some samples as columns of one length; what no metric asked for is not filled.
@@ -15,6 +18,8 @@ pub struct Batch {
     truth: Vec<Column>,
     prediction: Vec<Column>,
     points: Option<Labels>,
+    labels: BTreeMap<Field, Labels>,
+    numbers: BTreeMap<Field, Column>,
 }
 
 impl Batch {
@@ -60,7 +65,33 @@ impl Batch {
             truth,
             prediction,
             points,
+            labels: BTreeMap::new(),
+            numbers: BTreeMap::new(),
         }
+    }
+
+    /// The same batch with the texts of `field`: scene, unit, phase, kind of grating or digest of the frame.
+    ///
+    /// # Panics
+    /// If there is not one for each row, or the field holds no text.
+    #[must_use]
+    pub fn with_labels(mut self, field: Field, labels: Labels) -> Batch {
+        assert_eq!(labels.index.len(), self.rows, "a label for each row");
+        assert!(LABELS.contains(&field), "`{field}` holds no text");
+        self.labels.insert(field, labels);
+        self
+    }
+
+    /// The same batch with the numbers of `field`: depth step, repeat, time in s, spacings in whole nm, intensity.
+    ///
+    /// # Panics
+    /// If there is not one for each row, or the field holds no number.
+    #[must_use]
+    pub fn with_numbers(mut self, field: Field, numbers: Column) -> Batch {
+        assert_eq!(numbers.len(), self.rows, "a number for each row");
+        assert!(NUMBERS.contains(&field), "`{field}` holds no number");
+        self.numbers.insert(field, numbers);
+        self
     }
 
     /// Number of samples.
@@ -87,7 +118,37 @@ impl Batch {
     pub fn points(&self) -> Option<&Labels> {
         self.points.as_ref()
     }
+
+    /// The texts of `field`, if the batch carries them: scene, unit, phase, kind of grating or digest of the frame.
+    pub fn labels(&self, field: Field) -> Option<&Labels> {
+        self.labels.get(&field)
+    }
+
+    /// The numbers of `field`, if the batch carries them: depth step, repeat, time in s, spacings in whole nm (exact in
+    /// binary64), intensity.
+    pub fn numbers(&self, field: Field) -> Option<&Column> {
+        self.numbers.get(&field)
+    }
 }
+
+/// Fields that are texts.
+const LABELS: [Field; 5] = [
+    Field::Scene,
+    Field::UnitId,
+    Field::Phase,
+    Field::Kind,
+    Field::FrameDigest,
+];
+
+/// Fields that are numbers.
+const NUMBERS: [Field; 6] = [
+    Field::DepthStep,
+    Field::Repeat,
+    Field::Stamp,
+    Field::Spacing,
+    Field::PredictedSpacing,
+    Field::Intensity,
+];
 
 /// The values of one channel; where a sample has none, a mask says so.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -158,7 +219,7 @@ impl Column {
     }
 }
 
-/// A name a row, each distinct name kept once.
+/// A name a row, each distinct name kept once; a row may have none.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Labels {
     names: Vec<String>,
@@ -176,6 +237,8 @@ impl Labels {
             Some(&index) => index,
             None => {
                 let index = u32::try_from(self.names.len())
+                    .ok()
+                    .filter(|index| *index != Labels::ABSENT)
                     .expect("fewer than 2^32 distinct names fit in memory");
                 self.names.push(name.to_owned());
                 self.lookup.insert(name.to_owned(), index);
@@ -185,19 +248,28 @@ impl Labels {
         self.index.push(index);
     }
 
+    /// Adds a row without a name.
+    pub fn push_absent(&mut self) {
+        self.index.push(Labels::ABSENT);
+    }
+
+    /// What [`index`](Labels::index) says of a row without a name.
+    pub const ABSENT: u32 = u32::MAX;
+
     /// The distinct names, in the order of their first row.
     pub fn names(&self) -> &[String] {
         &self.names
     }
 
-    /// For each row, which of the names it has.
+    /// For each row, which of the names it has; [`ABSENT`](Labels::ABSENT) for none.
     pub fn index(&self) -> &[u32] {
         &self.index
     }
 
-    /// The name of `row`.
-    pub fn get(&self, row: usize) -> &str {
-        &self.names[self.index[row] as usize]
+    /// The name of `row`, if it has one.
+    pub fn get(&self, row: usize) -> Option<&str> {
+        let index = self.index[row];
+        (index != Labels::ABSENT).then(|| self.names[index as usize].as_str())
     }
 }
 
@@ -213,7 +285,7 @@ impl BatchBuilder {
     pub fn new(channels: Channels, fields: FieldSet) -> BatchBuilder {
         BatchBuilder {
             fields,
-            batch: empty(channels),
+            batch: empty(channels, fields),
         }
     }
 
@@ -249,6 +321,15 @@ impl BatchBuilder {
             }
             _ => batch.points = None,
         }
+        for (field, labels) in &mut batch.labels {
+            match text(sample, *field) {
+                Some(name) => labels.push(name),
+                None => labels.push_absent(),
+            }
+        }
+        for (field, numbers) in &mut batch.numbers {
+            numbers.push(number(sample, *field));
+        }
         batch.rows += 1;
     }
 
@@ -259,19 +340,56 @@ impl BatchBuilder {
 
     /// The batch so far; the builder starts anew.
     pub fn take(&mut self) -> Batch {
-        let fresh = empty(self.batch.channels.clone());
+        let fresh = empty(self.batch.channels.clone(), self.fields);
         std::mem::replace(&mut self.batch, fresh)
     }
 }
 
-fn empty(channels: Channels) -> Batch {
+fn empty(channels: Channels, fields: FieldSet) -> Batch {
     let columns = vec![Column::default(); channels.len()];
+    let labels = LABELS.into_iter().filter(|field| fields.contains(*field));
+    let numbers = NUMBERS.into_iter().filter(|field| fields.contains(*field));
     Batch {
         rows: 0,
         truth: columns.clone(),
         prediction: columns,
         points: None,
+        labels: labels.map(|field| (field, Labels::default())).collect(),
+        numbers: numbers.map(|field| (field, Column::default())).collect(),
         channels,
+    }
+}
+
+/// What `sample` says in the text field.
+fn text(sample: &Sample, field: Field) -> Option<&str> {
+    match field {
+        Field::Scene => sample.scene_id.as_deref(),
+        Field::UnitId => sample.unit_id.as_deref(),
+        Field::Phase => sample.phase.map(Phase::name),
+        Field::Kind => sample.kind.map(GratingKind::name),
+        Field::FrameDigest => sample.frame_digest.as_deref(),
+        _ => None,
+    }
+}
+
+/// What `sample` says in the number field.
+fn number(sample: &Sample, field: Field) -> Option<f64> {
+    let nanometres = |length: Nanometre| {
+        #[expect(
+            clippy::cast_precision_loss,
+            reason = "lengths up to 2^53 nm are exact"
+        )]
+        let exact = length.0 as f64;
+        exact
+    };
+    match field {
+        Field::DepthStep => sample.depth_step.map(f64::from),
+        Field::Repeat => sample.repeat.map(f64::from),
+        Field::Stamp => sample.stamp.map(|stamp| stamp.valid_s),
+        Field::Spacing => sample.spacing.map(nanometres),
+        Field::PredictedSpacing => sample.predicted_spacing.map(nanometres),
+        Field::Intensity => sample.intensity,
+        _ => None,
     }
 }
 
@@ -327,6 +445,24 @@ mod tests {
         builder.push(&sample(Some("a"), Some(0.0)));
         assert_eq!(builder.take().points(), None);
         assert_eq!(builder.rows(), 0);
+    }
+
+    #[test]
+    fn a_field_that_some_samples_lack_is_absent_there_and_nowhere_else() {
+        let mut builder = builder(FieldSet::EMPTY.with(Field::Scene).with(Field::Spacing));
+        for (scene, spacing) in [(Some("S1"), None), (None, Some(Nanometre(350_000)))] {
+            builder.push(&Sample {
+                scene_id: scene.map(str::to_owned),
+                spacing,
+                ..sample(None, None)
+            });
+        }
+        let batch = builder.take();
+        let scenes = batch.labels(Field::Scene).expect("asked for");
+        assert_eq!((scenes.get(0), scenes.get(1)), (Some("S1"), None));
+        let spacings = batch.numbers(Field::Spacing).expect("asked for");
+        assert_eq!((spacings.get(0), spacings.get(1)), (None, Some(350_000.0)));
+        assert_eq!(batch.labels(Field::Phase), None);
     }
 
     #[test]

@@ -28,11 +28,21 @@ pub enum Field {
     UnitId,
     /// The time.
     Stamp,
+    /// The relief of the grating that is touched: lines or dots.
+    Kind,
+    /// The spacing of that grating.
+    Spacing,
+    /// What a model says the spacing is.
+    PredictedSpacing,
+    /// The mean brightness of the picture.
+    Intensity,
+    /// The digest of the picture's bytes: tells equal pictures without decoding them.
+    FrameDigest,
 }
 
 impl Field {
     /// Every field.
-    pub const ALL: [Field; 10] = [
+    pub const ALL: [Field; 15] = [
         Field::Frame,
         Field::Truth,
         Field::Prediction,
@@ -43,6 +53,11 @@ impl Field {
         Field::Scene,
         Field::UnitId,
         Field::Stamp,
+        Field::Kind,
+        Field::Spacing,
+        Field::PredictedSpacing,
+        Field::Intensity,
+        Field::FrameDigest,
     ];
 
     /// The word used in plans and messages.
@@ -58,6 +73,11 @@ impl Field {
             Field::Scene => "scene",
             Field::UnitId => "unit_id",
             Field::Stamp => "t_s",
+            Field::Kind => "kind",
+            Field::Spacing => "spacing_mm",
+            Field::PredictedSpacing => "predicted spacing_mm",
+            Field::Intensity => "intensity",
+            Field::FrameDigest => "frame_sha256",
         }
     }
 }

@@ -3,6 +3,8 @@
 use crate::channel::Channels;
 use crate::frame::Frame;
 use crate::geometry::Pose;
+use crate::grating::GratingKind;
+use crate::nanometre::Nanometre;
 use crate::phase::Phase;
 use crate::stamp::Stamp;
 use crate::wrench::Wrench;
@@ -28,6 +30,16 @@ pub struct Sample {
     pub phase: Option<Phase>,
     /// When it was taken.
     pub stamp: Option<Stamp>,
+    /// The relief of the grating that is touched.
+    pub kind: Option<GratingKind>,
+    /// The spacing of that grating.
+    pub spacing: Option<Nanometre>,
+    /// What a model says the spacing is.
+    pub predicted_spacing: Option<Nanometre>,
+    /// The mean luma of the full-size picture, (299 R + 587 G + 114 B) / 1000, in steps of an 8-bit camera: 0 to 255.
+    pub intensity: Option<f64>,
+    /// The SHA-256 of the picture's bytes in hexadecimal: equal pictures are told without decoding them.
+    pub frame_digest: Option<String>,
     /// The picture, decoded.
     pub frame: Option<Frame>,
     /// What the reference instruments say, a value a channel of the stream.

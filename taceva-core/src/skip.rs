@@ -21,6 +21,10 @@ pub enum SkipReason {
     FieldAbsent(Field),
     /// The stream does not carry a channel that is needed.
     ChannelAbsent(String),
+    /// Nobody has declared a fact about the sensor that is needed.
+    FactAbsent(&'static str),
+    /// The gel lets no light through, so that nothing outside it can be seen.
+    GelIsOpaque,
     /// Nothing that was asked for reads it.
     NothingReadsIt,
     /// The user asked for something else.
@@ -35,6 +39,8 @@ impl SkipReason {
         vec![
             SkipReason::FieldAbsent(Field::Repeat),
             SkipReason::ChannelAbsent("Px".to_owned()),
+            SkipReason::FactAbsent("footprint"),
+            SkipReason::GelIsOpaque,
             SkipReason::NothingReadsIt,
             SkipReason::NotWanted,
             SkipReason::AlreadyThere,
@@ -47,6 +53,10 @@ impl fmt::Display for SkipReason {
         match self {
             SkipReason::FieldAbsent(field) => write!(f, "no sample carries `{field}`"),
             SkipReason::ChannelAbsent(channel) => write!(f, "there is no channel `{channel}`"),
+            SkipReason::FactAbsent(fact) => write!(f, "the sensor's `{fact}` is not declared"),
+            SkipReason::GelIsOpaque => {
+                f.write_str("the gel is opaque: ambient light cannot reach the camera")
+            }
             SkipReason::NothingReadsIt => f.write_str("nothing that was asked for reads it"),
             SkipReason::NotWanted => f.write_str("not asked for"),
             SkipReason::AlreadyThere => f.write_str("a finished one was given"),
@@ -66,6 +76,8 @@ mod tests {
             [
                 "no sample carries `repeat`",
                 "there is no channel `Px`",
+                "the sensor's `footprint` is not declared",
+                "the gel is opaque: ambient light cannot reach the camera",
                 "nothing that was asked for reads it",
                 "not asked for",
                 "a finished one was given",

@@ -80,6 +80,16 @@ impl<S: SampleSink> SampleSink for Select<S> {
             repeat: sample.repeat.filter(|_| kept(Field::Repeat)),
             phase: sample.phase.filter(|_| kept(Field::Phase)),
             stamp: sample.stamp.filter(|_| kept(Field::Stamp)),
+            kind: sample.kind.filter(|_| kept(Field::Kind)),
+            spacing: sample.spacing.filter(|_| kept(Field::Spacing)),
+            predicted_spacing: sample
+                .predicted_spacing
+                .filter(|_| kept(Field::PredictedSpacing)),
+            intensity: sample.intensity.filter(|_| kept(Field::Intensity)),
+            frame_digest: sample
+                .frame_digest
+                .clone()
+                .filter(|_| kept(Field::FrameDigest)),
             frame: sample.frame.clone().filter(|_| kept(Field::Frame)),
             truth: if kept(Field::Truth) {
                 sample.truth.clone()

@@ -31,6 +31,18 @@ pub enum Unit {
     /// Pixels of the sensor's own picture.
     #[cfg_attr(feature = "serde", serde(rename = "px"))]
     Pixel,
+    /// mm/N, of compliances: how far the gel yields a newton.
+    #[cfg_attr(feature = "serde", serde(rename = "mm/N"))]
+    MillimetrePerNewton,
+    /// mm², of areas.
+    #[cfg_attr(feature = "serde", serde(rename = "mm²"))]
+    SquareMillimetre,
+    /// mm/h, of positions that drift.
+    #[cfg_attr(feature = "serde", serde(rename = "mm/h"))]
+    MillimetrePerHour,
+    /// N/h, of forces that drift.
+    #[cfg_attr(feature = "serde", serde(rename = "N/h"))]
+    NewtonPerHour,
     /// No unit: a ratio or a normalised value.
     #[cfg_attr(feature = "serde", serde(rename = "1"))]
     One,
@@ -38,7 +50,7 @@ pub enum Unit {
 
 impl Unit {
     /// Every unit, for tests and for help texts.
-    pub const ALL: [Unit; 9] = [
+    pub const ALL: [Unit; 13] = [
         Unit::Millimetre,
         Unit::Newton,
         Unit::NewtonMillimetre,
@@ -47,6 +59,10 @@ impl Unit {
         Unit::Hertz,
         Unit::Lux,
         Unit::Pixel,
+        Unit::MillimetrePerNewton,
+        Unit::SquareMillimetre,
+        Unit::MillimetrePerHour,
+        Unit::NewtonPerHour,
         Unit::One,
     ];
 
@@ -61,6 +77,10 @@ impl Unit {
             Unit::Hertz => "Hz",
             Unit::Lux => "lx",
             Unit::Pixel => "px",
+            Unit::MillimetrePerNewton => "mm/N",
+            Unit::SquareMillimetre => "mm²",
+            Unit::MillimetrePerHour => "mm/h",
+            Unit::NewtonPerHour => "N/h",
             Unit::One => "1",
         }
     }
@@ -139,6 +159,10 @@ const SOURCE_UNITS: &[(&str, Unit, Scale)] = &[
     ("Hz", Unit::Hertz, Scale::Times(1.0)),
     ("lx", Unit::Lux, Scale::Times(1.0)),
     ("px", Unit::Pixel, Scale::Times(1.0)),
+    ("mm/N", Unit::MillimetrePerNewton, Scale::Times(1.0)),
+    ("mm²", Unit::SquareMillimetre, Scale::Times(1.0)),
+    ("mm/h", Unit::MillimetrePerHour, Scale::Times(1.0)),
+    ("N/h", Unit::NewtonPerHour, Scale::Times(1.0)),
     ("1", Unit::One, Scale::Times(1.0)),
     ("%", Unit::One, Scale::Over(100.0)),
 ];

@@ -1,0 +1,167 @@
+//! Lengths that are compared: whole nanometres, because `0.40 − 0.35 ≤ 0.05` is false in binary64.
+
+use std::fmt;
+use std::str::FromStr;
+
+/// A length in whole nanometres.
+///
+/// ```
+/// use taceva_core::Nanometre;
+/// let level: Nanometre = "0.35".parse()?;
+/// assert_eq!(level, Nanometre(350_000));
+/// assert_eq!(level.to_string(), "0.35 mm");
+/// # Ok::<(), taceva_core::NanometreError>(())
+/// ```
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct Nanometre(pub i64);
+
+/// Nanometres in a millimetre.
+const PER_MILLIMETRE: f64 = 1e6;
+/// Greatest magnitude: whole nanometres up to here are exact in binary64 too (nine thousand kilometres).
+const GREATEST: i64 = 1 << 53;
+
+impl Nanometre {
+    /// The nanometre nearest to `millimetres`, ties to the even one; `None` for what is no length up to 2⁵³ nm.
+    ///
+    /// The multiplication rounds, so a tie here is a tie of the rounded product; decimals of up to six places come out exact.
+    pub fn from_millimetres(millimetres: f64) -> Option<Nanometre> {
+        let nanometres = (millimetres * PER_MILLIMETRE).round_ties_even();
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_precision_loss,
+            reason = "2^53 is exact, and whole numbers up to it are exact in i64"
+        )]
+        (nanometres.abs() <= GREATEST as f64).then_some(Nanometre(nanometres as i64))
+    }
+
+    /// In mm, rounded once.
+    pub fn to_millimetres(self) -> f64 {
+        #[expect(
+            clippy::cast_precision_loss,
+            reason = "lengths up to 2^53 nm are exact"
+        )]
+        let nanometres = self.0 as f64;
+        nanometres / PER_MILLIMETRE
+    }
+}
+
+impl FromStr for Nanometre {
+    type Err = NanometreError;
+
+    /// Millimetres as decimal text, `0.35` or `-1.2e-3`; what lies below a nanometre is rounded half to even, exactly.
+    fn from_str(text: &str) -> Result<Nanometre, NanometreError> {
+        parse(text).ok_or_else(|| NanometreError {
+            text: text.to_owned(),
+        })
+    }
+}
+
+fn parse(text: &str) -> Option<Nanometre> {
+    let (negative, unsigned) = match text.strip_prefix('-') {
+        Some(rest) => (true, rest),
+        None => (false, text.strip_prefix('+').unwrap_or(text)),
+    };
+    let (mantissa, exponent) = match unsigned.split_once(['e', 'E']) {
+        Some((mantissa, exponent)) => (mantissa, exponent.parse::<i32>().ok()?),
+        None => (unsigned, 0),
+    };
+    let (whole, fraction) = mantissa.split_once('.').unwrap_or((mantissa, ""));
+    let digits: Vec<u8> = whole.bytes().chain(fraction.bytes()).collect();
+    if digits.is_empty() || !digits.iter().all(u8::is_ascii_digit) {
+        return None;
+    }
+    // The first `kept` digits stand before the point once the unit is nanometres.
+    let kept = i64::try_from(whole.len()).ok()? + i64::from(exponent) + 6;
+    let digit = |place: i64| {
+        usize::try_from(place)
+            .ok()
+            .and_then(|at| digits.get(at))
+            .map_or(0, |digit| i64::from(digit - b'0'))
+    };
+    let mut nanometres = 0_i64;
+    for place in 0..kept {
+        // Leading zeros cost nothing; a number that has outgrown the range ends the loop.
+        nanometres = nanometres.checked_mul(10)?.checked_add(digit(place))?;
+        if nanometres > GREATEST {
+            return None;
+        }
+        if nanometres == 0 && place > 400 {
+            return Some(Nanometre(0));
+        }
+    }
+    let rest = usize::try_from(kept.max(0)).unwrap_or(usize::MAX);
+    let below = if kept < 0 { 0 } else { digit(kept) };
+    let beyond = digits
+        .iter()
+        .skip(rest.saturating_add(1))
+        .any(|digit| *digit != b'0');
+    let up = below > 5 || (below == 5 && (beyond || nanometres % 2 == 1));
+    let nanometres = nanometres + i64::from(up);
+    Some(Nanometre(if negative { -nanometres } else { nanometres }))
+}
+
+impl fmt::Display for Nanometre {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} mm", self.to_millimetres())
+    }
+}
+
+/// Text that is no length in mm.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct NanometreError {
+    text: String,
+}
+
+impl fmt::Display for NanometreError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(
+            f,
+            "`{}` is no length, expected millimetres such as 0.35",
+            self.text
+        )
+    }
+}
+
+impl std::error::Error for NanometreError {}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn decimals_of_six_places_are_whole_nanometres_by_either_way() {
+        for nanometres in (0..2_000_000).step_by(173) {
+            let text = format!("{}.{:06}", nanometres / 1_000_000, nanometres % 1_000_000);
+            assert_eq!(text.parse(), Ok(Nanometre(nanometres)), "{text}");
+            let value: f64 = text.parse().expect("a number");
+            assert_eq!(
+                Nanometre::from_millimetres(value),
+                Some(Nanometre(nanometres))
+            );
+        }
+    }
+
+    #[test]
+    fn what_lies_below_a_nanometre_is_rounded_half_to_even() {
+        let parsed = |text: &str| text.parse::<Nanometre>().map(|length| length.0);
+        assert_eq!(parsed("0.3500001"), Ok(350_000));
+        assert_eq!(parsed("0.0000005"), Ok(0));
+        assert_eq!(parsed("0.0000015"), Ok(2));
+        assert_eq!(parsed("0.00000050001"), Ok(1));
+        assert_eq!(parsed("-1.5e-6"), Ok(-2));
+        assert_eq!(parsed("5e-400"), Ok(0));
+        assert_eq!(parsed("0e2000000000"), Ok(0));
+        assert_eq!(Nanometre::from_millimetres(1.5e-6), Some(Nanometre(2)));
+    }
+
+    #[test]
+    fn what_is_no_length_is_refused() {
+        for text in [
+            "", ".", "-", "1,5", "nan", "inf", "1e99", "0x1", "1 mm", "1e", "१",
+        ] {
+            assert!(text.parse::<Nanometre>().is_err(), "{text}");
+        }
+        assert_eq!(Nanometre::from_millimetres(f64::NAN), None);
+        assert_eq!(Nanometre::from_millimetres(1e12), None);
+    }
+}
