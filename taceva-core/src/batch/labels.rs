@@ -1,0 +1,62 @@
+//! Names, one a row.
+
+use std::collections::HashMap;
+
+/// A name a row, each distinct name kept once; a row may have none.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Labels {
+    names: Vec<String>,
+    index: Vec<u32>,
+    lookup: HashMap<String, u32>,
+}
+
+impl Labels {
+    /// Adds a row called `name`.
+    ///
+    /// # Panics
+    /// Beyond 2³² distinct names, which no memory holds.
+    pub fn push(&mut self, name: &str) {
+        let index = match self.lookup.get(name) {
+            Some(&index) => index,
+            None => {
+                let index = u32::try_from(self.names.len())
+                    .ok()
+                    .filter(|index| *index != Labels::ABSENT)
+                    .expect("fewer than 2^32 distinct names fit in memory");
+                self.names.push(name.to_owned());
+                self.lookup.insert(name.to_owned(), index);
+                index
+            }
+        };
+        self.index.push(index);
+    }
+
+    /// Adds a row without a name.
+    pub fn push_absent(&mut self) {
+        self.index.push(Labels::ABSENT);
+    }
+
+    /// What [`index`](Labels::index) says of a row without a name.
+    pub const ABSENT: u32 = u32::MAX;
+
+    /// The distinct names, in the order of their first row.
+    pub fn names(&self) -> &[String] {
+        &self.names
+    }
+
+    /// For each row, which of the names it has; [`ABSENT`](Labels::ABSENT) for none.
+    pub fn index(&self) -> &[u32] {
+        &self.index
+    }
+
+    /// Whether every row has a name.
+    pub fn all_named(&self) -> bool {
+        !self.index.contains(&Labels::ABSENT)
+    }
+
+    /// The name of `row`, if it has one.
+    pub fn get(&self, row: usize) -> Option<&str> {
+        let index = self.index[row];
+        (index != Labels::ABSENT).then(|| self.names[index as usize].as_str())
+    }
+}
