@@ -35,11 +35,19 @@ impl<T> Default for Clusters<T> {
 }
 
 impl<T> Clusters<T> {
-    /// The summaries of the clusters in their order; `None` if there are no clusters.
-    pub(crate) fn cells(&self) -> Option<Vec<&T>> {
+    /// The summaries of the clusters in their order, each with a number that stands for its name; `None` if there are no
+    /// clusters.
+    pub(crate) fn cells(&self) -> Option<Vec<(u64, &T)>> {
         match self {
-            Clusters::Named(cells) => Some(cells.values().collect()),
-            Clusters::Hashed(cells) => Some(cells.iter().collect()),
+            Clusters::Named(cells) => {
+                let cells = cells.iter();
+                Some(
+                    cells
+                        .map(|(name, cell)| (fnv1a64(name.as_bytes()), cell))
+                        .collect(),
+                )
+            }
+            Clusters::Hashed(cells) => Some((0..).zip(cells).collect()),
             Clusters::Pooled(_) => None,
         }
     }
@@ -232,7 +240,7 @@ fn fnv1a64(bytes: &[u8]) -> u64 {
 }
 
 /// The first output of SplitMix64 from `state` (Steele, Lea, Flood 2014).
-fn splitmix64(state: u64) -> u64 {
+pub(crate) fn splitmix64(state: u64) -> u64 {
     let mut mixed = state.wrapping_add(0x9e37_79b9_7f4a_7c15);
     mixed = (mixed ^ (mixed >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
     mixed = (mixed ^ (mixed >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);

@@ -33,5 +33,6 @@ pub use plan::MetricPlan;
 pub use plane_sums::PlaneSums;
 pub use score::{Interval, Parameter, Score};
 pub use state::{Record, State};
+pub use stats::{BootstrapEnds, IntervalMethod, PoissonBootstrap};
 pub use streams::{Stream, Streams};
 pub use value::{InapplicableReason, UndefinedReason, Value};

@@ -4,6 +4,7 @@ use taceva_core::{Channels, Field, FieldSet, SkipReason, Skipped};
 
 use crate::accumulator::{Accumulator, Clustered, Family, Pairs, Plane};
 use crate::metric::{Formula, Metric};
+use crate::stats::IntervalMethod;
 
 /// What an evaluation of given channels and fields will compute.
 ///
@@ -22,6 +23,7 @@ pub struct MetricPlan {
     channels: Channels,
     fields: FieldSet,
     seed: u64,
+    interval_method: IntervalMethod,
 }
 
 impl MetricPlan {
@@ -33,6 +35,7 @@ impl MetricPlan {
             channels,
             fields: FieldSet::EMPTY,
             seed: 0,
+            interval_method: IntervalMethod::default(),
         };
         let in_order = crate::catalogue::ALL.into_iter();
         for metric in in_order.filter(|metric| wanted.iter().any(|wanted| wanted.id == metric.id)) {
@@ -59,6 +62,25 @@ impl MetricPlan {
         MetricPlan { seed, ..self }
     }
 
+    /// The same plan with intervals found another way.
+    ///
+    /// ```
+    /// use taceva_core::{Channel, Channels, FieldSet};
+    /// use taceva_metrics::{IntervalMethod, MetricPlan, PoissonBootstrap, catalogue};
+    /// let bootstrap = PoissonBootstrap { replicates: 2000, seed: 7, ..PoissonBootstrap::default() };
+    /// let plan = MetricPlan::new(&catalogue::ALL, Channels::new([Channel::FZ])?, FieldSet::PAIRS)
+    ///     .with_interval_method(IntervalMethod::PoissonBootstrap(bootstrap));
+    /// # assert_eq!(plan.interval_method(), IntervalMethod::PoissonBootstrap(bootstrap));
+    /// # Ok::<(), taceva_core::ChannelError>(())
+    /// ```
+    #[must_use]
+    pub fn with_interval_method(self, interval_method: IntervalMethod) -> MetricPlan {
+        MetricPlan {
+            interval_method,
+            ..self
+        }
+    }
+
     /// The metrics that are computed.
     pub fn kept(&self) -> &[&'static Metric] {
         &self.kept
@@ -82,6 +104,11 @@ impl MetricPlan {
     /// The seed of the hash that deals contact locations into clusters.
     pub fn seed(&self) -> u64 {
         self.seed
+    }
+
+    /// How intervals are found.
+    pub fn interval_method(&self) -> IntervalMethod {
+        self.interval_method
     }
 
     /// What keeps `metric` from having a value.
@@ -121,7 +148,7 @@ impl MetricPlan {
     where
         F: Family + 'static,
     {
-        Box::new(Clustered::new(family, self.channels.clone(), self.seed))
+        Box::new(Clustered::new(family, self))
     }
 }
 

@@ -2,7 +2,11 @@
 
 use taceva_core::Unit;
 
+use crate::stats::BootstrapEnds;
 use crate::value::{UndefinedReason, Value};
+
+/// What share of intervals should cover the truth.
+pub(crate) const COVERAGE: f64 = 0.95;
 
 /// A metric of a channel, or of the two channels of a plane.
 #[derive(Clone, Debug, PartialEq)]
@@ -45,8 +49,27 @@ pub enum Interval {
         low: f64,
         /// Upper end.
         high: f64,
+        /// The root of the jackknife's variance.
+        standard_error: f64,
         /// Number of clusters with samples.
         clusters: usize,
+    },
+    /// By counting each contact location a random number of times.
+    Bootstrap {
+        /// Lower end.
+        low: f64,
+        /// Upper end.
+        high: f64,
+        /// The standard deviation of the replicates.
+        standard_error: f64,
+        /// How the ends were read off the replicates.
+        ends: BootstrapEnds,
+        /// Number of clusters with samples.
+        clusters: usize,
+        /// Replicates that were drawn.
+        replicates: usize,
+        /// Replicates in which the score has no value; they are left out.
+        undefined: usize,
     },
     /// There is none.
     Undefined(UndefinedReason),
@@ -56,16 +79,34 @@ impl Interval {
     /// Both ends, if there is an interval.
     pub fn ends(&self) -> Option<[f64; 2]> {
         match *self {
-            Interval::Jackknife { low, high, .. } => Some([low, high]),
+            Interval::Jackknife { low, high, .. } | Interval::Bootstrap { low, high, .. } => {
+                Some([low, high])
+            }
             Interval::Undefined(_) => None,
         }
     }
 
-    /// How it was found, in words: `jackknife by point_id, G=32`.
+    /// How it was found, in words: `jackknife by point_id, G=32` or
+    /// `Poisson bootstrap by point_id (percentile), G=32, B=1000`.
     pub fn method(&self) -> Option<String> {
         match self {
             Interval::Jackknife { clusters, .. } => {
                 Some(format!("jackknife by point_id, G={clusters}"))
+            }
+            Interval::Bootstrap {
+                ends,
+                clusters,
+                replicates,
+                undefined,
+                ..
+            } => {
+                let left_out = match undefined {
+                    0 => String::new(),
+                    undefined => format!(" ({undefined} without a value)"),
+                };
+                Some(format!(
+                    "Poisson bootstrap by point_id ({ends}), G={clusters}, B={replicates}{left_out}"
+                ))
             }
             Interval::Undefined(_) => None,
         }

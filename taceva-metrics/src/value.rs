@@ -60,6 +60,13 @@ pub enum UndefinedReason {
         /// How many there are.
         have: usize,
     },
+    /// Too few bootstrap replicates that have a value: fewer than 39, or than 95 % of those drawn.
+    TooFewReplicates {
+        /// How many have one.
+        defined: usize,
+        /// How many there are.
+        drawn: usize,
+    },
     /// Some sample names no contact location, so that nobody knows which belong together.
     NoClusters,
 }
@@ -75,6 +82,13 @@ impl fmt::Display for UndefinedReason {
             UndefinedReason::TooFewClusters { have } => {
                 let least = crate::stats::jackknife::LEAST_CLUSTERS;
                 write!(f, "{have} clusters, {least} are needed")
+            }
+            UndefinedReason::TooFewReplicates { defined, drawn } => {
+                let least = crate::stats::LEAST_REPLICATES;
+                write!(
+                    f,
+                    "{defined} of {drawn} replicates have a value, 95 % and at least {least} are needed"
+                )
             }
             UndefinedReason::NoClusters => f.write_str("samples without point_id"),
         }

@@ -1,5 +1,6 @@
 //! The accumulator of any family of sums that are kept apart by contact location.
 
+use std::borrow::Borrow;
 use std::collections::BTreeMap;
 
 use taceva_core::{Batch, Channels, Unit};
@@ -9,9 +10,11 @@ use crate::clusters::{Clustering, Clusters};
 use crate::error::MetricError;
 use crate::merge::Merge;
 use crate::metric::{Finish, Metric};
+use crate::plan::MetricPlan;
 use crate::score::{Interval, Score};
 use crate::state::{Record, Shape, State, describe, written};
-use crate::stats::jackknife::{LeftOut, interval};
+use crate::stats::IntervalMethod;
+use crate::stats::jackknife::{self, LeftOut};
 use crate::value::{InapplicableReason, UndefinedReason, Value};
 
 /// What is kept of a batch, and which scores come of it.
@@ -60,16 +63,21 @@ pub(crate) struct Clustered<F: Family> {
     channels: Channels,
     clustering: Clustering<Vec<F::Sums>>,
     clusters: Clusters<Vec<F::Sums>>,
+    interval_method: IntervalMethod,
 }
 
 impl<F: Family> Clustered<F> {
-    pub(crate) fn new(family: F, channels: Channels, seed: u64) -> Clustered<F> {
-        let empty = family.empty();
+    pub(crate) fn new(family: F, plan: &MetricPlan) -> Clustered<F> {
+        let clustering = Clustering {
+            empty: family.empty(),
+            seed: plan.seed(),
+        };
         Clustered {
             family,
-            channels,
-            clustering: Clustering { empty, seed },
+            channels: plan.channels().clone(),
+            clustering,
             clusters: Clusters::default(),
+            interval_method: plan.interval_method(),
         }
     }
 
@@ -121,28 +129,42 @@ impl<F: Family> Clustered<F> {
         let Some(cells) = self.clusters.cells() else {
             return Interval::Undefined(UndefinedReason::NoClusters);
         };
-        let mut left_out = Vec::with_capacity(cells.len());
-        for cell in cells {
+        let samples = |cell: &[F::Sums]| {
             let counts = output.parts.iter().map(|&part| (finish.count)(&cell[part]));
-            let count = counts.fold(0, u64::saturating_add);
-            if count == 0 {
-                continue;
+            counts.fold(0, u64::saturating_add)
+        };
+        let (keys, cells): (Vec<u64>, Vec<&Vec<F::Sums>>) = cells
+            .into_iter()
+            .filter(|(_, cell)| samples(cell) > 0)
+            .unzip();
+        match self.interval_method {
+            IntervalMethod::Jackknife => {
+                let left_out = cells.iter().map(|cell| {
+                    let others = output.parts.iter().map(|&part| {
+                        let mut others = total[part].clone();
+                        others.subtract(&cell[part]);
+                        others
+                    });
+                    LeftOut {
+                        count: samples(cell),
+                        value: mean_of_parts(finish, others),
+                    }
+                });
+                jackknife::interval(value, &left_out.collect::<Vec<_>>())
             }
-            let others: Vec<F::Sums> = output
-                .parts
-                .iter()
-                .map(|&part| {
-                    let mut others = total[part].clone();
-                    others.subtract(&cell[part]);
-                    others
+            IntervalMethod::PoissonBootstrap(bootstrap) => {
+                bootstrap.interval(value, &keys, |weights| {
+                    let resampled = output.parts.iter().map(|&part| {
+                        let mut sums = self.clustering.empty[part].clone();
+                        for (cell, &weight) in cells.iter().zip(weights) {
+                            sums.merge_times(&cell[part], weight);
+                        }
+                        sums
+                    });
+                    mean_of_parts(finish, resampled)
                 })
-                .collect();
-            left_out.push(LeftOut {
-                count,
-                value: mean_of_parts(finish, others.iter()),
-            });
+            }
         }
-        interval(value, &left_out)
     }
 }
 
@@ -225,13 +247,13 @@ impl<F: Family> Accumulator for Clustered<F> {
 }
 
 /// RN of the exact mean of one or two values.
-fn mean_of_parts<'a, S: 'a>(
+fn mean_of_parts<S>(
     finish: &Finish<S>,
-    mut parts: impl Iterator<Item = &'a S>,
+    mut parts: impl Iterator<Item = impl Borrow<S>>,
 ) -> Result<f64, UndefinedReason> {
-    let first = finish.value(parts.next().ok_or(UndefinedReason::Empty)?)?;
+    let first = finish.value(parts.next().ok_or(UndefinedReason::Empty)?.borrow())?;
     match parts.next() {
-        Some(second) => Ok(midpoint(first, finish.value(second)?)),
+        Some(second) => Ok(midpoint(first, finish.value(second.borrow())?)),
         None => Ok(first),
     }
 }

@@ -80,7 +80,9 @@ impl Serialize for Score {
 impl Serialize for Interval {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         match self {
-            Interval::Jackknife { low, high, .. } => [low, high].serialize(serializer),
+            Interval::Jackknife { low, high, .. } | Interval::Bootstrap { low, high, .. } => {
+                [low, high].serialize(serializer)
+            }
             Interval::Undefined(reason) => {
                 serializer.collect_map([("undefined", reason.to_string())])
             }

@@ -37,10 +37,11 @@ impl fmt::Display for Evaluation {
 fn cells(entry: &Entry) -> [String; 6] {
     let score = &entry.score;
     let interval = match (&score.value, &score.interval) {
-        (Value::Scalar(_), Interval::Jackknife { low, high, .. }) => {
-            format!("[{}, {}]", significant(*low), significant(*high))
-        }
         (Value::Scalar(_), Interval::Undefined(reason)) => format!("none: {reason}"),
+        (Value::Scalar(_), interval) => match interval.ends() {
+            Some(ends) => format!("[{}]", ends.map(significant).join(", ")),
+            None => String::new(),
+        },
         _ => String::new(),
     };
     let value = match &score.value {

@@ -1,13 +1,11 @@
 //! How far a score would move with other contact locations: the delete-one-cluster jackknife.
 
 use super::student::quantile;
-use crate::score::Interval;
+use crate::score::{COVERAGE, Interval};
 use crate::value::UndefinedReason;
 
 /// Clusters below which there is no interval.
 pub(crate) const LEAST_CLUSTERS: usize = 5;
-/// What share of intervals should cover the truth.
-const COVERAGE: f64 = 0.95;
 
 /// The score with one cluster left out.
 #[derive(Clone, Copy, Debug)]
@@ -49,7 +47,8 @@ pub(crate) fn interval(value: f64, left_out: &[LeftOut]) -> Interval {
         .sum::<f64>()
         / g;
     let freedom = u32::try_from(clusters - 1).expect("at most 64 clusters");
-    let half = quantile(COVERAGE, freedom) * variance.sqrt();
+    let standard_error = variance.sqrt();
+    let half = quantile(COVERAGE, freedom) * standard_error;
     let (low, high) = (value - half, value + half);
     if !low.is_finite() || !high.is_finite() {
         return Interval::Undefined(UndefinedReason::Overflow);
@@ -57,6 +56,7 @@ pub(crate) fn interval(value: f64, left_out: &[LeftOut]) -> Interval {
     Interval::Jackknife {
         low,
         high,
+        standard_error,
         clusters,
     }
 }
@@ -97,6 +97,7 @@ mod tests {
             low,
             high,
             clusters,
+            ..
         } = interval(mean, &left_out)
         else {
             panic!("five clusters are enough");

@@ -1,0 +1,255 @@
+//! How far a score would move with other contact locations: the Poisson bootstrap.
+
+use std::fmt;
+
+use super::jackknife::LEAST_CLUSTERS;
+use super::poisson::weight;
+use super::random::bits;
+use super::student::quantile;
+use crate::score::{COVERAGE, Interval};
+use crate::value::UndefinedReason;
+
+/// Which share of the replicates may have no value.
+const UNDEFINED_IN: usize = 20;
+/// Replicates below which the ends of an interval of 95 % are not among them.
+pub(crate) const LEAST_REPLICATES: usize = 39;
+
+/// An interval from replicates, in each of which every cluster counts a random number of times.
+///
+/// In replicate b the cluster c counts w = Poisson(1) times, drawn by inverting the 64-bit hash of (seed, c, b); the
+/// replicate's score is finished from Σ_c w_c × sums of c, exactly. So nothing is kept beyond what the jackknife needs, states
+/// merge as ever, and the interval depends on the set of samples, the seed and the number of replicates alone. A cluster is
+/// known by its name where clusters have names, and by its bucket where locations are
+/// [hashed](crate::Clusters::Hashed): all locations of a bucket then share one weight.
+///
+/// # Reference
+/// Hanley and MacGibbon, Creating non-parametric bootstrap samples using Poisson frequencies, Computer Methods and Programs in
+/// Biomedicine 83 (2006); Efron and Tibshirani, An Introduction to the Bootstrap (1993), 13.3 for the percentiles.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct PoissonBootstrap {
+    /// How many times the score is finished with other weights; fewer than 39 give no interval.
+    pub replicates: u32,
+    /// The seed of the weights.
+    pub seed: u64,
+    /// How the interval is read off the replicates.
+    pub ends: BootstrapEnds,
+}
+
+impl Default for PoissonBootstrap {
+    /// 1,000 replicates, seed 0, percentiles.
+    fn default() -> PoissonBootstrap {
+        PoissonBootstrap {
+            replicates: 1000,
+            seed: 0,
+            ends: BootstrapEnds::Percentile,
+        }
+    }
+}
+
+/// How an interval is read off bootstrap replicates.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum BootstrapEnds {
+    /// Of B replicates in their order the k-th and the (B + 1 − k)-th, k = ⌊(B + 1) / 40⌋: skewed where the score is.
+    Percentile,
+    /// The value ± t(G − 1) standard deviations of the replicates.
+    Normal,
+}
+
+impl fmt::Display for BootstrapEnds {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            BootstrapEnds::Percentile => "percentile",
+            BootstrapEnds::Normal => "normal",
+        })
+    }
+}
+
+impl PoissonBootstrap {
+    /// The interval about `value`, the score of all clusters.
+    ///
+    /// `clusters` are the keys of those that have samples; `resampled` is the score if each counts as often as the weight at
+    /// its place says.
+    pub(crate) fn interval(
+        &self,
+        value: f64,
+        clusters: &[u64],
+        mut resampled: impl FnMut(&[u32]) -> Result<f64, UndefinedReason>,
+    ) -> Interval {
+        if clusters.len() < LEAST_CLUSTERS {
+            return Interval::Undefined(UndefinedReason::TooFewClusters {
+                have: clusters.len(),
+            });
+        }
+        let mut weights = vec![0; clusters.len()];
+        let replicates = (0..self.replicates).filter_map(|replicate| {
+            for (weight_here, &cluster) in weights.iter_mut().zip(clusters) {
+                *weight_here = weight(bits(self.seed, cluster, replicate.into()));
+            }
+            resampled(&weights).ok()
+        });
+        let mut replicates: Vec<f64> = replicates.collect();
+        let defined = replicates.len();
+        let drawn = usize::try_from(self.replicates).expect("memory for one number each");
+        if defined < LEAST_REPLICATES || drawn - defined > drawn / UNDEFINED_IN {
+            return Interval::Undefined(UndefinedReason::TooFewReplicates { defined, drawn });
+        }
+        let standard_error = standard_deviation(&replicates);
+        let [low, high] = match self.ends {
+            BootstrapEnds::Percentile => percentiles(&mut replicates),
+            BootstrapEnds::Normal => {
+                let freedom = u32::try_from(clusters.len() - 1).expect("at most 64 clusters");
+                let half = quantile(COVERAGE, freedom) * standard_error;
+                [value - half, value + half]
+            }
+        };
+        if !(low.is_finite() && high.is_finite() && standard_error.is_finite()) {
+            return Interval::Undefined(UndefinedReason::Overflow);
+        }
+        Interval::Bootstrap {
+            low,
+            high,
+            standard_error,
+            ends: self.ends,
+            clusters: clusters.len(),
+            replicates: drawn,
+            undefined: drawn - defined,
+        }
+    }
+}
+
+/// The ends of the middle 95 %, at least 39 replicates.
+fn percentiles(replicates: &mut [f64]) -> [f64; 2] {
+    replicates.sort_unstable_by(f64::total_cmp);
+    let outside = (replicates.len() + 1) / 40;
+    [
+        replicates[outside - 1],
+        replicates[replicates.len() - outside],
+    ]
+}
+
+/// With ddof 1, in the order given.
+fn standard_deviation(values: &[f64]) -> f64 {
+    let count = values.iter().fold(0.0, |count, _| count + 1.0);
+    let mean = values.iter().sum::<f64>() / count;
+    let squares = values.iter().map(|value| (value - mean) * (value - mean));
+    (squares.sum::<f64>() / (count - 1.0)).sqrt()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const BOOTSTRAP: PoissonBootstrap = PoissonBootstrap {
+        replicates: 1000,
+        seed: 11,
+        ends: BootstrapEnds::Normal,
+    };
+
+    /// The weighted mean of 0, 1, …, clusters − 1.
+    fn mean(weights: &[u32]) -> Result<f64, UndefinedReason> {
+        let total: u32 = weights.iter().sum();
+        let sum: u32 = (0..).zip(weights).map(|(at, weight)| at * weight).sum();
+        if total == 0 {
+            return Err(UndefinedReason::Empty);
+        }
+        Ok(f64::from(sum) / f64::from(total))
+    }
+
+    fn keys(clusters: u64) -> Vec<u64> {
+        (0..clusters).collect()
+    }
+
+    #[test]
+    fn the_standard_error_of_a_mean_is_the_textbook_s() {
+        // 0…63: population variance (64² − 1) / 12, over 64 for the mean: √(341.25 / 64) = 2.309. A standard deviation of
+        // 1,000 replicates is known to 2.2 %; three of those.
+        let interval = BOOTSTRAP.interval(31.5, &keys(64), mean);
+        let Interval::Bootstrap { standard_error, .. } = interval else {
+            panic!("64 clusters are enough: {interval:?}");
+        };
+        assert!(
+            (standard_error / 2.309 - 1.0).abs() < 0.067,
+            "{standard_error}"
+        );
+    }
+
+    #[test]
+    fn percentiles_are_the_25th_and_the_976th_of_a_thousand() {
+        let mut replicates: Vec<f64> = (1..=1000).rev().map(f64::from).collect();
+        assert_eq!(
+            percentiles(&mut replicates).map(f64::to_bits),
+            [25.0, 976.0].map(f64::to_bits)
+        );
+        let mut fewest: Vec<f64> = (1..=39).map(f64::from).collect();
+        assert_eq!(
+            percentiles(&mut fewest).map(f64::to_bits),
+            [1.0, 39.0].map(f64::to_bits)
+        );
+    }
+
+    #[test]
+    fn a_cluster_s_weights_do_not_depend_on_the_others() {
+        let mut seen = [Vec::new(), Vec::new()];
+        for (seen, clusters) in seen
+            .iter_mut()
+            .zip([vec![4, 9, 2, 7, 1], vec![1, 3, 2, 9, 8, 5]])
+        {
+            let nine = clusters
+                .iter()
+                .position(|&key| key == 9)
+                .expect("it is there");
+            BOOTSTRAP.interval(0.0, &clusters, |weights| {
+                seen.push(weights[nine]);
+                Ok(0.0)
+            });
+        }
+        assert_eq!(seen[0], seen[1]);
+    }
+
+    #[test]
+    fn more_than_one_undefined_replicate_in_twenty_leaves_no_interval() {
+        let failing = |often: u32| {
+            let mut asked = 0;
+            BOOTSTRAP.interval(0.0, &keys(5), move |_| {
+                asked += 1;
+                if asked <= often {
+                    return Err(UndefinedReason::Empty);
+                }
+                Ok(f64::from(asked))
+            })
+        };
+        assert!(matches!(
+            failing(50),
+            Interval::Bootstrap {
+                undefined: 50,
+                replicates: 1000,
+                ..
+            }
+        ));
+        let reason = UndefinedReason::TooFewReplicates {
+            defined: 949,
+            drawn: 1000,
+        };
+        assert_eq!(failing(51), Interval::Undefined(reason));
+    }
+
+    #[test]
+    fn too_few_replicates_or_clusters_leave_no_interval() {
+        let few = PoissonBootstrap {
+            replicates: 38,
+            ..BOOTSTRAP
+        };
+        assert_eq!(
+            few.interval(0.0, &keys(5), |_| Ok(0.0)),
+            Interval::Undefined(UndefinedReason::TooFewReplicates {
+                defined: 38,
+                drawn: 38
+            })
+        );
+        assert_eq!(
+            BOOTSTRAP.interval(0.0, &keys(4), |_| Ok(0.0)),
+            Interval::Undefined(UndefinedReason::TooFewClusters { have: 4 })
+        );
+    }
+}
