@@ -116,7 +116,7 @@ fn every_crate_states_the_oldest_compiler_it_promises() {
 }
 
 #[test]
-fn no_crate_but_the_command_line_allows_printing_or_unsafe_code() {
+fn lints_are_never_switched_off_and_unsafe_code_stands_in_simd_folders_alone() {
     for package in metadata().packages {
         let folder = package
             .manifest_path
@@ -145,9 +145,13 @@ fn no_crate_but_the_command_line_allows_printing_or_unsafe_code() {
                 source.display()
             );
             let unsafe_code = text.lines().any(|line| line.contains("expect(unsafe_code"));
+            let may_hold_it = ["taceva-metrics", "taceva-sim"].contains(&package.name.as_str())
+                && source
+                    .parent()
+                    .is_some_and(|folder| folder.ends_with("simd"));
             assert!(
-                !unsafe_code || source.ends_with("layering.rs"),
-                "{}: no crate needs unsafe code yet",
+                !unsafe_code || may_hold_it || source.ends_with("layering.rs"),
+                "{}: unsafe code stands in files of a folder simd/ alone",
                 source.display()
             );
         }
