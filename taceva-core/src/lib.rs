@@ -1,19 +1,23 @@
 #![doc = include_str!("../README.md")]
 
+mod args;
 mod batch;
 mod channel;
+mod driver;
 mod error;
 mod field;
 mod footprint;
 mod frame;
 mod geometry;
 mod grating;
+mod id;
 mod model;
 mod nanometre;
 mod needs;
 mod phase;
 mod progress;
 mod quantity;
+mod registry;
 mod sample;
 mod skip;
 mod stamp;
@@ -21,23 +25,40 @@ mod stream;
 mod unit;
 mod wrench;
 
+pub use args::{ArgError, ArgKind, ArgSpec, ArgValue, Args, Presence};
 pub use batch::{Batch, BatchBuilder, Column, Labels};
 pub use channel::{Channel, ChannelError, Channels};
+pub use driver::{
+    Axes, Axis, Deadline, Device, DriverError, DriverKind, ForceTransducer, Guard, GuardedMotion,
+    GuardedStop, Halt, Lighting, NotFinite, Robot, Sensor, Speed, SpeedError, Tare, check_pose,
+    check_wrench,
+};
 pub use error::ErrorKind;
 pub use field::{Field, FieldSet};
 pub use footprint::{Footprint, FootprintError, Outline};
 pub use frame::{Frame, FrameError, FrameInfo, FrameMut, PixelFormat};
 pub use geometry::{Point, Pose, Rotation};
 pub use grating::GratingKind;
+pub use id::{DriverKey, DriverKeyError};
 pub use model::{Estimator, FeatureShape, Features, ModelError, Regressor, Targets, TrainingSet};
 pub use nanometre::{Nanometre, NanometreError};
 pub use needs::Needs;
 pub use phase::Phase;
 pub use progress::{Progress, Silent};
 pub use quantity::{Degree, Hertz, Lux, Millimetre, Newton, NewtonMillimetre};
+pub use registry::{
+    Access, Builtin, Descriptor, DescriptorError, DescriptorSpec, DriverSource, Factory, Facts,
+    ForceFacts, Found, LightingFacts, Registry, RegistryError, Rig, RobotFacts, SensorFacts,
+    Workspace,
+};
 pub use sample::{Readings, Sample};
 pub use skip::{SkipReason, Skipped};
 pub use stamp::{Clock, Stamp};
 pub use stream::{SampleSink, Select, SinkError, Tee};
 pub use unit::{SourceUnit, Unit, UnitError};
 pub use wrench::Wrench;
+
+// For `submit_builtin!`, whose user need not depend on it.
+#[cfg(feature = "inventory")]
+#[doc(hidden)]
+pub use inventory;

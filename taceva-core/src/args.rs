@@ -1,0 +1,255 @@
+//! What a driver is told when it is opened: declared as data, given as text, checked before anything is opened.
+
+mod error;
+mod nearest;
+mod spec;
+mod value;
+
+pub use error::ArgError;
+pub use spec::{ArgKind, ArgSpec, Presence};
+pub use value::ArgValue;
+
+pub(crate) use nearest::nearest;
+
+use std::collections::BTreeMap;
+use std::fmt;
+
+/// The arguments of one driver, checked against what it declares; what was not given stands at its default.
+///
+/// ```
+/// use taceva_core::{ArgSpec, ArgValue, Args};
+/// let specs = [
+///     ArgSpec::whole("seed", 0, i64::MAX).default(ArgValue::Whole(0)).help("what the noise is drawn from"),
+///     ArgSpec::number("exposure", 0.1, 33.0).unit("ms").default(ArgValue::Number(8.0)).help("of one frame"),
+/// ];
+/// let args = Args::parse(&specs, "seed=3;exposure=16 ms")?;
+/// assert_eq!((args.whole("seed"), args.number("exposure")), (3, 16.0));
+///
+/// let error = Args::parse(&specs, "sede=3").unwrap_err();
+/// assert_eq!(error.to_string(), "`sede`: unknown argument, did you mean `seed`?");
+/// # Ok::<(), taceva_core::ArgError>(())
+/// ```
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Args {
+    values: BTreeMap<String, ArgValue>,
+}
+
+impl Args {
+    /// Arguments as they stand behind the colon of a selector: `key=value;key=value`; `;;` is a semicolon within a value.
+    ///
+    /// # Errors
+    /// [`ArgError`], for the first thing that is wrong.
+    pub fn parse(specs: &[ArgSpec], text: &str) -> Result<Args, ArgError> {
+        let mut pairs = Vec::new();
+        for part in parts(text) {
+            match part.split_once('=') {
+                Some((key, value)) => pairs.push((key.trim().to_owned(), value.trim().to_owned())),
+                None => return Err(ArgError::Syntax { text: part }),
+            }
+        }
+        Args::from_pairs(specs, pairs)
+    }
+
+    /// Arguments as keys and texts, from a table of a scene for one.
+    ///
+    /// # Errors
+    /// [`ArgError`], for the first thing that is wrong.
+    pub fn from_pairs(
+        specs: &[ArgSpec],
+        pairs: impl IntoIterator<Item = (impl AsRef<str>, impl AsRef<str>)>,
+    ) -> Result<Args, ArgError> {
+        let mut values = BTreeMap::new();
+        for (key, text) in pairs {
+            let (key, text) = (key.as_ref(), text.as_ref());
+            let spec = specs
+                .iter()
+                .find(|spec| spec.key == key)
+                .ok_or_else(|| ArgError::unknown(key, specs))?;
+            let value = spec.parse(text)?;
+            if values.insert(spec.key.clone(), value).is_some() {
+                return Err(ArgError::Twice {
+                    key: key.to_owned(),
+                });
+            }
+        }
+        for spec in specs {
+            if values.contains_key(&spec.key) {
+                continue;
+            }
+            match &spec.presence {
+                Presence::Required => return Err(ArgError::missing(spec)),
+                Presence::Optional => {}
+                Presence::Default(value) => {
+                    values.insert(spec.key.clone(), value.clone());
+                }
+            }
+        }
+        Ok(Args { values })
+    }
+
+    /// What `key` says, if it was given or has a default.
+    pub fn get(&self, key: &str) -> Option<&ArgValue> {
+        self.values.get(key)
+    }
+
+    /// The whole number that `key` says.
+    ///
+    /// # Panics
+    /// If the driver did not declare `key` as a whole number that is required or has a default: a mistake of its code.
+    pub fn whole(&self, key: &str) -> i64 {
+        match self.get(key) {
+            Some(&ArgValue::Whole(value)) => value,
+            other => undeclared(key, "whole number", other),
+        }
+    }
+
+    /// The number that `key` says, in the unit it was declared with.
+    ///
+    /// # Panics
+    /// As [`whole`](Args::whole).
+    pub fn number(&self, key: &str) -> f64 {
+        match self.get(key) {
+            Some(&ArgValue::Number(value)) => value,
+            other => undeclared(key, "number", other),
+        }
+    }
+
+    /// The text, path or choice that `key` says.
+    ///
+    /// # Panics
+    /// As [`whole`](Args::whole).
+    pub fn text(&self, key: &str) -> &str {
+        match self.get(key) {
+            Some(ArgValue::Text(value)) => value,
+            other => undeclared(key, "text", other),
+        }
+    }
+
+    /// Whether `key` is switched on.
+    ///
+    /// # Panics
+    /// As [`whole`](Args::whole).
+    pub fn flag(&self, key: &str) -> bool {
+        match self.get(key) {
+            Some(&ArgValue::Flag(value)) => value,
+            other => undeclared(key, "flag", other),
+        }
+    }
+}
+
+fn undeclared(key: &str, expected: &str, found: Option<&ArgValue>) -> ! {
+    panic!(
+        "the driver did not declare `{key}` as a {expected} that is always there, found {found:?}"
+    )
+}
+
+/// The text between single semicolons, with doubled ones made single; nothing between them is nothing.
+fn parts(text: &str) -> Vec<String> {
+    let mut parts = vec![String::new()];
+    let mut characters = text.chars().peekable();
+    while let Some(character) = characters.next() {
+        if character == ';' && characters.next_if_eq(&';').is_none() {
+            parts.push(String::new());
+        } else if let Some(part) = parts.last_mut() {
+            part.push(character);
+        }
+    }
+    parts.retain(|part| !part.trim().is_empty());
+    parts
+}
+
+impl fmt::Display for Args {
+    /// The canonical text: every argument, defaults too, by key; [`parse`](Args::parse) reads it back.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for (position, (key, value)) in self.values.iter().enumerate() {
+            let separator = if position == 0 { "" } else { ";" };
+            let value = value.to_string().replace(';', ";;");
+            write!(f, "{separator}{key}={value}")?;
+        }
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn specs() -> Vec<ArgSpec> {
+        vec![
+            ArgSpec::path("folder").help("where the frames are"),
+            ArgSpec::whole("seed", 0, 99).default(ArgValue::Whole(7)),
+            ArgSpec::number("rate", 0.5, 1e3).unit("Hz").optional(),
+            ArgSpec::choice("pace", ["virtual", "real"])
+                .default(ArgValue::Text("virtual".to_owned())),
+            ArgSpec::flag("repeat").default(ArgValue::Flag(false)),
+        ]
+    }
+
+    fn refused(text: &str) -> String {
+        Args::parse(&specs(), text).expect_err(text).to_string()
+    }
+
+    #[test]
+    fn what_was_not_given_stands_at_its_default() {
+        let args = Args::parse(&specs(), "folder=a b; rate = 30Hz").expect("good");
+        assert_eq!(args.text("folder"), "a b");
+        assert_eq!((args.whole("seed"), args.flag("repeat")), (7, false));
+        assert_eq!(args.get("rate"), Some(&ArgValue::Number(30.0)));
+        let without = Args::parse(&specs(), "folder=x").expect("good");
+        assert_eq!(without.get("rate"), None);
+    }
+
+    #[test]
+    fn the_canonical_text_reads_back_whatever_the_order_and_the_characters() {
+        let args = Args::parse(&specs(), "seed=3;folder=odd;;name=1;repeat=true").expect("good");
+        assert_eq!(args.text("folder"), "odd;name=1");
+        let text = args.to_string();
+        assert_eq!(text, "folder=odd;;name=1;pace=virtual;repeat=true;seed=3");
+        assert_eq!(Args::parse(&specs(), &text), Ok(args));
+    }
+
+    #[test]
+    fn whatever_is_wrong_is_named_with_what_would_be_accepted() {
+        let cases = [
+            ("folder", "`folder`: expected `key=value`"),
+            (
+                "folder=x;sede=1",
+                "`sede`: unknown argument, did you mean `seed`?",
+            ),
+            (
+                "folder=x;zzz=1",
+                "`zzz`: unknown argument, expected one of `folder`, `seed`, `rate`, `pace`, `repeat`",
+            ),
+            ("folder=x;seed=1;seed=1", "`seed`: given twice"),
+            (
+                "seed=1",
+                "`folder`: missing, expected a path: where the frames are",
+            ),
+            (
+                "folder=x;seed=100",
+                "`seed`: `100`, expected a whole number from 0 to 99",
+            ),
+            (
+                "folder=x;seed=1.5",
+                "`seed`: `1.5`, expected a whole number from 0 to 99",
+            ),
+            (
+                "folder=x;rate=NaN",
+                "`rate`: `NaN`, expected a number from 0.5 to 1000 Hz",
+            ),
+            (
+                "folder=x;rate=30 ms",
+                "`rate`: `30 ms`, expected a number from 0.5 to 1000 Hz",
+            ),
+            ("folder=x;pace=reel", "`pace`: `reel`, did you mean `real`?"),
+            (
+                "folder=x;repeat=yes",
+                "`repeat`: `yes`, expected `true` or `false`",
+            ),
+            ("folder=", "`folder`: ``, expected a path"),
+        ];
+        for (text, message) in cases {
+            assert_eq!(refused(text), message);
+        }
+    }
+}

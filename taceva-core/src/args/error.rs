@@ -1,0 +1,112 @@
+//! Why an argument was refused.
+
+use std::fmt;
+
+use super::nearest::nearest;
+use super::spec::ArgSpec;
+
+/// An argument that the driver does not take; every text is as the user wrote it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum ArgError {
+    /// A part without `=`.
+    Syntax {
+        /// The part.
+        text: String,
+    },
+    /// A key that the driver does not declare.
+    Unknown {
+        /// The key.
+        key: String,
+        /// The declared key that is most like it, if one is.
+        nearest: Option<String>,
+        /// Every declared key.
+        known: Vec<String>,
+    },
+    /// A key that is given more than once.
+    Twice {
+        /// The key.
+        key: String,
+    },
+    /// A required key that is not given.
+    Missing {
+        /// The key.
+        key: String,
+        /// What would be accepted.
+        expected: String,
+        /// What it means.
+        help: String,
+    },
+    /// A value that the key does not take.
+    Value {
+        /// The key.
+        key: String,
+        /// The value.
+        value: String,
+        /// What would be accepted.
+        expected: String,
+        /// The choice that is most like it, if one is.
+        nearest: Option<String>,
+    },
+}
+
+impl ArgError {
+    pub(super) fn unknown(key: &str, specs: &[ArgSpec]) -> ArgError {
+        let known: Vec<String> = specs.iter().map(|spec| spec.key.clone()).collect();
+        ArgError::Unknown {
+            key: key.to_owned(),
+            nearest: nearest(key, known.iter().map(String::as_str)).map(str::to_owned),
+            known,
+        }
+    }
+
+    pub(super) fn missing(spec: &ArgSpec) -> ArgError {
+        ArgError::Missing {
+            key: spec.key.clone(),
+            expected: spec.expected(),
+            help: spec.help.clone(),
+        }
+    }
+}
+
+impl fmt::Display for ArgError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            ArgError::Syntax { text } => {
+                write!(f, "`{}`: expected `key=value`", text.escape_debug())
+            }
+            ArgError::Unknown {
+                key,
+                nearest,
+                known,
+            } => {
+                write!(f, "`{}`: unknown argument, ", key.escape_debug())?;
+                match nearest {
+                    Some(nearest) => write!(f, "did you mean `{nearest}`?"),
+                    None if known.is_empty() => f.write_str("the driver takes none"),
+                    None => write!(f, "expected one of `{}`", known.join("`, `")),
+                }
+            }
+            ArgError::Twice { key } => write!(f, "`{key}`: given twice"),
+            ArgError::Missing {
+                key,
+                expected,
+                help,
+            } => write!(f, "`{key}`: missing, expected {expected}: {help}"),
+            ArgError::Value {
+                key,
+                value,
+                expected,
+                nearest,
+            } => {
+                write!(f, "`{key}`: `{}`, ", value.escape_debug())?;
+                match nearest {
+                    Some(nearest) => write!(f, "did you mean `{nearest}`?"),
+                    None => write!(f, "expected {expected}"),
+                }
+            }
+        }
+    }
+}
+
+impl std::error::Error for ArgError {}

@@ -1,0 +1,43 @@
+//! What a device promises, whoever made it and wherever it runs: sensor, robot, force transducer, lighting.
+//!
+//! # The order of calls
+//! 1. A [`Factory`](crate::Factory) opens a device from checked [`Args`](crate::Args); nothing moves and no light changes.
+//! 2. `start`, then any number of readings, then `stop`; both may be called twice, and a stopped device starts again.
+//! 3. Dropping a device stops it and gives back what it held, whatever state it was in.
+//!
+//! # Time
+//! There is no clock here. A caller says how long it will wait ([`Deadline`]); a real device counts that on the clock of the
+//! machine, a simulated one on the virtual clock of its bench. A call that does not finish in time returns
+//! [`ErrorKind::Timeout`](crate::ErrorKind::Timeout) and leaves the device usable.
+//!
+//! # Threads
+//! One call at a time a device. The one exception is [`Halt`]: it may be called from any thread beside any other call.
+//!
+//! # Values
+//! mm, degrees, N and N·mm in the sensor's frame. A value that is not finite is refused on the way in
+//! ([`InvalidArgument`](crate::ErrorKind::InvalidArgument)) and is a fault of the device on the way out
+//! ([`DeviceFault`](crate::ErrorKind::DeviceFault)): [`check_pose`] and [`check_wrench`] do both.
+
+mod deadline;
+mod error;
+mod finite;
+mod force;
+mod guarded_motion;
+mod halt;
+mod kind;
+mod lighting;
+mod robot;
+mod sensor;
+mod speed;
+
+pub use deadline::Deadline;
+pub use error::DriverError;
+pub use finite::{NotFinite, check_pose, check_wrench};
+pub use force::{Axes, Axis, ForceTransducer, Tare};
+pub use guarded_motion::{Guard, GuardedMotion, GuardedStop};
+pub use halt::Halt;
+pub use kind::{Device, DriverKind};
+pub use lighting::Lighting;
+pub use robot::Robot;
+pub use sensor::Sensor;
+pub use speed::{Speed, SpeedError};

@@ -1,0 +1,96 @@
+//! Why a device did not do what it was asked.
+
+use std::borrow::Cow;
+use std::error::Error;
+use std::fmt;
+
+use crate::error::ErrorKind;
+use crate::id::DriverKey;
+
+/// A call to a device that failed: what kind of failure, which driver, what it was doing, and what caused it.
+#[derive(Debug)]
+pub struct DriverError {
+    kind: ErrorKind,
+    driver: DriverKey,
+    doing: Cow<'static, str>,
+    source: Option<Box<dyn Error + Send + Sync>>,
+}
+
+impl DriverError {
+    /// An error of `driver` while it was `doing`, words that follow "cannot": `capture a frame`.
+    pub fn new(
+        kind: ErrorKind,
+        driver: &DriverKey,
+        doing: impl Into<Cow<'static, str>>,
+    ) -> DriverError {
+        DriverError {
+            kind,
+            driver: driver.clone(),
+            doing: doing.into(),
+            source: None,
+        }
+    }
+
+    /// The same error with what caused it: another error, or a sentence that names the value and what would be accepted.
+    #[must_use]
+    pub fn because(mut self, source: impl Into<Box<dyn Error + Send + Sync>>) -> DriverError {
+        self.source = Some(source.into());
+        self
+    }
+
+    /// What kind of failure it was.
+    pub fn kind(&self) -> ErrorKind {
+        self.kind
+    }
+
+    /// The driver that failed.
+    pub fn driver(&self) -> &DriverKey {
+        &self.driver
+    }
+
+    /// What it was doing.
+    pub fn doing(&self) -> &str {
+        &self.doing
+    }
+}
+
+impl fmt::Display for DriverError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}: cannot {}: ", self.driver, self.doing)?;
+        match &self.source {
+            Some(source) => write!(f, "{source}"),
+            None => write!(f, "{}", self.kind),
+        }
+    }
+}
+
+impl Error for DriverError {
+    fn source(&self) -> Option<&(dyn Error + 'static)> {
+        self.source
+            .as_deref()
+            .map(|source| source as &(dyn Error + 'static))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const CAMERA: DriverKey = DriverKey::fixed("test/camera");
+
+    #[test]
+    fn the_message_names_the_driver_what_it_did_and_why_it_could_not() {
+        let bare = DriverError::new(ErrorKind::Timeout, &CAMERA, "capture a frame");
+        assert_eq!(
+            bare.to_string(),
+            "test/camera: cannot capture a frame: timeout"
+        );
+        let caused = bare.because("no frame within 40ms");
+        assert_eq!(
+            caused.to_string(),
+            "test/camera: cannot capture a frame: no frame within 40ms"
+        );
+        assert_eq!(caused.kind(), ErrorKind::Timeout);
+        assert!(caused.source().is_some());
+    }
+}

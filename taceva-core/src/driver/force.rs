@@ -1,0 +1,153 @@
+//! A force transducer.
+
+use std::fmt;
+use std::ops::BitOr;
+
+use super::{Deadline, DriverError};
+use crate::stamp::Stamp;
+use crate::wrench::Wrench;
+
+/// A transducer that measures force, and perhaps torque.
+pub trait ForceTransducer: Send {
+    /// Which components it measures; the others are 0 in every reading and mean nothing.
+    fn axes(&self) -> Axes;
+
+    /// Begins to send readings. A transducer that has nothing to begin does nothing.
+    ///
+    /// # Errors
+    /// As [`Sensor::start`](super::Sensor::start).
+    fn start(&mut self, deadline: Deadline) -> Result<(), DriverError> {
+        let _ = deadline;
+        Ok(())
+    }
+
+    /// Waits for the next reading: what presses on the gel, and when that was true.
+    ///
+    /// # Errors
+    /// [`DriverError`] of kind
+    /// - `Timeout` if no reading came within `deadline`,
+    /// - `OutOfRange` if a component is beyond what the transducer can measure: a clipped force is no force,
+    /// - `DeviceFault` if it reports a fault or a number that is not finite,
+    /// - `Disconnected` or `EndOfStream` if nothing will come any more.
+    fn read(&mut self, deadline: Deadline) -> Result<(Wrench, Stamp), DriverError>;
+
+    /// Ends what [`start`](ForceTransducer::start) began; may be called in every state.
+    ///
+    /// # Errors
+    /// [`DriverError`] if the device does not confirm.
+    fn stop(&mut self) -> Result<(), DriverError> {
+        Ok(())
+    }
+
+    /// Its ability to call the present load zero, where it has one.
+    fn tare(&mut self) -> Option<&mut dyn Tare> {
+        None
+    }
+}
+
+/// The ability of a transducer to call the present load zero.
+pub trait Tare {
+    /// Makes the present load the zero of all later readings, and returns once that holds.
+    ///
+    /// Only out of contact: whoever calls it while the gel is pressed shifts every force that follows.
+    ///
+    /// # Errors
+    /// [`DriverError`] of kind `Timeout`, or `OutOfRange` if the load is too great to be called zero.
+    fn zero(&mut self, deadline: Deadline) -> Result<(), DriverError>;
+}
+
+/// One component of a wrench.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[repr(u8)]
+pub enum Axis {
+    /// Force along x.
+    Fx,
+    /// Force along y.
+    Fy,
+    /// Normal force.
+    Fz,
+    /// Torque about x.
+    Tx,
+    /// Torque about y.
+    Ty,
+    /// Torque about z.
+    Tz,
+}
+
+impl Axis {
+    /// Every component.
+    pub const ALL: [Axis; 6] = [Axis::Fx, Axis::Fy, Axis::Fz, Axis::Tx, Axis::Ty, Axis::Tz];
+
+    /// How the component is written.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Axis::Fx => "Fx",
+            Axis::Fy => "Fy",
+            Axis::Fz => "Fz",
+            Axis::Tx => "Tx",
+            Axis::Ty => "Ty",
+            Axis::Tz => "Tz",
+        }
+    }
+}
+
+/// A set of components of a wrench.
+///
+/// ```
+/// use taceva_core::{Axes, Axis};
+/// assert!(Axes::FORCE.contains(Axis::Fz) && !Axes::FORCE.contains(Axis::Tz));
+/// assert_eq!(Axes::FORCE.to_string(), "Fx Fy Fz");
+/// ```
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub struct Axes(u8);
+
+impl Axes {
+    /// No component.
+    pub const NONE: Axes = Axes(0);
+    /// The normal force alone.
+    pub const NORMAL: Axes = Axes::NONE.with(Axis::Fz);
+    /// The three forces.
+    pub const FORCE: Axes = Axes::NORMAL.with(Axis::Fx).with(Axis::Fy);
+    /// The three forces and the three torques.
+    pub const SIX: Axes = Axes::FORCE.with(Axis::Tx).with(Axis::Ty).with(Axis::Tz);
+
+    /// The set with `axis` in it.
+    #[must_use]
+    pub const fn with(self, axis: Axis) -> Axes {
+        Axes(self.0 | 1 << axis as u8)
+    }
+
+    /// Whether `axis` is in the set.
+    pub const fn contains(self, axis: Axis) -> bool {
+        self.0 & 1 << axis as u8 != 0
+    }
+
+    /// Whether the set is empty.
+    pub const fn is_empty(self) -> bool {
+        self.0 == 0
+    }
+
+    /// The components of the set, forces first.
+    pub fn iter(self) -> impl Iterator<Item = Axis> {
+        Axis::ALL
+            .into_iter()
+            .filter(move |axis| self.contains(*axis))
+    }
+}
+
+impl BitOr for Axes {
+    type Output = Axes;
+    fn bitor(self, other: Axes) -> Axes {
+        Axes(self.0 | other.0)
+    }
+}
+
+impl fmt::Display for Axes {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for (position, axis) in self.iter().enumerate() {
+            let separator = if position == 0 { "" } else { " " };
+            write!(f, "{separator}{}", axis.name())?;
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,15 @@
+//! Stopping a robot from another thread.
+
+use super::DriverError;
+
+/// Stops the robot it came from: from any thread, in every state, beside any other call.
+///
+/// It outlives the robot harmlessly: once that is dropped there is nothing left to stop and the halt succeeds.
+/// It is advisory: software is not a safety function, the emergency stop of the site is.
+pub trait Halt: Send + Sync {
+    /// Stops the motion within 50 ms and latches, see [`Robot`](super::Robot); never waits for another call to finish.
+    ///
+    /// # Errors
+    /// [`DriverError`] of kind `Disconnected` if the stop could not be sent; the halt is latched on this side all the same.
+    fn halt(&self) -> Result<(), DriverError>;
+}

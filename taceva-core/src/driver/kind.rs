@@ -1,0 +1,69 @@
+//! The four kinds of device.
+
+use std::fmt;
+
+use super::{ForceTransducer, Lighting, Robot, Sensor};
+
+/// The kind of a device.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "lowercase"))]
+#[non_exhaustive]
+pub enum DriverKind {
+    /// Gives pictures of a gel.
+    Sensor,
+    /// Moves the indenter.
+    Robot,
+    /// Measures how hard it presses.
+    Force,
+    /// Sets the light around the sensor.
+    Lighting,
+}
+
+impl DriverKind {
+    /// Every kind.
+    pub const ALL: [DriverKind; 4] = [
+        DriverKind::Sensor,
+        DriverKind::Robot,
+        DriverKind::Force,
+        DriverKind::Lighting,
+    ];
+
+    /// How the kind is written in manifests and scenes.
+    pub const fn name(self) -> &'static str {
+        match self {
+            DriverKind::Sensor => "sensor",
+            DriverKind::Robot => "robot",
+            DriverKind::Force => "force",
+            DriverKind::Lighting => "lighting",
+        }
+    }
+}
+
+impl fmt::Display for DriverKind {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+/// A device trait as a type, `dyn Sensor` for one: what registries and factories are generic over.
+pub trait Device {
+    /// Its kind.
+    const KIND: DriverKind;
+}
+
+impl Device for dyn Sensor {
+    const KIND: DriverKind = DriverKind::Sensor;
+}
+
+impl Device for dyn Robot {
+    const KIND: DriverKind = DriverKind::Robot;
+}
+
+impl Device for dyn ForceTransducer {
+    const KIND: DriverKind = DriverKind::Force;
+}
+
+impl Device for dyn Lighting {
+    const KIND: DriverKind = DriverKind::Lighting;
+}

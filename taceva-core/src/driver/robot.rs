@@ -1,0 +1,66 @@
+//! A robot that moves the indenter.
+
+use std::sync::Arc;
+
+use super::{Deadline, DriverError, GuardedMotion, Halt, Speed};
+use crate::geometry::Pose;
+use crate::stamp::Stamp;
+
+/// A robot that carries the indenter.
+///
+/// # Units
+/// Poses in mm and degrees in the sensor's frame; z points into the gel.
+///
+/// # The physical contract
+/// - Opening moves nothing; the robot holds where it stands.
+/// - [`move_to`](Robot::move_to) moves the tip along a straight line and blocks until it rests there. No other call moves it.
+/// - [`halt`](Robot::halt) stops the motion and latches: every later move is refused with `Interrupted` until
+///   [`clear_halt`](Robot::clear_halt). A halt between two moves is therefore never lost.
+/// - After an error the robot stands still. `pose`, `halt` and `clear_halt` are safe to call then.
+pub trait Robot: Send {
+    /// Where the tip is, and when that was true.
+    ///
+    /// # Errors
+    /// [`DriverError`] of kind `Timeout`, `Disconnected`, or `DeviceFault` for a coordinate that is not finite.
+    fn pose(&mut self, deadline: Deadline) -> Result<(Pose, Stamp), DriverError>;
+
+    /// Moves the tip to `target` along a straight line, blocks until it rests there, and says when it came to rest.
+    ///
+    /// If `deadline` passes first, the motion is stopped before the error is returned.
+    ///
+    /// # Errors
+    /// [`DriverError`] of kind
+    /// - `InvalidArgument` for a coordinate that is not finite,
+    /// - `OutOfRange` for a target outside the workspace or a speed above the greatest; nothing moves,
+    /// - `Timeout` if it did not arrive within `deadline`,
+    /// - `Interrupted` if it was halted, before or during the motion,
+    /// - `DeviceFault` if it reports a fault: collision, emergency stop, joint limit.
+    fn move_to(
+        &mut self,
+        target: Pose,
+        speed: Speed,
+        deadline: Deadline,
+    ) -> Result<Stamp, DriverError>;
+
+    /// A handle that stops this robot from any thread, while any other call is under way.
+    fn halt_handle(&self) -> Arc<dyn Halt>;
+
+    /// Stops the robot; legal in every state, and stopping it twice is stopping it once.
+    ///
+    /// # Errors
+    /// As [`Halt::halt`].
+    fn halt(&mut self) -> Result<(), DriverError> {
+        self.halt_handle().halt()
+    }
+
+    /// Ends a halt, so that moves are accepted again; without one it does nothing. Nothing moves.
+    ///
+    /// # Errors
+    /// [`DriverError`] of kind `DeviceFault` if the device itself still reports a fault that a person must acknowledge.
+    fn clear_halt(&mut self, deadline: Deadline) -> Result<(), DriverError>;
+
+    /// Its ability to stop by itself at a force, where it has one.
+    fn guarded_motion(&mut self) -> Option<&mut dyn GuardedMotion> {
+        None
+    }
+}

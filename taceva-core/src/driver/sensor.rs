@@ -1,0 +1,46 @@
+//! A tactile sensor with a camera behind its gel.
+
+use super::{Deadline, DriverError, Lighting};
+use crate::frame::{FrameInfo, FrameMut};
+use crate::stamp::Stamp;
+
+/// A sensor that gives pictures.
+pub trait Sensor: Send {
+    /// Size and format of every frame, from opening to dropping.
+    fn frame_info(&self) -> FrameInfo;
+
+    /// Begins to send frames. A sensor that has nothing to begin does nothing.
+    ///
+    /// # Errors
+    /// [`DriverError`] if the device does not answer within `deadline`, is held by somebody else, or is gone.
+    fn start(&mut self, deadline: Deadline) -> Result<(), DriverError> {
+        let _ = deadline;
+        Ok(())
+    }
+
+    /// Waits for the next frame, writes it into the caller's buffer and says when it was true.
+    ///
+    /// Frames come in the order of their stamps; one that the caller was too slow for may be missing, none comes twice.
+    /// On an error the buffer holds no frame.
+    ///
+    /// # Errors
+    /// [`DriverError`] of kind
+    /// - `InvalidArgument` if `into` is not a [`frame_info`](Sensor::frame_info), or the sensor must be started first,
+    /// - `Timeout` if no frame came within `deadline`,
+    /// - `Protocol` if what came is no whole frame; the next call may succeed,
+    /// - `Disconnected` or `EndOfStream` if none will come any more.
+    fn capture(&mut self, into: FrameMut<'_>, deadline: Deadline) -> Result<Stamp, DriverError>;
+
+    /// Ends what [`start`](Sensor::start) began; may be called in every state.
+    ///
+    /// # Errors
+    /// [`DriverError`] if the device does not confirm.
+    fn stop(&mut self) -> Result<(), DriverError> {
+        Ok(())
+    }
+
+    /// The light around this sensor, where it can be set.
+    fn lighting(&mut self) -> Option<&mut dyn Lighting> {
+        None
+    }
+}

@@ -1,0 +1,215 @@
+//! Drivers by name.
+
+mod builtin;
+mod descriptor;
+mod error;
+mod factory;
+mod facts;
+mod found;
+mod rig;
+
+pub use builtin::Builtin;
+pub use descriptor::{Descriptor, DescriptorError, DescriptorSpec, DriverSource};
+pub use error::RegistryError;
+pub use factory::Factory;
+pub use facts::{Facts, ForceFacts, LightingFacts, RobotFacts, SensorFacts, Workspace};
+pub use found::{Access, Found};
+pub use rig::Rig;
+
+use std::collections::BTreeMap;
+use std::collections::btree_map::Entry;
+use std::fmt;
+
+use crate::args::nearest;
+use crate::driver::Device;
+use crate::id::DriverKey;
+
+/// The drivers of one kind, by key and always in the order of their keys. A value that is handed down, never a global.
+pub struct Registry<D: ?Sized> {
+    factories: BTreeMap<DriverKey, Box<dyn Factory<D>>>,
+}
+
+impl<D: Device + ?Sized> Registry<D> {
+    /// A registry without drivers.
+    pub fn empty() -> Registry<D> {
+        Registry {
+            factories: BTreeMap::new(),
+        }
+    }
+
+    /// Adds a driver.
+    ///
+    /// # Errors
+    /// [`RegistryError`] if its key is taken, or it describes a device of another kind; the registry stays as it was.
+    pub fn add(&mut self, factory: Box<dyn Factory<D>>) -> Result<(), RegistryError> {
+        let descriptor = factory.descriptor();
+        if descriptor.kind() != D::KIND {
+            return Err(RegistryError::Kind {
+                key: descriptor.key().clone(),
+                expected: D::KIND,
+                found: descriptor.kind(),
+            });
+        }
+        match self.factories.entry(descriptor.key().clone()) {
+            Entry::Vacant(place) => {
+                place.insert(factory);
+                Ok(())
+            }
+            Entry::Occupied(taken) => Err(RegistryError::Twice {
+                key: taken.key().clone(),
+                first: taken.get().descriptor().title().to_owned(),
+                second: factory.descriptor().title().to_owned(),
+            }),
+        }
+    }
+
+    /// The driver called `key`.
+    ///
+    /// # Errors
+    /// [`RegistryError::Unknown`], with the nearest key and every known one.
+    pub fn get(&self, key: &str) -> Result<&dyn Factory<D>, RegistryError> {
+        self.factories
+            .iter()
+            .find(|(known, _)| known.as_str() == key)
+            .map(|(_, factory)| factory.as_ref())
+            .ok_or_else(|| RegistryError::Unknown {
+                kind: D::KIND,
+                key: key.to_owned(),
+                nearest: nearest(key, self.keys().map(DriverKey::as_str)).map(str::to_owned),
+                known: self.keys().cloned().collect(),
+            })
+    }
+
+    /// The keys, in order.
+    pub fn keys(&self) -> impl Iterator<Item = &DriverKey> {
+        self.factories.keys()
+    }
+
+    /// The drivers, in the order of their keys.
+    pub fn iter(&self) -> impl Iterator<Item = &dyn Factory<D>> {
+        self.factories.values().map(AsRef::as_ref)
+    }
+
+    /// How many there are.
+    pub fn len(&self) -> usize {
+        self.factories.len()
+    }
+
+    /// Whether there is none.
+    pub fn is_empty(&self) -> bool {
+        self.factories.is_empty()
+    }
+}
+
+impl<D: ?Sized> fmt::Debug for Registry<D> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_set().entries(self.factories.keys()).finish()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::args::Args;
+    use crate::driver::{DriverError, ForceTransducer, Lighting};
+    use crate::error::ErrorKind;
+
+    struct Lamp(Descriptor);
+
+    impl Lamp {
+        fn boxed(key: &'static str, title: &str) -> Box<Lamp> {
+            let spec = DescriptorSpec::new(
+                DriverKey::fixed(key),
+                title,
+                DriverSource::Simulated,
+                Facts::Lighting(LightingFacts {
+                    scenes: vec!["normal".to_owned()],
+                }),
+            );
+            Box::new(Lamp(spec.check().expect("no contradiction")))
+        }
+    }
+
+    impl<D: Device + ?Sized> Factory<D> for Lamp {
+        fn descriptor(&self) -> &Descriptor {
+            &self.0
+        }
+        fn open(&self, _: &Args, _: &mut Rig) -> Result<Box<D>, DriverError> {
+            Err(DriverError::new(
+                ErrorKind::NotFound,
+                self.0.key(),
+                "switch it on",
+            ))
+        }
+    }
+
+    #[test]
+    fn drivers_stand_in_the_order_of_their_keys_whatever_order_they_came_in() {
+        let mut registry = Registry::<dyn Lighting>::empty();
+        for key in ["sim/b", "sim/a", "room/z"] {
+            registry.add(Lamp::boxed(key, "lamp")).expect("new");
+        }
+        assert_eq!(
+            format!("{registry:?}"),
+            r#"{DriverKey("room/z"), DriverKey("sim/a"), DriverKey("sim/b")}"#
+        );
+    }
+
+    #[test]
+    fn a_key_that_is_taken_is_refused_naming_both() {
+        let mut registry = Registry::<dyn Lighting>::empty();
+        registry
+            .add(Lamp::boxed("sim/lamp", "the first"))
+            .expect("new");
+        let error = registry
+            .add(Lamp::boxed("sim/lamp", "the second"))
+            .expect_err("taken");
+        assert_eq!(
+            error.to_string(),
+            "two drivers are called `sim/lamp`: the first, and the second"
+        );
+        assert_eq!(registry.len(), 1);
+        let kept = registry.get("sim/lamp").expect("there");
+        assert_eq!(kept.descriptor().title(), "the first");
+    }
+
+    #[test]
+    fn a_driver_of_another_kind_is_refused() {
+        let mut registry = Registry::<dyn ForceTransducer>::empty();
+        let error = registry
+            .add(Lamp::boxed("sim/lamp", "a lamp"))
+            .expect_err("kind");
+        assert_eq!(
+            error.to_string(),
+            "`sim/lamp` is a lighting driver, expected a force driver"
+        );
+    }
+
+    #[test]
+    fn an_unknown_driver_is_answered_with_the_nearest() {
+        let mut registry = Registry::<dyn Lighting>::empty();
+        let error = registry.get("sim/lamp").map(|_| ()).expect_err("empty");
+        assert_eq!(
+            error.to_string(),
+            "`sim/lamp`: unknown lighting driver, and none is known"
+        );
+        registry
+            .add(Lamp::boxed("sim/lamp", "a lamp"))
+            .expect("new");
+        let message = |key| {
+            registry
+                .get(key)
+                .map(|_| ())
+                .expect_err("unknown")
+                .to_string()
+        };
+        assert_eq!(
+            message("sim/lmap"),
+            "`sim/lmap`: unknown lighting driver, did you mean `sim/lamp`?"
+        );
+        assert_eq!(
+            message("ur5"),
+            "`ur5`: unknown lighting driver, expected one of `sim/lamp`"
+        );
+    }
+}

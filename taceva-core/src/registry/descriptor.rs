@@ -1,0 +1,426 @@
+//! A driver described before it is opened.
+
+use std::collections::BTreeSet;
+use std::fmt;
+
+use super::facts::{Facts, ForceFacts, RobotFacts, SensorFacts};
+use crate::args::{ArgError, ArgSpec, Args};
+use crate::driver::DriverKind;
+use crate::id::DriverKey;
+
+/// Where the readings of a driver come from; every output that rests on them says so.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "lowercase"))]
+pub enum DriverSource {
+    /// A device.
+    Real,
+    /// A model of a device.
+    Simulated,
+    /// A device, at another time.
+    Recorded,
+}
+
+impl DriverSource {
+    /// How the source is written in reports.
+    pub const fn name(self) -> &'static str {
+        match self {
+            DriverSource::Real => "real",
+            DriverSource::Simulated => "simulated",
+            DriverSource::Recorded => "recorded",
+        }
+    }
+}
+
+impl fmt::Display for DriverSource {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+/// A description to be checked.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DescriptorSpec {
+    /// The name by which the driver is chosen.
+    pub key: DriverKey,
+    /// The name that people call the device.
+    pub title: String,
+    /// Where its readings come from.
+    pub source: DriverSource,
+    /// What is known about it.
+    pub facts: Facts,
+    /// What it may be told when it is opened.
+    pub arguments: Vec<ArgSpec>,
+}
+
+impl DescriptorSpec {
+    /// A description of a driver that takes no arguments.
+    pub fn new(
+        key: DriverKey,
+        title: impl Into<String>,
+        source: DriverSource,
+        facts: Facts,
+    ) -> DescriptorSpec {
+        DescriptorSpec {
+            key,
+            title: title.into(),
+            source,
+            facts,
+            arguments: Vec::new(),
+        }
+    }
+
+    /// The same description with `arguments`.
+    #[must_use]
+    pub fn arguments(mut self, arguments: impl IntoIterator<Item = ArgSpec>) -> DescriptorSpec {
+        self.arguments.extend(arguments);
+        self
+    }
+
+    /// The description, if nothing in it is impossible or contradicts something else.
+    ///
+    /// # Errors
+    /// [`DescriptorError`], naming the first contradiction.
+    pub fn check(self) -> Result<Descriptor, DescriptorError> {
+        let fault = self.arguments_fault().or_else(|| match &self.facts {
+            Facts::Sensor(facts) => sensor_fault(facts),
+            Facts::Robot(facts) => robot_fault(facts, self.source),
+            Facts::Force(facts) => force_fault(facts),
+            Facts::Lighting(facts) if facts.scenes.is_empty() => {
+                Some("a lighting without scenes".to_owned())
+            }
+            Facts::Lighting(facts) => scenes_fault(&facts.scenes),
+        });
+        match fault {
+            Some(problem) => Err(DescriptorError {
+                key: self.key,
+                problem,
+            }),
+            None => Ok(Descriptor { spec: self }),
+        }
+    }
+
+    fn arguments_fault(&self) -> Option<String> {
+        let mut keys = BTreeSet::new();
+        self.arguments.iter().find_map(|spec| match spec.fault() {
+            None if keys.insert(&spec.key) => None,
+            None => Some(format!("argument `{}` is declared twice", spec.key)),
+            fault => fault,
+        })
+    }
+}
+
+fn sensor_fault(facts: &SensorFacts) -> Option<String> {
+    if facts.opaque == Some(true) && !facts.scenes.is_empty() {
+        return Some(format!(
+            "an opaque gel, yet the light around it can be set to `{}`",
+            facts.scenes[0]
+        ));
+    }
+    if let Some(frame) = facts
+        .frame
+        .filter(|frame| frame.byte_len().is_none_or(|len| len == 0))
+    {
+        return Some(format!("frames of {frame}, which no buffer can hold"));
+    }
+    if let Some([width, height]) = facts.camera.filter(|sides| sides.contains(&0)) {
+        return Some(format!("a camera of {width}×{height} pixels"));
+    }
+    let footprint = facts.footprint.and_then(|footprint| footprint.depth_max());
+    let beyond = facts
+        .depth_max
+        .zip(footprint)
+        .filter(|(limit, footprint)| limit.0 > footprint.to_millimetres());
+    if let Some((limit, footprint)) = beyond {
+        return Some(format!(
+            "a depth limit of {limit}, yet the footprint is {footprint} deep"
+        ));
+    }
+    scenes_fault(&facts.scenes).or_else(|| {
+        positive(&[
+            ("rate", facts.rate.map(|rate| rate.0)),
+            ("depth limit", facts.depth_max.map(|depth| depth.0)),
+            ("force limit", facts.force_max.map(|force| force.0)),
+            ("gel thickness", facts.gel_thickness.map(|height| height.0)),
+            ("field of view", facts.field_of_view_mm2),
+        ])
+    })
+}
+
+fn robot_fault(facts: &RobotFacts, source: DriverSource) -> Option<String> {
+    if source == DriverSource::Recorded {
+        return Some("a recorded robot, which could not be told where to move".to_owned());
+    }
+    if let Some(workspace) = facts
+        .workspace
+        .filter(|workspace| !workspace.contains(&workspace.least))
+    {
+        return Some(format!(
+            "a workspace from {:?} to {:?}, which holds no place",
+            workspace.least, workspace.greatest
+        ));
+    }
+    match facts.repeatability {
+        Some(spread) if !(spread.0 >= 0.0 && spread.0.is_finite()) => {
+            Some(format!("a repeatability of {spread}"))
+        }
+        _ => None,
+    }
+}
+
+fn force_fault(facts: &ForceFacts) -> Option<String> {
+    if facts.axes.is_empty() {
+        return Some("a force transducer that measures no component".to_owned());
+    }
+    positive(&[
+        ("rate", facts.rate.map(|rate| rate.0)),
+        ("greatest force", facts.force_max.map(|force| force.0)),
+    ])
+}
+
+fn scenes_fault(scenes: &[String]) -> Option<String> {
+    let mut seen = BTreeSet::new();
+    scenes
+        .iter()
+        .find(|scene| scene.is_empty() || !seen.insert(*scene))
+        .map(|scene| format!("the scene {scene:?} is empty or named twice"))
+}
+
+fn positive(named: &[(&str, Option<f64>)]) -> Option<String> {
+    named.iter().find_map(|&(name, value)| {
+        value
+            .filter(|value| !(*value > 0.0 && value.is_finite()))
+            .map(|value| format!("a {name} of {value}, expected a number above 0"))
+    })
+}
+
+/// Everything about a driver that is known before it is opened; planning reads this and opens nothing.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Descriptor {
+    spec: DescriptorSpec,
+}
+
+impl Descriptor {
+    /// The name by which the driver is chosen.
+    pub fn key(&self) -> &DriverKey {
+        &self.spec.key
+    }
+
+    /// The name that people call the device.
+    pub fn title(&self) -> &str {
+        &self.spec.title
+    }
+
+    /// The kind of the device.
+    pub fn kind(&self) -> DriverKind {
+        self.spec.facts.kind()
+    }
+
+    /// Where its readings come from.
+    pub fn source(&self) -> DriverSource {
+        self.spec.source
+    }
+
+    /// What is known about it.
+    pub fn facts(&self) -> &Facts {
+        &self.spec.facts
+    }
+
+    /// The facts of a sensor, if it is one.
+    pub fn sensor(&self) -> Option<&SensorFacts> {
+        match self.facts() {
+            Facts::Sensor(facts) => Some(facts),
+            _ => None,
+        }
+    }
+
+    /// The facts of a robot, if it is one.
+    pub fn robot(&self) -> Option<&RobotFacts> {
+        match self.facts() {
+            Facts::Robot(facts) => Some(facts),
+            _ => None,
+        }
+    }
+
+    /// The facts of a force transducer, if it is one.
+    pub fn force(&self) -> Option<&ForceFacts> {
+        match self.facts() {
+            Facts::Force(facts) => Some(facts),
+            _ => None,
+        }
+    }
+
+    /// What it may be told when it is opened.
+    pub fn arguments(&self) -> &[ArgSpec] {
+        &self.spec.arguments
+    }
+
+    /// The arguments written as `text`, checked.
+    ///
+    /// # Errors
+    /// As [`Args::parse`].
+    pub fn args(&self, text: &str) -> Result<Args, ArgError> {
+        Args::parse(self.arguments(), text)
+    }
+
+    /// The description, to be changed and checked again.
+    pub fn to_spec(&self) -> DescriptorSpec {
+        self.spec.clone()
+    }
+}
+
+/// A description that contradicts itself: a mistake of the driver.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct DescriptorError {
+    key: DriverKey,
+    problem: String,
+}
+
+impl fmt::Display for DescriptorError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(
+            f,
+            "the driver `{}` contradicts itself: {}",
+            self.key, self.problem
+        )
+    }
+}
+
+impl std::error::Error for DescriptorError {}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::driver::Axes;
+    use crate::footprint::Footprint;
+    use crate::frame::{FrameInfo, PixelFormat};
+    use crate::geometry::Point;
+    use crate::quantity::{Hertz, Millimetre, Newton};
+    use crate::registry::{LightingFacts, Workspace};
+
+    const KEY: DriverKey = DriverKey::fixed("test/device");
+
+    fn check(source: DriverSource, facts: Facts) -> Result<Descriptor, String> {
+        DescriptorSpec::new(KEY, "a device", source, facts)
+            .check()
+            .map_err(|error| error.to_string())
+    }
+
+    fn sensor(facts: SensorFacts) -> Result<Descriptor, String> {
+        check(DriverSource::Simulated, Facts::Sensor(Box::new(facts)))
+    }
+
+    #[test]
+    fn facts_that_contradict_each_other_are_refused_when_built() {
+        let opaque = SensorFacts {
+            opaque: Some(true),
+            scenes: vec!["S1".to_owned()],
+            ..SensorFacts::default()
+        };
+        assert_eq!(
+            sensor(opaque).expect_err("opaque"),
+            "the driver `test/device` contradicts itself: an opaque gel, yet the light around it can be set to `S1`"
+        );
+        let deep = SensorFacts {
+            footprint: Some(Footprint::disc(17.0, Some(3.5)).expect("lengths")),
+            depth_max: Some(Millimetre(4.0)),
+            ..SensorFacts::default()
+        };
+        assert_eq!(
+            sensor(deep).expect_err("deep"),
+            "the driver `test/device` contradicts itself: a depth limit of 4 mm, yet the footprint is 3.5 mm deep"
+        );
+        let recorded = check(DriverSource::Recorded, Facts::Robot(RobotFacts::default()));
+        assert!(recorded.expect_err("a film").contains("a recorded robot"));
+    }
+
+    #[test]
+    fn facts_that_no_device_has_are_refused_when_built() {
+        let frame = |width| {
+            Some(FrameInfo {
+                width,
+                height: 2,
+                format: PixelFormat::Gray8,
+            })
+        };
+        let impossible = [
+            SensorFacts {
+                frame: frame(0),
+                ..Default::default()
+            },
+            SensorFacts {
+                rate: Some(Hertz(0.0)),
+                ..Default::default()
+            },
+            SensorFacts {
+                rate: Some(Hertz(f64::NAN)),
+                ..Default::default()
+            },
+            SensorFacts {
+                force_max: Some(Newton(-1.0)),
+                ..Default::default()
+            },
+            SensorFacts {
+                camera: Some([640, 0]),
+                ..Default::default()
+            },
+            SensorFacts {
+                scenes: vec!["a".into(), "a".into()],
+                ..Default::default()
+            },
+        ];
+        for facts in impossible {
+            assert!(sensor(facts.clone()).is_err(), "{facts:?}");
+        }
+        let corner = |side| Point {
+            x: Millimetre(side),
+            ..Point::default()
+        };
+        let inside_out = RobotFacts {
+            workspace: Some(Workspace {
+                least: corner(1.0),
+                greatest: corner(-1.0),
+            }),
+            ..RobotFacts::default()
+        };
+        assert!(check(DriverSource::Real, Facts::Robot(inside_out)).is_err());
+        assert!(check(DriverSource::Real, Facts::Force(ForceFacts::default())).is_err());
+        assert!(
+            check(
+                DriverSource::Real,
+                Facts::Lighting(LightingFacts::default())
+            )
+            .is_err()
+        );
+        let good = ForceFacts {
+            axes: Axes::NORMAL,
+            ..ForceFacts::default()
+        };
+        assert!(check(DriverSource::Real, Facts::Force(good)).is_ok());
+    }
+
+    #[test]
+    fn an_argument_declared_twice_is_refused() {
+        let facts = Facts::Sensor(Box::default());
+        let error = DescriptorSpec::new(KEY, "a device", DriverSource::Real, facts)
+            .arguments([ArgSpec::flag("a"), ArgSpec::text("a")])
+            .check()
+            .expect_err("twice");
+        assert_eq!(
+            error.to_string(),
+            "the driver `test/device` contradicts itself: argument `a` is declared twice"
+        );
+    }
+
+    #[test]
+    fn the_depth_limit_is_that_of_the_footprint_unless_it_is_tighter() {
+        let footprint = Footprint::disc(17.0, Some(3.5)).expect("lengths");
+        let mut facts = SensorFacts {
+            footprint: Some(footprint),
+            ..Default::default()
+        };
+        assert_eq!(facts.depth_limit(), Some(Millimetre(3.5)));
+        facts.depth_max = Some(Millimetre(3.0));
+        assert_eq!(facts.depth_limit(), Some(Millimetre(3.0)));
+    }
+}

@@ -1,0 +1,87 @@
+//! Why a driver could not be added or found.
+
+use std::fmt;
+
+use super::DescriptorError;
+use crate::driver::DriverKind;
+use crate::id::DriverKey;
+
+/// A driver that a registry cannot take, or does not have.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum RegistryError {
+    /// Nobody registered that name.
+    Unknown {
+        /// Of which kind.
+        kind: DriverKind,
+        /// The name as the user wrote it.
+        key: String,
+        /// The known name that is most like it, if one is.
+        nearest: Option<String>,
+        /// Every known name.
+        known: Vec<DriverKey>,
+    },
+    /// Two drivers of one name.
+    Twice {
+        /// The name.
+        key: DriverKey,
+        /// The title of the one that was there.
+        first: String,
+        /// The title of the one that came.
+        second: String,
+    },
+    /// A driver among those of another kind.
+    Kind {
+        /// The driver.
+        key: DriverKey,
+        /// The kind that is kept there.
+        expected: DriverKind,
+        /// The kind that the driver is.
+        found: DriverKind,
+    },
+    /// A built-in driver that contradicts itself.
+    Descriptor(DescriptorError),
+}
+
+impl fmt::Display for RegistryError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            RegistryError::Unknown {
+                kind,
+                key,
+                nearest,
+                known,
+            } => {
+                write!(f, "`{}`: unknown {kind} driver, ", key.escape_debug())?;
+                match (nearest, known.as_slice()) {
+                    (Some(nearest), _) => write!(f, "did you mean `{nearest}`?"),
+                    (None, []) => f.write_str("and none is known"),
+                    (None, known) => {
+                        let known: Vec<&str> = known.iter().map(DriverKey::as_str).collect();
+                        write!(f, "expected one of `{}`", known.join("`, `"))
+                    }
+                }
+            }
+            RegistryError::Twice { key, first, second } => {
+                write!(f, "two drivers are called `{key}`: {first}, and {second}")
+            }
+            RegistryError::Kind {
+                key,
+                expected,
+                found,
+            } => write!(
+                f,
+                "`{key}` is a {found} driver, expected a {expected} driver"
+            ),
+            RegistryError::Descriptor(error) => error.fmt(f),
+        }
+    }
+}
+
+impl std::error::Error for RegistryError {}
+
+impl From<DescriptorError> for RegistryError {
+    fn from(error: DescriptorError) -> RegistryError {
+        RegistryError::Descriptor(error)
+    }
+}

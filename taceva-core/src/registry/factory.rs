@@ -1,0 +1,36 @@
+//! What opens a device.
+
+use super::{Descriptor, DescriptorError, Found, Rig};
+use crate::args::Args;
+use crate::driver::DriverError;
+
+/// A driver that is not opened yet; `D` is what it opens, `dyn Sensor` for one.
+pub trait Factory<D: ?Sized>: Send + Sync {
+    /// What is known before anything is opened, whatever the arguments.
+    fn descriptor(&self) -> &Descriptor;
+
+    /// What is known before anything is opened, with these arguments: the size of the frames that they ask for.
+    ///
+    /// # Errors
+    /// [`DescriptorError`] if the arguments contradict each other or the device.
+    fn describe(&self, args: &Args) -> Result<Descriptor, DescriptorError> {
+        let _ = args;
+        Ok(self.descriptor().clone())
+    }
+
+    /// Opens the device. Nothing moves, and no light changes.
+    ///
+    /// `args` are those that [`descriptor`](Factory::descriptor) declares; devices of one `rig` may share what they need.
+    ///
+    /// # Errors
+    /// [`DriverError`] of kind `NotFound`, `PermissionDenied`, `Busy`, `InvalidArgument`, `Protocol`, `Timeout` or `Unsupported`.
+    fn open(&self, args: &Args, rig: &mut Rig) -> Result<Box<D>, DriverError>;
+
+    /// The devices that are present now, without opening any. A driver that cannot look finds none.
+    ///
+    /// # Errors
+    /// [`DriverError`] if looking itself fails.
+    fn discover(&self) -> Result<Vec<Found>, DriverError> {
+        Ok(Vec::new())
+    }
+}

@@ -1,0 +1,128 @@
+//! What is known about a device before anybody connects to it.
+
+use crate::driver::{Axes, DriverKind, Speed};
+use crate::footprint::Footprint;
+use crate::frame::FrameInfo;
+use crate::geometry::Point;
+use crate::quantity::{Hertz, Millimetre, Newton};
+
+/// The facts of a device of each kind; an absent one is not known, never assumed.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum Facts {
+    /// Of a sensor.
+    Sensor(Box<SensorFacts>),
+    /// Of a robot.
+    Robot(RobotFacts),
+    /// Of a force transducer.
+    Force(ForceFacts),
+    /// Of a lighting.
+    Lighting(LightingFacts),
+}
+
+impl Facts {
+    /// The kind they are facts of.
+    pub fn kind(&self) -> DriverKind {
+        match self {
+            Facts::Sensor(_) => DriverKind::Sensor,
+            Facts::Robot(_) => DriverKind::Robot,
+            Facts::Force(_) => DriverKind::Force,
+            Facts::Lighting(_) => DriverKind::Lighting,
+        }
+    }
+}
+
+/// What is known about a sensor.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct SensorFacts {
+    /// Size and format of the frames it gives; `None` where only its arguments or a recording decide.
+    pub frame: Option<FrameInfo>,
+    /// Frames a second.
+    pub rate: Option<Hertz>,
+    /// Whether the gel keeps the light of the room from the camera.
+    pub opaque: Option<bool>,
+    /// Whether markers in the gel show how it shears.
+    pub markers: Option<bool>,
+    /// The scenes of the light around it that it can set itself; an opaque gel has none.
+    pub scenes: Vec<String>,
+    /// Where it senses, and how deep it may be pressed.
+    pub footprint: Option<Footprint>,
+    /// How deep it may be pressed; never deeper than the footprint says.
+    pub depth_max: Option<Millimetre>,
+    /// How hard it may be pressed.
+    pub force_max: Option<Newton>,
+    /// Pixels along x and y of its camera, before anything is scaled.
+    pub camera: Option<[u32; 2]>,
+    /// How thick the gel is.
+    pub gel_thickness: Option<Millimetre>,
+    /// The area that the camera sees, in mm².
+    pub field_of_view_mm2: Option<f64>,
+}
+
+impl SensorFacts {
+    /// How deep it may be pressed, by the limit or, without one, by the footprint.
+    pub fn depth_limit(&self) -> Option<Millimetre> {
+        let footprint = self.footprint.and_then(|footprint| footprint.depth_max());
+        self.depth_max
+            .or(footprint.map(|depth| Millimetre(depth.to_millimetres())))
+    }
+}
+
+/// What is known about a robot.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct RobotFacts {
+    /// Where its tip may be.
+    pub workspace: Option<Workspace>,
+    /// How fast it may move.
+    pub speed_max: Option<Speed>,
+    /// How well it comes back to a pose: one standard deviation an axis.
+    pub repeatability: Option<Millimetre>,
+    /// Whether it can stop by itself at a force.
+    pub guarded_motion: bool,
+}
+
+/// The box in which a tip may be, its faces included, in the sensor's frame.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Workspace {
+    /// The corner of the least coordinates.
+    pub least: Point,
+    /// The corner of the greatest coordinates.
+    pub greatest: Point,
+}
+
+impl Workspace {
+    /// Whether `point` lies in it.
+    pub fn contains(&self, point: &Point) -> bool {
+        self.sides(point)
+            .iter()
+            .all(|(least, value, greatest)| least <= value && value <= greatest)
+    }
+
+    fn sides(&self, point: &Point) -> [(f64, f64, f64); 3] {
+        [
+            (self.least.x.0, point.x.0, self.greatest.x.0),
+            (self.least.y.0, point.y.0, self.greatest.y.0),
+            (self.least.z.0, point.z.0, self.greatest.z.0),
+        ]
+    }
+}
+
+/// What is known about a force transducer.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct ForceFacts {
+    /// Which components it measures.
+    pub axes: Axes,
+    /// Readings a second.
+    pub rate: Option<Hertz>,
+    /// The greatest magnitude of each force it can measure.
+    pub force_max: Option<Newton>,
+    /// Whether it can call the present load zero.
+    pub tare: bool,
+}
+
+/// What is known about a lighting.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct LightingFacts {
+    /// The names of its scenes, the one of the calibration first.
+    pub scenes: Vec<String>,
+}

@@ -1,0 +1,83 @@
+//! What the devices of one rig share.
+
+use std::any::Any;
+use std::collections::BTreeMap;
+use std::fmt;
+use std::sync::Arc;
+
+use crate::driver::DriverError;
+
+/// The devices that are opened together: where two of them find the one connection, bus or simulated bench they both need.
+///
+/// ```
+/// use std::sync::{Arc, Mutex};
+/// use taceva_core::Rig;
+/// let mut rig = Rig::new();
+/// let first = rig.share("bench", || Ok(Mutex::new(0.0)))?;
+/// let second: Arc<Mutex<f64>> = rig.share("bench", || Ok(Mutex::new(1.0)))?;
+/// assert!(Arc::ptr_eq(&first, &second));
+/// # Ok::<(), taceva_core::DriverError>(())
+/// ```
+#[derive(Default)]
+pub struct Rig {
+    shared: BTreeMap<String, Arc<dyn Any + Send + Sync>>,
+}
+
+impl Rig {
+    /// A rig without devices.
+    pub fn new() -> Rig {
+        Rig::default()
+    }
+
+    /// The thing called `name`, made by `make` the first time it is asked for.
+    ///
+    /// The name carries whatever tells two of a kind apart: `tcp 192.168.1.10:502`.
+    ///
+    /// # Errors
+    /// What `make` returns; nothing is kept then.
+    /// # Panics
+    /// If another type is kept under that name: two drivers whose code chose one name.
+    pub fn share<T: Any + Send + Sync>(
+        &mut self,
+        name: &str,
+        make: impl FnOnce() -> Result<T, DriverError>,
+    ) -> Result<Arc<T>, DriverError> {
+        let shared = match self.shared.get(name) {
+            Some(shared) => Arc::clone(shared),
+            None => {
+                let made: Arc<dyn Any + Send + Sync> = Arc::new(make()?);
+                self.shared.insert(name.to_owned(), Arc::clone(&made));
+                made
+            }
+        };
+        match shared.downcast() {
+            Ok(shared) => Ok(shared),
+            Err(_) => panic!("two drivers keep different things under the name `{name}`"),
+        }
+    }
+}
+
+impl fmt::Debug for Rig {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_set().entries(self.shared.keys()).finish()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::error::ErrorKind;
+    use crate::id::DriverKey;
+
+    #[test]
+    fn what_could_not_be_made_is_made_by_the_next_who_asks() {
+        let mut rig = Rig::new();
+        let absent = || {
+            let arm = DriverKey::fixed("test/arm");
+            Err::<u8, _>(DriverError::new(ErrorKind::NotFound, &arm, "connect"))
+        };
+        assert!(rig.share("link", absent).is_err());
+        assert_eq!(*rig.share("link", || Ok(5_u8)).expect("made"), 5);
+        assert_eq!(*rig.share("link", || Ok(6_u8)).expect("kept"), 5);
+    }
+}
