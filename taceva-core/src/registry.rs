@@ -6,6 +6,8 @@ mod error;
 mod factory;
 mod facts;
 mod found;
+#[cfg(feature = "inventory")]
+mod linked;
 mod rig;
 
 pub use builtin::Builtin;

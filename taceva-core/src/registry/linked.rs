@@ -1,0 +1,39 @@
+//! The list of the drivers that are linked into the program.
+
+use super::{Builtin, Registry, RegistryError};
+use crate::driver::{Device, ForceTransducer, Lighting, Robot, Sensor};
+
+inventory::collect!(Builtin<dyn Sensor>);
+inventory::collect!(Builtin<dyn Robot>);
+inventory::collect!(Builtin<dyn ForceTransducer>);
+inventory::collect!(Builtin<dyn Lighting>);
+
+impl<D: Device + ?Sized + 'static> Registry<D>
+where
+    Builtin<D>: inventory::Collect,
+{
+    /// The drivers of this kind that are linked in. The list of the program has no order; the registry has.
+    ///
+    /// A crate that is named in `Cargo.toml` and nowhere in the code is not linked, and its drivers vanish without a word:
+    /// `use the_crate as _;` keeps them.
+    ///
+    /// # Errors
+    /// [`RegistryError`] if two have one key, or one contradicts itself.
+    pub fn builtin() -> Result<Registry<D>, RegistryError> {
+        let mut registry = Registry::empty();
+        for builtin in inventory::iter::<Builtin<D>> {
+            registry.add(builtin.factory()?)?;
+        }
+        Ok(registry)
+    }
+}
+
+/// Adds a driver to those that are linked in: the device trait, then a `fn` that makes its factory.
+///
+/// `submit_builtin!(dyn Sensor, || Ok(Box::new(Replay::new()?)));`
+#[macro_export]
+macro_rules! submit_builtin {
+    ($device:ty, $make:expr) => {
+        $crate::inventory::submit! { $crate::Builtin::<$device>::new($make) }
+    };
+}
