@@ -129,6 +129,66 @@ impl Frame {
     }
 }
 
+/// Steps of a 16-bit sample to one of an 8-bit camera.
+const STEPS_OF_16_BIT: u64 = 256;
+
+impl Frame {
+    /// The mean luma, (299 R + 587 G + 114 B) / 1000 of each pixel, in steps of an 8-bit camera; 0 for a frame without pixels.
+    ///
+    /// The sum is exact, the quotient is rounded once for every frame that 8-bit cameras take.
+    ///
+    /// ```
+    /// use taceva_core::{Frame, FrameInfo, PixelFormat};
+    /// let info = FrameInfo { width: 2, height: 1, format: PixelFormat::Rgb8 };
+    /// let frame = Frame::new(info, vec![255, 0, 0, 0, 0, 255])?;
+    /// assert_eq!(frame.mean_luma(), 255.0 * (299.0 + 114.0) / 2000.0);
+    /// # Ok::<(), taceva_core::FrameError>(())
+    /// ```
+    pub fn mean_luma(&self) -> f64 {
+        let (sum, pixels, steps) = match self.info.format {
+            PixelFormat::Gray8 => (
+                1000 * self.bytes.iter().map(|byte| u64::from(*byte)).sum::<u64>(),
+                self.bytes.len(),
+                1,
+            ),
+            PixelFormat::Rgb8 => (
+                weighted(self.bytes.iter().map(|byte| u64::from(*byte))),
+                self.bytes.len() / 3,
+                1,
+            ),
+            PixelFormat::Gray16 => (
+                1000 * self.samples().map(u64::from).sum::<u64>(),
+                self.bytes.len() / 2,
+                STEPS_OF_16_BIT,
+            ),
+            PixelFormat::Rgb16 => (
+                weighted(self.samples().map(u64::from)),
+                self.bytes.len() / 6,
+                STEPS_OF_16_BIT,
+            ),
+        };
+        if pixels == 0 {
+            return 0.0;
+        }
+        #[expect(
+            clippy::cast_precision_loss,
+            reason = "exact up to 2^53, which 35 million 8-bit pixels do not reach"
+        )]
+        let mean = sum as f64 / (pixels as u64 * 1000 * steps) as f64;
+        mean
+    }
+}
+
+/// 299 R + 587 G + 114 B, summed over red, green and blue in turn.
+fn weighted(samples: impl Iterator<Item = u64>) -> u64 {
+    let mut sums = [0; 3];
+    for (position, sample) in samples.enumerate() {
+        sums[position % 3] += sample;
+    }
+    let [red, green, blue] = sums;
+    299 * red + 587 * green + 114 * blue
+}
+
 /// A frame to be written into, in the caller's buffer.
 #[derive(Debug)]
 pub struct FrameMut<'a> {
@@ -211,6 +271,26 @@ mod tests {
     fn sixteen_bit_samples_are_little_endian() {
         let frame = Frame::new(TINY, vec![0x34, 0x12, 0xff, 0x00]).expect("four bytes");
         assert_eq!(frame.samples().collect::<Vec<_>>(), [0x1234, 0x00ff]);
+    }
+
+    #[test]
+    fn the_mean_luma_of_sixteen_bits_is_in_steps_of_eight() {
+        let frame = Frame::new(TINY, vec![0x00, 0x80, 0x00, 0x40]).expect("four bytes");
+        assert_eq!(frame.mean_luma().to_bits(), 96.0_f64.to_bits());
+        let colour = FrameInfo {
+            format: PixelFormat::Rgb16,
+            ..TINY
+        };
+        let white = Frame::new(colour, [0x00, 0xff].repeat(6)).expect("twelve bytes");
+        assert_eq!(white.mean_luma().to_bits(), 255.0_f64.to_bits());
+        let nothing = FrameInfo { width: 0, ..TINY };
+        assert_eq!(
+            Frame::new(nothing, Vec::new())
+                .expect("no byte")
+                .mean_luma()
+                .to_bits(),
+            0.0_f64.to_bits()
+        );
     }
 
     #[test]

@@ -38,7 +38,7 @@ pub struct Sample {
     pub predicted_spacing: Option<Nanometre>,
     /// The mean luma of the full-size picture, (299 R + 587 G + 114 B) / 1000, in steps of an 8-bit camera: 0 to 255.
     pub intensity: Option<f64>,
-    /// The SHA-256 of the picture's bytes in hexadecimal: equal pictures are told without decoding them.
+    /// The SHA-256 of the picture's bytes, `sha256:` and hexadecimal: equal pictures are told without decoding them.
     pub frame_digest: Option<String>,
     /// The picture, decoded.
     pub frame: Option<Frame>,

@@ -304,6 +304,12 @@ impl Recorder {
             phase: sample.phase,
             part: None,
             t_s: sample.stamp.map(|stamp| stamp.valid_s),
+            kind: sample.kind,
+            spacing: sample.spacing,
+            // What the sample says, or else what its picture shows.
+            intensity: sample
+                .intensity
+                .or_else(|| sample.frame.as_ref().map(Frame::mean_luma)),
             truth: (0..channels)
                 .map(|position| sample.truth.get(position))
                 .collect(),

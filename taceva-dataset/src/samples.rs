@@ -13,7 +13,7 @@ use parquet::file::properties::WriterProperties;
 use parquet::file::reader::{FileReader, SerializedFileReader};
 use parquet::file::writer::{SerializedFileWriter, SerializedRowGroupWriter};
 use parquet::schema::types::Type;
-use taceva_core::{Channels, Phase};
+use taceva_core::{Channels, GratingKind, Nanometre, Phase};
 
 use crate::digest::Digest;
 use crate::guard::guarded;
@@ -66,7 +66,7 @@ fn write(table: &Table) -> Result<Vec<u8>, ParquetError> {
 
 fn field(column: &NamedColumn<'_>) -> Result<Type, ParquetError> {
     let (physical, logical) = match column.cells {
-        Cells::Number(_) | Cells::Time(_) => (PhysicalType::DOUBLE, None),
+        Cells::Number(_) | Cells::Measured(_) | Cells::Spacing(_) => (PhysicalType::DOUBLE, None),
         Cells::Count(_) => (PhysicalType::INT64, None),
         _ => (PhysicalType::BYTE_ARRAY, Some(LogicalType::String)),
     };
@@ -82,7 +82,7 @@ fn write_column(
     rows: usize,
 ) -> Result<(), ParquetError> {
     match cells {
-        Cells::Number(_) | Cells::Time(_) => {
+        Cells::Number(_) | Cells::Measured(_) | Cells::Spacing(_) => {
             write_values::<DoubleType>(group, (0..rows).map(|row| cells.number(row)))
         }
         Cells::Count(counts) => {
@@ -282,6 +282,21 @@ fn assemble(
                 .transpose()?,
             part: columns.text("part", row)?,
             t_s: columns.number("t_s", row)?,
+            kind: columns
+                .text("kind", row)?
+                .map(|name| {
+                    GratingKind::from_name(&name)
+                        .ok_or_else(|| format!("row {row}: no such kind of grating"))
+                })
+                .transpose()?,
+            spacing: columns
+                .number("spacing_mm", row)?
+                .map(|length| {
+                    Nanometre::from_millimetres(length)
+                        .ok_or_else(|| format!("row {row}: {length} mm is no spacing"))
+                })
+                .transpose()?,
+            intensity: columns.number("intensity", row)?,
             truth: channels
                 .iter()
                 .map(|channel| columns.number(channel.name(), row))
@@ -332,6 +347,9 @@ mod tests {
                 repeat: Some(u32::MAX - u32::from(row)),
                 phase: is_even.then_some(Phase::Load),
                 t_s: Some(1.7e9 + f64::from(row)),
+                kind: is_even.then_some(GratingKind::Dot),
+                spacing: Some(Nanometre(350_000 + i64::from(row))),
+                intensity: is_even.then_some(107.3),
                 truth: vec![is_even.then_some(-0.0), Some(f64::from(row) / 3.0)],
                 attributes: vec![Some("ä,\"\n".to_owned()).filter(|_| is_even)],
                 ..Row::default()

@@ -1,50 +1,17 @@
 //! The labels of a recording in memory, column by column.
 
 mod cells;
+mod row;
 
-use taceva_core::{Channels, Column, Field, FieldSet, Frame, Phase, Readings, Sample, Stamp};
+use taceva_core::{
+    Channels, Column, Field, FieldSet, Frame, GratingKind, Nanometre, Phase, Readings, Sample,
+    Stamp,
+};
 
 use crate::digest::{Digest, PartsDigest};
 
 pub(crate) use cells::{Cells, NamedColumn, RESERVED, is_attribute_name};
-
-/// Where the file of a frame lies within the dataset, and what its bytes must be.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct FrameEntry {
-    /// Relative to the folder of the dataset, with `/`.
-    pub path: String,
-    /// Of the bytes of the file.
-    pub digest: Digest,
-}
-
-/// One row of a [`Table`]; what is absent is `None`.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Row {
-    /// Its name, once in a table.
-    pub sample: String,
-    /// The contact location: what repeats share.
-    pub point_id: Option<String>,
-    /// The sensor unit.
-    pub unit_id: Option<String>,
-    /// The lighting scene or the like.
-    pub scene: Option<String>,
-    /// The depth level within the point.
-    pub depth_step: Option<u32>,
-    /// The number of the repeat.
-    pub repeat: Option<u32>,
-    /// Load or unload.
-    pub phase: Option<Phase>,
-    /// The part of a declared split it belongs to.
-    pub part: Option<String>,
-    /// The time in seconds of the recording's clock.
-    pub t_s: Option<f64>,
-    /// A value a channel of the table.
-    pub truth: Vec<Option<f64>>,
-    /// A text an attribute of the table.
-    pub attributes: Vec<Option<String>>,
-    /// The picture.
-    pub frame: Option<FrameEntry>,
-}
+pub use row::{FrameEntry, Row};
 
 /// All labels of a recording.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -60,6 +27,9 @@ pub struct Table {
     phase: Vec<Option<Phase>>,
     part: Vec<Option<String>>,
     t_s: Vec<Option<f64>>,
+    kind: Vec<Option<GratingKind>>,
+    spacing: Vec<Option<Nanometre>>,
+    intensity: Vec<Option<f64>>,
     attribute_names: Vec<String>,
     attributes: Vec<Vec<Option<String>>>,
     frames: Vec<Option<FrameEntry>>,
@@ -97,6 +67,9 @@ impl Table {
         self.phase.push(row.phase);
         self.part.push(row.part);
         self.t_s.push(row.t_s);
+        self.kind.push(row.kind);
+        self.spacing.push(row.spacing);
+        self.intensity.push(row.intensity);
         self.frames.push(row.frame);
         for (column, value) in self.truth.iter_mut().zip(row.truth) {
             column.push(value);
@@ -166,6 +139,21 @@ impl Table {
         &self.t_s
     }
 
+    /// The relief of the grating that each row touches.
+    pub fn kind(&self) -> &[Option<GratingKind>] {
+        &self.kind
+    }
+
+    /// The spacing of that grating.
+    pub fn spacing(&self) -> &[Option<Nanometre>] {
+        &self.spacing
+    }
+
+    /// The mean luma of each row's full-size frame, in steps of an 8-bit camera.
+    pub fn intensity(&self) -> &[Option<f64>] {
+        &self.intensity
+    }
+
     /// The frame of each row.
     pub fn frames(&self) -> &[Option<FrameEntry>] {
         &self.frames
@@ -209,6 +197,10 @@ impl Table {
             (Field::Scene, self.scene.iter().any(Option::is_some)),
             (Field::UnitId, self.unit_id.iter().any(Option::is_some)),
             (Field::Stamp, self.t_s.iter().any(Option::is_some)),
+            (Field::Kind, self.kind.iter().any(Option::is_some)),
+            (Field::Spacing, self.spacing.iter().any(Option::is_some)),
+            (Field::Intensity, self.intensity.iter().any(Option::is_some)),
+            (Field::FrameDigest, self.frames.iter().any(Option::is_some)),
         ];
         carried
             .into_iter()
@@ -246,6 +238,14 @@ impl Table {
                     valid_s,
                     received_s: None,
                 }),
+            kind: self.kind[row].filter(|_| wanted(Field::Kind)),
+            spacing: self.spacing[row].filter(|_| wanted(Field::Spacing)),
+            predicted_spacing: None,
+            intensity: self.intensity[row].filter(|_| wanted(Field::Intensity)),
+            frame_digest: self.frames[row]
+                .as_ref()
+                .filter(|_| wanted(Field::FrameDigest))
+                .map(|entry| entry.digest.to_string()),
             frame,
             truth,
             prediction: None,
@@ -273,9 +273,10 @@ impl Table {
         digest.finish()
     }
 
-    /// Says where the file of a row's frame lies.
-    pub(crate) fn set_frame(&mut self, row: usize, entry: FrameEntry) {
+    /// Says where the file of a row's frame lies, and how bright it is.
+    pub(crate) fn set_frame(&mut self, row: usize, entry: FrameEntry, intensity: f64) {
         self.frames[row] = Some(entry);
+        self.intensity[row] = Some(intensity);
     }
 
     /// Every column that says something, in the one order in which tables are digested, stored and exported.
@@ -290,7 +291,10 @@ impl Table {
             named("repeat", Cells::Count(&self.repeat)),
             named("phase", Cells::Phase(&self.phase)),
             named("part", Cells::Text(&self.part)),
-            named("t_s", Cells::Time(&self.t_s)),
+            named("t_s", Cells::Measured(&self.t_s)),
+            named("kind", Cells::Kind(&self.kind)),
+            named("spacing_mm", Cells::Spacing(&self.spacing)),
+            named("intensity", Cells::Measured(&self.intensity)),
         ];
         columns.extend(
             self.attribute_names

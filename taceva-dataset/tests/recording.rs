@@ -9,7 +9,8 @@ use std::process::{Child, Command, Stdio};
 
 use lab::Random;
 use taceva_core::{
-    Channel, Channels, Clock, Frame, FrameInfo, Phase, PixelFormat, Readings, Sample, Stamp,
+    Channel, Channels, Clock, Frame, FrameInfo, GratingKind, Nanometre, Phase, PixelFormat,
+    Readings, Sample, Stamp,
 };
 use taceva_dataset::{
     Dataset, DatasetError, Known, Recorder, RecordingFacts, RecordingSpec, SensorFacts, Source,
@@ -50,6 +51,8 @@ fn sample(number: u8) -> Sample {
         depth_step: Some(3),
         repeat: Some(u32::from(number)),
         phase: Some(Phase::Unload),
+        kind: Some(GratingKind::Line),
+        spacing: Some(Nanometre(350_000)),
         stamp: Some(Stamp {
             valid_s: f64::from(number) / 3.0,
             received_s: None,
@@ -79,9 +82,15 @@ fn what_was_recorded_is_read_back_bit_for_bit() {
         let row = usize::from(number) - 1;
         let decoded = dataset.frame(row).expect("decodes");
         let fields = dataset.table().fields();
-        let mut expected = sample(number);
-        expected.sensor_id = None;
-        assert_eq!(dataset.table().sample(row, fields, decoded), expected);
+        let read = dataset.table().sample(row, fields, decoded);
+        let expected = Sample {
+            intensity: Some(frame(number).mean_luma()),
+            frame_digest: read.frame_digest.clone(),
+            ..sample(number)
+        };
+        assert_eq!(read, expected);
+        let digest = read.frame_digest.expect("a frame has a digest");
+        assert!(digest.starts_with("sha256:"), "{digest}");
     }
 }
 

@@ -78,6 +78,7 @@ struct Copied {
     kind: ImageKind,
     info: FrameInfo,
     entry: FrameEntry,
+    intensity: f64,
 }
 
 /// Frames copied at a time by each job: most of a copy is waiting until the disk has it, and disks like to be asked for
@@ -108,10 +109,15 @@ fn copy_frames(
             if progress.is_cancelled() {
                 return Err(DatasetError::Cancelled);
             }
-            let Copied { kind, info, entry } = copied?;
+            let Copied {
+                kind,
+                info,
+                entry,
+                intensity,
+            } = copied?;
             let expected = *first.get_or_insert((kind, info));
             check_alike(frames, row, expected, (kind, info))?;
-            table.set_frame(row, entry);
+            table.set_frame(row, entry, intensity);
             progress.advance(1);
             Ok(())
         },
@@ -173,6 +179,7 @@ fn copy_element(
             path: relative,
             digest: Digest::of(&bytes),
         },
+        intensity: frame.mean_luma(),
     })
 }
 
@@ -203,6 +210,7 @@ fn copy_image(
             path: relative,
             digest: Digest::of(&bytes),
         },
+        intensity: frame.mean_luma(),
     })
 }
 

@@ -122,6 +122,10 @@ pub struct IdMap {
     pub phase: Option<String>,
     /// The part of a declared split.
     pub part: Option<String>,
+    /// The relief of a grating: `line` or `dot`.
+    pub kind: Option<String>,
+    /// The spacing of a grating, in mm as decimal text.
+    pub spacing_mm: Option<String>,
 }
 
 /// The column of the time.

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use taceva_core::Phase;
+use taceva_core::{GratingKind, Nanometre, Phase};
 
 use super::map::{FrameNames, ImportMap};
 use crate::csv_table::CsvTable;
@@ -23,6 +23,8 @@ pub(super) struct MappedTable<'a> {
     repeat: Option<usize>,
     phase: Option<usize>,
     part: Option<usize>,
+    kind: Option<usize>,
+    spacing: Option<usize>,
     attributes: Vec<usize>,
     time: Option<usize>,
     flags: Option<usize>,
@@ -70,6 +72,8 @@ impl<'a> MappedTable<'a> {
             repeat: find_optional(&ids.repeat)?,
             phase: find_optional(&ids.phase)?,
             part: find_optional(&ids.part)?,
+            kind: find_optional(&ids.kind)?,
+            spacing: find_optional(&ids.spacing_mm)?,
             attributes: map
                 .attributes
                 .values()
@@ -152,6 +156,9 @@ impl<'a> MappedTable<'a> {
             phase: self.phase(row)?,
             part: text(self.part),
             t_s: self.time(row)?,
+            kind: self.kind(row)?,
+            spacing: self.spacing(row)?,
+            intensity: None,
             truth: self.truth(row)?,
             attributes: self
                 .attributes
@@ -256,6 +263,31 @@ impl<'a> MappedTable<'a> {
             name => Phase::from_name(name)
                 .map(Some)
                 .ok_or_else(|| self.wrong(row, column, "expected `load` or `unload`")),
+        }
+    }
+
+    fn kind(&self, row: usize) -> Result<Option<GratingKind>, DatasetError> {
+        let Some(column) = self.kind else {
+            return Ok(None);
+        };
+        match self.table.cell(row, column) {
+            "" => Ok(None),
+            name => GratingKind::from_name(name)
+                .map(Some)
+                .ok_or_else(|| self.wrong(row, column, "expected `line` or `dot`")),
+        }
+    }
+
+    fn spacing(&self, row: usize) -> Result<Option<Nanometre>, DatasetError> {
+        let Some(column) = self.spacing else {
+            return Ok(None);
+        };
+        match self.table.cell(row, column) {
+            "" => Ok(None),
+            text => match text.parse::<Nanometre>() {
+                Ok(spacing) if spacing > Nanometre(0) => Ok(Some(spacing)),
+                _ => Err(self.wrong(row, column, "expected a spacing in mm, such as 0.35")),
+            },
         }
     }
 

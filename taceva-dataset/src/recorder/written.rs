@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use serde::{Deserialize, Serialize};
-use taceva_core::{Channel, Channels, Clock, FrameInfo, Phase, Unit};
+use taceva_core::{Channel, Channels, Clock, FrameInfo, GratingKind, Nanometre, Phase, Unit};
 
 use super::RecordingSpec;
 use crate::digest::Digest;
@@ -86,6 +86,12 @@ pub(super) struct WrittenSample {
     phase: Option<Phase>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     t_s: Option<f64>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    kind: Option<GratingKind>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    spacing_nm: Option<i64>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    intensity: Option<f64>,
     truth: BTreeMap<String, f64>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     frame: Option<WrittenFrame>,
@@ -124,6 +130,9 @@ impl WrittenSample {
             repeat: row.repeat,
             phase: row.phase,
             t_s: row.t_s,
+            kind: row.kind,
+            spacing_nm: row.spacing.map(|spacing| spacing.0),
+            intensity: row.intensity,
             truth: truth
                 .filter_map(|(channel, value)| Some((channel.name().to_owned(), (*value)?)))
                 .collect(),
@@ -159,6 +168,7 @@ impl WrittenSample {
             .truth
             .values()
             .chain(&self.t_s)
+            .chain(&self.intensity)
             .any(|number| !number.is_finite())
         {
             return Err("a number that is not finite".to_owned());
@@ -177,6 +187,9 @@ impl WrittenSample {
             phase: self.phase,
             part: None,
             t_s: self.t_s,
+            kind: self.kind,
+            spacing: self.spacing_nm.map(Nanometre),
+            intensity: self.intensity,
             truth: channels
                 .iter()
                 .map(|channel| self.truth.get(channel.name()).copied())

@@ -1,12 +1,12 @@
 //! The columns of a table, whatever they hold, seen in one way: to be digested, stored and exported.
 
-use taceva_core::{Channel, Column, Phase, Unit};
+use taceva_core::{Channel, Column, GratingKind, Nanometre, Phase, Unit};
 
 use super::FrameEntry;
 use crate::digest::PartsDigest;
 
 /// Names that columns beside the channels have on disk; no channel and no attribute may be called so.
-pub(crate) const RESERVED: [&str; 11] = [
+pub(crate) const RESERVED: [&str; 14] = [
     "sample",
     "point_id",
     "unit_id",
@@ -16,6 +16,9 @@ pub(crate) const RESERVED: [&str; 11] = [
     "phase",
     "part",
     "t_s",
+    "kind",
+    "spacing_mm",
+    "intensity",
     "frame",
     "frame_sha256",
 ];
@@ -37,7 +40,9 @@ pub(crate) enum Cells<'a> {
     Text(&'a [Option<String>]),
     Count(&'a [Option<u32>]),
     Phase(&'a [Option<Phase>]),
-    Time(&'a [Option<f64>]),
+    Kind(&'a [Option<GratingKind>]),
+    Spacing(&'a [Option<Nanometre>]),
+    Measured(&'a [Option<f64>]),
     Number(&'a Column),
     FramePath(&'a [Option<FrameEntry>]),
     FrameDigest(&'a [Option<FrameEntry>]),
@@ -50,7 +55,9 @@ impl Cells<'_> {
             Cells::Text(cells) => cells[row].is_some(),
             Cells::Count(cells) => cells[row].is_some(),
             Cells::Phase(cells) => cells[row].is_some(),
-            Cells::Time(cells) => cells[row].is_some(),
+            Cells::Kind(cells) => cells[row].is_some(),
+            Cells::Spacing(cells) => cells[row].is_some(),
+            Cells::Measured(cells) => cells[row].is_some(),
             Cells::Number(cells) => cells.get(row).is_some(),
             Cells::FramePath(cells) | Cells::FrameDigest(cells) => cells[row].is_some(),
         }
@@ -59,7 +66,8 @@ impl Cells<'_> {
     /// The number in a row, of a column of numbers.
     pub(crate) fn number(&self, row: usize) -> Option<f64> {
         match self {
-            Cells::Time(cells) => cells[row],
+            Cells::Spacing(cells) => cells[row].map(Nanometre::to_millimetres),
+            Cells::Measured(cells) => cells[row],
             Cells::Number(cells) => cells.get(row),
             _ => None,
         }
@@ -72,7 +80,8 @@ impl Cells<'_> {
             Cells::Text(cells) => cells[row].clone(),
             Cells::Count(cells) => cells[row].map(|count| count.to_string()),
             Cells::Phase(cells) => cells[row].map(|phase| phase.to_string()),
-            Cells::Time(_) | Cells::Number(_) => {
+            Cells::Kind(cells) => cells[row].map(|kind| kind.to_string()),
+            Cells::Spacing(_) | Cells::Measured(_) | Cells::Number(_) => {
                 self.number(row).map(|number| format!("{number:?}"))
             }
             Cells::FramePath(cells) => cells[row].as_ref().map(|entry| entry.path.clone()),
@@ -83,7 +92,7 @@ impl Cells<'_> {
     pub(super) fn digest(&self, row: usize, digest: &mut PartsDigest) {
         digest.fixed(&[u8::from(self.is_present(row))]);
         match self {
-            Cells::Time(_) | Cells::Number(_) => {
+            Cells::Spacing(_) | Cells::Measured(_) | Cells::Number(_) => {
                 if let Some(number) = self.number(row) {
                     digest.fixed(&number.to_le_bytes());
                 }
