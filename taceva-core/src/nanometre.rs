@@ -36,12 +36,17 @@ impl Nanometre {
 
     /// In mm, rounded once.
     pub fn to_millimetres(self) -> f64 {
+        self.to_f64() / PER_MILLIMETRE
+    }
+
+    /// The number of nanometres, exact up to 2⁵³.
+    pub fn to_f64(self) -> f64 {
         #[expect(
             clippy::cast_precision_loss,
             reason = "lengths up to 2^53 nm are exact"
         )]
         let nanometres = self.0 as f64;
-        nanometres / PER_MILLIMETRE
+        nanometres
     }
 }
 

@@ -1,6 +1,7 @@
 //! The labels of a recording in memory, column by column.
 
 mod cells;
+mod fields;
 mod row;
 
 use taceva_core::{

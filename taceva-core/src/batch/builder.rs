@@ -109,20 +109,12 @@ fn text(sample: &Sample, field: Field) -> Option<&str> {
 
 /// What `sample` says in the number field.
 fn number(sample: &Sample, field: Field) -> Option<f64> {
-    let nanometres = |length: Nanometre| {
-        #[expect(
-            clippy::cast_precision_loss,
-            reason = "lengths up to 2^53 nm are exact"
-        )]
-        let exact = length.0 as f64;
-        exact
-    };
     match field {
         Field::DepthStep => sample.depth_step.map(f64::from),
         Field::Repeat => sample.repeat.map(f64::from),
         Field::Stamp => sample.stamp.map(|stamp| stamp.valid_s),
-        Field::Spacing => sample.spacing.map(nanometres),
-        Field::PredictedSpacing => sample.predicted_spacing.map(nanometres),
+        Field::Spacing => sample.spacing.map(Nanometre::to_f64),
+        Field::PredictedSpacing => sample.predicted_spacing.map(Nanometre::to_f64),
         Field::Intensity => sample.intensity,
         _ => None,
     }

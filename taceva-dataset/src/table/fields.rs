@@ -1,0 +1,57 @@
+//! The fields of some rows as the columns that metrics read.
+
+use taceva_core::{Column, Field, Labels, Nanometre};
+
+use super::Table;
+
+impl Table {
+    /// The texts of `field` in `rows`, in their order: contact location, unit, scene, phase, kind of grating or digest of the
+    /// frame. `None` for fields that hold no text.
+    ///
+    /// # Panics
+    /// If there is no such row.
+    pub fn labels(&self, field: Field, rows: impl Iterator<Item = usize>) -> Option<Labels> {
+        let mut labels = Labels::default();
+        let mut push = |name: Option<&str>| match name {
+            Some(name) => labels.push(name),
+            None => labels.push_absent(),
+        };
+        match field {
+            Field::Point => rows.for_each(|row| push(self.point_id[row].as_deref())),
+            Field::UnitId => rows.for_each(|row| push(self.unit_id[row].as_deref())),
+            Field::Scene => rows.for_each(|row| push(self.scene[row].as_deref())),
+            Field::Phase => rows.for_each(|row| push(self.phase[row].map(|phase| phase.name()))),
+            Field::Kind => rows.for_each(|row| push(self.kind[row].map(|kind| kind.name()))),
+            Field::FrameDigest => rows.for_each(|row| {
+                let digest = self.frames[row]
+                    .as_ref()
+                    .map(|frame| frame.digest.to_string());
+                push(digest.as_deref());
+            }),
+            _ => return None,
+        }
+        Some(labels)
+    }
+
+    /// The numbers of `field` in `rows`, in their order: depth step, repeat, time in s, spacing in whole nm, intensity. `None`
+    /// for fields that hold no number.
+    ///
+    /// # Panics
+    /// If there is no such row.
+    pub fn numbers(&self, field: Field, rows: impl Iterator<Item = usize>) -> Option<Column> {
+        let mut column = Column::default();
+        match field {
+            Field::DepthStep => {
+                rows.for_each(|row| column.push(self.depth_step[row].map(f64::from)))
+            }
+            Field::Repeat => rows.for_each(|row| column.push(self.repeat[row].map(f64::from))),
+            Field::Stamp => rows.for_each(|row| column.push(self.t_s[row])),
+            Field::Spacing => {
+                rows.for_each(|row| column.push(self.spacing[row].map(Nanometre::to_f64)))
+            }
+            Field::Intensity => rows.for_each(|row| column.push(self.intensity[row])),
+            _ => return None,
+        }
+        Some(column)
+    }
+}
