@@ -1,1 +1,5 @@
 #![doc = include_str!("../README.md")]
+
+pub mod displacement;
+pub mod elastic;
+pub mod random;

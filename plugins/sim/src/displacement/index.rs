@@ -1,0 +1,118 @@
+//! Where a radius lies in a table: fine near the contact, coarser in proportion further out.
+//!
+//! Tables are indexed by t = 1 + (r/a)², each octave of t cut into equal cells, out to 64 contact radii. The place in the octave is
+//! read off the bits of the number: no logarithm, no square root. The contact's rim, t = 2, is a node, so a kink there stays one.
+
+use super::radial::Radial;
+
+/// Cells an octave; a power of two.
+const CELLS: usize = 1 << CELL_BITS;
+const CELL_BITS: u32 = 6;
+/// Octaves of t.
+const OCTAVES: usize = 12;
+/// Values a table: one a node, from the centre to 64 contact radii.
+pub const NODES: usize = OCTAVES * CELLS + 1;
+
+/// Bits of the fraction in a binary32.
+const FRACTION_BITS: u32 = f32::MANTISSA_DIGITS - 1;
+const CELL_SHIFT: u32 = FRACTION_BITS - CELL_BITS;
+
+/// A place between two nodes of a table.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Place {
+    /// The node below, at most `NODES - 2`.
+    pub cell: usize,
+    /// How far towards the next node: 0 to 1.
+    pub fraction: f32,
+}
+
+impl Place {
+    /// The value of `table` here, linear in r² between nodes.
+    #[inline(always)]
+    pub fn of(self, table: &Radial) -> f32 {
+        let below = table[self.cell];
+        below + self.fraction * (table[self.cell + 1] - below)
+    }
+}
+
+/// The place of t = 1 + (r/a)²; places further out than the table are its end.
+///
+/// ```
+/// use taceva_sim::displacement::{locate, node};
+/// let place = locate(2.5);
+/// assert_eq!((node(place.cell), place.fraction), (2.5, 0.0));
+/// ```
+#[inline(always)]
+pub fn locate(t: f32) -> Place {
+    let bits = t.to_bits();
+    let cell = (bits >> CELL_SHIFT).wrapping_sub(1.0_f32.to_bits() >> CELL_SHIFT) as usize;
+    if cell >= NODES - 1 {
+        return Place {
+            cell: NODES - 2,
+            fraction: 1.0,
+        };
+    }
+    let rest = bits & ((1 << CELL_SHIFT) - 1);
+    let one_to_two = f32::from_bits((rest << CELL_BITS) | 1.0_f32.to_bits());
+    Place {
+        cell,
+        fraction: one_to_two - 1.0,
+    }
+}
+
+/// t at a node.
+pub fn node(position: usize) -> f64 {
+    let octave = i32::try_from(position / CELLS).expect("tables have few octaves");
+    #[expect(
+        clippy::cast_precision_loss,
+        reason = "a cell is a number below its count, 64"
+    )]
+    let within = (position % CELLS) as f64 / CELLS as f64;
+    libm::ldexp(1.0 + within, octave)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_node_is_found_at_its_own_place() {
+        for position in 0..NODES - 1 {
+            #[expect(
+                clippy::cast_possible_truncation,
+                reason = "nodes are exact in binary32"
+            )]
+            let place = locate(node(position) as f32);
+            assert_eq!((place.cell, place.fraction.to_bits()), (position, 0));
+        }
+    }
+
+    #[test]
+    fn the_end_of_the_table_is_the_end_of_everything_beyond() {
+        for t in [4096.0, 1e9, f32::INFINITY] {
+            let place = locate(t);
+            assert_eq!(
+                (place.cell, place.fraction.to_bits()),
+                (NODES - 2, 1.0_f32.to_bits())
+            );
+        }
+    }
+
+    #[test]
+    fn between_nodes_a_table_is_linear_in_the_square_of_the_radius() {
+        let table: Box<Radial> = Box::new(std::array::from_fn(|position| {
+            #[expect(
+                clippy::cast_possible_truncation,
+                reason = "nodes are exact in binary32"
+            )]
+            let t = node(position) as f32;
+            3.0 * t - 1.0
+        }));
+        for t in [1.0_f32, 1.003, 1.99, 2.01, 7.77, 500.5] {
+            assert!(
+                (locate(t).of(&table) - (3.0 * t - 1.0)).abs() < 2e-6 * t,
+                "{t}"
+            );
+        }
+    }
+}

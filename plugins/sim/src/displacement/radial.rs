@@ -1,0 +1,57 @@
+//! The radial functions that a table holds.
+
+use super::index::NODES;
+
+/// A function of r², a value a [`node`](super::node).
+pub type Radial = [f32; NODES];
+
+/// What a radial function tells; the unit is that of a unit force on a unit modulus at unit contact radius.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[repr(usize)]
+pub enum Quantity {
+    /// Depth of the surface under pressure, into the gel.
+    Sink,
+    /// Derivative of the depth by r, over r.
+    SinkSlope,
+    /// Displacement outwards under pressure, over r.
+    Outward,
+    /// Displacement along the shear, the part that does not turn with the place: A₀ + A₂.
+    Along,
+    /// Displacement towards the shear's axis, over r²: 2 A₂/r².
+    Radial,
+    /// Height of the bulge in front of the shear on its axis, over r.
+    Bulge,
+    /// Derivative by r of the bulge over r, over r.
+    BulgeSlope,
+}
+
+impl Quantity {
+    /// Every quantity, in the order of its number.
+    pub const ALL: [Quantity; 7] = [
+        Quantity::Sink,
+        Quantity::SinkSlope,
+        Quantity::Outward,
+        Quantity::Along,
+        Quantity::Radial,
+        Quantity::Bulge,
+        Quantity::BulgeSlope,
+    ];
+
+    /// Whether it answers the shear rather than the pressure.
+    pub(super) const fn is_of_shear(self) -> bool {
+        !matches!(
+            self,
+            Quantity::Sink | Quantity::SinkSlope | Quantity::Outward
+        )
+    }
+
+    /// How often its unit has the contact radius in the denominator.
+    pub(super) const fn radius_power(self) -> u8 {
+        match self {
+            Quantity::Sink | Quantity::Along => 1,
+            Quantity::Outward | Quantity::Bulge => 2,
+            Quantity::SinkSlope | Quantity::Radial => 3,
+            Quantity::BulgeSlope => 4,
+        }
+    }
+}

@@ -1,0 +1,83 @@
+//! How an elastic layer bonded to a rigid plate answers a wave of pressure or shear on its surface.
+//!
+//! With ζ = k h the wave number times the thickness, κ = 3 − 4ν and D = 2κ cosh 2ζ + 4ζ² + 1 + κ²:
+//!
+//! * pressure → normal displacement: 2(1−ν²)/(E k) · L,  L = (2κ sinh 2ζ − 4ζ)/D;
+//! * shear along the wave → along it: 2(1−ν²)/(E k) · M,  M = (2κ sinh 2ζ + 4ζ)/D;
+//! * shear across the wave → across it: T/(G k),  T = tanh ζ;
+//! * pressure → displacement along the wave, and shear → normal: N/(G k),  N = [2ζ² − κ(κ−1)/2 (cosh 2ζ − 1)]/D.
+//!
+//! Numerators and D are multiplied by e^(−2ζ), so that no wave is too short.
+//!
+//! # Reference
+//! Plane-strain solution of a layer without displacement at its base; derived here, checked against numerical integration.
+
+/// The four answers of the layer; all without unit.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Kernel {
+    /// L: pressure to normal displacement.
+    pub normal: f64,
+    /// M: shear along the wave to displacement along it.
+    pub along: f64,
+    /// T: shear across the wave to displacement across it.
+    pub across: f64,
+    /// N: pressure to displacement along the wave, outward where positive.
+    pub coupling: f64,
+}
+
+impl Kernel {
+    /// The answers at ζ = `zeta` ≥ 0 of a layer with the given Poisson's ratio.
+    pub fn of_layer(zeta: f64, poisson_ratio: f64) -> Kernel {
+        let kappa = 3.0 - 4.0 * poisson_ratio;
+        let decay = libm::exp(-2.0 * zeta);
+        let odd = kappa * (1.0 - decay * decay);
+        let linear = 4.0 * zeta * decay;
+        let denominator =
+            kappa * (1.0 + decay * decay) + (4.0 * zeta * zeta + 1.0 + kappa * kappa) * decay;
+        let swell = 2.0 * zeta * zeta * decay;
+        let draw = 0.25 * kappa * (kappa - 1.0) * (1.0 - decay) * (1.0 - decay);
+        Kernel {
+            normal: (odd - linear) / denominator,
+            along: (odd + linear) / denominator,
+            across: (1.0 - decay) / (1.0 + decay),
+            coupling: (swell - draw) / denominator,
+        }
+    }
+
+    /// The answers of a layer without end: ζ → ∞.
+    pub fn of_half_space(poisson_ratio: f64) -> Kernel {
+        Kernel {
+            normal: 1.0,
+            along: 1.0,
+            across: 1.0,
+            coupling: poisson_ratio - 0.5,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_very_thick_layer_answers_as_a_half_space() {
+        for poisson_ratio in [0.3, 0.45, 0.5] {
+            let thick = Kernel::of_layer(400.0, poisson_ratio);
+            let half_space = Kernel::of_half_space(poisson_ratio);
+            assert!((thick.normal - half_space.normal).abs() < 1e-12);
+            assert!((thick.along - half_space.along).abs() < 1e-12);
+            assert!((thick.coupling - half_space.coupling).abs() < 1e-12);
+        }
+    }
+
+    #[test]
+    fn a_long_wave_squeezes_the_layer_like_a_confined_column() {
+        let (zeta, poisson_ratio) = (1e-3, 0.3);
+        let kernel = Kernel::of_layer(zeta, poisson_ratio);
+        // u = p h (1+ν)(1−2ν) / (E (1−ν)), so L → ζ (1−2ν) / (2 (1−ν)²).
+        let confined = zeta * (1.0 - 2.0 * poisson_ratio) / (2.0 * (1.0 - poisson_ratio).powi(2));
+        assert!((kernel.normal / confined - 1.0).abs() < 1e-4);
+        // u = q h / G, so M → ζ / (1−ν).
+        assert!((kernel.along / (zeta / (1.0 - poisson_ratio)) - 1.0).abs() < 1e-4);
+    }
+}

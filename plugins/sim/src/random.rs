@@ -1,0 +1,181 @@
+//! Random numbers that are looked up, not drawn: each is a function of what it is for.
+//!
+//! A number is named by the seed, a [`Purpose`], an identity (a press, a point, a frame) and an index. So a press looks the same
+//! whichever press came before it, on which thread it was made, and whether the run was interrupted.
+//!
+//! The mixing is the finaliser of splitmix64 (Steele, Lea and Flood, *Fast splittable pseudorandom number generators*, OOPSLA 2014),
+//! applied once a coordinate; normal numbers come from one uniform number through the inverse of the distribution.
+
+mod normal;
+
+/// What a random number is for; different purposes never share a number.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[repr(u32)]
+#[non_exhaustive]
+pub enum Purpose {
+    /// How stiff the gel of a unit is, here and there.
+    Stiffness = 1,
+    /// How the surface of a unit deviates: gap and blisters.
+    Surface,
+    /// Where the robot stands rather than where it was sent.
+    Positioning,
+    /// How far the search for contact starts from the surface.
+    SearchPhase,
+    /// The transducer's noise during the search for contact.
+    SearchNoise,
+    /// The transducer's zero, a point.
+    ZeroDrift,
+    /// The transducer's zero, a press.
+    PressDrift,
+    /// The transducer's white noise in what is logged.
+    ForceNoise,
+    /// The transducer's cross-talk.
+    CrossTalk,
+    /// Where points lie and how deep they are pressed.
+    Draws,
+    /// The flicker of a frame.
+    Flicker,
+    /// The noise of a frame's pixels.
+    PixelNoise,
+    /// The texture of a unit's picture.
+    Texture,
+    /// The gains of a unit's lamps.
+    LampGain,
+    /// The places of a unit's markers.
+    MarkerJitter,
+    /// The buckling of a lattice under a press.
+    Buckling,
+    /// How a grating is turned and shifted.
+    GratingPose,
+}
+
+/// All random numbers of one seed.
+///
+/// ```
+/// use taceva_sim::random::{Purpose, Random};
+/// let random = Random::new(7);
+/// let press = random.stream(Purpose::ForceNoise, 41);
+/// assert_eq!(press.normal(0).to_bits(), Random::new(7).stream(Purpose::ForceNoise, 41).normal(0).to_bits());
+/// assert_ne!(press.bits(0), press.bits(1));
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Random {
+    key: u64,
+}
+
+impl Random {
+    /// The numbers of `seed`.
+    pub fn new(seed: u64) -> Random {
+        Random { key: mix(seed) }
+    }
+
+    /// The numbers for one purpose and one identity.
+    pub fn stream(&self, purpose: Purpose, identity: u64) -> Stream {
+        let purpose = mix(self.key ^ u64::from(purpose as u32));
+        Stream {
+            key: mix(purpose ^ identity),
+        }
+    }
+}
+
+/// Random numbers of one purpose and one identity, by index.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Stream {
+    key: u64,
+}
+
+impl Stream {
+    /// 64 random bits.
+    #[inline]
+    pub fn bits(&self, index: u64) -> u64 {
+        mix(self.key.wrapping_add(index.wrapping_mul(GOLDEN)))
+    }
+
+    /// A number strictly between 0 and 1, a multiple of 2⁻⁵³ minus half of one.
+    #[inline]
+    pub fn uniform(&self, index: u64) -> f64 {
+        #[expect(
+            clippy::cast_precision_loss,
+            reason = "a whole number below 2^53 is exact"
+        )]
+        let whole = (self.bits(index) >> 11) as f64;
+        (whole + 0.5) * (1.0 / 9_007_199_254_740_992.0)
+    }
+
+    /// A number between `low` and `high`.
+    #[inline]
+    pub fn between(&self, index: u64, low: f64, high: f64) -> f64 {
+        low + (high - low) * self.uniform(index)
+    }
+
+    /// A normal number of mean 0 and standard deviation 1.
+    #[inline]
+    pub fn normal(&self, index: u64) -> f64 {
+        normal::quantile(self.uniform(index))
+    }
+}
+
+/// 2⁶⁴ over the golden ratio, odd: the step of splitmix64.
+const GOLDEN: u64 = 0x9E37_79B9_7F4A_7C15;
+
+/// The finaliser of splitmix64: every bit of the result depends on every bit of `state`.
+#[inline]
+const fn mix(state: u64) -> u64 {
+    let mut bits = state.wrapping_add(GOLDEN);
+    bits = (bits ^ (bits >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+    bits = (bits ^ (bits >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+    bits ^ (bits >> 31)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_mixing_gives_the_published_sequence_of_splitmix64() {
+        // First outputs of splitmix64 seeded with 1234567, as its reference program prints them.
+        let published = [
+            6_457_827_717_110_365_317,
+            3_203_168_211_198_807_973,
+            9_817_491_932_198_370_423,
+        ];
+        for (step, expected) in published.into_iter().enumerate() {
+            let state = 1_234_567_u64.wrapping_add(GOLDEN.wrapping_mul(step as u64));
+            assert_eq!(mix(state), expected);
+        }
+    }
+
+    #[test]
+    fn uniform_numbers_have_the_mean_and_variance_of_the_interval() {
+        let stream = Random::new(1).stream(Purpose::Draws, 0);
+        let n = 100_000;
+        let mean = (0..n).map(|i| stream.uniform(i)).sum::<f64>() / n as f64;
+        let variance = (0..n)
+            .map(|i| (stream.uniform(i) - mean).powi(2))
+            .sum::<f64>()
+            / n as f64;
+        assert!((mean - 0.5).abs() < 0.004, "{mean}");
+        assert!((variance - 1.0 / 12.0).abs() < 0.001, "{variance}");
+    }
+
+    #[test]
+    fn neighbouring_identities_and_purposes_are_uncorrelated() {
+        let random = Random::new(3);
+        let pairs = [
+            (
+                random.stream(Purpose::Draws, 0),
+                random.stream(Purpose::Draws, 1),
+            ),
+            (
+                random.stream(Purpose::Draws, 0),
+                random.stream(Purpose::Surface, 0),
+            ),
+        ];
+        for (left, right) in pairs {
+            let n = 50_000_u64;
+            let sum: f64 = (0..n).map(|i| left.normal(i) * right.normal(i)).sum();
+            // The standard deviation of the mean product is 1/√n.
+            assert!((sum / n as f64).abs() < 4.0 / (n as f64).sqrt());
+        }
+    }
+}
