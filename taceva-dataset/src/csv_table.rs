@@ -142,6 +142,17 @@ impl CsvTable {
             .ok_or_else(|| self.not_a_number(row, column))
     }
 
+    /// That a cell holds something else than `expected`.
+    ///
+    /// # Panics
+    /// If there is no such row or column.
+    pub fn refuse(&self, row: usize, column: usize, expected: &str) -> DatasetError {
+        DatasetError::Table {
+            place: self.place(row, column),
+            problem: format!("`{}`: {expected}", shown(self.cell(row, column))),
+        }
+    }
+
     /// Where a row (from 0) stands in the file, in the column at `column`.
     pub fn place(&self, row: usize, column: usize) -> Place {
         Place {

@@ -17,7 +17,7 @@ use crate::provenance::{ModelProvenance, Provenance};
 use crate::report::EvaluationReport;
 use crate::rows::{Divided, Part};
 use crate::subject::Subject;
-use crate::tally::Columns;
+use crate::tally::{Columns, tally};
 
 /// What to evaluate.
 #[derive(Debug)]
@@ -179,9 +179,10 @@ fn score(
     let columns = Columns {
         truth: predicted.truth(),
         prediction: predicted.prediction(),
-        points: points.as_deref(),
+        table: dataset.table(),
+        rows: &target.rows,
     };
-    let evaluation = columns.score(&plan, request.jobs)?;
+    let evaluation = tally(&columns, &plan, request.jobs)?.finish()?;
     let divided = target.divided.as_ref();
     let note = divided.and_then(|divided| divided.split.note.clone());
     let provenance = Provenance {

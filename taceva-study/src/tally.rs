@@ -3,8 +3,9 @@
 use std::num::NonZeroUsize;
 use std::ops::Range;
 
-use taceva_core::{Batch, Column, Labels};
-use taceva_metrics::{Evaluation, Evaluator, MetricPlan};
+use taceva_core::{Batch, Column, Field};
+use taceva_dataset::Table;
+use taceva_metrics::{Evaluator, MetricPlan};
 
 use crate::error::StudyError;
 
@@ -23,17 +24,17 @@ pub(crate) trait Rows: Sync {
     fn batch(&self, plan: &MetricPlan, rows: Range<usize>) -> Result<Batch, StudyError>;
 }
 
-/// Scores all rows. Each thread takes a contiguous share; exact sums make the shares invisible.
+/// Takes in all rows. Each thread takes a contiguous share; exact sums make the shares invisible.
 ///
 /// Shares are whole batches, so that the first batch with an error is the same on any number of threads.
 ///
 /// # Errors
 /// [`StudyError`] of the first batch that cannot be read or scored.
-pub(crate) fn score(
+pub(crate) fn tally(
     source: &impl Rows,
     plan: &MetricPlan,
     jobs: NonZeroUsize,
-) -> Result<Evaluation, StudyError> {
+) -> Result<Evaluator, StudyError> {
     let rows = source.rows();
     let share = rows.div_ceil(jobs.get()).next_multiple_of(BATCH_ROWS);
     let shares: Vec<Range<usize>> = (0..rows)
@@ -43,7 +44,7 @@ pub(crate) fn score(
     let evaluators: Vec<Result<Evaluator, StudyError>> = std::thread::scope(|scope| {
         let threads: Vec<_> = shares
             .into_iter()
-            .map(|share| scope.spawn(move || tally(source, plan, share)))
+            .map(|share| scope.spawn(move || take_in(source, plan, share)))
             .collect();
         let joined = threads.into_iter().map(|thread| match thread.join() {
             Ok(evaluator) => evaluator,
@@ -55,10 +56,10 @@ pub(crate) fn score(
     for evaluator in evaluators {
         total.merge(evaluator?)?;
     }
-    Ok(total.finish()?)
+    Ok(total)
 }
 
-fn tally(
+fn take_in(
     source: &impl Rows,
     plan: &MetricPlan,
     rows: Range<usize>,
@@ -71,37 +72,20 @@ fn tally(
     Ok(evaluator)
 }
 
-/// A name a row.
-pub(crate) fn labels<'a>(names: impl Iterator<Item = &'a str>) -> Labels {
-    let mut labels = Labels::default();
-    names.for_each(|name| labels.push(name));
-    labels
-}
-
-/// Truth and predictions that lie in memory, column by column.
+/// Truth and predictions that lie in memory, column by column, and the rest of the same rows in the table of their dataset.
 ///
 /// # Shapes
-/// A column a channel of the plan, all of one length; `points`: a name a row.
+/// A column a channel of the plan, all as long as `rows`.
 pub(crate) struct Columns<'a> {
     pub(crate) truth: &'a [Column],
     pub(crate) prediction: &'a [Column],
-    pub(crate) points: Option<&'a [&'a str]>,
-}
-
-impl Columns<'_> {
-    /// Scores all rows, as [`score`] does.
-    pub(crate) fn score(
-        &self,
-        plan: &MetricPlan,
-        jobs: NonZeroUsize,
-    ) -> Result<Evaluation, StudyError> {
-        score(self, plan, jobs)
-    }
+    pub(crate) table: &'a Table,
+    pub(crate) rows: &'a [usize],
 }
 
 impl Rows for Columns<'_> {
     fn rows(&self) -> usize {
-        self.truth.first().map_or(0, Column::len)
+        self.rows.len()
     }
 
     fn batch(&self, plan: &MetricPlan, rows: Range<usize>) -> Result<Batch, StudyError> {
@@ -109,12 +93,22 @@ impl Rows for Columns<'_> {
             let slices = columns.iter().map(|column| column.slice(rows.clone()));
             slices.collect()
         };
-        let points = self.points.map(|points| &points[rows.clone()]);
-        Ok(Batch::from_columns(
-            plan.channels().clone(),
-            slice(self.truth),
-            slice(self.prediction),
-            points.map(|points| labels(points.iter().copied())),
-        ))
+        let of_table = || self.rows[rows.clone()].iter().copied();
+        let wanted = plan.fields();
+        let points = wanted
+            .contains(Field::Point)
+            .then(|| self.table.labels(Field::Point, of_table()))
+            .flatten();
+        let channels = plan.channels().clone();
+        let mut batch =
+            Batch::from_columns(channels, slice(self.truth), slice(self.prediction), points);
+        for field in wanted.iter().filter(|field| *field != Field::Point) {
+            if let Some(labels) = self.table.labels(field, of_table()) {
+                batch = batch.with_labels(field, labels);
+            } else if let Some(numbers) = self.table.numbers(field, of_table()) {
+                batch = batch.with_numbers(field, numbers);
+            }
+        }
+        Ok(batch)
     }
 }

@@ -1,0 +1,149 @@
+//! The two tables of a score: read, brought to common channels, and paired row by row.
+
+use std::collections::HashMap;
+use std::num::NonZeroUsize;
+use std::path::Path;
+
+use taceva_core::{Channel, Channels, Unit};
+use taceva_dataset::{CsvTable, Digest};
+
+use super::ScoreRequest;
+use super::fields::NOT_CHANNELS;
+use crate::error::StudyError;
+
+/// How rows find each other.
+#[derive(Debug)]
+pub(super) enum Pairing {
+    /// The first with the first.
+    ByOrder,
+    /// For each row of the truth, its row of the prediction.
+    ById(Vec<usize>),
+}
+
+/// Both tables with their digests, read at the same time where two threads are allowed.
+///
+/// The two take about as long as each other, so this shares work better than threads within each of them.
+pub(super) fn read_both(request: &ScoreRequest) -> Result<[(CsvTable, Digest); 2], StudyError> {
+    let share = NonZeroUsize::new(request.jobs.get() / 2).unwrap_or(NonZeroUsize::MIN);
+    let read = |path: &Path| -> Result<(CsvTable, Digest), StudyError> {
+        let table = CsvTable::read_with(path, share)?;
+        let digest = table.digest();
+        Ok((table, digest))
+    };
+    if request.jobs == NonZeroUsize::MIN {
+        return Ok([read(&request.truth)?, read(&request.prediction)?]);
+    }
+    std::thread::scope(|scope| {
+        let truth = scope.spawn(|| read(&request.truth));
+        let prediction = read(&request.prediction);
+        let truth = truth
+            .join()
+            .unwrap_or_else(|panic| std::panic::resume_unwind(panic));
+        Ok([truth?, prediction?])
+    })
+}
+
+/// The channels of the prediction; the truth must have each, and no channel of the six that the prediction lacks.
+pub(super) fn channels(
+    truth: &CsvTable,
+    prediction: &CsvTable,
+    units: &[(String, Unit)],
+) -> Result<Channels, StudyError> {
+    let is_channel = |name: &&String| !NOT_CHANNELS.contains(&name.as_str());
+    let six = |name: &str| {
+        Channel::SIX
+            .into_iter()
+            .find(|channel| channel.name() == name)
+    };
+    let wrong = |table: &CsvTable, problem: String| StudyError::Tables {
+        path: table.path().to_owned(),
+        problem,
+    };
+    let mut found = Vec::new();
+    for name in prediction.names().iter().filter(is_channel) {
+        truth.position(name)?;
+        let declared = units
+            .iter()
+            .find(|(known, _)| known == name)
+            .map(|(_, unit)| *unit);
+        let unit = declared
+            .or_else(|| six(name).map(|channel| channel.unit()))
+            .unwrap_or(Unit::One);
+        found.push(
+            Channel::named(name, unit).map_err(|error| wrong(prediction, error.to_string()))?,
+        );
+    }
+    let absent = truth
+        .names()
+        .iter()
+        .find(|name| six(name).is_some() && !prediction.has(name));
+    if let Some(name) = absent {
+        let problem = format!(
+            "no column `{name}`, which {} has: both must have the same channels",
+            truth.path().display()
+        );
+        return Err(wrong(prediction, problem));
+    }
+    if let Some((name, _)) = units.iter().find(|(name, _)| !prediction.has(name)) {
+        return Err(StudyError::Request(format!(
+            "a unit is given for `{name}`, which is no column of the predictions"
+        )));
+    }
+    if found.is_empty() {
+        let problem =
+            "no column is a channel: expected Px, Py, Pz, Fx, Fy, Fz or named others".to_owned();
+        return Err(wrong(prediction, problem));
+    }
+    Channels::new(found).map_err(|error| wrong(prediction, error.to_string()))
+}
+
+/// Pairs the rows by `id` where both tables have one, else by order.
+pub(super) fn pair(truth: &CsvTable, prediction: &CsvTable) -> Result<Pairing, StudyError> {
+    let wrong = |table: &CsvTable, problem: String| StudyError::Tables {
+        path: table.path().to_owned(),
+        problem,
+    };
+    if !truth.has("id") || !prediction.has("id") {
+        if truth.rows() != prediction.rows() {
+            let problem = format!(
+                "{} rows, but {} has {}; without a column `id` in both, rows are matched by order",
+                prediction.rows(),
+                truth.path().display(),
+                truth.rows()
+            );
+            return Err(wrong(prediction, problem));
+        }
+        return Ok(Pairing::ByOrder);
+    }
+    let ids = prediction.text("id")?;
+    let mut rows: HashMap<&str, usize> = HashMap::with_capacity(ids.len());
+    for (row, id) in ids.iter().enumerate() {
+        if rows.insert(id, row).is_some() {
+            return Err(wrong(prediction, format!("id `{id}` comes twice")));
+        }
+    }
+    let wanted = truth.text("id")?;
+    let mut paired = Vec::with_capacity(wanted.len());
+    for id in &wanted {
+        // Taken out, so that an id of the truth that comes twice finds nothing the second time.
+        match rows.remove(id) {
+            Some(row) => paired.push(row),
+            None if ids.contains(id) => return Err(wrong(truth, format!("id `{id}` comes twice"))),
+            None => {
+                let problem = format!(
+                    "no row with id `{id}`, which {} has",
+                    truth.path().display()
+                );
+                return Err(wrong(prediction, problem));
+            }
+        }
+    }
+    if let Some(id) = ids.iter().find(|id| rows.contains_key(**id)) {
+        let problem = format!(
+            "no row with id `{id}`, which {} has",
+            prediction.path().display()
+        );
+        return Err(wrong(truth, problem));
+    }
+    Ok(Pairing::ById(paired))
+}
