@@ -98,7 +98,7 @@ impl PoissonBootstrap {
         let [low, high] = match self.ends {
             BootstrapEnds::Percentile => percentiles(&mut replicates),
             BootstrapEnds::Normal => {
-                let freedom = u32::try_from(clusters.len() - 1).expect("at most 64 clusters");
+                let freedom = clusters.iter().fold(-1.0, |freedom, _| freedom + 1.0);
                 let half = quantile(COVERAGE, freedom) * standard_error;
                 [value - half, value + half]
             }

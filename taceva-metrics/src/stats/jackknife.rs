@@ -46,9 +46,8 @@ pub(crate) fn interval(value: f64, left_out: &[LeftOut]) -> Interval {
         .map(|(share, pseudo)| (pseudo - mean) * (pseudo - mean) / (share - 1.0))
         .sum::<f64>()
         / g;
-    let freedom = u32::try_from(clusters - 1).expect("at most 64 clusters");
     let standard_error = variance.sqrt();
-    let half = quantile(COVERAGE, freedom) * standard_error;
+    let half = quantile(COVERAGE, g - 1.0) * standard_error;
     let (low, high) = (value - half, value + half);
     if !low.is_finite() || !high.is_finite() {
         return Interval::Undefined(UndefinedReason::Overflow);
