@@ -33,6 +33,9 @@ pub use plan::MetricPlan;
 pub use plane_sums::PlaneSums;
 pub use score::{Interval, Parameter, Score};
 pub use state::{Record, State};
-pub use stats::{BootstrapEnds, IntervalMethod, PoissonBootstrap};
+pub use stats::{
+    BootstrapEnds, ClusterSum, ClusterSums, ComparisonError, Difference, DifferenceTest, Estimate,
+    IntervalMethod, PoissonBootstrap, Question, Side, Sides, SignFlip, Verdict, holm, welch,
+};
 pub use streams::{Stream, Streams};
 pub use value::{InapplicableReason, UndefinedReason, Value};

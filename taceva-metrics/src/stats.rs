@@ -1,12 +1,29 @@
-//! Pure statistics behind the intervals.
+//! Pure statistics: how far a score would move with other contact locations, and whether two scores differ.
 
 mod bootstrap;
+mod cluster_sums;
+mod difference;
+mod error;
+mod holm;
 pub(crate) mod jackknife;
 mod method;
 mod poisson;
 mod random;
+mod sides;
+mod sign_flip;
+mod signed_sums;
 mod student;
+mod verdict;
+mod welch;
 
 pub(crate) use bootstrap::LEAST_REPLICATES;
 pub use bootstrap::{BootstrapEnds, PoissonBootstrap};
+pub use cluster_sums::{ClusterSum, ClusterSums};
+pub use difference::{Difference, DifferenceTest};
+pub use error::ComparisonError;
+pub use holm::holm;
 pub use method::IntervalMethod;
+pub use sides::{Side, Sides};
+pub use sign_flip::SignFlip;
+pub use verdict::{Question, Verdict};
+pub use welch::{Estimate, welch};

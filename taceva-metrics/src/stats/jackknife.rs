@@ -16,28 +16,44 @@ pub(crate) struct LeftOut {
     pub(crate) value: Result<f64, UndefinedReason>,
 }
 
-/// The interval about `value`, the score of all clusters.
+/// The interval about `value`, the score of all clusters: θ ± t(g − 1) × its [`standard_error`].
+pub(crate) fn interval(value: f64, left_out: &[LeftOut]) -> Interval {
+    let standard_error = match standard_error(value, left_out) {
+        Ok(standard_error) => standard_error,
+        Err(reason) => return Interval::Undefined(reason),
+    };
+    let freedom = left_out.iter().fold(-1.0, |freedom, _| freedom + 1.0);
+    let half = quantile(COVERAGE, freedom) * standard_error;
+    let (low, high) = (value - half, value + half);
+    if !low.is_finite() || !high.is_finite() {
+        return Interval::Undefined(UndefinedReason::Overflow);
+    }
+    Interval::Jackknife {
+        low,
+        high,
+        standard_error,
+        clusters: left_out.len(),
+    }
+}
+
+/// How far `value`, the score of all clusters, would move with others.
 ///
 /// With n samples, m_j of them in cluster j, h_j = n / m_j and θ_(−j) the score without cluster j: the pseudo-values are
-/// h_j θ − (h_j − 1) θ_(−j), the variance is (1/g) Σ (pseudo_j − mean)² / (h_j − 1), and the interval is
-/// θ ± t(g − 1) √variance.
+/// h_j θ − (h_j − 1) θ_(−j), and the variance is (1/g) Σ (pseudo_j − mean)² / (h_j − 1).
 ///
 /// # Reference
 /// Busing, Meijer and van der Leeden, Delete-m jackknife for unequal m, Statistics and Computing 9 (1999).
-pub(crate) fn interval(value: f64, left_out: &[LeftOut]) -> Interval {
+pub(crate) fn standard_error(value: f64, left_out: &[LeftOut]) -> Result<f64, UndefinedReason> {
     let clusters = left_out.len();
     if clusters < LEAST_CLUSTERS {
-        return Interval::Undefined(UndefinedReason::TooFewClusters { have: clusters });
+        return Err(UndefinedReason::TooFewClusters { have: clusters });
     }
-    let n = as_f64(left_out.iter().map(|cluster| cluster.count).sum());
+    let counts = left_out.iter().map(|cluster| cluster.count);
+    let n = as_f64(counts.fold(0, u64::saturating_add));
     let mut pseudo_values = Vec::with_capacity(clusters);
     for cluster in left_out {
-        let others = match cluster.value {
-            Ok(others) => others,
-            Err(reason) => return Interval::Undefined(reason),
-        };
         let share = n / as_f64(cluster.count);
-        pseudo_values.push((share, share * value - (share - 1.0) * others));
+        pseudo_values.push((share, share * value - (share - 1.0) * cluster.value?));
     }
     let g = pseudo_values.iter().fold(0.0, |g, _| g + 1.0);
     let mean = pseudo_values.iter().map(|(_, pseudo)| pseudo).sum::<f64>() / g;
@@ -47,16 +63,10 @@ pub(crate) fn interval(value: f64, left_out: &[LeftOut]) -> Interval {
         .sum::<f64>()
         / g;
     let standard_error = variance.sqrt();
-    let half = quantile(COVERAGE, g - 1.0) * standard_error;
-    let (low, high) = (value - half, value + half);
-    if !low.is_finite() || !high.is_finite() {
-        return Interval::Undefined(UndefinedReason::Overflow);
-    }
-    Interval::Jackknife {
-        low,
-        high,
-        standard_error,
-        clusters,
+    if standard_error.is_finite() {
+        Ok(standard_error)
+    } else {
+        Err(UndefinedReason::Overflow)
     }
 }
 

@@ -1,0 +1,182 @@
+//! What two models are compared by on the same samples: one exact sum a cluster.
+
+use std::collections::BTreeMap;
+
+use taceva_core::Batch;
+
+use super::error::ComparisonError;
+use crate::exact::ExactSum;
+use crate::paired::Paired;
+
+/// Samples of one cluster, and the sum of what is compared.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct ClusterSum {
+    /// How many samples there are.
+    pub n: u64,
+    /// Σ|d| in the unit of the channel, or the number of hits.
+    pub sum: ExactSum,
+}
+
+/// One exact sum a cluster, however many clusters there are.
+///
+/// A cluster is what may be exchanged as a whole: a contact location, or a board of a grating test. Like every state it
+/// depends on the set of samples alone, and merges.
+///
+/// ```
+/// use taceva_metrics::ClusterSums;
+/// let mut hits = ClusterSums::default();
+/// for (board, hit) in [("bump 0.5", 1.0), ("bump 0.5", 0.0), ("bump 0.3", 1.0)] {
+///     hits.try_add(board, hit)?;
+/// }
+/// let counts: Vec<u64> = hits.iter().map(|(_, board)| board.n).collect();
+/// assert_eq!(counts, [1, 2]);
+/// # Ok::<(), taceva_metrics::ComparisonError>(())
+/// ```
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct ClusterSums {
+    cells: BTreeMap<String, ClusterSum>,
+    n_invalid: u64,
+}
+
+impl ClusterSums {
+    /// Adds one sample of `cluster`.
+    ///
+    /// # Errors
+    /// [`ComparisonError::Term`] if `term` is not finite; nothing is added then.
+    pub fn try_add(&mut self, cluster: &str, term: f64) -> Result<(), ComparisonError> {
+        if !term.is_finite() {
+            return Err(ComparisonError::Term {
+                cluster: cluster.to_owned(),
+                value: term,
+            });
+        }
+        let cell = self.cell(cluster);
+        cell.n += 1;
+        cell.sum.add(term);
+        Ok(())
+    }
+
+    /// Adds |d| of each pair of the channel at `position`, by contact location.
+    ///
+    /// Rows without a value are passed over; pairs that are no numbers are counted in [`n_invalid`](ClusterSums::n_invalid).
+    ///
+    /// # Errors
+    /// [`ComparisonError::NoClusters`] if the batch has no contact locations; nothing is added then.
+    ///
+    /// # Panics
+    /// If the batch has no channel at `position`.
+    pub fn update(&mut self, batch: &Batch, position: usize) -> Result<(), ComparisonError> {
+        let points = batch.points().ok_or(ComparisonError::NoClusters)?;
+        let (estimates, references) = (batch.prediction(position), batch.truth(position));
+        for row in 0..batch.rows() {
+            let values = (estimates.get(row), references.get(row), points.get(row));
+            let (Some(estimate), Some(reference), Some(cluster)) = values else {
+                continue;
+            };
+            let pair = Paired {
+                estimate,
+                reference,
+            };
+            if pair.is_valid() {
+                let cell = self.cell(cluster);
+                cell.n += 1;
+                cell.sum.add(pair.residual().abs());
+            } else {
+                self.n_invalid += 1;
+            }
+        }
+        Ok(())
+    }
+
+    /// Takes over what another one holds.
+    pub fn merge(&mut self, other: &ClusterSums) {
+        for (name, theirs) in &other.cells {
+            let cell = self.cell(name);
+            cell.n = cell.n.saturating_add(theirs.n);
+            cell.sum.merge(&theirs.sum);
+        }
+        self.n_invalid = self.n_invalid.saturating_add(other.n_invalid);
+    }
+
+    /// The clusters in the order of their names.
+    pub fn iter(&self) -> impl Iterator<Item = (&str, &ClusterSum)> {
+        self.cells.iter().map(|(name, cell)| (name.as_str(), cell))
+    }
+
+    /// The sum of one cluster.
+    pub fn get(&self, cluster: &str) -> Option<&ClusterSum> {
+        self.cells.get(cluster)
+    }
+
+    /// Pairs left out because a value was no number of a magnitude up to 2¹⁰²¹.
+    pub fn n_invalid(&self) -> u64 {
+        self.n_invalid
+    }
+
+    fn cell(&mut self, cluster: &str) -> &mut ClusterSum {
+        if !self.cells.contains_key(cluster) {
+            self.cells.insert(cluster.to_owned(), ClusterSum::default());
+        }
+        self.cells
+            .get_mut(cluster)
+            .expect("it was there or was inserted")
+    }
+}
+
+impl FromIterator<(String, ClusterSum)> for ClusterSums {
+    /// The clusters as they are; the sums of a name that occurs twice are merged.
+    fn from_iter<I: IntoIterator<Item = (String, ClusterSum)>>(clusters: I) -> ClusterSums {
+        let mut sums = ClusterSums::default();
+        for (name, theirs) in clusters {
+            let cell = sums.cell(&name);
+            cell.n = cell.n.saturating_add(theirs.n);
+            cell.sum.merge(&theirs.sum);
+        }
+        sums
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use taceva_core::{Channel, Channels, Column, Labels};
+
+    #[test]
+    fn a_batch_is_summed_by_location_and_what_is_no_number_is_counted() {
+        let channels = Channels::new([Channel::FZ]).expect("one channel");
+        let mut points = Labels::default();
+        ["p1", "p2", "p1", "p1"]
+            .iter()
+            .for_each(|name| points.push(name));
+        let truth = Column::full(vec![1.0, 2.0, 3.0, f64::NAN]);
+        let prediction = Column::full(vec![0.5, 2.0, 3.25, 0.0]);
+        let batch = Batch::from_columns(
+            channels.clone(),
+            vec![truth],
+            vec![prediction],
+            Some(points),
+        );
+        let mut sums = ClusterSums::default();
+        sums.update(&batch, 0).expect("it has locations");
+        let found: Vec<_> = sums
+            .iter()
+            .map(|(name, cell)| (name, cell.n, cell.sum.to_f64()))
+            .collect();
+        assert_eq!(found, [("p1", 2, 0.75), ("p2", 1, 0.0)]);
+        assert_eq!(sums.n_invalid(), 1);
+        let column = || vec![Column::full(vec![1.0])];
+        let nameless = Batch::from_columns(channels, column(), column(), None);
+        assert_eq!(sums.update(&nameless, 0), Err(ComparisonError::NoClusters));
+    }
+
+    #[test]
+    fn a_term_that_is_no_number_names_its_cluster_and_adds_nothing() {
+        let mut sums = ClusterSums::default();
+        let error = sums.try_add("p1", f64::INFINITY).expect_err("no sum");
+        assert_eq!(
+            error.to_string(),
+            "term inf in cluster `p1`, expected a finite number"
+        );
+        assert_eq!(sums, ClusterSums::default());
+    }
+}

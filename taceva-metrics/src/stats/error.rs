@@ -1,0 +1,131 @@
+//! Why two scores cannot be compared.
+
+use std::error::Error;
+use std::fmt;
+
+use super::jackknife::LEAST_CLUSTERS;
+use super::sides::{Side, Sides};
+use crate::value::{InapplicableReason, UndefinedReason};
+
+/// Why there is no answer to a comparison.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum ComparisonError {
+    /// One side has no value, or no interval.
+    Undefined {
+        /// Which one.
+        side: Side,
+        /// Why.
+        reason: UndefinedReason,
+    },
+    /// The question does not arise on one side.
+    NotApplicable {
+        /// Which one.
+        side: Side,
+        /// Why.
+        reason: InapplicableReason,
+    },
+    /// The difference has no interval.
+    NoInterval(UndefinedReason),
+    /// The two scores do not say the same: another definition, unit or constant.
+    Meaning(Sides<String>),
+    /// Clusters of both sides are paired, and one is on one side only.
+    Unpaired {
+        /// Where it is.
+        side: Side,
+        /// Which one.
+        cluster: String,
+    },
+    /// Samples of both sides are paired, and a cluster has more of them on one side.
+    Counts {
+        /// Which cluster.
+        cluster: String,
+        /// How many it has.
+        samples: Sides<u64>,
+    },
+    /// Some sample names no cluster.
+    NoClusters,
+    /// Too few clusters to say how far an estimate would move with others.
+    TooFewClusters {
+        /// How many there are.
+        have: usize,
+    },
+    /// A term that has no sum.
+    Term {
+        /// In which cluster.
+        cluster: String,
+        /// Its value.
+        value: f64,
+    },
+    /// A score that is no number.
+    Score(f64),
+    /// A standard error that is no number from 0 on.
+    StandardError(f64),
+    /// No cluster moves either score, so that nothing can be said about others.
+    NoSpread,
+    /// A margin of equivalence that is not above 0 and finite.
+    Margin(f64),
+    /// A p value outside of 0..=1.
+    Probability {
+        /// Where it stands in its family.
+        position: usize,
+        /// Its value.
+        value: f64,
+    },
+}
+
+impl fmt::Display for ComparisonError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            ComparisonError::Undefined { side, reason } => {
+                write!(f, "{side} is undefined: {reason}")
+            }
+            ComparisonError::NotApplicable { side, reason } => {
+                write!(f, "{side} is not applicable: {reason}")
+            }
+            ComparisonError::NoInterval(reason) => {
+                write!(f, "the difference has no interval: {reason}")
+            }
+            ComparisonError::Meaning(Sides { a, b }) => {
+                write!(f, "A is `{a}` and B is `{b}`, expected one meaning")
+            }
+            ComparisonError::Unpaired { side, cluster } => {
+                write!(
+                    f,
+                    "cluster `{cluster}` is in {side} only, expected the same samples"
+                )
+            }
+            ComparisonError::Counts { cluster, samples } => write!(
+                f,
+                "cluster `{cluster}` has {} samples in A and {} in B, expected the same samples",
+                samples.a, samples.b
+            ),
+            ComparisonError::NoClusters => f.write_str("samples without point_id"),
+            ComparisonError::TooFewClusters { have } => {
+                write!(f, "{have} clusters, {LEAST_CLUSTERS} are needed")
+            }
+            ComparisonError::Term { cluster, value } => {
+                write!(
+                    f,
+                    "term {value} in cluster `{cluster}`, expected a finite number"
+                )
+            }
+            ComparisonError::Score(value) => write!(f, "score {value}, expected a finite number"),
+            ComparisonError::StandardError(value) => {
+                write!(
+                    f,
+                    "standard error {value}, expected a finite number from 0 on"
+                )
+            }
+            ComparisonError::NoSpread => f.write_str("no cluster moves either score"),
+            ComparisonError::Margin(value) => {
+                write!(f, "margin {value}, expected a finite number above 0")
+            }
+            ComparisonError::Probability { position, value } => {
+                write!(f, "p value {value} at position {position}, expected 0 to 1")
+            }
+        }
+    }
+}
+
+impl Error for ComparisonError {}

@@ -1,0 +1,86 @@
+//! Many tests at once.
+
+use super::error::ComparisonError;
+
+/// The p values of a family of tests, adjusted so that all of them together err as rarely as one alone would: in the order
+/// given.
+///
+/// With p₍₁₎ ≤ … ≤ p₍ₘ₎ the adjusted values are max over i ≤ j of min(1, (m − i + 1) p₍ᵢ₎): they rise with p, and equal p
+/// values stay equal.
+///
+/// ```
+/// let adjusted = taceva_metrics::holm(&[0.01, 0.04, 0.03])?;
+/// assert_eq!(adjusted, [0.03, 0.06, 0.06]);
+/// # Ok::<(), taceva_metrics::ComparisonError>(())
+/// ```
+///
+/// # Errors
+/// [`ComparisonError::Probability`] if a value is not in 0..=1.
+///
+/// # Reference
+/// Holm, A simple sequentially rejective multiple test procedure, Scandinavian Journal of Statistics 6 (1979).
+pub fn holm(p_values: &[f64]) -> Result<Vec<f64>, ComparisonError> {
+    let outside = |p: &f64| !(0.0..=1.0).contains(p);
+    if let Some(position) = p_values.iter().position(outside) {
+        return Err(ComparisonError::Probability {
+            position,
+            value: p_values[position],
+        });
+    }
+    let mut order: Vec<usize> = (0..p_values.len()).collect();
+    order.sort_by(|&left, &right| p_values[left].total_cmp(&p_values[right]));
+    let mut adjusted = p_values.to_vec();
+    let mut least = 0.0_f64;
+    let mut tests_left = p_values.iter().fold(0.0, |tests, _| tests + 1.0);
+    for position in order {
+        least = least.max(tests_left * p_values[position]).min(1.0);
+        adjusted[position] = least;
+        tests_left -= 1.0;
+    }
+    Ok(adjusted)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn adjusted(p_values: &[f64]) -> Vec<f64> {
+        holm(p_values).expect("p values")
+    }
+
+    #[test]
+    fn a_worked_example_is_met() {
+        // By hand: 4 × .005, 3 × .01, 2 × .03, then 1 × .04 = .04, which may not fall below .06.
+        let expected = [0.03, 0.06, 0.06, 0.02];
+        for (found, expected) in adjusted(&[0.01, 0.04, 0.03, 0.005]).iter().zip(expected) {
+            assert!((found - expected).abs() < 1e-16, "{found}");
+        }
+    }
+
+    #[test]
+    fn ties_stay_ties_and_nothing_exceeds_one() {
+        let found = adjusted(&[0.5, 0.02, 0.5, 0.02]);
+        assert_eq!(found[0].to_bits(), 1.0_f64.to_bits());
+        assert_eq!(found[1].to_bits(), found[3].to_bits());
+        assert_eq!(found[1].to_bits(), 0.08_f64.to_bits());
+    }
+
+    #[test]
+    fn no_test_and_one_test_are_as_they_were() {
+        assert!(adjusted(&[]).is_empty());
+        assert_eq!(adjusted(&[0.3])[0].to_bits(), 0.3_f64.to_bits());
+    }
+
+    #[test]
+    fn what_is_no_probability_is_refused_by_its_place() {
+        for value in [-0.1, 1.1, f64::NAN] {
+            let error = holm(&[0.5, value]).expect_err("no probability");
+            assert!(
+                error
+                    .to_string()
+                    .ends_with("at position 1, expected 0 to 1"),
+                "{error}"
+            );
+        }
+    }
+}
