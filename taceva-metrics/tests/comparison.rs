@@ -1,0 +1,284 @@
+//! Whether two models or two sensors differ: published examples, and the words that come of them.
+
+mod support;
+
+use support::{Row, evaluate};
+use taceva_core::Unit;
+use taceva_metrics::{
+    Better, ClusterSums, ComparisonError, Difference, Estimate, Question, Side, Sides, SignFlip,
+    Verdict, holm, welch,
+};
+
+/// Hours of sleep that ten patients gained with each of two drugs (Student 1908, after Cushny and Peebles).
+const SLEEP: Sides<[f64; 10]> = Sides {
+    a: [0.7, -1.6, -0.2, -1.2, -0.1, 3.4, 3.7, 0.8, 0.0, 2.0],
+    b: [1.9, 0.8, 1.1, 0.1, -0.1, 4.4, 5.5, 1.6, 4.6, 3.4],
+};
+
+/// The mean and its standard error, by the textbook.
+fn estimate(values: &[f64; 10]) -> Estimate {
+    let mean = values.iter().sum::<f64>() / 10.0;
+    let squares = values.iter().map(|value| (value - mean).powi(2));
+    let variance = squares.sum::<f64>() / 9.0;
+    Estimate::try_new(mean, (variance / 10.0).sqrt(), 10).expect("ten numbers")
+}
+
+fn sleep_of_strangers() -> Difference {
+    let difference = welch(Sides {
+        a: estimate(&SLEEP.a),
+        b: estimate(&SLEEP.b),
+    });
+    difference.expect("both vary")
+}
+
+fn by_patient(values: &[f64; 10]) -> ClusterSums {
+    let mut sums = ClusterSums::default();
+    for (patient, &value) in values.iter().enumerate() {
+        sums.try_add(&format!("patient {patient}"), value)
+            .expect("a number");
+    }
+    sums
+}
+
+fn sleep_of_patients() -> Difference {
+    let (a, b) = (by_patient(&SLEEP.a), by_patient(&SLEEP.b));
+    let difference = SignFlip::default().test(Sides { a: &a, b: &b });
+    difference.expect("ten patients")
+}
+
+fn near(found: f64, expected: f64) {
+    // The digits that were published, or half of a float's.
+    assert!((found - expected).abs() < 5e-8, "{found} is not {expected}");
+}
+
+#[test]
+fn welch_s_test_meets_the_published_example() {
+    // What R prints for it: t = −1.8608, df = 17.776, p = 0.07939, −3.3654832 to 0.2054832.
+    let difference = sleep_of_strangers();
+    near(difference.value, -1.58);
+    near(difference.value / difference.standard_error, -1.860_813_47);
+    near(difference.freedom, 17.776_473_52);
+    near(difference.p, 0.079_394_14);
+    near(difference.interval[0], -3.365_483_2);
+    near(difference.interval[1], 0.205_483_2);
+}
+
+#[test]
+fn the_paired_test_meets_the_published_interval_and_its_p_is_counted() {
+    // The paired interval of the same example. No difference is positive and one is 0, so that of the 2¹⁰ patterns only
+    // 2 × 2 give a sum as large.
+    let difference = sleep_of_patients();
+    near(difference.value, -1.58);
+    near(difference.interval[0], -2.459_885_8);
+    near(difference.interval[1], -0.700_114_2);
+    near(difference.p, 4.0 / 1024.0);
+    let test = difference.test.to_string();
+    assert_eq!(test, "paired sign flip by cluster, G=10, all 1024 flips");
+}
+
+#[test]
+fn equivalence_is_two_one_sided_tests() {
+    // Tails of t = (margin − 1.58) / 0.849091 with 17.776 degrees of freedom, calculated apart.
+    let difference = sleep_of_strangers();
+    for (margin, expected) in [
+        (4.0, 0.005_361_62),
+        (3.0, 0.055_978_91),
+        (1.0, 0.748_319_81),
+    ] {
+        near(
+            difference.equivalence_p(margin).expect("a margin"),
+            expected,
+        );
+    }
+    let on_the_bound = difference.equivalence_p(difference.value.abs());
+    near(on_the_bound.expect("a margin"), 0.5);
+    for margin in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+        assert!(difference.equivalence_p(margin).is_err(), "{margin}");
+    }
+}
+
+fn question(better: Better, margin: Option<f64>) -> Question {
+    Question {
+        unit: Unit::Newton,
+        better,
+        margin,
+    }
+}
+
+#[test]
+fn verdicts_are_sentences() {
+    let say = |difference, margin| {
+        Verdict::of(Ok(difference), question(Better::Lower, margin)).to_string()
+    };
+    assert_eq!(
+        say(sleep_of_patients(), None),
+        "A lower by 1.6 N (95 % 0.7…2.5, p = 0.004)"
+    );
+    assert_eq!(
+        say(sleep_of_strangers(), None),
+        "no difference shown (difference −1.6 N, 95 % −3.4…0.2)"
+    );
+    assert_eq!(
+        say(sleep_of_strangers(), Some(4.0)),
+        "equivalent within 4 N"
+    );
+    assert_eq!(
+        say(sleep_of_strangers(), Some(0.5)),
+        "no difference shown (difference −1.6 N, 95 % −3.4…0.2)"
+    );
+    let ratio = Question {
+        unit: Unit::One,
+        ..question(Better::Higher, None)
+    };
+    let sure = sleep_of_patients().with_adjusted_p(1e-4);
+    assert_eq!(
+        Verdict::of(Ok(sure), ratio).to_string(),
+        "A lower by 1.6 (95 % 0.7…2.5, p < 0.001)"
+    );
+}
+
+#[test]
+fn which_side_is_better_follows_from_the_metric() {
+    let difference = sleep_of_patients();
+    let better = |difference, better| Verdict::of(Ok(difference), question(better, None)).better();
+    assert_eq!(better(difference, Better::Lower), Some(Side::A));
+    assert_eq!(better(difference, Better::Higher), Some(Side::B));
+    // Means 0.75 and 2.33: both above 0.
+    assert_eq!(better(difference, Better::NearZero), Some(Side::A));
+    let (a, b) = (
+        by_patient(&SLEEP.a.map(|hours| hours - 1.0)),
+        by_patient(&SLEEP.b),
+    );
+    let apart = SignFlip::default().test(Sides { a: &a, b: &b });
+    let apart = apart.expect("ten patients");
+    assert_eq!(better(apart, Better::NearZero), None);
+    assert_eq!(better(sleep_of_strangers(), Better::Lower), None);
+}
+
+#[test]
+fn a_difference_that_is_one_of_many_needs_more_to_be_shown() {
+    let raw = sleep_of_patients();
+    let family = holm(&[raw.p; 20]).expect("p values");
+    let verdict = Verdict::of(
+        Ok(raw.with_adjusted_p(family[0])),
+        question(Better::Lower, None),
+    );
+    assert!(
+        matches!(verdict, Verdict::NoDifferenceShown { .. }),
+        "{verdict}"
+    );
+}
+
+#[test]
+fn scores_of_two_sensors_are_compared_by_their_own_intervals() {
+    let rows = |factor: f64, points: u32| -> Vec<Row> {
+        let row = |row| {
+            Row::same(
+                f64::from(row),
+                f64::from(row) + factor * f64::from(row % 7),
+                row % points,
+            )
+        };
+        (0..400).map(row).collect()
+    };
+    let (a, b) = (evaluate(&rows(0.1, 50)), evaluate(&rows(0.3, 40)));
+    let score = |evaluation: &taceva_metrics::Evaluation, metric| {
+        evaluation.score(metric, "Fx").cloned().expect("a score")
+    };
+    let (mae_a, mae_b) = (score(&a, "mae"), score(&b, "mae"));
+    let estimates = Estimate::try_from_scores(Sides {
+        a: &mae_a,
+        b: &mae_b,
+    });
+    let difference = welch(estimates.expect("both have intervals")).expect("both vary");
+    let [low, high] = difference.interval;
+    assert!(low < difference.value && difference.value < high && high < 0.0);
+    assert!(difference.freedom > 39.0 && difference.freedom < 39.0 + 49.0);
+    assert!(difference.p < 0.001, "{}", difference.p);
+}
+
+#[test]
+fn what_cannot_be_compared_says_why() {
+    let rows: Vec<Row> = (0..40)
+        .map(|row| Row::same(1.0, f64::from(row), row % 8))
+        .collect();
+    let whole = evaluate(&rows);
+    let score = |metric| whole.score(metric, "Fx").expect("a score");
+    let said = |a, b| {
+        let estimates = Estimate::try_from_scores(Sides { a, b });
+        let verdict = Verdict::of(estimates.and_then(welch), question(Better::Lower, None));
+        verdict.to_string()
+    };
+    assert_eq!(
+        said(score("r2"), score("r2")),
+        "no answer: A is undefined: constant truth"
+    );
+    assert_eq!(
+        said(score("mae"), score("rmse")),
+        "no answer: A is `mae/1 in N` and B is `rmse/1 in N`, expected one meaning"
+    );
+    let few = evaluate(&rows[..4]);
+    assert_eq!(
+        said(score("mae"), few.score("mae", "Fx").expect("a score")),
+        "no answer: B is undefined: 4 clusters, 5 are needed"
+    );
+    let same: Vec<Row> = (0..9).map(|row| Row::same(1.0, 1.25, row)).collect();
+    let same = evaluate(&same);
+    let constant = same.score("mae", "Fx").expect("a score");
+    assert_eq!(
+        said(constant, constant),
+        "no answer: no cluster moves either score"
+    );
+    assert_eq!(
+        Estimate::try_new(1.0, -0.5, 9)
+            .expect_err("no error")
+            .to_string(),
+        "standard error -0.5, expected a finite number from 0 on"
+    );
+    assert_eq!(
+        Estimate::try_new(1.0, 0.5, 4),
+        Err(ComparisonError::TooFewClusters { have: 4 })
+    );
+}
+
+#[test]
+fn the_smallest_and_the_largest_errors_are_squared_without_loss() {
+    for scale in [1e-300, 1e-200, 1.0, 1e150] {
+        let estimate = |value: f64, error: f64| {
+            Estimate::try_new(value * scale, error * scale, 10).expect("numbers")
+        };
+        let difference = welch(Sides {
+            a: estimate(1.0, 0.3),
+            b: estimate(3.0, 0.4),
+        });
+        let difference = difference.expect("both vary");
+        near(difference.standard_error / scale, 0.5);
+        near(difference.freedom, 0.0625 / (0.0081 / 9.0 + 0.0256 / 9.0));
+    }
+}
+
+#[test]
+fn success_rates_are_compared_board_by_board() {
+    let boards = |hits: [u32; 6]| {
+        let mut sums = ClusterSums::default();
+        for (board, hits) in hits.into_iter().enumerate() {
+            for press in 0..100 {
+                sums.try_add(&format!("board {board}"), f64::from(u8::from(press < hits)))
+                    .expect("0 or 1");
+            }
+        }
+        sums
+    };
+    let (a, b) = (
+        boards([90, 80, 70, 60, 50, 40]),
+        boards([80, 75, 60, 50, 55, 30]),
+    );
+    let difference = SignFlip::default()
+        .test(Sides { a: &a, b: &b })
+        .expect("six boards");
+    near(difference.scores.a, 390.0 / 600.0);
+    near(difference.value, 40.0 / 600.0);
+    // Differences 10, 5, 10, 10, −5, 10, sum 40 of 50: as large are those whose negated part has 5 or less of the
+    // magnitudes, nothing or one of the two fives: 3 of 2⁶, and as many reversed.
+    near(difference.p, 6.0 / 64.0);
+}
