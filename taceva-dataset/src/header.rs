@@ -1,5 +1,7 @@
 //! `dataset.toml`: what is known about a recording as a whole.
 
+mod footprint;
+
 use std::path::Path;
 
 use serde::{Deserialize, Deserializer, Serialize, Serializer, de};
@@ -10,6 +12,8 @@ use crate::digest::Digest;
 use crate::error::DatasetError;
 use crate::toml_file::{parse_toml, read_toml_text, toml_error};
 use crate::version::Version;
+
+pub use footprint::{Footprint, Shape};
 
 /// Where the samples come from; carried into every report.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
@@ -90,68 +94,6 @@ pub struct SensorFacts {
     pub gel: String,
     /// Whether ambient light cannot reach the camera.
     pub opaque: Known<bool>,
-}
-
-/// The part of the gel that the sensor can sense with.
-///
-/// # Units
-/// mm.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Footprint {
-    /// Its outline.
-    pub shape: Shape,
-    /// Of a disc.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub radius_mm: Option<f64>,
-    /// Half the width of a rectangle along x.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub half_x_mm: Option<f64>,
-    /// Half the width of a rectangle along y.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub half_y_mm: Option<f64>,
-    /// The deepest indentation the gel bears.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub depth_max_mm: Option<f64>,
-}
-
-/// An outline.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Shape {
-    /// All points within a radius of the middle.
-    Disc,
-    /// All points within half a width of the middle along x and along y.
-    Rect,
-}
-
-impl Footprint {
-    /// What is missing, too much or not positive.
-    pub(crate) fn problem(&self) -> Option<String> {
-        let is_disc = self.shape == Shape::Disc;
-        let sides = [
-            ("radius_mm", self.radius_mm, is_disc),
-            ("half_x_mm", self.half_x_mm, !is_disc),
-            ("half_y_mm", self.half_y_mm, !is_disc),
-        ];
-        let side = sides.iter().find_map(|(name, side, wanted)| {
-            (side.is_some() != *wanted).then(|| {
-                let verb = if *wanted { "needs" } else { "has no" };
-                format!("a footprint of this shape {verb} `{name}`")
-            })
-        });
-        let lengths = [
-            self.radius_mm,
-            self.half_x_mm,
-            self.half_y_mm,
-            self.depth_max_mm,
-        ];
-        let is_length = |length: &f64| length.is_finite() && *length > 0.0;
-        side.or_else(|| {
-            let wrong = lengths.iter().flatten().find(|length| !is_length(length))?;
-            Some(format!("{wrong} mm is no length of a footprint"))
-        })
-    }
 }
 
 /// What all frames of a recording share.
@@ -375,21 +317,5 @@ mod tests {
             Header::read(&path).expect("reads").format,
             Version { major: 1, minor: 9 }
         );
-    }
-
-    #[test]
-    fn a_footprint_has_the_lengths_of_its_shape() {
-        let disc = header().footprint.expect("given");
-        assert_eq!(disc.problem(), None);
-        let rect = Footprint {
-            shape: Shape::Rect,
-            ..disc
-        };
-        assert!(rect.problem().expect("no half_x").contains("radius_mm"));
-        let flat = Footprint {
-            radius_mm: Some(0.0),
-            ..disc
-        };
-        assert!(flat.problem().is_some());
     }
 }

@@ -17,6 +17,7 @@ mod limits;
 mod parallel;
 mod recorder;
 mod samples;
+mod sensor_file;
 mod staged;
 mod store;
 mod table;
@@ -39,6 +40,7 @@ pub use import::{
     magnitude_suspicion,
 };
 pub use recorder::{Recorder, RecordingSpec};
+pub use sensor_file::SensorFile;
 pub use store::RecordingFacts;
 pub use table::{FrameEntry, Row, Table};
 pub use toml_file::read_toml;

@@ -1,0 +1,112 @@
+//! Where a sensor senses, as files write it.
+
+use serde::{Deserialize, Serialize};
+
+/// The part of the gel that the sensor can sense with.
+///
+/// # Units
+/// mm.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Footprint {
+    /// Its outline.
+    pub shape: Shape,
+    /// Of a disc.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub radius_mm: Option<f64>,
+    /// Half the width of a rectangle along x.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub half_x_mm: Option<f64>,
+    /// Half the width of a rectangle along y.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub half_y_mm: Option<f64>,
+    /// The deepest indentation the gel bears.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub depth_max_mm: Option<f64>,
+}
+
+/// An outline.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Shape {
+    /// All points within a radius of the middle.
+    Disc,
+    /// All points within half a width of the middle along x and along y.
+    Rect,
+}
+
+impl Footprint {
+    /// The same surface in whole nanometres, as metrics bin it.
+    ///
+    /// # Errors
+    /// In words, if a length is missing, too much, not positive or beyond 10 m.
+    pub fn to_core(&self) -> Result<taceva_core::Footprint, String> {
+        if let Some(problem) = self.problem() {
+            return Err(problem);
+        }
+        let length = |side: Option<f64>| side.unwrap_or_default();
+        match self.shape {
+            Shape::Disc => taceva_core::Footprint::disc(length(self.radius_mm), self.depth_max_mm),
+            Shape::Rect => taceva_core::Footprint::rectangle(
+                length(self.half_x_mm),
+                length(self.half_y_mm),
+                self.depth_max_mm,
+            ),
+        }
+        .map_err(|error| error.to_string())
+    }
+
+    /// What is missing, too much or not positive.
+    pub(crate) fn problem(&self) -> Option<String> {
+        let is_disc = self.shape == Shape::Disc;
+        let sides = [
+            ("radius_mm", self.radius_mm, is_disc),
+            ("half_x_mm", self.half_x_mm, !is_disc),
+            ("half_y_mm", self.half_y_mm, !is_disc),
+        ];
+        let side = sides.iter().find_map(|(name, side, wanted)| {
+            (side.is_some() != *wanted).then(|| {
+                let verb = if *wanted { "needs" } else { "has no" };
+                format!("a footprint of this shape {verb} `{name}`")
+            })
+        });
+        let lengths = [
+            self.radius_mm,
+            self.half_x_mm,
+            self.half_y_mm,
+            self.depth_max_mm,
+        ];
+        let is_length = |length: &f64| length.is_finite() && *length > 0.0;
+        side.or_else(|| {
+            let wrong = lengths.iter().flatten().find(|length| !is_length(length))?;
+            Some(format!("{wrong} mm is no length of a footprint"))
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_footprint_has_the_lengths_of_its_shape() {
+        let disc = Footprint {
+            shape: Shape::Disc,
+            radius_mm: Some(17.0),
+            half_x_mm: None,
+            half_y_mm: None,
+            depth_max_mm: Some(3.5),
+        };
+        assert_eq!(disc.problem(), None);
+        let rect = Footprint {
+            shape: Shape::Rect,
+            ..disc
+        };
+        assert!(rect.problem().expect("no half_x").contains("radius_mm"));
+        let flat = Footprint {
+            radius_mm: Some(0.0),
+            ..disc
+        };
+        assert!(flat.problem().is_some());
+    }
+}
