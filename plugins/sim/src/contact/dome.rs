@@ -1,0 +1,80 @@
+//! A ball on a skin over a soft hemisphere.
+//!
+//! F(d) = k₁ d + k₂ d^(3/2) along the line through both centres: the skin's buckled point stiffness and Hertz's law of the gel. A ball
+//! that comes down beside the apex meets the dome at a slant, presses less along the normal and slides along the surface: that alone
+//! makes the rim look softer.
+
+use super::solid::{Answer, Indentation, Stand, dot};
+use crate::elastic::hertz;
+use crate::parameters::Dome;
+
+#[derive(Clone, Copy, Debug)]
+pub(super) struct DomeLaw {
+    dome: Dome,
+    /// 1 / √R of the ball that the gel's stiffness was stated for.
+    inverse_root_stated: f64,
+}
+
+/// The ball that the gel's stiffness is stated for.
+const STATED_INDENTER_MM: f64 = 2.0;
+
+impl DomeLaw {
+    pub(super) fn new(dome: Dome) -> DomeLaw {
+        let stated = hertz::relative_radius(STATED_INDENTER_MM, dome.radius_mm);
+        DomeLaw {
+            dome,
+            inverse_root_stated: 1.0 / stated.sqrt(),
+        }
+    }
+
+    #[inline]
+    pub(super) fn answer(&self, depth_mm: f64, indenter_radius_mm: f64) -> Answer {
+        let relative = hertz::relative_radius(indenter_radius_mm, self.dome.radius_mm);
+        let root = depth_mm.sqrt();
+        let gel = self.dome.gel_n_per_mm_3_2 * relative.sqrt() * self.inverse_root_stated;
+        let gel_force = gel * depth_mm * root;
+        let skin_force = self.dome.skin_n_per_mm * depth_mm;
+        let stiffness = self.dome.skin_n_per_mm + 1.5 * gel * root;
+        Answer {
+            force_n: skin_force + gel_force,
+            shear_n_per_mm: self.dome.tangential_ratio * stiffness,
+            radius_mm: (relative * depth_mm).sqrt(),
+            // k₂ = (4/3) E/(1 − ν²) √R.
+            young_modulus_mpa: gel * 9.0 / (16.0 * relative.sqrt()),
+            skin_share: skin_force / (skin_force + gel_force),
+        }
+    }
+
+    /// Where the lowest point of a ball is when it just touches, over the apex.
+    pub(super) fn touch_height_mm(&self, place_mm: [f64; 2], indenter_radius_mm: f64) -> f64 {
+        self.rise(place_mm, indenter_radius_mm) - self.dome.radius_mm - indenter_radius_mm
+    }
+
+    /// How high a touching ball's centre is over the dome's.
+    fn rise(&self, [x, y]: [f64; 2], indenter_radius_mm: f64) -> f64 {
+        let reach = self.dome.radius_mm + indenter_radius_mm;
+        (reach * reach - x * x - y * y).max(0.0).sqrt()
+    }
+
+    pub(super) fn stand(
+        &self,
+        indentation: &Indentation,
+        depth_mm: f64,
+        shear_mm: [f64; 2],
+    ) -> Stand {
+        let [x, y] = indentation.place_mm;
+        let [dx, dy] = shear_mm;
+        let radius = indentation.indenter_radius_mm;
+        let rise = self.rise(indentation.place_mm, radius) - depth_mm;
+        let centres = [x + dx, y + dy, rise];
+        let distance = dot(centres, centres).sqrt();
+        let normal = centres.map(|component| component / distance);
+        let moved = [dx, dy, -depth_mm];
+        let inwards = dot(moved, normal);
+        Stand {
+            normal_depth_mm: self.dome.radius_mm + radius - distance,
+            normal,
+            slide: std::array::from_fn(|axis| moved[axis] - inwards * normal[axis]),
+        }
+    }
+}

@@ -1,0 +1,40 @@
+//! A ball on a flat bonded gel.
+
+use super::solid::Answer;
+use crate::elastic::layer;
+use crate::parameters::Layer;
+
+/// F = (16/9) E √R d^(3/2) ψ(χ) (1 + d/d₀), with the stiffening of a lattice that closes in d₀.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct LayerLaw {
+    layer: Layer,
+}
+
+/// (4/3) / (1 − ν²) and 8 / (2 (1 + ν) (2 − ν)) at ν = 1/2.
+const INCOMPRESSIBLE: f64 = 16.0 / 9.0;
+
+impl LayerLaw {
+    pub(super) fn new(layer: Layer) -> LayerLaw {
+        LayerLaw { layer }
+    }
+
+    #[inline]
+    pub(super) fn answer(&self, depth_mm: f64, indenter_radius_mm: f64) -> Answer {
+        let half_space_radius = (indenter_radius_mm * depth_mm).sqrt();
+        let chi = half_space_radius / self.layer.thickness_mm;
+        let modulus =
+            self.layer.young_modulus_mpa * (1.0 + self.layer.stiffening_per_mm * depth_mm);
+        Answer {
+            // √R d^(3/2) = d √(R d).
+            force_n: INCOMPRESSIBLE
+                * modulus
+                * depth_mm
+                * half_space_radius
+                * layer::force_ratio(chi),
+            shear_n_per_mm: INCOMPRESSIBLE * modulus * half_space_radius * layer::shear_ratio(chi),
+            radius_mm: half_space_radius * layer::radius_ratio(chi),
+            young_modulus_mpa: modulus,
+            skin_share: 0.0,
+        }
+    }
+}

@@ -1,0 +1,247 @@
+//! A body, and what is asked of it.
+
+use super::dome::DomeLaw;
+use super::flat::LayerLaw;
+use super::{Contact, Relaxation};
+use crate::parameters::{Body, Parameters};
+
+/// A sensor's body as the solver of contacts sees it.
+#[derive(Clone, Copy, Debug)]
+pub struct Solid {
+    law: Law,
+    friction: f64,
+    relaxation: Relaxation,
+    speed_mm_per_s: f64,
+}
+
+#[derive(Clone, Copy, Debug)]
+enum Law {
+    Layer(LayerLaw),
+    Dome(DomeLaw),
+}
+
+/// Where a ball goes, from the place where it would just touch.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Indentation {
+    /// Where it comes down.
+    pub place_mm: [f64; 2],
+    /// How far below touching it stands.
+    pub depth_mm: f64,
+    /// How far below touching it has been: more than `depth_mm` on the way out.
+    pub deepest_mm: f64,
+    /// How far it is dragged along the surface, once deep.
+    pub shear_mm: [f64; 2],
+    /// Its radius.
+    pub indenter_radius_mm: f64,
+    /// How stiff the gel is here over its nominal stiffness.
+    pub stiffness: f64,
+}
+
+/// How a ball stands in a body: what both laws need.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Stand {
+    /// Indentation along the normal.
+    pub(super) normal_depth_mm: f64,
+    /// Outward normal.
+    pub(super) normal: [f64; 3],
+    /// Displacement along the surface since touching.
+    pub(super) slide: [f64; 3],
+}
+
+/// What a law says of a normal indentation.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Answer {
+    /// Normal force.
+    pub(super) force_n: f64,
+    /// Tangential stiffness.
+    pub(super) shear_n_per_mm: f64,
+    /// Contact radius.
+    pub(super) radius_mm: f64,
+    /// Modulus shown.
+    pub(super) young_modulus_mpa: f64,
+    /// The skin's part of the force.
+    pub(super) skin_share: f64,
+}
+
+impl Solid {
+    /// The body of a sensor with these parameters, pressed at the speed of its rig.
+    pub fn new(parameters: &Parameters) -> Solid {
+        Solid {
+            law: match parameters.body {
+                Body::Layer(layer) => Law::Layer(LayerLaw::new(layer)),
+                Body::Dome(dome) => Law::Dome(DomeLaw::new(dome)),
+            },
+            friction: parameters.surface.friction,
+            relaxation: Relaxation::new(
+                parameters.material.relaxing_fraction,
+                parameters.material.relaxation_time_s,
+            ),
+            speed_mm_per_s: parameters.robot.speed_mm_per_s,
+        }
+    }
+
+    /// The height at which the lowest point of a ball just touches the undeformed body, over the apex.
+    pub fn touch_height_mm(&self, place_mm: [f64; 2], indenter_radius_mm: f64) -> f64 {
+        match &self.law {
+            Law::Layer(_) => 0.0,
+            Law::Dome(dome) => dome.touch_height_mm(place_mm, indenter_radius_mm),
+        }
+    }
+
+    /// The normal force of a gel that has had no time to relax: what a search for contact meets.
+    pub fn swift_force_n(&self, indentation: &Indentation) -> f64 {
+        let stand = self.stand(indentation, indentation.depth_mm, [0.0; 2]);
+        let answer = self.answer(&stand, indentation);
+        answer.force_n * indentation.stiffness * stand.normal[2]
+    }
+
+    /// The contact after `indentation`, reached at the rig's speed and read at once.
+    pub fn contact(&self, indentation: &Indentation) -> Contact {
+        let stand = self.stand(indentation, indentation.depth_mm, indentation.shear_mm);
+        let answer = self.answer(&stand, indentation);
+        let relaxed = self.relaxed(indentation, stand.normal_depth_mm);
+        self.settle(indentation, &stand, &answer, relaxed)
+    }
+
+    /// The contact after `indentation` where the force is `relaxed` times that of a gel without time to relax.
+    pub fn contact_at(&self, indentation: &Indentation, relaxed: f64) -> Contact {
+        let stand = self.stand(indentation, indentation.depth_mm, indentation.shear_mm);
+        let answer = self.answer(&stand, indentation);
+        self.settle(indentation, &stand, &answer, relaxed)
+    }
+
+    /// The normal force of an unrelaxed gel at `depth_mm` of the indentation's own shear: what its memory is fed with.
+    pub fn elastic_force_n(&self, indentation: &Indentation, depth_mm: f64) -> f64 {
+        let stand = self.stand(indentation, depth_mm, indentation.shear_mm);
+        self.answer(&stand, indentation).force_n * indentation.stiffness
+    }
+
+    /// The memory of this body.
+    pub fn relaxation(&self) -> Relaxation {
+        self.relaxation
+    }
+
+    fn stand(&self, indentation: &Indentation, depth_mm: f64, shear_mm: [f64; 2]) -> Stand {
+        match &self.law {
+            Law::Layer(_) => Stand {
+                normal_depth_mm: depth_mm,
+                normal: [0.0, 0.0, 1.0],
+                slide: [shear_mm[0], shear_mm[1], 0.0],
+            },
+            Law::Dome(dome) => dome.stand(indentation, depth_mm, shear_mm),
+        }
+    }
+
+    #[inline]
+    fn answer(&self, stand: &Stand, indentation: &Indentation) -> Answer {
+        if stand.normal_depth_mm <= 0.0 {
+            return Answer::default();
+        }
+        self.answer_at(stand.normal_depth_mm, indentation.indenter_radius_mm)
+    }
+
+    #[inline]
+    fn answer_at(&self, normal_depth_mm: f64, indenter_radius_mm: f64) -> Answer {
+        match &self.law {
+            Law::Layer(layer) => layer.answer(normal_depth_mm, indenter_radius_mm),
+            Law::Dome(dome) => dome.answer(normal_depth_mm, indenter_radius_mm),
+        }
+    }
+
+    /// The force over the unrelaxed one: a ramp in to the deepest, and perhaps out again, along the normal.
+    fn relaxed(&self, indentation: &Indentation, normal_depth_mm: f64) -> f64 {
+        let unrelaxed = |depth: f64| {
+            self.answer_at(depth, indentation.indenter_radius_mm)
+                .force_n
+        };
+        if self.relaxation.is_elastic() || normal_depth_mm <= 0.0 {
+            return 1.0;
+        }
+        let step_s = |depth_mm: f64| depth_mm / f64::from(RAMP_STEPS) / self.speed_mm_per_s;
+        let unloads = indentation.deepest_mm > indentation.depth_mm;
+        let turn_mm = if unloads {
+            normal_depth_mm * indentation.deepest_mm / indentation.depth_mm
+        } else {
+            normal_depth_mm
+        };
+        let mut memory = self.relaxation;
+        let decay = memory.decay(step_s(turn_mm));
+        for step in 1..=RAMP_STEPS {
+            let depth = turn_mm * f64::from(step) / f64::from(RAMP_STEPS);
+            memory.step(unrelaxed(depth), decay);
+        }
+        if unloads {
+            let way = turn_mm - normal_depth_mm;
+            let decay = memory.decay(step_s(way));
+            for step in 1..=RAMP_STEPS {
+                let depth = turn_mm - way * f64::from(step) / f64::from(RAMP_STEPS);
+                memory.step(unrelaxed(depth), decay);
+            }
+        }
+        memory.ratio()
+    }
+
+    /// Friction, directions and forces of an answer.
+    fn settle(
+        &self,
+        indentation: &Indentation,
+        stand: &Stand,
+        answer: &Answer,
+        relaxed: f64,
+    ) -> Contact {
+        let [dx, dy] = indentation.shear_mm;
+        let mut contact = Contact {
+            position_mm: [indentation.place_mm[0] + dx, indentation.place_mm[1] + dy],
+            depth_mm: indentation.depth_mm,
+            normal_depth_mm: stand.normal_depth_mm.max(0.0),
+            normal: stand.normal,
+            indenter_radius_mm: indentation.indenter_radius_mm,
+            ..Contact::default()
+        };
+        let scale = indentation.stiffness * relaxed;
+        if answer.force_n * scale <= 0.0 {
+            return contact;
+        }
+        let friction = super::Friction {
+            limit_n: self.friction * answer.force_n * scale,
+            stiffness_n_per_mm: answer.shear_n_per_mm * scale,
+        };
+        let (slide_mm, tangent) = unit(stand.slide);
+        let shear_n = if indentation.deepest_mm > indentation.depth_mm {
+            let turned = self.stand(indentation, indentation.deepest_mm, indentation.shear_mm);
+            friction.unload(dot(turned.slide, tangent).max(slide_mm), slide_mm)
+        } else {
+            friction.load(slide_mm)
+        };
+        contact.tangent = tangent;
+        contact.carried_mm = slide_mm.min(friction.sliding_begins_mm());
+        contact.slip_mm = slide_mm - contact.carried_mm;
+        contact.radius_mm = answer.radius_mm;
+        contact.stick_radius_mm = answer.radius_mm * friction.stick_ratio(shear_n);
+        contact.young_modulus_mpa = answer.young_modulus_mpa * scale;
+        contact.skin_share = answer.skin_share;
+        contact.normal_force_n = answer.force_n * scale;
+        contact.shear_force_n = shear_n;
+        let along =
+            |axis: usize| shear_n * tangent[axis] - contact.normal_force_n * stand.normal[axis];
+        contact.force_n = [along(0), along(1), -along(2)];
+        contact
+    }
+}
+
+/// Steps in which a ramp is remembered; the force is taken as linear in each.
+const RAMP_STEPS: u32 = 12;
+
+/// The length and the direction of a vector.
+fn unit(vector: [f64; 3]) -> (f64, [f64; 3]) {
+    let length = dot(vector, vector).sqrt();
+    if length > 0.0 {
+        (length, vector.map(|component| component / length))
+    } else {
+        (0.0, [0.0; 3])
+    }
+}
+
+pub(super) fn dot(left: [f64; 3], right: [f64; 3]) -> f64 {
+    left[0] * right[0] + left[1] * right[1] + left[2] * right[2]
+}
