@@ -1,12 +1,21 @@
 //! Sums and quotients without rounding: what makes every score a function of the set of samples alone.
 
+mod block_sums;
+mod bounds;
 mod canonical;
+mod grid;
 mod integer;
-pub(crate) mod kernel;
+mod isa;
+mod kernel;
 mod rational;
 mod round;
+mod simd;
 mod sum;
+mod vector;
 
+pub(crate) use block_sums::{BlockSums, Counts, Sums};
 pub use canonical::{Canonical, CanonicalError};
+pub(crate) use isa::Machine;
+pub use isa::{Isa, IsaError};
 pub(crate) use rational::Dyadic;
 pub use sum::ExactSum;

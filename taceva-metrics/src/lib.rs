@@ -25,7 +25,7 @@ pub use clusters::{Clusters, HASHED_CLUSTERS, NAMED_CLUSTERS};
 pub use error::{MetricError, UnknownMetric};
 pub use evaluate::Evaluator;
 pub use evaluation::Evaluation;
-pub use exact::{Canonical, CanonicalError, ExactSum};
+pub use exact::{Canonical, CanonicalError, ExactSum, Isa, IsaError};
 pub use metric::{Better, Metric, ScoreUnit};
 pub use pair_sums::{PairSpec, PairSums};
 pub use paired::{GREATEST, Paired};

@@ -1,14 +1,10 @@
 //! What is kept of the pairs of one channel: enough for every score of accuracy, and mergeable.
 
 use crate::error::MetricError;
-use crate::exact::kernel::{StreamSums, deposit_pairs};
-use crate::exact::{Dyadic, ExactSum};
+use crate::exact::{BlockSums, Counts, Dyadic, ExactSum, Isa, IsaError, Machine, Sums};
 use crate::merge::Merge;
 use crate::paired::Paired;
 use crate::streams::{Stream, Streams};
-
-/// Rows that are visited stream by stream before the next ones: both columns then stay in the fastest cache.
-const BLOCK_ROWS: usize = 1024;
 
 /// What is to be summed, and from which magnitude of truth on the gated score counts a sample.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -33,90 +29,70 @@ pub struct PairSpec {
 #[derive(Clone, Debug, PartialEq)]
 pub struct PairSums {
     spec: PairSpec,
-    pub(crate) n: u64,
-    pub(crate) n_invalid: u64,
-    pub(crate) n_gated: u64,
-    pub(crate) sums: StreamSums,
-    pub(crate) gated: ExactSum,
+    kept: BlockSums,
 }
 
 impl PairSums {
-    /// The sums of no pair.
+    /// The sums of no pair, to be formed with the instructions of [`Isa::detect`].
     pub fn new(spec: PairSpec) -> PairSums {
+        PairSums::with_machine(spec, Machine::detect())
+    }
+
+    /// The sums of no pair, to be formed with the instructions of `isa`: in another time, with the same result.
+    ///
+    /// # Errors
+    /// [`IsaError::Unavailable`] if this machine does not have them.
+    pub fn with_isa(spec: PairSpec, isa: Isa) -> Result<PairSums, IsaError> {
+        let machine = Machine::with(isa).ok_or(IsaError::Unavailable { isa })?;
+        Ok(PairSums::with_machine(spec, machine))
+    }
+
+    fn with_machine(spec: PairSpec, machine: Machine) -> PairSums {
         PairSums {
             spec,
-            n: 0,
-            n_invalid: 0,
-            n_gated: 0,
-            sums: StreamSums::default(),
-            gated: ExactSum::default(),
+            kept: BlockSums::new(machine, spec.streams, gate(spec)),
         }
+    }
+
+    /// Takes over what was kept elsewhere of the same specification.
+    pub(crate) fn set(&mut self, counts: Counts, sums: Sums) {
+        self.kept.set(counts, sums);
     }
 
     /// Adds pairs; one with a NaN, an infinity or a magnitude beyond 2¹⁰²¹ is counted in
     /// [`n_invalid`](PairSums::n_invalid) and left out.
     pub fn update(&mut self, pairs: Paired<&[f64]>) {
-        pairs
-            .blocks(BLOCK_ROWS)
-            .for_each(|block| self.add_block(block));
-    }
-
-    fn add_block(&mut self, pairs: Paired<&[f64]>) {
-        if pairs.all_valid() {
-            return self.add_valid(pairs);
-        }
-        let (mut estimate, mut reference) = (Vec::new(), Vec::new());
-        for pair in pairs.iter().filter(|pair| pair.is_valid()) {
-            estimate.push(pair.estimate);
-            reference.push(pair.reference);
-        }
-        self.n_invalid += count(pairs.estimate.len() - estimate.len());
-        self.add_valid(Paired {
-            estimate: &estimate,
-            reference: &reference,
-        });
-    }
-
-    fn add_valid(&mut self, pairs: Paired<&[f64]>) {
-        self.n += count(pairs.estimate.len());
-        deposit_pairs(&mut self.sums, self.spec.streams, pairs);
-        if let Some(gate) = self.gate() {
-            for pair in pairs.iter().filter(|pair| pair.reference.abs() >= gate) {
-                self.n_gated += 1;
-                self.gated.add(pair.symmetric_term());
-            }
-        }
+        self.kept.update(pairs);
     }
 
     /// Number of pairs.
     pub fn n(&self) -> u64 {
-        self.n
+        self.kept.counts.valid
     }
 
     /// Number of pairs left out because a value was no number of a magnitude up to 2¹⁰²¹.
     pub fn n_invalid(&self) -> u64 {
-        self.n_invalid
+        self.kept.counts.invalid
     }
 
     /// Number of pairs whose truth reaches the gate.
     pub fn n_gated(&self) -> u64 {
-        self.n_gated
+        self.kept.counts.gated
     }
 
     /// The sum of `stream`; zero if it is not kept.
-    pub fn sum(&self, stream: Stream) -> &ExactSum {
-        &self.sums[stream as usize]
+    pub fn sum(&self, stream: Stream) -> ExactSum {
+        self.kept.sum(stream)
     }
 
     /// The sum of the sMAPE terms of the pairs whose truth reaches the gate.
-    pub fn gated_sum(&self) -> &ExactSum {
-        &self.gated
+    pub fn gated_sum(&self) -> ExactSum {
+        self.kept.gated_sum()
     }
 
     /// The gate, if the sum behind it is kept.
     pub fn gate(&self) -> Option<f64> {
-        let wanted = self.spec.streams.contains(Stream::Symmetric);
-        self.spec.gate.filter(|_| wanted)
+        gate(self.spec)
     }
 
     /// What is summed.
@@ -137,7 +113,8 @@ impl PairSums {
     /// RN((n Sdd − S|d|²) / (n (n − 1))), the variance of |d|; `None` for fewer than two pairs.
     pub fn absolute_variance(&self) -> Option<f64> {
         let (absolute, squared) = (Stream::Absolute, Stream::Squared);
-        (self.n >= 2).then(|| self.over_n(&self.scaled_variance(absolute, squared), self.n - 1))
+        let n = self.n();
+        (n >= 2).then(|| self.over_n(&self.scaled_variance(absolute, squared), n - 1))
     }
 
     /// RN(sum / n) of one stream; 0 for no pair.
@@ -153,14 +130,14 @@ impl PairSums {
     fn scaled_variance(&self, values: Stream, squares: Stream) -> Dyadic {
         let values = self.sum(values).to_dyadic();
         let squares = self.sum(squares).to_dyadic();
-        &(&Dyadic::from(self.n) * &squares) - &(&values * &values)
+        &(&Dyadic::from(self.n()) * &squares) - &(&values * &values)
     }
 
     fn over_n(&self, numerator: &Dyadic, factor: u64) -> f64 {
-        if self.n == 0 {
+        if self.n() == 0 {
             return 0.0;
         }
-        numerator.over(&(&Dyadic::from(self.n) * &Dyadic::from(factor)))
+        numerator.over(&(&Dyadic::from(self.n()) * &Dyadic::from(factor)))
     }
 
     /// Takes over what another one kept, which must keep the same.
@@ -182,28 +159,18 @@ impl PairSums {
 
 impl Merge for PairSums {
     fn merge(&mut self, other: &PairSums) {
-        self.n = self.n.saturating_add(other.n);
-        self.n_invalid = self.n_invalid.saturating_add(other.n_invalid);
-        self.n_gated = self.n_gated.saturating_add(other.n_gated);
-        for (sum, other) in self.sums.iter_mut().zip(&other.sums) {
-            sum.merge(other);
-        }
-        self.gated.merge(&other.gated);
+        self.kept.merge(&other.kept);
     }
 
     fn subtract(&mut self, other: &PairSums) {
-        self.n = self.n.saturating_sub(other.n);
-        self.n_invalid = self.n_invalid.saturating_sub(other.n_invalid);
-        self.n_gated = self.n_gated.saturating_sub(other.n_gated);
-        for (sum, other) in self.sums.iter_mut().zip(&other.sums) {
-            sum.subtract(other);
-        }
-        self.gated.subtract(&other.gated);
+        self.kept.subtract(&other.kept);
     }
 }
 
-fn count(rows: usize) -> u64 {
-    u64::try_from(rows).expect("no column has 2^64 rows")
+/// The gate, if the terms behind it are summed.
+fn gate(spec: PairSpec) -> Option<f64> {
+    let wanted = spec.streams.contains(Stream::Symmetric);
+    spec.gate.filter(|_| wanted)
 }
 
 #[cfg(test)]

@@ -75,17 +75,6 @@ impl<'a> Paired<&'a [f64]> {
             reference,
         })
     }
-
-    /// Whether every pair is valid.
-    pub(crate) fn all_valid(self) -> bool {
-        // No early end: this way the loop runs on whole vectors.
-        let sound = |column: &[f64]| {
-            column
-                .iter()
-                .fold(true, |all, &value| all & is_valid(value))
-        };
-        sound(self.estimate) && sound(self.reference)
-    }
 }
 
 #[inline]

@@ -73,6 +73,16 @@ impl Streams {
         self.bits & 1 << stream as u8 != 0
     }
 
+    /// Whether a stream is in both sets.
+    pub(crate) const fn intersects(self, other: Streams) -> bool {
+        self.bits & other.bits != 0
+    }
+
+    /// A bit a stream, in the order of [`Stream::ALL`].
+    pub(crate) const fn bits(self) -> u8 {
+        self.bits
+    }
+
     /// The streams in order.
     pub fn iter(self) -> impl Iterator<Item = Stream> {
         Stream::ALL

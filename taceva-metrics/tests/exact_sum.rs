@@ -53,6 +53,17 @@ fn the_least_and_the_greatest_stand_side_by_side() {
 }
 
 #[test]
+fn a_product_of_powers_of_two_is_one_at_every_place_within_a_digit() {
+    for left in (-900..900).step_by(7) {
+        for right in -40..40 {
+            let mut product = ExactSum::default();
+            product.add_product(power(left), -power(right));
+            assert_eq!(product, sum([-power(left + right)]), "2^{left} × 2^{right}");
+        }
+    }
+}
+
+#[test]
 fn a_sum_that_wandered_through_the_range_equals_one_that_did_not() {
     let wander = (-1074..1000).step_by(7).map(power);
     let mut wandered = sum(wander.clone().chain([0.1]));

@@ -7,7 +7,7 @@ use taceva_core::{Batch, Channels, Column, Unit};
 use super::clustered::{Family, Output};
 use super::plane::planes;
 use crate::accuracy::{EPSILON, gate};
-use crate::exact::ExactSum;
+use crate::exact::{Counts, Sums};
 use crate::metric::{Finish, Formula, Metric};
 use crate::pair_sums::{PairSpec, PairSums};
 use crate::paired::Paired;
@@ -110,16 +110,12 @@ impl Family for Pairs {
 
     fn to_record(&self, sums: &PairSums) -> Record {
         let mut record = Record {
-            counts: vec![sums.n, sums.n_invalid],
-            sums: self
-                .streams
-                .iter()
-                .map(|stream| sums.sum(stream).clone())
-                .collect(),
+            counts: vec![sums.n(), sums.n_invalid()],
+            sums: self.streams.iter().map(|stream| sums.sum(stream)).collect(),
         };
         if sums.gate().is_some() {
-            record.counts.push(sums.n_gated);
-            record.sums.push(sums.gated.clone());
+            record.counts.push(sums.n_gated());
+            record.sums.push(sums.gated_sum());
         }
         record
     }
@@ -136,15 +132,17 @@ impl Family for Pairs {
             ));
         }
         let mut kept = record.sums.iter().cloned();
-        let mut next = || kept.next().unwrap_or_else(ExactSum::default);
-        (sums.n, sums.n_invalid) = (record.counts[0], record.counts[1]);
-        for stream in self.streams.iter() {
-            sums.sums[stream as usize] = next();
+        let mut read = Sums::default();
+        for (stream, sum) in self.streams.iter().zip(&mut kept) {
+            read.streams[stream as usize] = sum;
         }
-        if gated == 1 {
-            sums.n_gated = record.counts[2];
-            sums.gated = next();
-        }
+        read.gated = kept.next().unwrap_or_default();
+        let counts = Counts {
+            valid: record.counts[0],
+            invalid: record.counts[1],
+            gated: record.counts.get(2).copied().unwrap_or_default(),
+        };
+        sums.set(counts, read);
         Ok(sums)
     }
 

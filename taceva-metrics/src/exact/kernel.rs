@@ -1,30 +1,288 @@
-//! The inner loops: a stretch of pairs into the sums of its streams.
+//! The inner loops: a block of pairs into units of its streams' grids.
 //!
-//! Everything that touches each pair goes through [`deposit_pairs`]; a faster kernel replaces its body and nothing else,
-//! because exact sums do not tell how they came about.
+//! A block is visited twice, once for what is made of y − ŷ and once for the rest, so that the sums of one visit fit into the
+//! registers of any machine; it stays in the fastest cache meanwhile. The first visit also finds out whether all pairs are
+//! within [`Bounds`]; if not, what it summed is dropped.
 
-use super::sum::ExactSum;
+use super::bounds::{Bounds, Grids, TERMS};
+use super::grid::{DEPTH, GridSum, SquareSum, SquareUnits};
+use super::isa::Machine;
+use super::vector::{Job, Vector};
+use crate::accuracy::EPSILON;
 use crate::paired::Paired;
 use crate::streams::{Stream, Streams};
 
-/// One exact sum a stream.
-pub(crate) type StreamSums = [ExactSum; Stream::ALL.len()];
+/// Rows of the longest block.
+pub(super) const BLOCK_ROWS: usize = 1024;
 
-/// Adds pairs to the sums of the wanted streams.
-///
-/// # Shapes
-/// `pairs.estimate`, `pairs.reference`: one length; every value finite and at most 2¹⁰²¹.
-pub(crate) fn deposit_pairs(sums: &mut StreamSums, streams: Streams, pairs: Paired<&[f64]>) {
-    let each = || pairs.iter();
-    for stream in streams.iter() {
-        let sum = &mut sums[stream as usize];
-        match stream {
-            Stream::Absolute => each().for_each(|pair| sum.deposit(pair.residual().abs())),
-            Stream::Residual => each().for_each(|pair| sum.deposit(pair.residual())),
-            Stream::Squared => each().for_each(|pair| sum.deposit_square(pair.residual())),
-            Stream::Truth => each().for_each(|pair| sum.deposit(pair.reference)),
-            Stream::TruthSquared => each().for_each(|pair| sum.deposit_square(pair.reference)),
-            Stream::Symmetric => each().for_each(|pair| sum.deposit(pair.symmetric_term())),
+/// What is to be summed of a block, and where.
+#[derive(Clone, Copy)]
+pub(super) struct Block<'a> {
+    pub(super) pairs: Paired<&'a [f64]>,
+    pub(super) streams: Streams,
+    /// The least |y| of a pair of the gated sum, if there is one.
+    pub(super) gate: Option<f64>,
+    pub(super) grids: Grids,
+    pub(super) bounds: Bounds,
+}
+
+/// Units of what is made of y − ŷ.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct ErrorUnits {
+    pub(super) absolute: [i64; 2],
+    pub(super) residual: [i64; 2],
+    pub(super) squared: SquareUnits,
+}
+
+impl ErrorUnits {
+    /// Adds the units of another block.
+    #[inline]
+    pub(super) fn add(&mut self, other: &ErrorUnits) {
+        add(&mut self.absolute, other.absolute);
+        add(&mut self.residual, other.residual);
+        add_squares(&mut self.squared, other.squared);
+    }
+}
+
+/// Units of what is made of y, and of y and ŷ.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct ValueUnits {
+    pub(super) truth: [i64; 2],
+    pub(super) squared: SquareUnits,
+    pub(super) symmetric: [i64; 2],
+    pub(super) gated: [i64; 2],
+    pub(super) n_gated: u32,
+}
+
+impl ValueUnits {
+    /// Adds the units of another block.
+    #[inline]
+    pub(super) fn add(&mut self, other: &ValueUnits) {
+        add(&mut self.truth, other.truth);
+        add_squares(&mut self.squared, other.squared);
+        add(&mut self.symmetric, other.symmetric);
+        add(&mut self.gated, other.gated);
+    }
+}
+
+fn add(units: &mut [i64; 2], other: [i64; 2]) {
+    units[0] += other[0];
+    units[1] += other[1];
+}
+
+fn add_squares(units: &mut SquareUnits, [rounded, lost]: SquareUnits) {
+    add(&mut units[0], rounded);
+    add(&mut units[1], lost);
+}
+
+impl Block<'_> {
+    /// Rows of a block on `machine`: as many as leave room in the lanes.
+    pub(super) fn rows_on(machine: Machine) -> usize {
+        /// Asks a machine for the width of its vectors.
+        struct Lanes;
+        impl Job for Lanes {
+            type Output = usize;
+            #[inline(always)]
+            fn run<V: Vector>(self, _proof: V::Proof) -> usize {
+                V::LANES
+            }
+        }
+        (DEPTH * machine.run(Lanes)).min(BLOCK_ROWS)
+    }
+
+    /// The sums of the streams that are made of y − ŷ; `None` if a pair is out of bounds.
+    pub(super) fn errors(self, machine: Machine) -> Option<ErrorUnits> {
+        const A: u8 = Streams::of(&[Stream::Absolute]).bits();
+        const R: u8 = Streams::of(&[Stream::Residual]).bits();
+        const S: u8 = Streams::of(&[Stream::Squared]).bits();
+        match self.streams.bits() & (A | R | S) {
+            R => machine.run(Errors::<R>(self)),
+            S => machine.run(Errors::<S>(self)),
+            bits if bits == A | R => machine.run(Errors::<{ A | R }>(self)),
+            bits if bits == A | S => machine.run(Errors::<{ A | S }>(self)),
+            bits if bits == R | S => machine.run(Errors::<{ R | S }>(self)),
+            bits if bits == A | R | S => machine.run(Errors::<{ A | R | S }>(self)),
+            // At least one sum is needed to notice a NaN.
+            _ => machine.run(Errors::<A>(self)),
+        }
+    }
+
+    /// The sums of the other streams, of a block whose pairs are within bounds.
+    pub(super) fn values(self, machine: Machine) -> ValueUnits {
+        const Y: u8 = Streams::of(&[Stream::Truth]).bits();
+        const S: u8 = Streams::of(&[Stream::TruthSquared]).bits();
+        const T: u8 = Streams::of(&[Stream::Symmetric]).bits();
+        let wanted = self.streams.bits() & (Y | S | T);
+        match (wanted, self.gate.is_some()) {
+            (0, _) => ValueUnits::default(),
+            (Y, _) => machine.run(Values::<Y, false>(self)),
+            (S, _) => machine.run(Values::<S, false>(self)),
+            (T, false) => machine.run(Values::<T, false>(self)),
+            (T, true) => machine.run(Values::<T, true>(self)),
+            (bits, _) if bits == Y | S => machine.run(Values::<{ Y | S }, false>(self)),
+            (bits, false) if bits == Y | S | T => machine.run(Values::<{ Y | S | T }, false>(self)),
+            // Sums of y that nobody reads cost less than kernels for every combination.
+            _ => machine.run(Values::<{ Y | S | T }, true>(self)),
+        }
+    }
+}
+
+const fn has(streams: u8, stream: Stream) -> bool {
+    streams & Streams::of(&[stream]).bits() != 0
+}
+
+/// Something that vectors of pairs are added to.
+trait Visit<V> {
+    fn visit(&mut self, estimate: V, reference: V);
+}
+
+/// Shows `visitor` all pairs, and zeros beside the last ones.
+#[inline(always)]
+fn visit_all<V: Vector>(proof: V::Proof, pairs: Paired<&[f64]>, visitor: &mut impl Visit<V>) {
+    let estimates = pairs.estimate.chunks_exact(V::LANES);
+    let references = pairs.reference.chunks_exact(V::LANES);
+    let rest = (estimates.remainder(), references.remainder());
+    for (estimate, reference) in estimates.zip(references) {
+        visitor.visit(V::load(proof, estimate), V::load(proof, reference));
+    }
+    if !rest.0.is_empty() {
+        visitor.visit(V::load_short(proof, rest.0), V::load_short(proof, rest.1));
+    }
+}
+
+/// The first visit.
+struct Errors<'a, const STREAMS: u8>(Block<'a>);
+
+struct ErrorSums<V, const STREAMS: u8> {
+    greatest_residual: V,
+    greatest_truth: V,
+    /// The predecessors of the least magnitudes that are not zero.
+    least_residual: V,
+    least_truth: V,
+    absolute: GridSum<V>,
+    residual: GridSum<V>,
+    squared: SquareSum<V>,
+}
+
+impl<V: Vector, const STREAMS: u8> Visit<V> for ErrorSums<V, STREAMS> {
+    #[inline(always)]
+    fn visit(&mut self, estimate: V, reference: V) {
+        let residual = reference.minus(estimate);
+        let magnitude = residual.magnitude();
+        let truth = reference.magnitude();
+        self.greatest_residual = magnitude.greatest(self.greatest_residual);
+        self.greatest_truth = truth.greatest(self.greatest_truth);
+        self.least_residual = magnitude.predecessor().least(self.least_residual);
+        self.least_truth = truth.predecessor().least(self.least_truth);
+        if const { has(STREAMS, Stream::Absolute) } {
+            self.absolute.add(magnitude);
+        }
+        if const { has(STREAMS, Stream::Residual) } {
+            self.residual.add(residual);
+        }
+        if const { has(STREAMS, Stream::Squared) } {
+            self.squared.add_square_of(residual);
+        }
+    }
+}
+
+impl<const STREAMS: u8> Job for Errors<'_, STREAMS> {
+    type Output = Option<ErrorUnits>;
+
+    #[inline(always)]
+    fn run<V: Vector>(self, proof: V::Proof) -> Option<ErrorUnits> {
+        let Errors(block) = self;
+        let (grid, bounds) = (block.grids.residual, block.bounds);
+        let mut sums = ErrorSums::<V, STREAMS> {
+            greatest_residual: V::splat(proof, 0.0),
+            greatest_truth: V::splat(proof, 0.0),
+            least_residual: V::splat(proof, f64::MAX),
+            least_truth: V::splat(proof, f64::MAX),
+            absolute: GridSum::new(proof, grid),
+            residual: GridSum::new(proof, grid),
+            squared: SquareSum::new(proof, grid),
+        };
+        visit_all(proof, block.pairs, &mut sums);
+        let residual = bounds.residual.in_lanes::<V>(proof);
+        let truth = bounds.truth.in_lanes::<V>(proof);
+        let within = residual.hold(sums.least_residual, sums.greatest_residual)
+            && truth.hold(sums.least_truth, sums.greatest_truth);
+        // A NaN is neither greatest nor least, but it stays in every sum.
+        let sound = sums.absolute.is_sound() && sums.residual.is_sound() && sums.squared.is_sound();
+        if !within || !sound {
+            return None;
+        }
+        Some(ErrorUnits {
+            absolute: sums.absolute.units(),
+            residual: sums.residual.units(),
+            squared: sums.squared.units(),
+        })
+    }
+}
+
+/// The second visit.
+struct Values<'a, const STREAMS: u8, const GATED: bool>(Block<'a>);
+
+struct ValueSums<V, const STREAMS: u8, const GATED: bool> {
+    half: V,
+    epsilon: V,
+    gate: V,
+    truth: GridSum<V>,
+    squared: SquareSum<V>,
+    symmetric: GridSum<V>,
+    gated: GridSum<V>,
+    n_gated: u32,
+}
+
+impl<V: Vector, const STREAMS: u8, const GATED: bool> Visit<V> for ValueSums<V, STREAMS, GATED> {
+    #[inline(always)]
+    fn visit(&mut self, estimate: V, reference: V) {
+        if const { has(STREAMS, Stream::Symmetric) } {
+            let truth = reference.magnitude();
+            let sum = truth.plus(estimate.magnitude());
+            let scale = sum.times(self.half).plus(self.epsilon);
+            let term = reference.minus(estimate).magnitude().over(scale);
+            self.symmetric.add(term);
+            if GATED {
+                self.gated.add(truth.keep_at_least(self.gate, term));
+                self.n_gated += truth.count_at_least(self.gate);
+            }
+        }
+        if const { has(STREAMS, Stream::Truth) } {
+            self.truth.add(reference);
+        }
+        if const { has(STREAMS, Stream::TruthSquared) } {
+            self.squared.add_square_of(reference);
+        }
+    }
+}
+
+impl<const STREAMS: u8, const GATED: bool> Job for Values<'_, STREAMS, GATED> {
+    type Output = ValueUnits;
+
+    #[inline(always)]
+    fn run<V: Vector>(self, proof: V::Proof) -> ValueUnits {
+        let Values(block) = self;
+        let grid = block.grids.truth;
+        // Where nothing is gated, what the gated sums are is not looked at.
+        let gate = block.gate.unwrap_or(f64::INFINITY);
+        let mut sums = ValueSums::<V, STREAMS, GATED> {
+            half: V::splat(proof, 0.5),
+            epsilon: V::splat(proof, EPSILON),
+            gate: V::splat(proof, gate),
+            truth: GridSum::new(proof, grid),
+            squared: SquareSum::new(proof, grid),
+            symmetric: GridSum::new(proof, TERMS),
+            gated: GridSum::new(proof, TERMS),
+            n_gated: 0,
+        };
+        visit_all(proof, block.pairs, &mut sums);
+        ValueUnits {
+            truth: sums.truth.units(),
+            squared: sums.squared.units(),
+            symmetric: sums.symmetric.units(),
+            gated: sums.gated.units(),
+            n_gated: sums.n_gated,
         }
     }
 }

@@ -69,12 +69,9 @@ impl ExactSum {
         );
         let (left, right) = (Binary::of(left), Binary::of(right));
         let product = u128::from(left.mantissa) * u128::from(right.mantissa);
-        let parts = split(product, left.position + right.position);
+        let position = left.position + right.position + DENORMAL_SQUARE_POSITION;
         let sign = left.sign * right.sign;
-        self.deposit_parts(
-            left.position + right.position + DENORMAL_SQUARE_POSITION,
-            parts.map(|part| sign * part),
-        );
+        self.deposit_parts(position, split(product, position).map(|part| sign * part));
     }
 
     /// Adds another sum.
@@ -138,6 +135,18 @@ impl ExactSum {
         let shifted = u128::from(mantissa) << (position % 32);
         let parts = [low_digit(shifted), high_digits(shifted)];
         self.deposit_parts(position, parts.map(|part| sign * part));
+    }
+
+    /// Adds units × 2^unit, which must not lie below the square of the least denormal.
+    pub(super) fn add_units(&mut self, units: i64, unit: i32) {
+        let position = usize::try_from(unit - UNIT_EXPONENT).expect("a power of two in range");
+        let sign = units.signum();
+        let shifted = u128::from(units.unsigned_abs()) << (position % 32);
+        let parts = [shifted, shifted >> 32, shifted >> 64].map(low_digit);
+        // One by one, so that a zero at an end does not widen the window.
+        for (index, part) in (position / 32..).zip(parts) {
+            self.deposit_parts(32 * index, [sign * part]);
+        }
     }
 
     /// Adds the square of a value known to be finite.

@@ -1,0 +1,321 @@
+//! Exact sums of the streams of pairs, formed a block at a time.
+//!
+//! Blocks are added up in whole units of grids that fit the pairs seen last; the units stay whole numbers over many blocks and
+//! are handed to the superaccumulators only when the grids move, before they could overflow, and when a sum is read. A pair
+//! that does not fit is taken out of its block and added on its own. Which pairs those are depends on what came before; the
+//! sums do not, because every way is exact.
+
+use super::bounds::{Bounds, Grids, TERMS};
+use super::grid::{Grid, SquareUnits};
+use super::isa::Machine;
+use super::kernel::{BLOCK_ROWS, Block, ErrorUnits, ValueUnits};
+use super::sum::ExactSum;
+use crate::merge::Merge;
+use crate::paired::Paired;
+use crate::streams::{Stream, Streams};
+
+/// Fewer rows than this are added one by one: that is sooner done than a block.
+const FEW_ROWS: usize = 4;
+/// Each row adds less than 2⁴⁴ units, so that this many stay within an `i64`.
+const MOST_ROWS: usize = 1 << 19;
+/// Grids move once more than one of so many rows did not fit, and a handful besides.
+const ROWS_PER_STRAY: usize = 16;
+const FREE_STRAYS: usize = 16;
+
+/// Exact sums of the wanted streams, and how many pairs they are of.
+#[derive(Clone, Debug)]
+pub(crate) struct BlockSums {
+    machine: Machine,
+    streams: Streams,
+    gate: Option<f64>,
+    pub(crate) counts: Counts,
+    settled: Sums,
+    pending: Option<Pending>,
+}
+
+/// How many pairs there were.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) struct Counts {
+    /// Those that were summed.
+    pub(crate) valid: u64,
+    /// Those left out because a value was no usable number.
+    pub(crate) invalid: u64,
+    /// Those whose truth reaches the gate.
+    pub(crate) gated: u64,
+}
+
+/// One sum a stream, and that of the sMAPE terms of the pairs that reach the gate.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct Sums {
+    pub(crate) streams: [ExactSum; Stream::ALL.len()],
+    pub(crate) gated: ExactSum,
+}
+
+impl BlockSums {
+    /// The sums of no pair; without `gate` there is no gated sum.
+    pub(crate) fn new(machine: Machine, streams: Streams, gate: Option<f64>) -> BlockSums {
+        BlockSums {
+            machine,
+            streams,
+            gate,
+            counts: Counts::default(),
+            settled: Sums::default(),
+            pending: None,
+        }
+    }
+
+    /// What was kept elsewhere of the same streams.
+    pub(crate) fn set(&mut self, counts: Counts, sums: Sums) {
+        (self.counts, self.settled, self.pending) = (counts, sums, None);
+    }
+
+    /// Adds pairs; those with a value that is no usable number are counted and left out.
+    pub(crate) fn update(&mut self, pairs: Paired<&[f64]>) {
+        if pairs.estimate.len() < FEW_ROWS {
+            return pairs.iter().for_each(|pair| self.add_pair(pair));
+        }
+        for pairs in pairs.blocks(Block::rows_on(self.machine)) {
+            if !self.add_block(pairs) {
+                self.add_strays_apart(pairs);
+            }
+        }
+    }
+
+    /// The sum of `stream`; zero if it is not wanted.
+    pub(crate) fn sum(&self, stream: Stream) -> ExactSum {
+        let mut sum = self.settled.streams[stream as usize].clone();
+        if let Some(pending) = self
+            .pending
+            .as_ref()
+            .filter(|_| self.streams.contains(stream))
+        {
+            pending.deposit(stream, &mut sum);
+        }
+        sum
+    }
+
+    /// The sum of the terms of sMAPE of the pairs that reach the gate.
+    pub(crate) fn gated_sum(&self) -> ExactSum {
+        let mut sum = self.settled.gated.clone();
+        if let Some(pending) = self.pending.as_ref().filter(|_| self.gate.is_some()) {
+            deposit(pending.values.gated, TERMS, &mut sum);
+        }
+        sum
+    }
+
+    /// Adds a block whose pairs all fit the grids in use; false, and nothing added, if one does not.
+    fn add_block(&mut self, pairs: Paired<&[f64]>) -> bool {
+        let Some(pending) = &mut self.pending else {
+            return false;
+        };
+        let block = Block {
+            pairs,
+            streams: self.streams,
+            gate: self.gate,
+            grids: pending.grids,
+            bounds: pending.bounds,
+        };
+        let Some(errors) = block.errors(self.machine) else {
+            return false;
+        };
+        let values = block.values(self.machine);
+        pending.errors.add(&errors);
+        pending.values.add(&values);
+        pending.rows += pairs.estimate.len();
+        pending.rows_on_grids += pairs.estimate.len();
+        let rows = count(pairs.estimate.len());
+        self.counts.valid += rows;
+        // A block is filled up with zeros, which such a gate would let through.
+        let all = self.gate.is_some_and(|gate| gate <= 0.0);
+        self.counts.gated += if all { rows } else { u64::from(values.n_gated) };
+        if pending.rows > MOST_ROWS - BLOCK_ROWS {
+            self.settle();
+        }
+        true
+    }
+
+    /// Adds a block of which not all pairs fit: those that do not one by one, and the others as a block.
+    #[cold]
+    #[inline(never)]
+    fn add_strays_apart(&mut self, pairs: Paired<&[f64]>) {
+        let bounds = self.bounds_for(pairs);
+        let rows = pairs.estimate.len();
+        let (mut estimate, mut reference) = ([0.0; BLOCK_ROWS], [0.0; BLOCK_ROWS]);
+        let mut kept = 0;
+        for pair in pairs.iter() {
+            if bounds.hold(pair) {
+                (estimate[kept], reference[kept]) = (pair.estimate, pair.reference);
+                kept += 1;
+            } else {
+                self.add_pair(pair);
+            }
+        }
+        let added = self.add_block(Paired {
+            estimate: &estimate[..kept],
+            reference: &reference[..kept],
+        });
+        assert!(added, "what is out of bounds was taken out");
+        if let Some(pending) = &mut self.pending {
+            pending.strays += rows - kept;
+        }
+    }
+
+    /// The bounds in use, or new ones if too many pairs were out of them.
+    fn bounds_for(&mut self, pairs: Paired<&[f64]>) -> Bounds {
+        if let Some(pending) = &self.pending {
+            let here = pairs.iter().filter(|pair| !pending.bounds.hold(*pair));
+            let strays = pending.strays + here.count();
+            if strays <= FREE_STRAYS + pending.rows_on_grids / ROWS_PER_STRAY {
+                return pending.bounds;
+            }
+        }
+        self.settle();
+        let pending = Pending::new(Grids::fitting(pairs, self.streams), self.streams);
+        self.pending.insert(pending).bounds
+    }
+
+    /// Adds one pair to the superaccumulators.
+    fn add_pair(&mut self, pair: Paired<f64>) {
+        if !pair.is_valid() {
+            self.counts.invalid += 1;
+            return;
+        }
+        self.counts.valid += 1;
+        for stream in self.streams.iter() {
+            let sum = &mut self.settled.streams[stream as usize];
+            match stream {
+                Stream::Absolute => sum.deposit(pair.residual().abs()),
+                Stream::Residual => sum.deposit(pair.residual()),
+                Stream::Squared => sum.deposit_square(pair.residual()),
+                Stream::Truth => sum.deposit(pair.reference),
+                Stream::TruthSquared => sum.deposit_square(pair.reference),
+                Stream::Symmetric => sum.deposit(pair.symmetric_term()),
+            }
+        }
+        if self.gate.is_some_and(|gate| pair.reference.abs() >= gate) {
+            self.counts.gated += 1;
+            self.settled.gated.deposit(pair.symmetric_term());
+        }
+    }
+
+    /// Hands the units to the superaccumulators.
+    fn settle(&mut self) {
+        let Some(pending) = &mut self.pending else {
+            return;
+        };
+        self.settled.take_over(pending, self.streams, self.gate);
+        pending.clear();
+    }
+}
+
+impl Merge for BlockSums {
+    fn merge(&mut self, other: &BlockSums) {
+        self.counts.valid = self.counts.valid.saturating_add(other.counts.valid);
+        self.counts.invalid = self.counts.invalid.saturating_add(other.counts.invalid);
+        self.counts.gated = self.counts.gated.saturating_add(other.counts.gated);
+        let sums = self.settled.streams.iter_mut();
+        for (sum, other) in sums.zip(&other.settled.streams) {
+            sum.merge(other);
+        }
+        self.settled.gated.merge(&other.settled.gated);
+        if let Some(pending) = &other.pending {
+            self.settled.take_over(pending, self.streams, self.gate);
+        }
+    }
+
+    fn subtract(&mut self, other: &BlockSums) {
+        self.counts.valid = self.counts.valid.saturating_sub(other.counts.valid);
+        self.counts.invalid = self.counts.invalid.saturating_sub(other.counts.invalid);
+        self.counts.gated = self.counts.gated.saturating_sub(other.counts.gated);
+        for stream in self.streams.iter() {
+            self.settled.streams[stream as usize].subtract(&other.sum(stream));
+        }
+        self.settled.gated.subtract(&other.gated_sum());
+    }
+}
+
+/// By value: what is pending in one may be settled in the other.
+impl PartialEq for BlockSums {
+    fn eq(&self, other: &BlockSums) -> bool {
+        self.streams == other.streams
+            && self.gate == other.gate
+            && self.counts == other.counts
+            && Stream::ALL
+                .iter()
+                .all(|&stream| self.sum(stream) == other.sum(stream))
+            && self.gated_sum() == other.gated_sum()
+    }
+}
+
+impl Sums {
+    fn take_over(&mut self, pending: &Pending, streams: Streams, gate: Option<f64>) {
+        for stream in streams.iter() {
+            pending.deposit(stream, &mut self.streams[stream as usize]);
+        }
+        if gate.is_some() {
+            deposit(pending.values.gated, TERMS, &mut self.gated);
+        }
+    }
+}
+
+/// Units that no superaccumulator has yet.
+#[derive(Clone, Debug)]
+struct Pending {
+    grids: Grids,
+    bounds: Bounds,
+    errors: ErrorUnits,
+    values: ValueUnits,
+    /// Rows whose units are held.
+    rows: usize,
+    /// Rows that fitted since these grids were chosen, and rows that did not.
+    rows_on_grids: usize,
+    strays: usize,
+}
+
+impl Pending {
+    fn new(grids: Grids, streams: Streams) -> Pending {
+        Pending {
+            grids,
+            bounds: Bounds::new(grids, streams),
+            errors: ErrorUnits::default(),
+            values: ValueUnits::default(),
+            rows: 0,
+            rows_on_grids: 0,
+            strays: 0,
+        }
+    }
+
+    fn clear(&mut self) {
+        self.errors = ErrorUnits::default();
+        self.values = ValueUnits::default();
+        self.rows = 0;
+    }
+
+    /// Adds the units of `stream` to `sum`.
+    fn deposit(&self, stream: Stream, sum: &mut ExactSum) {
+        let Grids { residual, truth } = self.grids;
+        match stream {
+            Stream::Absolute => deposit(self.errors.absolute, residual, sum),
+            Stream::Residual => deposit(self.errors.residual, residual, sum),
+            Stream::Squared => deposit_squares(self.errors.squared, residual, sum),
+            Stream::Truth => deposit(self.values.truth, truth, sum),
+            Stream::TruthSquared => deposit_squares(self.values.squared, truth, sum),
+            Stream::Symmetric => deposit(self.values.symmetric, TERMS, sum),
+        }
+    }
+}
+
+fn deposit(units: [i64; 2], grid: Grid, sum: &mut ExactSum) {
+    for (units, unit) in units.into_iter().zip(grid.units()) {
+        sum.add_units(units, unit);
+    }
+}
+
+fn deposit_squares([rounded, lost]: SquareUnits, grid: Grid, sum: &mut ExactSum) {
+    deposit(rounded, grid.of_squares(), sum);
+    deposit(lost, grid.of_errors_of_squares(), sum);
+}
+
+fn count(rows: usize) -> u64 {
+    u64::try_from(rows).expect("no column has 2^64 rows")
+}

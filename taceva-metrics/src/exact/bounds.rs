@@ -1,0 +1,197 @@
+//! Which pairs a block may hold so that its vector sums lose nothing.
+
+use super::grid::{Grid, power_of_two};
+use super::vector::Vector;
+use crate::paired::Paired;
+use crate::streams::{Stream, Streams};
+
+/// The greatest exponent of a grid: squares and all bits that rounding takes from them stay far from over- and underflow.
+const GREATEST_TOP: i32 = 400;
+/// The grid of the terms of sMAPE, which are at most 2 before rounding.
+pub(super) const TERMS: Grid = Grid { top: 1 };
+
+/// Grids that fit the magnitudes of some pairs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Grids {
+    /// Of y − ŷ.
+    pub(super) residual: Grid,
+    /// Of y.
+    pub(super) truth: Grid,
+}
+
+/// Magnitudes from `least` to `greatest`, and zero.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Range {
+    pub(super) least: f64,
+    pub(super) greatest: f64,
+}
+
+impl Range {
+    /// Exponents from `top` down to `reach` below it.
+    fn new(top: i32, reach: i32) -> Range {
+        Range {
+            least: power_of_two((top - reach).max(-1022)),
+            greatest: f64::from_bits(power_of_two(top + 1).to_bits() - 1),
+        }
+    }
+
+    fn holds(self, magnitude: f64) -> bool {
+        magnitude == 0.0 || (self.least <= magnitude && magnitude <= self.greatest)
+    }
+}
+
+/// A range in every lane.
+pub(super) struct RangeInLanes<V> {
+    below_least: V,
+    greatest: V,
+}
+
+impl Range {
+    #[inline(always)]
+    pub(super) fn in_lanes<V: Vector>(self, proof: V::Proof) -> RangeInLanes<V> {
+        RangeInLanes {
+            below_least: V::splat(proof, self.least).predecessor(),
+            greatest: V::splat(proof, self.greatest),
+        }
+    }
+}
+
+impl<V: Vector> RangeInLanes<V> {
+    /// Whether it holds magnitudes of which the least but zero, less one unit, and the greatest are given.
+    #[inline(always)]
+    pub(super) fn hold(self, below_least: V, greatest: V) -> bool {
+        greatest.all_at_most(self.greatest) && self.below_least.all_at_most(below_least)
+    }
+}
+
+/// The magnitudes of y − ŷ and y for which the sums of the wanted streams lose nothing.
+///
+/// Within them ŷ is no greater than a sum of two such magnitudes, so that it needs no bounds of its own.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Bounds {
+    pub(super) residual: Range,
+    pub(super) truth: Range,
+}
+
+impl Bounds {
+    pub(super) fn new(grids: Grids, streams: Streams) -> Bounds {
+        let reach = |square| {
+            if streams.contains(square) {
+                Grid::REACH_OF_SQUARES
+            } else {
+                Grid::REACH
+            }
+        };
+        let (residual, truth) = (grids.residual.top, grids.truth.top);
+        let mut of_residual = reach(Stream::Squared);
+        if streams.contains(Stream::Symmetric) {
+            of_residual = of_residual.min(residual - least_residual_of_terms(residual, truth));
+        }
+        let values = Streams::of(&[Stream::Truth, Stream::TruthSquared]);
+        Bounds {
+            residual: Range::new(residual, of_residual),
+            truth: if streams.intersects(values) {
+                Range::new(truth, reach(Stream::TruthSquared))
+            } else {
+                // Nothing of y is summed: it only has to be a number that the terms of sMAPE do not overflow with.
+                Range {
+                    least: f64::from_bits(1),
+                    ..Range::new(truth, 0)
+                }
+            },
+        }
+    }
+
+    /// Whether the vector sums hold `pair`.
+    pub(super) fn hold(&self, pair: Paired<f64>) -> bool {
+        self.residual.holds(pair.residual().abs()) && self.truth.holds(pair.reference.abs())
+    }
+}
+
+/// The least exponent of a residual whose term of sMAPE is within reach on its grid.
+///
+/// The divisor (|y| + |ŷ|) / 2 + ε is below |y| + |d| + ε up to rounding, and with m the greatest exponent of these three
+/// below 2^(m+3); ε is below 2⁻²⁶.
+fn least_residual_of_terms(residual: i32, truth: i32) -> i32 {
+    let divisor = residual.max(truth).max(-27) + 3;
+    TERMS.top - Grid::REACH + divisor
+}
+
+impl Grids {
+    /// Grids that leave out as few of `pairs` as possible.
+    pub(super) fn fitting(pairs: Paired<&[f64]>, streams: Streams) -> Grids {
+        let residuals = pairs.iter().map(|pair| pair.residual());
+        let values = Streams::of(&[Stream::Truth, Stream::TruthSquared]);
+        let truth = if streams.intersects(values) {
+            best_top(pairs.reference.iter().copied(), Grid::REACH_OF_SQUARES)
+        } else if streams.contains(Stream::Symmetric) {
+            best_top(pairs.reference.iter().copied(), 2 * GREATEST_TOP)
+        } else {
+            GREATEST_TOP
+        };
+        Grids {
+            residual: Grid {
+                top: best_top(residuals, Grid::REACH_OF_SQUARES),
+            },
+            truth: Grid { top: truth },
+        }
+    }
+}
+
+/// The top of the `reach` + 1 neighbouring exponents that most values have, and of those the lowest.
+fn best_top(values: impl Iterator<Item = f64>, reach: i32) -> i32 {
+    let usable = -GREATEST_TOP..=GREATEST_TOP;
+    let mut exponents: Vec<i32> = values
+        .filter(|value| value.abs() > 0.0)
+        .map(exponent)
+        .filter(|exponent| usable.contains(exponent))
+        .collect();
+    exponents.sort_unstable();
+    let (mut first, mut most, mut top) = (0, 0, 0);
+    for (last, &exponent) in exponents.iter().enumerate() {
+        while exponents[first] < exponent - reach {
+            first += 1;
+        }
+        if last - first >= most {
+            (most, top) = (last - first, exponent);
+        }
+    }
+    top
+}
+
+/// The exponent of the leading bit of a normal number; of others one that no grid has.
+fn exponent(value: f64) -> i32 {
+    let field = (value.to_bits() >> 52) & 0x7ff;
+    i32::try_from(field).expect("eleven bits") - 1023
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_top_is_where_most_values_are_whatever_lies_far_off() {
+        let values = [1e300, 4.0, 3.0, 0.0, 2.5, 1e-300, f64::NAN, f64::INFINITY];
+        assert_eq!(best_top(values.into_iter(), 16), 2);
+        assert_eq!(best_top([0.0].into_iter(), 16), 0);
+        assert_eq!(best_top([f64::from_bits(1)].into_iter(), 16), 0);
+    }
+
+    #[test]
+    fn bounds_hold_zeros_and_refuse_what_is_no_number() {
+        let grids = Grids {
+            residual: Grid { top: 0 },
+            truth: Grid { top: 3 },
+        };
+        let bounds = Bounds::new(grids, Streams::ALL);
+        let hold = |estimate, reference| {
+            bounds.hold(Paired {
+                estimate,
+                reference,
+            })
+        };
+        assert!(hold(0.0, -0.0) && hold(7.5, 7.0) && hold(1.0, 1.0));
+        assert!(!hold(f64::NAN, 1.0) && !hold(1.0, f64::NAN) && !hold(f64::INFINITY, 1.0));
+        assert!(!hold(2.0, 0.0) && !hold(16.5, 16.0) && !hold(1.0, 1.0 + 1e-9));
+    }
+}

@@ -1,0 +1,219 @@
+//! Sums of vectors without rounding, as long as the values lie in a known range of magnitudes.
+//!
+//! A large number that is added first decides where the sum rounds: 1.5 × 2ᵏ and small values add up to a multiple of
+//! 2^(k−52), and what each addition cuts off is found exactly by two subtractions. A second such sum takes what the first cut
+//! off. Both stay within one binade, so that their patterns of bits, as integers, tell how many units they hold (after
+//! Demmel and Nguyen, "Parallel Reproducible Summation", 2015; they round the rest, here there is none).
+
+use super::vector::Vector;
+
+/// Values added to a lane before its units must be read.
+pub(super) const DEPTH: usize = 128;
+/// A coarse sum keeps clear of its binade's ends: 2⁷ values below 2^(e+1), a factor of 2 for 1.5 × 2ᵏ, and 2 to spare.
+const COARSE: i32 = 10;
+/// What is cut off is below 2^(e−42), and 2⁷ of them stay clear of the ends of this binade.
+const FINE: i32 = -34;
+/// Bits of a mantissa behind its leading one.
+const FRACTION: i32 = 52;
+
+/// Where values below 2^(top + 1) in magnitude are added up.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Grid {
+    /// The exponent of the greatest value.
+    pub(super) top: i32,
+}
+
+impl Grid {
+    /// The grid of the squares of values of this one, rounded.
+    pub(super) fn of_squares(self) -> Grid {
+        Grid {
+            top: 2 * self.top + 1,
+        }
+    }
+
+    /// The grid of what those squares lost in rounding.
+    pub(super) fn of_errors_of_squares(self) -> Grid {
+        Grid {
+            top: 2 * self.top - FRACTION - 1,
+        }
+    }
+
+    /// How far below the top a value's exponent may lie so that its last place is still a unit of the fine sum.
+    pub(super) const REACH: i32 = -FINE;
+    /// The same of a value whose square is added.
+    ///
+    /// A square's last place is at twice the exponent less 52, on a grid of twice the top plus 1: half the reach. What the
+    /// square lost ends 104 below twice the exponent, on a grid of twice the top less 53: one more.
+    pub(super) const REACH_OF_SQUARES: i32 = (Grid::REACH - 1) / 2;
+
+    /// The powers of two that the units of both sums stand for, the coarse one first.
+    pub(super) fn units(self) -> [i32; 2] {
+        [COARSE, FINE].map(|height| self.top + height - FRACTION)
+    }
+
+    fn starts(self) -> [f64; 2] {
+        [COARSE, FINE].map(|height| 1.5 * power_of_two(self.top + height))
+    }
+}
+
+/// Two sums a lane; the second takes what the first cuts off.
+#[derive(Clone, Copy)]
+pub(super) struct GridSum<V> {
+    start: [V; 2],
+    coarse: V,
+    fine: V,
+}
+
+impl<V: Vector> GridSum<V> {
+    /// The sum of nothing.
+    #[inline(always)]
+    pub(super) fn new(proof: V::Proof, grid: Grid) -> GridSum<V> {
+        let [coarse, fine] = grid.starts();
+        let (coarse, fine) = (V::splat(proof, coarse), V::splat(proof, fine));
+        GridSum {
+            start: [coarse, fine],
+            coarse,
+            fine,
+        }
+    }
+
+    /// Adds a value that is zero or has an exponent within the grid's reach below its top.
+    #[inline(always)]
+    pub(super) fn add(&mut self, value: V) {
+        let next = self.coarse.plus(value);
+        let taken = next.minus(self.coarse);
+        self.coarse = next;
+        self.fine = self.fine.plus(value.minus(taken));
+    }
+
+    /// Whether no NaN was added.
+    #[inline(always)]
+    pub(super) fn is_sound(self) -> bool {
+        self.coarse.all_at_most(self.start[0].plus(self.start[0]))
+    }
+
+    /// How many units of [`Grid::units`] both sums hold.
+    #[inline(always)]
+    pub(super) fn units(self) -> [i64; 2] {
+        [
+            self.coarse.units_above(self.start[0]),
+            self.fine.units_above(self.start[1]),
+        ]
+    }
+}
+
+/// The sum of squares: rounded ones and what they lost apart.
+#[derive(Clone, Copy)]
+pub(super) struct SquareSum<V> {
+    rounded: GridSum<V>,
+    lost: GridSum<V>,
+}
+
+impl<V: Vector> SquareSum<V> {
+    /// The sum of nothing, of squares of values on `grid`.
+    #[inline(always)]
+    pub(super) fn new(proof: V::Proof, grid: Grid) -> SquareSum<V> {
+        SquareSum {
+            rounded: GridSum::new(proof, grid.of_squares()),
+            lost: GridSum::new(proof, grid.of_errors_of_squares()),
+        }
+    }
+
+    /// Adds the square of a value that is zero or within the grid's reach of squares.
+    #[inline(always)]
+    pub(super) fn add_square_of(&mut self, value: V) {
+        let [rounded, lost] = value.square();
+        self.rounded.add(rounded);
+        self.lost.add(lost);
+    }
+
+    /// Whether no NaN was added.
+    #[inline(always)]
+    pub(super) fn is_sound(self) -> bool {
+        self.rounded.is_sound()
+    }
+
+    /// The units of both sums.
+    #[inline(always)]
+    pub(super) fn units(self) -> SquareUnits {
+        [self.rounded.units(), self.lost.units()]
+    }
+}
+
+/// Units of the rounded squares, and of what they lost.
+pub(super) type SquareUnits = [[i64; 2]; 2];
+
+/// 2^exponent, of a normal number.
+pub(super) fn power_of_two(exponent: i32) -> f64 {
+    let field = u64::try_from(exponent + 1023).expect("the exponent of a normal number");
+    f64::from_bits(field << FRACTION)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::exact::ExactSum;
+    use crate::exact::isa::{Isa, Machine};
+    use crate::exact::vector::Job;
+
+    /// All values in turn in every lane.
+    struct Add<'a> {
+        grid: Grid,
+        values: &'a [f64],
+    }
+
+    impl Job for Add<'_> {
+        type Output = (u32, [i64; 2], SquareUnits);
+
+        #[inline(always)]
+        fn run<V: Vector>(self, proof: V::Proof) -> Self::Output {
+            let mut sum = GridSum::<V>::new(proof, self.grid);
+            let mut squares = SquareSum::<V>::new(proof, self.grid);
+            for &value in self.values {
+                let value = V::splat(proof, value);
+                sum.add(value);
+                squares.add_square_of(value);
+            }
+            assert!(sum.is_sound() && squares.is_sound());
+            let lanes = u32::try_from(V::LANES).expect("a few");
+            (lanes, sum.units(), squares.units())
+        }
+    }
+
+    fn exact(grid: Grid, units: [i64; 2], sum: &mut ExactSum) {
+        for (units, unit) in units.into_iter().zip(grid.units()) {
+            sum.add_units(units, unit);
+        }
+    }
+
+    #[test]
+    fn a_full_lane_of_the_greatest_and_least_values_of_a_grid_loses_nothing() {
+        for top in [-400, -1, 0, 400] {
+            let grid = Grid { top };
+            let greatest = f64::from_bits(power_of_two(top + 1).to_bits() - 1);
+            let least = f64::from_bits(power_of_two(top - Grid::REACH_OF_SQUARES).to_bits() + 1);
+            let up = vec![greatest; DEPTH];
+            let down = vec![-greatest; DEPTH];
+            let mixed: Vec<f64> = (0..DEPTH / 2).flat_map(|_| [least, -greatest]).collect();
+            for values in [up, down, mixed] {
+                for isa in Isa::available() {
+                    let machine = Machine::with(isa).expect("it is available");
+                    let values = &values;
+                    let (lanes, units, squares) = machine.run(Add { grid, values });
+                    let (mut sum, mut of_squares) = (ExactSum::default(), ExactSum::default());
+                    for _ in 0..lanes {
+                        values.iter().for_each(|&value| sum.add(-value));
+                        values
+                            .iter()
+                            .for_each(|&value| of_squares.add_product(value, -value));
+                    }
+                    exact(grid, units, &mut sum);
+                    exact(grid.of_squares(), squares[0], &mut of_squares);
+                    exact(grid.of_errors_of_squares(), squares[1], &mut of_squares);
+                    assert_eq!(sum, ExactSum::default(), "{isa}, 2^{top}");
+                    assert_eq!(of_squares, ExactSum::default(), "{isa}, 2^{top}, squares");
+                }
+            }
+        }
+    }
+}

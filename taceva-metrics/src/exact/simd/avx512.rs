@@ -1,0 +1,138 @@
+//! Eight numbers a vector: AVX-512.
+
+#![expect(unsafe_code, reason = "vector instructions and loads")]
+
+use std::arch::x86_64::{
+    __m512d, _CMP_GE_OQ, _CMP_LE_OQ, _mm512_abs_pd, _mm512_add_pd, _mm512_castpd_si512,
+    _mm512_castsi512_pd, _mm512_cmp_pd_mask, _mm512_div_pd, _mm512_fmsub_pd, _mm512_loadu_pd,
+    _mm512_maskz_mov_pd, _mm512_max_pd, _mm512_min_pd, _mm512_mul_pd, _mm512_reduce_add_epi64,
+    _mm512_set1_epi64, _mm512_set1_pd, _mm512_sub_epi64, _mm512_sub_pd,
+};
+
+use crate::exact::vector::{Job, Vector};
+
+/// Evidence that the machine has AVX-512F.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Avx512(());
+
+impl Avx512 {
+    /// The evidence, if there is any.
+    pub(in crate::exact) fn detect() -> Option<Avx512> {
+        is_x86_feature_detected!("avx512f").then_some(Avx512(()))
+    }
+
+    /// Does `job` with vectors of eight.
+    pub(in crate::exact) fn run<J: Job>(self, job: J) -> J::Output {
+        #[target_feature(enable = "avx512f")]
+        fn with_instructions<J: Job>(proof: Avx512, job: J) -> J::Output {
+            job.run::<Eight>(proof)
+        }
+        // SAFETY: `self` is made by `detect` alone, which found the instructions.
+        unsafe { with_instructions(self, job) }
+    }
+}
+
+/// Eight numbers; made from a proof or from others of its kind.
+#[derive(Clone, Copy)]
+struct Eight(__m512d);
+
+/// One instruction on values whose existence proves that the machine has it.
+macro_rules! with_avx512 {
+    ($instruction:expr) => {
+        // SAFETY: an `Eight` or an `Avx512` is at hand, which only machines with AVX-512F have; no memory is touched.
+        unsafe { $instruction }
+    };
+}
+
+impl Vector for Eight {
+    type Proof = Avx512;
+    const LANES: usize = 8;
+
+    #[inline(always)]
+    fn splat(_proof: Avx512, value: f64) -> Eight {
+        Eight(with_avx512!(_mm512_set1_pd(value)))
+    }
+
+    #[inline(always)]
+    fn load(_proof: Avx512, values: &[f64]) -> Eight {
+        assert_eq!(values.len(), Self::LANES, "a number a lane");
+        // SAFETY: the machine has AVX-512F, and eight numbers lie where the slice begins.
+        Eight(unsafe { _mm512_loadu_pd(values.as_ptr()) })
+    }
+
+    #[inline(always)]
+    fn plus(self, other: Eight) -> Eight {
+        Eight(with_avx512!(_mm512_add_pd(self.0, other.0)))
+    }
+
+    #[inline(always)]
+    fn minus(self, other: Eight) -> Eight {
+        Eight(with_avx512!(_mm512_sub_pd(self.0, other.0)))
+    }
+
+    #[inline(always)]
+    fn times(self, other: Eight) -> Eight {
+        Eight(with_avx512!(_mm512_mul_pd(self.0, other.0)))
+    }
+
+    #[inline(always)]
+    fn over(self, other: Eight) -> Eight {
+        Eight(with_avx512!(_mm512_div_pd(self.0, other.0)))
+    }
+
+    #[inline(always)]
+    fn magnitude(self) -> Eight {
+        Eight(with_avx512!(_mm512_abs_pd(self.0)))
+    }
+
+    #[inline(always)]
+    fn square(self) -> [Eight; 2] {
+        let rounded = self.times(self);
+        let error = with_avx512!(_mm512_fmsub_pd(self.0, self.0, rounded.0));
+        [rounded, Eight(error)]
+    }
+
+    #[inline(always)]
+    fn greatest(self, other: Eight) -> Eight {
+        Eight(with_avx512!(_mm512_max_pd(self.0, other.0)))
+    }
+
+    #[inline(always)]
+    fn least(self, other: Eight) -> Eight {
+        Eight(with_avx512!(_mm512_min_pd(self.0, other.0)))
+    }
+
+    #[inline(always)]
+    fn predecessor(self) -> Eight {
+        Eight(with_avx512!(_mm512_castsi512_pd(_mm512_sub_epi64(
+            _mm512_castpd_si512(self.0),
+            _mm512_set1_epi64(1)
+        ))))
+    }
+
+    #[inline(always)]
+    fn all_at_most(self, bound: Eight) -> bool {
+        with_avx512!(_mm512_cmp_pd_mask::<_CMP_LE_OQ>(self.0, bound.0)) == u8::MAX
+    }
+
+    #[inline(always)]
+    fn keep_at_least(self, bound: Eight, value: Eight) -> Eight {
+        Eight(with_avx512!(_mm512_maskz_mov_pd(
+            _mm512_cmp_pd_mask::<_CMP_GE_OQ>(self.0, bound.0),
+            value.0
+        )))
+    }
+
+    #[inline(always)]
+    fn count_at_least(self, bound: Eight) -> u32 {
+        with_avx512!(_mm512_cmp_pd_mask::<_CMP_GE_OQ>(self.0, bound.0)).count_ones()
+    }
+
+    #[inline(always)]
+    fn units_above(self, start: Eight) -> i64 {
+        with_avx512!(_mm512_reduce_add_epi64(_mm512_sub_epi64(
+            _mm512_castpd_si512(self.0),
+            _mm512_castpd_si512(start.0)
+        )))
+    }
+}
