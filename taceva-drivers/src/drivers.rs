@@ -1,0 +1,90 @@
+//! The drivers of a program, and opening one of them.
+
+use taceva_core::{
+    ArgError, Device, DriverError, ErrorKind, ForceTransducer, Lighting, Registry, RegistryError,
+    Rig, Robot, Sensor,
+};
+
+use crate::selector::Selector;
+
+/// The drivers of a program, a registry a kind.
+#[derive(Debug)]
+pub struct Drivers {
+    /// Tactile sensors.
+    pub sensors: Registry<dyn Sensor>,
+    /// Robots.
+    pub robots: Registry<dyn Robot>,
+    /// Force transducers.
+    pub forces: Registry<dyn ForceTransducer>,
+    /// Lightings.
+    pub lightings: Registry<dyn Lighting>,
+}
+
+impl Drivers {
+    /// Every driver that is linked into the program.
+    ///
+    /// This crate's own are always among them. A program that wants those of another crate names that crate in its code,
+    /// `use taceva_sim as _;`: one that is only named in `Cargo.toml` is not linked.
+    ///
+    /// # Errors
+    /// [`RegistryError`] if two drivers have one key, or one contradicts itself.
+    pub fn builtin() -> Result<Drivers, RegistryError> {
+        Ok(Drivers {
+            sensors: Registry::builtin()?,
+            robots: Registry::builtin()?,
+            forces: Registry::builtin()?,
+            lightings: Registry::builtin()?,
+        })
+    }
+}
+
+/// Opens the device that `selector` asks for.
+///
+/// # Errors
+/// [`OpenError`]: no such driver, arguments that it does not take, or a device that does not open.
+pub fn open<D: Device + ?Sized>(
+    registry: &Registry<D>,
+    selector: &Selector,
+    rig: &mut Rig,
+) -> Result<Box<D>, OpenError> {
+    let factory = registry.get(selector.driver())?;
+    let args = factory
+        .descriptor()
+        .args(selector.arguments())
+        .map_err(|source| OpenError::Arguments {
+            selector: selector.to_string(),
+            source,
+        })?;
+    Ok(factory.open(&args, rig)?)
+}
+
+/// Why a device was not opened.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum OpenError {
+    /// No driver of that name.
+    #[error(transparent)]
+    Unknown(#[from] RegistryError),
+    /// An argument that the driver does not take.
+    #[error("{selector}: {source}")]
+    Arguments {
+        /// What was asked for.
+        selector: String,
+        /// What is wrong with it.
+        source: ArgError,
+    },
+    /// A device that did not open.
+    #[error(transparent)]
+    Device(#[from] DriverError),
+}
+
+impl OpenError {
+    /// What kind of failure it was.
+    pub fn kind(&self) -> ErrorKind {
+        match self {
+            OpenError::Unknown(_) => ErrorKind::NotFound,
+            OpenError::Arguments { .. } => ErrorKind::InvalidArgument,
+            OpenError::Device(error) => error.kind(),
+        }
+    }
+}

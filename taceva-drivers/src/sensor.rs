@@ -1,0 +1,3 @@
+//! The sensors that are built in.
+
+pub(crate) mod replay;

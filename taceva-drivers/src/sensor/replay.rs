@@ -1,0 +1,128 @@
+//! A recording as a live sensor.
+
+mod factory;
+mod timeline;
+
+pub use factory::ReplayFactory;
+
+use taceva_core::{
+    Deadline, DriverError, DriverKey, ErrorKind, FrameInfo, FrameMut, Sensor, Stamp,
+};
+
+use crate::pace::Pace;
+use crate::source::FrameSource;
+use timeline::Timeline;
+
+/// A sensor whose frames were taken at another time.
+///
+/// In virtual time every frame comes, as fast as it is asked for, stamped with the time of the recording. In real time a frame
+/// comes when it would have come, stamped in the time of the rig, and a caller that is too slow for some misses them.
+/// A frame that cannot be read is an error, and the one after it comes next.
+pub struct Replay {
+    source: Box<dyn FrameSource>,
+    pace: Box<dyn Pace>,
+    driver: DriverKey,
+    timeline: Timeline,
+    /// How many frames have come or were missed.
+    passed: usize,
+    running: bool,
+}
+
+/// How a recording is replayed.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ReplayOptions {
+    /// The name under which errors speak of it.
+    pub driver: DriverKey,
+    /// Whether it begins again after its last frame, rather than end.
+    pub repeat: bool,
+}
+
+impl Replay {
+    /// A sensor that gives the frames of `source` in the time of `pace`.
+    pub fn new(
+        source: Box<dyn FrameSource>,
+        pace: Box<dyn Pace>,
+        options: ReplayOptions,
+    ) -> Replay {
+        Replay {
+            timeline: Timeline::new(source.times_s().to_vec(), options.repeat),
+            source,
+            pace,
+            driver: options.driver,
+            passed: 0,
+            running: false,
+        }
+    }
+
+    fn refused(
+        &self,
+        kind: ErrorKind,
+        why: impl Into<Box<dyn std::error::Error + Send + Sync>>,
+    ) -> DriverError {
+        DriverError::new(kind, &self.driver, "capture a frame").because(why)
+    }
+}
+
+impl Sensor for Replay {
+    fn frame_info(&self) -> FrameInfo {
+        self.source.info()
+    }
+
+    fn start(&mut self, _: Deadline) -> Result<(), DriverError> {
+        if !self.running
+            && let Some(due_s) = self.timeline.time_s(self.passed)
+        {
+            if self.pace.runs_by_itself() {
+                self.timeline.shift(self.pace.now_s() - due_s);
+            } else {
+                self.pace.wait_until(due_s);
+            }
+        }
+        self.running = true;
+        Ok(())
+    }
+
+    fn capture(&mut self, into: FrameMut<'_>, deadline: Deadline) -> Result<Stamp, DriverError> {
+        let info = self.source.info();
+        if into.info() != info {
+            let problem = format!("a buffer for {}, expected {info}", into.info());
+            return Err(self.refused(ErrorKind::InvalidArgument, problem));
+        }
+        if !self.running {
+            return Err(self.refused(ErrorKind::InvalidArgument, "it is not started"));
+        }
+        let now_s = self.pace.now_s();
+        if self.pace.runs_by_itself() {
+            // Whoever comes late finds the newest frame, and has missed those before it.
+            self.passed = self.passed.max(self.timeline.newest(now_s));
+        }
+        let Some(due_s) = self.timeline.time_s(self.passed) else {
+            return Err(self.refused(ErrorKind::EndOfStream, "the recording has ended"));
+        };
+        let patience_s = deadline.remaining().as_secs_f64();
+        if due_s - now_s > patience_s {
+            self.pace.wait_until(now_s + patience_s);
+            let problem = format!("no frame within {deadline}");
+            return Err(self.refused(ErrorKind::Timeout, problem));
+        }
+        self.pace.wait_until(due_s);
+        let position = self.timeline.position(self.passed);
+        self.passed += 1;
+        self.source
+            .read(position, into)
+            .map_err(|fault| self.refused(fault.kind(), fault))?;
+        Ok(Stamp {
+            valid_s: due_s,
+            // Nothing is known of the latency of a recording; in real time it is that of reading the file.
+            received_s: self
+                .pace
+                .runs_by_itself()
+                .then(|| self.pace.now_s().max(due_s)),
+        })
+    }
+
+    fn stop(&mut self) -> Result<(), DriverError> {
+        self.running = false;
+        Ok(())
+    }
+}

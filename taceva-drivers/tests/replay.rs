@@ -1,0 +1,372 @@
+//! A folder of frames is a live sensor, and whatever is wrong with it is said by name.
+
+mod support;
+
+use std::fs;
+use std::io::Cursor;
+use std::time::Duration;
+
+use image::{ImageFormat, Rgb, RgbImage};
+use support::{PATIENCE, capture, folder, gray, replay, sensor};
+use taceva_core::{
+    Deadline, DriverSource, ErrorKind, FrameInfo, FrameMut, PixelFormat, Rig, Sensor,
+};
+use taceva_drivers::{Drivers, devices};
+
+fn refused(selector: &str) -> (ErrorKind, String) {
+    let error = sensor(selector).map(|_| ()).expect_err(selector);
+    (error.kind(), error.to_string())
+}
+
+#[test]
+fn frames_come_in_the_order_of_their_numbers_at_the_rate_asked_for() {
+    let folder = folder(11);
+    let mut sensor = replay(folder.path(), ";rate=4 Hz");
+    let frames: Vec<(f64, u8)> = (0..11)
+        .map(|_| capture(sensor.as_mut(), PATIENCE).expect("a frame"))
+        .map(|(stamp, shade)| (stamp.valid_s, shade))
+        .collect();
+    let expected: Vec<(f64, u8)> = (0..11).map(|at| (f64::from(at) * 0.25, at + 1)).collect();
+    assert_eq!(frames, expected);
+    let error = capture(sensor.as_mut(), PATIENCE).expect_err("no twelfth");
+    assert_eq!(error.kind(), ErrorKind::EndOfStream);
+    assert_eq!(
+        error.to_string(),
+        "sensor/replay: cannot capture a frame: the recording has ended"
+    );
+}
+
+#[test]
+fn a_table_of_times_decides_the_order_and_the_stamps() {
+    let folder = folder(3);
+    let table = folder.path().join("times.csv");
+    fs::write(
+        &table,
+        "file,t_s\nframe 2.png,1700000000.5\nframe 3.png,1700000000.75\nframe 1.png,1700000009\n",
+    )
+    .expect("written");
+    let mut sensor = replay(folder.path(), &format!(";times={}", table.display()));
+    let next = |sensor: &mut dyn Sensor| {
+        let (stamp, shade) =
+            capture(sensor, Deadline::after(Duration::from_secs(60))).expect("a frame");
+        (stamp.valid_s, stamp.received_s, shade)
+    };
+    assert_eq!(next(sensor.as_mut()), (1_700_000_000.5, None, 2));
+    assert_eq!(next(sensor.as_mut()), (1_700_000_000.75, None, 3));
+    assert_eq!(next(sensor.as_mut()), (1_700_000_009.0, None, 1));
+}
+
+#[test]
+fn a_frame_that_comes_after_the_deadline_is_a_timeout_and_then_comes() {
+    let folder = folder(2);
+    let mut sensor = replay(folder.path(), ";rate=1");
+    capture(sensor.as_mut(), Deadline::PASSED).expect("the first is there at once");
+    let brief = Deadline::after(Duration::from_millis(400));
+    for _ in 0..2 {
+        let error = capture(sensor.as_mut(), brief).expect_err("not yet");
+        assert_eq!(error.kind(), ErrorKind::Timeout);
+        assert_eq!(
+            error.to_string(),
+            "sensor/replay: cannot capture a frame: no frame within 400ms"
+        );
+    }
+    // 0.8 s of virtual time have passed by waiting.
+    let (stamp, shade) = capture(sensor.as_mut(), brief).expect("now");
+    assert_eq!((stamp.valid_s, shade), (1.0, 2));
+}
+
+#[test]
+fn in_real_time_a_late_caller_misses_frames_and_gets_the_newest() {
+    let folder = folder(200);
+    let mut sensor = replay(folder.path(), ";rate=1000;pace=real");
+    let (first, _) = capture(sensor.as_mut(), PATIENCE).expect("a frame");
+    std::thread::sleep(Duration::from_millis(30));
+    let (second, shade) = capture(sensor.as_mut(), PATIENCE).expect("a frame");
+    assert!(shade > 30, "frame {shade} after 30 ms at 1 kHz");
+    assert!(second.valid_s - first.valid_s >= 0.029);
+    assert!(second.received_s.expect("real time") >= second.valid_s);
+}
+
+#[test]
+fn a_recording_that_repeats_goes_on_in_time() {
+    let folder = folder(2);
+    let mut sensor = replay(folder.path(), ";rate=2;repeat=true");
+    let frames: Vec<(f64, u8)> = (0..5)
+        .map(|_| capture(sensor.as_mut(), PATIENCE).expect("a frame"))
+        .map(|(stamp, shade)| (stamp.valid_s, shade))
+        .collect();
+    assert_eq!(frames, [(0.0, 1), (0.5, 2), (1.0, 1), (1.5, 2), (2.0, 1)]);
+}
+
+#[test]
+fn a_stopped_replay_refuses_and_goes_on_where_it_was() {
+    let folder = folder(3);
+    let mut sensor = replay(folder.path(), "");
+    assert_eq!(capture(sensor.as_mut(), PATIENCE).expect("a frame").1, 1);
+    sensor.stop().expect("stops");
+    sensor.stop().expect("twice is once");
+    let error = capture(sensor.as_mut(), PATIENCE).expect_err("stopped");
+    assert_eq!(error.kind(), ErrorKind::InvalidArgument);
+    sensor.start(PATIENCE).expect("starts again");
+    sensor.start(PATIENCE).expect("twice is once");
+    assert_eq!(capture(sensor.as_mut(), PATIENCE).expect("a frame").1, 2);
+}
+
+#[test]
+fn a_buffer_of_another_size_is_refused_and_no_frame_is_lost() {
+    let folder = folder(1);
+    let mut sensor = replay(folder.path(), "");
+    let info = FrameInfo {
+        width: 6,
+        height: 8,
+        format: PixelFormat::Gray8,
+    };
+    let mut pixels = [9; 48];
+    let frame = FrameMut::new(info, &mut pixels).expect("48 bytes");
+    let error = sensor.capture(frame, PATIENCE).expect_err("turned");
+    assert_eq!(error.kind(), ErrorKind::InvalidArgument);
+    assert_eq!(
+        error.to_string(),
+        "sensor/replay: cannot capture a frame: a buffer for 6×8 gray8, expected 8×6 gray8"
+    );
+    assert_eq!(pixels, [9; 48]);
+    assert_eq!(capture(sensor.as_mut(), PATIENCE).expect("a frame").1, 1);
+}
+
+#[test]
+fn every_pixel_format_comes_through_and_jpeg_too() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let colour = Rgb([700_u16, 255, 65_535]);
+    image::ImageBuffer::from_pixel(3, 2, colour)
+        .save(folder.path().join("a.png"))
+        .expect("written");
+    let mut sensor = replay(folder.path(), "");
+    let info = sensor.frame_info();
+    assert_eq!(info.to_string(), "3×2 rgb16");
+    let mut pixels = vec![0; info.byte_len().expect("small")];
+    let frame = FrameMut::new(info, &mut pixels).expect("of that size");
+    sensor.capture(frame, PATIENCE).expect("a frame");
+    assert_eq!(pixels, [0xbc, 2, 255, 0, 255, 255].repeat(6));
+
+    let folder = tempfile::tempdir().expect("a folder");
+    RgbImage::from_pixel(16, 16, Rgb([200; 3]))
+        .save(folder.path().join("a.JPG"))
+        .expect("written");
+    let mut sensor = replay(folder.path(), "");
+    assert_eq!(sensor.frame_info().to_string(), "16×16 rgb8");
+    let (_, shade) = capture(sensor.as_mut(), PATIENCE).expect("a frame");
+    assert!(shade.abs_diff(200) <= 1, "{shade}");
+}
+
+#[test]
+fn a_frame_of_another_size_is_refused_and_the_next_one_comes() {
+    let folder = folder(3);
+    gray(2, 6, 8, &folder.path().join("frame 2.png"));
+    let mut sensor = replay(folder.path(), "");
+    capture(sensor.as_mut(), PATIENCE).expect("the first");
+    let error = capture(sensor.as_mut(), PATIENCE).expect_err("turned");
+    assert_eq!(error.kind(), ErrorKind::Protocol);
+    assert!(
+        error
+            .to_string()
+            .ends_with("frame 2.png: a frame of 6×8 gray8, expected 8×6 gray8 as the first one is"),
+        "{error}"
+    );
+    assert_eq!(capture(sensor.as_mut(), PATIENCE).expect("a frame").1, 3);
+}
+
+#[test]
+fn a_truncated_frame_is_refused_wherever_it_is_cut_and_the_next_one_comes() {
+    let mut jpeg = Cursor::new(Vec::new());
+    let noise = RgbImage::from_fn(32, 32, |x, y| {
+        Rgb([((x * 37) ^ (y * 91)).to_le_bytes()[0]; 3])
+    });
+    noise
+        .write_to(&mut jpeg, ImageFormat::Jpeg)
+        .expect("encodes");
+    let mut png = Cursor::new(Vec::new());
+    noise.write_to(&mut png, ImageFormat::Png).expect("encodes");
+    for (name, whole) in [("2.jpg", jpeg.into_inner()), ("2.png", png.into_inner())] {
+        let folder = tempfile::tempdir().expect("a folder");
+        for neighbour in ["1.png", "3.png"] {
+            noise.save(folder.path().join(neighbour)).expect("written");
+        }
+        for cut in (0..whole.len()).step_by(7) {
+            fs::write(folder.path().join(name), &whole[..cut]).expect("written");
+            let mut sensor = replay(folder.path(), "");
+            capture(sensor.as_mut(), PATIENCE).expect("the first");
+            let error = capture(sensor.as_mut(), PATIENCE).expect_err("cut short");
+            assert_eq!(error.kind(), ErrorKind::Protocol, "{error}");
+            assert!(error.to_string().contains(name), "{error}");
+            capture(sensor.as_mut(), PATIENCE).expect("the third");
+        }
+    }
+}
+
+#[test]
+fn a_frame_that_vanishes_after_opening_is_not_found() {
+    let folder = folder(2);
+    let mut sensor = replay(folder.path(), "");
+    fs::remove_file(folder.path().join("frame 1.png")).expect("there");
+    let error = capture(sensor.as_mut(), PATIENCE).expect_err("gone");
+    assert_eq!(error.kind(), ErrorKind::NotFound);
+    assert_eq!(capture(sensor.as_mut(), PATIENCE).expect("a frame").1, 2);
+}
+
+#[test]
+fn a_missing_folder_and_an_empty_one_are_not_found() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let missing = folder.path().join("nowhere");
+    let (kind, message) = refused(&format!("sensor/replay:folder={}", missing.display()));
+    assert_eq!(kind, ErrorKind::NotFound);
+    assert!(message.contains("cannot read the folder"), "{message}");
+    fs::write(folder.path().join("notes.txt"), "no frame").expect("written");
+    let (kind, message) = refused(&format!("sensor/replay:folder={}", folder.path().display()));
+    assert_eq!(kind, ErrorKind::NotFound);
+    assert!(
+        message.contains("holds no frame, expected files that end in .png"),
+        "{message}"
+    );
+}
+
+#[test]
+fn a_first_frame_that_is_no_picture_does_not_open() {
+    let folder = tempfile::tempdir().expect("a folder");
+    fs::write(folder.path().join("a.png"), "P5 1 1 255 x").expect("written");
+    let (kind, message) = refused(&format!("sensor/replay:folder={}", folder.path().display()));
+    assert_eq!(kind, ErrorKind::Protocol);
+    assert!(
+        message.ends_with("a.png: neither PNG nor JPEG, whatever its name says"),
+        "{message}"
+    );
+}
+
+#[cfg(unix)]
+#[test]
+fn a_link_among_the_frames_is_refused_rather_than_followed() {
+    let folder = folder(1);
+    std::os::unix::fs::symlink("/dev/zero", folder.path().join("endless.png")).expect("linked");
+    let (kind, message) = refused(&format!("sensor/replay:folder={}", folder.path().display()));
+    assert_eq!(kind, ErrorKind::Protocol);
+    assert!(
+        message.ends_with("endless.png: a link or a device, expected a plain file"),
+        "{message}"
+    );
+}
+
+#[test]
+fn a_table_that_does_not_fit_its_folder_is_refused_by_line() {
+    let folder = folder(2);
+    let table = folder.path().join("times.csv");
+    let cases = [
+        ("", "line 1: no column `file`"),
+        ("file,time\n", "line 1: no column `t_s`"),
+        (
+            "file,t_s\nframe 1.png,0\n",
+            "times.csv: no time for `frame 2.png`",
+        ),
+        (
+            "file,t_s\nframe 1.png,0\nframe 1.png,1\n",
+            "line 3: `frame 1.png` is named a second time",
+        ),
+        (
+            "file,t_s\n../frame 1.png,0\n",
+            "line 2: `../frame 1.png` is no frame of the folder",
+        ),
+        (
+            "file,t_s\nframe 1.png,1\nframe 2.png,1\n",
+            "line 3: 1 s comes after 1 s, expected a later time",
+        ),
+        (
+            "file,t_s\nframe 1.png,NaN\n",
+            "line 2: `NaN` is no time, expected seconds",
+        ),
+        (
+            "file,t_s\nframe 1.png,soon\u{1b}\n",
+            "line 2: `soon\\u{1b}` is no time",
+        ),
+        ("file,t_s\nframe 1.png\n", "line 2"),
+    ];
+    for (text, expected) in cases {
+        fs::write(&table, text).expect("written");
+        let selector = format!(
+            "sensor/replay:folder={};times={}",
+            folder.path().display(),
+            table.display()
+        );
+        let (kind, message) = refused(&selector);
+        assert_eq!(kind, ErrorKind::Protocol, "{text}");
+        assert!(message.contains(expected), "{text}: {message}");
+    }
+    let selector = format!(
+        "sensor/replay:folder={};times=nowhere.csv",
+        folder.path().display()
+    );
+    assert_eq!(refused(&selector).0, ErrorKind::NotFound);
+}
+
+#[test]
+fn an_unknown_driver_and_a_bad_argument_are_answered_with_what_is_accepted() {
+    assert_eq!(
+        refused("sensor/repaly:folder=x"),
+        (
+            ErrorKind::NotFound,
+            "`sensor/repaly`: unknown sensor driver, did you mean `sensor/replay`?".to_owned()
+        )
+    );
+    assert_eq!(
+        refused("sensor/replay:foldr=x"),
+        (
+            ErrorKind::InvalidArgument,
+            "sensor/replay:foldr=x: `foldr`: unknown argument, did you mean `folder`?".to_owned()
+        )
+    );
+    let (_, message) = refused("sensor/replay:folder=x;rate=0");
+    assert!(
+        message.ends_with("`rate`: `0`, expected a number from 0.001 to 100000 Hz"),
+        "{message}"
+    );
+    let (_, message) = refused("sensor/replay");
+    assert!(
+        message.contains("`folder`: missing, expected a path"),
+        "{message}"
+    );
+}
+
+#[test]
+fn the_list_of_devices_has_the_replay_with_its_arguments() {
+    let drivers = Drivers::builtin().expect("no contradiction");
+    let listed = devices(&drivers);
+    let replay = listed
+        .drivers
+        .iter()
+        .find(|driver| driver.key == "sensor/replay")
+        .expect("linked in");
+    assert_eq!(replay.source, DriverSource::Recorded);
+    let keys: Vec<_> = replay
+        .arguments
+        .iter()
+        .map(|argument| argument.key.as_str())
+        .collect();
+    assert_eq!(keys, ["folder", "rate", "times", "pace", "repeat"]);
+    assert!(replay.arguments[0].required);
+    assert_eq!(replay.arguments[1].default.as_deref(), Some("30"));
+    assert!(listed.found.is_empty() && listed.failed.is_empty());
+}
+
+#[test]
+fn what_the_arguments_decide_is_known_before_anything_is_opened() {
+    let drivers = Drivers::builtin().expect("no contradiction");
+    let factory = drivers.sensors.get("sensor/replay").expect("linked in");
+    let args = factory
+        .descriptor()
+        .args("folder=nowhere;rate=25")
+        .expect("good");
+    let described = factory.describe(&args).expect("no contradiction");
+    let rate = described
+        .sensor()
+        .and_then(|facts| facts.rate)
+        .expect("given");
+    assert_eq!(rate.to_string(), "25 Hz");
+    assert!(factory.open(&args, &mut Rig::new()).is_err());
+}
