@@ -201,6 +201,23 @@ impl SourceUnit {
         self.unit
     }
 
+    /// By how many places the decimal point moves on the way to the unit that values are kept in; `None` where the way is no
+    /// power of ten. A text whose point was moved before it was read is rounded once, a value that was read and then
+    /// converted twice.
+    pub fn decimal_shift(&self) -> Option<i32> {
+        let find = |factor: f64| {
+            let powers: [(f64, i32); 6] =
+                [(1e0, 0), (1e1, 1), (1e2, 2), (1e3, 3), (1e6, 6), (1e9, 9)];
+            let is_it = |power: f64| power.to_bits() == factor.to_bits();
+            let found = powers.into_iter().find(|(power, _)| is_it(*power));
+            found.map(|(_, shift)| shift)
+        };
+        match self.scale {
+            Scale::Times(factor) => find(factor),
+            Scale::Over(divisor) => find(divisor).map(|shift| -shift),
+        }
+    }
+
     /// `value` in the unit it is kept in, rounded once.
     pub fn convert(&self, value: f64) -> f64 {
         match self.scale {
@@ -246,6 +263,16 @@ mod tests {
     fn micrometres_divide_so_that_the_result_is_the_nearest_binary64() {
         let micrometres = SourceUnit::parse("um").expect("known");
         assert_eq!(micrometres.convert(2_343.0).to_bits(), 2.343_f64.to_bits());
+    }
+
+    #[test]
+    fn a_shift_is_there_for_powers_of_ten_alone() {
+        let shift = |symbol| SourceUnit::parse(symbol).expect("known").decimal_shift();
+        assert_eq!(
+            ["mm", "m", "cm", "um", "ns", "%"].map(shift),
+            [0, 3, 1, -3, -9, -2].map(Some)
+        );
+        assert_eq!(["rad", "kgf", "gf"].map(shift), [None; 3]);
     }
 
     #[test]

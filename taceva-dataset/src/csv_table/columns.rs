@@ -2,10 +2,10 @@
 
 use std::ops::Range;
 
-use taceva_core::Column;
+use taceva_core::{Column, SourceUnit};
 
 use super::CsvTable;
-use super::number::parse_number;
+use super::number::{parse_number, parse_shifted};
 use super::split::Block;
 use crate::error::DatasetError;
 use crate::parallel::each_part;
@@ -60,6 +60,34 @@ impl CsvTable {
         rows: impl ExactSizeIterator<Item = usize>,
     ) -> Result<Column, DatasetError> {
         self.some(column, rows, Invalid::AsNan)
+    }
+
+    /// The finite number in a cell, in the unit it is kept in, or `None` if the cell is empty.
+    ///
+    /// Where the way between the units is a power of ten, the decimal point is moved before the number is read, so that
+    /// `1212.4 um` is the binary64 nearest to 1.2124 mm.
+    ///
+    /// # Errors
+    /// [`DatasetError::Table`] if the cell holds no finite number, or one too large for its unit.
+    /// # Panics
+    /// If there is no such row or column.
+    pub fn number_in_unit(
+        &self,
+        row: usize,
+        column: usize,
+        unit: &SourceUnit,
+    ) -> Result<Option<f64>, DatasetError> {
+        let Some(number) = self.number(row, column)? else {
+            return Ok(None);
+        };
+        let shift = unit.decimal_shift().filter(|shift| *shift != 0);
+        let shifted = shift.and_then(|shift| parse_shifted(self.cell(row, column), shift));
+        let converted = shifted.unwrap_or_else(|| unit.convert(number));
+        if converted.is_finite() {
+            Ok(Some(converted))
+        } else {
+            Err(self.refuse(row, column, "too large for its unit"))
+        }
     }
 
     /// The cells of the column called `name` as they are written, without surrounding blanks.

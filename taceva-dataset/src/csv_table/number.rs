@@ -34,6 +34,16 @@ pub(super) fn parse_number(text: &str, cell: Range<usize>) -> Option<Option<f64>
     number.is_finite().then_some(Some(number))
 }
 
+/// The decimal text with its point moved by `places` to the right, read and rounded once.
+pub(super) fn parse_shifted(cell: &str, places: i32) -> Option<f64> {
+    let (mantissa, exponent) = match cell.split_once(['e', 'E']) {
+        Some((mantissa, exponent)) => (mantissa, exponent.parse::<i32>().ok()?),
+        None => (cell, 0),
+    };
+    let exponent = exponent.checked_add(places)?;
+    format!("{mantissa}e{exponent}").parse().ok()
+}
+
 /// Digits with at most one point, where one division is exactly rounded: both operands are exact (Clinger 1990).
 fn parse_plain(cell: &[u8]) -> Option<f64> {
     let (negative, digits) = match cell.split_first()? {
@@ -211,6 +221,22 @@ mod tests {
         assert_eq!(read(""), Some(None));
         assert_eq!(read("  "), Some(None));
         assert_eq!(read(" 1.5\r"), Some(Some(1.5)));
+    }
+
+    #[test]
+    fn a_moved_point_is_rounded_once() {
+        for (cell, places, expected) in [
+            ("1212.4", -3, 1.2124),
+            ("-1236.5", -3, -1.2365),
+            ("0.0024", 3, 2.4),
+            ("1.5e3", -6, 0.0015),
+            ("5", 1, 50.0),
+            ("1e-320", -3, 1e-323),
+        ] {
+            let found = parse_shifted(cell, places).map(f64::to_bits);
+            assert_eq!(found, Some(f64::to_bits(expected)), "{cell}");
+        }
+        assert_eq!(parse_shifted("1e2147483647", 1), None);
     }
 
     proptest! {

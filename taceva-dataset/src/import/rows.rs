@@ -227,13 +227,10 @@ impl<'a> MappedTable<'a> {
             .iter()
             .zip(&self.map.columns)
             .map(|(column, map)| {
-                let Some(number) = self.table.number(row, *column)? else {
+                let number = self.table.number_in_unit(row, *column, &map.unit)?;
+                let Some(converted) = number else {
                     return Ok(None);
                 };
-                let converted = map.unit.convert(number);
-                if !converted.is_finite() {
-                    return Err(self.wrong(row, *column, "too large for its unit"));
-                }
                 // A difference from zero, so that no −0 appears where the sign of 0 is turned.
                 Ok(Some(if map.is_negated {
                     0.0 - converted
@@ -246,10 +243,7 @@ impl<'a> MappedTable<'a> {
 
     fn time(&self, row: usize) -> Result<Option<f64>, DatasetError> {
         match (self.time, &self.map.time) {
-            (Some(column), Some(map)) => {
-                let number = self.table.number(row, column)?;
-                Ok(number.map(|number| map.unit.convert(number)))
-            }
+            (Some(column), Some(map)) => self.table.number_in_unit(row, column, &map.unit),
             _ => Ok(None),
         }
     }
