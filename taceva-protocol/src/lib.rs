@@ -1,1 +1,27 @@
 #![doc = include_str!("../README.md")]
+
+mod digest;
+mod draw;
+mod limits;
+mod phase;
+mod plan;
+mod press;
+mod scene;
+mod source;
+mod specimen;
+
+pub use digest::Digest;
+pub use limits::{FROZEN_READINGS, Limits, Overshoot};
+pub use phase::PhaseKind;
+pub use plan::{
+    Cause, Cost, Fit, Plan, PlanReason, PlanSkip, PlannedMetric, PlannedPress, Subject, plan,
+};
+pub use press::{Motion, Press, Station};
+pub use scene::{
+    BuiltinScene, Calibration, Contact, DeviceSpec, FootprintSpec, GREATEST_SCENE, Gratings,
+    Hysteresis, Idle, LightSweep, LightingSpec, LimitSpec, MetricSettings, MetricsSpec, ModelSpec,
+    Protocol, Repeatability, ReportSpec, Scene, SceneError, SceneProblem, SensorSpec, Setting,
+    Shape, Spatial, Study, SurfaceMap,
+};
+pub use source::{RecordingInfo, RigInfo, SourceInfo};
+pub use specimen::Specimen;

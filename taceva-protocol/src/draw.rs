@@ -1,0 +1,105 @@
+//! Numbers drawn by counter: each is a function of the seed, what it is for, and its place, never of what was drawn before.
+
+use taceva_core::{Footprint, Nanometre};
+
+use crate::digest::fnv_1a;
+
+/// A source of numbers for one purpose.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Draws {
+    key: u64,
+}
+
+/// Tries at a place within an outline; a disc fills 79 % of its square, so that 64 misses in a row come once in 10⁴³ points.
+const TRIES: u64 = 64;
+
+impl Draws {
+    /// The numbers that `seed` gives for `purpose`.
+    pub(crate) fn new(seed: u64, purpose: &str) -> Draws {
+        Draws {
+            key: mixed(seed ^ fnv_1a(purpose.as_bytes())),
+        }
+    }
+
+    /// 64 random bits at `place`.
+    pub(crate) fn bits(self, place: [u64; 2]) -> u64 {
+        mixed(mixed(self.key ^ place[0].wrapping_mul(GOLDEN)) ^ place[1].wrapping_mul(GOLDEN))
+    }
+
+    /// A whole number from `least` to `greatest`, both included.
+    pub(crate) fn between(self, least: i64, greatest: i64, place: [u64; 2]) -> i64 {
+        let span = u128::from(greatest.abs_diff(least)) + 1;
+        let up = (u128::from(self.bits(place)) * span) >> 64;
+        least
+            + i64::try_from(up).expect("at most the span, which came from two i64 that are lengths")
+    }
+
+    /// A place of `footprint`, uniformly.
+    pub(crate) fn place(self, footprint: &Footprint, point: u64) -> [Nanometre; 2] {
+        let [half_x, half_y] = footprint.half_extent();
+        let candidate = |attempt: u64| {
+            let x = self.between(-half_x.0, half_x.0, [point, 2 * attempt]);
+            let y = self.between(-half_y.0, half_y.0, [point, 2 * attempt + 1]);
+            [Nanometre(x), Nanometre(y)]
+        };
+        let inside = |&[x, y]: &[Nanometre; 2]| footprint.contains(x, y);
+        (0..TRIES).map(candidate).find(inside).unwrap_or_default()
+    }
+}
+
+/// 2⁶⁴ over the golden ratio: neighbouring counters become distant words.
+const GOLDEN: u64 = 0x9e37_79b9_7f4a_7c15;
+
+/// The finalizer of SplitMix64 (Steele, Lea and Flood, 2014): every bit in changes half the bits out.
+fn mixed(word: u64) -> u64 {
+    let word = word.wrapping_add(GOLDEN);
+    let word = (word ^ (word >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    let word = (word ^ (word >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+    word ^ (word >> 31)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_first_words_are_those_of_splitmix64() {
+        // Reference output of SplitMix64 from the state 1234567.
+        assert_eq!(mixed(1_234_567), 6_457_827_717_110_365_317);
+        assert_eq!(
+            mixed(1_234_567_u64.wrapping_add(GOLDEN)),
+            3_203_168_211_198_807_973
+        );
+    }
+
+    #[test]
+    fn a_draw_depends_on_its_place_alone() {
+        let draws = Draws::new(7, "calibration");
+        let forward: Vec<u64> = (0..100).map(|point| draws.bits([point, 0])).collect();
+        let mut backward: Vec<u64> = (0..100).rev().map(|point| draws.bits([point, 0])).collect();
+        backward.reverse();
+        assert_eq!(forward, backward);
+        assert_ne!(draws.bits([0, 0]), Draws::new(7, "spatial").bits([0, 0]));
+    }
+
+    #[test]
+    fn places_fill_a_disc_and_nothing_else() {
+        let disc = Footprint::disc(17.0, None).expect("a disc");
+        let draws = Draws::new(1, "test");
+        let places: Vec<_> = (0..4_000).map(|point| draws.place(&disc, point)).collect();
+        assert!(places.iter().all(|&[x, y]| disc.contains(x, y)));
+        let half = Footprint::disc(17.0 / 2_f64.sqrt(), None).expect("half the area");
+        let inner = places.iter().filter(|&&[x, y]| half.contains(x, y)).count();
+        // Binomial with p = 1/2: five standard deviations are 158.
+        assert!(inner.abs_diff(2_000) < 158, "{inner}");
+    }
+
+    #[test]
+    fn both_ends_of_a_range_are_drawn() {
+        let draws = Draws::new(3, "ends");
+        let drawn: std::collections::BTreeSet<i64> = (0..200)
+            .map(|place| draws.between(-1, 1, [place, 0]))
+            .collect();
+        assert_eq!(drawn.into_iter().collect::<Vec<_>>(), [-1, 0, 1]);
+    }
+}

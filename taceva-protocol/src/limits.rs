@@ -1,0 +1,198 @@
+//! The limits of a rig: the tightest that anybody states. Nothing switches them off, nothing loosens them.
+
+use taceva_core::{DriverSource, Millimetre, Newton};
+
+use crate::scene::{LimitSpec, Scene, SceneError, SceneProblem, Setting, Study};
+use crate::source::RigInfo;
+
+/// What must not be passed, and by how much a stop may come late.
+///
+/// # Units
+/// mm, N and mm/s.
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
+pub struct Limits {
+    /// The deepest indentation, from the first contact.
+    pub depth_max: Millimetre,
+    /// The greatest normal force.
+    pub normal_max: Newton,
+    /// The greatest shear force; that of the normal force where nobody states one.
+    pub shear_max: Newton,
+    /// The force beyond which the transducer cannot measure, if it is known.
+    pub saturation: Option<Newton>,
+    /// The greatest speed out of contact, in mm/s.
+    pub speed_max_mm_s: f64,
+    /// How far the tip may go on beyond a limit before it rests: see [`Overshoot`].
+    pub overshoot: Overshoot,
+    /// Whether all devices are simulated.
+    pub simulated: bool,
+}
+
+/// How far the tip goes on after a limit was passed.
+///
+/// The tip moves in segments, each followed by a look at force and pose, so that what is passed in a segment is seen at its end. A
+/// signal that froze is believed for [`FROZEN_READINGS`](crate::FROZEN_READINGS) segments.
+///
+/// # Units
+/// mm.
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
+pub struct Overshoot {
+    /// The length of a segment.
+    pub segment_mm: f64,
+    /// With all signals healthy: one segment, and the way in which the robot stops.
+    pub healthy_mm: f64,
+    /// With a force signal that froze.
+    pub frozen_mm: f64,
+}
+
+/// Time of a segment in contact, in s: a limit that is passed within it is seen at its end.
+pub(crate) const SEGMENT_S: f64 = 0.015;
+/// Readings that are equal to the last bit, each after a motion, that are believed before the signal counts as frozen.
+pub const FROZEN_READINGS: u32 = 8;
+/// Slowest deceleration that a robot is credited with, in mm/s²; an arm of 1 m/s² stops from 5 mm/s within 0.0125 mm.
+const DECELERATION_MM_S2: f64 = 1_000.0;
+
+impl Overshoot {
+    /// The overshoot at the speed of contact (hardware: v·(t_sample + t_link + t_react) + v²/2a, with the times in the segment).
+    pub(crate) fn at(speed_mm_s: f64) -> Overshoot {
+        let segment_mm = speed_mm_s * SEGMENT_S;
+        let braking_mm = speed_mm_s * speed_mm_s / (2.0 * DECELERATION_MM_S2);
+        let healthy_mm = segment_mm + braking_mm;
+        Overshoot {
+            segment_mm,
+            healthy_mm,
+            frozen_mm: f64::from(FROZEN_READINGS) * segment_mm + healthy_mm,
+        }
+    }
+}
+
+/// A limit that a device states, and who it is.
+struct Stated {
+    limit: f64,
+    who: String,
+}
+
+/// The limits of `study` on `rig`.
+pub(crate) fn limits(scene: &Scene, study: &Study, rig: &RigInfo) -> Result<Limits, SceneError> {
+    let LimitSpec {
+        depth_max_mm,
+        normal_max_n,
+        shear_max_n,
+        speed_max_mm_s,
+    } = study.limits;
+    let sensor = rig.sensor.as_ref();
+    let of_sensor = |limit: Option<f64>| {
+        let descriptor = sensor?;
+        let who = format!("the sensor `{}`", descriptor.key());
+        limit.map(|limit| Stated { limit, who })
+    };
+    let facts = sensor.and_then(|descriptor| descriptor.sensor());
+    let transducer = rig.force.as_ref();
+    let force = transducer.and_then(|descriptor| descriptor.force());
+    let of_force = || {
+        let who = format!("the force transducer `{}`", transducer?.key());
+        let limit = force?.force_max?.0;
+        Some(Stated { limit, who })
+    };
+    let robot = rig.robot.as_ref();
+    let of_robot = robot.and_then(|descriptor| {
+        let limit = descriptor.robot()?.speed_max?.mm_per_s();
+        let who = format!("the robot `{}`", descriptor.key());
+        Some(Stated { limit, who })
+    });
+
+    let tighten = Tighten { scene };
+    let depth = of_sensor(facts.and_then(|facts| Some(facts.depth_limit()?.0)));
+    let depth_max = tighten.required("Pz_max_mm", depth_max_mm, [depth, None])?;
+    let normal = of_sensor(facts.and_then(|facts| Some(facts.force_max?.0)));
+    let normal_max = tighten.required("Fz_max_N", normal_max_n, [normal, of_force()])?;
+    let shear_max = tighten.least("Fxy_max_N", shear_max_n, [of_force(), None])?;
+    let travel_mm_s = scene.protocol.contact.travel_mm_s;
+    let speed_max = tighten.least("speed_max_mm_s", speed_max_mm_s, [of_robot, None])?;
+    if let Some(speed_max) = &speed_max
+        && travel_mm_s.at().is_some()
+        && travel_mm_s.value > speed_max.limit
+    {
+        return Err(tighten.beyond("travel_mm_s", travel_mm_s, "speed_max_mm_s", speed_max));
+    }
+    let devices = [&rig.sensor, &rig.robot, &rig.force, &rig.lighting];
+    let simulated = devices
+        .iter()
+        .filter_map(|device| device.as_ref())
+        .all(|device| device.source() == DriverSource::Simulated);
+    Ok(Limits {
+        depth_max: Millimetre(depth_max.limit),
+        normal_max: Newton(normal_max.limit),
+        shear_max: Newton(shear_max.map_or(normal_max.limit, |stated| stated.limit)),
+        saturation: of_force().map(|stated| Newton(stated.limit)),
+        speed_max_mm_s: speed_max.map_or(travel_mm_s.value, |stated| {
+            stated.limit.min(travel_mm_s.value)
+        }),
+        overshoot: Overshoot::at(scene.protocol.contact.speed_mm_s.value),
+        simulated,
+    })
+}
+
+struct Tighten<'a> {
+    scene: &'a Scene,
+}
+
+impl Tighten<'_> {
+    /// The least of what is stated; a scene that states more than a device is refused.
+    fn least(
+        &self,
+        key: &'static str,
+        written: Option<Setting<f64>>,
+        stated: [Option<Stated>; 2],
+    ) -> Result<Option<Stated>, SceneError> {
+        let tightest = stated
+            .into_iter()
+            .flatten()
+            .min_by(|one, other| one.limit.total_cmp(&other.limit));
+        match (written, tightest) {
+            (Some(written), Some(tightest)) if written.value > tightest.limit => {
+                let problem = SceneProblem::LimitLoosened {
+                    key,
+                    found: written.value,
+                    who: tightest.who,
+                    limit: tightest.limit,
+                };
+                Err(self.scene.text.error(written.at(), problem))
+            }
+            (Some(written), _) => Ok(Some(Stated {
+                limit: written.value,
+                who: "[limits] of the scene".to_owned(),
+            })),
+            (None, tightest) => Ok(tightest),
+        }
+    }
+
+    fn required(
+        &self,
+        key: &'static str,
+        written: Option<Setting<f64>>,
+        stated: [Option<Stated>; 2],
+    ) -> Result<Stated, SceneError> {
+        self.least(key, written, stated)?.ok_or_else(|| {
+            self.scene
+                .text
+                .error(None, SceneProblem::LimitAbsent { key })
+        })
+    }
+
+    fn beyond(
+        &self,
+        key: &'static str,
+        written: Setting<f64>,
+        limit_key: &'static str,
+        stated: &Stated,
+    ) -> SceneError {
+        let problem = SceneProblem::BeyondLimit {
+            key,
+            found: written.value,
+            limit_key,
+            limit: stated.limit,
+            who: stated.who.clone(),
+        };
+        self.scene.text.error(written.at(), problem)
+    }
+}

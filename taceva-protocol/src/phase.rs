@@ -1,0 +1,213 @@
+//! The parts of a protocol: each is the presses it wants, as values, and nothing that moves.
+
+mod calibration;
+mod gratings;
+mod idle;
+mod light_sweep;
+mod load_unload;
+mod repeatability;
+mod spatial;
+mod surface_map;
+
+use std::fmt;
+
+use taceva_core::{Footprint, Nanometre, Phase};
+
+use crate::draw::Draws;
+use crate::press::{Motion, Press, Station};
+use crate::scene::Protocol;
+use crate::specimen::{Specimen, spacings};
+
+/// A part of a protocol.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum PhaseKind {
+    /// Pictures without contact: how fast the sensor is.
+    Idle,
+    /// The height of the surface, felt on every unit at the same points.
+    SurfaceMap,
+    /// What a model is fitted and tested on, straight and sheared.
+    Calibration,
+    /// Held-out presses all over the surface.
+    Spatial,
+    /// Held-out presses again in every scene of light.
+    LightSweep,
+    /// Points approached, pressed and left again and again.
+    Repeatability,
+    /// Into the gel and out again.
+    LoadUnload,
+    /// Boards of every spacing.
+    Gratings,
+}
+
+impl PhaseKind {
+    /// Every kind, in the order in which they are visited.
+    pub const ALL: [PhaseKind; 8] = [
+        PhaseKind::Idle,
+        PhaseKind::SurfaceMap,
+        PhaseKind::Calibration,
+        PhaseKind::Spatial,
+        PhaseKind::LightSweep,
+        PhaseKind::Repeatability,
+        PhaseKind::LoadUnload,
+        PhaseKind::Gratings,
+    ];
+
+    /// How the phase is written in plans.
+    pub const fn name(self) -> &'static str {
+        match self {
+            PhaseKind::Idle => "idle",
+            PhaseKind::SurfaceMap => "surface-map",
+            PhaseKind::Calibration => "calibration",
+            PhaseKind::Spatial => "spatial",
+            PhaseKind::LightSweep => "light-sweep",
+            PhaseKind::Repeatability => "repeatability",
+            PhaseKind::LoadUnload => "load-unload",
+            PhaseKind::Gratings => "gratings",
+        }
+    }
+}
+
+impl fmt::Display for PhaseKind {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+impl serde::Serialize for PhaseKind {
+    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_str(self.name())
+    }
+}
+
+/// What presses are drawn from.
+#[derive(Clone, Debug)]
+pub(crate) struct Ground<'a> {
+    pub(crate) protocol: &'a Protocol,
+    pub(crate) footprint: Footprint,
+    pub(crate) depth_max: Nanometre,
+    /// Never empty; the first is the one that everything but the surface map is measured on.
+    pub(crate) units: &'a [String],
+    /// The scenes of light, that of calibration first; empty where the light cannot be set.
+    pub(crate) lights: &'a [String],
+    /// Whether shear leaves a trace that can be seen.
+    pub(crate) markers: bool,
+    pub(crate) seed: u64,
+}
+
+impl Ground<'_> {
+    /// The presses that `kind` wants, in order.
+    pub(crate) fn presses(&self, kind: PhaseKind) -> Vec<Press> {
+        match kind {
+            PhaseKind::Idle => idle::presses(self),
+            PhaseKind::SurfaceMap => surface_map::presses(self),
+            PhaseKind::Calibration => calibration::presses(self),
+            PhaseKind::Spatial => spatial::presses(self),
+            PhaseKind::LightSweep => light_sweep::presses(self),
+            PhaseKind::Repeatability => repeatability::presses(self),
+            PhaseKind::LoadUnload => load_unload::presses(self),
+            PhaseKind::Gratings => gratings::presses(self),
+        }
+    }
+
+    /// How many presses [`presses`](Ground::presses) gives, told without drawing one.
+    pub(crate) fn count(&self, kind: PhaseKind) -> u64 {
+        let protocol = self.protocol;
+        match kind {
+            PhaseKind::Idle => 1,
+            PhaseKind::SurfaceMap => {
+                self.units.len() as u64 * u64::from(protocol.surface.points.value)
+            }
+            PhaseKind::Calibration => u64::from(protocol.calibration.points.value),
+            PhaseKind::Spatial => u64::from(protocol.spatial.points.value),
+            PhaseKind::LightSweep => {
+                self.lights.len() as u64 * u64::from(protocol.lighting.points.value)
+            }
+            PhaseKind::Repeatability => {
+                let spec = &protocol.repeatability;
+                u64::from(spec.points.value) * u64::from(spec.trials.value)
+            }
+            PhaseKind::LoadUnload => u64::from(protocol.hysteresis.points.value),
+            PhaseKind::Gratings => {
+                let spec = &protocol.gratings;
+                let spacings = spacings(spec).map_or(0, |spacings| spacings.len());
+                (spacings * spec.kinds.value.len()) as u64 * u64::from(spec.presses.value)
+            }
+        }
+    }
+
+    fn draws(&self, kind: PhaseKind) -> Draws {
+        Draws::new(self.seed, kind.name())
+    }
+
+    /// A press of the indenter on the first unit in the light of calibration.
+    fn press(&self, place: [Nanometre; 2], motion: Motion) -> Press {
+        let radius = self.protocol.contact.indenter_radius_mm.value;
+        Press {
+            unit: self.units[0].clone(),
+            light: self.lights.first().cloned(),
+            specimen: Specimen::Sphere {
+                radius: nanometres(radius),
+            },
+            place,
+            turn_millidegrees: 0,
+            repeat: None,
+            motion,
+        }
+    }
+
+    /// Depths from `step_mm` to the greatest in steps of `step_mm`.
+    fn staircase(&self, step_mm: f64) -> Vec<Nanometre> {
+        let step = nanometres(step_mm).0.max(1);
+        (1..=self.depth_max.0 / step)
+            .map(|level| Nanometre(level * step))
+            .collect()
+    }
+
+    /// A depth from `least_mm` to the greatest: one of `parts` equal parts of that range, so that no point has all its depths in one.
+    fn depth(&self, draws: Draws, least_mm: f64, part: DepthPart) -> Nanometre {
+        let least = nanometres(least_mm).0.min(self.depth_max.0);
+        let span = self.depth_max.0 - least;
+        let (index, parts) = (i64::from(part.index), i64::from(part.parts));
+        let edge = |index: i64| least + span / parts * index + span % parts * index / parts;
+        Nanometre(draws.between(
+            edge(index),
+            edge(index + 1),
+            [part.point, DEPTH_AXIS + u64::from(part.index)],
+        ))
+    }
+
+    /// A shear of at most `greatest_mm` along each axis.
+    fn shear(&self, draws: Draws, greatest_mm: f64, part: DepthPart) -> [Nanometre; 2] {
+        let greatest = nanometres(greatest_mm).0;
+        [0, 1].map(|axis| {
+            let place = [part.point, SHEAR_AXIS + 2 * u64::from(part.index) + axis];
+            Nanometre(draws.between(-greatest, greatest, place))
+        })
+    }
+}
+
+/// Which depth of which point.
+#[derive(Clone, Copy, Debug)]
+struct DepthPart {
+    point: u64,
+    index: u32,
+    parts: u32,
+}
+
+/// Counters of a point: its place takes those below; depths and shears have ranges of their own.
+const DEPTH_AXIS: u64 = 1 << 32;
+const SHEAR_AXIS: u64 = 1 << 40;
+
+/// A length that was checked when the scene was read.
+fn nanometres(millimetres: f64) -> Nanometre {
+    Nanometre::from_millimetres(millimetres).expect("lengths of a scene are at most 1000 mm")
+}
+
+/// A station straight below the first contact, on the way in.
+fn straight(depth: Nanometre) -> Station {
+    Station {
+        depth,
+        shear: [Nanometre(0); 2],
+        phase: Phase::Load,
+    }
+}

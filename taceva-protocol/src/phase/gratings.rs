@@ -1,0 +1,51 @@
+//! Boards of every spacing, each pressed many times at the centre and turned by an angle of its own.
+
+use taceva_core::Nanometre;
+
+use super::{Ground, PhaseKind, straight};
+use crate::press::{Motion, Press};
+use crate::specimen::{Specimen, spacings};
+
+/// Thousandths of a degree in half a turn: lines and dots look the same after it.
+const HALF_TURN: i64 = 180_000;
+
+/// Board after board, because boards are exchanged by hand.
+pub(super) fn presses(ground: &Ground<'_>) -> Vec<Press> {
+    let draws = ground.draws(PhaseKind::Gratings);
+    let spec = &ground.protocol.gratings;
+    let Ok(spacings) = spacings(spec) else {
+        // Refused when the scene was read.
+        return Vec::new();
+    };
+    let depth = fraction_of(ground.depth_max, spec.depth_fraction.value);
+    let boards = spec.kinds.value.iter().flat_map(|kind| {
+        let spacings = spacings.iter();
+        spacings.map(move |spacing| Specimen::Grating {
+            kind: *kind,
+            spacing: *spacing,
+        })
+    });
+    boards
+        .enumerate()
+        .flat_map(|(board, specimen)| {
+            (0..spec.presses.value).map(move |press| {
+                let place = [board as u64, u64::from(press)];
+                let turn = draws.between(0, HALF_TURN - 1, place);
+                let turn_millidegrees = i32::try_from(turn).expect("less than half a turn");
+                Press {
+                    specimen,
+                    turn_millidegrees,
+                    // Two equal angles are two presses all the same.
+                    repeat: Some(press),
+                    ..ground.press([Nanometre(0); 2], Motion::Indent(vec![straight(depth)]))
+                }
+            })
+        })
+        .collect()
+}
+
+/// `fraction` of `depth`, to the nearest nanometre.
+pub(crate) fn fraction_of(depth: Nanometre, fraction: f64) -> Nanometre {
+    Nanometre::from_millimetres(depth.to_millimetres() * fraction)
+        .expect("a fraction of a length is a length")
+}

@@ -1,0 +1,190 @@
+//! From what is wanted to what is done: pure passes that remove and merge, never add, and leave a reason each time.
+//!
+//! `supply → applicability → phases → share → fields → check → cost`, one pass a file.
+
+mod applicability;
+mod check;
+mod cost;
+mod draft;
+mod explain;
+mod facts;
+mod fields;
+mod phases;
+mod reason;
+mod share;
+mod supply;
+#[cfg(test)]
+mod tests;
+
+pub use cost::Cost;
+pub use draft::{Fit, PlannedMetric, PlannedPress};
+pub use reason::{Cause, PlanReason, PlanSkip, Subject};
+
+use taceva_core::{FieldSet, Footprint, FrameInfo, SkipReason};
+use taceva_metrics::catalogue;
+
+use crate::digest::{Digest, Hasher};
+use crate::limits::Limits;
+use crate::phase::PhaseKind;
+use crate::scene::{Contact, Scene, SceneError, SceneProblem, Study};
+use crate::source::SourceInfo;
+use draft::{Draft, MetricNeeds};
+use facts::{Gather, StudyFacts};
+
+/// What is done for one sensor, what is not, and why. [`Display`](std::fmt::Display) explains it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Plan {
+    /// The name of the study.
+    pub name: String,
+    /// The metrics that are computed.
+    pub metrics: Vec<PlannedMetric>,
+    /// The parts of the protocol that are visited, in order; none of a recording.
+    pub phases: Vec<PhaseKind>,
+    /// The presses, in the order in which they are made.
+    pub presses: Vec<PlannedPress>,
+    /// The models that are fitted.
+    pub fits: Vec<Fit>,
+    /// What is read of samples.
+    pub fields: FieldSet,
+    /// The channels of the truth.
+    pub channels: Vec<String>,
+    /// The units that are measured, in order.
+    pub units: Vec<String>,
+    /// The scenes of light that are visited, that of calibration first.
+    pub lights: Vec<String>,
+    /// What is left out, and why.
+    pub skipped: Vec<PlanSkip>,
+    /// The limits of every motion; absent where nothing moves.
+    pub limits: Option<Limits>,
+    /// How contact is searched for and held.
+    pub contact: Contact,
+    /// Where the sensor senses.
+    pub footprint: Option<Footprint>,
+    /// Whether ambient light cannot reach the camera, if it is known.
+    pub opaque: Option<bool>,
+    /// Size and format of the frames, if they are known.
+    pub frame: Option<FrameInfo>,
+    /// What it will cost.
+    pub cost: Cost,
+}
+
+impl Plan {
+    /// The name of what is acquired: a recording begun under another digest is not continued.
+    ///
+    /// Metrics are not in it, so that a finished acquisition serves a scene that wants fewer of them from the same presses.
+    pub fn digest(&self) -> Digest {
+        let contact = &self.contact;
+        let hasher = Hasher::new("taceva.plan/1")
+            .number(contact.step_mm.value)
+            .number(contact.threshold_n.value)
+            .number(contact.settle_s.value)
+            .number(contact.speed_mm_s.value)
+            .count(self.presses.len());
+        let presses = self.presses.iter();
+        presses
+            .fold(hasher, |hasher, press| {
+                let hasher = hasher.text(&press.id.to_string());
+                hasher.whole(i64::from(press.frames))
+            })
+            .finish()
+    }
+
+    /// The presses of one part of the protocol, in order.
+    pub fn presses_of(&self, kind: PhaseKind) -> impl Iterator<Item = &PlannedPress> {
+        let presses = self.presses.iter();
+        presses.filter(move |press| press.phases.contains(&kind))
+    }
+}
+
+/// The plans of the studies of `scene`, each fed from what `source` says of it. No device is opened.
+///
+/// # Errors
+/// [`SceneError`] with the line: a limit that is loosened or absent, a depth beyond the limit, two statements that exclude each other,
+/// more presses than any gel survives, or a metric asked for by its own name that applies to no study of the scene.
+pub fn plan(
+    scene: &Scene,
+    mut source: impl FnMut(&Study) -> SourceInfo,
+) -> Result<Vec<Plan>, SceneError> {
+    let needs = MetricNeeds::catalogue();
+    let plans: Vec<Plan> = scene
+        .studies
+        .iter()
+        .map(|study| plan_study(scene, study, &source(study), &needs))
+        .collect::<Result<_, _>>()?;
+    refuse_the_impossible(scene, &plans)?;
+    Ok(plans)
+}
+
+/// The plan of one study, of metrics that need `needs`.
+fn plan_study(
+    scene: &Scene,
+    study: &Study,
+    source: &SourceInfo,
+    needs: &[MetricNeeds],
+) -> Result<Plan, SceneError> {
+    let lights = facts::lights(scene, study, source)?;
+    let units = study.units();
+    let gather = Gather {
+        scene,
+        study,
+        source,
+        units: &units,
+        lights: &lights,
+    };
+    let facts = gather.facts()?;
+    let draft = check::is_drawable(&facts)
+        .and_then(|()| refine(Draft::everything(needs, &facts), &facts))
+        .map_err(|problem| scene.text.error(None, problem))?;
+    let cost = cost::cost(&draft.presses, &facts);
+    Ok(Plan {
+        name: study.name.clone(),
+        metrics: draft.metrics,
+        phases: draft.phases,
+        presses: draft.presses,
+        fits: draft.fits,
+        fields: draft.fields,
+        channels: draft.channels,
+        units: units.clone(),
+        lights: lights.clone(),
+        skipped: draft.skipped,
+        limits: facts.limits,
+        contact: scene.protocol.contact.clone(),
+        footprint: facts.footprint,
+        opaque: facts.opaque,
+        frame: facts.frame,
+        cost,
+    })
+}
+
+/// All passes, in order.
+fn refine(draft: Draft, facts: &StudyFacts<'_>) -> Result<Draft, SceneProblem> {
+    let draft = supply::pass(draft, facts);
+    let draft = applicability::pass(draft, facts);
+    let draft = phases::pass(draft, facts);
+    let draft = share::pass(draft, facts);
+    let draft = fields::pass(draft, facts);
+    check::pass(draft, facts)
+}
+
+/// Refuses a metric that somebody named by itself and that no study can give.
+fn refuse_the_impossible(scene: &Scene, plans: &[Plan]) -> Result<(), SceneError> {
+    let named = scene.metrics.want.iter().flatten();
+    for name in named.filter(|name| catalogue::find(&name.value).is_some()) {
+        let kept = |plan: &Plan| plan.metrics.iter().any(|metric| metric.id == name.value);
+        if plans.iter().any(kept) {
+            continue;
+        }
+        let subject = Subject::Metric(name.value.clone());
+        let skips = plans.iter().flat_map(|plan| &plan.skipped);
+        let reason = skips
+            .filter(|skip| skip.subject == subject)
+            .map(|skip| skip.reason.clone())
+            .next();
+        let problem = SceneProblem::NeverApplies {
+            metric: name.value.clone(),
+            reason: reason.unwrap_or(PlanReason::Skip(SkipReason::NothingReadsIt)),
+        };
+        return Err(scene.text.error(name.at(), problem));
+    }
+    Ok(())
+}

@@ -1,0 +1,89 @@
+//! Pass 2: which metrics apply to this sensor, which in part, and which not.
+
+use taceva_core::{Field, SkipReason};
+
+use super::draft::{Draft, PlannedMetric};
+use super::facts::StudyFacts;
+use super::reason::{PlanReason, Subject};
+use crate::phase::PhaseKind;
+
+/// Removes metrics that are not wanted or do not apply, and channels of those that apply in part.
+pub(super) fn pass(mut draft: Draft, facts: &StudyFacts<'_>) -> Draft {
+    for mut metric in std::mem::take(&mut draft.metrics) {
+        if let Some(reason) = obstacle(&metric, &draft, facts) {
+            draft.skip(Subject::Metric(metric.id), reason);
+            continue;
+        }
+        metric.channels.retain(|name| draft.channels.contains(name));
+        narrow_shear(&mut metric, &mut draft, facts);
+        draft.metrics.push(metric);
+    }
+    draft
+}
+
+/// What keeps `metric` from having a value.
+fn obstacle(metric: &PlannedMetric, draft: &Draft, facts: &StudyFacts<'_>) -> Option<PlanReason> {
+    let wanted = facts.wanted.as_ref();
+    if wanted.is_some_and(|wanted| !wanted.contains(&metric.id.as_str())) {
+        return Some(PlanReason::Skip(SkipReason::NotWanted));
+    }
+    let about_light = metric.phase == PhaseKind::LightSweep;
+    if about_light && facts.opaque == Some(true) {
+        return Some(PlanReason::Skip(SkipReason::GelIsOpaque));
+    }
+    let absent_field = metric
+        .fields
+        .iter()
+        .find(|field| !draft.fields.contains(*field));
+    if let Some(field) = absent_field {
+        let absent = || PlanReason::Skip(SkipReason::FieldAbsent(field));
+        let known = draft.reason_of(&Subject::Field(field)).cloned();
+        return Some(known.unwrap_or_else(absent));
+    }
+    let absent_channel = metric
+        .required
+        .iter()
+        .find(|name| !draft.channels.contains(name));
+    if let Some(name) = absent_channel {
+        let absent = || PlanReason::Skip(SkipReason::ChannelAbsent(name.clone()));
+        let known = draft.reason_of(&Subject::Channel(name.clone())).cloned();
+        return Some(known.unwrap_or_else(absent));
+    }
+    let is_pressed = |kind| {
+        draft
+            .presses
+            .iter()
+            .any(|press| press.phases.contains(&kind))
+    };
+    let fitted_on = draft
+        .fits
+        .iter()
+        .filter(|fit| metric.fields.contains(fit.field))
+        .map(|fit| fit.phase);
+    let mut phases = fitted_on.chain([metric.phase]);
+    if !facts.is_recording() && !phases.all(is_pressed) {
+        return Some(PlanReason::Skip(SkipReason::FactAbsent("footprint")));
+    }
+    None
+}
+
+/// Without markers nothing in the picture follows shear, so how far it repeats says nothing about the sensor (TacEva 2025).
+fn narrow_shear(metric: &mut PlannedMetric, draft: &mut Draft, facts: &StudyFacts<'_>) {
+    let reads_repeats =
+        metric.fields.contains(Field::Repeat) && metric.fields.contains(Field::Prediction);
+    if facts.markers != Some(false) || !reads_repeats {
+        return;
+    }
+    let is_shear = |name: &String| ["Fx", "Fy"].contains(&name.as_str());
+    let shear: Vec<String> = metric
+        .channels
+        .iter()
+        .filter(|name| is_shear(name))
+        .cloned()
+        .collect();
+    if !shear.is_empty() {
+        metric.channels.retain(|name| !is_shear(name));
+        let part = format!("{} ({})", metric.id, shear.join(", "));
+        draft.skip(Subject::Metric(part), PlanReason::NoMarkers);
+    }
+}

@@ -1,0 +1,111 @@
+//! Pass 7: what a plan will cost. An estimate for people; nothing is decided by it.
+
+use taceva_core::{FrameInfo, Nanometre};
+
+use super::draft::PlannedPress;
+use super::facts::StudyFacts;
+use crate::press::Motion;
+use crate::scene::Contact;
+
+/// What a plan will cost.
+#[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize)]
+pub struct Cost {
+    /// Visits of the tip.
+    pub presses: u64,
+    /// Samples, if no press ends early.
+    pub samples: u64,
+    /// Pictures.
+    pub frames: u64,
+    /// Bytes of those pictures before compression; `None` if their size is not known.
+    pub bytes: Option<u64>,
+    /// Minutes of motion, rest and exposure; exchanging units and boards by hand is not in it.
+    pub minutes: f64,
+}
+
+/// A frame a second less than the slowest sensor of the study, where nobody states the rate.
+const UNKNOWN_RATE: f64 = 24.0;
+/// Time of a look at force and pose after a segment of motion, in s.
+const LOOK_S: f64 = 0.005;
+
+/// The cost of `presses`.
+pub(super) fn cost(presses: &[PlannedPress], facts: &StudyFacts<'_>) -> Cost {
+    let Some(ground) = &facts.ground else {
+        return Cost::default();
+    };
+    let samples = |press: &PlannedPress| press.press.samples() as u64;
+    let seen = presses.iter().filter(|press| press.frames);
+    let frames: u64 = seen.map(samples).sum();
+    let bytes = facts.frame.as_ref().and_then(FrameInfo::byte_len);
+    let price = Price {
+        contact: &ground.protocol.contact,
+        frame_s: 1.0 / facts.frame_rate.unwrap_or(UNKNOWN_RATE),
+        travel_mm_s: facts
+            .limits
+            .as_ref()
+            .map_or(1.0, |limits| limits.speed_max_mm_s),
+        segment_mm: facts
+            .limits
+            .as_ref()
+            .map_or(1.0, |limits| limits.overshoot.segment_mm),
+    };
+    let mut from = [Nanometre(0); 2];
+    let mut seconds = 0.0;
+    for press in presses {
+        seconds += price.seconds(press, from);
+        from = press.press.place;
+    }
+    Cost {
+        presses: presses.len() as u64,
+        samples: presses.iter().map(samples).sum(),
+        frames,
+        bytes: bytes.map(|bytes| frames.saturating_mul(bytes as u64)),
+        minutes: seconds / 60.0,
+    }
+}
+
+struct Price<'a> {
+    contact: &'a Contact,
+    frame_s: f64,
+    travel_mm_s: f64,
+    segment_mm: f64,
+}
+
+impl Price<'_> {
+    fn seconds(&self, press: &PlannedPress, from: [Nanometre; 2]) -> f64 {
+        let travel = distance(from, press.press.place) / self.travel_mm_s;
+        let rest = self.contact.settle_s.value;
+        let frame = if press.frames { self.frame_s } else { 0.0 };
+        match &press.press.motion {
+            Motion::Rest { frames } => travel + f64::from(*frames) * self.frame_s,
+            Motion::Touch => travel + self.search() + rest + frame,
+            Motion::Indent(stations) => {
+                let mut at = (Nanometre(0), [Nanometre(0); 2]);
+                let mut seconds = travel + self.search();
+                for station in stations {
+                    let sideways = distance(at.1, station.shear);
+                    let way = (station.depth.0 - at.0.0).unsigned_abs();
+                    let way = Nanometre(i64::try_from(way).unwrap_or(i64::MAX)).to_millimetres();
+                    seconds += self.guarded(way + sideways) + rest + frame;
+                    at = (station.depth, station.shear);
+                }
+                let back = at.0.to_millimetres() + self.contact.clearance_mm.value;
+                seconds + back / self.travel_mm_s
+            }
+        }
+    }
+
+    /// From the clearance down to a surface that is where it should be.
+    fn search(&self) -> f64 {
+        self.guarded(self.contact.clearance_mm.value)
+    }
+
+    /// Motion in segments, each followed by a look.
+    fn guarded(&self, way_mm: f64) -> f64 {
+        way_mm / self.contact.speed_mm_s.value + way_mm / self.segment_mm * LOOK_S
+    }
+}
+
+fn distance(from: [Nanometre; 2], to: [Nanometre; 2]) -> f64 {
+    let side = |axis: usize| to[axis].to_millimetres() - from[axis].to_millimetres();
+    side(0).hypot(side(1))
+}

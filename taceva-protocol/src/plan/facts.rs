@@ -1,0 +1,329 @@
+//! What is known about a study before it begins: the statements of the scene and of the descriptors, joined and free of contradiction.
+
+use taceva_core::{
+    Axes, Axis, Channel, Descriptor, Field, FieldSet, Footprint, FrameInfo, Nanometre,
+};
+
+use super::draft::CHANNELS;
+use crate::limits::{Limits, limits};
+use crate::phase::Ground;
+use crate::scene::{Scene, SceneError, SceneProblem, Setting, Study};
+use crate::source::{RecordingInfo, RigInfo, SourceInfo};
+
+/// The model of a study.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum ModelChoice {
+    None,
+    Finished,
+    Estimator,
+}
+
+/// Who could supply the fields of samples.
+#[derive(Clone, Debug)]
+pub(crate) enum Supplier {
+    Rig {
+        sensor: bool,
+        robot: bool,
+        force: Option<Axes>,
+    },
+    Recording {
+        fields: FieldSet,
+        channels: Vec<String>,
+    },
+}
+
+/// What the passes read.
+#[derive(Clone, Debug)]
+pub(crate) struct StudyFacts<'a> {
+    pub(crate) supplier: Supplier,
+    pub(crate) opaque: Option<bool>,
+    pub(crate) markers: Option<bool>,
+    pub(crate) model: ModelChoice,
+    pub(crate) units: Vec<String>,
+    pub(crate) lights: Vec<String>,
+    /// The metrics that are wanted; all when absent.
+    pub(crate) wanted: Option<Vec<&'static str>>,
+    /// What presses are drawn from; absent where nothing is pressed.
+    pub(crate) ground: Option<Ground<'a>>,
+    pub(crate) limits: Option<Limits>,
+    pub(crate) frame: Option<FrameInfo>,
+    pub(crate) footprint: Option<Footprint>,
+    /// Frames a second.
+    pub(crate) frame_rate: Option<f64>,
+}
+
+impl StudyFacts<'_> {
+    /// The channels that the source might measure.
+    pub(crate) fn all_channels(&self) -> Vec<String> {
+        match &self.supplier {
+            Supplier::Rig { .. } => CHANNELS.map(str::to_owned).to_vec(),
+            Supplier::Recording { channels, .. } => channels.clone(),
+        }
+    }
+
+    /// Whether the source is a recording.
+    pub(crate) fn is_recording(&self) -> bool {
+        matches!(self.supplier, Supplier::Recording { .. })
+    }
+}
+
+/// The facts of `study`, fed from `source`. `units` and `lights` lend their names to the presses.
+pub(crate) struct Gather<'a> {
+    pub(crate) scene: &'a Scene,
+    pub(crate) study: &'a Study,
+    pub(crate) source: &'a SourceInfo,
+    pub(crate) units: &'a [String],
+    pub(crate) lights: &'a [String],
+}
+
+impl<'a> Gather<'a> {
+    pub(crate) fn facts(&self) -> Result<StudyFacts<'a>, SceneError> {
+        match self.source {
+            SourceInfo::Rig(rig) => self.of_rig(rig),
+            SourceInfo::Recording(recording) => self.of_recording(recording),
+        }
+    }
+
+    fn of_rig(&self, rig: &RigInfo) -> Result<StudyFacts<'a>, SceneError> {
+        let (scene, study) = (self.scene, self.study);
+        let sensor = rig.sensor.as_ref().and_then(Descriptor::sensor);
+        let axes = rig
+            .force
+            .as_ref()
+            .and_then(Descriptor::force)
+            .map(|force| force.axes);
+        let opaque = self.agreed(
+            "opaque",
+            study.sensor.opaque,
+            sensor.and_then(|sensor| sensor.opaque),
+        )?;
+        let markers = self.agreed(
+            "markers",
+            study.sensor.markers,
+            sensor.and_then(|sensor| sensor.markers),
+        )?;
+        let footprint = self.footprint(sensor.and_then(|sensor| sensor.footprint))?;
+        // Without a robot nothing is pressed, so there is nothing to limit.
+        let limits = match rig.robot {
+            Some(_) => Some(limits(scene, study, rig)?),
+            None => None,
+        };
+        let ground = match (&limits, footprint) {
+            (Some(limits), Some(footprint)) => {
+                self.depths(limits)?;
+                Some(Ground {
+                    protocol: &scene.protocol,
+                    footprint,
+                    depth_max: whole_nanometres_within(limits.depth_max.0),
+                    units: self.units,
+                    lights: self.lights,
+                    markers: markers != Some(false),
+                    seed: scene.seed,
+                })
+            }
+            _ => None,
+        };
+        Ok(StudyFacts {
+            supplier: Supplier::Rig {
+                sensor: rig.sensor.is_some(),
+                robot: rig.robot.is_some(),
+                force: axes,
+            },
+            opaque,
+            markers,
+            model: self.model(),
+            units: self.units.to_vec(),
+            lights: self.lights.to_vec(),
+            wanted: self.wanted(),
+            ground,
+            limits,
+            frame: sensor.and_then(|sensor| sensor.frame),
+            footprint,
+            frame_rate: sensor.and_then(|sensor| Some(sensor.rate?.0)),
+        })
+    }
+
+    fn of_recording(&self, recording: &RecordingInfo) -> Result<StudyFacts<'a>, SceneError> {
+        let opaque = self.agreed("opaque", self.study.sensor.opaque, recording.opaque)?;
+        let named = recording.channels.iter().map(Channel::name);
+        Ok(StudyFacts {
+            supplier: Supplier::Recording {
+                fields: recording.fields,
+                channels: named.map(str::to_owned).collect(),
+            },
+            opaque,
+            markers: self.study.sensor.markers.map(|markers| markers.value),
+            model: self.model(),
+            units: Vec::new(),
+            lights: Vec::new(),
+            wanted: self.wanted(),
+            ground: None,
+            limits: None,
+            frame: recording.frame,
+            footprint: self.footprint(recording.footprint)?,
+            frame_rate: None,
+        })
+    }
+
+    /// A fact that the scene and the source may both state, if they do not contradict each other.
+    fn agreed(
+        &self,
+        key: &str,
+        written: Option<Setting<bool>>,
+        stated: Option<bool>,
+    ) -> Result<Option<bool>, SceneError> {
+        match (written, stated) {
+            (Some(written), Some(stated)) if written.value != stated => {
+                let problem = format!(
+                    "`{key}` is {}, but the sensor says {stated}: one of them is wrong",
+                    written.value
+                );
+                Err(self.refusal(written.at(), SceneProblem::Contradiction(problem)))
+            }
+            (written, stated) => Ok(written.map(|written| written.value).or(stated)),
+        }
+    }
+
+    fn footprint(&self, stated: Option<Footprint>) -> Result<Option<Footprint>, SceneError> {
+        let Some(written) = self.study.sensor.footprint else {
+            return Ok(stated);
+        };
+        let depth = stated.and_then(|stated| stated.depth_max());
+        let footprint = written
+            .value
+            .footprint(depth.map(Nanometre::to_millimetres))
+            .map_err(|problem| self.refusal(written.at(), SceneProblem::Contradiction(problem)))?;
+        let reaches_out = |stated: &Footprint| {
+            let [outer_x, outer_y] = stated.half_extent();
+            let [half_x, half_y] = footprint.half_extent();
+            half_x > outer_x || half_y > outer_y
+        };
+        if stated.as_ref().is_some_and(reaches_out) {
+            let problem =
+                "the footprint reaches beyond that of the sensor: it may only be tightened";
+            let problem = SceneProblem::Contradiction(problem.to_owned());
+            return Err(self.refusal(written.at(), problem));
+        }
+        Ok(Some(footprint))
+    }
+
+    /// Refuses depths of the protocol that the limit forbids.
+    fn depths(&self, limits: &Limits) -> Result<(), SceneError> {
+        let protocol = &self.scene.protocol;
+        for (key, depth) in [
+            ("depth_min_mm", protocol.calibration.depth_min_mm),
+            ("depth_min_mm", protocol.spatial.depth_min_mm),
+            ("depth_step_mm", protocol.repeatability.depth_step_mm),
+            ("depth_step_mm", protocol.hysteresis.depth_step_mm),
+        ] {
+            if depth.value > limits.depth_max.0 {
+                let problem = SceneProblem::BeyondLimit {
+                    key,
+                    found: depth.value,
+                    limit_key: "Pz_max_mm",
+                    limit: limits.depth_max.0,
+                    who: format!("study `{}`", self.study.name),
+                };
+                return Err(self.refusal(depth.at(), problem));
+            }
+        }
+        let threshold = protocol.contact.threshold_n;
+        if threshold.value >= limits.normal_max.0 {
+            let problem = SceneProblem::BeyondLimit {
+                key: "threshold_N",
+                found: threshold.value,
+                limit_key: "Fz_max_N",
+                limit: limits.normal_max.0,
+                who: format!("study `{}`", self.study.name),
+            };
+            return Err(self.refusal(threshold.at(), problem));
+        }
+        Ok(())
+    }
+
+    fn model(&self) -> ModelChoice {
+        match &self.study.model {
+            None => ModelChoice::None,
+            Some(model) if model.file.is_some() => ModelChoice::Finished,
+            Some(_) => ModelChoice::Estimator,
+        }
+    }
+
+    /// The ids of the metrics that are wanted; the names were checked when the scene was read.
+    fn wanted(&self) -> Option<Vec<&'static str>> {
+        let want = self.scene.metrics.want.as_ref()?;
+        let names = want.iter().map(|name| name.value.as_str());
+        let metrics = taceva_metrics::catalogue::select(names).unwrap_or_default();
+        Some(metrics.iter().map(|metric| metric.id).collect())
+    }
+
+    fn refusal(&self, at: Option<usize>, problem: SceneProblem) -> SceneError {
+        self.scene.text.error(at, problem)
+    }
+}
+
+/// The scenes of light that are visited, that of calibration first.
+pub(crate) fn lights(
+    scene: &Scene,
+    study: &Study,
+    source: &SourceInfo,
+) -> Result<Vec<String>, SceneError> {
+    let SourceInfo::Rig(rig) = source else {
+        return Ok(Vec::new());
+    };
+    let of_lighting = rig
+        .lighting
+        .as_ref()
+        .and_then(|descriptor| match descriptor.facts() {
+            taceva_core::Facts::Lighting(facts) => Some(facts.scenes.clone()),
+            _ => None,
+        });
+    let of_sensor = || Some(rig.sensor.as_ref()?.sensor()?.scenes.clone());
+    let known = of_lighting.or_else(of_sensor).unwrap_or_default();
+    let written = study
+        .lighting
+        .as_ref()
+        .and_then(|lighting| lighting.scenes.as_ref());
+    let Some(written) = written else {
+        return Ok(known);
+    };
+    match written.value.iter().find(|name| !known.contains(name)) {
+        Some(stranger) => {
+            let known = known.iter().map(String::as_str).collect();
+            Err(scene
+                .text
+                .unknown_name(written.at(), "scene of light", stranger, known))
+        }
+        None => Ok(written.value.clone()),
+    }
+}
+
+/// The axis of the transducer that measures `channel`; positions have none.
+pub(crate) fn axis_of(channel: &str) -> Option<Axis> {
+    match channel {
+        "Fx" => Some(Axis::Fx),
+        "Fy" => Some(Axis::Fy),
+        "Fz" => Some(Axis::Fz),
+        _ => None,
+    }
+}
+
+/// The greatest whole number of nanometres that is not beyond `millimetres`.
+fn whole_nanometres_within(millimetres: f64) -> Nanometre {
+    let nearest = Nanometre::from_millimetres(millimetres).unwrap_or_default();
+    if nearest.to_millimetres() > millimetres {
+        Nanometre(nearest.0 - 1)
+    } else {
+        nearest
+    }
+}
+
+/// Fields that the protocol itself knows of each press.
+pub(crate) const OF_THE_PROTOCOL: [Field; 6] = [
+    Field::Point,
+    Field::DepthStep,
+    Field::Repeat,
+    Field::Phase,
+    Field::Kind,
+    Field::Spacing,
+];

@@ -1,0 +1,61 @@
+//! Pass 4: equal presses are visited once, in an order in which units, specimens and lights change as seldom as possible.
+
+use std::collections::BTreeMap;
+
+use super::draft::{Draft, PlannedPress};
+use super::facts::StudyFacts;
+use super::reason::{PlanReason, Subject};
+use crate::digest::Digest;
+use crate::phase::PhaseKind;
+use crate::specimen::Specimen;
+
+/// Joins equal presses and sorts the rest.
+pub(super) fn pass(mut draft: Draft, facts: &StudyFacts<'_>) -> Draft {
+    let mut places: BTreeMap<Digest, usize> = BTreeMap::new();
+    let mut shared: BTreeMap<(PhaseKind, PhaseKind), usize> = BTreeMap::new();
+    let mut presses: Vec<PlannedPress> = Vec::with_capacity(draft.presses.len());
+    for press in std::mem::take(&mut draft.presses) {
+        match places.get(&press.id) {
+            Some(&place) => {
+                let first: &mut PlannedPress = &mut presses[place];
+                for kind in press.phases {
+                    *shared.entry((kind, first.phases[0])).or_default() += 1;
+                    first.phases.push(kind);
+                }
+                first.phases.sort_unstable();
+                first.phases.dedup();
+                first.frames |= press.frames;
+            }
+            None => {
+                places.insert(press.id, presses.len());
+                presses.push(press);
+            }
+        }
+    }
+    for ((kind, phase), presses) in shared {
+        draft.skip(
+            Subject::Phase(kind),
+            PlanReason::VisitedBy { phase, presses },
+        );
+    }
+    let unit_of = |press: &PlannedPress| {
+        facts
+            .units
+            .iter()
+            .position(|unit| *unit == press.press.unit)
+    };
+    let light_of = |press: &PlannedPress| {
+        let name = press.press.light.as_ref()?;
+        facts.lights.iter().position(|light| light == name)
+    };
+    // The sort is stable: within these, presses keep the order of their phase.
+    presses.sort_by_key(|press| {
+        let board = match press.press.specimen {
+            Specimen::Sphere { .. } => None,
+            Specimen::Grating { kind, spacing } => Some((kind, spacing)),
+        };
+        (unit_of(press), board, light_of(press), press.phases[0])
+    });
+    draft.presses = presses;
+    draft
+}

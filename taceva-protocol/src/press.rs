@@ -1,0 +1,170 @@
+//! One visit of the tip: where, with what, how deep; a value with a name derived from its content.
+
+use taceva_core::{Nanometre, Phase};
+
+use crate::digest::{Digest, Hasher};
+use crate::specimen::Specimen;
+
+/// One approach, what is done in contact, and the retreat.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Press {
+    /// The unit of the sensor model.
+    pub unit: String,
+    /// The scene of light; `None` where the light cannot be set.
+    pub light: Option<String>,
+    /// What touches the gel.
+    pub specimen: Specimen,
+    /// Where, along x and y of the sensor's frame.
+    pub place: [Nanometre; 2],
+    /// How far the specimen is turned about z, in thousandths of a degree.
+    pub turn_millidegrees: i32,
+    /// The number of the trial, where presses are repeated.
+    pub repeat: Option<u32>,
+    /// What is done there.
+    pub motion: Motion,
+}
+
+/// What is done at a place.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Motion {
+    /// Pictures from above the gel, touching nothing.
+    Rest {
+        /// How many.
+        frames: u32,
+    },
+    /// The first contact alone: how high the surface is.
+    Touch,
+    /// First contact, then these stations in order.
+    Indent(Vec<Station>),
+}
+
+/// A place of the tip at which it rests and a sample is taken, seen from the first contact.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Station {
+    /// How deep, from the first contact.
+    pub depth: Nanometre,
+    /// How far along x and y, from the place of the press.
+    pub shear: [Nanometre; 2],
+    /// On the way in or out.
+    pub phase: Phase,
+}
+
+impl Press {
+    /// Its name; equal presses have equal names.
+    pub fn id(&self) -> Digest {
+        let hasher = Hasher::new("taceva.press/1")
+            .text(&self.unit)
+            .text(self.light.as_deref().unwrap_or_default());
+        let hasher = match self.specimen {
+            Specimen::Sphere { radius } => hasher.text("sphere").whole(radius.0),
+            Specimen::Grating { kind, spacing } => hasher.text(kind.name()).whole(spacing.0),
+        };
+        let hasher = hasher
+            .whole(self.place[0].0)
+            .whole(self.place[1].0)
+            .whole(i64::from(self.turn_millidegrees))
+            .whole(self.repeat.map_or(-1, i64::from));
+        match &self.motion {
+            Motion::Rest { frames } => hasher.text("rest").whole(i64::from(*frames)),
+            Motion::Touch => hasher.text("touch"),
+            Motion::Indent(stations) => {
+                let start = hasher.text("indent").count(stations.len());
+                stations.iter().fold(start, |hasher, station| {
+                    hasher
+                        .whole(station.depth.0)
+                        .whole(station.shear[0].0)
+                        .whole(station.shear[1].0)
+                        .text(station.phase.name())
+                })
+            }
+        }
+        .finish()
+    }
+
+    /// The contact location that its samples share with all others there: the board of a grating, else the place in mm.
+    pub fn point_id(&self) -> String {
+        match self.specimen {
+            Specimen::Grating { kind, spacing } => format!("{kind} {}", spacing.to_millimetres()),
+            Specimen::Sphere { .. } => {
+                let [x, y] = self.place.map(Nanometre::to_millimetres);
+                format!("{x},{y}")
+            }
+        }
+    }
+
+    /// How many samples it gives if nothing ends it early.
+    pub fn samples(&self) -> usize {
+        match &self.motion {
+            Motion::Rest { frames } => usize::try_from(*frames).unwrap_or(usize::MAX),
+            Motion::Touch => 1,
+            Motion::Indent(stations) => stations.len(),
+        }
+    }
+
+    /// Its stations; none unless it indents.
+    pub fn stations(&self) -> &[Station] {
+        match &self.motion {
+            Motion::Indent(stations) => stations,
+            Motion::Rest { .. } | Motion::Touch => &[],
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn press() -> Press {
+        Press {
+            unit: "1".into(),
+            light: None,
+            specimen: Specimen::Sphere {
+                radius: Nanometre(2_000_000),
+            },
+            place: [Nanometre(1_500_000), Nanometre(-250_000)],
+            turn_millidegrees: 0,
+            repeat: None,
+            motion: Motion::Indent(vec![Station {
+                depth: Nanometre(100_000),
+                shear: [Nanometre(0); 2],
+                phase: Phase::Load,
+            }]),
+        }
+    }
+
+    #[test]
+    fn the_name_of_a_press_is_fixed_for_ever() {
+        assert_eq!(press().id().to_string(), "37530e391b5de9f73b17380ea6b3a6c8");
+        assert_eq!(press().point_id(), "1.5,-0.25");
+    }
+
+    #[test]
+    fn whatever_is_changed_changes_the_name() {
+        let changes: [fn(&mut Press); 8] = [
+            |press| press.unit = "2".into(),
+            |press| press.light = Some("S1".into()),
+            |press| {
+                press.specimen = Specimen::Sphere {
+                    radius: Nanometre(1),
+                };
+            },
+            |press| press.place[1] = Nanometre(0),
+            |press| press.turn_millidegrees = 1,
+            |press| press.repeat = Some(0),
+            |press| press.motion = Motion::Touch,
+            |press| press.motion = Motion::Rest { frames: 1 },
+        ];
+        let mut ids: Vec<Digest> = changes
+            .iter()
+            .map(|change| {
+                let mut changed = press();
+                change(&mut changed);
+                changed.id()
+            })
+            .chain([press().id()])
+            .collect();
+        ids.sort_unstable();
+        ids.dedup();
+        assert_eq!(ids.len(), changes.len() + 1);
+    }
+}

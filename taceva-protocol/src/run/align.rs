@@ -1,0 +1,108 @@
+//! Frame, pose and force are read one after the other; a sample says what all three were at one moment.
+
+use taceva_core::{Degree, Millimetre, Newton, NewtonMillimetre, Point, Pose, Rotation, Wrench};
+
+/// Force and pose as they were read together.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Look {
+    pub(crate) wrench: Wrench,
+    pub(crate) wrench_s: f64,
+    pub(crate) pose: Pose,
+    pub(crate) pose_s: f64,
+}
+
+impl Look {
+    /// The time from which on everything in it is news.
+    pub(crate) fn from_s(&self) -> f64 {
+        self.wrench_s.max(self.pose_s)
+    }
+}
+
+/// Force and pose at `at_s`, on the straight lines between two looks; a time outside is that of the nearer look.
+pub(crate) fn between(before: &Look, after: &Look, at_s: f64) -> (Wrench, Pose) {
+    let wrench = Mix::new(before.wrench_s, after.wrench_s, at_s);
+    let pose = Mix::new(before.pose_s, after.pose_s, at_s);
+    (
+        wrench.wrench(&before.wrench, &after.wrench),
+        pose.pose(&before.pose, &after.pose),
+    )
+}
+
+/// How much of the later value there is.
+struct Mix(f64);
+
+impl Mix {
+    fn new(before_s: f64, after_s: f64, at_s: f64) -> Mix {
+        let span_s = after_s - before_s;
+        if span_s > 0.0 {
+            Mix(((at_s - before_s) / span_s).clamp(0.0, 1.0))
+        } else {
+            Mix(1.0)
+        }
+    }
+
+    /// At both ends the value itself, to the bit.
+    fn of(&self, before: f64, after: f64) -> f64 {
+        before * (1.0 - self.0) + after * self.0
+    }
+
+    fn wrench(&self, before: &Wrench, after: &Wrench) -> Wrench {
+        let force = [0, 1, 2].map(|axis| Newton(self.of(before.force[axis].0, after.force[axis].0)));
+        let torque = [0, 1, 2]
+            .map(|axis| NewtonMillimetre(self.of(before.torque[axis].0, after.torque[axis].0)));
+        Wrench { force, torque }
+    }
+
+    /// Angles change by less than a turn between two looks at a tip that rests.
+    fn pose(&self, before: &Pose, after: &Pose) -> Pose {
+        let (from, to) = (&before.position, &after.position);
+        let (from_turn, to_turn) = (&before.rotation, &after.rotation);
+        Pose {
+            position: Point {
+                x: Millimetre(self.of(from.x.0, to.x.0)),
+                y: Millimetre(self.of(from.y.0, to.y.0)),
+                z: Millimetre(self.of(from.z.0, to.z.0)),
+            },
+            rotation: Rotation {
+                x: Degree(self.of(from_turn.x.0, to_turn.x.0)),
+                y: Degree(self.of(from_turn.y.0, to_turn.y.0)),
+                z: Degree(self.of(from_turn.z.0, to_turn.z.0)),
+            },
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn look(at_s: f64, force_n: f64) -> Look {
+        let mut wrench = Wrench::default();
+        wrench.force[2] = Newton(force_n);
+        let mut pose = Pose::default();
+        pose.position.z = Millimetre(force_n / 2.0);
+        Look {
+            wrench,
+            wrench_s: at_s,
+            pose,
+            pose_s: at_s + 0.01,
+        }
+    }
+
+    #[test]
+    fn a_sample_between_two_looks_lies_between_their_values() {
+        let (before, after) = (look(1.0, 0.4), look(1.2, 0.8));
+        let (wrench, pose) = between(&before, &after, 1.1);
+        assert!((wrench.force[2].0 - 0.6).abs() < 1e-12);
+        // The pose was read 10 ms later, so at 1.1 s it is 0.09 s of 0.2 s on its way.
+        assert!((pose.position.z.0 - 0.29).abs() < 1e-12);
+    }
+
+    #[test]
+    fn outside_of_both_looks_nothing_is_extrapolated() {
+        let (before, after) = (look(1.0, 0.4), look(1.2, 0.8));
+        assert_eq!(between(&before, &after, 0.0).0, before.wrench);
+        assert_eq!(between(&before, &after, 9.0).0, after.wrench);
+        assert_eq!(between(&before, &before, 1.0).0, before.wrench);
+    }
+}

@@ -1,0 +1,80 @@
+//! Why a run stopped, and how it left the tip.
+
+use std::fmt;
+
+use taceva_core::{DriverError, SinkError};
+
+use super::trip::Trip;
+use crate::digest::Digest;
+
+/// A run that stopped before its end. Everything finished is durable, and the same call resumes it.
+#[derive(Debug)]
+pub struct RunError {
+    /// The press that was not finished, if one had begun; it will be made again from its start.
+    pub press: Option<Digest>,
+    /// Why.
+    pub cause: StopCause,
+    /// Where the tip was left.
+    pub left: Left,
+}
+
+/// Why a run stopped.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum StopCause {
+    /// Somebody wished it.
+    #[error("stopped on request")]
+    Cancelled,
+    /// A device failed.
+    #[error("{0}")]
+    Device(#[from] DriverError),
+    /// The supervisor halted the robot, and no limit of the gel was the reason.
+    #[error("halted: {0}")]
+    Tripped(Trip),
+    /// What was acquired could not be made durable.
+    #[error("cannot record the press: {0}")]
+    Log(SinkError),
+    /// No frame came that was taken after the tip rested.
+    #[error("{attempts} frames in a row were lost or older than the contact")]
+    Frames {
+        /// How many were tried.
+        attempts: u32,
+    },
+    /// A motion that would leave the surface or the limits; none was made.
+    #[error("a motion to {place} would leave the workspace of the plan")]
+    Workspace {
+        /// The target, in mm.
+        place: String,
+    },
+    /// The plan needs something that the run was not given.
+    #[error("the plan needs {0}")]
+    Missing(String),
+}
+
+/// Where the tip was left.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Left {
+    /// Above the gel.
+    Clear,
+    /// Halted where it was: the force could not be trusted, or the robot did not obey, and nobody moves blind.
+    InPlace,
+}
+
+impl fmt::Display for RunError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}", self.cause)?;
+        if let Some(press) = self.press {
+            write!(f, "; press {press} will be made again")?;
+        }
+        match self.left {
+            Left::Clear => Ok(()),
+            Left::InPlace => f.write_str("; the tip was left where it stood, perhaps in the gel"),
+        }
+    }
+}
+
+impl std::error::Error for RunError {
+    fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
+        Some(&self.cause)
+    }
+}

@@ -1,0 +1,57 @@
+//! What happens in a run, as it happens, for whoever shows it.
+
+use taceva_core::Millimetre;
+
+use super::log::Outcome;
+use super::trip::Trip;
+use crate::digest::Digest;
+use crate::specimen::Specimen;
+
+/// Something that happened.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum Event {
+    /// The run begins.
+    Started {
+        /// Presses of this unit.
+        presses: usize,
+        /// Of those, finished before.
+        finished: usize,
+    },
+    /// A specimen was mounted.
+    Mounted(Specimen),
+    /// The light was set.
+    Lit(String),
+    /// A press begins.
+    Approaching {
+        /// Which.
+        press: Digest,
+        /// Its number among the presses of this unit, from 1.
+        number: usize,
+    },
+    /// The gel was touched.
+    Contact {
+        /// At this height in the sensor's frame, positive into the gel.
+        height: Millimetre,
+    },
+    /// A frame was not usable and another is awaited.
+    FrameRetried,
+    /// A sample was taken.
+    Sampled {
+        /// Its number in the press, from 0.
+        number: usize,
+    },
+    /// The supervisor halted the robot.
+    Halted(Trip),
+    /// The tip went back from the gel after a halt.
+    Retracted,
+    /// A press is finished and durable.
+    Finished {
+        /// Which.
+        press: Digest,
+        /// How it ended.
+        outcome: Outcome,
+    },
+    /// A place was visited in the air, in a dry run.
+    Rehearsed(Digest),
+}

@@ -1,0 +1,43 @@
+//! What a run writes to: it learns what is finished, and waits until what it hands over is durable.
+
+use taceva_core::{Sample, SinkError};
+
+use crate::digest::Digest;
+
+/// A record of finished presses that outlives the process.
+pub trait PressLog {
+    /// Whether `press` was appended, in this run or an earlier one.
+    fn is_finished(&self, press: Digest) -> bool;
+
+    /// Takes a whole press and returns once it is durable: all of it, or, after an interruption, none.
+    ///
+    /// # Errors
+    /// Whatever keeps it from being durable; the run stops, and the press counts as not made.
+    fn append(&mut self, record: &PressRecord) -> Result<(), SinkError>;
+}
+
+/// A finished press.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PressRecord {
+    /// Its name.
+    pub press: Digest,
+    /// How it ended.
+    pub outcome: Outcome,
+    /// Its samples in order, called `<press>/<number>`.
+    ///
+    /// Truth is in the channels `Px Py Pz Fx Fy Fz`, in that order. `Pz` is the depth from the first contact; of a
+    /// [`Touch`](crate::Motion::Touch) and a [`Rest`](crate::Motion::Rest) it is the height in the sensor's frame, positive into the gel.
+    pub samples: Vec<Sample>,
+}
+
+/// How a press ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum Outcome {
+    /// Every station was visited.
+    Complete,
+    /// A limit of depth or force ended it; the samples are those before.
+    Limited,
+    /// Nothing was touched as far down as the search goes.
+    NoContact,
+}

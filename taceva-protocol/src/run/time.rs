@@ -1,0 +1,37 @@
+//! Time and the wish to stop: both are handed in, neither is looked up.
+
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Duration;
+
+/// The clock of a run: the same that the stamps of the devices are of, in s; it never goes back.
+///
+/// (Core's [`Clock`](taceva_core::Clock) only says which kind of clock a recording used.)
+pub trait Timekeeper {
+    /// The time now.
+    fn now_s(&self) -> f64;
+
+    /// Lets `rest` pass.
+    fn rest(&mut self, rest: Duration);
+}
+
+/// A wish to stop that anybody may express from any thread; a run sees it before its next motion.
+#[derive(Clone, Debug, Default)]
+pub struct Cancel(Arc<AtomicBool>);
+
+impl Cancel {
+    /// Nobody wishes to stop.
+    pub fn new() -> Cancel {
+        Cancel::default()
+    }
+
+    /// Expresses the wish; there is no way back.
+    pub fn cancel(&self) {
+        self.0.store(true, Ordering::Release);
+    }
+
+    /// Whether somebody expressed it.
+    pub fn is_cancelled(&self) -> bool {
+        self.0.load(Ordering::Acquire)
+    }
+}

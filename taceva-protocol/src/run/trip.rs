@@ -1,0 +1,114 @@
+//! Why the supervisor halted the robot.
+
+use std::fmt;
+
+/// What was wrong.
+///
+/// # Units
+/// mm, N, N/s and s.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum Trip {
+    /// Deeper than allowed.
+    Depth {
+        /// Depth from the first contact.
+        depth_mm: f64,
+        /// The limit.
+        limit_mm: f64,
+    },
+    /// More normal force than allowed, pressing or pulling.
+    NormalForce {
+        /// The force.
+        force_n: f64,
+        /// The limit.
+        limit_n: f64,
+    },
+    /// More shear than allowed.
+    ShearForce {
+        /// Its magnitude.
+        force_n: f64,
+        /// The limit.
+        limit_n: f64,
+    },
+    /// Force where nothing should be touched.
+    UnexpectedContact {
+        /// The force.
+        force_n: f64,
+    },
+    /// A force that rises faster than any gel makes it.
+    ForceRate {
+        /// The rate.
+        rate_n_s: f64,
+    },
+    /// A force as great as the transducer can measure: how great it is, nobody knows.
+    Saturated {
+        /// The reading.
+        force_n: f64,
+    },
+    /// A reading that is no number.
+    NotFinite,
+    /// Readings equal to the last bit although the tip moved.
+    Frozen {
+        /// How many.
+        readings: u32,
+    },
+    /// The last force is too old.
+    StaleForce {
+        /// Its age.
+        age_s: f64,
+    },
+    /// The last pose is too old.
+    StalePose {
+        /// Its age.
+        age_s: f64,
+    },
+    /// The tip is not where it was sent.
+    Diverged {
+        /// The distance.
+        distance_mm: f64,
+    },
+}
+
+impl Trip {
+    /// Whether a limit of the gel was reached with all signals healthy: the press ends, the run goes on.
+    pub fn is_limit(self) -> bool {
+        matches!(
+            self,
+            Trip::Depth { .. } | Trip::NormalForce { .. } | Trip::ShearForce { .. }
+        )
+    }
+}
+
+impl fmt::Display for Trip {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Trip::Depth { depth_mm, limit_mm } => {
+                write!(f, "the depth of {depth_mm:.3} mm is beyond the limit of {limit_mm} mm")
+            }
+            Trip::NormalForce { force_n, limit_n } => {
+                write!(f, "the normal force of {force_n:.3} N is beyond the limit of {limit_n} N")
+            }
+            Trip::ShearForce { force_n, limit_n } => {
+                write!(f, "the shear force of {force_n:.3} N is beyond the limit of {limit_n} N")
+            }
+            Trip::UnexpectedContact { force_n } => {
+                write!(f, "a force of {force_n:.3} N where nothing should be touched")
+            }
+            Trip::ForceRate { rate_n_s } => {
+                write!(f, "the force changes by {rate_n_s:.0} N/s, faster than any gel makes it")
+            }
+            Trip::Saturated { force_n } => {
+                write!(f, "the force transducer is saturated at {force_n:.3} N")
+            }
+            Trip::NotFinite => f.write_str("a reading is no number"),
+            Trip::Frozen { readings } => {
+                write!(f, "{readings} equal readings of force although the tip moved: the signal is frozen")
+            }
+            Trip::StaleForce { age_s } => write!(f, "the last force is {:.0} ms old", age_s * 1e3),
+            Trip::StalePose { age_s } => write!(f, "the last pose is {:.0} ms old", age_s * 1e3),
+            Trip::Diverged { distance_mm } => {
+                write!(f, "the tip is {distance_mm:.3} mm from where it was sent")
+            }
+        }
+    }
+}

@@ -1,0 +1,102 @@
+//! A scene: which sensors, on which rig, measured how, as a TOML text says it.
+
+mod builtin;
+mod check;
+mod counts;
+mod devices;
+mod error;
+mod limits;
+mod metrics;
+mod parse;
+mod setting;
+mod study;
+
+pub use builtin::BuiltinScene;
+pub use counts::{
+    Calibration, Contact, Gratings, Hysteresis, Idle, LightSweep, Protocol, Repeatability, Spatial,
+    SurfaceMap,
+};
+pub use devices::{DeviceSpec, FootprintSpec, LightingSpec, ModelSpec, SensorSpec, Shape};
+pub use error::{SceneError, SceneProblem};
+pub use limits::LimitSpec;
+pub use metrics::{MetricSettings, MetricsSpec, ReportSpec};
+pub use parse::GREATEST_SCENE;
+pub use setting::Setting;
+pub use study::Study;
+
+pub(crate) use parse::Text;
+
+use taceva_core::DriverKind;
+
+/// A scene that was read and is whole in itself: what devices can do is asked by [`plan`](crate::plan).
+///
+/// ```
+/// use taceva_protocol::Scene;
+/// let text = r#"
+/// scene_version = 1
+/// name = "my gel"
+/// sensor = { driver = "sim/gelsight" }
+/// robot = { driver = "sim/robot" }
+/// force = { driver = "sim/force-transducer" }
+/// metrics = { want = ["sensitivty"] }
+/// "#;
+/// let error = Scene::parse("my.toml", text).unwrap_err();
+/// assert!(error.to_string().starts_with("my.toml, line 7: `sensitivty`: unknown metric"));
+/// ```
+#[derive(Clone, Debug)]
+pub struct Scene {
+    /// What the scene is called.
+    pub name: String,
+    /// The seed of every draw.
+    pub seed: u64,
+    /// Its sensors, each with the rig it is measured on; never empty.
+    pub studies: Vec<Study>,
+    /// What is to be computed, and how.
+    pub metrics: MetricsSpec,
+    /// How many presses of which kind.
+    pub protocol: Protocol,
+    /// How results are written.
+    pub report: ReportSpec,
+    pub(crate) text: Text,
+}
+
+impl Scene {
+    /// The scene that `text` says; `source_name` is what errors call it.
+    ///
+    /// # Errors
+    /// [`SceneError`] with the line: no TOML, an unknown key or name with the nearest known one, a count of nothing, a number that
+    /// is none, two statements that exclude each other, a limit of a study above that of its scene.
+    pub fn parse(source_name: &str, text: &str) -> Result<Scene, SceneError> {
+        check::checked(parse::Text::new(source_name, text)?)
+    }
+
+    /// The drivers it names, study by study.
+    pub fn drivers(&self) -> impl Iterator<Item = (DriverKind, &Setting<String>)> {
+        self.studies.iter().flat_map(Study::drivers)
+    }
+
+    /// Refuses a driver that is not among `known`, pairs of a kind and a key such as `sim/gelsight`.
+    ///
+    /// # Errors
+    /// [`SceneProblem::UnknownName`] with the line and the nearest key.
+    pub fn check_drivers(&self, known: &[(DriverKind, &str)]) -> Result<(), SceneError> {
+        for (kind, selector) in self.drivers() {
+            let of_kind: Vec<&str> = known
+                .iter()
+                .filter(|(known, _)| *known == kind)
+                .map(|(_, key)| *key)
+                .collect();
+            let key = devices::key_of(&selector.value);
+            if !of_kind.contains(&key) {
+                let what = match kind {
+                    DriverKind::Sensor => "driver of a sensor",
+                    DriverKind::Robot => "driver of a robot",
+                    DriverKind::Force => "driver of a force transducer",
+                    _ => "driver of lighting",
+                };
+                return Err(self.text.unknown_name(selector.at(), what, key, of_kind));
+            }
+        }
+        Ok(())
+    }
+}

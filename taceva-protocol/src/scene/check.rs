@@ -1,0 +1,421 @@
+//! From what is written to a scene: the checks that a parser of types cannot make.
+
+use std::collections::BTreeSet;
+
+use serde::Deserialize;
+use taceva_metrics::catalogue;
+
+use super::Scene;
+use super::counts::Protocol;
+use super::devices::{DeviceSpec, LightingSpec, ModelSpec, SensorSpec};
+use super::error::{SceneError, SceneProblem};
+use super::limits::LimitSpec;
+use super::metrics::{MetricsSpec, ReportSpec};
+use super::parse::Text;
+use super::setting::Setting;
+use super::study::Study;
+use crate::specimen;
+
+/// The most of anything that can be counted in a scene.
+const GREATEST_COUNT: u64 = 1_000_000;
+/// The longest length in a scene, in mm.
+const GREATEST_LENGTH: f64 = 1_000.0;
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields, expecting = "a scene")]
+struct WrittenScene {
+    scene_version: Setting<u32>,
+    name: Setting<String>,
+    #[serde(default)]
+    seed: u64,
+    sensor: Option<Setting<SensorSpec>>,
+    robot: Option<DeviceSpec>,
+    force: Option<DeviceSpec>,
+    lighting: Option<LightingSpec>,
+    #[serde(default)]
+    limits: LimitSpec,
+    model: Option<Setting<ModelSpec>>,
+    #[serde(default)]
+    metrics: MetricsSpec,
+    #[serde(default)]
+    protocol: Protocol,
+    #[serde(default)]
+    report: ReportSpec,
+    #[serde(default)]
+    study: Vec<Setting<WrittenStudy>>,
+}
+
+#[derive(Clone, Deserialize)]
+#[serde(deny_unknown_fields, expecting = "a study")]
+struct WrittenStudy {
+    name: Setting<String>,
+    sensor: Option<Setting<SensorSpec>>,
+    robot: Option<DeviceSpec>,
+    force: Option<DeviceSpec>,
+    lighting: Option<LightingSpec>,
+    #[serde(default)]
+    limits: LimitSpec,
+    model: Option<Setting<ModelSpec>>,
+}
+
+/// The scene that `text` says, checked.
+pub(super) fn checked(text: Text) -> Result<Scene, SceneError> {
+    let written: WrittenScene = text.read()?;
+    let check = Check { text: &text };
+    check.version(&written)?;
+    check.limits(&written.limits)?;
+    check.metrics(&written.metrics)?;
+    check.protocol(&written.protocol)?;
+    check.report(&written.report)?;
+    let studies = check.studies(&written)?;
+    Ok(Scene {
+        name: written.name.value,
+        seed: written.seed,
+        studies,
+        metrics: written.metrics,
+        protocol: written.protocol,
+        report: written.report,
+        text,
+    })
+}
+
+struct Check<'a> {
+    text: &'a Text,
+}
+
+type Checked = Result<(), SceneError>;
+
+impl Check<'_> {
+    fn refuse<T>(&self, at: Option<usize>, problem: SceneProblem) -> Result<T, SceneError> {
+        Err(self.text.error(at, problem))
+    }
+
+    fn contradiction<T>(&self, at: Option<usize>, problem: &str) -> Result<T, SceneError> {
+        self.refuse(at, SceneProblem::Contradiction(problem.to_owned()))
+    }
+
+    fn version(&self, written: &WrittenScene) -> Checked {
+        match written.scene_version.value {
+            1 => self.name("a scene", &written.name),
+            other => self.refuse(written.scene_version.at(), SceneProblem::Version(other)),
+        }
+    }
+
+    /// A name that can be printed, and become part of a file's name.
+    fn name(&self, what: &str, name: &Setting<String>) -> Checked {
+        let is_plain = |text: &str| {
+            let is_short = (1..=80).contains(&text.len());
+            is_short && text.trim() == text && !text.chars().any(|c| c.is_control() || c == '/')
+        };
+        if is_plain(&name.value) && !name.value.starts_with('.') {
+            return Ok(());
+        }
+        let shown = name.value.escape_debug();
+        let problem = format!(
+            "`{shown}` is no name of {what}: expected 1 to 80 bytes without `/`, control characters, a leading `.` or space around"
+        );
+        self.contradiction(name.at(), &problem)
+    }
+
+    fn studies(&self, written: &WrittenScene) -> Result<Vec<Study>, SceneError> {
+        if written.study.is_empty() {
+            let alone = WrittenStudy {
+                name: written.name.clone(),
+                sensor: None,
+                robot: None,
+                force: None,
+                lighting: None,
+                limits: LimitSpec::default(),
+                model: None,
+            };
+            return Ok(vec![self.study(written, &alone)?]);
+        }
+        let mut names = BTreeSet::new();
+        let mut studies = Vec::new();
+        for study in &written.study {
+            self.name("a study", &study.value.name)?;
+            if !names.insert(study.value.name.value.as_str()) {
+                let problem = SceneProblem::Twice {
+                    what: "studies",
+                    name: study.value.name.value.clone(),
+                };
+                return self.refuse(study.value.name.at(), problem);
+            }
+            studies.push(self.study(written, &study.value)?);
+        }
+        Ok(studies)
+    }
+
+    /// A study with the tables of the scene where it has none of its own.
+    fn study(&self, scene: &WrittenScene, study: &WrittenStudy) -> Result<Study, SceneError> {
+        let Some(sensor) = study.sensor.as_ref().or(scene.sensor.as_ref()) else {
+            let problem = format!(
+                "`{}` has no sensor: expected [sensor] with `driver` or `dataset`",
+                study.name.value
+            );
+            return self.refuse(study.name.at(), SceneProblem::Incomplete(problem));
+        };
+        self.sensor(sensor)?;
+        self.limits(&study.limits)?;
+        self.tightened(&study.limits, &scene.limits)?;
+        let lighting = study.lighting.as_ref().or(scene.lighting.as_ref());
+        let scenes = lighting.and_then(|lighting| lighting.scenes.as_ref());
+        self.distinct("scenes of light", scenes)?;
+        let model = study.model.as_ref().or(scene.model.as_ref());
+        if let Some(model) = model {
+            self.one_of(
+                model.at(),
+                "[model]",
+                ("name", &model.value.name),
+                ("file", &model.value.file),
+            )?;
+        }
+        Ok(Study {
+            name: study.name.value.clone(),
+            sensor: sensor.value.clone(),
+            robot: study.robot.as_ref().or(scene.robot.as_ref()).cloned(),
+            force: study.force.as_ref().or(scene.force.as_ref()).cloned(),
+            lighting: lighting.cloned(),
+            limits: study.limits.or(scene.limits),
+            model: model.map(|model| model.value.clone()),
+        })
+    }
+
+    fn sensor(&self, sensor: &Setting<SensorSpec>) -> Checked {
+        let SensorSpec {
+            driver,
+            dataset,
+            units,
+            footprint,
+            ..
+        } = &sensor.value;
+        self.one_of(
+            sensor.at(),
+            "[sensor]",
+            ("driver", driver),
+            ("dataset", dataset),
+        )?;
+        self.distinct("units", units.as_ref())?;
+        match footprint {
+            Some(written) => written
+                .value
+                .footprint(None)
+                .map(drop)
+                .or_else(|problem| self.contradiction(written.at(), &problem)),
+            None => Ok(()),
+        }
+    }
+
+    fn one_of<T>(
+        &self,
+        at: Option<usize>,
+        table: &str,
+        (first, one): (&str, &Option<Setting<T>>),
+        (second, other): (&str, &Option<Setting<T>>),
+    ) -> Checked {
+        match (one, other) {
+            (Some(_), Some(other)) => {
+                let problem = format!("{table} has `{first}` and `{second}`: expected one of them");
+                self.contradiction(other.at(), &problem)
+            }
+            (None, None) => {
+                let problem = format!("{table} has neither `{first}` nor `{second}`");
+                self.refuse(at, SceneProblem::Incomplete(problem))
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// A list of names, none empty, none twice.
+    fn distinct(&self, what: &'static str, names: Option<&Setting<Vec<String>>>) -> Checked {
+        let Some(names) = names else { return Ok(()) };
+        let mut seen = BTreeSet::new();
+        for name in &names.value {
+            self.name(what, &names.clone().map(|_| name.clone()))?;
+            if !seen.insert(name) {
+                let name = name.clone();
+                return self.refuse(names.at(), SceneProblem::Twice { what, name });
+            }
+        }
+        if names.value.is_empty() {
+            let problem = format!("the list of {what} is empty");
+            return self.contradiction(names.at(), &problem);
+        }
+        Ok(())
+    }
+
+    fn limits(&self, limits: &LimitSpec) -> Checked {
+        for (key, limit) in limits.named() {
+            if let Some(limit) = limit {
+                self.length(key, &limit)?;
+            }
+        }
+        Ok(())
+    }
+
+    fn tightened(&self, inner: &LimitSpec, outer: &LimitSpec) -> Checked {
+        for ((key, inner), (_, outer)) in inner.named().into_iter().zip(outer.named()) {
+            if let (Some(inner), Some(outer)) = (inner, outer)
+                && inner.value > outer.value
+            {
+                let problem = SceneProblem::LimitLoosened {
+                    key,
+                    found: inner.value,
+                    who: "[limits] of the scene".to_owned(),
+                    limit: outer.value,
+                };
+                return self.refuse(inner.at(), problem);
+            }
+        }
+        Ok(())
+    }
+
+    fn metrics(&self, metrics: &MetricsSpec) -> Checked {
+        for name in metrics.want.iter().flatten() {
+            if catalogue::select([name.value.as_str()]).is_err() {
+                let known = catalogue::names().collect();
+                return Err(self
+                    .text
+                    .unknown_name(name.at(), "metric", &name.value, known));
+            }
+        }
+        if let Some([]) = metrics.want.as_deref() {
+            return self.contradiction(
+                None,
+                "`want` is empty: leave it out for all metrics that apply",
+            );
+        }
+        let settings = &metrics.settings;
+        for (key, count) in [
+            ("bins", &settings.bins),
+            ("n_min", &settings.n_min),
+            ("smoothing", &settings.smoothing),
+        ] {
+            if let Some(count) = count {
+                self.count(key, count, 1, 10_000)?;
+            }
+        }
+        for (key, number) in [
+            ("gate_N", &settings.gate_n),
+            ("tolerance_mm", &settings.tolerance_mm),
+        ] {
+            if let Some(number) = number {
+                self.length(key, number)?;
+            }
+        }
+        match &settings.smoothing {
+            Some(width) if width.value % 2 == 0 => {
+                let problem = format!("`smoothing` is {}, expected an odd number", width.value);
+                self.contradiction(width.at(), &problem)
+            }
+            _ => Ok(()),
+        }
+    }
+
+    fn report(&self, report: &ReportSpec) -> Checked {
+        for format in &report.formats {
+            if !ReportSpec::FORMATS.contains(&format.value.as_str()) {
+                let known = ReportSpec::FORMATS.to_vec();
+                let what = "report format";
+                return Err(self
+                    .text
+                    .unknown_name(format.at(), what, &format.value, known));
+            }
+        }
+        Ok(())
+    }
+
+    fn protocol(&self, protocol: &Protocol) -> Checked {
+        let Protocol {
+            contact,
+            calibration,
+            spatial,
+            gratings,
+            lighting,
+            repeatability,
+            hysteresis,
+            surface,
+            idle,
+        } = protocol;
+        for (key, count) in [
+            ("points", &calibration.points),
+            ("points", &spatial.points),
+            ("presses", &gratings.presses),
+            ("points", &lighting.points),
+            ("points", &repeatability.points),
+            ("points", &hysteresis.points),
+            ("points", &surface.points),
+            ("frames", &idle.frames),
+        ] {
+            self.count(key, count, 1, GREATEST_COUNT)?;
+        }
+        self.count("indentations", &calibration.indentations, 1, 1_000)?;
+        // One approach repeats nothing, and one picture has no rate.
+        self.count("trials", &repeatability.trials, 2, GREATEST_COUNT)?;
+        self.count("frames", &idle.frames, 2, GREATEST_COUNT)?;
+        for (key, length) in [
+            ("indenter_radius_mm", &contact.indenter_radius_mm),
+            ("step_mm", &contact.step_mm),
+            ("threshold_N", &contact.threshold_n),
+            ("clearance_mm", &contact.clearance_mm),
+            ("search_mm", &contact.search_mm),
+            ("travel_mm_s", &contact.travel_mm_s),
+            ("depth_min_mm", &calibration.depth_min_mm),
+            ("depth_min_mm", &spatial.depth_min_mm),
+            ("depth_step_mm", &repeatability.depth_step_mm),
+            ("depth_step_mm", &hysteresis.depth_step_mm),
+        ] {
+            self.length(key, length)?;
+        }
+        for shear in [
+            &calibration.shear_mm,
+            &spatial.shear_mm,
+            &repeatability.shear_mm,
+        ] {
+            if shear.value != 0.0 {
+                self.length("shear_mm", shear)?;
+            }
+        }
+        self.range("settle_s", &contact.settle_s, 10.0)?;
+        self.range("step_mm", &contact.step_mm, 0.5)?;
+        // In contact the tip must be able to stop within a step.
+        self.range("speed_mm_s", &contact.speed_mm_s, 5.0)?;
+        self.range("depth_fraction", &gratings.depth_fraction, 1.0)?;
+        specimen::spacings(gratings)
+            .map(drop)
+            .map_err(|refused| self.text.error(refused.at, refused.problem))
+    }
+
+    fn count(&self, key: &'static str, count: &Setting<u32>, least: u64, greatest: u64) -> Checked {
+        let found = u64::from(count.value);
+        if (least..=greatest).contains(&found) {
+            return Ok(());
+        }
+        let problem = SceneProblem::Count {
+            key,
+            found,
+            least,
+            greatest,
+        };
+        self.refuse(count.at(), problem)
+    }
+
+    fn length(&self, key: &'static str, number: &Setting<f64>) -> Checked {
+        self.range(key, number, GREATEST_LENGTH)
+    }
+
+    fn range(&self, key: &'static str, number: &Setting<f64>, greatest: f64) -> Checked {
+        let found = number.value;
+        // NaN is in no range.
+        if found > 0.0 && found <= greatest {
+            return Ok(());
+        }
+        let problem = SceneProblem::Range {
+            key,
+            found,
+            above: 0.0,
+            greatest,
+        };
+        self.refuse(number.at(), problem)
+    }
+}

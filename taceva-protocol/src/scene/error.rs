@@ -1,0 +1,183 @@
+//! What is wrong with a scene, where, and what would have been accepted.
+
+use std::fmt;
+
+use crate::plan::PlanReason;
+
+/// A scene that is refused.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SceneError {
+    /// The name of the scene's text, such as its file.
+    pub source_name: String,
+    /// The line, from 1, if one line is to blame.
+    pub line: Option<u64>,
+    /// What is wrong.
+    pub problem: SceneProblem,
+}
+
+impl fmt::Display for SceneError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.source_name)?;
+        if let Some(line) = self.line {
+            write!(f, ", line {line}")?;
+        }
+        write!(f, ": {}", self.problem)
+    }
+}
+
+impl std::error::Error for SceneError {}
+
+/// What is wrong with a scene.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum SceneProblem {
+    /// Not TOML, or a value of the wrong type.
+    #[error("{0}")]
+    Syntax(String),
+    /// A text larger than any scene.
+    #[error("the scene has {bytes} bytes, expected at most {greatest}")]
+    Size {
+        /// Its bytes.
+        bytes: usize,
+        /// The most that is read.
+        greatest: usize,
+    },
+    /// A key that nothing reads.
+    #[error("`{key}`: unknown key{}; known here: {known}", did_you_mean(.nearest))]
+    UnknownKey {
+        /// As written.
+        key: String,
+        /// The nearest known key.
+        nearest: Option<String>,
+        /// Every known key.
+        known: String,
+    },
+    /// A key without which there is no scene.
+    #[error("the key `{0}` is missing")]
+    MissingKey(String),
+    /// A scene for another program version.
+    #[error("scene version {0} is not known here, expected 1")]
+    Version(u32),
+    /// A name out of a closed list that is not in it.
+    #[error("`{name}`: unknown {what}{}; known: {known}", did_you_mean(.nearest))]
+    UnknownName {
+        /// What it should name: `driver of a sensor`, `metric`, `report format`.
+        what: &'static str,
+        /// As written.
+        name: String,
+        /// The nearest known name.
+        nearest: Option<String>,
+        /// Every known name.
+        known: String,
+    },
+    /// A name that is given twice.
+    #[error("`{name}` is the name of two {what}")]
+    Twice {
+        /// What bears it.
+        what: &'static str,
+        /// The name.
+        name: String,
+    },
+    /// A count of nothing, or beyond what a bench can do.
+    #[error("`{key}` is {found}, expected a whole number from {least} to {greatest}")]
+    Count {
+        /// The key.
+        key: &'static str,
+        /// As written.
+        found: u64,
+        /// The least accepted.
+        least: u64,
+        /// The greatest accepted.
+        greatest: u64,
+    },
+    /// A number outside what is possible.
+    #[error("`{key}` is {found}, expected a number above {above} and up to {greatest}")]
+    Range {
+        /// The key.
+        key: &'static str,
+        /// As written.
+        found: f64,
+        /// What it must exceed.
+        above: f64,
+        /// The greatest accepted.
+        greatest: f64,
+    },
+    /// A limit that would allow more than the device or the scene above allows.
+    #[error("`{key}` is {found}, but {who} allows at most {limit}: limits may only be tightened")]
+    LimitLoosened {
+        /// The key.
+        key: &'static str,
+        /// As written.
+        found: f64,
+        /// Whose limit it is.
+        who: String,
+        /// The limit.
+        limit: f64,
+    },
+    /// A depth or another length of a protocol beyond its limit.
+    #[error("`{key}` is {found}, beyond the limit `{limit_key}` = {limit} ({who})")]
+    BeyondLimit {
+        /// The key.
+        key: &'static str,
+        /// As written.
+        found: f64,
+        /// The limit that it breaks.
+        limit_key: &'static str,
+        /// The value of that limit.
+        limit: f64,
+        /// Whose limit it is.
+        who: String,
+    },
+    /// A limit without which no robot is moved.
+    #[error("nobody declares `{key}`: write it under [limits], no robot is moved without it")]
+    LimitAbsent {
+        /// The limit.
+        key: &'static str,
+    },
+    /// Boards that no one has.
+    #[error("gratings of {found} mm are not in the catalogue: {catalogue}")]
+    Grating {
+        /// As written.
+        found: f64,
+        /// What there is.
+        catalogue: &'static str,
+    },
+    /// Two statements that exclude each other.
+    #[error("{0}")]
+    Contradiction(String),
+    /// A scene without something to measure.
+    #[error("{0}")]
+    Incomplete(String),
+    /// A metric asked for by name that can be computed in no study of the scene.
+    #[error("`{metric}` can never apply: {reason}")]
+    NeverApplies {
+        /// The metric.
+        metric: String,
+        /// Why.
+        reason: PlanReason,
+    },
+    /// More presses than any gel survives.
+    #[error("the plan has {found} presses, expected at most {greatest}")]
+    TooManyPresses {
+        /// How many.
+        found: u64,
+        /// The most that is planned.
+        greatest: u64,
+    },
+}
+
+fn did_you_mean(nearest: &Option<String>) -> String {
+    nearest.as_ref().map_or_else(String::new, |nearest| {
+        format!(", did you mean `{nearest}`?")
+    })
+}
+
+/// The known name nearest to `name`, if at most a third of its letters differ.
+pub(crate) fn nearest<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Option<String> {
+    known
+        .into_iter()
+        .map(|known| (strsim::osa_distance(name, known), known))
+        .filter(|(distance, known)| *distance <= (known.len() / 3).max(1))
+        .min()
+        .map(|(_, known)| known.to_owned())
+}

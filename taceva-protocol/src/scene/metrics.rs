@@ -1,0 +1,45 @@
+//! What a scene wants computed and written.
+
+use serde::Deserialize;
+
+use super::setting::Setting;
+
+/// The metrics of a scene.
+#[derive(Clone, Debug, Default, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields, default, expecting = "a table with `want`")]
+pub struct MetricsSpec {
+    /// Names of metrics or groups; all that apply when absent. A metric named by itself must apply to some sensor of the scene.
+    pub want: Option<Vec<Setting<String>>>,
+    /// How they are computed.
+    pub settings: MetricSettings,
+}
+
+/// How metrics are computed; absent settings are those of the metric.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields, default, expecting = "a table of settings")]
+pub struct MetricSettings {
+    /// Cells of a map along each side.
+    pub bins: Option<Setting<u32>>,
+    /// Samples a cell or bin needs to count.
+    pub n_min: Option<Setting<u32>>,
+    /// Presses with less force do not count in sensitivity, in N.
+    #[serde(rename = "gate_N")]
+    pub gate_n: Option<Setting<f64>>,
+    /// Bins a smoothed curve averages; odd.
+    pub smoothing: Option<Setting<u32>>,
+    /// The error up to which a spacing counts as recognised, in mm.
+    pub tolerance_mm: Option<Setting<f64>>,
+}
+
+/// How results are written.
+#[derive(Clone, Debug, Default, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields, default, expecting = "a table with `formats`")]
+pub struct ReportSpec {
+    /// Any of [`FORMATS`](ReportSpec::FORMATS); text and JSON when empty.
+    pub formats: Vec<Setting<String>>,
+}
+
+impl ReportSpec {
+    /// Every format there is.
+    pub const FORMATS: [&'static str; 6] = ["text", "json", "csv", "md", "tex", "html"];
+}

@@ -1,0 +1,87 @@
+//! The text of a scene: read strictly, and asked for lines when something is refused.
+
+use serde::de::DeserializeOwned;
+
+use super::error::{SceneError, SceneProblem, nearest};
+
+/// The largest text that is read as a scene, in bytes.
+pub const GREATEST_SCENE: usize = 1 << 20;
+
+/// The text of a scene and the name that errors call it by.
+#[derive(Clone, Debug)]
+pub(crate) struct Text {
+    source_name: String,
+    text: String,
+}
+
+impl Text {
+    pub(crate) fn new(source_name: &str, text: &str) -> Result<Text, SceneError> {
+        let whole = Text {
+            source_name: source_name.to_owned(),
+            text: text.to_owned(),
+        };
+        if text.len() > GREATEST_SCENE {
+            let problem = SceneProblem::Size {
+                bytes: text.len(),
+                greatest: GREATEST_SCENE,
+            };
+            return Err(whole.error(None, problem));
+        }
+        Ok(whole)
+    }
+
+    /// The text as a `T`.
+    pub(crate) fn read<T: DeserializeOwned>(&self) -> Result<T, SceneError> {
+        toml::from_str(&self.text).map_err(|error| {
+            let at = error.span().map(|span| span.start);
+            self.error(at, explained(error.message()))
+        })
+    }
+
+    /// `problem`, at the line of the byte `at`.
+    pub(crate) fn error(&self, at: Option<usize>, problem: SceneProblem) -> SceneError {
+        SceneError {
+            source_name: self.source_name.clone(),
+            line: at.map(|at| self.line(at)),
+            problem,
+        }
+    }
+
+    /// A name that is not among `known`.
+    pub(crate) fn unknown_name(
+        &self,
+        at: Option<usize>,
+        what: &'static str,
+        name: &str,
+        known: Vec<&str>,
+    ) -> SceneError {
+        let problem = SceneProblem::UnknownName {
+            what,
+            name: name.escape_debug().to_string(),
+            nearest: nearest(name, known.iter().copied()),
+            known: known.join(", "),
+        };
+        self.error(at, problem)
+    }
+
+    fn line(&self, at: usize) -> u64 {
+        let before = self.text.bytes().take(at);
+        1 + before.filter(|byte| *byte == b'\n').count() as u64
+    }
+}
+
+/// The parser's message as a problem: foreign text is shown without its control characters.
+fn explained(message: &str) -> SceneProblem {
+    let quoted: Vec<&str> = message.split('`').skip(1).step_by(2).collect();
+    match quoted.as_slice() {
+        [wrong, known @ ..] if message.starts_with("unknown field") => SceneProblem::UnknownKey {
+            key: wrong.escape_debug().to_string(),
+            nearest: nearest(wrong, known.iter().copied()),
+            known: known.join(", "),
+        },
+        [missing] if message.starts_with("missing field") => {
+            SceneProblem::MissingKey((*missing).to_owned())
+        }
+        _ => SceneProblem::Syntax(message.trim_end().replace('\n', "; ")),
+    }
+}

@@ -1,0 +1,57 @@
+//! One sensor of a scene, with the rig it is measured on.
+
+use taceva_core::DriverKind;
+
+use super::devices::{DeviceSpec, LightingSpec, ModelSpec, SensorSpec};
+use super::limits::LimitSpec;
+use super::setting::Setting;
+
+/// What one sensor is measured with.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Study {
+    /// What it is called in the report; the name of the scene if the scene has one sensor.
+    pub name: String,
+    /// The sensor.
+    pub sensor: SensorSpec,
+    /// The robot that carries the indenter.
+    pub robot: Option<DeviceSpec>,
+    /// The force transducer.
+    pub force: Option<DeviceSpec>,
+    /// The light around the sensor.
+    pub lighting: Option<LightingSpec>,
+    /// Its limits, with those of the scene where it has none.
+    pub limits: LimitSpec,
+    /// The model; without one nothing is predicted.
+    pub model: Option<ModelSpec>,
+}
+
+impl Study {
+    /// The drivers it names.
+    pub fn drivers(&self) -> impl Iterator<Item = (DriverKind, &Setting<String>)> {
+        [
+            (DriverKind::Sensor, self.sensor.driver.as_ref()),
+            (
+                DriverKind::Robot,
+                self.robot.as_ref().map(|robot| &robot.driver),
+            ),
+            (
+                DriverKind::Force,
+                self.force.as_ref().map(|force| &force.driver),
+            ),
+            (
+                DriverKind::Lighting,
+                self.lighting.as_ref().map(|lighting| &lighting.driver),
+            ),
+        ]
+        .into_iter()
+        .filter_map(|(kind, driver)| Some((kind, driver?)))
+    }
+
+    /// The names of the units that are measured.
+    pub fn units(&self) -> Vec<String> {
+        match &self.sensor.units {
+            Some(units) => units.value.clone(),
+            None => vec!["1".to_owned()],
+        }
+    }
+}

@@ -1,0 +1,119 @@
+//! What touches the gel, and the catalogue of boards there are.
+
+use std::fmt;
+
+use taceva_core::{GratingKind, Nanometre};
+
+use crate::scene::{Gratings, SceneProblem};
+
+/// What the robot carries.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Specimen {
+    /// A sphere.
+    Sphere {
+        /// Its radius.
+        radius: Nanometre,
+    },
+    /// A board with a grating.
+    Grating {
+        /// Its relief.
+        kind: GratingKind,
+        /// From one ridge or bump to the next.
+        spacing: Nanometre,
+    },
+}
+
+impl fmt::Display for Specimen {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Specimen::Sphere { radius } => write!(f, "sphere of radius {radius}"),
+            Specimen::Grating { kind, spacing } => write!(f, "{kind} grating of {spacing}"),
+        }
+    }
+}
+
+/// The finest board of the catalogue (TacEva 2025, spatial resolution).
+const FINEST: Nanometre = Nanometre(250_000);
+/// The coarsest.
+const COARSEST: Nanometre = Nanometre(1_750_000);
+/// From one board to the next.
+const STEP: Nanometre = Nanometre(50_000);
+const CATALOGUE: &str = "0.25 mm to 1.75 mm in steps of 0.05 mm, lines and dots";
+
+/// Why gratings cannot be had.
+pub(crate) struct RefusedGratings {
+    /// Where it was written.
+    pub(crate) at: Option<usize>,
+    /// What is wrong.
+    pub(crate) problem: SceneProblem,
+}
+
+/// The spacings that `gratings` asks for, each of which is in the catalogue.
+pub(crate) fn spacings(gratings: &Gratings) -> Result<Vec<Nanometre>, RefusedGratings> {
+    let Gratings {
+        from_mm,
+        to_mm,
+        step_mm,
+        kinds,
+        ..
+    } = gratings;
+    let in_catalogue = |length: Nanometre| {
+        (FINEST..=COARSEST).contains(&length) && (length.0 - FINEST.0) % STEP.0 == 0
+    };
+    let mut ends = [Nanometre(0); 2];
+    for (end, written) in ends.iter_mut().zip([from_mm, to_mm]) {
+        let length = Nanometre::from_millimetres(written.value);
+        *end = length
+            .filter(|length| in_catalogue(*length))
+            .ok_or(RefusedGratings {
+                at: written.at(),
+                problem: SceneProblem::Grating {
+                    found: written.value,
+                    catalogue: CATALOGUE,
+                },
+            })?;
+    }
+    let step = Nanometre::from_millimetres(step_mm.value)
+        .filter(|step| step.0 > 0 && step.0 % STEP.0 == 0)
+        .ok_or_else(|| RefusedGratings {
+            at: step_mm.at(),
+            problem: SceneProblem::Contradiction(format!(
+                "`step_mm` is {}, expected a multiple of 0.05: there are no boards between",
+                step_mm.value
+            )),
+        })?;
+    let [from, to] = ends;
+    if from > to {
+        return Err(RefusedGratings {
+            at: from_mm.at(),
+            problem: SceneProblem::Contradiction(format!(
+                "gratings from {from} to {to}: expected `from_mm` up to `to_mm`"
+            )),
+        });
+    }
+    let twice = (1..kinds.value.len()).any(|at| kinds.value[..at].contains(&kinds.value[at]));
+    if kinds.value.is_empty() || twice {
+        return Err(RefusedGratings {
+            at: kinds.at(),
+            problem: SceneProblem::Contradiction(
+                "`kinds` is empty or names one twice, expected \"line\", \"dot\" or both"
+                    .to_owned(),
+            ),
+        });
+    }
+    Ok((from.0..=to.0)
+        .step_by(usize::try_from(step.0).unwrap_or(usize::MAX))
+        .map(Nanometre)
+        .collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_paper_s_boards_are_thirty_one_of_each_kind() {
+        let spacings = spacings(&Gratings::default()).map_err(|refused| refused.problem);
+        assert_eq!(spacings.expect("in the catalogue").len(), 31);
+    }
+}

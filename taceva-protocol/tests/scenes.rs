@@ -1,0 +1,445 @@
+//! Scenes as people write them, and every way to write one wrong.
+
+use taceva_core::{
+    Axes, Descriptor, DescriptorSpec, DriverKey, DriverKind, DriverSource, Facts, Footprint,
+    ForceFacts, LightingFacts, Newton, RobotFacts, SensorFacts, Speed,
+};
+use taceva_protocol::{BuiltinScene, RigInfo, Scene, SceneProblem, SourceInfo, plan};
+
+const GOOD: &str = r#"scene_version = 1
+name = "my gel"
+[sensor]
+driver = "sim/gelsight"
+[robot]
+driver = "sim/robot"
+[force]
+driver = "sim/force-transducer"
+"#;
+
+fn message(text: &str) -> String {
+    Scene::parse("s.toml", text).expect_err("wrong").to_string()
+}
+
+/// The good scene with `line` added as line 9.
+fn with(line: &str) -> String {
+    message(&format!("{GOOD}{line}\n"))
+}
+
+fn descriptor(key: &'static str, facts: Facts) -> Descriptor {
+    DescriptorSpec::new(DriverKey::fixed(key), key, DriverSource::Simulated, facts)
+        .check()
+        .expect("no contradiction")
+}
+
+fn rig() -> RigInfo {
+    RigInfo {
+        sensor: Some(descriptor(
+            "sim/gelsight",
+            Facts::Sensor(Box::new(SensorFacts {
+                opaque: Some(true),
+                markers: Some(true),
+                footprint: Some(Footprint::rectangle(8.0, 10.0, Some(1.0)).expect("lengths")),
+                force_max: Some(Newton(1.83)),
+                ..SensorFacts::default()
+            })),
+        )),
+        robot: Some(descriptor(
+            "sim/robot",
+            Facts::Robot(RobotFacts {
+                speed_max: Some(Speed::try_new(100.0).expect("a speed")),
+                ..RobotFacts::default()
+            }),
+        )),
+        force: Some(descriptor(
+            "sim/force-transducer",
+            Facts::Force(ForceFacts {
+                axes: Axes::FORCE,
+                force_max: Some(Newton(5.0)),
+                ..ForceFacts::default()
+            }),
+        )),
+        lighting: None,
+    }
+}
+
+/// What the planner says of the good scene with `lines` added.
+fn planned(lines: &str, rig: RigInfo) -> String {
+    let scene = Scene::parse("s.toml", &format!("{GOOD}{lines}\n")).expect("reads");
+    let source = SourceInfo::Rig(Box::new(rig));
+    match plan(&scene, |_| source.clone()) {
+        Ok(plans) => plans.iter().map(ToString::to_string).collect(),
+        Err(error) => error.to_string(),
+    }
+}
+
+#[test]
+fn every_builtin_scene_reads_and_says_so_in_its_name() {
+    for builtin in BuiltinScene::ALL {
+        let scene = builtin.scene().expect("compiled in");
+        assert_eq!(scene.name, builtin.name());
+        assert_eq!(scene.studies.len(), 4);
+        assert_eq!(BuiltinScene::from_name(builtin.name()), Some(builtin));
+    }
+    let paper = BuiltinScene::Paper.scene().expect("compiled in");
+    assert_eq!(paper.protocol.calibration.points.value, 800);
+    assert_eq!(
+        paper.studies[0]
+            .limits
+            .normal_max_n
+            .map(|limit| limit.value),
+        Some(0.7)
+    );
+}
+
+#[test]
+fn an_unknown_key_names_its_line_and_the_nearest_key() {
+    let error = with("[limits]\nPz_max = 1.0");
+    assert_eq!(
+        error,
+        "s.toml, line 10: `Pz_max`: unknown key, did you mean `Pz_max_mm`?; known here: Pz_max_mm, Fz_max_N, Fxy_max_N, speed_max_mm_s"
+    );
+    let error = with("[protocol.callibration]\npoints = 1");
+    assert!(
+        error.starts_with(
+            "s.toml, line 9: `callibration`: unknown key, did you mean `calibration`?"
+        ),
+        "{error}"
+    );
+    let error = message(&GOOD.replace("driver = \"sim/robot\"", "drvier = \"sim/robot\""));
+    assert!(
+        error.starts_with("s.toml, line 6: `drvier`: unknown key, did you mean `driver`?"),
+        "{error}"
+    );
+}
+
+#[test]
+fn text_that_is_no_toml_names_its_line() {
+    assert!(with("[limits").starts_with("s.toml, line 9: "));
+    assert!(with("name = 3").contains("line 9"));
+    assert!(message("").contains("the key `scene_version` is missing"));
+}
+
+#[test]
+fn a_value_of_another_type_names_its_line_and_what_was_expected() {
+    let error = with("[protocol.calibration]\npoints = \"many\"");
+    assert!(
+        error.starts_with("s.toml, line 10: ") && error.contains("expected u32"),
+        "{error}"
+    );
+    let error = with("[protocol.calibration]\npoints = -1");
+    assert!(error.starts_with("s.toml, line 10: "), "{error}");
+}
+
+#[test]
+fn a_scene_of_another_version_is_refused() {
+    let error = message(&GOOD.replace("scene_version = 1", "scene_version = 2"));
+    assert_eq!(
+        error,
+        "s.toml, line 1: scene version 2 is not known here, expected 1"
+    );
+}
+
+#[test]
+fn a_text_larger_than_any_scene_is_refused_unread() {
+    let error = message(&"#".repeat(2 << 20));
+    assert_eq!(
+        error,
+        "s.toml: the scene has 2097152 bytes, expected at most 1048576"
+    );
+}
+
+#[test]
+fn zero_points_are_refused_with_their_line() {
+    for (table, key) in [
+        ("calibration", "points"),
+        ("spatial", "points"),
+        ("gratings", "presses"),
+        ("lighting", "points"),
+        ("repeatability", "points"),
+        ("hysteresis", "points"),
+        ("surface", "points"),
+    ] {
+        let error = with(&format!("[protocol.{table}]\n{key} = 0"));
+        let expected =
+            format!("s.toml, line 10: `{key}` is 0, expected a whole number from 1 to 1000000");
+        assert_eq!(error, expected);
+    }
+    assert!(with("[protocol.calibration]\nindentations = 0").contains("from 1 to 1000"));
+    assert!(with("[protocol.repeatability]\ntrials = 1").contains("from 2 to"));
+    assert!(with("[protocol.idle]\nframes = 1").contains("from 2 to"));
+}
+
+#[test]
+fn a_number_that_is_none_is_refused_with_its_line() {
+    for number in ["nan", "inf", "-1.0", "0.0", "1e9"] {
+        let error = with(&format!("[limits]\nFz_max_N = {number}"));
+        assert!(
+            error.starts_with("s.toml, line 10: `Fz_max_N` is "),
+            "{error}"
+        );
+    }
+    assert!(with("[protocol.contact]\nspeed_mm_s = 50.0").contains("up to 5"));
+}
+
+#[test]
+fn gratings_that_are_not_in_the_catalogue_are_refused() {
+    for (line, found) in [
+        ("from_mm = 0.1", "0.1"),
+        ("to_mm = 2.0", "2"),
+        ("from_mm = 0.26", "0.26"),
+    ] {
+        let error = with(&format!("[protocol.gratings]\n{line}"));
+        let expected = format!(
+            "s.toml, line 10: gratings of {found} mm are not in the catalogue: 0.25 mm to 1.75 mm in steps of 0.05 mm, lines and dots"
+        );
+        assert_eq!(error, expected);
+    }
+    assert!(with("[protocol.gratings]\nstep_mm = 0.03").contains("there are no boards between"));
+    assert!(with("[protocol.gratings]\nkinds = []").contains("`kinds` is empty"));
+    assert!(with("[protocol.gratings]\nkinds = [\"line\", \"line\"]").contains("names one twice"));
+    assert!(
+        with("[protocol.gratings]\nfrom_mm = 1.0\nto_mm = 0.5")
+            .contains("expected `from_mm` up to")
+    );
+}
+
+#[test]
+fn an_unknown_metric_is_answered_with_the_nearest() {
+    let error = with("[metrics]\nwant = [\"accuracy\", \"smap\"]");
+    assert!(
+        error.starts_with("s.toml, line 10: `smap`: unknown metric, did you mean `smape`?"),
+        "{error}"
+    );
+    assert!(with("[metrics]\nwant = []").contains("leave it out for all"));
+}
+
+#[test]
+fn an_unknown_report_format_is_answered_with_what_there_is() {
+    let error = with("[report]\nformats = [\"htm\"]");
+    assert!(
+        error.contains("unknown report format, did you mean `html`?"),
+        "{error}"
+    );
+}
+
+#[test]
+fn an_unknown_driver_is_answered_with_the_nearest_of_its_kind() {
+    let scene =
+        Scene::parse("s.toml", &GOOD.replace("sim/robot", "sim/robto:speed=2")).expect("reads");
+    let known = [
+        (DriverKind::Sensor, "sim/gelsight"),
+        (DriverKind::Robot, "sim/robot"),
+        (DriverKind::Force, "sim/force-transducer"),
+    ];
+    let error = scene
+        .check_drivers(&known)
+        .expect_err("unknown")
+        .to_string();
+    assert_eq!(
+        error,
+        "s.toml, line 6: `sim/robto`: unknown driver of a robot, did you mean `sim/robot`?; known: sim/robot"
+    );
+    let scene = Scene::parse("s.toml", GOOD).expect("reads");
+    scene.check_drivers(&known).expect("all known");
+}
+
+#[test]
+fn a_scene_without_a_sensor_is_refused() {
+    let error = message("scene_version = 1\nname = \"x\"\n");
+    assert_eq!(
+        error,
+        "s.toml, line 2: `x` has no sensor: expected [sensor] with `driver` or `dataset`"
+    );
+    let error = message("scene_version = 1\nname = \"x\"\n[sensor]\nopaque = true\n");
+    assert_eq!(
+        error,
+        "s.toml, line 3: [sensor] has neither `driver` nor `dataset`"
+    );
+}
+
+#[test]
+fn a_driver_and_a_dataset_exclude_each_other() {
+    let error = message(&GOOD.replace("[robot]", "dataset = \"old\"\n[robot]"));
+    assert_eq!(
+        error,
+        "s.toml, line 5: [sensor] has `driver` and `dataset`: expected one of them"
+    );
+    let error = with("[model]\nname = \"ridge\"\nfile = \"m\"");
+    assert!(error.contains("[model] has `name` and `file`"), "{error}");
+}
+
+#[test]
+fn names_that_could_not_be_printed_or_filed_are_refused() {
+    for name in ["", " x", "a/b", "..", "\\u001b[31m"] {
+        let error = message(&GOOD.replace("my gel", name));
+        assert!(error.contains("is no name of a scene"), "{error}");
+        assert!(
+            !error.contains('\u{1b}'),
+            "control characters are shown, not printed"
+        );
+    }
+}
+
+#[test]
+fn two_studies_of_one_name_are_refused() {
+    let error = with("[[study]]\nname = \"a\"\n[[study]]\nname = \"a\"");
+    assert_eq!(error, "s.toml, line 12: `a` is the name of two studies");
+}
+
+#[test]
+fn a_study_may_not_loosen_the_limits_of_its_scene() {
+    let error =
+        with("[limits]\nPz_max_mm = 0.5\n[[study]]\nname = \"a\"\nlimits = { Pz_max_mm = 0.6 }");
+    assert_eq!(
+        error,
+        "s.toml, line 13: `Pz_max_mm` is 0.6, but [limits] of the scene allows at most 0.5: limits may only be tightened"
+    );
+}
+
+#[test]
+fn a_scene_may_not_loosen_the_limits_of_a_device() {
+    assert_eq!(
+        planned("[limits]\nFz_max_N = 2.0", rig()),
+        "s.toml, line 10: `Fz_max_N` is 2, but the sensor `sim/gelsight` allows at most 1.83: limits may only be tightened"
+    );
+    assert_eq!(
+        planned("[limits]\nPz_max_mm = 1.5", rig()),
+        "s.toml, line 10: `Pz_max_mm` is 1.5, but the sensor `sim/gelsight` allows at most 1: limits may only be tightened"
+    );
+    assert!(
+        planned("[limits]\nspeed_max_mm_s = 500.0", rig())
+            .contains("the robot `sim/robot` allows at most 100")
+    );
+}
+
+#[test]
+fn limits_that_tighten_are_taken() {
+    let plan = planned("[limits]\nFz_max_N = 1.5\nPz_max_mm = 0.8", rig());
+    assert!(plan.contains("limit motion  0.8 mm, 1.5 N"), "{plan}");
+}
+
+#[test]
+fn a_robot_is_not_moved_without_limits() {
+    let mut bare = rig();
+    bare.sensor = Some(descriptor("sim/gelsight", Facts::Sensor(Box::default())));
+    assert_eq!(
+        planned("", bare),
+        "s.toml: nobody declares `Pz_max_mm`: write it under [limits], no robot is moved without it"
+    );
+}
+
+#[test]
+fn a_depth_beyond_the_limit_is_refused_with_line_and_limit() {
+    let error = planned("[protocol.calibration]\ndepth_min_mm = 1.2", rig());
+    assert_eq!(
+        error,
+        "s.toml, line 10: `depth_min_mm` is 1.2, beyond the limit `Pz_max_mm` = 1 (study `my gel`)"
+    );
+    let error = planned("[protocol.contact]\nthreshold_N = 1.9", rig());
+    assert!(
+        error.contains("beyond the limit `Fz_max_N` = 1.83"),
+        "{error}"
+    );
+    let error = planned("[protocol.contact]\ntravel_mm_s = 200.0", rig());
+    assert!(
+        error.contains("beyond the limit `speed_max_mm_s` = 100"),
+        "{error}"
+    );
+}
+
+#[test]
+fn facts_that_contradict_the_sensor_are_refused() {
+    let text = GOOD.replace("[robot]", "opaque = false\n[robot]");
+    let scene = Scene::parse("s.toml", &text).expect("reads");
+    let error = plan(&scene, |_| SourceInfo::Rig(Box::new(rig()))).expect_err("contradiction");
+    assert_eq!(
+        error.to_string(),
+        "s.toml, line 5: `opaque` is false, but the sensor says true: one of them is wrong"
+    );
+    let wide = "footprint = { shape = \"rect\", half_x_mm = 9.0, half_y_mm = 10.0 }\n[robot]";
+    let scene = Scene::parse("s.toml", &GOOD.replace("[robot]", wide)).expect("reads");
+    let error = plan(&scene, |_| SourceInfo::Rig(Box::new(rig()))).expect_err("too wide");
+    assert!(
+        error.to_string().contains("may only be tightened"),
+        "{error}"
+    );
+}
+
+#[test]
+fn a_footprint_that_is_none_is_refused() {
+    for (footprint, problem) in [
+        (
+            "{ shape = \"disc\", half_x_mm = 1.0 }",
+            "a disc has `radius_mm`",
+        ),
+        (
+            "{ shape = \"rect\", radius_mm = 1.0 }",
+            "a rect has `half_x_mm`",
+        ),
+        (
+            "{ shape = \"disc\", radius_mm = -1.0 }",
+            "expected a length above 0",
+        ),
+    ] {
+        let text = GOOD.replace("[robot]", &format!("footprint = {footprint}\n[robot]"));
+        let error = message(&text);
+        assert!(
+            error.starts_with("s.toml, line 5: ") && error.contains(problem),
+            "{error}"
+        );
+    }
+}
+
+#[test]
+fn a_light_that_nobody_can_set_is_refused() {
+    let mut lit = rig();
+    lit.lighting = Some(descriptor(
+        "sim/lighting",
+        Facts::Lighting(LightingFacts {
+            scenes: vec!["normal".into(), "ring".into()],
+        }),
+    ));
+    let lines = "[lighting]\ndriver = \"sim/lighting\"\nscenes = [\"normal\", \"rnig\"]";
+    let error = planned(lines, lit);
+    assert!(
+        error.starts_with("s.toml, line 11: `rnig`: unknown scene of light, did you mean `ring`?"),
+        "{error}"
+    );
+    let twice = with("[lighting]\ndriver = \"sim/lighting\"\nscenes = [\"a\", \"a\"]");
+    assert!(
+        twice.contains("`a` is the name of two scenes of light"),
+        "{twice}"
+    );
+}
+
+#[test]
+fn a_metric_that_can_never_apply_is_refused_by_its_line_if_it_was_named_by_itself() {
+    let error = planned("[metrics]\nwant = [\"mae\"]", rig());
+    assert_eq!(
+        error,
+        "s.toml, line 10: `mae` can never apply: needs `prediction` ← needs a model: none chosen"
+    );
+    // A group is taken as far as it goes.
+    let explained = planned("[metrics]\nwant = [\"accuracy\"]", rig());
+    assert!(
+        explained.contains("skip  metric  mae, r2, smape"),
+        "{explained}"
+    );
+}
+
+#[test]
+fn more_presses_than_any_gel_survives_are_refused() {
+    let scene = format!(
+        "{GOOD}[model]\nname = \"ridge\"\n[protocol.calibration]\npoints = 1000000\n[protocol.spatial]\npoints = 1000000\n"
+    );
+    let scene = Scene::parse("s.toml", &scene).expect("reads");
+    let source = SourceInfo::Rig(Box::new(rig()));
+    // The presses are counted before they are drawn, and never printed.
+    match plan(&scene, |_| source.clone())
+        .err()
+        .map(|error| error.problem)
+    {
+        Some(SceneProblem::TooManyPresses { found, .. }) => assert!(found > 1_000_000),
+        other => panic!("{}", other.is_none()),
+    }
+}
