@@ -1,0 +1,44 @@
+//! On what a benchmark ran: figures without it mean nothing.
+
+use serde::Serialize;
+
+/// The machine a benchmark ran on.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Machine {
+    /// The name of the processor, or `unknown`.
+    pub cpu: String,
+    /// Cores that this process may use.
+    pub cores: usize,
+    /// Threads that the benchmark used.
+    pub threads: usize,
+    /// Instruction sets with a path of their own, the widest first.
+    pub isa: Vec<String>,
+    /// Programs that wanted a core in the minute before, per core; `None` where the system does not say.
+    pub load: Option<f64>,
+}
+
+impl Machine {
+    /// This machine, with a benchmark on `threads` threads.
+    pub fn here(threads: usize, isa: Vec<String>) -> Machine {
+        let cores = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
+        Machine {
+            cpu: cpu_name().unwrap_or_else(|| "unknown".to_owned()),
+            cores,
+            threads,
+            isa,
+            load: load_of_last_minute().map(|load| load / cores as f64),
+        }
+    }
+}
+
+/// As Linux names it.
+fn cpu_name() -> Option<String> {
+    let text = std::fs::read_to_string("/proc/cpuinfo").ok()?;
+    let line = text.lines().find(|line| line.starts_with("model name"))?;
+    Some(line.split_once(':')?.1.trim().to_owned())
+}
+
+fn load_of_last_minute() -> Option<f64> {
+    let text = std::fs::read_to_string("/proc/loadavg").ok()?;
+    text.split_whitespace().next()?.parse().ok()
+}

@@ -1,0 +1,144 @@
+//! Times of several candidates, taken in turns: what disturbs the machine then disturbs all of them.
+
+use std::time::{Duration, Instant};
+
+use serde::Serialize;
+
+/// The best and the median of some times.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Spread {
+    /// The shortest: what the work takes where nothing disturbs it.
+    pub best: f64,
+    /// Half of the times were shorter.
+    pub median: f64,
+}
+
+impl Spread {
+    /// Of `values`; `None` if there is none.
+    pub fn of(values: &[f64]) -> Option<Spread> {
+        let mut sorted = values.to_vec();
+        sorted.sort_by(f64::total_cmp);
+        Some(Spread {
+            best: *sorted.first()?,
+            median: sorted[sorted.len() / 2],
+        })
+    }
+
+    /// Both times `factor`.
+    #[must_use]
+    pub fn times(self, factor: f64) -> Spread {
+        Spread {
+            best: self.best * factor,
+            median: self.median * factor,
+        }
+    }
+}
+
+/// The seconds that each candidate took, round by round.
+#[derive(Clone, Debug)]
+pub struct Stopwatch {
+    wall: Vec<Vec<f64>>,
+    thread: Vec<Vec<f64>>,
+}
+
+impl Stopwatch {
+    /// Runs all candidates once untimed, then `rounds` times in turns.
+    ///
+    /// `run` gets the position of a candidate. After each candidate `go_on` is asked whether to go on; what was measured until
+    /// then stays.
+    pub fn race(
+        candidates: usize,
+        rounds: usize,
+        mut run: impl FnMut(usize),
+        mut go_on: impl FnMut() -> bool,
+    ) -> Stopwatch {
+        let mut watch = Stopwatch {
+            wall: vec![Vec::new(); candidates],
+            thread: vec![Vec::new(); candidates],
+        };
+        for round in 0..=rounds {
+            for candidate in 0..candidates {
+                let (wall, thread) = timed(|| run(candidate));
+                if round > 0 {
+                    watch.wall[candidate].push(wall.as_secs_f64());
+                    watch.thread[candidate].extend(thread.map(|time| time.as_secs_f64()));
+                }
+                if !go_on() {
+                    return watch;
+                }
+            }
+        }
+        watch
+    }
+
+    /// Seconds by the clock; `None` for a candidate that was never timed.
+    pub fn wall(&self, candidate: usize) -> Option<Spread> {
+        Spread::of(&self.wall[candidate])
+    }
+
+    /// Seconds that the calling thread computed; `None` where the system does not say.
+    pub fn thread(&self, candidate: usize) -> Option<Spread> {
+        Spread::of(&self.thread[candidate])
+    }
+}
+
+fn timed(run: impl FnOnce()) -> (Duration, Option<Duration>) {
+    let (start, computed) = (Instant::now(), thread_time());
+    run();
+    let wall = start.elapsed();
+    let thread = thread_time().zip(computed);
+    (wall, thread.and_then(|(end, start)| end.checked_sub(start)))
+}
+
+/// What the calling thread has computed so far.
+#[cfg(unix)]
+fn thread_time() -> Option<Duration> {
+    let time = rustix::time::clock_gettime(rustix::time::ClockId::ThreadCPUTime);
+    let seconds = u64::try_from(time.tv_sec).ok()?;
+    let nanoseconds = u32::try_from(time.tv_nsec).ok()?;
+    Some(Duration::new(seconds, nanoseconds))
+}
+
+/// Not known here.
+#[cfg(not(unix))]
+fn thread_time() -> Option<Duration> {
+    None
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_candidate_is_timed_in_every_round() {
+        let mut order = Vec::new();
+        let watch = Stopwatch::race(2, 3, |candidate| order.push(candidate), || true);
+        assert_eq!(order, [0, 1, 0, 1, 0, 1, 0, 1]);
+        assert_eq!((watch.wall[0].len(), watch.wall[1].len()), (3, 3));
+    }
+
+    #[test]
+    fn what_was_measured_before_a_stop_stays() {
+        let mut left = 3;
+        let watch = Stopwatch::race(
+            2,
+            15,
+            |_| {},
+            || {
+                left -= 1;
+                left > 0
+            },
+        );
+        assert_eq!((watch.wall(0).is_some(), watch.wall(1)), (true, None));
+    }
+
+    #[test]
+    fn the_median_is_the_upper_one_of_two() {
+        let spread = Spread::of(&[3.0, 1.0, 2.0, 4.0]);
+        let expected = Spread {
+            best: 1.0,
+            median: 3.0,
+        };
+        assert_eq!((spread, Spread::of(&[])), (Some(expected), None));
+    }
+}
