@@ -68,6 +68,8 @@ pub enum Interval {
         clusters: usize,
         /// Replicates that were drawn.
         replicates: usize,
+        /// The seed they were drawn with.
+        seed: u64,
         /// Replicates in which the score has no value; they are left out.
         undefined: usize,
     },
@@ -87,7 +89,7 @@ impl Interval {
     }
 
     /// How it was found, in words: `jackknife by point_id, G=32` or
-    /// `Poisson bootstrap by point_id (percentile), G=32, B=1000`.
+    /// `Poisson bootstrap by point_id (percentile), G=32, B=1000, seed=0`.
     pub fn method(&self) -> Option<String> {
         match self {
             Interval::Jackknife { clusters, .. } => {
@@ -97,6 +99,7 @@ impl Interval {
                 ends,
                 clusters,
                 replicates,
+                seed,
                 undefined,
                 ..
             } => {
@@ -105,7 +108,7 @@ impl Interval {
                     undefined => format!(" ({undefined} without a value)"),
                 };
                 Some(format!(
-                    "Poisson bootstrap by point_id ({ends}), G={clusters}, B={replicates}{left_out}"
+                    "Poisson bootstrap by point_id ({ends}), G={clusters}, B={replicates}{left_out}, seed={seed}"
                 ))
             }
             Interval::Undefined(_) => None,

@@ -126,14 +126,14 @@ fn a_report_says_how_the_interval_was_found() {
     let method = score(&evaluation, "mae").interval.method();
     assert_eq!(
         method.as_deref(),
-        Some("Poisson bootstrap by point_id (percentile), G=32, B=200")
+        Some("Poisson bootstrap by point_id (percentile), G=32, B=200, seed=1")
     );
     let normal = PoissonBootstrap {
         ends: BootstrapEnds::Normal,
         ..BOOTSTRAP
     };
     let interval = score(&finish(evaluator(normal, &uneven(60))), "mae").interval;
-    let expected = "Poisson bootstrap by point_id (normal), G=60, B=200";
+    let expected = "Poisson bootstrap by point_id (normal), G=60, B=200, seed=1";
     assert_eq!(interval.method().as_deref(), Some(expected));
 }
 

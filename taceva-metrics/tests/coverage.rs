@@ -1,56 +1,66 @@
-//! Intervals by contact location cover the truth as often as they say; intervals by sample do not.
+//! Intervals by contact location hold the expected score as often as they say; intervals by sample do not. On simulated
+//! presses; `examples/coverage.rs` does the same at length.
 
-#[path = "golden/recipe.rs"]
-#[expect(dead_code, reason = "only the generator is used here")]
-mod recipe;
-mod support;
+#[path = "support/simulated.rs"]
+mod simulated;
 
-use recipe::SplitMix64;
-use support::{Row, evaluate};
+use simulated::{Design, Method, coverage};
+use taceva_metrics::BootstrapEnds;
 
 /// As in a calibration: four presses at each of 400 locations.
-const LOCATIONS: u32 = 400;
-const PRESSES: u32 = 4;
-/// Correlation of the errors of one location.
-const CORRELATION: f64 = 0.3;
-const REPETITIONS: usize = 300;
+const CALIBRATION: Design = Design {
+    locations: 400,
+    presses: 4,
+};
+const RUNS: u32 = 300;
 
-/// How often the interval of the mean absolute error holds E|d| = √(2/π) of standard Gaussian errors.
-fn coverage(cluster: fn(location: u32, press: u32) -> u32) -> f64 {
-    let expected = (2.0 / std::f64::consts::PI).sqrt();
-    let mut random = SplitMix64(400);
-    let mut held = 0.0;
-    for _ in 0..REPETITIONS {
-        let mut rows = Vec::new();
-        for location in 0..LOCATIONS {
-            let shared = CORRELATION.sqrt() * random.bell();
-            for press in 0..PRESSES {
-                let error = shared + (1.0 - CORRELATION).sqrt() * random.bell();
-                rows.push(Row::same(0.0, error, cluster(location, press)));
-            }
-        }
-        let evaluation = evaluate(&rows);
-        let score = evaluation.score("mae", "Fx").expect("a score");
-        let [low, high] = score.interval.ends().expect("enough clusters");
-        held += f64::from(u8::from(low <= expected && expected <= high));
+#[test]
+fn intervals_by_location_hold_95_percent() {
+    for coverage in coverage(CALIBRATION, Method::Jackknife, 0..RUNS) {
+        assert_eq!(coverage.intervals, RUNS);
+        // Three standard errors of 300 runs are 0.038.
+        assert!((0.912..=0.988).contains(&coverage.share()), "{coverage:?}");
     }
-    held / f64::from(u32::try_from(REPETITIONS).expect("a few hundred"))
 }
 
 #[test]
-fn intervals_by_location_cover_95_percent() {
-    // Three standard errors of 300 repetitions are 0.038.
-    let covered = coverage(|location, _| location);
-    assert!((0.912..=0.988).contains(&covered), "{covered}");
-}
-
-#[test]
-fn intervals_by_sample_would_be_too_narrow() {
-    // Presses at one location share part of their error: their mean is less certain than that of as many independent ones.
-    let by_sample = coverage(|location, press| location * PRESSES + press);
-    let by_location = coverage(|location, _| location);
+fn intervals_by_sample_hold_too_little() {
+    // Presses at one location are alike: their mean is less certain than that of as many unrelated ones.
+    let by_location = coverage(CALIBRATION, Method::Jackknife, 0..RUNS);
+    let by_sample = coverage(CALIBRATION, Method::JackknifeBySample, 0..RUNS);
+    for (by_sample, by_location) in by_sample.iter().zip(by_location) {
+        assert!(
+            by_sample.held < by_location.held,
+            "{by_sample:?} {by_location:?}"
+        );
+    }
+    let [mean_absolute_error, ..] = by_sample;
     assert!(
-        by_sample < by_location,
-        "{by_sample} is not below {by_location}"
+        mean_absolute_error.share() < 0.912,
+        "{mean_absolute_error:?}"
     );
+}
+
+#[test]
+fn bootstrap_intervals_hold_nearly_as_much() {
+    const RUNS: u32 = 150;
+    for ends in [BootstrapEnds::Normal, BootstrapEnds::Percentile] {
+        for coverage in coverage(CALIBRATION, Method::Bootstrap(ends), 0..RUNS) {
+            assert_eq!(coverage.intervals, RUNS);
+            // Percentiles hold 0.925 at the least at length; three standard errors of 150 runs are 0.065.
+            assert!(coverage.share() >= 0.86, "{ends}: {coverage:?}");
+        }
+    }
+}
+
+#[test]
+fn runs_add_up_whoever_computes_them() {
+    let method = Method::Jackknife;
+    let mut parts = coverage(CALIBRATION, method, 0..7);
+    let rest = coverage(CALIBRATION, method, 7..20);
+    parts
+        .iter_mut()
+        .zip(rest)
+        .for_each(|(part, rest)| *part += rest);
+    assert_eq!(parts, coverage(CALIBRATION, method, 0..20));
 }

@@ -113,6 +113,7 @@ impl PoissonBootstrap {
             ends: self.ends,
             clusters: clusters.len(),
             replicates: drawn,
+            seed: self.seed,
             undefined: drawn - defined,
         }
     }
