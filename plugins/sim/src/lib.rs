@@ -1,14 +1,25 @@
 #![doc = include_str!("../README.md")]
 
+mod bench;
 mod parameters;
+mod provenance;
+mod rig;
+mod specimen;
+mod unit;
 
 pub mod contact;
 pub mod displacement;
 pub mod elastic;
 pub mod random;
 
+pub use bench::{Bench, Press, PressError};
+pub use contact::{Contact, History};
 pub use parameters::{
-    Body, Camera, Dome, Entry, Gratings, Lattice, Layer, Markers, Material, Model, Origin,
+    Body, Camera, Dome, Entry, Gratings, Lattice, Layer, Markers, Material, Model, Origin, Outline,
     ParameterDigest, ParameterError, ParameterErrorKind, Parameters, Probing, Robot, Search,
     Surface, Transducer, Variation,
 };
+pub use provenance::{MODEL_VERSION, Provenance};
+pub use rig::{Label, Touch};
+pub use specimen::{Grating, GratingError, GratingPose, Indenter};
+pub use unit::Unit;

@@ -6,6 +6,7 @@
 mod digest;
 mod error;
 mod model;
+mod outline;
 mod read;
 mod section;
 mod sections;
@@ -13,6 +14,7 @@ mod sections;
 pub use digest::ParameterDigest;
 pub use error::{ParameterError, ParameterErrorKind};
 pub use model::Model;
+pub use outline::Outline;
 pub use section::{Entry, Origin};
 pub use sections::{
     Camera, Dome, Gratings, Lattice, Layer, Markers, Material, Probing, Robot, Search, Surface,

@@ -2,7 +2,7 @@
 
 use super::dome::DomeLaw;
 use super::flat::LayerLaw;
-use super::{Contact, Relaxation};
+use super::{Contact, Friction, Relaxation};
 use crate::parameters::{Body, Parameters};
 
 /// A sensor's body as the solver of contacts sees it.
@@ -88,11 +88,16 @@ impl Solid {
         }
     }
 
-    /// The normal force of a gel that has had no time to relax: what a search for contact meets.
+    /// The force along the sensor's axis of a gel that has had no time to relax: what a search for contact meets.
     pub fn swift_force_n(&self, indentation: &Indentation) -> f64 {
-        let stand = self.stand(indentation, indentation.depth_mm, [0.0; 2]);
+        let stand = self.stand(indentation, indentation.depth_mm, indentation.shear_mm);
         let answer = self.answer(&stand, indentation);
-        answer.force_n * indentation.stiffness * stand.normal[2]
+        if answer.force_n <= 0.0 {
+            return 0.0;
+        }
+        let (slide_mm, tangent) = unit(stand.slide);
+        let shear_n = self.friction(&answer, 1.0).load(slide_mm);
+        (answer.force_n * stand.normal[2] - shear_n * tangent[2]) * indentation.stiffness
     }
 
     /// The contact after `indentation`, reached at the rig's speed and read at once.
@@ -181,6 +186,13 @@ impl Solid {
         memory.ratio()
     }
 
+    fn friction(&self, answer: &Answer, scale: f64) -> Friction {
+        Friction {
+            limit_n: self.friction * answer.force_n * scale,
+            stiffness_n_per_mm: answer.shear_n_per_mm * scale,
+        }
+    }
+
     /// Friction, directions and forces of an answer.
     fn settle(
         &self,
@@ -202,10 +214,7 @@ impl Solid {
         if answer.force_n * scale <= 0.0 {
             return contact;
         }
-        let friction = super::Friction {
-            limit_n: self.friction * answer.force_n * scale,
-            stiffness_n_per_mm: answer.shear_n_per_mm * scale,
-        };
+        let friction = self.friction(answer, scale);
         let (slide_mm, tangent) = unit(stand.slide);
         let shear_n = if indentation.deepest_mm > indentation.depth_mm {
             let turned = self.stand(indentation, indentation.deepest_mm, indentation.shear_mm);

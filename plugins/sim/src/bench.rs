@@ -1,0 +1,250 @@
+//! The bench: a unit of a sensor in a rig, pressed as often as one likes.
+
+mod error;
+mod press;
+
+pub use error::PressError;
+pub use press::Press;
+
+use std::sync::{Arc, OnceLock};
+
+use crate::contact::{Conditioning, Contact, History, Indentation, Solid};
+use crate::displacement::Tables;
+use crate::parameters::{Body, Outline, Parameters};
+use crate::provenance::Provenance;
+use crate::random::{Purpose, Random};
+use crate::rig::{Label, Touch, TransducerModel, search};
+use crate::specimen::GratingPose;
+use crate::unit::Unit;
+
+/// A unit of a sensor in a rig of a seed. Every answer is a function of the question: order, threads and interruptions change nothing.
+///
+/// ```
+/// use taceva_sim::{Bench, Model, Press};
+/// let bench = Bench::new(Model::GelSight.parameters(), 0, 1);
+/// let press = Press { id: 1, depth_mm: 0.5, ..Press::default() };
+/// let contact = bench.press(&press)?;
+/// let label = bench.label(&press, &contact);
+/// // Contact is found late: the ball stands deeper than the rig believes.
+/// assert!(contact.depth_mm > label.position_mm[2]);
+/// assert_eq!(bench.provenance().to_string().split(',').next(), Some("source = simulated"));
+/// # Ok::<(), taceva_sim::PressError>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct Bench {
+    parameters: Arc<Parameters>,
+    unit: Unit,
+    seed: u64,
+    random: Random,
+    solid: Solid,
+    conditioning: Conditioning,
+    transducer: TransducerModel,
+    outline: Outline,
+    surface: Arc<OnceLock<Tables>>,
+}
+
+impl Bench {
+    /// The unit numbered `unit` of a sensor, with the noise of `seed`.
+    pub fn new(parameters: Parameters, unit: u32, seed: u64) -> Bench {
+        let random = Random::new(seed);
+        Bench {
+            unit: Unit::new(&parameters, unit),
+            seed,
+            random,
+            solid: Solid::new(&parameters),
+            conditioning: Conditioning::new(&parameters.material),
+            transducer: TransducerModel::new(parameters.transducer, random),
+            outline: parameters.outline(),
+            surface: Arc::default(),
+            parameters: Arc::new(parameters),
+        }
+    }
+
+    /// What the sensor and the rig are.
+    pub fn parameters(&self) -> &Parameters {
+        &self.parameters
+    }
+
+    /// The specimen.
+    pub fn unit(&self) -> &Unit {
+        &self.unit
+    }
+
+    /// The body, for whoever moves a ball step by step.
+    pub fn solid(&self) -> &Solid {
+        &self.solid
+    }
+
+    /// The random numbers of this run.
+    pub fn random(&self) -> Random {
+        self.random
+    }
+
+    /// What every product of this bench says of itself.
+    pub fn provenance(&self) -> Provenance {
+        Provenance {
+            sensor: self.parameters.name.clone(),
+            unit: self.unit.number(),
+            seed: self.seed,
+            parameters: *self.parameters.digest(),
+        }
+    }
+
+    /// The tables of the gel's surface, made when they are first asked for; `None` for a dome, whose shapes are closed forms.
+    pub fn surface_tables(&self) -> Option<&Tables> {
+        match self.parameters.body {
+            Body::Layer(layer) => Some(
+                self.surface
+                    .get_or_init(|| Tables::new(layer.thickness_mm, 0.0)),
+            ),
+            Body::Dome(_) => None,
+        }
+    }
+
+    /// How contact is found at the point of `press`: once a point, the same for each of its presses.
+    ///
+    /// # Errors
+    /// [`PressError`] as for [`press`](Bench::press).
+    pub fn touch(&self, press: &Press) -> Result<Touch, PressError> {
+        press.check(&self.parameters, self.outline)?;
+        Ok(self.find(press))
+    }
+
+    /// The contact of `press` on a gel that nobody has pressed before.
+    ///
+    /// # Errors
+    /// [`PressError`]: a number that is not finite, a place outside the probed surface, a depth outside what the sensor bears.
+    pub fn press(&self, press: &Press) -> Result<Contact, PressError> {
+        press.check(&self.parameters, self.outline)?;
+        Ok(self.indent(press, 1.0))
+    }
+
+    /// The contact of `press` on a gel that remembers `history`.
+    ///
+    /// # Errors
+    /// As [`press`](Bench::press).
+    pub fn press_after(&self, history: &History, press: &Press) -> Result<Contact, PressError> {
+        press.check(&self.parameters, self.outline)?;
+        let wear = history.wear(press.point);
+        Ok(self.indent(press, self.conditioning.remaining(wear, press.depth_mm)))
+    }
+
+    /// What the rig writes down of `press`, whose contact was `contact`.
+    pub fn label(&self, press: &Press, contact: &Contact) -> Label {
+        let [point, later] = [
+            self.transducer.point_zero_n(press.point),
+            self.transducer.press_zero_n(press.id),
+        ];
+        let zero = std::array::from_fn(|axis| point[axis] + later[axis]);
+        let noise = self.random.stream(Purpose::ForceNoise, press.id);
+        Label {
+            position_mm: [
+                press.place_mm[0] + press.shear_mm[0],
+                press.place_mm[1] + press.shear_mm[1],
+                contact.travel_mm,
+            ],
+            force_n: self.transducer.read(contact.force_n, zero, noise, 0),
+        }
+    }
+
+    /// How a board lies on the gel in a press: turned by up to 23° and shifted by up to 1 mm.
+    pub fn grating_pose(&self, press: u64) -> GratingPose {
+        let stream = self.random.stream(Purpose::GratingPose, press);
+        GratingPose {
+            yaw_degree: stream.between(0, -23.0, 23.0),
+            offset_mm: [1, 2].map(|index| stream.between(index, -1.0, 1.0)),
+        }
+    }
+
+    fn find(&self, press: &Press) -> Touch {
+        let indentation = Indentation {
+            place_mm: press.place_mm,
+            depth_mm: 0.0,
+            deepest_mm: 0.0,
+            shear_mm: [0.0; 2],
+            indenter_radius_mm: press.indenter.radius_mm(),
+            stiffness: self.unit.stiffness(press.place_mm),
+        };
+        self.find_at(press.point, &indentation)
+    }
+
+    fn find_at(&self, point: u64, indentation: &Indentation) -> Touch {
+        let [_, _, zero] = self.transducer.point_zero_n(point);
+        let noise = self.random.stream(Purpose::SearchNoise, point);
+        search(
+            &self.parameters.search,
+            self.random.stream(Purpose::SearchPhase, point),
+            |step| zero + self.transducer.normal_noise_n(noise, u64::from(step)),
+            |depth_mm| {
+                self.solid.swift_force_n(&Indentation {
+                    depth_mm,
+                    ..*indentation
+                })
+            },
+        )
+    }
+
+    fn indent(&self, press: &Press, remaining: f64) -> Contact {
+        let mut indentation = Indentation {
+            place_mm: press.place_mm,
+            depth_mm: 0.0,
+            deepest_mm: 0.0,
+            shear_mm: [0.0; 2],
+            indenter_radius_mm: press.indenter.radius_mm(),
+            stiffness: self.unit.stiffness(press.place_mm),
+        };
+        let touch = self.find_at(press.point, &indentation);
+        let stream = self.random.stream(Purpose::Positioning, press.id);
+        let [x, y, z] =
+            [0, 1, 2].map(|axis| self.parameters.robot.positioning_mm * stream.normal(axis));
+        let off_mm = touch.late_mm + z;
+        indentation.place_mm = [press.place_mm[0] + x, press.place_mm[1] + y];
+        indentation.stiffness *= remaining;
+        indentation.depth_mm = (press.depth_mm + off_mm).max(0.0);
+        indentation.deepest_mm = indentation.depth_mm.max(press.deepest_mm() + off_mm);
+        indentation.shear_mm = press.shear_mm;
+        let limited = self.limit(&mut indentation);
+        let mut contact = self.solid.contact(&indentation);
+        contact.limited = limited;
+        contact.travel_mm = if limited {
+            indentation.depth_mm - off_mm
+        } else {
+            press.depth_mm
+        };
+        contact
+    }
+
+    /// Draws an indentation back to where it meets the force limit; whether that was needed.
+    fn limit(&self, indentation: &mut Indentation) -> bool {
+        let limit_n = self.parameters.probing.force_max_n;
+        let loading = |depth_mm: f64| Indentation {
+            depth_mm,
+            deepest_mm: depth_mm,
+            ..*indentation
+        };
+        // Relaxation only lowers a force: what an unrelaxed gel bears, this one does.
+        if self.solid.swift_force_n(&loading(indentation.deepest_mm)) <= limit_n {
+            return false;
+        }
+        let force_n = |depth_mm: f64| self.solid.contact(&loading(depth_mm)).force_n[2];
+        if force_n(indentation.deepest_mm) <= limit_n {
+            return false;
+        }
+        let (mut low, mut high) = (0.0, indentation.deepest_mm);
+        for _ in 0..BISECTIONS {
+            let middle = 0.5 * (low + high);
+            if force_n(middle) <= limit_n {
+                low = middle;
+            } else {
+                high = middle;
+            }
+        }
+        let stopped = indentation.depth_mm > low;
+        indentation.deepest_mm = low;
+        indentation.depth_mm = indentation.depth_mm.min(low);
+        stopped
+    }
+}
+
+/// Halvings of a depth: to a nanometre and far below.
+const BISECTIONS: u32 = 30;

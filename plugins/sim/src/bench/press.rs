@@ -1,0 +1,79 @@
+//! What the bench is asked to do.
+
+use super::PressError;
+use crate::parameters::{Outline, Parameters};
+use crate::specimen::Indenter;
+
+/// A press as the rig is told to make it.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Press {
+    /// Its name: random numbers of this press alone go by it.
+    pub id: u64,
+    /// The point it belongs to: presses at one point share one search for contact and one zero of the transducer.
+    pub point: u64,
+    /// Where the ball comes down, along x and y.
+    pub place_mm: [f64; 2],
+    /// How far the robot travels into the gel after it has found contact.
+    pub depth_mm: f64,
+    /// How far it then drags the ball along the gel.
+    pub shear_mm: [f64; 2],
+    /// On the way out: how far it had travelled before it turned. `None` on the way in.
+    pub turned_mm: Option<f64>,
+    /// The ball.
+    pub indenter: Indenter,
+}
+
+impl Press {
+    /// The greatest travel of this press so far.
+    pub(super) fn deepest_mm(&self) -> f64 {
+        self.turned_mm
+            .map_or(self.depth_mm, |turned| turned.max(self.depth_mm))
+    }
+
+    #[inline]
+    pub(super) fn check(
+        &self,
+        parameters: &Parameters,
+        outline: Outline,
+    ) -> Result<(), PressError> {
+        let named = [
+            ("place x", self.place_mm[0]),
+            ("place y", self.place_mm[1]),
+            ("depth", self.depth_mm),
+            ("shear x", self.shear_mm[0]),
+            ("shear y", self.shear_mm[1]),
+            ("turned", self.turned_mm.unwrap_or(0.0)),
+        ];
+        if let Some((name, value)) = named.into_iter().find(|(_, value)| !value.is_finite()) {
+            return Err(PressError::NotFinite { name, value });
+        }
+        if !outline.contains(self.place_mm) {
+            return Err(PressError::Outside {
+                place_mm: self.place_mm,
+                outline,
+            });
+        }
+        let depth_max_mm = parameters.probing.depth_max_mm;
+        for depth_mm in [self.depth_mm, self.deepest_mm()] {
+            if !(0.0..=depth_max_mm).contains(&depth_mm) {
+                return Err(PressError::Depth {
+                    depth_mm,
+                    depth_max_mm,
+                });
+            }
+        }
+        let shear_most_mm = SHEAR_MOST;
+        for shear_mm in self.shear_mm {
+            if shear_mm.abs() > shear_most_mm {
+                return Err(PressError::Shear {
+                    shear_mm,
+                    shear_most_mm,
+                });
+            }
+        }
+        Ok(())
+    }
+}
+
+/// No rig drags a ball further, and a dome would be missed.
+const SHEAR_MOST: f64 = 5.0;

@@ -1,0 +1,229 @@
+//! One specimen of a sensor: how it differs from its siblings, and from place to place.
+//!
+//! A unit is a function of the sensor's name and its number, not of the run's seed: it is the same gel in every run. Unit 0 has the
+//! nominal modulus and sag.
+
+use std::f64::consts::TAU;
+
+use crate::parameters::{Body, Parameters, Surface};
+use crate::random::{Purpose, Random, Stream};
+
+/// One specimen of a sensor.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Unit {
+    number: u32,
+    modulus_ratio: f64,
+    stiffness: Waves,
+    stiffness_sd: f64,
+    relief: Option<Relief>,
+    surface: Surface,
+}
+
+/// The surface of a flat gel, as it came out of its mould.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Relief {
+    sag_ratio: f64,
+    gap: Waves,
+    gap_mm: f64,
+    blisters: [Blister; BLISTERS],
+}
+
+/// A place where the gel has come off its plate.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Blister {
+    centre_mm: [f64; 2],
+    radius_mm: f64,
+    height_mm: f64,
+}
+
+/// A unit has one or two blisters; the second may be of no height.
+const BLISTERS: usize = 2;
+/// Where the sag is stated.
+const SAG_STATED_MM: [f64; 2] = [7.0, 9.0];
+/// A free edge is felt in the outer quarter, the gel reaching this far beyond the picture.
+const EDGE_BEGINS: f64 = 0.75;
+const EDGE_MARGIN_MM: f64 = 1.5;
+
+impl Unit {
+    /// The specimen `number` of a sensor.
+    pub fn new(parameters: &Parameters, number: u32) -> Unit {
+        let name = name_hash(&parameters.name);
+        let random = Random::new(u64::from(number));
+        let stiffness = random.stream(Purpose::Stiffness, name);
+        let variation = parameters.variation;
+        let differs = |index| {
+            if number == 0 {
+                0.0
+            } else {
+                stiffness.normal(index)
+            }
+        };
+        let relief = match parameters.body {
+            Body::Layer(_) => Some(Relief::new(parameters, random, name, differs(101))),
+            Body::Dome(_) => None,
+        };
+        Unit {
+            number,
+            modulus_ratio: (1.0 + variation.modulus * differs(100)).max(0.1),
+            stiffness: Waves::new(stiffness, 0, STIFFNESS_WAVES),
+            stiffness_sd: variation.stiffness,
+            relief,
+            surface: parameters.surface,
+        }
+    }
+
+    /// Its number.
+    pub fn number(&self) -> u32 {
+        self.number
+    }
+
+    /// How stiff it is at a place over the nominal stiffness: above 0.
+    pub fn stiffness(&self, place_mm: [f64; 2]) -> f64 {
+        let smooth = 1.0 + self.stiffness_sd * self.stiffness.at(place_mm);
+        self.modulus_ratio * smooth.max(0.1) * self.edge(place_mm)
+    }
+
+    /// How high its surface lies at a place over the ideal one: negative where it sags.
+    pub fn height_mm(&self, place_mm: [f64; 2]) -> f64 {
+        let Some(relief) = &self.relief else {
+            return 0.0;
+        };
+        let [sag_x, sag_y] = [self.surface.sag_x_mm, self.surface.sag_y_mm];
+        let x = place_mm[0] / SAG_STATED_MM[0];
+        let y = place_mm[1] / SAG_STATED_MM[1];
+        let sag = relief.sag_ratio * (sag_x * x * x + sag_y * y * y);
+        let blisters: f64 = relief.blisters.iter().map(|one| one.at(place_mm)).sum();
+        relief.gap_mm * relief.gap.at(place_mm) + blisters - sag
+    }
+
+    /// 1 inside, less towards the free edge.
+    fn edge(&self, place_mm: [f64; 2]) -> f64 {
+        let reach = |length: f64| 0.5 * length + EDGE_MARGIN_MM;
+        let x = place_mm[0].abs() / reach(self.surface.width_mm);
+        let y = place_mm[1].abs() / reach(self.surface.height_mm);
+        let beyond = ((x.max(y) - EDGE_BEGINS) / (1.0 - EDGE_BEGINS)).clamp(0.0, 1.0);
+        1.0 - self.surface.edge_softening * beyond * beyond
+    }
+}
+
+impl Relief {
+    fn new(parameters: &Parameters, random: Random, name: u64, differs: f64) -> Relief {
+        let stream = random.stream(Purpose::Surface, name);
+        let [half_x, half_y] = [
+            0.5 * parameters.surface.width_mm,
+            0.5 * parameters.surface.height_mm,
+        ];
+        let second = stream.uniform(200) < 0.5;
+        let blisters = std::array::from_fn(|number| {
+            let draw = |index: u64| stream.uniform(210 + 10 * number as u64 + index);
+            let exists = number == 0 || second;
+            Blister {
+                centre_mm: [
+                    (2.0 * draw(0) - 1.0) * half_x,
+                    (2.0 * draw(1) - 1.0) * half_y,
+                ],
+                radius_mm: 0.8 + 0.8 * draw(2),
+                height_mm: if exists {
+                    parameters.variation.blister_mm * (0.4 + 0.6 * draw(3))
+                } else {
+                    0.0
+                },
+            }
+        });
+        Relief {
+            sag_ratio: (1.0 + parameters.variation.sag * differs).max(0.0),
+            gap: Waves::new(stream, 0, GAP_WAVES),
+            gap_mm: parameters.variation.gap_mm,
+            blisters,
+        }
+    }
+}
+
+impl Blister {
+    fn at(&self, [x, y]: [f64; 2]) -> f64 {
+        let [dx, dy] = [x - self.centre_mm[0], y - self.centre_mm[1]];
+        let squared = (dx * dx + dy * dy) / (self.radius_mm * self.radius_mm);
+        self.height_mm * libm::exp(-0.5 * squared)
+    }
+}
+
+/// A smooth random field of mean 0 and variance 1: plane waves of random direction, length and phase.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Waves {
+    waves: [[f64; 3]; WAVES],
+}
+
+const WAVES: usize = 8;
+/// Greatest wave numbers along x and y, in radians a millimetre.
+const STIFFNESS_WAVES: f64 = 0.5;
+const GAP_WAVES: f64 = 1.0;
+
+impl Waves {
+    fn new(stream: Stream, first: u64, wave_number_max: f64) -> Waves {
+        let waves = std::array::from_fn(|wave| {
+            let index = first + 3 * wave as u64;
+            [
+                stream.between(index, -wave_number_max, wave_number_max),
+                stream.between(index + 1, -wave_number_max, wave_number_max),
+                TAU * stream.uniform(index + 2),
+            ]
+        });
+        Waves { waves }
+    }
+
+    fn at(&self, [x, y]: [f64; 2]) -> f64 {
+        let cosines = self
+            .waves
+            .iter()
+            .map(|[along_x, along_y, phase]| libm::cos(along_x * x + along_y * y + phase));
+        // Eight cosines have the variance 4.
+        0.5 * cosines.sum::<f64>()
+    }
+}
+
+/// FNV-1a of a sensor's name.
+fn name_hash(name: &str) -> u64 {
+    name.bytes().fold(0xCBF2_9CE4_8422_2325, |hash, byte| {
+        (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01B3)
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::parameters::Model;
+
+    #[test]
+    fn the_field_of_stiffness_has_the_declared_spread_over_many_units() {
+        let parameters = Model::GelSight.parameters();
+        let n = 400;
+        let squares: f64 = (1..=n)
+            .map(|number| {
+                Unit::new(&parameters, number)
+                    .stiffness
+                    .at([1.0, -2.0])
+                    .powi(2)
+            })
+            .sum();
+        // The variance of a sum of eight cosines squared over 400 units is known to some 7 %.
+        assert!((squares / f64::from(n) - 1.0).abs() < 0.2, "{squares}");
+    }
+
+    #[test]
+    fn a_unit_is_the_same_gel_whatever_the_run_and_another_number_is_another_gel() {
+        let parameters = Model::MagicTac.parameters();
+        let place = [2.0, 3.0];
+        let heights: Vec<u64> = [0, 0, 1]
+            .map(|number| Unit::new(&parameters, number).height_mm(place).to_bits())
+            .into();
+        assert_eq!(heights[0], heights[1]);
+        assert_ne!(heights[0], heights[2]);
+    }
+
+    #[test]
+    fn the_gel_is_softer_at_its_free_edge_and_nowhere_else() {
+        let unit = Unit::new(&Model::GelSight.parameters(), 0);
+        assert!((unit.edge([3.0, 4.0]) - 1.0).abs() < 1e-15);
+        assert!(unit.edge([8.0, 0.0]) < 0.95);
+    }
+}
