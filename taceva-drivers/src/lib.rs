@@ -1,9 +1,12 @@
 #![doc = include_str!("../README.md")]
 
+pub mod conformance;
 mod devices;
 mod drivers;
+pub mod fault;
 mod guard;
 mod pace;
+mod random;
 mod selector;
 mod sensor;
 mod source;

@@ -1,13 +1,11 @@
 //! A folder of frames is a live sensor, and whatever is wrong with it is said by name.
 
-mod support;
-
 use std::fs;
 use std::io::Cursor;
 use std::time::Duration;
 
+use crate::support::{PATIENCE, capture, folder, gray, replay, sensor};
 use image::{ImageFormat, Rgb, RgbImage};
-use support::{PATIENCE, capture, folder, gray, replay, sensor};
 use taceva_core::{
     Deadline, DriverSource, ErrorKind, FrameInfo, FrameMut, PixelFormat, Rig, Sensor,
 };
@@ -78,12 +76,12 @@ fn a_frame_that_comes_after_the_deadline_is_a_timeout_and_then_comes() {
 #[test]
 fn in_real_time_a_late_caller_misses_frames_and_gets_the_newest() {
     let folder = folder(200);
-    let mut sensor = replay(folder.path(), ";rate=1000;pace=real");
+    let mut sensor = replay(folder.path(), ";rate=100;pace=real");
     let (first, _) = capture(sensor.as_mut(), PATIENCE).expect("a frame");
-    std::thread::sleep(Duration::from_millis(30));
+    std::thread::sleep(Duration::from_millis(60));
     let (second, shade) = capture(sensor.as_mut(), PATIENCE).expect("a frame");
-    assert!(shade > 30, "frame {shade} after 30 ms at 1 kHz");
-    assert!(second.valid_s - first.valid_s >= 0.029);
+    assert!(shade > 6, "frame {shade} after 60 ms at 100 Hz");
+    assert!(second.valid_s - first.valid_s >= 0.05);
     assert!(second.received_s.expect("real time") >= second.valid_s);
 }
 

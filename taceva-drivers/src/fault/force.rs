@@ -1,0 +1,84 @@
+//! A force transducer that goes wrong.
+
+use taceva_core::{
+    Axes, Deadline, DriverError, DriverKey, ForceTransducer, Newton, Stamp, Tare, Wrench,
+};
+
+use super::link::Link;
+use super::{FaultKind, FaultPlan};
+use crate::pace::Pace;
+
+/// A force transducer whose readings go wrong as a plan says.
+pub struct FaultyForce {
+    inner: Box<dyn ForceTransducer>,
+    link: Link,
+    full_scale: Newton,
+    last: Option<Wrench>,
+}
+
+impl FaultyForce {
+    /// `inner`, called `driver`, behind a link that fails as `plan` says and waits in the time of `pace`; saturated, its normal force
+    /// reads `full_scale`.
+    pub fn new(
+        inner: Box<dyn ForceTransducer>,
+        driver: DriverKey,
+        full_scale: Newton,
+        plan: FaultPlan,
+        pace: Box<dyn Pace>,
+    ) -> FaultyForce {
+        FaultyForce {
+            inner,
+            link: Link::new(driver, plan, pace),
+            full_scale,
+            last: None,
+        }
+    }
+}
+
+impl ForceTransducer for FaultyForce {
+    fn axes(&self) -> Axes {
+        self.inner.axes()
+    }
+
+    fn start(&mut self, deadline: Deadline) -> Result<(), DriverError> {
+        self.inner.start(deadline)
+    }
+
+    fn read(&mut self, mut deadline: Deadline) -> Result<(Wrench, Stamp), DriverError> {
+        const DOING: &str = "read the force";
+        let fault = self.link.next_fault();
+        match fault {
+            Some(FaultKind::Silence) => return self.link.silence(DOING, deadline),
+            Some(FaultKind::SlowLink) => deadline = self.link.slow(DOING, deadline)?,
+            Some(FaultKind::Drop) => {
+                self.inner.read(deadline)?;
+                self.link.note(FaultKind::Drop);
+            }
+            _ => {}
+        }
+        let (mut wrench, stamp) = self.inner.read(deadline)?;
+        match (fault, self.last) {
+            (Some(FaultKind::Freeze), Some(last)) => {
+                wrench = last;
+                self.link.note(FaultKind::Freeze);
+            }
+            (Some(kind @ (FaultKind::NotANumber | FaultKind::Saturation)), _) => {
+                wrench.force[2] = match kind {
+                    FaultKind::NotANumber => Newton(f64::NAN),
+                    _ => self.full_scale,
+                };
+                self.link.note(kind);
+            }
+            _ => self.last = Some(wrench),
+        }
+        Ok((wrench, self.link.stamped(stamp, fault)))
+    }
+
+    fn stop(&mut self) -> Result<(), DriverError> {
+        self.inner.stop()
+    }
+
+    fn tare(&mut self) -> Option<&mut dyn Tare> {
+        self.inner.tare()
+    }
+}

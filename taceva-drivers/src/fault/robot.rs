@@ -1,0 +1,100 @@
+//! A robot that goes wrong.
+
+use std::sync::Arc;
+
+use taceva_core::{
+    Deadline, DriverError, DriverKey, GuardedMotion, Halt, Millimetre, Pose, Robot, Speed, Stamp,
+};
+
+use super::link::Link;
+use super::{FaultKind, FaultPlan};
+use crate::pace::Pace;
+
+/// A robot whose poses and motions go wrong as a plan says. A halt always reaches it.
+pub struct FaultyRobot {
+    inner: Box<dyn Robot>,
+    link: Link,
+    last: Option<Pose>,
+}
+
+impl FaultyRobot {
+    /// `inner`, called `driver`, behind a link that fails as `plan` says and waits in the time of `pace`.
+    pub fn new(
+        inner: Box<dyn Robot>,
+        driver: DriverKey,
+        plan: FaultPlan,
+        pace: Box<dyn Pace>,
+    ) -> FaultyRobot {
+        FaultyRobot {
+            inner,
+            link: Link::new(driver, plan, pace),
+            last: None,
+        }
+    }
+}
+
+impl Robot for FaultyRobot {
+    fn pose(&mut self, mut deadline: Deadline) -> Result<(Pose, Stamp), DriverError> {
+        const DOING: &str = "say where it stands";
+        let fault = self.link.next_fault();
+        match fault {
+            Some(FaultKind::Silence) => return self.link.silence(DOING, deadline),
+            Some(FaultKind::SlowLink) => deadline = self.link.slow(DOING, deadline)?,
+            Some(FaultKind::Drop) => {
+                self.inner.pose(deadline)?;
+                self.link.note(FaultKind::Drop);
+            }
+            _ => {}
+        }
+        let (mut pose, stamp) = self.inner.pose(deadline)?;
+        match (fault, self.last) {
+            (Some(FaultKind::Freeze), Some(last)) => {
+                pose = last;
+                self.link.note(FaultKind::Freeze);
+            }
+            (Some(FaultKind::NotANumber), _) => {
+                pose.position.z = Millimetre(f64::NAN);
+                self.link.note(FaultKind::NotANumber);
+            }
+            _ => self.last = Some(pose),
+        }
+        Ok((pose, self.link.stamped(stamp, fault)))
+    }
+
+    fn move_to(
+        &mut self,
+        target: Pose,
+        speed: Speed,
+        mut deadline: Deadline,
+    ) -> Result<Stamp, DriverError> {
+        const DOING: &str = "move";
+        let fault = self.link.next_fault();
+        match fault {
+            // The answer is lost, not the command: the robot moves, and nobody hears of it.
+            Some(FaultKind::Silence) => {
+                self.inner.move_to(target, speed, deadline)?;
+                return self.link.silence(DOING, deadline);
+            }
+            Some(FaultKind::Drop) => {
+                self.link.note(FaultKind::Drop);
+                return Err(self.link.timeout(DOING, deadline));
+            }
+            Some(FaultKind::SlowLink) => deadline = self.link.slow(DOING, deadline)?,
+            _ => {}
+        }
+        let stamp = self.inner.move_to(target, speed, deadline)?;
+        Ok(self.link.stamped(stamp, fault))
+    }
+
+    fn halt_handle(&self) -> Arc<dyn Halt> {
+        self.inner.halt_handle()
+    }
+
+    fn clear_halt(&mut self, deadline: Deadline) -> Result<(), DriverError> {
+        self.inner.clear_halt(deadline)
+    }
+
+    fn guarded_motion(&mut self) -> Option<&mut dyn GuardedMotion> {
+        self.inner.guarded_motion()
+    }
+}

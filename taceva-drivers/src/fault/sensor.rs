@@ -1,0 +1,97 @@
+//! A sensor that goes wrong.
+
+use taceva_core::{Deadline, DriverError, DriverKey, FrameInfo, FrameMut, Lighting, Sensor, Stamp};
+
+use super::link::Link;
+use super::{FaultKind, FaultPlan};
+use crate::pace::Pace;
+
+/// A sensor whose captures go wrong as a plan says.
+pub struct FaultySensor {
+    inner: Box<dyn Sensor>,
+    link: Link,
+    last_frame: Option<Vec<u8>>,
+}
+
+impl FaultySensor {
+    /// `inner`, called `driver`, behind a link that fails as `plan` says and waits in the time of `pace`.
+    pub fn new(
+        inner: Box<dyn Sensor>,
+        driver: DriverKey,
+        plan: FaultPlan,
+        pace: Box<dyn Pace>,
+    ) -> FaultySensor {
+        FaultySensor {
+            inner,
+            link: Link::new(driver, plan, pace),
+            last_frame: None,
+        }
+    }
+}
+
+impl Sensor for FaultySensor {
+    fn frame_info(&self) -> FrameInfo {
+        self.inner.frame_info()
+    }
+
+    fn start(&mut self, deadline: Deadline) -> Result<(), DriverError> {
+        self.inner.start(deadline)
+    }
+
+    fn capture(
+        &mut self,
+        mut into: FrameMut<'_>,
+        mut deadline: Deadline,
+    ) -> Result<Stamp, DriverError> {
+        const DOING: &str = "capture a frame";
+        let fault = self.link.next_fault();
+        match fault {
+            Some(FaultKind::Silence) => return self.link.silence(DOING, deadline),
+            Some(FaultKind::SlowLink) => deadline = self.link.slow(DOING, deadline)?,
+            Some(FaultKind::Drop) => {
+                self.inner.capture(again(&mut into), deadline)?;
+                self.link.note(FaultKind::Drop);
+            }
+            _ => {}
+        }
+        let stamp = self.inner.capture(again(&mut into), deadline)?;
+        let pixels = into.bytes_mut();
+        match (fault, &mut self.last_frame) {
+            (Some(FaultKind::Freeze), Some(last)) => {
+                pixels.copy_from_slice(last);
+                self.link.note(FaultKind::Freeze);
+            }
+            (_, Some(last)) => last.copy_from_slice(pixels),
+            (_, none) => *none = Some(pixels.to_vec()),
+        }
+        match fault {
+            Some(FaultKind::Saturation) => {
+                pixels.fill(u8::MAX);
+                self.link.note(FaultKind::Saturation);
+            }
+            Some(FaultKind::NotANumber) => {
+                self.link.note(FaultKind::NotANumber);
+                return Ok(Stamp {
+                    valid_s: f64::NAN,
+                    ..stamp
+                });
+            }
+            _ => {}
+        }
+        Ok(self.link.stamped(stamp, fault))
+    }
+
+    fn stop(&mut self) -> Result<(), DriverError> {
+        self.inner.stop()
+    }
+
+    fn lighting(&mut self) -> Option<&mut dyn Lighting> {
+        self.inner.lighting()
+    }
+}
+
+/// The same frame once more, to be lent out a second time.
+fn again<'a>(frame: &'a mut FrameMut<'_>) -> FrameMut<'a> {
+    let info = frame.info();
+    FrameMut::new(info, frame.bytes_mut()).expect("it had this size before")
+}

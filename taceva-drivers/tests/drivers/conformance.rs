@@ -1,0 +1,266 @@
+//! The suites pass what keeps the contract, and each check fails for the device that breaks it.
+
+use crate::support::folder;
+use crate::toy::{FULL_SCALE, Flaw, KEY, ToyFactory, open};
+use taceva_core::{Args, Descriptor, DriverError, Factory, ForceTransducer, Rig};
+use taceva_drivers::conformance::{self, Outcome, Report, Trial};
+use taceva_drivers::fault::{FaultKind, FaultPlan, FaultyForce};
+use taceva_drivers::{ReplayFactory, VirtualPace};
+
+fn replay(more: &str) -> Report {
+    let folder = folder(20);
+    let arguments = format!("folder={}{more}", folder.path().display());
+    let factory = ReplayFactory::new().expect("no contradiction");
+    conformance::sensor(&factory, &Trial::with_arguments(arguments))
+}
+
+#[test]
+fn the_replay_keeps_the_contract_in_virtual_time() {
+    let report = replay(";rate=30");
+    assert!(report.passed(), "{report}");
+    let skipped: Vec<_> = report
+        .checks
+        .iter()
+        .filter(|check| matches!(check.outcome, Outcome::Skipped(_)))
+        .map(|check| check.name)
+        .collect();
+    assert_eq!(
+        skipped,
+        [
+            "gives the frames it declares",
+            "gives the same frames to the same arguments",
+            "sets the light it declares, and no other",
+        ],
+        "{report}"
+    );
+}
+
+#[test]
+fn the_replay_keeps_the_contract_in_real_time() {
+    let report = replay(";rate=200;pace=real;repeat=true");
+    assert!(report.passed(), "{report}");
+}
+
+#[test]
+fn a_recording_that_is_too_short_to_be_tried_is_skipped_and_not_failed() {
+    let folder = folder(2);
+    let arguments = format!("folder={}", folder.path().display());
+    let factory = ReplayFactory::new().expect("no contradiction");
+    let report = conformance::sensor(&factory, &Trial::with_arguments(arguments));
+    assert!(report.passed(), "{report}");
+    let captured = report.outcome("captures frames in the order of their stamps");
+    assert_eq!(
+        captured,
+        Some(&Outcome::Skipped(
+            "the recording ended too early".to_owned()
+        ))
+    );
+}
+
+#[test]
+fn a_driver_that_does_not_open_fails_every_check_that_needs_it_open() {
+    let factory = ReplayFactory::new().expect("no contradiction");
+    let refused = conformance::sensor(&factory, &Trial::with_arguments("foldr=x"));
+    assert_eq!(refused.failures(), ["takes the arguments of the trial"]);
+    let absent = conformance::sensor(&factory, &Trial::with_arguments("folder=nowhere"));
+    assert!(absent.failures().len() >= 6, "{absent}");
+    assert!(absent.to_string().contains("(not found)"), "{absent}");
+}
+
+#[test]
+fn a_device_of_each_kind_without_a_flaw_passes_every_check() {
+    let reports = [
+        conformance::sensor(&ToyFactory::sensor(Flaw::Nothing), &Trial::default()),
+        conformance::force(&ToyFactory::force(Flaw::Nothing), &Trial::default()),
+        conformance::robot(&ToyFactory::robot(Flaw::Nothing), &Trial::default()),
+        conformance::lighting(&ToyFactory::lighting(Flaw::Nothing), &Trial::default()),
+    ];
+    for report in reports {
+        let all = report
+            .checks
+            .iter()
+            .all(|check| check.outcome == Outcome::Passed);
+        assert!(all, "{report}");
+    }
+}
+
+/// Asserts that each flaw fails its check, and that each check of the suite has a flaw that fails it.
+fn each_flaw_fails_its_check(suite: fn(Flaw) -> Report, flaws: &[(Flaw, &str)]) {
+    for (flaw, check) in flaws {
+        let report = suite(*flaw);
+        assert!(report.failures().contains(check), "{flaw:?}: {report}");
+    }
+    let sound = suite(Flaw::Nothing);
+    for check in sound.checks.iter().skip(1) {
+        let covered = flaws.iter().any(|(_, name)| *name == check.name);
+        assert!(covered, "no flaw fails `{}`", check.name);
+    }
+}
+
+#[test]
+fn each_check_of_a_sensor_can_fail() {
+    each_flaw_fails_its_check(
+        |flaw| conformance::sensor(&ToyFactory::sensor(flaw), &Trial::default()),
+        &[
+            (Flaw::OtherFrame, "gives the frames it declares"),
+            (
+                Flaw::StampsStandStill,
+                "captures frames in the order of their stamps",
+            ),
+            (Flaw::Panics, "captures frames in the order of their stamps"),
+            (
+                Flaw::TakesAnyBuffer,
+                "refuses a buffer of another size or format, and goes on",
+            ),
+            (Flaw::IsSlow, "answers a deadline that has passed at once"),
+            (Flaw::StopsForGood, "starts and stops in any order"),
+            (
+                Flaw::StopsOnce,
+                "gives back what it held when it is dropped",
+            ),
+            (
+                Flaw::DiffersEachTime,
+                "gives the same frames to the same arguments",
+            ),
+            (Flaw::HidesLight, "sets the light it declares, and no other"),
+            (
+                Flaw::DeclaresNoLight,
+                "sets the light it declares, and no other",
+            ),
+            (
+                Flaw::TakesAnyScene,
+                "sets the light it declares, and no other",
+            ),
+        ],
+    );
+}
+
+#[test]
+fn each_check_of_a_force_transducer_can_fail() {
+    const RANGE: &str = "gives finite numbers within its range, and 0 where it measures nothing";
+    each_flaw_fails_its_check(
+        |flaw| conformance::force(&ToyFactory::force(flaw), &Trial::default()),
+        &[
+            (Flaw::OtherAxes, "measures the components it declares"),
+            (
+                Flaw::StampsStandStill,
+                "gives readings in the order of their stamps",
+            ),
+            (Flaw::Overflows, RANGE),
+            (Flaw::FillsUnmeasured, RANGE),
+            (Flaw::IsSlow, "answers a deadline that has passed at once"),
+            (Flaw::StopsForGood, "starts and stops in any order"),
+            (
+                Flaw::StopsOnce,
+                "gives back what it held when it is dropped",
+            ),
+            (
+                Flaw::DiffersEachTime,
+                "gives the same readings to the same arguments",
+            ),
+            (
+                Flaw::CannotTare,
+                "calls the load zero if it declares that it can",
+            ),
+        ],
+    );
+}
+
+#[test]
+fn each_check_of_a_robot_can_fail() {
+    each_flaw_fails_its_check(
+        |flaw| conformance::robot(&ToyFactory::robot(flaw), &Trial::default()),
+        &[
+            (
+                Flaw::Creeps,
+                "stands in its workspace, and stays while nobody moves it",
+            ),
+            (Flaw::Overshoots, "arrives where it is sent, and comes back"),
+            (
+                Flaw::TakesNaN,
+                "refuses a pose that is not finite, and stays",
+            ),
+            (
+                Flaw::LeavesWorkspace,
+                "refuses a pose outside its workspace, and stays",
+            ),
+            (
+                Flaw::TakesAnySpeed,
+                "refuses a speed above its greatest, and stays",
+            ),
+            (
+                Flaw::IgnoresDeadline,
+                "gives up a motion it has no time for, and stands",
+            ),
+            (Flaw::ForgetsHalt, "latches a halt until it is cleared"),
+            (Flaw::IgnoresHandle, "stops at a halt from another thread"),
+            (Flaw::Panics, "stops at a halt from another thread"),
+            (
+                Flaw::HandleDies,
+                "leaves a halt handle that outlives it harmless",
+            ),
+            (
+                Flaw::TakesAnyGuard,
+                "guards its motion if it declares that it can",
+            ),
+        ],
+    );
+}
+
+#[test]
+fn each_check_of_a_lighting_can_fail() {
+    each_flaw_fails_its_check(
+        |flaw| conformance::lighting(&ToyFactory::lighting(flaw), &Trial::default()),
+        &[
+            (Flaw::HidesLight, "has the scenes it declares"),
+            (Flaw::TakesAnyScene, "sets each of its scenes, and no other"),
+            (Flaw::IsSlow, "answers a deadline that has passed at once"),
+        ],
+    );
+}
+
+/// The toy behind a link that fails.
+struct Failing {
+    toy: ToyFactory,
+    plan: FaultPlan,
+}
+
+impl Factory<dyn ForceTransducer> for Failing {
+    fn descriptor(&self) -> &Descriptor {
+        Factory::<dyn ForceTransducer>::descriptor(&self.toy)
+    }
+    fn open(&self, _: &Args, _: &mut Rig) -> Result<Box<dyn ForceTransducer>, DriverError> {
+        let toy: Box<dyn ForceTransducer> = open(&self.toy);
+        let pace = Box::new(VirtualPace::starting_at(0.0));
+        Ok(Box::new(FaultyForce::new(
+            toy,
+            KEY,
+            FULL_SCALE,
+            self.plan.clone(),
+            pace,
+        )))
+    }
+}
+
+#[test]
+fn a_device_that_answers_nan_or_saturates_or_stalls_is_caught() {
+    let cases = [
+        (FaultKind::NotANumber, "`Fz` is NaN, expected a number"),
+        (
+            FaultKind::Saturation,
+            "Fz is 10 N, expected an error at or beyond 10 N",
+        ),
+        (FaultKind::Silence, "no answer within 1s (timeout)"),
+        (FaultKind::StaleStamp, "a stamp of 0.1 s after one of 0.1 s"),
+    ];
+    for (kind, expected) in cases {
+        let failing = Failing {
+            toy: ToyFactory::force(Flaw::Nothing),
+            plan: FaultPlan::none().during(kind, 1..9),
+        };
+        let report = conformance::force(&failing, &Trial::default());
+        assert!(!report.passed(), "{kind}: {report}");
+        assert!(report.to_string().contains(expected), "{kind}: {report}");
+        assert!(failing.plan.log().count(kind) > 0, "{kind} never happened");
+    }
+}

@@ -1,0 +1,7 @@
+//! The drivers as a program meets them: by name, with arguments, and going wrong.
+
+mod conformance;
+mod fault;
+mod replay;
+mod support;
+mod toy;

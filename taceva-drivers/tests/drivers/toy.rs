@@ -1,0 +1,366 @@
+//! Devices in virtual time, right in everything but one flaw: to show that each check of the suites can fail.
+
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, AtomicU8, Ordering};
+use std::time::Duration;
+
+use taceva_core::{
+    Args, Axes, Deadline, Descriptor, DescriptorSpec, Device, DriverError, DriverKey, DriverSource,
+    ErrorKind, Factory, Facts, ForceFacts, ForceTransducer, FrameInfo, FrameMut, Guard,
+    GuardedMotion, GuardedStop, Halt, Hertz, Lighting, LightingFacts, Millimetre, Newton,
+    PixelFormat, Point, Pose, Rig, Robot, RobotFacts, Sensor, SensorFacts, Speed, Stamp, Tare,
+    Workspace, Wrench, check_pose,
+};
+
+pub(crate) const KEY: DriverKey = DriverKey::fixed("test/toy");
+
+/// What a toy does wrong.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Flaw {
+    Nothing,
+    Panics,
+    OtherFrame,
+    StampsStandStill,
+    TakesAnyBuffer,
+    IsSlow,
+    StopsForGood,
+    StopsOnce,
+    DiffersEachTime,
+    HidesLight,
+    DeclaresNoLight,
+    TakesAnyScene,
+    OtherAxes,
+    Overflows,
+    FillsUnmeasured,
+    CannotTare,
+    Creeps,
+    Overshoots,
+    TakesNaN,
+    LeavesWorkspace,
+    TakesAnySpeed,
+    IgnoresDeadline,
+    ForgetsHalt,
+    IgnoresHandle,
+    HandleDies,
+    TakesAnyGuard,
+}
+
+/// Opens a toy of any kind.
+pub(crate) struct ToyFactory {
+    descriptor: Descriptor,
+    flaw: Flaw,
+    opened: AtomicU8,
+    halted_for_good: Arc<AtomicBool>,
+}
+
+impl ToyFactory {
+    fn new(facts: Facts, flaw: Flaw) -> ToyFactory {
+        let spec = DescriptorSpec::new(KEY, "a toy", DriverSource::Simulated, facts);
+        ToyFactory {
+            descriptor: spec.check().expect("no contradiction"),
+            flaw,
+            opened: AtomicU8::new(0),
+            halted_for_good: Arc::default(),
+        }
+    }
+
+    pub(crate) fn sensor(flaw: Flaw) -> ToyFactory {
+        let scenes = match flaw {
+            Flaw::DeclaresNoLight => Vec::new(),
+            _ => scenes(),
+        };
+        let facts = SensorFacts {
+            frame: Some(FRAME),
+            rate: Some(Hertz(10.0)),
+            scenes,
+            ..SensorFacts::default()
+        };
+        ToyFactory::new(Facts::Sensor(Box::new(facts)), flaw)
+    }
+
+    pub(crate) fn force(flaw: Flaw) -> ToyFactory {
+        let facts = ForceFacts {
+            axes: Axes::FORCE,
+            force_max: Some(FULL_SCALE),
+            tare: true,
+            ..ForceFacts::default()
+        };
+        ToyFactory::new(Facts::Force(facts), flaw)
+    }
+
+    pub(crate) fn robot(flaw: Flaw) -> ToyFactory {
+        let corner = |side| Point {
+            x: Millimetre(side),
+            y: Millimetre(side),
+            z: Millimetre(side),
+        };
+        let facts = RobotFacts {
+            workspace: Some(Workspace {
+                least: corner(-20.0),
+                greatest: corner(20.0),
+            }),
+            speed_max: Some(Speed::try_new(10.0).expect("positive")),
+            repeatability: Some(Millimetre(0.0)),
+            guarded_motion: true,
+        };
+        ToyFactory::new(Facts::Robot(facts), flaw)
+    }
+
+    pub(crate) fn lighting(flaw: Flaw) -> ToyFactory {
+        let facts = LightingFacts { scenes: scenes() };
+        ToyFactory::new(Facts::Lighting(facts), flaw)
+    }
+}
+
+pub(crate) const FULL_SCALE: Newton = Newton(10.0);
+
+const FRAME: FrameInfo = FrameInfo {
+    width: 4,
+    height: 3,
+    format: PixelFormat::Gray8,
+};
+
+fn scenes() -> Vec<String> {
+    vec!["dark".to_owned(), "bright".to_owned()]
+}
+
+fn error(kind: ErrorKind, doing: &'static str) -> DriverError {
+    DriverError::new(kind, &KEY, doing)
+}
+
+/// A toy, before it is known as which kind of device.
+struct Toy {
+    flaw: Flaw,
+    shade: u8,
+    readings: f64,
+    stopped: bool,
+    pose: Pose,
+    halted: Arc<AtomicBool>,
+    scenes: Vec<String>,
+}
+
+macro_rules! opens {
+    ($($device:ty),*) => {$(
+        impl Factory<$device> for ToyFactory {
+            fn descriptor(&self) -> &Descriptor {
+                &self.descriptor
+            }
+            fn open(&self, _: &Args, _: &mut Rig) -> Result<Box<$device>, DriverError> {
+                let before = self.opened.fetch_add(1, Ordering::Relaxed);
+                if self.flaw == Flaw::StopsOnce && before > 0 {
+                    return Err(error(ErrorKind::Busy, "open"));
+                }
+                let differs = self.flaw == Flaw::DiffersEachTime;
+                let outlives = self.flaw == Flaw::HandleDies;
+                Ok(Box::new(Toy {
+                    flaw: self.flaw,
+                    shade: if differs { before } else { 0 },
+                    readings: 0.0,
+                    stopped: false,
+                    pose: Pose::default(),
+                    halted: if outlives { Arc::clone(&self.halted_for_good) } else { Arc::default() },
+                    scenes: scenes(),
+                }))
+            }
+        }
+    )*};
+}
+
+opens!(dyn Sensor, dyn ForceTransducer, dyn Robot, dyn Lighting);
+
+impl Toy {
+    fn stamp(&mut self) -> Stamp {
+        if self.flaw != Flaw::StampsStandStill {
+            self.readings += 0.1;
+        }
+        Stamp {
+            valid_s: self.readings,
+            received_s: None,
+        }
+    }
+
+    fn ready(&self, doing: &'static str, deadline: Deadline) -> Result<(), DriverError> {
+        assert!(self.flaw != Flaw::Panics, "the toy is broken");
+        if self.flaw == Flaw::IsSlow && deadline.has_passed() {
+            std::thread::sleep(Duration::from_millis(600));
+        }
+        if self.stopped && self.flaw == Flaw::StopsForGood {
+            return Err(error(ErrorKind::Disconnected, doing));
+        }
+        Ok(())
+    }
+}
+
+impl Sensor for Toy {
+    fn frame_info(&self) -> FrameInfo {
+        let width = FRAME.width + u32::from(self.flaw == Flaw::OtherFrame);
+        FrameInfo { width, ..FRAME }
+    }
+    fn capture(
+        &mut self,
+        mut into: FrameMut<'_>,
+        deadline: Deadline,
+    ) -> Result<Stamp, DriverError> {
+        self.ready("capture a frame", deadline)?;
+        if into.info() != self.frame_info() && self.flaw != Flaw::TakesAnyBuffer {
+            return Err(error(ErrorKind::InvalidArgument, "capture a frame"));
+        }
+        into.bytes_mut().fill(self.shade);
+        Ok(self.stamp())
+    }
+    fn stop(&mut self) -> Result<(), DriverError> {
+        self.stopped = true;
+        Ok(())
+    }
+    fn lighting(&mut self) -> Option<&mut dyn Lighting> {
+        (self.flaw != Flaw::HidesLight).then_some(self)
+    }
+}
+
+impl Lighting for Toy {
+    fn scenes(&self) -> &[String] {
+        let hidden = usize::from(self.flaw == Flaw::HidesLight);
+        &self.scenes[hidden..]
+    }
+    fn set(&mut self, scene: &str, deadline: Deadline) -> Result<(), DriverError> {
+        self.ready("set the light", deadline)?;
+        let known = self.scenes.iter().any(|known| known == scene);
+        if !known && self.flaw != Flaw::TakesAnyScene {
+            return Err(error(ErrorKind::InvalidArgument, "set the light"));
+        }
+        Ok(())
+    }
+}
+
+impl ForceTransducer for Toy {
+    fn axes(&self) -> Axes {
+        match self.flaw {
+            Flaw::OtherAxes => Axes::NORMAL,
+            _ => Axes::FORCE,
+        }
+    }
+    fn read(&mut self, deadline: Deadline) -> Result<(Wrench, Stamp), DriverError> {
+        self.ready("read the force", deadline)?;
+        let mut wrench = Wrench::default();
+        wrench.force[2] = match self.flaw {
+            Flaw::Overflows => FULL_SCALE,
+            _ => Newton(f64::from(self.shade) / 32.0),
+        };
+        if self.flaw == Flaw::FillsUnmeasured {
+            wrench.torque[0].0 = 0.5;
+        }
+        Ok((wrench, self.stamp()))
+    }
+    fn stop(&mut self) -> Result<(), DriverError> {
+        self.stopped = true;
+        Ok(())
+    }
+    fn tare(&mut self) -> Option<&mut dyn Tare> {
+        (self.flaw != Flaw::CannotTare).then_some(self)
+    }
+}
+
+impl Tare for Toy {
+    fn zero(&mut self, _: Deadline) -> Result<(), DriverError> {
+        Ok(())
+    }
+}
+
+/// Halts a toy.
+struct Latch {
+    halted: Arc<AtomicBool>,
+    flaw: Flaw,
+}
+
+impl Halt for Latch {
+    fn halt(&self) -> Result<(), DriverError> {
+        assert!(self.flaw != Flaw::Panics, "the toy is broken");
+        if self.flaw != Flaw::IgnoresHandle {
+            self.halted.store(true, Ordering::Release);
+        }
+        Ok(())
+    }
+}
+
+impl Robot for Toy {
+    fn pose(&mut self, deadline: Deadline) -> Result<(Pose, Stamp), DriverError> {
+        self.ready("say where it stands", deadline)?;
+        if self.flaw == Flaw::Creeps {
+            self.pose.position.x.0 += 0.01;
+        }
+        Ok((self.pose, self.stamp()))
+    }
+    fn move_to(
+        &mut self,
+        target: Pose,
+        speed: Speed,
+        deadline: Deadline,
+    ) -> Result<Stamp, DriverError> {
+        const DOING: &str = "move";
+        self.ready(DOING, deadline)?;
+        let flaw = self.flaw;
+        if check_pose(&target).is_err() && flaw != Flaw::TakesNaN {
+            return Err(error(ErrorKind::InvalidArgument, DOING));
+        }
+        let side = target.position.x.0.abs().max(target.position.y.0.abs());
+        let too_far = side > 20.0 && flaw != Flaw::LeavesWorkspace;
+        let too_fast = speed.mm_per_s() > 10.0 && flaw != Flaw::TakesAnySpeed;
+        if too_far || too_fast {
+            return Err(error(ErrorKind::OutOfRange, DOING));
+        }
+        if self.halted.load(Ordering::Acquire) {
+            if flaw == Flaw::ForgetsHalt {
+                self.halted.store(false, Ordering::Release);
+            }
+            return Err(error(ErrorKind::Interrupted, DOING));
+        }
+        let way_mm = (target.position.z.0 - self.pose.position.z.0).abs();
+        let takes_s = way_mm / speed.mm_per_s();
+        let patience_s = deadline.remaining().as_secs_f64();
+        if takes_s > patience_s && flaw != Flaw::IgnoresDeadline {
+            return Err(error(ErrorKind::Timeout, DOING));
+        }
+        self.pose = target;
+        if flaw == Flaw::Overshoots {
+            self.pose.position.z.0 -= 0.01;
+        }
+        Ok(self.stamp())
+    }
+    fn halt_handle(&self) -> Arc<dyn Halt> {
+        Arc::new(Latch {
+            halted: Arc::clone(&self.halted),
+            flaw: self.flaw,
+        })
+    }
+    fn clear_halt(&mut self, _: Deadline) -> Result<(), DriverError> {
+        self.halted.store(false, Ordering::Release);
+        Ok(())
+    }
+    fn guarded_motion(&mut self) -> Option<&mut dyn GuardedMotion> {
+        Some(self)
+    }
+}
+
+impl GuardedMotion for Toy {
+    fn move_guarded(
+        &mut self,
+        target: Pose,
+        speed: Speed,
+        guard: Guard,
+        deadline: Deadline,
+    ) -> Result<GuardedStop, DriverError> {
+        let is_guard = guard.force.0 > 0.0;
+        if !is_guard && self.flaw != Flaw::TakesAnyGuard {
+            return Err(error(ErrorKind::InvalidArgument, "move guarded"));
+        }
+        let stamp = self.move_to(target, speed, deadline)?;
+        Ok(GuardedStop::Arrived { stamp })
+    }
+}
+
+/// Opens a toy without arguments.
+pub(crate) fn open<D: Device + ?Sized>(factory: &dyn Factory<D>) -> Box<D> {
+    factory
+        .open(&Args::default(), &mut Rig::new())
+        .expect("opens")
+}
