@@ -90,3 +90,19 @@ fn negative_zeros_add_up_to_zero() {
 fn a_nan_has_no_sum() {
     ExactSum::default().add(f64::NAN);
 }
+
+#[test]
+fn a_product_and_a_sum_of_it_are_the_same_number() {
+    for (left, right) in [(3.0, 5.0), (-0.5, 0.25), (1e150, -1e-150), (0.1, 1.0)] {
+        let mut products = ExactSum::default();
+        products.add_product(left, right);
+        products.add_product(left, -right);
+        assert_eq!(products, ExactSum::default());
+        products.add_product(left, right);
+        assert_eq!(
+            products.to_f64().to_bits(),
+            (left * right).to_bits(),
+            "{left:e} × {right:e}"
+        );
+    }
+}
