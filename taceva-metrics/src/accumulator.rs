@@ -1,18 +1,21 @@
 //! What takes samples in and gives scores out; metrics that are finished from the same sums share one.
 
 mod clustered;
+mod family;
 mod pairs;
 mod plane;
+mod resampling;
 
-pub(crate) use clustered::{Clustered, Family};
+pub(crate) use clustered::Clustered;
+pub(crate) use family::{Details, Family, Finished, Numbers, Output, each_row};
 pub(crate) use pairs::Pairs;
 pub(crate) use plane::Plane;
 
 use taceva_core::Batch;
 
 use crate::error::MetricError;
+use crate::evaluation::Entry;
 use crate::metric::Metric;
-use crate::score::Score;
 use crate::state::State;
 
 /// Keeps what the metrics of one family are finished from.
@@ -33,6 +36,6 @@ pub(crate) trait Accumulator: Send {
     /// Takes over what another one kept.
     fn merge(&mut self, state: &State) -> Result<(), MetricError>;
 
-    /// The scores of `metric` by channel or group; none if it is not finished from what is kept here.
-    fn scores(&self, metric: &'static Metric) -> Vec<(String, Score)>;
+    /// The scores of those of `metrics` that are finished from what is kept here, metric by metric.
+    fn scores(&self, metrics: &[&'static Metric]) -> Vec<Entry>;
 }

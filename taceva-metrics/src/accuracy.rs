@@ -34,7 +34,7 @@ const fn needs(least_samples: u64, channels: &'static [&'static str]) -> Needs {
     }
 }
 
-fn no_constants(_: Unit) -> Vec<Parameter> {
+pub(crate) fn no_constants(_: Unit) -> Vec<Parameter> {
     Vec::new()
 }
 

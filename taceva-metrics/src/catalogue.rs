@@ -3,9 +3,20 @@
 use crate::accuracy::{BIAS, MAE, MAE_EUCLID, R2, RMSE, SMAPE, SMAPE_GATED};
 use crate::error::UnknownMetric;
 use crate::metric::Metric;
+use crate::surface::{SENSITIVITY, UNIFORMITY};
 
 /// Every metric, in the order of reports.
-pub static ALL: [&Metric; 7] = [&MAE, &RMSE, &BIAS, &R2, &SMAPE, &SMAPE_GATED, &MAE_EUCLID];
+pub static ALL: [&Metric; 9] = [
+    &MAE,
+    &RMSE,
+    &BIAS,
+    &R2,
+    &SMAPE,
+    &SMAPE_GATED,
+    &MAE_EUCLID,
+    &SENSITIVITY,
+    &UNIFORMITY,
+];
 
 /// Names that stand for several metrics.
 pub static GROUPS: [(&str, &[&Metric]); 2] = [("accuracy", &[&MAE, &R2, &SMAPE]), ("all", &ALL)];

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use taceva_core::{Batch, Labels};
+use taceva_core::Labels;
 
 use crate::merge::Merge;
 
@@ -80,17 +80,18 @@ pub(crate) struct Clustering<T> {
 }
 
 impl<T: Merge + Clone> Clustering<T> {
-    /// Adds the rows of `batch`: `add` gets each cluster's summary with its rows, or with `None` for all.
+    /// Adds `rows` rows, clustered by `points`: `add` gets each cluster's summary with its rows, or with `None` for all.
     pub(crate) fn deposit(
         &self,
         clusters: &mut Clusters<T>,
-        batch: &Batch,
+        rows: usize,
+        points: Option<&Labels>,
         mut add: impl FnMut(&mut T, Option<&[u32]>),
     ) {
-        if batch.rows() == 0 {
+        if rows == 0 {
             return;
         }
-        let Some(points) = batch.points() else {
+        let Some(points) = points else {
             return add(self.pool(clusters), None);
         };
         if let Clusters::Named(cells) = clusters {

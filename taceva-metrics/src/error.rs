@@ -37,6 +37,15 @@ pub enum MetricError {
         /// Its value there.
         found: String,
     },
+    /// A constant with which no score is meant.
+    Setting {
+        /// Which one.
+        name: &'static str,
+        /// What would be accepted.
+        expected: String,
+        /// What was given.
+        found: String,
+    },
     /// A state whose parts are not those of its schema.
     Malformed {
         /// The schema.
@@ -67,6 +76,11 @@ impl fmt::Display for MetricError {
                 expected,
                 found,
             } => write!(f, "state with {name} `{found}`, expected `{expected}`"),
+            MetricError::Setting {
+                name,
+                expected,
+                found,
+            } => write!(f, "setting `{name}` is {found}, expected {expected}"),
             MetricError::Malformed { schema, what } => {
                 write!(f, "broken state of schema `{schema}`: {what}")
             }

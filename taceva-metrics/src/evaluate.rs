@@ -101,17 +101,15 @@ impl Evaluator {
     /// As [`update`](Evaluator::update), for samples still collected.
     pub fn finish(mut self) -> Result<Evaluation, MetricError> {
         self.flush()?;
-        let mut entries = Vec::new();
-        for metric in self.plan.kept() {
-            for accumulator in &self.accumulators {
-                let scores = accumulator.scores(metric);
-                entries.extend(scores.into_iter().map(|(channel, score)| Entry {
-                    metric,
-                    channel,
-                    score,
-                }));
-            }
-        }
+        let accumulators = self.accumulators.iter();
+        let entries = accumulators.flat_map(|accumulator| accumulator.scores(self.plan.kept()));
+        let mut entries: Vec<Entry> = entries.collect();
+        let rank = |entry: &Entry| {
+            let kept = self.plan.kept().iter();
+            kept.take_while(|metric| metric.id != entry.metric.id)
+                .count()
+        };
+        entries.sort_by_key(rank);
         Ok(Evaluation::new(entries, self.plan.skipped().to_vec()))
     }
 

@@ -1,11 +1,11 @@
 //! Joining what was kept apart.
 
-/// A summary whose parts can be joined and taken away again, exactly; what is merged twice counts twice.
+use std::collections::BTreeMap;
+
+/// A summary whose parts can be joined, exactly; what is merged twice counts twice.
 pub(crate) trait Merge {
     /// Takes over what `other` holds.
     fn merge(&mut self, other: &Self);
-    /// Takes away what `other` holds, which was merged before.
-    fn subtract(&mut self, other: &Self);
     /// Takes over what `other` holds, `times` over.
     fn merge_times(&mut self, other: &Self, times: u32) {
         (0..times).for_each(|_| self.merge(other));
@@ -18,10 +18,27 @@ impl<T: Merge> Merge for Vec<T> {
             part.merge(other);
         }
     }
+}
 
-    fn subtract(&mut self, other: &Vec<T>) {
+impl<T: Merge, const N: usize> Merge for [T; N] {
+    fn merge(&mut self, other: &[T; N]) {
         for (part, other) in self.iter_mut().zip(other) {
-            part.subtract(other);
+            part.merge(other);
+        }
+    }
+}
+
+/// Joins sums by key. A key without sums stays absent, so that equal sets have equal maps.
+pub(crate) fn merge_cells<K: Ord + Clone, T: Merge + Clone>(
+    ours: &mut BTreeMap<K, T>,
+    theirs: &BTreeMap<K, T>,
+) {
+    for (key, theirs) in theirs {
+        match ours.get_mut(key) {
+            Some(ours) => ours.merge(theirs),
+            None => {
+                ours.insert(key.clone(), theirs.clone());
+            }
         }
     }
 }

@@ -2,10 +2,12 @@
 
 use taceva_core::{Needs, Unit};
 
+use crate::facts::Fact;
 use crate::pair_sums::PairSums;
 use crate::plane_sums::PlaneSums;
 use crate::score::Parameter;
 use crate::streams::Streams;
+use crate::surface::SurfaceMetric;
 use crate::value::UndefinedReason;
 
 /// A way to say in one number how well predictions meet the truth.
@@ -28,6 +30,8 @@ pub struct Metric {
     pub documentation: &'static str,
     /// Without what there is no value.
     pub needs: Needs,
+    /// Which facts about the sensor there is no value without.
+    pub facts: &'static [Fact],
     pub(crate) constants: Constants,
     pub(crate) formula: Formula,
 }
@@ -50,6 +54,8 @@ pub enum Better {
 pub enum ScoreUnit {
     /// That of the channel.
     OfChannel,
+    /// Always this one.
+    Fixed(Unit),
     /// None: a ratio.
     One,
 }
@@ -59,6 +65,7 @@ impl ScoreUnit {
     pub fn of(self, channel: Unit) -> Unit {
         match self {
             ScoreUnit::OfChannel => channel,
+            ScoreUnit::Fixed(unit) => unit,
             ScoreUnit::One => Unit::One,
         }
     }
@@ -81,6 +88,8 @@ pub(crate) enum Formula {
     },
     /// From the distances in a plane of two channels.
     Plane(Finish<PlaneSums>),
+    /// From the compliance of the surface, by place.
+    Surface(SurfaceMetric),
 }
 
 /// From sums to a value.
@@ -88,17 +97,6 @@ pub(crate) enum Formula {
 pub(crate) struct Finish<S> {
     /// The samples that take part.
     pub(crate) count: fn(&S) -> u64,
-    /// The value; a number that is not finite counts as overflow.
+    /// The value.
     pub(crate) evaluate: fn(&S) -> Result<f64, UndefinedReason>,
-}
-
-impl<S> Finish<S> {
-    pub(crate) fn value(&self, sums: &S) -> Result<f64, UndefinedReason> {
-        let value = (self.evaluate)(sums)?;
-        if value.is_finite() {
-            Ok(value)
-        } else {
-            Err(UndefinedReason::Overflow)
-        }
-    }
 }

@@ -161,10 +161,6 @@ impl Merge for PairSums {
     fn merge(&mut self, other: &PairSums) {
         self.kept.merge(&other.kept);
     }
-
-    fn subtract(&mut self, other: &PairSums) {
-        self.kept.subtract(&other.kept);
-    }
 }
 
 /// The gate, if the terms behind it are summed.

@@ -77,8 +77,9 @@ impl<'a> Paired<&'a [f64]> {
     }
 }
 
+/// Whether a value is a number of a magnitude up to [`GREATEST`].
 #[inline]
-fn is_valid(value: f64) -> bool {
+pub(crate) fn is_valid(value: f64) -> bool {
     value.abs() <= GREATEST
 }
 

@@ -3,8 +3,12 @@
 use taceva_core::{Channels, Field, FieldSet, SkipReason, Skipped};
 
 use crate::accumulator::{Accumulator, Clustered, Family, Pairs, Plane};
+use crate::error::MetricError;
+use crate::facts::SensorFacts;
 use crate::metric::{Formula, Metric};
+use crate::settings::Settings;
 use crate::stats::IntervalMethod;
+use crate::surface::Surface;
 
 /// What an evaluation of given channels and fields will compute.
 ///
@@ -18,9 +22,13 @@ use crate::stats::IntervalMethod;
 /// ```
 #[derive(Clone, Debug)]
 pub struct MetricPlan {
+    wanted: Vec<&'static Metric>,
+    available: FieldSet,
+    channels: Channels,
+    facts: SensorFacts,
+    settings: Settings,
     kept: Vec<&'static Metric>,
     skipped: Vec<Skipped>,
-    channels: Channels,
     fields: FieldSet,
     seed: u64,
     interval_method: IntervalMethod,
@@ -29,31 +37,71 @@ pub struct MetricPlan {
 impl MetricPlan {
     /// Keeps of `wanted` what samples with these channels and fields allow, in the order of reports.
     pub fn new(wanted: &[&'static Metric], channels: Channels, available: FieldSet) -> MetricPlan {
-        let mut plan = MetricPlan {
+        let in_order = crate::catalogue::ALL.into_iter();
+        let wanted = in_order.filter(|metric| wanted.iter().any(|wanted| wanted.id == metric.id));
+        let plan = MetricPlan {
+            wanted: wanted.collect(),
+            available,
+            channels,
+            facts: SensorFacts::default(),
+            settings: Settings::default(),
             kept: Vec::new(),
             skipped: Vec::new(),
-            channels,
             fields: FieldSet::EMPTY,
             seed: 0,
             interval_method: IntervalMethod::default(),
         };
-        let in_order = crate::catalogue::ALL.into_iter();
-        for metric in in_order.filter(|metric| wanted.iter().any(|wanted| wanted.id == metric.id)) {
-            match plan.obstacle(metric, available) {
-                Some(reason) => plan.skipped.push(Skipped {
+        plan.decided()
+    }
+
+    /// The same plan for a sensor of which `facts` are known: what they allow is kept too.
+    ///
+    /// ```
+    /// use taceva_core::{Channel, Channels, FieldSet, Footprint};
+    /// use taceva_metrics::{MetricPlan, SensorFacts, catalogue};
+    /// let channels = Channels::new([Channel::PX, Channel::PY, Channel::PZ, Channel::FZ])?;
+    /// let plan = MetricPlan::new(&catalogue::select(["uniformity"])?, channels, FieldSet::PAIRS);
+    /// assert_eq!(plan.skipped()[0].reason.to_string(), "the sensor's `footprint` is not declared");
+    /// let footprint = Some(Footprint::disc(12.5, Some(1.0))?);
+    /// let plan = plan.with_facts(SensorFacts { footprint, ..SensorFacts::default() });
+    /// assert_eq!((plan.kept().len(), plan.skipped().len()), (1, 0));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub fn with_facts(self, facts: SensorFacts) -> MetricPlan {
+        MetricPlan { facts, ..self }.decided()
+    }
+
+    /// The same plan with other constants where a definition leaves one open.
+    ///
+    /// # Errors
+    /// [`MetricError::Setting`] for one with which no score is meant.
+    pub fn with_settings(self, settings: Settings) -> Result<MetricPlan, MetricError> {
+        settings.check()?;
+        Ok(MetricPlan { settings, ..self })
+    }
+
+    /// Decides what is kept and what is read.
+    fn decided(mut self) -> MetricPlan {
+        self.kept.clear();
+        self.skipped.clear();
+        self.fields = FieldSet::EMPTY;
+        for metric in self.wanted.clone() {
+            match self.obstacle(metric) {
+                Some(reason) => self.skipped.push(Skipped {
                     what: format!("metric:{}", metric.id),
                     reason,
                 }),
                 None => {
-                    plan.kept.push(metric);
-                    plan.fields = plan.fields | metric.needs.fields;
+                    self.kept.push(metric);
+                    self.fields = self.fields | metric.needs.fields;
                 }
             }
         }
-        if !plan.kept.is_empty() && available.contains(Field::Point) {
-            plan.fields = plan.fields.with(Field::Point);
+        if !self.kept.is_empty() && self.available.contains(Field::Point) {
+            self.fields = self.fields.with(Field::Point);
         }
-        plan
+        self
     }
 
     /// The same plan with another seed of the hash that deals contact locations into clusters.
@@ -111,13 +159,28 @@ impl MetricPlan {
         self.interval_method
     }
 
+    /// What is known of the sensor.
+    pub fn facts(&self) -> &SensorFacts {
+        &self.facts
+    }
+
+    /// The constants where a definition leaves one open.
+    pub fn settings(&self) -> &Settings {
+        &self.settings
+    }
+
+    /// Whether samples may carry `field`.
+    pub(crate) fn carries(&self, field: Field) -> bool {
+        self.available.contains(field)
+    }
+
     /// What keeps `metric` from having a value.
-    fn obstacle(&self, metric: &Metric, available: FieldSet) -> Option<SkipReason> {
+    fn obstacle(&self, metric: &Metric) -> Option<SkipReason> {
         let absent_field = metric
             .needs
             .fields
             .iter()
-            .find(|field| !available.contains(*field));
+            .find(|field| !self.available.contains(*field));
         if let Some(field) = absent_field {
             return Some(SkipReason::FieldAbsent(field));
         }
@@ -125,23 +188,25 @@ impl MetricPlan {
         let absent_channel = metric.needs.channels.iter().copied().find(absent);
         let absent_axis = || match metric.formula {
             Formula::Plane(_) => Plane::missing_axis(&self.channels),
-            Formula::Pairs { .. } => None,
+            _ => None,
         };
         absent_channel
             .or_else(absent_axis)
             .map(|name| SkipReason::ChannelAbsent(name.to_owned()))
+            .or_else(|| {
+                let facts = metric.facts.iter();
+                facts.filter_map(|fact| fact.obstacle(&self.facts)).next()
+            })
     }
 
     /// One accumulator for all metrics that share what is kept.
     pub(crate) fn accumulators(&self) -> Vec<Box<dyn Accumulator>> {
-        let mut accumulators: Vec<Box<dyn Accumulator>> = Vec::new();
-        if let Some(pairs) = Pairs::for_metrics(&self.kept, &self.channels) {
-            accumulators.push(self.clustered(pairs));
-        }
-        if let Some(plane) = Plane::for_metrics(&self.kept, &self.channels) {
-            accumulators.push(self.clustered(plane));
-        }
-        accumulators
+        let families = [
+            Pairs::for_metrics(&self.kept, &self.channels).map(|family| self.clustered(family)),
+            Plane::for_metrics(&self.kept, &self.channels).map(|family| self.clustered(family)),
+            Surface::for_plan(self).map(|family| self.clustered(family)),
+        ];
+        families.into_iter().flatten().collect()
     }
 
     fn clustered<F>(&self, family: F) -> Box<dyn Accumulator>
@@ -175,15 +240,26 @@ mod tests {
     fn samples_without_locations_are_evaluated_all_the_same() {
         let channels = Channels::new([Channel::FX, Channel::FY]).expect("two channels");
         let available = FieldSet::PAIRS.without(Field::Point);
-        let plan = MetricPlan::new(&catalogue::ALL, channels, available);
+        let wanted = catalogue::select(["accuracy", "mae_euclid"]).expect("known names");
+        let plan = MetricPlan::new(&wanted, channels, available);
         assert_eq!((plan.skipped(), plan.fields()), (&[][..], available));
         assert_eq!(plan.accumulators().len(), 2);
     }
 
     #[test]
+    fn metrics_of_the_truth_alone_need_no_predictions() {
+        let channels = Channels::new([Channel::PZ, Channel::FZ]).expect("two channels");
+        let truth = FieldSet::EMPTY.with(Field::Truth);
+        let plan = MetricPlan::new(&catalogue::ALL, channels, truth);
+        let kept: Vec<&str> = plan.kept().iter().map(|metric| metric.id).collect();
+        assert_eq!((kept, plan.fields()), (vec!["sensitivity"], truth));
+    }
+
+    #[test]
     fn half_a_plane_names_the_axis_it_lacks() {
         let channels = Channels::new([Channel::FX]).expect("one channel");
-        let plan = MetricPlan::new(&catalogue::ALL, channels, FieldSet::PAIRS);
+        let wanted = catalogue::select(["mae", "mae_euclid"]).expect("known names");
+        let plan = MetricPlan::new(&wanted, channels, FieldSet::PAIRS);
         assert_eq!(
             plan.skipped(),
             [Skipped {

@@ -45,12 +45,6 @@ impl Merge for PlaneSums {
         self.n_invalid = self.n_invalid.saturating_add(other.n_invalid);
         self.distance.merge(&other.distance);
     }
-
-    fn subtract(&mut self, other: &PlaneSums) {
-        self.n = self.n.saturating_sub(other.n);
-        self.n_invalid = self.n_invalid.saturating_sub(other.n_invalid);
-        self.distance.subtract(&other.distance);
-    }
 }
 
 /// e = RN(√RN(RN(x²) + RN(y²))), scaled by a power of two where a square would over- or underflow.

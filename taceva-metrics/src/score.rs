@@ -1,7 +1,10 @@
 //! One number of a report with all that is needed to trust and repeat it.
 
+use std::borrow::Cow;
+
 use taceva_core::Unit;
 
+use crate::flag::Flag;
 use crate::stats::BootstrapEnds;
 use crate::value::{UndefinedReason, Value};
 
@@ -26,8 +29,62 @@ pub struct Score {
     pub definition: &'static str,
     /// The constants of the definition.
     pub parameters: Vec<Parameter>,
+    /// What was counted on the way: samples outside the footprint, bins that have a value.
+    pub counts: Vec<Count>,
+    /// What a reader must know before trusting it.
+    pub flags: Vec<Flag>,
     /// The channels it is made of, if it is not one channel's own.
     pub of: Vec<String>,
+    /// What else the metric says there: other readings of its definition, maps and curves.
+    pub variants: Vec<Variant>,
+}
+
+impl Score {
+    /// The variant called `name`: `slope`, `map`.
+    pub fn variant(&self, name: &str) -> Option<&Variant> {
+        self.variants.iter().find(|variant| variant.name == name)
+    }
+
+    /// The number called `name` that was counted on the way.
+    pub fn count(&self, name: &str) -> Option<u64> {
+        let found = self.counts.iter().find(|count| count.name == name);
+        found.map(|count| count.value)
+    }
+}
+
+/// Another value of the same metric and channel, under a name of its own.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Variant {
+    /// What it is called, as a field of its metric: `slope`, `within`, `map`.
+    pub name: Cow<'static, str>,
+    /// The value, in `unit`.
+    pub value: Value,
+    /// The unit of value and interval.
+    pub unit: Unit,
+    /// Where the value would lie with other contact locations, at 95 %; `None` where the question makes no sense, as for maps.
+    pub interval: Option<Interval>,
+}
+
+impl Variant {
+    /// A map, a curve or another value without an interval.
+    pub(crate) fn plain(name: &'static str, unit: Unit, value: Value) -> Variant {
+        Variant {
+            name: Cow::Borrowed(name),
+            value,
+            unit,
+            interval: None,
+        }
+    }
+}
+
+/// A number of samples, bins or the like.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Count {
+    /// What was counted: `outside`, `bins_used`.
+    pub name: &'static str,
+    /// How many there are.
+    pub value: u64,
 }
 
 /// A constant of a definition.

@@ -1,15 +1,25 @@
-//! What a score can be: a number, or a reason why there is none.
+//! What a score can be: a number, many numbers in their places, or a reason why there is none.
 
 use std::fmt;
 
 use taceva_core::Unit;
 
+use crate::curve::Curve;
+use crate::map::Map;
+use crate::matrix::Matrix;
+
 /// A finished value.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Value {
     /// One finite number.
     Scalar(f64),
+    /// A number for each place of the sensing surface.
+    Map(Map),
+    /// A number for each level of another quantity.
+    Curve(Curve),
+    /// A number for each pair of names.
+    Matrix(Matrix),
     /// The samples determine no value.
     Undefined(UndefinedReason),
     /// The question does not arise for this channel or sensor.
@@ -53,6 +63,24 @@ pub enum UndefinedReason {
     },
     /// No truth is as large as the gate.
     BelowGate,
+    /// No sample lies on the declared surface.
+    OutsideFootprint,
+    /// No bin has as many samples as asked for.
+    NoBin {
+        /// How many were asked for.
+        least: u64,
+    },
+    /// Fewer bins than the formula needs.
+    TooFewBins {
+        /// How many there are.
+        have: u64,
+        /// What it needs.
+        least: u64,
+    },
+    /// No bin or cell has two samples, so that nobody knows what is chance.
+    NoRepeats,
+    /// The mean is zero, and nothing relates to it.
+    ZeroMean,
     /// The value is beyond the range of a binary64.
     Overflow,
     /// Too few contact locations for an interval.
@@ -78,6 +106,13 @@ impl fmt::Display for UndefinedReason {
             UndefinedReason::TooFew { least } => write!(f, "fewer than {least} samples"),
             UndefinedReason::ConstantTruth { .. } => f.write_str("constant truth"),
             UndefinedReason::BelowGate => f.write_str("no truth reaches the gate"),
+            UndefinedReason::OutsideFootprint => f.write_str("no sample on the footprint"),
+            UndefinedReason::NoBin { least } => write!(f, "no bin has {least} samples"),
+            UndefinedReason::TooFewBins { have, least } => {
+                write!(f, "{have} bins, {least} are needed")
+            }
+            UndefinedReason::NoRepeats => f.write_str("no bin has two samples"),
+            UndefinedReason::ZeroMean => f.write_str("the mean is zero"),
             UndefinedReason::Overflow => f.write_str("beyond the range of binary64"),
             UndefinedReason::TooFewClusters { have } => {
                 let least = crate::stats::jackknife::LEAST_CLUSTERS;
@@ -101,12 +136,15 @@ impl fmt::Display for UndefinedReason {
 pub enum InapplicableReason {
     /// Nobody has said from which magnitude on values of this unit count as contact.
     NoGate(Unit),
+    /// The samples carry no such channel.
+    ChannelAbsent(&'static str),
 }
 
 impl fmt::Display for InapplicableReason {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             InapplicableReason::NoGate(unit) => write!(f, "no gate is defined for {unit}"),
+            InapplicableReason::ChannelAbsent(name) => write!(f, "there is no channel `{name}`"),
         }
     }
 }

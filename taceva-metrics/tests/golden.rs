@@ -131,7 +131,10 @@ fn canonical(
 
 fn value(evaluation: &Evaluation, metric: &str) -> Value {
     let score = evaluation.score(metric, "Fz");
-    score.unwrap_or_else(|| panic!("no score {metric}")).value
+    score
+        .unwrap_or_else(|| panic!("no score {metric}"))
+        .value
+        .clone()
 }
 
 fn status_of(value: Value) -> &'static str {

@@ -65,7 +65,7 @@ proptest! {
         let evaluation = evaluate(&rows);
         for (metric, _, single) in evaluation.scores().filter(|(_, label, _)| *label == "Fx") {
             let plane = evaluation.score(metric.id, "Fxy").expect("a score of the plane");
-            prop_assert_eq!(plane.value, single.value);
+            prop_assert_eq!(&plane.value, &single.value);
             prop_assert_eq!(plane.n, single.n);
             prop_assert_eq!(&plane.of, &["Fx", "Fy"]);
             // Both axes have the same clusters with the same shares: the interval is the same too, bit for bit.
@@ -77,7 +77,7 @@ proptest! {
     fn an_interval_holds_its_value(rows in rows()) {
         for (_, _, score) in evaluate(&rows).scores() {
             if let (Value::Scalar(value), Interval::Jackknife { low, high, .. }) =
-                (score.value, score.interval)
+                (&score.value, &score.interval)
             {
                 prop_assert!(low <= value && value <= high);
             }

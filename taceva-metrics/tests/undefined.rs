@@ -7,7 +7,7 @@ use taceva_core::{Batch, Channel, Channels, Column, FieldSet, Unit};
 use taceva_metrics::{Evaluation, Evaluator, GREATEST, Interval, MetricPlan, Value, catalogue};
 
 fn said(evaluation: &Evaluation, metric: &str, channel: &str) -> String {
-    match evaluation.score(metric, channel).expect("a score").value {
+    match &evaluation.score(metric, channel).expect("a score").value {
         Value::Undefined(reason) => reason.to_string(),
         Value::NotApplicable(reason) => reason.to_string(),
         value => panic!("{metric} of {channel} is {value:?}"),

@@ -1,61 +1,19 @@
 //! The accumulator of any family of sums that are kept apart by contact location.
 
-use std::borrow::Borrow;
-use std::collections::BTreeMap;
-
-use taceva_core::{Batch, Channels, Unit};
+use taceva_core::{Batch, Channels};
 
 use super::Accumulator;
+use super::family::{Details, Family, Numbers, Output};
+use super::resampling::{Resampling, each_left_out};
 use crate::clusters::{Clustering, Clusters};
 use crate::error::MetricError;
-use crate::merge::Merge;
-use crate::metric::{Finish, Metric};
+use crate::evaluation::Entry;
+use crate::metric::Metric;
 use crate::plan::MetricPlan;
-use crate::score::{Interval, Score};
-use crate::state::{Record, Shape, State, describe, written};
+use crate::score::{Interval, Score, Variant};
+use crate::state::{Shape, State, describe, written};
 use crate::stats::IntervalMethod;
-use crate::stats::jackknife::{self, LeftOut};
-use crate::value::{InapplicableReason, UndefinedReason, Value};
-
-/// What is kept of a batch, and which scores come of it.
-pub(crate) trait Family: Send {
-    /// What is kept of one channel or plane.
-    type Sums: Merge + Clone + Send;
-    /// The name and version of its states.
-    const SCHEMA: &'static str;
-
-    /// What must agree before states merge.
-    fn parameters(&self) -> BTreeMap<String, String>;
-    /// Nothing kept, for each channel or plane.
-    fn empty(&self) -> Vec<Self::Sums>;
-    /// Adds `rows` of `batch`, all of them for `None`.
-    fn deposit(&mut self, sums: &mut [Self::Sums], batch: &Batch, rows: Option<&[u32]>);
-    /// Samples left out.
-    fn invalid(sums: &Self::Sums) -> u64;
-    /// As a state holds it.
-    fn to_record(&self, sums: &Self::Sums) -> Record;
-    /// Back from a state, for the channel or plane at `position`.
-    fn read_record(&self, position: usize, record: &Record) -> Result<Self::Sums, String>;
-    /// The scores to give.
-    fn outputs(&self) -> &[Output];
-    /// How `metric` is finished, if it belongs here.
-    fn finish(metric: &Metric) -> Option<&Finish<Self::Sums>>;
-    /// Why `metric` has no value in `unit`, if so.
-    fn inapplicable(metric: &Metric, unit: Unit) -> Option<InapplicableReason>;
-}
-
-/// One score of a metric: of a channel or plane, or the mean of two.
-#[derive(Clone, Debug)]
-pub(crate) struct Output {
-    /// What it is called in reports.
-    pub(crate) label: String,
-    /// The unit of its channels.
-    pub(crate) unit: Unit,
-    /// Its channels, if it is not one channel's own.
-    pub(crate) of: Vec<String>,
-    /// Which sums it is finished from; the value is the mean over them.
-    pub(crate) parts: Vec<usize>,
-}
+use crate::value::{UndefinedReason, Value};
 
 /// An accumulator of `F`, by contact location.
 pub(crate) struct Clustered<F: Family> {
@@ -91,81 +49,151 @@ impl<F: Family> Clustered<F> {
         }
     }
 
-    fn score(
-        &self,
-        metric: &'static Metric,
-        finish: &Finish<F::Sums>,
-        output: &Output,
-        total: &[F::Sums],
-    ) -> Score {
-        let parts = || output.parts.iter().map(|&part| &total[part]);
-        let value = match F::inapplicable(metric, output.unit) {
-            Some(reason) => Value::NotApplicable(reason),
-            None => mean_of_parts(finish, parts()).into(),
+    /// The numbers of an output: one part's, or the mean of two.
+    fn numbers(&self, metric: &Metric, output: &Output, sums: &[F::Sums]) -> Numbers {
+        let mut parts = output.parts.iter();
+        let mut next = || {
+            let part = parts.next()?;
+            Some(self.family.numbers(metric, output, &sums[*part]))
         };
-        Score {
-            value,
-            unit: metric.unit.of(output.unit),
-            n: parts().map(finish.count).min().unwrap_or_default(),
-            n_invalid: parts().map(F::invalid).max().unwrap_or_default(),
-            interval: match value {
-                Value::Scalar(value) => self.interval(value, finish, output, total),
-                Value::Undefined(reason) => Interval::Undefined(reason),
-                Value::NotApplicable(_) => Interval::Undefined(UndefinedReason::Empty),
-            },
-            definition: metric.definition,
-            parameters: (metric.constants)(output.unit),
-            of: output.of.clone(),
+        let first = next().unwrap_or_else(|| Numbers::of(Err(UndefinedReason::Empty)));
+        match next() {
+            Some(second) => first.mean(&second),
+            None => first,
         }
     }
 
-    fn interval(
-        &self,
-        value: f64,
-        finish: &Finish<F::Sums>,
-        output: &Output,
-        total: &[F::Sums],
-    ) -> Interval {
-        let Some(cells) = self.clusters.cells() else {
-            return Interval::Undefined(UndefinedReason::NoClusters);
-        };
-        let samples = |cell: &[F::Sums]| {
-            let counts = output.parts.iter().map(|&part| (finish.count)(&cell[part]));
-            counts.fold(0, u64::saturating_add)
-        };
-        let (keys, cells): (Vec<u64>, Vec<&Vec<F::Sums>>) = cells
-            .into_iter()
-            .filter(|(_, cell)| samples(cell) > 0)
-            .unzip();
+    /// Samples of a cluster that take part in an output.
+    fn samples(&self, metric: &Metric, output: &Output, sums: &[F::Sums]) -> u64 {
+        let parts = output.parts.iter();
+        let counts = parts.map(|&part| self.family.count(metric, &sums[part]));
+        counts.fold(0, u64::saturating_add)
+    }
+
+    /// Every score of `metrics`, without intervals.
+    fn requests(&self, metrics: &[&'static Metric], total: &[F::Sums]) -> Vec<Request> {
+        let mut requests = Vec::new();
+        for &metric in metrics {
+            for output in self.family.outputs(metric) {
+                let numbers = self.numbers(metric, &output, total);
+                requests.push(Request {
+                    resampling: Resampling::new(&numbers),
+                    metric,
+                    output,
+                    numbers,
+                });
+            }
+        }
+        requests
+    }
+
+    /// Finishes every score again with clusters left out or weighted.
+    fn resample(&self, requests: &mut [Request], cells: &[(u64, &Vec<F::Sums>)]) {
         match self.interval_method {
             IntervalMethod::Jackknife => {
-                let left_out = cells.iter().map(|cell| {
-                    let others = output.parts.iter().map(|&part| {
-                        let mut others = total[part].clone();
-                        others.subtract(&cell[part]);
-                        others
-                    });
-                    LeftOut {
-                        count: samples(cell),
-                        value: mean_of_parts(finish, others),
+                each_left_out(&self.clustering.empty, cells, |cell, others| {
+                    for request in &mut *requests {
+                        let count = self.samples(request.metric, &request.output, cell);
+                        if count > 0 {
+                            let numbers = self.numbers(request.metric, &request.output, others);
+                            request.resampling.leave_out(count, &numbers);
+                        }
                     }
                 });
-                jackknife::interval(value, &left_out.collect::<Vec<_>>())
             }
             IntervalMethod::PoissonBootstrap(bootstrap) => {
-                bootstrap.interval(value, &keys, |weights| {
-                    let resampled = output.parts.iter().map(|&part| {
-                        let mut sums = self.clustering.empty[part].clone();
-                        for (cell, &weight) in cells.iter().zip(weights) {
-                            sums.merge_times(&cell[part], weight);
-                        }
-                        sums
-                    });
-                    mean_of_parts(finish, resampled)
-                })
+                for request in requests {
+                    let (metric, output) = (request.metric, &request.output);
+                    let cells: Vec<(u64, &Vec<F::Sums>)> = cells
+                        .iter()
+                        .copied()
+                        .filter(|(_, cell)| self.samples(metric, output, cell) > 0)
+                        .collect();
+                    let finish = |sums: &[F::Sums]| self.numbers(metric, output, sums);
+                    let (empty, numbers) = (&self.clustering.empty, &request.numbers);
+                    let resampling = &mut request.resampling;
+                    resampling.weigh(bootstrap, empty, &cells, numbers, finish);
+                }
             }
         }
     }
+
+    fn score(
+        &self,
+        request: Request,
+        total: &[F::Sums],
+        cells: Option<&[(u64, &Vec<F::Sums>)]>,
+    ) -> Score {
+        let Request {
+            metric,
+            output,
+            numbers,
+            resampling,
+        } = request;
+        let parts: Vec<&F::Sums> = output.parts.iter().map(|&part| &total[part]).collect();
+        let (value, details) = match self.family.inapplicable(metric, &output) {
+            Some(reason) => (Value::NotApplicable(reason), Details::default()),
+            None => (
+                numbers.value.into(),
+                self.family.details(metric, &output, &parts),
+            ),
+        };
+        let own = match (self.interval_method, cells) {
+            (IntervalMethod::Jackknife, Some(cells)) => {
+                let cells: Vec<&Vec<F::Sums>> = cells.iter().map(|(_, cell)| *cell).collect();
+                self.family.intervals(metric, &output, &cells)
+            }
+            _ => None,
+        };
+        let interval = |value: &Value, name: Option<&str>| match value {
+            Value::Undefined(reason) => Interval::Undefined(*reason),
+            Value::Scalar(_) if cells.is_none() => Interval::Undefined(UndefinedReason::NoClusters),
+            Value::Scalar(value) => match (&own, name) {
+                (Some(own), None) => own.value,
+                (Some(own), Some(name)) if own.variants.contains_key(name) => own.variants[name],
+                _ => resampling.interval(*value, name),
+            },
+            _ => Interval::Undefined(UndefinedReason::Empty),
+        };
+        let n = parts.iter().map(|sums| self.family.count(metric, sums));
+        let n_invalid = parts.iter().map(|sums| self.family.invalid(sums));
+        let mut variants = Vec::new();
+        if !matches!(value, Value::NotApplicable(_)) {
+            variants.extend(numbers.variants.iter().map(|number| {
+                let value = number.value.into();
+                Variant {
+                    interval: Some(interval(&value, Some(&number.name))),
+                    name: number.name.clone(),
+                    unit: number.unit,
+                    value,
+                }
+            }));
+        }
+        variants.extend(details.variants);
+        let mut parameters = (metric.constants)(output.unit);
+        parameters.extend(details.parameters);
+        Score {
+            interval: interval(&value, None),
+            value,
+            unit: metric.unit.of(output.unit),
+            n: n.min().unwrap_or_default(),
+            n_invalid: n_invalid.max().unwrap_or_default(),
+            definition: metric.definition,
+            parameters,
+            counts: details.counts,
+            flags: details.flags,
+            of: output.of,
+            variants,
+        }
+    }
+}
+
+/// A score on its way.
+struct Request {
+    metric: &'static Metric,
+    output: Output,
+    numbers: Numbers,
+    resampling: Resampling,
 }
 
 impl<F: Family> Accumulator for Clustered<F> {
@@ -177,10 +205,13 @@ impl<F: Family> Accumulator for Clustered<F> {
             });
         }
         let family = &mut self.family;
-        self.clustering
-            .deposit(&mut self.clusters, batch, |sums, rows| {
-                family.deposit(sums, batch, rows);
-            });
+        let labels = family.clusters(batch);
+        self.clustering.deposit(
+            &mut self.clusters,
+            batch.rows(),
+            labels.as_deref(),
+            |sums, rows| family.deposit(sums, batch, rows),
+        );
         Ok(())
     }
 
@@ -231,52 +262,20 @@ impl<F: Family> Accumulator for Clustered<F> {
         Ok(())
     }
 
-    fn scores(&self, metric: &'static Metric) -> Vec<(String, Score)> {
-        let Some(finish) = F::finish(metric) else {
-            return Vec::new();
-        };
+    fn scores(&self, metrics: &[&'static Metric]) -> Vec<Entry> {
         let total = self.clustering.total(&self.clusters);
-        let outputs = self.family.outputs().iter();
-        outputs
-            .map(|output| {
-                let score = self.score(metric, finish, output, &total);
-                (output.label.clone(), score)
+        let mut requests = self.requests(metrics, &total);
+        let cells = self.clusters.cells();
+        if let Some(cells) = &cells {
+            self.resample(&mut requests, cells);
+        }
+        let requests = requests.into_iter();
+        requests
+            .map(|request| Entry {
+                metric: request.metric,
+                channel: request.output.label.clone(),
+                score: self.score(request, &total, cells.as_deref()),
             })
             .collect()
-    }
-}
-
-/// RN of the exact mean of one or two values.
-fn mean_of_parts<S>(
-    finish: &Finish<S>,
-    mut parts: impl Iterator<Item = impl Borrow<S>>,
-) -> Result<f64, UndefinedReason> {
-    let first = finish.value(parts.next().ok_or(UndefinedReason::Empty)?.borrow())?;
-    match parts.next() {
-        Some(second) => Ok(midpoint(first, finish.value(second.borrow())?)),
-        None => Ok(first),
-    }
-}
-
-/// RN((a + b) / 2): halving is exact unless the sum is tiny, and then the sum is; where the sum overflows, halves are exact.
-fn midpoint(left: f64, right: f64) -> f64 {
-    let sum = left + right;
-    if sum.is_finite() {
-        sum * 0.5
-    } else {
-        left * 0.5 + right * 0.5
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_mean_of_two_is_rounded_once_at_both_ends_of_the_range() {
-        let denormal = f64::from_bits;
-        assert_eq!(midpoint(denormal(1), denormal(2)).to_bits(), 2);
-        assert_eq!(midpoint(f64::MAX, f64::MAX).to_bits(), f64::MAX.to_bits());
-        assert_eq!(midpoint(1.0, 2.0).to_bits(), 1.5_f64.to_bits());
     }
 }

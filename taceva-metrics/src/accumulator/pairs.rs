@@ -4,16 +4,16 @@ use std::collections::BTreeMap;
 
 use taceva_core::{Batch, Channels, Column, Unit};
 
-use super::clustered::{Family, Output};
+use super::family::{Family, Numbers, Output};
 use super::plane::planes;
 use crate::accuracy::{EPSILON, gate};
 use crate::exact::{Counts, Sums};
-use crate::metric::{Finish, Formula, Metric};
+use crate::metric::{Formula, Metric};
 use crate::pair_sums::{PairSpec, PairSums};
 use crate::paired::Paired;
 use crate::state::Record;
 use crate::streams::{Stream, Streams};
-use crate::value::InapplicableReason;
+use crate::value::{InapplicableReason, UndefinedReason};
 
 /// Sums of the pairs of each channel.
 pub(crate) struct Pairs {
@@ -55,7 +55,7 @@ impl Pairs {
 }
 
 /// Each channel, then each plane as the mean of its axes.
-fn outputs(channels: &Channels) -> Vec<Output> {
+pub(crate) fn outputs(channels: &Channels) -> Vec<Output> {
     let single = channels
         .iter()
         .enumerate()
@@ -104,14 +104,11 @@ impl Family for Pairs {
         }
     }
 
-    fn invalid(sums: &PairSums) -> u64 {
-        sums.n_invalid()
-    }
-
     fn to_record(&self, sums: &PairSums) -> Record {
         let mut record = Record {
             counts: vec![sums.n(), sums.n_invalid()],
             sums: self.streams.iter().map(|stream| sums.sum(stream)).collect(),
+            ..Record::default()
         };
         if sums.gate().is_some() {
             record.counts.push(sums.n_gated());
@@ -125,6 +122,9 @@ impl Family for Pairs {
         let gated = usize::from(sums.gate().is_some());
         let expected = (2 + gated, self.streams.iter().count() + gated);
         let found = (record.counts.len(), record.sums.len());
+        if !record.values.is_empty() || !record.cells.is_empty() {
+            return Err("values or cells in a record that has none".to_owned());
+        }
         if found != expected {
             return Err(format!(
                 "{} counts and {} sums, expected {} and {}",
@@ -146,20 +146,34 @@ impl Family for Pairs {
         Ok(sums)
     }
 
-    fn outputs(&self) -> &[Output] {
-        &self.outputs
-    }
-
-    fn finish(metric: &Metric) -> Option<&Finish<PairSums>> {
-        match &metric.formula {
-            Formula::Pairs { finish, .. } => Some(finish),
-            Formula::Plane(_) => None,
+    fn outputs(&self, metric: &Metric) -> Vec<Output> {
+        match metric.formula {
+            Formula::Pairs { .. } => self.outputs.clone(),
+            _ => Vec::new(),
         }
     }
 
-    fn inapplicable(metric: &Metric, unit: Unit) -> Option<InapplicableReason> {
+    fn count(&self, metric: &Metric, sums: &PairSums) -> u64 {
+        match &metric.formula {
+            Formula::Pairs { finish, .. } => (finish.count)(sums),
+            _ => 0,
+        }
+    }
+
+    fn invalid(&self, sums: &PairSums) -> u64 {
+        sums.n_invalid()
+    }
+
+    fn numbers(&self, metric: &Metric, _output: &Output, sums: &PairSums) -> Numbers {
+        match &metric.formula {
+            Formula::Pairs { finish, .. } => Numbers::of((finish.evaluate)(sums)),
+            _ => Numbers::of(Err(UndefinedReason::Empty)),
+        }
+    }
+
+    fn inapplicable(&self, metric: &Metric, output: &Output) -> Option<InapplicableReason> {
         let gated = matches!(metric.formula, Formula::Pairs { gated: true, .. });
-        (gated && gate(unit).is_none()).then_some(InapplicableReason::NoGate(unit))
+        (gated && gate(output.unit).is_none()).then_some(InapplicableReason::NoGate(output.unit))
     }
 }
 

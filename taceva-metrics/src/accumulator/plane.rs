@@ -4,12 +4,12 @@ use std::collections::BTreeMap;
 
 use taceva_core::{Batch, Channels, Unit};
 
-use super::clustered::{Family, Output};
-use crate::metric::{Finish, Formula, Metric};
+use super::family::{Family, Numbers, Output, each_row};
+use crate::metric::{Formula, Metric};
 use crate::paired::Paired;
 use crate::plane_sums::PlaneSums;
 use crate::state::Record;
-use crate::value::InapplicableReason;
+use crate::value::UndefinedReason;
 
 /// Two channels that are the axes of a plane.
 #[derive(Clone, Debug)]
@@ -106,7 +106,7 @@ impl Family for Plane {
 
     fn deposit(&mut self, sums: &mut [PlaneSums], batch: &Batch, rows: Option<&[u32]>) {
         for (plane, sums) in self.planes.iter().zip(sums) {
-            let mut add = |row: usize| {
+            each_row(batch, rows, |row| {
                 let pair = |axis: usize| {
                     Some(Paired {
                         estimate: batch.prediction(axis).get(row)?,
@@ -116,52 +116,46 @@ impl Family for Plane {
                 if let (Some(x), Some(y)) = (pair(plane.axes[0]), pair(plane.axes[1])) {
                     sums.add(x, y);
                 }
-            };
-            match rows {
-                Some(rows) => rows.iter().for_each(|&row| add(row as usize)),
-                None => (0..batch.rows()).for_each(add),
-            }
+            });
         }
-    }
-
-    fn invalid(sums: &PlaneSums) -> u64 {
-        sums.n_invalid()
     }
 
     fn to_record(&self, sums: &PlaneSums) -> Record {
         Record {
             counts: vec![sums.n, sums.n_invalid],
             sums: vec![sums.distance.clone()],
+            ..Record::default()
         }
     }
 
     fn read_record(&self, _position: usize, record: &Record) -> Result<PlaneSums, String> {
-        match (&record.counts[..], &record.sums[..]) {
-            ([n, n_invalid], [distance]) => Ok(PlaneSums {
-                n: *n,
-                n_invalid: *n_invalid,
-                distance: distance.clone(),
-            }),
-            (counts, sums) => Err(format!(
-                "{} counts and {} sums, expected 2 and 1",
-                counts.len(),
-                sums.len()
-            )),
+        let ([n, n_invalid], [distance]) = record.exactly()?;
+        Ok(PlaneSums {
+            n: *n,
+            n_invalid: *n_invalid,
+            distance: distance.clone(),
+        })
+    }
+
+    fn outputs(&self, metric: &Metric) -> Vec<Output> {
+        match metric.formula {
+            Formula::Plane(_) => self.outputs.clone(),
+            _ => Vec::new(),
         }
     }
 
-    fn outputs(&self) -> &[Output] {
-        &self.outputs
+    fn count(&self, _metric: &Metric, sums: &PlaneSums) -> u64 {
+        sums.n()
     }
 
-    fn finish(metric: &Metric) -> Option<&Finish<PlaneSums>> {
+    fn invalid(&self, sums: &PlaneSums) -> u64 {
+        sums.n_invalid()
+    }
+
+    fn numbers(&self, metric: &Metric, _output: &Output, sums: &PlaneSums) -> Numbers {
         match &metric.formula {
-            Formula::Plane(finish) => Some(finish),
-            Formula::Pairs { .. } => None,
+            Formula::Plane(finish) => Numbers::of((finish.evaluate)(sums)),
+            _ => Numbers::of(Err(UndefinedReason::Empty)),
         }
-    }
-
-    fn inapplicable(_metric: &Metric, _unit: Unit) -> Option<InapplicableReason> {
-        None
     }
 }

@@ -15,6 +15,7 @@ pub(crate) static BIAS: Metric = Metric {
     reference: "mean of truth − prediction",
     documentation: "By how much the truth exceeds the predictions on average: what a constant correction would remove.",
     needs: needs(1, &[]),
+    facts: &[],
     constants: no_constants,
     formula: Formula::Pairs {
         streams: Streams::of(&[Stream::Residual]),

@@ -15,6 +15,7 @@ pub(crate) static MAE: Metric = Metric {
     reference: "TacEva, equation (1)",
     documentation: "How far predictions are from the truth on average, in the unit of the channel.",
     needs: needs(1, &[]),
+    facts: &[],
     constants: no_constants,
     formula: Formula::Pairs {
         streams: Streams::of(&[Stream::Absolute]),

@@ -16,6 +16,7 @@ pub(crate) static MAE_EUCLID: Metric = Metric {
     documentation: "How far the predicted point is from the true one on average; 1.57 times the mean absolute error of an \
                     axis if errors are Gaussian. Not the paper's xy value, which is the mean of the two axes' scores.",
     needs: needs(1, &[]),
+    facts: &[],
     constants: no_constants,
     formula: Formula::Plane(Finish {
         count: PlaneSums::n,

@@ -18,6 +18,7 @@ pub(crate) static R2: Metric = Metric {
                     saying the mean of the evaluated truth, and below 0 is worse. Never clipped; undefined where the truth \
                     does not vary.",
     needs: needs(2, &[]),
+    facts: &[],
     constants: no_constants,
     formula: Formula::Pairs {
         streams: Streams::of(&[Stream::Squared, Stream::Truth, Stream::TruthSquared]),

@@ -15,6 +15,7 @@ pub(crate) static RMSE: Metric = Metric {
     reference: "square root of the mean squared error",
     documentation: "Like the mean absolute error, but large errors weigh more; 1.25 times as large if errors are Gaussian.",
     needs: needs(1, &[]),
+    facts: &[],
     constants: no_constants,
     formula: Formula::Pairs {
         streams: Streams::of(&[Stream::Squared]),

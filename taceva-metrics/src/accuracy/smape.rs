@@ -21,6 +21,7 @@ pub(crate) static SMAPE: Metric = Metric {
                     multiplies by 100 where it writes %). ε is absolute, so that the value depends on the unit, which is \
                     fixed to mm and N. Channels of both signs saturate towards 2 near zero: see smape_gated.",
     needs: needs(1, &[]),
+    facts: &[],
     constants: epsilon,
     formula: Formula::Pairs {
         streams: Streams::of(&[Stream::Symmetric]),
@@ -41,6 +42,7 @@ pub(crate) static SMAPE_GATED: Metric = Metric {
     reference: "TacEva, equation (3), for |truth| ≥ 0.02 N or 0.02 mm",
     documentation: "Like smape, of those samples only whose truth reaches the gate; n says how many those are.",
     needs: needs(1, &[]),
+    facts: &[],
     constants: epsilon_and_gate,
     formula: Formula::Pairs {
         streams: Streams::of(&[Stream::Symmetric]),

@@ -1,10 +1,10 @@
 //! Scores as the keys `metrics` and `skipped` of a report.
 
 use serde::ser::{Serialize, SerializeMap, SerializeStruct, Serializer};
-use taceva_core::Skipped;
+use taceva_core::{Skipped, Unit};
 
 use super::{Entry, Evaluation};
-use crate::score::{Interval, Parameter, Score};
+use crate::score::{Interval, Score, Variant};
 use crate::value::Value;
 
 impl Serialize for Evaluation {
@@ -44,35 +44,98 @@ impl Serialize for ByChannel<'_> {
 impl Serialize for Score {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let mut score = serializer.serialize_map(None)?;
-        match &self.value {
-            Value::Scalar(value) => {
-                score.serialize_entry("value", value)?;
-                score.serialize_entry("unit", &self.unit)?;
-            }
-            Value::Undefined(reason) => {
-                score.serialize_entry("undefined", &reason.to_string())?;
-            }
-            Value::NotApplicable(reason) => {
-                score.serialize_entry("not_applicable", &reason.to_string())?;
-                return score.end();
-            }
+        serialize_value(&mut score, &self.value, self.unit)?;
+        if matches!(self.value, Value::NotApplicable(_)) {
+            return score.end();
         }
         if !self.of.is_empty() {
             score.serialize_entry("of", &self.of)?;
         }
         score.serialize_entry("n", &self.n)?;
         score.serialize_entry("n_invalid", &self.n_invalid)?;
-        if self.value.scalar().is_some() {
-            score.serialize_entry("ci95", &self.interval)?;
-            if let Some(method) = self.interval.method() {
-                score.serialize_entry("method", &method)?;
-            }
-        }
+        serialize_interval(&mut score, &self.value, Some(&self.interval))?;
         score.serialize_entry("definition", self.definition)?;
         if !self.parameters.is_empty() {
-            score.serialize_entry("parameters", &ByName(&self.parameters))?;
+            let parameters = self.parameters.iter();
+            let by_name = parameters.map(|parameter| (parameter.name, parameter.value));
+            score.serialize_entry("parameters", &Entries(by_name.collect()))?;
+        }
+        if !self.counts.is_empty() {
+            let by_name = self.counts.iter().map(|count| (count.name, count.value));
+            score.serialize_entry("counts", &Entries(by_name.collect()))?;
+        }
+        if !self.flags.is_empty() {
+            let flags: Vec<String> = self.flags.iter().map(ToString::to_string).collect();
+            score.serialize_entry("flags", &flags)?;
+        }
+        for variant in &self.variants {
+            score.serialize_entry(&variant.name, variant)?;
         }
         score.end()
+    }
+}
+
+impl Serialize for Variant {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut variant = serializer.serialize_map(None)?;
+        serialize_value(&mut variant, &self.value, self.unit)?;
+        serialize_interval(&mut variant, &self.value, self.interval.as_ref())?;
+        variant.end()
+    }
+}
+
+/// The keys that say what the value is, and its unit if there is one.
+fn serialize_value<M: SerializeMap>(
+    into: &mut M,
+    value: &Value,
+    unit: Unit,
+) -> Result<(), M::Error> {
+    match value {
+        Value::Scalar(value) => into.serialize_entry("value", value)?,
+        Value::Undefined(reason) => {
+            return into.serialize_entry("undefined", &reason.to_string());
+        }
+        Value::NotApplicable(reason) => {
+            return into.serialize_entry("not_applicable", &reason.to_string());
+        }
+        Value::Map(map) => {
+            into.serialize_entry("x_mm", &map.x_mm)?;
+            into.serialize_entry("y_mm", &map.y_mm)?;
+            into.serialize_entry("values", &map.values)?;
+            into.serialize_entry("counts", &map.counts)?;
+        }
+        Value::Curve(curve) => {
+            into.serialize_entry("x", &curve.x)?;
+            into.serialize_entry("x_unit", &curve.x_unit)?;
+            into.serialize_entry("values", &curve.values)?;
+            into.serialize_entry("counts", &curve.counts)?;
+            if let Some(band) = &curve.band {
+                into.serialize_entry("low", &band.low)?;
+                into.serialize_entry("high", &band.high)?;
+            }
+        }
+        Value::Matrix(matrix) => {
+            into.serialize_entry("rows", &matrix.rows)?;
+            into.serialize_entry("columns", &matrix.columns)?;
+            into.serialize_entry("values", &matrix.values)?;
+        }
+    }
+    into.serialize_entry("unit", &unit)
+}
+
+/// The interval of a number with the way it was found.
+fn serialize_interval<M: SerializeMap>(
+    into: &mut M,
+    value: &Value,
+    interval: Option<&Interval>,
+) -> Result<(), M::Error> {
+    let Some(interval) = interval.filter(|_| value.scalar().is_some()) else {
+        return Ok(());
+    };
+    into.serialize_entry("ci95", interval)?;
+    match interval.method() {
+        Some(method) => into.serialize_entry("method", &method),
+        None => Ok(()),
     }
 }
 
@@ -90,12 +153,12 @@ impl Serialize for Interval {
     }
 }
 
-struct ByName<'a>(&'a [Parameter]);
+/// Entries in their own order.
+struct Entries<T>(Vec<(&'static str, T)>);
 
-impl Serialize for ByName<'_> {
+impl<T: Serialize> Serialize for Entries<T> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let parameters = self.0.iter();
-        serializer.collect_map(parameters.map(|parameter| (parameter.name, parameter.value)))
+        serializer.collect_map(self.0.iter().map(|(name, value)| (name, value)))
     }
 }
 

@@ -2,6 +2,8 @@
 
 use std::fmt;
 
+use taceva_core::Unit;
+
 use super::{Entry, Evaluation};
 use crate::score::Interval;
 use crate::value::Value;
@@ -14,7 +16,7 @@ const SIGNIFICANT_DIGITS: i32 = 4;
 impl fmt::Display for Evaluation {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let rows: Vec<[String; 6]> = std::iter::once(HEADINGS.map(str::to_owned))
-            .chain(self.entries.iter().map(cells))
+            .chain(self.entries.iter().flat_map(rows))
             .collect();
         let widths: [usize; 6] = std::array::from_fn(|column| {
             let lengths = rows.iter().map(|row| row[column].chars().count());
@@ -34,33 +36,60 @@ impl fmt::Display for Evaluation {
     }
 }
 
-fn cells(entry: &Entry) -> [String; 6] {
+/// The score, then its variants that are one number.
+fn rows(entry: &Entry) -> Vec<[String; 6]> {
     let score = &entry.score;
-    let interval = match (&score.value, &score.interval) {
-        (Value::Scalar(_), Interval::Undefined(reason)) => format!("none: {reason}"),
-        (Value::Scalar(_), interval) => match interval.ends() {
-            Some(ends) => format!("[{}]", ends.map(significant).join(", ")),
-            None => String::new(),
-        },
-        _ => String::new(),
-    };
-    let value = match &score.value {
-        Value::Scalar(value) => significant(*value),
-        Value::Undefined(reason) => format!("undefined: {reason}"),
-        Value::NotApplicable(reason) => format!("not applicable: {reason}"),
-    };
+    let id = entry.metric.id;
     let n = match score.n_invalid {
         0 => score.n.to_string(),
         left_out => format!("{} ({left_out} invalid left out)", score.n),
     };
-    [
-        entry.metric.id.to_owned(),
-        entry.channel.clone(),
-        value,
-        interval,
-        score.unit.to_string(),
-        n,
-    ]
+    let row = |name: String, value: &Value, interval: Option<&Interval>, unit: Unit, n: String| {
+        [
+            name,
+            entry.channel.clone(),
+            said(value),
+            interval_said(value, interval),
+            unit.to_string(),
+            n,
+        ]
+    };
+    let interval = Some(&score.interval);
+    let mut rows = vec![row(id.to_owned(), &score.value, interval, score.unit, n)];
+    let variants = score.variants.iter();
+    let numbers = variants.filter(|variant| !is_many(&variant.value));
+    rows.extend(numbers.map(|variant| {
+        let name = format!("{id}.{}", variant.name);
+        let interval = variant.interval.as_ref();
+        row(name, &variant.value, interval, variant.unit, String::new())
+    }));
+    rows
+}
+
+fn is_many(value: &Value) -> bool {
+    matches!(value, Value::Map(_) | Value::Curve(_) | Value::Matrix(_))
+}
+
+fn said(value: &Value) -> String {
+    match value {
+        Value::Scalar(value) => significant(*value),
+        Value::Undefined(reason) => format!("undefined: {reason}"),
+        Value::NotApplicable(reason) => format!("not applicable: {reason}"),
+        Value::Map(_) => "a map".to_owned(),
+        Value::Curve(_) => "a curve".to_owned(),
+        Value::Matrix(_) => "a matrix".to_owned(),
+    }
+}
+
+fn interval_said(value: &Value, interval: Option<&Interval>) -> String {
+    match (value, interval) {
+        (Value::Scalar(_), Some(Interval::Undefined(reason))) => format!("none: {reason}"),
+        (Value::Scalar(_), Some(interval)) => match interval.ends() {
+            Some(ends) => format!("[{}]", ends.map(significant).join(", ")),
+            None => String::new(),
+        },
+        _ => String::new(),
+    }
 }
 
 /// `value` to four digits: plain where that is short, else with an exponent.

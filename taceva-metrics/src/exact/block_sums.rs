@@ -222,16 +222,6 @@ impl Merge for BlockSums {
             self.settled.take_over(pending, self.streams, self.gate);
         }
     }
-
-    fn subtract(&mut self, other: &BlockSums) {
-        self.counts.valid = self.counts.valid.saturating_sub(other.counts.valid);
-        self.counts.invalid = self.counts.invalid.saturating_sub(other.counts.invalid);
-        self.counts.gated = self.counts.gated.saturating_sub(other.counts.gated);
-        for stream in self.streams.iter() {
-            self.settled.streams[stream as usize].subtract(&other.sum(stream));
-        }
-        self.settled.gated.subtract(&other.gated_sum());
-    }
 }
 
 /// By value: what is pending in one may be settled in the other.

@@ -5,7 +5,7 @@ use std::ops::{Add, Mul, Neg, Sub};
 use super::canonical::Canonical;
 use super::integer::Natural;
 use super::round::round;
-use super::sum::UNIT_EXPONENT;
+use super::sum::{ExactSum, UNIT_EXPONENT};
 
 /// An integer times a power of two, exactly.
 #[derive(Clone, Debug)]
@@ -26,6 +26,11 @@ impl Dyadic {
             magnitude: Natural::from_limbs(canonical.digits().chunks(2).map(limb).collect()),
             exponent: 32 * first + UNIT_EXPONENT,
         }
+    }
+
+    /// A finite binary64, exactly.
+    pub(crate) fn from_f64(value: f64) -> Dyadic {
+        std::iter::once(value).collect::<ExactSum>().to_dyadic()
     }
 
     pub(crate) fn is_zero(&self) -> bool {
@@ -131,10 +136,9 @@ impl Mul for &Dyadic {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::exact::ExactSum;
 
     fn exact(value: f64) -> Dyadic {
-        [value].into_iter().collect::<ExactSum>().to_dyadic()
+        Dyadic::from_f64(value)
     }
 
     #[test]

@@ -1,0 +1,79 @@
+//! What is known of a sensor beside its samples.
+
+use taceva_core::{Footprint, Outline, SkipReason};
+
+/// Facts about a sensor that no sample carries; what nobody has declared is absent.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct SensorFacts {
+    /// Where it senses, and how deep it may be pressed.
+    pub footprint: Option<Footprint>,
+    /// Whether its gel keeps ambient light out.
+    pub opaque: Option<bool>,
+    /// The scene that other scenes are compared with.
+    pub reference_scene: String,
+    /// Width and height of its pictures in pixels.
+    pub frame_size: Option<[u32; 2]>,
+}
+
+impl SensorFacts {
+    /// The reference scene of protocols that name no other.
+    pub const REFERENCE_SCENE: &'static str = "normal";
+}
+
+impl Default for SensorFacts {
+    /// Nothing declared; the reference scene is [`REFERENCE_SCENE`](SensorFacts::REFERENCE_SCENE).
+    fn default() -> SensorFacts {
+        SensorFacts {
+            footprint: None,
+            opaque: None,
+            reference_scene: SensorFacts::REFERENCE_SCENE.to_owned(),
+            frame_size: None,
+        }
+    }
+}
+
+/// A fact without which a metric has no value.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum Fact {
+    /// Where the sensor senses.
+    Footprint,
+    /// How deep it may be pressed.
+    DepthMax,
+    /// That its gel is not known to be opaque.
+    NotOpaque,
+    /// The size of its pictures.
+    FrameSize,
+}
+
+impl Fact {
+    /// What keeps `facts` from having it.
+    pub(crate) fn obstacle(self, facts: &SensorFacts) -> Option<SkipReason> {
+        let footprint = facts.footprint.as_ref();
+        let (there, name) = match self {
+            Fact::Footprint => (footprint.is_some(), "footprint"),
+            Fact::DepthMax => (
+                footprint.is_some_and(|footprint| footprint.depth_max().is_some()),
+                "depth_max_mm",
+            ),
+            Fact::FrameSize => (facts.frame_size.is_some(), "frame_size"),
+            Fact::NotOpaque => {
+                return (facts.opaque == Some(true)).then_some(SkipReason::GelIsOpaque);
+            }
+        };
+        (!there).then_some(SkipReason::FactAbsent(name))
+    }
+}
+
+/// A footprint as the parameters of states write it, in whole nanometres.
+pub(crate) fn written(footprint: &Footprint) -> String {
+    let outline = match footprint.outline() {
+        Outline::Disc { radius } => format!("disc {}", radius.0),
+        Outline::Rectangle { half_x, half_y } => format!("rectangle {} {}", half_x.0, half_y.0),
+        other => format!("{other:?}"),
+    };
+    match footprint.depth_max() {
+        Some(depth) => format!("{outline} depth {}", depth.0),
+        None => outline,
+    }
+}

@@ -1,0 +1,30 @@
+//! What a reader must know before trusting a score.
+
+use std::fmt;
+
+/// A circumstance under which a defined score says less than it seems to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[non_exhaustive]
+pub enum Flag {
+    /// All samples lie in one bin, so that nothing can vary.
+    OneBin,
+    /// In some scene the light changed by less than 5 %: too little to learn from.
+    LowStimulus,
+    /// In some scene the error is smaller than in the reference scene, which the score counts like a larger one.
+    ImprovedError,
+}
+
+impl Flag {
+    /// Every flag.
+    pub const ALL: [Flag; 3] = [Flag::OneBin, Flag::LowStimulus, Flag::ImprovedError];
+}
+
+impl fmt::Display for Flag {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Flag::OneBin => "one bin",
+            Flag::LowStimulus => "low stimulus",
+            Flag::ImprovedError => "improved error",
+        })
+    }
+}

@@ -1,0 +1,120 @@
+//! What a user may choose about how scores are computed.
+
+use taceva_core::{Nanometre, Newton};
+
+use crate::error::MetricError;
+
+/// The constants of definitions that leave one open; the default is what the paper or its project page says.
+///
+/// Each is reported with the scores it enters, and states made with other ones do not merge.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Settings {
+    /// Cells along each side of a map of the surface: 20, at most 1,000.
+    pub bins: u32,
+    /// Samples that a bin needs to count: 1.
+    pub n_min: u64,
+    /// Normal force from which on there is contact: 0.02 N.
+    pub gate: Newton,
+    /// Bins that a rolling mean spans, an odd number: 5.
+    pub smoothing_window: u32,
+    /// Error of a grating's spacing up to which it counts as recognised: 0.05 mm.
+    pub resolution_tolerance: Nanometre,
+}
+
+impl Default for Settings {
+    fn default() -> Settings {
+        Settings {
+            bins: 20,
+            n_min: 1,
+            gate: Newton(0.02),
+            smoothing_window: 5,
+            resolution_tolerance: Nanometre(50_000),
+        }
+    }
+}
+
+impl Settings {
+    /// Cells along each side of a map beyond which it would be larger than what it shows.
+    pub const BINS_MAX: u32 = 1000;
+
+    /// Refuses constants with which no score is meant.
+    pub(crate) fn check(&self) -> Result<(), MetricError> {
+        let refuse = |name, found: String, expected: &str| MetricError::Setting {
+            name,
+            expected: expected.to_owned(),
+            found,
+        };
+        if !(1..=Settings::BINS_MAX).contains(&self.bins) {
+            return Err(refuse("bins", self.bins.to_string(), "1 to 1000"));
+        }
+        if self.n_min == 0 {
+            return Err(refuse("n_min", self.n_min.to_string(), "1 or more"));
+        }
+        if !(self.gate.0 > 0.0 && self.gate.0.is_finite()) {
+            return Err(refuse("gate", self.gate.0.to_string(), "a force above 0 N"));
+        }
+        if self.smoothing_window % 2 == 0 {
+            return Err(refuse(
+                "smoothing_window",
+                self.smoothing_window.to_string(),
+                "an odd number",
+            ));
+        }
+        if self.resolution_tolerance.0 < 0 {
+            return Err(refuse(
+                "resolution_tolerance",
+                self.resolution_tolerance.to_string(),
+                "0 mm or more",
+            ));
+        }
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn constants_that_mean_nothing_are_refused_by_name() {
+        let fine = Settings::default();
+        assert_eq!(fine.check(), Ok(()));
+        let refused = [
+            (Settings { bins: 0, ..fine }, "bins"),
+            (Settings { bins: 1001, ..fine }, "bins"),
+            (Settings { n_min: 0, ..fine }, "n_min"),
+            (
+                Settings {
+                    gate: Newton(0.0),
+                    ..fine
+                },
+                "gate",
+            ),
+            (
+                Settings {
+                    gate: Newton(f64::NAN),
+                    ..fine
+                },
+                "gate",
+            ),
+            (
+                Settings {
+                    smoothing_window: 4,
+                    ..fine
+                },
+                "smoothing_window",
+            ),
+            (
+                Settings {
+                    resolution_tolerance: Nanometre(-1),
+                    ..fine
+                },
+                "resolution_tolerance",
+            ),
+        ];
+        for (settings, name) in refused {
+            let error = settings.check().expect_err(name).to_string();
+            assert!(error.starts_with(&format!("setting `{name}`")), "{error}");
+        }
+    }
+}

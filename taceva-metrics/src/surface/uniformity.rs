@@ -1,0 +1,90 @@
+//! How alike the gel yields everywhere.
+
+use taceva_core::{Field, FieldSet, Needs, Unit};
+
+use super::sensitivity::contact;
+use super::sums::SurfaceSums;
+use super::{NORMAL_ONLY, SurfaceMetric};
+use crate::accumulator::{Finished, Numbers};
+use crate::exact::Dyadic;
+use crate::facts::Fact;
+use crate::metric::{Better, Formula, Metric, ScoreUnit};
+use crate::spread::Spread;
+use crate::value::UndefinedReason;
+
+pub(crate) static UNIFORMITY: Metric = Metric {
+    id: "uniformity",
+    title: "uniformity of sensitivity",
+    better: Better::Higher,
+    unit: ScoreUnit::One,
+    definition: "uniformity/1",
+    reference: "TacEva, equation (6)",
+    documentation: "How alike the gel yields everywhere: 1 / (1 + σ/|μ|) of the mean sensitivities of the cells of the \
+                    footprint; 1 is the same everywhere. Few samples a cell look like a surface that is not uniform: debiased \
+                    takes that part away, n_min_5 leaves out cells with fewer than five samples. normal_only leaves out what \
+                    has shear; mean and deviation are μ and σ.",
+    needs: Needs {
+        fields: FieldSet::EMPTY.with(Field::Truth),
+        channels: &["Px", "Py", "Pz", "Fz"],
+        least_samples: 1,
+    },
+    facts: &[Fact::Footprint],
+    constants: crate::accuracy::no_constants,
+    formula: Formula::Surface(SurfaceMetric::Uniformity),
+};
+
+/// Samples a cell from which on its mean is worth printing beside the paper's one.
+const WELL_SAMPLED: u64 = 5;
+
+/// U = RN(1 / (1 + σ/|μ|)) over the cells with at least `n_min` samples.
+pub(super) fn uniformity(sums: &SurfaceSums, n_min: u64) -> Numbers {
+    if let Err(reason) = contact(sums).and_then(|()| on_surface(sums)) {
+        return Numbers::of(Err(reason));
+    }
+    let spread = |kind: usize, n_min: u64| {
+        let cells = sums.cells.values().map(move |cell| &cell[kind]);
+        Spread::of(cells.filter(|cell| cell.n > 0), n_min)
+    };
+    let plain = |spread: &Spread| ratio(spread.mean()?, spread.deviation()?);
+    let all = spread(0, n_min);
+    let debiased = all.mean().and_then(|mean| ratio(mean, all.excess()?));
+    Numbers::of(plain(&all))
+        .with("debiased", Unit::One, debiased)
+        .with("n_min_5", Unit::One, plain(&spread(0, WELL_SAMPLED)))
+        .with(NORMAL_ONLY, Unit::One, plain(&spread(1, n_min)))
+        .with("mean", Unit::MillimetrePerNewton, all.mean())
+        .with("deviation", Unit::MillimetrePerNewton, all.deviation())
+}
+
+fn on_surface(sums: &SurfaceSums) -> Result<(), UndefinedReason> {
+    if sums.cells.is_empty() {
+        return Err(UndefinedReason::OutsideFootprint);
+    }
+    Ok(())
+}
+
+/// RN(|μ| / (|μ| + σ)), one rational of two binary64 numbers.
+fn ratio(mean: f64, deviation: f64) -> Finished {
+    if !deviation.is_finite() {
+        return Err(UndefinedReason::Overflow);
+    }
+    let mean = Dyadic::from_f64(mean.abs());
+    let total = &mean + &Dyadic::from_f64(deviation);
+    if total.is_zero() {
+        return Err(UndefinedReason::ZeroMean);
+    }
+    Ok(mean.over(&total))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_zero_mean_is_the_least_uniform_unless_nothing_varies() {
+        assert_eq!(ratio(0.0, 1.0), Ok(0.0));
+        assert_eq!(ratio(0.0, 0.0), Err(UndefinedReason::ZeroMean));
+        assert_eq!(ratio(-3.0, 0.0), Ok(1.0));
+        assert_eq!(ratio(1.0, 3.0), Ok(0.25));
+    }
+}
