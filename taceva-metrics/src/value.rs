@@ -138,6 +138,8 @@ pub enum InapplicableReason {
     NoGate(Unit),
     /// The samples carry no such channel.
     ChannelAbsent(&'static str),
+    /// The value is a map, a curve or a matrix, and the question is one of numbers.
+    NotOneNumber,
 }
 
 impl fmt::Display for InapplicableReason {
@@ -145,6 +147,7 @@ impl fmt::Display for InapplicableReason {
         match self {
             InapplicableReason::NoGate(unit) => write!(f, "no gate is defined for {unit}"),
             InapplicableReason::ChannelAbsent(name) => write!(f, "there is no channel `{name}`"),
+            InapplicableReason::NotOneNumber => f.write_str("not one number but many"),
         }
     }
 }

@@ -5,7 +5,7 @@ use super::error::ComparisonError;
 use super::jackknife::LEAST_CLUSTERS;
 use super::sides::{Side, Sides};
 use crate::score::{Interval, Score};
-use crate::value::Value;
+use crate::value::{InapplicableReason, Value};
 
 /// A score, how far it would move with other clusters, and how many there were to tell.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -60,6 +60,10 @@ impl Estimate {
             Value::Scalar(value) => value,
             Value::Undefined(reason) => return Err(ComparisonError::Undefined { side, reason }),
             Value::NotApplicable(reason) => {
+                return Err(ComparisonError::NotApplicable { side, reason });
+            }
+            Value::Map(_) | Value::Curve(_) | Value::Matrix(_) => {
+                let reason = InapplicableReason::NotOneNumber;
                 return Err(ComparisonError::NotApplicable { side, reason });
             }
         };
