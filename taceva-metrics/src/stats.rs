@@ -7,6 +7,7 @@ mod error;
 mod holm;
 pub(crate) mod jackknife;
 mod method;
+mod paired_clusters;
 mod poisson;
 mod random;
 mod sides;

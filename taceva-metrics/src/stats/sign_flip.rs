@@ -1,14 +1,13 @@
 //! Two models on the same samples: the paired sign-flip permutation test.
 
-use super::cluster_sums::{ClusterSum, ClusterSums};
-use super::difference::{Difference, DifferenceTest, Spread};
+use super::cluster_sums::ClusterSums;
+use super::difference::{Difference, DifferenceTest};
 use super::error::ComparisonError;
-use super::jackknife::{self, LEAST_CLUSTERS, LeftOut};
+use super::paired_clusters::PairedClusters;
 use super::random::bits;
-use super::sides::{Side, Sides};
+use super::sides::Sides;
 use super::signed_sums::SignedSums;
-use crate::exact::{Dyadic, ExactSum};
-use crate::value::UndefinedReason;
+use crate::exact::ExactSum;
 
 /// A test of whether two models are equally far from the truth, on the same samples.
 ///
@@ -36,7 +35,7 @@ use crate::value::UndefinedReason;
 /// ```
 ///
 /// # Reference
-/// Ernst, Permutation methods: a basis for exact inference, Statistical Science 19 (2004), 4.1; Phipson and Smyth,
+/// Ernst, Permutation methods: a basis for exact inference, Statistical Science 19 (2004); Phipson and Smyth,
 /// Permutation p-values should never be zero, Statistical Applications in Genetics and Molecular Biology 9 (2010).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct SignFlip {
@@ -64,9 +63,9 @@ impl SignFlip {
     /// samples, [`ComparisonError::TooFewClusters`] if there are fewer than five with samples,
     /// [`ComparisonError::NoInterval`] if a number is beyond the range of binary64.
     pub fn test(&self, sums: Sides<&ClusterSums>) -> Result<Difference, ComparisonError> {
-        let pairs = Pairs::of(sums)?;
+        let pairs = PairedClusters::of(sums)?;
         let spread = pairs.spread()?;
-        let (test, p) = self.p(&pairs.differences);
+        let (test, p) = self.p(pairs.differences());
         spread.tested(test, p)
     }
 
@@ -106,102 +105,6 @@ impl SignFlip {
 
 fn count(flips: impl Iterator<Item = u32>) -> f64 {
     flips.fold(0.0, |count, _| count + 1.0)
-}
-
-/// The clusters that have samples, side by side.
-struct Pairs {
-    counts: Vec<u64>,
-    differences: Vec<ExactSum>,
-    totals: Sides<ExactSum>,
-}
-
-impl Pairs {
-    fn of(sums: Sides<&ClusterSums>) -> Result<Pairs, ComparisonError> {
-        let sampled = |(_, cell): &(&str, &ClusterSum)| cell.n > 0;
-        let unpaired = |side, name: &str| ComparisonError::Unpaired {
-            side,
-            cluster: name.to_owned(),
-        };
-        let mut pairs = Pairs {
-            counts: Vec::new(),
-            differences: Vec::new(),
-            totals: Sides::default(),
-        };
-        for (name, a) in sums.a.iter().filter(sampled) {
-            let b = sums.b.get(name).filter(|b| b.n > 0);
-            let b = b.ok_or_else(|| unpaired(Side::A, name))?;
-            if a.n != b.n {
-                return Err(ComparisonError::Counts {
-                    cluster: name.to_owned(),
-                    samples: Sides { a: a.n, b: b.n },
-                });
-            }
-            let mut difference = a.sum.clone();
-            difference.subtract(&b.sum);
-            pairs.counts.push(a.n);
-            pairs.differences.push(difference);
-            pairs.totals.a.merge(&a.sum);
-            pairs.totals.b.merge(&b.sum);
-        }
-        for (name, _) in sums.b.iter().filter(sampled) {
-            if sums.a.get(name).is_none_or(|a| a.n == 0) {
-                return Err(unpaired(Side::B, name));
-            }
-        }
-        Ok(pairs)
-    }
-
-    fn spread(&self) -> Result<Spread, ComparisonError> {
-        let clusters = self.counts.len();
-        if clusters < LEAST_CLUSTERS {
-            return Err(ComparisonError::TooFewClusters { have: clusters });
-        }
-        let mean = |sum: &ExactSum, n: u64| {
-            if n == 0 {
-                return Err(UndefinedReason::Empty);
-            }
-            let mean = sum.to_dyadic().over(&Dyadic::from(n));
-            if mean.is_finite() {
-                Ok(mean)
-            } else {
-                Err(UndefinedReason::Overflow)
-            }
-        };
-        let samples = self
-            .counts
-            .iter()
-            .fold(0, |all: u64, &n| all.saturating_add(n));
-        let mut total = self.totals.a.clone();
-        total.subtract(&self.totals.b);
-        let left_out = self
-            .counts
-            .iter()
-            .zip(&self.differences)
-            .map(|(&count, difference)| {
-                let mut others = total.clone();
-                others.subtract(difference);
-                LeftOut {
-                    count,
-                    value: mean(&others, samples - count),
-                }
-            });
-        let value = mean(&total, samples).map_err(ComparisonError::NoInterval)?;
-        let scores = Sides {
-            a: &self.totals.a,
-            b: &self.totals.b,
-        }
-        .try_map(|side, sum| {
-            mean(sum, samples).map_err(|reason| ComparisonError::Undefined { side, reason })
-        })?;
-        let standard_error = jackknife::standard_error(value, &left_out.collect::<Vec<_>>())
-            .map_err(ComparisonError::NoInterval)?;
-        Ok(Spread {
-            value,
-            scores,
-            standard_error,
-            freedom: self.counts.iter().fold(-1.0, |freedom, _| freedom + 1.0),
-        })
-    }
 }
 
 #[cfg(test)]

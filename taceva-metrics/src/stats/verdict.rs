@@ -8,7 +8,9 @@ use super::difference::Difference;
 use super::error::ComparisonError;
 use super::sides::Side;
 use crate::metric::Better;
-use crate::score::COVERAGE;
+
+/// How seldom chance may look like an answer: what the intervals of 95 % leave.
+const LEVEL: f64 = 0.05;
 
 /// What is asked of a difference.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -85,7 +87,6 @@ impl Verdict {
         difference: Difference,
         question: Question,
     ) -> Result<Verdict, ComparisonError> {
-        const LEVEL: f64 = 1.0 - COVERAGE;
         let unit = question.unit;
         if let Some(margin) = question.margin {
             let p = difference.equivalence_p(margin)?;

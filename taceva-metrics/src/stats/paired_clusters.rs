@@ -1,0 +1,114 @@
+//! The same samples on both sides, cluster by cluster.
+
+use super::cluster_sums::{ClusterSum, ClusterSums};
+use super::difference::Spread;
+use super::error::ComparisonError;
+use super::jackknife::{self, LEAST_CLUSTERS, LeftOut};
+use super::sides::{Side, Sides};
+use crate::exact::{Dyadic, ExactSum};
+use crate::value::UndefinedReason;
+
+/// The clusters that have samples, side by side.
+pub(super) struct PairedClusters {
+    counts: Vec<u64>,
+    differences: Vec<ExactSum>,
+    totals: Sides<ExactSum>,
+}
+
+impl PairedClusters {
+    /// Both sides' clusters, which must be the same with as many samples each.
+    pub(super) fn of(sums: Sides<&ClusterSums>) -> Result<PairedClusters, ComparisonError> {
+        let sampled = |(_, cell): &(&str, &ClusterSum)| cell.n > 0;
+        let unpaired = |side, name: &str| ComparisonError::Unpaired {
+            side,
+            cluster: name.to_owned(),
+        };
+        let mut pairs = PairedClusters {
+            counts: Vec::new(),
+            differences: Vec::new(),
+            totals: Sides::default(),
+        };
+        for (name, a) in sums.a.iter().filter(sampled) {
+            let b = sums.b.get(name).filter(|b| b.n > 0);
+            let b = b.ok_or_else(|| unpaired(Side::A, name))?;
+            if a.n != b.n {
+                return Err(ComparisonError::Counts {
+                    cluster: name.to_owned(),
+                    samples: Sides { a: a.n, b: b.n },
+                });
+            }
+            let mut difference = a.sum.clone();
+            difference.subtract(&b.sum);
+            pairs.counts.push(a.n);
+            pairs.differences.push(difference);
+            pairs.totals.a.merge(&a.sum);
+            pairs.totals.b.merge(&b.sum);
+        }
+        for (name, _) in sums.b.iter().filter(sampled) {
+            if sums.a.get(name).is_none_or(|a| a.n == 0) {
+                return Err(unpaired(Side::B, name));
+            }
+        }
+        Ok(pairs)
+    }
+
+    /// Σ of A less Σ of B, of each cluster in the order of names.
+    pub(super) fn differences(&self) -> &[ExactSum] {
+        &self.differences
+    }
+
+    /// The difference of the means over all samples, and how far it would move with other clusters.
+    pub(super) fn spread(&self) -> Result<Spread, ComparisonError> {
+        let clusters = self.counts.len();
+        if clusters < LEAST_CLUSTERS {
+            return Err(ComparisonError::TooFewClusters { have: clusters });
+        }
+        let samples = self
+            .counts
+            .iter()
+            .fold(0, |all: u64, &n| all.saturating_add(n));
+        let mut total = self.totals.a.clone();
+        total.subtract(&self.totals.b);
+        let left_out = self
+            .counts
+            .iter()
+            .zip(&self.differences)
+            .map(|(&count, difference)| {
+                let mut others = total.clone();
+                others.subtract(difference);
+                LeftOut {
+                    count,
+                    value: mean(&others, samples - count),
+                }
+            });
+        let value = mean(&total, samples).map_err(ComparisonError::NoInterval)?;
+        let scores = Sides {
+            a: &self.totals.a,
+            b: &self.totals.b,
+        }
+        .try_map(|side, sum| {
+            mean(sum, samples).map_err(|reason| ComparisonError::Undefined { side, reason })
+        })?;
+        let standard_error = jackknife::standard_error(value, &left_out.collect::<Vec<_>>())
+            .map_err(ComparisonError::NoInterval)?;
+        Ok(Spread {
+            value,
+            scores,
+            standard_error,
+            freedom: self.counts.iter().fold(-1.0, |freedom, _| freedom + 1.0),
+        })
+    }
+}
+
+/// RN(sum / n).
+fn mean(sum: &ExactSum, n: u64) -> Result<f64, UndefinedReason> {
+    if n == 0 {
+        return Err(UndefinedReason::Empty);
+    }
+    let mean = sum.to_dyadic().over(&Dyadic::from(n));
+    if mean.is_finite() {
+        Ok(mean)
+    } else {
+        Err(UndefinedReason::Overflow)
+    }
+}
