@@ -129,6 +129,16 @@ impl MetricPlan {
         }
     }
 
+    /// The metrics that were asked for.
+    pub fn wanted(&self) -> &[&'static Metric] {
+        &self.wanted
+    }
+
+    /// What samples may carry.
+    pub fn available(&self) -> FieldSet {
+        self.available
+    }
+
     /// The metrics that are computed.
     pub fn kept(&self) -> &[&'static Metric] {
         &self.kept
