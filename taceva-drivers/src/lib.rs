@@ -2,14 +2,17 @@
 
 pub mod conformance;
 mod devices;
+pub mod doctor;
 mod drivers;
 pub mod fault;
 mod guard;
+mod name_order;
 mod pace;
 mod random;
 mod selector;
 mod sensor;
 mod source;
+mod text;
 
 pub use devices::{Devices, ListedArgument, ListedDevice, ListedDriver, devices};
 pub use drivers::{Drivers, OpenError, open};

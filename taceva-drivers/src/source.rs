@@ -4,7 +4,6 @@ mod decode;
 mod error;
 mod folder;
 mod limits;
-mod name_order;
 mod times;
 
 pub use error::SourceError;

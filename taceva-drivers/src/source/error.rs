@@ -5,6 +5,8 @@ use std::path::{Path, PathBuf};
 
 use taceva_core::{ErrorKind, FrameInfo};
 
+use crate::text;
+
 /// A recording, or one frame of it, that cannot be replayed.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
@@ -96,15 +98,8 @@ impl SourceError {
     }
 }
 
-/// A foreign path without control characters.
 fn shown(path: &Path) -> String {
-    path.to_string_lossy()
-        .chars()
-        .flat_map(|letter| match letter.is_control() {
-            true => letter.escape_default().collect::<Vec<_>>(),
-            false => vec![letter],
-        })
-        .collect()
+    text::shown(&path.to_string_lossy())
 }
 
 fn at(line: Option<u64>) -> String {

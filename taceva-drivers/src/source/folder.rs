@@ -9,7 +9,8 @@ use taceva_core::{FrameInfo, FrameMut, Hertz};
 
 use super::decode::{self, Mismatch};
 use super::error::SourceError;
-use super::{FrameSource, limits, name_order, times};
+use super::{FrameSource, limits, times};
+use crate::name_order;
 
 /// When the frames of a folder were true.
 #[derive(Clone, Debug, PartialEq)]

@@ -3,7 +3,7 @@
 use std::cmp::Ordering;
 
 /// Compares names part by part: runs of digits by their number, everything else byte by byte; names equal so far by their bytes.
-pub(super) fn compare(first: &str, second: &str) -> Ordering {
+pub(crate) fn compare(first: &str, second: &str) -> Ordering {
     let (mut left, mut right) = (first, second);
     while !left.is_empty() && !right.is_empty() {
         let (left_part, left_rest) = split(left);

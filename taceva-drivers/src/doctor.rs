@@ -1,0 +1,60 @@
+//! What of this machine a rig could use, what stands in the way, and what to do about it. Data; nothing is opened.
+//!
+//! Only permissions are read. A device that may be opened can still be held by another program, and opening a serial port to
+//! find out would reset what hangs on it.
+
+mod finding;
+mod machine;
+mod ports;
+mod usb;
+mod user;
+
+pub use finding::{Finding, State};
+pub use machine::Machine;
+
+use crate::devices::devices;
+use crate::drivers::Drivers;
+
+/// Looks at the drivers of the program and at `machine`; findings come in a fixed order.
+pub fn examine(drivers: &Drivers, machine: &Machine) -> Vec<Finding> {
+    let mut findings = of_drivers(drivers);
+    let user = machine.user();
+    if user.is_none() {
+        findings.push(Finding {
+            code: "user-unknown",
+            state: State::Problem,
+            subject: "permissions".to_owned(),
+            detail: "this system does not say who runs the program in /proc".to_owned(),
+            remedy: Some("check by hand that the devices may be opened".to_owned()),
+        });
+    }
+    for kind in ports::KINDS {
+        findings.extend(ports::examine(machine, user.as_ref(), kind));
+    }
+    findings.extend(usb::examine(machine));
+    findings
+}
+
+fn of_drivers(drivers: &Drivers) -> Vec<Finding> {
+    let listed = devices(drivers);
+    let keys: Vec<&str> = listed
+        .drivers
+        .iter()
+        .map(|driver| driver.key.as_str())
+        .collect();
+    let mut findings = vec![Finding {
+        code: "drivers",
+        state: State::Good,
+        subject: format!("{} drivers", keys.len()),
+        detail: keys.join(", "),
+        remedy: None,
+    }];
+    findings.extend(listed.failed.iter().map(|error| Finding {
+        code: "driver-failed",
+        state: State::Problem,
+        subject: error.driver().to_string(),
+        detail: error.to_string(),
+        remedy: None,
+    }));
+    findings
+}

@@ -1,0 +1,31 @@
+//! One thing that was looked at.
+
+use serde::Serialize;
+
+/// What is there, or missing, or in the way.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct Finding {
+    /// A name that stays the same from version to version.
+    pub code: &'static str,
+    /// How it is.
+    pub state: State,
+    /// What it is about: `/dev/video0`.
+    pub subject: String,
+    /// What was seen, with control characters written out.
+    pub detail: String,
+    /// What to do, where something can be done.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub remedy: Option<String>,
+}
+
+/// How a thing is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum State {
+    /// There, and usable.
+    Good,
+    /// Not there, which is fine unless it is needed.
+    Absent,
+    /// There, and not usable.
+    Problem,
+}

@@ -1,0 +1,60 @@
+//! The machine that is looked at: a tree of files laid out as Linux lays them out.
+
+use std::fs;
+use std::io::Read;
+use std::path::{Path, PathBuf};
+
+use super::user::User;
+use crate::name_order;
+
+/// Longest file that is read of a machine: its table of groups.
+const TEXT_BYTES: u64 = 1 << 20;
+
+/// A machine, as its files describe it.
+#[derive(Clone, Debug)]
+pub struct Machine {
+    root: PathBuf,
+}
+
+impl Machine {
+    /// This machine.
+    pub fn this() -> Machine {
+        Machine::at("/")
+    }
+
+    /// The machine whose root folder is `root`; for a mounted image, and for tests.
+    pub fn at(root: impl Into<PathBuf>) -> Machine {
+        Machine { root: root.into() }
+    }
+
+    /// Who runs the program, if the machine says so.
+    pub(super) fn user(&self) -> Option<User> {
+        let status = self.text("proc/self/status")?;
+        let passwords = self.text("etc/passwd").unwrap_or_default();
+        let groups = self.text("etc/group").unwrap_or_default();
+        User::parse(&status, &passwords, &groups)
+    }
+
+    /// The names in a folder, in their order; none if there is no such folder.
+    pub(super) fn names(&self, folder: &str) -> Vec<String> {
+        let entries = fs::read_dir(self.path(folder)).into_iter().flatten();
+        let mut names: Vec<String> = entries
+            .filter_map(|entry| entry.ok()?.file_name().into_string().ok())
+            .collect();
+        names.sort_by(|first, second| name_order::compare(first, second));
+        names
+    }
+
+    /// The text of a small file without the white space around it, if it can be read.
+    pub(super) fn text(&self, path: &str) -> Option<String> {
+        let mut bytes = Vec::new();
+        let file = fs::File::open(self.path(path)).ok()?;
+        file.take(TEXT_BYTES).read_to_end(&mut bytes).ok()?;
+        Some(String::from_utf8_lossy(&bytes).trim().to_owned())
+    }
+
+    /// Where `path`, which has no leading `/`, lies.
+    pub(super) fn path(&self, path: &str) -> PathBuf {
+        self.root.join(Path::new(path))
+    }
+}

@@ -1,0 +1,102 @@
+//! Cameras, serial ports and HID devices: present, and permitted or not.
+
+use std::fs;
+
+use super::finding::{Finding, State};
+use super::machine::Machine;
+use super::user::User;
+use crate::text::shown;
+
+/// A kind of device file.
+pub(super) struct PortKind {
+    /// The code of a good one; others add `-denied` and `-absent`.
+    codes: [&'static str; 3],
+    prefixes: &'static [&'static str],
+    /// Where the system keeps its name: the folder of its class and the file in the folder of the device.
+    name: Option<(&'static str, &'static str)>,
+    noun: &'static str,
+    if_absent: &'static str,
+}
+
+pub(super) const KINDS: &[PortKind] = &[
+    PortKind {
+        codes: ["camera", "camera-denied", "camera-absent"],
+        prefixes: &["video"],
+        name: Some(("sys/class/video4linux", "name")),
+        noun: "camera",
+        if_absent: "plug the sensor in; if it is, load the kernel's driver: sudo modprobe uvcvideo",
+    },
+    PortKind {
+        codes: ["serial", "serial-denied", "serial-absent"],
+        prefixes: &["ttyACM", "ttyUSB"],
+        name: None,
+        noun: "serial port",
+        if_absent: "plug the robot or force transducer in, if it is a serial one",
+    },
+    PortKind {
+        codes: ["hid", "hid-denied", "hid-absent"],
+        prefixes: &["hidraw"],
+        name: Some(("sys/class/hidraw", "device/uevent")),
+        noun: "HID device",
+        if_absent: "plug the gauge or scale in, if it is a HID one",
+    },
+];
+
+pub(super) fn examine(machine: &Machine, user: Option<&User>, kind: &PortKind) -> Vec<Finding> {
+    let [good, denied, absent] = kind.codes;
+    let names = machine.names("dev").into_iter();
+    let findings: Vec<Finding> = names
+        .filter(|name| kind.matches(name))
+        .map(|name| {
+            let path = format!("/dev/{name}");
+            let metadata = fs::metadata(machine.path(&path[1..])).ok();
+            let remedy = user
+                .zip(metadata)
+                .and_then(|(user, metadata)| user.remedy(&path, &metadata));
+            Finding {
+                code: if remedy.is_none() { good } else { denied },
+                state: if remedy.is_none() {
+                    State::Good
+                } else {
+                    State::Problem
+                },
+                detail: kind.title(machine, &name),
+                subject: path,
+                remedy,
+            }
+        })
+        .collect();
+    if !findings.is_empty() {
+        return findings;
+    }
+    vec![Finding {
+        code: absent,
+        state: State::Absent,
+        subject: format!("/dev/{}*", kind.prefixes.join("*, /dev/")),
+        detail: format!("no {}", kind.noun),
+        remedy: Some(kind.if_absent.to_owned()),
+    }]
+}
+
+impl PortKind {
+    fn matches(&self, name: &str) -> bool {
+        self.prefixes.iter().any(|prefix| {
+            name.strip_prefix(prefix).is_some_and(|number| {
+                !number.is_empty() && number.bytes().all(|byte| byte.is_ascii_digit())
+            })
+        })
+    }
+
+    fn title(&self, machine: &Machine, name: &str) -> String {
+        let text = self
+            .name
+            .and_then(|(class, file)| machine.text(&format!("{class}/{name}/{file}")))
+            .unwrap_or_default();
+        // A file of several lines names the device in one of them.
+        let title = text
+            .lines()
+            .find_map(|line| line.strip_prefix("HID_NAME="))
+            .or_else(|| text.lines().next().filter(|line| !line.contains('=')));
+        shown(title.unwrap_or(self.noun))
+    }
+}

@@ -1,0 +1,24 @@
+//! Foreign text in messages: it must not move a cursor or ring a bell.
+
+/// `text` with its control characters written out.
+pub(crate) fn shown(text: &str) -> String {
+    let mut shown = String::with_capacity(text.len());
+    for letter in text.chars() {
+        if letter.is_control() {
+            shown.extend(letter.escape_default());
+        } else {
+            shown.push(letter);
+        }
+    }
+    shown
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn control_characters_are_written_out_and_the_rest_is_kept() {
+        assert_eq!(shown("größe\u{1b}[2J\n"), "größe\\u{1b}[2J\\n");
+    }
+}

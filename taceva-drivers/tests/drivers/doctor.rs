@@ -1,0 +1,177 @@
+//! What a machine has and what is in the way is found from its files alone.
+
+use std::fs;
+use std::path::Path;
+
+use taceva_drivers::Drivers;
+use taceva_drivers::doctor::{Finding, Machine, State, examine};
+use tempfile::TempDir;
+
+/// A machine of files, each with its text.
+fn machine(files: &[(&str, &str)]) -> TempDir {
+    let root = tempfile::tempdir().expect("a folder");
+    for (path, text) in files {
+        let path = root.path().join(path);
+        fs::create_dir_all(path.parent().expect("in a folder")).expect("made");
+        fs::write(path, text).expect("written");
+    }
+    root
+}
+
+fn findings(root: &Path) -> Vec<Finding> {
+    let drivers = Drivers::builtin().expect("no contradiction");
+    examine(&drivers, &Machine::at(root))
+}
+
+fn codes(findings: &[Finding]) -> Vec<&str> {
+    findings.iter().map(|finding| finding.code).collect()
+}
+
+/// A user who owns none of the files that a test makes, and is in no group of theirs.
+const STRANGER: &str =
+    "Uid:\t987654 987654 987654 987654\nGid:\t987654 987654 987654 987654\nGroups:\t\n";
+
+#[test]
+fn a_bare_machine_has_drivers_and_says_what_is_absent() {
+    let root = machine(&[("proc/self/status", STRANGER)]);
+    let found = findings(root.path());
+    assert_eq!(
+        codes(&found),
+        ["drivers", "camera-absent", "serial-absent", "hid-absent"]
+    );
+    assert!(found[0].detail.contains("sensor/replay"));
+    assert!(
+        found[1..]
+            .iter()
+            .all(|finding| finding.state == State::Absent)
+    );
+    assert_eq!(found[2].subject, "/dev/ttyACM*, /dev/ttyUSB*");
+}
+
+#[cfg(unix)]
+fn permit(root: &Path, file: &str, mode: u32) {
+    use std::os::unix::fs::PermissionsExt;
+    fs::set_permissions(root.join(file), fs::Permissions::from_mode(mode)).expect("ours");
+}
+
+#[cfg(unix)]
+fn group_of(root: &Path) -> u32 {
+    use std::os::unix::fs::MetadataExt;
+    fs::metadata(root.join("dev/video0")).expect("there").gid()
+}
+
+#[cfg(unix)]
+#[test]
+fn a_camera_that_is_not_permitted_says_which_group_to_join() {
+    let root = machine(&[
+        ("proc/self/status", STRANGER),
+        ("dev/video0", ""),
+        ("dev/video10", ""),
+        ("dev/video2", ""),
+        ("dev/video-notes", ""),
+        (
+            "sys/class/video4linux/video0/name",
+            "DIGIT: DIGIT\u{1b}[2J\n",
+        ),
+    ]);
+    let root = root.path();
+    let group = group_of(root);
+    fs::create_dir(root.join("etc")).expect("made");
+    fs::write(root.join("etc/group"), format!("video:x:{group}:\n")).expect("written");
+    permit(root, "dev/video0", 0o660);
+    permit(root, "dev/video2", 0o600);
+    permit(root, "dev/video10", 0o666);
+    let found = findings(root);
+    let cameras: Vec<(&str, &str)> = found[1..4]
+        .iter()
+        .map(|finding| (finding.subject.as_str(), finding.code))
+        .collect();
+    assert_eq!(
+        cameras,
+        [
+            ("/dev/video0", "camera-denied"),
+            ("/dev/video2", "camera-denied"),
+            ("/dev/video10", "camera"),
+        ]
+    );
+    assert_eq!(found[1].detail, "DIGIT: DIGIT\\u{1b}[2J");
+    let remedy = |finding: &Finding| finding.remedy.clone().unwrap_or_default();
+    assert!(
+        remedy(&found[1]).starts_with("join the group `video`"),
+        "{}",
+        remedy(&found[1])
+    );
+    assert!(
+        remedy(&found[2]).starts_with("its mode is 600"),
+        "{}",
+        remedy(&found[2])
+    );
+
+    fs::write(root.join("etc/passwd"), "ann:x:987654:1::/:/bin/sh\n").expect("written");
+    fs::write(root.join("etc/group"), format!("video:x:{group}:bob,ann\n")).expect("written");
+    let found = findings(root);
+    assert!(
+        remedy(&found[1]).starts_with("log out and in again"),
+        "{}",
+        remedy(&found[1])
+    );
+
+    let member = STRANGER.replace("Groups:\t", &format!("Groups:\t5 {group}"));
+    fs::write(root.join("proc/self/status"), member).expect("written");
+    assert_eq!(findings(root)[1].code, "camera");
+    let root_user = STRANGER.replace("987654", "0");
+    fs::write(root.join("proc/self/status"), root_user).expect("written");
+    assert!(
+        findings(root)[1..4]
+            .iter()
+            .all(|finding| finding.state == State::Good)
+    );
+}
+
+#[test]
+fn a_known_sensor_on_the_usb_without_a_device_file_lacks_its_driver() {
+    let port = "sys/bus/usb/devices/1-2";
+    let files = |more: &'static str| {
+        vec![
+            ("proc/self/status".to_owned(), STRANGER),
+            (format!("{port}/idVendor"), "2833\n"),
+            (format!("{port}/idProduct"), "0209\n"),
+            (format!("{port}/serial"), "D20042\n"),
+            ("sys/bus/usb/devices/usb1/idVendor".to_owned(), "1d6b\n"),
+            (more.to_owned(), ""),
+        ]
+    };
+    let found = |more| {
+        let files = files(more);
+        let files: Vec<(&str, &str)> = files
+            .iter()
+            .map(|(path, text)| (path.as_str(), *text))
+            .collect();
+        findings(machine(&files).path())
+            .pop()
+            .expect("the USB comes last")
+    };
+    let without = found("dev/null");
+    assert_eq!(
+        (without.code, without.state),
+        ("usb-without-driver", State::Problem)
+    );
+    assert_eq!(without.detail, "DIGIT tactile sensor, serial number D20042");
+    assert!(without.remedy.expect("known").contains("modprobe uvcvideo"));
+    assert_eq!(found("dev/video3").code, "usb");
+}
+
+#[test]
+fn a_system_that_does_not_say_who_runs_the_program_is_reported() {
+    let root = machine(&[]);
+    assert_eq!(codes(&findings(root.path()))[1], "user-unknown");
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn this_machine_can_be_examined() {
+    let drivers = Drivers::builtin().expect("no contradiction");
+    let found = examine(&drivers, &Machine::this());
+    assert_eq!(found[0].code, "drivers");
+    assert!(!codes(&found).contains(&"user-unknown"), "{found:?}");
+}
