@@ -50,6 +50,10 @@ pub(crate) enum Command {
     Predict(Predict),
     /// Score someone else's predictions: no pictures, no model
     Score(Score),
+    /// Join what shards have kept; the scores equal those of one unsharded run, bit for bit
+    Merge(Merge),
+    /// Run time against error, with the Pareto front marked
+    Bench(Bench),
     /// Print a script that completes taceva's arguments in a shell
     Completions(Completions),
 }
@@ -138,6 +142,12 @@ pub(crate) struct Evaluate {
         default_value = "all"
     )]
     pub(crate) metrics: Vec<String>,
+    /// What is known of the sensor: footprint, greatest depth, opacity; metrics that need more than this has are skipped
+    #[arg(long, value_name = "SENSOR.toml")]
+    pub(crate) sensor: Option<PathBuf>,
+    /// Write what was kept, for `taceva merge`
+    #[arg(long, value_name = "STATE")]
+    pub(crate) state_out: Option<PathBuf>,
     /// Say what would be read, decoded, fitted and skipped, and stop
     #[arg(long)]
     pub(crate) explain: bool,
@@ -189,12 +199,64 @@ pub(crate) struct Score {
         default_value = "all"
     )]
     pub(crate) metrics: Vec<String>,
+    /// What is known of the sensor: footprint, greatest depth, opacity; metrics that need more than this has are skipped
+    #[arg(long, value_name = "SENSOR.toml")]
+    pub(crate) sensor: Option<PathBuf>,
+    /// Write what was kept, for `taceva merge`
+    #[arg(long, value_name = "STATE")]
+    pub(crate) state_out: Option<PathBuf>,
     /// Count NaN and infinite cells as n_invalid instead of refusing the file
     #[arg(long)]
     pub(crate) allow_invalid: bool,
     /// Say what would be read and computed, and stop
     #[arg(long)]
     pub(crate) explain: bool,
+    #[command(flatten)]
+    pub(crate) output: Output,
+}
+
+/// States are what `evaluate` and `score` write with --state-out. They must be of the same metrics, channels and settings.
+#[derive(Debug, Args)]
+pub(crate) struct Merge {
+    /// The states to join
+    #[arg(required = true, value_name = "STATE")]
+    pub(crate) states: Vec<PathBuf>,
+    /// Write the joined state, to be joined again
+    #[arg(long, value_name = "STATE")]
+    pub(crate) state_out: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) output: Output,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct Bench {
+    #[command(subcommand)]
+    pub(crate) subject: BenchSubject,
+}
+
+/// What to benchmark.
+#[derive(Debug, Subcommand)]
+pub(crate) enum BenchSubject {
+    /// The ways to sum: nanoseconds for each pair of values against digits that are right
+    Kernels(BenchKernels),
+}
+
+/// Naive, two-pass, pairwise, Kahan, Neumaier and Welford sums and ours on every instruction set, over inputs that tell them
+/// apart; beside them what reading the columns takes. TACEVA_ISA=avx512|avx2|portable forces the path of every other command.
+#[derive(Debug, Args)]
+pub(crate) struct BenchKernels {
+    /// Rows of each of the six channels
+    #[arg(long, value_name = "N", default_value_t = 1_000_000)]
+    pub(crate) rows: usize,
+    /// How often each candidate is timed
+    #[arg(long, value_name = "N", default_value_t = 15)]
+    pub(crate) rounds: usize,
+    /// The seed of columns and shuffles
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    pub(crate) seed: u64,
+    /// Draw time against digits as SVG
+    #[arg(long, value_name = "FILE.svg")]
+    pub(crate) svg: Option<PathBuf>,
     #[command(flatten)]
     pub(crate) output: Output,
 }

@@ -1,10 +1,12 @@
 //! One file a command: resolve what was typed, call, render.
 
+pub(crate) mod bench;
 pub(crate) mod check;
 pub(crate) mod completions;
 pub(crate) mod evaluate;
 pub(crate) mod fit;
 pub(crate) mod import;
+pub(crate) mod merge;
 pub(crate) mod predict;
 pub(crate) mod score;
 

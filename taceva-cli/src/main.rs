@@ -32,6 +32,8 @@ fn main() -> ExitCode {
         Command::Evaluate(args) => cmd::evaluate::run(args, &context),
         Command::Predict(args) => cmd::predict::run(args, &context),
         Command::Score(args) => cmd::score::run(args, &context),
+        Command::Merge(args) => cmd::merge::run(args, &context),
+        Command::Bench(args) => cmd::bench::run(args, &context),
         Command::Completions(args) => cmd::completions::run(args),
     };
     let code = done.unwrap_or_else(|error| {

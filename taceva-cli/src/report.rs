@@ -1,5 +1,7 @@
 //! How results look. Each file is one form: a pure function of a finished report.
 
+mod bench;
+mod chart;
 mod check;
 mod csv;
 mod grid;
@@ -11,6 +13,7 @@ mod text;
 
 use std::io::{self, Write};
 
+use taceva_study::bench::KernelBench;
 use taceva_study::{CheckReport, EvaluationReport};
 
 use crate::args::Format;
@@ -43,4 +46,24 @@ pub(crate) fn findings(
         Format::Md => check::markdown(report, out),
         Format::Tex => check::latex(report, out),
     }
+}
+
+/// Writes a race of kernels in the form asked for.
+pub(crate) fn kernel_bench(
+    bench: &KernelBench,
+    format: Format,
+    out: &mut dyn Write,
+) -> io::Result<()> {
+    match format {
+        Format::Text => bench::text(bench, out),
+        Format::Json => json::write(bench, out),
+        Format::Csv => bench::csv(bench, out),
+        Format::Md => bench::markdown(bench, out),
+        Format::Tex => bench::latex(bench, out),
+    }
+}
+
+/// Draws a race of kernels.
+pub(crate) fn kernel_chart(bench: &KernelBench, out: &mut dyn Write) -> io::Result<()> {
+    chart::write(bench, out)
 }

@@ -19,3 +19,4 @@ pub(crate) use isa::Machine;
 pub use isa::{Isa, IsaError};
 pub(crate) use rational::Dyadic;
 pub use sum::ExactSum;
+pub(crate) use vector::{Job, Vector};

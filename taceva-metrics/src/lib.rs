@@ -11,6 +11,7 @@ mod evaluation;
 mod exact;
 mod facts;
 mod flag;
+pub mod kernels;
 mod map;
 mod matrix;
 mod merge;

@@ -47,7 +47,7 @@ impl PairSums {
         Ok(PairSums::with_machine(spec, machine))
     }
 
-    fn with_machine(spec: PairSpec, machine: Machine) -> PairSums {
+    pub(crate) fn with_machine(spec: PairSpec, machine: Machine) -> PairSums {
         PairSums {
             spec,
             kept: BlockSums::new(machine, spec.streams, gate(spec)),

@@ -36,6 +36,16 @@ impl Paired<f64> {
     }
 }
 
+impl Paired<Vec<f64>> {
+    /// The columns, borrowed.
+    pub fn as_slices(&self) -> Paired<&[f64]> {
+        Paired {
+            estimate: &self.estimate,
+            reference: &self.reference,
+        }
+    }
+}
+
 impl<'a> Paired<&'a [f64]> {
     /// Two columns of one length.
     ///

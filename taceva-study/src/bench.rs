@@ -1,8 +1,10 @@
 //! Run time against error: what `taceva bench` measures, as data.
 
+mod kernels;
 mod machine;
 mod stopwatch;
 
+pub use kernels::{Floor, InputDigits, KernelBench, KernelRequest, KernelRow, kernels};
 pub use machine::Machine;
 pub use stopwatch::{Spread, Stopwatch};
 

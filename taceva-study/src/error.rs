@@ -49,6 +49,14 @@ pub enum StudyError {
         /// What does not fit, and what was expected.
         problem: String,
     },
+    /// A state file that cannot be read, or not be joined with the others.
+    #[error("{}: {problem}", path.display())]
+    State {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong with it, and what was expected.
+        problem: String,
+    },
     /// Something was asked for that the dataset or the model does not have.
     #[error("{0}")]
     Request(String),
@@ -60,7 +68,9 @@ impl StudyError {
         match self {
             StudyError::Dataset(error) => error.kind(),
             StudyError::Model(error) => error.kind(),
-            StudyError::Tables { .. } | StudyError::Scores(_) => ErrorKind::Protocol,
+            StudyError::Tables { .. } | StudyError::State { .. } | StudyError::Scores(_) => {
+                ErrorKind::Protocol
+            }
             _ => ErrorKind::InvalidArgument,
         }
     }

@@ -4,11 +4,12 @@ use std::collections::BTreeSet;
 use std::num::NonZeroUsize;
 
 use taceva_core::{Channels, Field, FieldSet, Progress, SkipReason, Skipped};
-use taceva_dataset::Dataset;
+use taceva_dataset::{Dataset, SensorFile};
 use taceva_metrics::{MetricPlan, catalogue};
 use taceva_models::{Model, SplitManifest};
 
 use crate::error::StudyError;
+use crate::facts;
 use crate::features::Work;
 use crate::fit::{FitPlan, FitRequest};
 use crate::plan::Plan;
@@ -16,6 +17,7 @@ use crate::predict::{self, Predicted, Target, reads_frames};
 use crate::provenance::{ModelProvenance, Provenance};
 use crate::report::EvaluationReport;
 use crate::rows::{Divided, Part};
+use crate::state_file::StateFile;
 use crate::subject::Subject;
 use crate::tally::{Columns, tally};
 
@@ -28,6 +30,8 @@ pub struct EvaluateRequest {
     pub metrics: Vec<String>,
     /// The part that is scored; what the model has not seen, if `None`.
     pub part: Option<Part>,
+    /// What is known of the sensor beyond the dataset's header.
+    pub sensor: Option<SensorFile>,
     /// Threads.
     pub jobs: NonZeroUsize,
 }
@@ -46,6 +50,8 @@ pub enum ModelChoice {
 pub struct Evaluated {
     /// The scores and where they come from.
     pub report: EvaluationReport,
+    /// What was kept, to be joined with that of other recordings.
+    pub state: StateFile,
     /// How the dataset was divided, if it was.
     pub manifest: Option<SplitManifest>,
 }
@@ -97,7 +103,7 @@ pub fn evaluate_plan(dataset: &Dataset, request: &EvaluateRequest) -> Result<Pla
             reason: SkipReason::NothingReadsIt,
         });
     }
-    let metrics = metrics(dataset, &channels, &request.metrics)?;
+    let metrics = metrics(dataset, &channels, request)?;
     let ids: Vec<&str> = metrics.kept().iter().map(|metric| metric.id).collect();
     plan.step("predict", format!("{count} samples"));
     plan.step("score", ids.join(", "));
@@ -131,26 +137,27 @@ pub fn evaluate(
                 reads_frames(model),
             )?;
             let predicted = predict::run(dataset, model, &target, work)?;
-            let mut report = score(dataset, request, model, &target, &predicted)?;
+            let mut scored = score(dataset, request, model, &target, &predicted)?;
+            let report = &mut scored.report;
             report.provenance.frames_decoded += fitted.frames_decoded;
             report
                 .provenance
                 .notes
                 .extend(left_out_note("training and validation", fitted.left_out));
             Ok(Evaluated {
-                report,
                 manifest: Some(fitted.manifest),
+                ..scored
             })
         }
         ModelChoice::Fitted(model) => {
             let target = Target::new(dataset, model, request.part)?;
             let predicted = predict::run(dataset, model, &target, work)?;
-            let report = score(dataset, request, model, &target, &predicted)?;
+            let scored = score(dataset, request, model, &target, &predicted)?;
             let manifest = target
                 .divided
                 .map(|divided| divided.manifest(dataset.table()))
                 .transpose()?;
-            Ok(Evaluated { report, manifest })
+            Ok(Evaluated { manifest, ..scored })
         }
     }
 }
@@ -158,11 +165,12 @@ pub fn evaluate(
 fn metrics(
     dataset: &Dataset,
     channels: &Channels,
-    wanted: &[String],
+    request: &EvaluateRequest,
 ) -> Result<MetricPlan, StudyError> {
-    let wanted = catalogue::select(wanted.iter().map(String::as_str))?;
+    let wanted = catalogue::select(request.metrics.iter().map(String::as_str))?;
     let available: FieldSet = dataset.table().fields().with(Field::Prediction);
-    Ok(MetricPlan::new(&wanted, channels.clone(), available))
+    let facts = facts::of_dataset(dataset, request.sensor.as_ref())?;
+    Ok(MetricPlan::new(&wanted, channels.clone(), available).with_facts(facts))
 }
 
 fn score(
@@ -171,8 +179,8 @@ fn score(
     model: &Model,
     target: &Target,
     predicted: &Predicted,
-) -> Result<EvaluationReport, StudyError> {
-    let plan = metrics(dataset, predicted.channels(), &request.metrics)?;
+) -> Result<Evaluated, StudyError> {
+    let plan = metrics(dataset, predicted.channels(), request)?;
     let points: Option<Vec<&str>> = predicted
         .points()
         .map(|points| points.iter().map(String::as_str).collect());
@@ -182,7 +190,7 @@ fn score(
         table: dataset.table(),
         rows: &target.rows,
     };
-    let evaluation = tally(&columns, &plan, request.jobs)?.finish()?;
+    let mut evaluator = tally(&columns, &plan, request.jobs)?;
     let divided = target.divided.as_ref();
     let note = divided.and_then(|divided| divided.split.note.clone());
     let provenance = Provenance {
@@ -201,11 +209,14 @@ fn score(
             .collect(),
         ..Provenance::default()
     };
-    Ok(EvaluationReport::new(
-        Subject::of(dataset),
-        evaluation,
-        provenance,
-    ))
+    let subject = Subject::of(dataset);
+    let state = StateFile::of(&mut evaluator, &subject, &provenance)?;
+    let evaluation = evaluator.finish()?;
+    Ok(Evaluated {
+        report: EvaluationReport::new(subject, evaluation, provenance),
+        state,
+        manifest: None,
+    })
 }
 
 fn divided_as(divided: &Divided) -> String {

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use taceva_models::{ChosenBy, Model};
 
 use crate::error::StudyError;
@@ -10,7 +10,8 @@ use crate::error::StudyError;
 /// From what, and how, a result was made.
 ///
 /// Nothing here depends on the machine, the time or the number of jobs: the same inputs give the same bytes.
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
 pub struct Provenance {
     /// The version of TacEva.
     pub taceva: String,
@@ -44,8 +45,48 @@ pub struct Provenance {
     pub notes: Vec<String>,
 }
 
+impl Provenance {
+    /// The provenance of both: what they share, with everything that was read for either.
+    pub(crate) fn joined(mut self, other: &Provenance) -> Provenance {
+        let same = |own: Option<String>, other: &Option<String>| {
+            own.filter(|own| other.as_ref() == Some(own))
+        };
+        self.dataset = same(self.dataset, &other.dataset);
+        self.split = same(self.split, &other.split);
+        self.part = same(self.part, &other.part);
+        self.seed = self.seed.filter(|seed| other.seed == Some(*seed));
+        self.model = self
+            .model
+            .filter(|model| other.model.as_ref() == Some(model));
+        for (role, digest) in &other.tables {
+            let mut name = role.clone();
+            let mut number = 2;
+            while self.tables.get(&name).is_some_and(|known| known != digest) {
+                name = format!("{role} {number}");
+                number += 1;
+            }
+            self.tables.insert(name, digest.clone());
+        }
+        for (part, count) in &other.samples {
+            *self.samples.entry(part.clone()).or_default() += count;
+        }
+        self.frames_decoded += other.frames_decoded;
+        for note in &other.notes {
+            if !self.notes.contains(note) {
+                self.notes.push(note.clone());
+            }
+        }
+        for plugin in &other.plugins {
+            if !self.plugins.contains(plugin) {
+                self.plugins.push(plugin.clone());
+            }
+        }
+        self
+    }
+}
+
 /// The model behind a result.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ModelProvenance {
     /// Its name: `ridge`.
     pub name: String,

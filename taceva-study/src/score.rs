@@ -9,13 +9,15 @@ use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
 use taceva_core::{Channel, Progress, Unit};
-use taceva_dataset::CsvTable;
-use taceva_metrics::{MetricPlan, catalogue};
+use taceva_dataset::{CsvTable, SensorFile};
+use taceva_metrics::{MetricPlan, SensorFacts, catalogue};
 
 use crate::error::StudyError;
+use crate::facts;
 use crate::plan::Plan;
 use crate::provenance::Provenance;
 use crate::report::EvaluationReport;
+use crate::state_file::StateFile;
 use crate::subject::Subject;
 use crate::tally;
 
@@ -32,12 +34,23 @@ pub struct ScoreRequest {
     pub prediction: PathBuf,
     /// Units of channels beside the six; those not named have the unit 1.
     pub units: Vec<(String, Unit)>,
+    /// What is known of the sensor: a file with footprint, greatest depth, opacity.
+    pub sensor: Option<PathBuf>,
     /// Metrics and groups by name.
     pub metrics: Vec<String>,
     /// Whether cells that are no finite number are counted instead of refused.
     pub allow_invalid: bool,
     /// Threads.
     pub jobs: NonZeroUsize,
+}
+
+/// Finished scores of two tables.
+#[derive(Debug)]
+pub struct Scored {
+    /// The scores and where they come from.
+    pub report: EvaluationReport,
+    /// What was kept, to be joined with that of other tables.
+    pub state: StateFile,
 }
 
 /// The two tables with what was understood of them.
@@ -48,6 +61,7 @@ pub struct Scoring {
     prediction: CsvTable,
     digests: BTreeMap<String, String>,
     metrics: MetricPlan,
+    sensor: SensorFile,
     places: Vec<Place>,
     pairing: Pairing,
 }
@@ -64,7 +78,14 @@ impl Scoring {
         let channels = tables::channels(&truth, &prediction, &request.units)?;
         let pairing = tables::pair(&truth, &prediction)?;
         let places = fields::places(&truth, &prediction)?;
-        let metrics = MetricPlan::new(&wanted, channels, fields::stated(&places));
+        let sensor = request
+            .sensor
+            .as_deref()
+            .map(SensorFile::read)
+            .transpose()?;
+        let sensor = sensor.unwrap_or_default();
+        let metrics = MetricPlan::new(&wanted, channels, fields::stated(&places))
+            .with_facts(facts::of_file(&sensor, SensorFacts::default()));
         Ok(Scoring {
             request,
             truth,
@@ -73,6 +94,7 @@ impl Scoring {
                 .map(|(role, digest)| (role.to_owned(), digest.to_string()))
                 .into(),
             metrics,
+            sensor,
             places,
             pairing,
         })
@@ -118,25 +140,27 @@ impl Scoring {
     ///
     /// # Errors
     /// [`StudyError`] at the first cell that is no finite number, unless they are allowed.
-    pub fn run(&self, progress: &dyn Progress) -> Result<EvaluationReport, StudyError> {
+    pub fn run(&self, progress: &dyn Progress) -> Result<Scored, StudyError> {
         progress.begin("score", Some(self.truth.rows() as u64));
-        let report = self.evaluate();
+        let scored = self.evaluate();
         progress.end();
-        report
+        scored
     }
 
-    fn evaluate(&self) -> Result<EvaluationReport, StudyError> {
+    fn evaluate(&self) -> Result<Scored, StudyError> {
         let rows = PairedRows::of(self)?;
-        let evaluation = tally::tally(&rows, &self.metrics, self.request.jobs)?.finish()?;
+        let mut evaluator = tally::tally(&rows, &self.metrics, self.request.jobs)?;
         let provenance = Provenance {
             taceva: env!("CARGO_PKG_VERSION").to_owned(),
             tables: self.digests.clone(),
             ..Provenance::default()
         };
-        Ok(EvaluationReport::new(
-            Subject::unknown(),
-            evaluation,
-            provenance,
-        ))
+        let subject = Subject::of_file(&self.sensor);
+        let state = StateFile::of(&mut evaluator, &subject, &provenance)?;
+        let evaluation = evaluator.finish()?;
+        Ok(Scored {
+            report: EvaluationReport::new(subject, evaluation, provenance),
+            state,
+        })
     }
 }

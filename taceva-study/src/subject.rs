@@ -1,10 +1,10 @@
 //! What was evaluated.
 
-use serde::Serialize;
-use taceva_dataset::{Dataset, Source};
+use serde::{Deserialize, Serialize};
+use taceva_dataset::{Dataset, SensorFile, Source};
 
 /// The sensor that a result is about, and whether its samples are real.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Subject {
     /// The sensor model.
     pub sensor: String,
@@ -33,14 +33,31 @@ impl Subject {
         }
     }
 
-    /// The subject of tables that say nothing about it.
-    pub fn unknown() -> Subject {
-        let unknown = || "unknown".to_owned();
+    /// The subject of tables of numbers, as far as a sensor file names it.
+    pub fn of_file(file: &SensorFile) -> Subject {
+        let stated = |text: &Option<String>| text.clone().unwrap_or_else(|| "unknown".to_owned());
         Subject {
-            sensor: unknown(),
-            serial: unknown(),
-            gel: unknown(),
-            source: unknown(),
+            sensor: stated(&file.model),
+            serial: stated(&file.serial),
+            gel: stated(&file.gel),
+            source: "unknown".to_owned(),
+        }
+    }
+
+    /// The subject of both: where they differ, `several`.
+    pub(crate) fn joined(&self, other: &Subject) -> Subject {
+        let join = |own: &String, other: &String| {
+            if own == other {
+                own.clone()
+            } else {
+                "several".to_owned()
+            }
+        };
+        Subject {
+            sensor: join(&self.sensor, &other.sensor),
+            serial: join(&self.serial, &other.serial),
+            gel: join(&self.gel, &other.gel),
+            source: join(&self.source, &other.source),
         }
     }
 }

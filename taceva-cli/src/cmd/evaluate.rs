@@ -1,5 +1,6 @@
 //! `taceva evaluate`.
 
+use taceva_dataset::SensorFile;
 use taceva_models::Model;
 use taceva_study::{EvaluateRequest, ModelChoice, Part, evaluate, evaluate_plan};
 
@@ -8,7 +9,8 @@ use crate::args::Evaluate;
 use crate::{exit, output, report};
 
 pub(crate) fn run(args: &Evaluate, context: &Context) -> anyhow::Result<u8> {
-    for path in args.output.path.iter().chain(&args.split_out) {
+    let files = args.output.path.iter().chain(&args.split_out);
+    for path in files.chain(&args.state_out) {
         output::check_free(path, args.output.force)?;
     }
     let model = match (&args.with, &args.model.name) {
@@ -37,6 +39,7 @@ pub(crate) fn run(args: &Evaluate, context: &Context) -> anyhow::Result<u8> {
         model,
         metrics: args.metrics.clone(),
         part: args.part.map(Part::from),
+        sensor: args.sensor.as_deref().map(SensorFile::read).transpose()?,
         jobs: context.jobs,
     };
     if args.explain {
@@ -49,6 +52,9 @@ pub(crate) fn run(args: &Evaluate, context: &Context) -> anyhow::Result<u8> {
     output::write(args.output.path.as_deref(), |out| {
         report::evaluation(&evaluated.report, args.output.format, out)
     })?;
+    if let Some(path) = &args.state_out {
+        output::write(Some(path), |out| evaluated.state.write(out))?;
+    }
     if let (Some(path), Some(manifest)) = (&args.split_out, &evaluated.manifest) {
         output::write(Some(path), |out| {
             serde_json::to_writer_pretty(&mut *out, manifest)?;

@@ -9,7 +9,7 @@ use crate::args::Score;
 use crate::{exit, output, report};
 
 pub(crate) fn run(args: &Score, context: &Context) -> anyhow::Result<u8> {
-    if let Some(path) = args.output.path.as_deref() {
+    for path in args.output.path.iter().chain(&args.state_out) {
         output::check_free(path, args.output.force)?;
     }
     let request = ScoreRequest {
@@ -20,6 +20,7 @@ pub(crate) fn run(args: &Score, context: &Context) -> anyhow::Result<u8> {
             .iter()
             .map(|word| unit(word))
             .collect::<anyhow::Result<_>>()?,
+        sensor: args.sensor.clone(),
         metrics: args.metrics.clone(),
         allow_invalid: args.allow_invalid,
         jobs: context.jobs,
@@ -30,10 +31,13 @@ pub(crate) fn run(args: &Score, context: &Context) -> anyhow::Result<u8> {
         return Ok(exit::DONE);
     }
     context.tell(|| Ok(scoring.plan()))?;
-    let finished = scoring.run(&context.progress)?;
+    let scored = scoring.run(&context.progress)?;
     output::write(args.output.path.as_deref(), |out| {
-        report::evaluation(&finished, args.output.format, out)
+        report::evaluation(&scored.report, args.output.format, out)
     })?;
+    if let Some(path) = &args.state_out {
+        output::write(Some(path), |out| scored.state.write(out))?;
+    }
     Ok(exit::DONE)
 }
 

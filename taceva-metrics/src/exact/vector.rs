@@ -47,6 +47,9 @@ pub(crate) trait Vector: Copy {
     /// The lanes' distances from `start` in units of its last place, summed; all are in one binade.
     fn units_above(self, start: Self) -> i64;
 
+    /// The rounded sum of the lanes.
+    fn sum_of_lanes(self) -> f64;
+
     /// Fewer numbers than there are lanes, and zeros.
     #[inline(always)]
     fn load_short(proof: Self::Proof, values: &[f64]) -> Self {

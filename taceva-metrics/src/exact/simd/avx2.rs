@@ -3,11 +3,12 @@
 #![expect(unsafe_code, reason = "vector instructions and loads")]
 
 use std::arch::x86_64::{
-    __m256d, _CMP_GE_OQ, _CMP_LE_OQ, _mm_add_epi64, _mm_cvtsi128_si64, _mm_unpackhi_epi64,
-    _mm256_add_pd, _mm256_and_pd, _mm256_andnot_pd, _mm256_castpd_si256, _mm256_castsi256_pd,
-    _mm256_castsi256_si128, _mm256_cmp_pd, _mm256_div_pd, _mm256_extracti128_si256,
-    _mm256_fmsub_pd, _mm256_loadu_pd, _mm256_max_pd, _mm256_min_pd, _mm256_movemask_pd,
-    _mm256_mul_pd, _mm256_set1_epi64x, _mm256_set1_pd, _mm256_sub_epi64, _mm256_sub_pd,
+    __m256d, _CMP_GE_OQ, _CMP_LE_OQ, _mm_add_epi64, _mm_add_pd, _mm_cvtsd_f64, _mm_cvtsi128_si64,
+    _mm_unpackhi_epi64, _mm_unpackhi_pd, _mm256_add_pd, _mm256_and_pd, _mm256_andnot_pd,
+    _mm256_castpd_si256, _mm256_castpd256_pd128, _mm256_castsi256_pd, _mm256_castsi256_si128,
+    _mm256_cmp_pd, _mm256_div_pd, _mm256_extractf128_pd, _mm256_extracti128_si256, _mm256_fmsub_pd,
+    _mm256_loadu_pd, _mm256_max_pd, _mm256_min_pd, _mm256_movemask_pd, _mm256_mul_pd,
+    _mm256_set1_epi64x, _mm256_set1_pd, _mm256_sub_epi64, _mm256_sub_pd,
 };
 
 use crate::exact::vector::{Job, Vector};
@@ -156,5 +157,14 @@ impl Vector for Four {
             pair,
             _mm_unpackhi_epi64(pair, pair)
         )))
+    }
+
+    #[inline(always)]
+    fn sum_of_lanes(self) -> f64 {
+        let pair = with_avx2!(_mm_add_pd(
+            _mm256_castpd256_pd128(self.0),
+            _mm256_extractf128_pd::<1>(self.0)
+        ));
+        with_avx2!(_mm_cvtsd_f64(_mm_add_pd(pair, _mm_unpackhi_pd(pair, pair))))
     }
 }

@@ -6,7 +6,7 @@ use std::arch::x86_64::{
     __m512d, _CMP_GE_OQ, _CMP_LE_OQ, _mm512_abs_pd, _mm512_add_pd, _mm512_castpd_si512,
     _mm512_castsi512_pd, _mm512_cmp_pd_mask, _mm512_div_pd, _mm512_fmsub_pd, _mm512_loadu_pd,
     _mm512_maskz_mov_pd, _mm512_max_pd, _mm512_min_pd, _mm512_mul_pd, _mm512_reduce_add_epi64,
-    _mm512_set1_epi64, _mm512_set1_pd, _mm512_sub_epi64, _mm512_sub_pd,
+    _mm512_reduce_add_pd, _mm512_set1_epi64, _mm512_set1_pd, _mm512_sub_epi64, _mm512_sub_pd,
 };
 
 use crate::exact::vector::{Job, Vector};
@@ -134,5 +134,10 @@ impl Vector for Eight {
             _mm512_castpd_si512(self.0),
             _mm512_castpd_si512(start.0)
         )))
+    }
+
+    #[inline(always)]
+    fn sum_of_lanes(self) -> f64 {
+        with_avx512!(_mm512_reduce_add_pd(self.0))
     }
 }

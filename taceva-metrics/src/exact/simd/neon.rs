@@ -3,10 +3,10 @@
 #![expect(unsafe_code, reason = "vector instructions and loads")]
 
 use std::arch::aarch64::{
-    float64x2_t, vabsq_f64, vaddq_f64, vaddvq_s64, vaddvq_u64, vandq_u64, vbslq_f64, vcgeq_f64,
-    vcgtq_f64, vcleq_f64, vcltq_f64, vdivq_f64, vdupq_n_f64, vdupq_n_u64, vfmaq_f64, vld1q_f64,
-    vmulq_f64, vnegq_f64, vreinterpretq_f64_u64, vreinterpretq_s64_f64, vreinterpretq_u64_f64,
-    vsubq_f64, vsubq_s64, vsubq_u64,
+    float64x2_t, vabsq_f64, vaddq_f64, vaddvq_f64, vaddvq_s64, vaddvq_u64, vandq_u64, vbslq_f64,
+    vcgeq_f64, vcgtq_f64, vcleq_f64, vcltq_f64, vdivq_f64, vdupq_n_f64, vdupq_n_u64, vfmaq_f64,
+    vld1q_f64, vmulq_f64, vnegq_f64, vreinterpretq_f64_u64, vreinterpretq_s64_f64,
+    vreinterpretq_u64_f64, vsubq_f64, vsubq_s64, vsubq_u64,
 };
 
 use crate::exact::vector::{Job, Vector};
@@ -139,5 +139,10 @@ impl Vector for Two {
             vreinterpretq_s64_f64(self.0),
             vreinterpretq_s64_f64(start.0)
         )))
+    }
+
+    #[inline(always)]
+    fn sum_of_lanes(self) -> f64 {
+        with_neon!(vaddvq_f64(self.0))
     }
 }

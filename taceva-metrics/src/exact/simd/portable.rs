@@ -119,4 +119,9 @@ impl Vector for Pair {
         let bits = |value: f64| value.to_bits().cast_signed();
         bits(self.0[0]) - bits(start.0[0]) + bits(self.0[1]) - bits(start.0[1])
     }
+
+    #[inline(always)]
+    fn sum_of_lanes(self) -> f64 {
+        self.0[0] + self.0[1]
+    }
 }

@@ -1,0 +1,32 @@
+//! `taceva bench`.
+
+use taceva_study::bench::{KernelRequest, kernels};
+
+use super::Context;
+use crate::args::{Bench, BenchKernels, BenchSubject};
+use crate::{exit, output, report};
+
+pub(crate) fn run(args: &Bench, context: &Context) -> anyhow::Result<u8> {
+    match &args.subject {
+        BenchSubject::Kernels(args) => run_kernels(args, context),
+    }
+}
+
+fn run_kernels(args: &BenchKernels, context: &Context) -> anyhow::Result<u8> {
+    for path in args.output.path.iter().chain(&args.svg) {
+        output::check_free(path, args.output.force)?;
+    }
+    let request = KernelRequest {
+        rows: args.rows,
+        rounds: args.rounds,
+        seed: args.seed,
+    };
+    let bench = kernels(&request, &context.progress)?;
+    output::write(args.output.path.as_deref(), |out| {
+        report::kernel_bench(&bench, args.output.format, out)
+    })?;
+    if let Some(path) = &args.svg {
+        output::write(Some(path), |out| report::kernel_chart(&bench, out))?;
+    }
+    Ok(exit::DONE)
+}

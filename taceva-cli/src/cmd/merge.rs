@@ -1,0 +1,19 @@
+//! `taceva merge`.
+
+use super::Context;
+use crate::args::Merge;
+use crate::{exit, output, report};
+
+pub(crate) fn run(args: &Merge, _context: &Context) -> anyhow::Result<u8> {
+    for path in args.output.path.iter().chain(&args.state_out) {
+        output::check_free(path, args.output.force)?;
+    }
+    let (report, state) = taceva_study::merge(&args.states)?;
+    output::write(args.output.path.as_deref(), |out| {
+        report::evaluation(&report, args.output.format, out)
+    })?;
+    if let Some(path) = &args.state_out {
+        output::write(Some(path), |out| state.write(out))?;
+    }
+    Ok(exit::DONE)
+}

@@ -1,0 +1,102 @@
+//! Times every way to sum on columns read from a file, and prints one JSON object.
+//!
+//! usage: kernel_times COLUMNS CHANNELS [REPEATS]
+//!
+//! COLUMNS: little-endian binary64, first the references and then the estimates of each channel in turn, all of one length.
+//! Times are nanoseconds a pair, of the process's wall clock; every way is run once a round, so that all see the same machine.
+
+#![expect(clippy::print_stdout, reason = "an example's result is what it prints")]
+
+use std::hint::black_box;
+use std::time::Instant;
+
+use taceva_metrics::Paired;
+use taceva_metrics::kernels::{Contender, stream_sum};
+
+type Error = Box<dyn std::error::Error>;
+
+fn main() -> Result<(), Error> {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    let [file, channels, repeats @ ..] = &arguments[..] else {
+        return Err("usage: kernel_times COLUMNS CHANNELS [REPEATS]".into());
+    };
+    let repeats = repeats.first().map_or(Ok(15), |repeats| repeats.parse())?;
+    let columns = read(file, channels.parse()?)?;
+    let pairs: usize = columns.iter().map(|columns| columns.estimate.len()).sum();
+
+    let mut ways: Vec<(String, Box<dyn Fn()>)> = vec![];
+    let mut way = |name: String, run: fn(Contender, Paired<&[f64]>) -> Option<f64>, contender| {
+        let columns = &columns;
+        let run = move || {
+            for columns in columns {
+                black_box(run(contender, black_box(columns.as_slices())));
+            }
+        };
+        ways.push((name, Box::new(run)));
+    };
+    way(
+        "floor".to_owned(),
+        |_, pairs| Some(stream_sum(pairs)),
+        Contender::Naive,
+    );
+    for contender in Contender::available() {
+        way(
+            contender.name(),
+            |contender, pairs| contender.run(pairs).mae,
+            contender,
+        );
+        if contender.is_exact() || contender == Contender::Naive {
+            way(
+                format!("{} mae", contender.name()),
+                Contender::run_mae,
+                contender,
+            );
+        }
+    }
+
+    let mut times = vec![Vec::with_capacity(repeats); ways.len()];
+    for _ in 0..repeats {
+        for ((_, run), times) in ways.iter().zip(&mut times) {
+            let start = Instant::now();
+            run();
+            times.push(start.elapsed());
+        }
+    }
+    let lines = ways.iter().zip(&mut times).map(|((name, _), times)| {
+        times.sort_unstable();
+        #[expect(clippy::cast_precision_loss, reason = "a count of rows")]
+        let nanoseconds = |at: usize| times[at].as_secs_f64() * 1e9 / pairs as f64;
+        let (best, median) = (nanoseconds(0), nanoseconds(times.len() / 2));
+        format!("  \"{name}\": [{best:.4}, {median:.4}]")
+    });
+    println!("{{\n{}\n}}", lines.collect::<Vec<_>>().join(",\n"));
+    Ok(())
+}
+
+/// The columns of each channel.
+fn read(file: &str, channels: usize) -> Result<Vec<Paired<Vec<f64>>>, Error> {
+    let bytes = std::fs::read(file)?;
+    let rows = bytes.len() / 16 / channels.max(1);
+    if channels == 0 || rows == 0 || rows * channels * 16 != bytes.len() {
+        let length = bytes.len();
+        return Err(format!(
+            "{file}: {length} bytes, expected 16 for each row of {channels} channels"
+        )
+        .into());
+    }
+    let column = |index: usize| {
+        let bytes = &bytes[index * rows * 8..(index + 1) * rows * 8];
+        let values = bytes
+            .chunks_exact(8)
+            .map(|value| value.try_into().map(f64::from_le_bytes));
+        values.collect::<Result<Vec<f64>, _>>()
+    };
+    (0..channels)
+        .map(|channel| {
+            Ok(Paired {
+                reference: column(2 * channel)?,
+                estimate: column(2 * channel + 1)?,
+            })
+        })
+        .collect()
+}

@@ -1,0 +1,344 @@
+//! The ways to sum, raced on the same columns: time for each pair of values against digits that are right.
+
+use serde::Serialize;
+use taceva_core::Progress;
+use taceva_metrics::kernels::{
+    ALL_DIGITS, Contender, Kind, Order, Recipe, Scores, digits, nasty_inputs, shuffled, stream_sum,
+};
+use taceva_metrics::{Isa, Paired};
+
+use super::{BENCH_SCHEMA, Machine, Spread, Stopwatch};
+use crate::error::StudyError;
+
+/// Channels of the columns that are timed: all six of a contact.
+const CHANNELS: usize = 6;
+/// Values as a lab has them: millimetres with errors of a third of one.
+const LAB: Kind = Kind::Lab {
+    low: -12.5,
+    high: 12.5,
+    noise: 0.3,
+};
+/// Shuffles that a result must survive.
+const SHUFFLES: u64 = 3;
+
+/// What to race.
+#[derive(Clone, Copy, Debug)]
+pub struct KernelRequest {
+    /// Rows of each of the six channels.
+    pub rows: usize,
+    /// How often each candidate is timed.
+    pub rounds: usize,
+    /// The seed of the columns and shuffles.
+    pub seed: u64,
+}
+
+impl Default for KernelRequest {
+    /// A million rows, fifteen rounds, seed 0.
+    fn default() -> KernelRequest {
+        KernelRequest {
+            rows: 1_000_000,
+            rounds: 15,
+            seed: 0,
+        }
+    }
+}
+
+/// Run time against error of every way to sum. Its JSON follows [`BENCH_SCHEMA`].
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct KernelBench {
+    /// [`BENCH_SCHEMA`].
+    pub schema: &'static str,
+    /// `kernels`.
+    pub subject: &'static str,
+    /// Where it ran.
+    pub machine: Machine,
+    /// Rows of each of the six channels.
+    pub rows_timed: usize,
+    /// How often each candidate was timed.
+    pub rounds: usize,
+    /// What reading the columns takes.
+    pub floor: Floor,
+    /// A candidate each, in the order of the race.
+    pub rows: Vec<KernelRow>,
+}
+
+/// Both columns summed once: no way to score them can be faster.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Floor {
+    /// `stream sum`.
+    pub name: &'static str,
+    /// Nanoseconds for each pair of values, by the clock.
+    pub ns_per_pair: Spread,
+    /// The same by the computing time of the thread.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub thread_ns_per_pair: Option<Spread>,
+    /// Gigabytes a second at best.
+    pub gb_per_s: f64,
+}
+
+/// One way to sum.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct KernelRow {
+    /// Its name.
+    pub name: String,
+    /// The instruction set it was made for, if it was.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub isa: Option<String>,
+    /// Which scores were computed: `mae r2 smape`, or `mae`.
+    pub scores: &'static str,
+    /// Nanoseconds for each pair of values, by the clock.
+    pub ns_per_pair: Spread,
+    /// The same by the computing time of the thread.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub thread_ns_per_pair: Option<Spread>,
+    /// The best time over the best of the floor.
+    pub times_floor: f64,
+    /// The fewest right digits of any score on any input.
+    pub digits_min: f64,
+    /// For each input, the fewest right digits of its scores.
+    pub digits: Vec<InputDigits>,
+    /// Whether the result is the same, bit for bit, in any order of rows.
+    pub order_free: bool,
+    /// Whether no other candidate for the same scores is both faster and at least as right.
+    pub pareto: bool,
+}
+
+/// How right a candidate is on one input.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct InputDigits {
+    /// The input.
+    pub input: &'static str,
+    /// The fewest right digits of its scores.
+    pub digits: f64,
+}
+
+/// One candidate of the race.
+#[derive(Clone, Copy)]
+struct Candidate {
+    contender: Contender,
+    mae_only: bool,
+}
+
+impl Candidate {
+    fn run(self, pairs: Paired<&[f64]>) -> Scores {
+        if self.mae_only {
+            Scores {
+                mae: self.contender.run_mae(pairs),
+                ..Scores::default()
+            }
+        } else {
+            self.contender.run(pairs)
+        }
+    }
+
+    /// The fewest right digits among the scores that have a value.
+    fn digits(self, pairs: Paired<&[f64]>, truth: &Scores) -> f64 {
+        let found = self.run(pairs);
+        let scores = [
+            (found.mae, truth.mae),
+            (found.r2, truth.r2),
+            (found.smape, truth.smape),
+        ];
+        let kept = if self.mae_only { &scores[..1] } else { &scores };
+        let right = kept.iter().filter_map(|&(found, truth)| {
+            let truth = truth?;
+            Some(digits(found.unwrap_or(f64::NAN), truth))
+        });
+        right.fold(ALL_DIGITS, f64::min)
+    }
+}
+
+/// Races every way to sum.
+///
+/// # Errors
+/// [`StudyError::Request`] without rows or rounds, or for an instruction set that was asked for and is not there;
+/// [`StudyError::Dataset`] if `progress` asks to stop.
+pub fn kernels(
+    request: &KernelRequest,
+    progress: &dyn Progress,
+) -> Result<KernelBench, StudyError> {
+    if request.rows == 0 || request.rounds == 0 {
+        return Err(StudyError::Request(
+            "a benchmark needs at least one row and one round".to_owned(),
+        ));
+    }
+    Isa::requested().map_err(|error| StudyError::Request(error.to_string()))?;
+    let candidates = candidates();
+    let columns = columns(request);
+    let watch = race(request, &candidates, &columns, progress)?;
+    let pairs = (request.rows * CHANNELS) as f64;
+    let per_pair = 1e9 / pairs;
+    let floor = Floor {
+        name: "stream sum",
+        ns_per_pair: finished(watch.wall(0))?.times(per_pair),
+        thread_ns_per_pair: watch.thread(0).map(|time| time.times(per_pair)),
+        gb_per_s: pairs * 16.0 / finished(watch.wall(0))?.best / 1e9,
+    };
+    progress.begin("count digits", Some(candidates.len() as u64));
+    let mut rows = Vec::new();
+    for (position, candidate) in candidates.iter().enumerate() {
+        let time = finished(watch.wall(position + 1))?.times(per_pair);
+        let digits = on_every_input(*candidate);
+        rows.push(KernelRow {
+            name: candidate.contender.name(),
+            isa: isa(candidate.contender),
+            scores: if candidate.mae_only {
+                "mae"
+            } else {
+                "mae r2 smape"
+            },
+            ns_per_pair: time,
+            thread_ns_per_pair: watch.thread(position + 1).map(|time| time.times(per_pair)),
+            times_floor: time.best / floor.ns_per_pair.best,
+            digits_min: digits
+                .iter()
+                .map(|input| input.digits)
+                .fold(f64::INFINITY, f64::min),
+            digits,
+            order_free: survives_shuffling(*candidate, request.seed),
+            pareto: false,
+        });
+        progress.advance(1);
+    }
+    progress.end();
+    mark_pareto(&mut rows);
+    Ok(KernelBench {
+        schema: BENCH_SCHEMA,
+        subject: "kernels",
+        machine: Machine::here(
+            1,
+            Isa::available()
+                .iter()
+                .map(|isa| isa.name().to_owned())
+                .collect(),
+        ),
+        rows_timed: request.rows,
+        rounds: request.rounds,
+        floor,
+        rows,
+    })
+}
+
+fn candidates() -> Vec<Candidate> {
+    let all = Contender::available();
+    let full = all.iter().map(|contender| Candidate {
+        contender: *contender,
+        mae_only: false,
+    });
+    let mae = all.iter().map(|contender| Candidate {
+        contender: *contender,
+        mae_only: true,
+    });
+    full.chain(mae).collect()
+}
+
+/// Six channels of values as a lab has them.
+fn columns(request: &KernelRequest) -> Vec<Paired<Vec<f64>>> {
+    (0..CHANNELS as u64)
+        .map(|channel| {
+            let recipe = Recipe {
+                kind: LAB,
+                rows: request.rows,
+                seed: request.seed.wrapping_add(channel),
+                order: Order::AsMade,
+            };
+            recipe.columns()
+        })
+        .collect()
+}
+
+fn race(
+    request: &KernelRequest,
+    candidates: &[Candidate],
+    columns: &[Paired<Vec<f64>>],
+    progress: &dyn Progress,
+) -> Result<Stopwatch, StudyError> {
+    let turns = (request.rounds + 1) * (candidates.len() + 1);
+    progress.begin("race", Some(turns as u64));
+    let watch = Stopwatch::race(
+        candidates.len() + 1,
+        request.rounds,
+        |position| {
+            for pairs in columns.iter().map(as_slices) {
+                match position.checked_sub(1) {
+                    None => drop(std::hint::black_box(stream_sum(std::hint::black_box(
+                        pairs,
+                    )))),
+                    Some(candidate) => drop(std::hint::black_box(
+                        candidates[candidate].run(std::hint::black_box(pairs)),
+                    )),
+                }
+            }
+        },
+        || {
+            progress.advance(1);
+            !progress.is_cancelled()
+        },
+    );
+    progress.end();
+    if progress.is_cancelled() {
+        return Err(taceva_dataset::DatasetError::Cancelled.into());
+    }
+    Ok(watch)
+}
+
+fn finished(time: Option<Spread>) -> Result<Spread, StudyError> {
+    time.ok_or_else(|| StudyError::Request("nothing was timed".to_owned()))
+}
+
+fn on_every_input(candidate: Candidate) -> Vec<InputDigits> {
+    nasty_inputs()
+        .map(|(input, recipe)| {
+            let columns = recipe.columns();
+            let truth = Contender::truth(as_slices(&columns));
+            InputDigits {
+                input,
+                digits: candidate.digits(as_slices(&columns), &truth),
+            }
+        })
+        .collect()
+}
+
+fn survives_shuffling(candidate: Candidate, seed: u64) -> bool {
+    nasty_inputs().all(|(_, recipe)| {
+        let columns = recipe.columns();
+        let first = candidate.run(as_slices(&columns));
+        (0..SHUFFLES).all(|shuffle| {
+            let other = shuffled(&columns, seed.wrapping_add(shuffle));
+            bits(&candidate.run(as_slices(&other))) == bits(&first)
+        })
+    })
+}
+
+/// The instruction set that a contender was made for.
+fn isa(contender: Contender) -> Option<String> {
+    match contender {
+        Contender::Exact(isa) => Some(isa.name().to_owned()),
+        _ => None,
+    }
+}
+
+fn bits(scores: &Scores) -> [Option<u64>; 3] {
+    [scores.mae, scores.r2, scores.smape].map(|score| score.map(f64::to_bits))
+}
+
+fn as_slices(columns: &Paired<Vec<f64>>) -> Paired<&[f64]> {
+    columns.as_slices()
+}
+
+/// Marks the candidates that no other one for the same scores beats in time without losing digits.
+fn mark_pareto(rows: &mut [KernelRow]) {
+    let beaten: Vec<bool> = rows
+        .iter()
+        .map(|row| {
+            rows.iter().any(|other| {
+                other.scores == row.scores
+                    && other.ns_per_pair.best < row.ns_per_pair.best
+                    && other.digits_min >= row.digits_min
+            })
+        })
+        .collect();
+    for (row, beaten) in rows.iter_mut().zip(beaten) {
+        row.pareto = !beaten;
+    }
+}

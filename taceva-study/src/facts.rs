@@ -1,0 +1,51 @@
+//! What is known of a sensor beside its samples, as metrics ask for it.
+
+use taceva_dataset::{Dataset, Known, SensorFile};
+use taceva_metrics::SensorFacts;
+
+use crate::error::StudyError;
+
+/// What the header of `dataset` says, or `file` where it says more.
+///
+/// # Errors
+/// [`StudyError::Request`] if the footprint of the header has lengths that no sensor has.
+pub(crate) fn of_dataset(
+    dataset: &Dataset,
+    file: Option<&SensorFile>,
+) -> Result<SensorFacts, StudyError> {
+    let header = dataset.header();
+    let footprint = header
+        .footprint
+        .as_ref()
+        .map(|footprint| footprint.to_core());
+    let footprint = footprint.transpose().map_err(StudyError::Request)?;
+    let stated = SensorFacts {
+        footprint,
+        opaque: match header.sensor.opaque {
+            Known::Is(opaque) => Some(opaque),
+            Known::Unknown => None,
+        },
+        frame_size: header
+            .frames
+            .as_ref()
+            .map(|frames| [frames.info.width, frames.info.height]),
+        ..SensorFacts::default()
+    };
+    Ok(match file {
+        Some(file) => of_file(file, stated),
+        None => stated,
+    })
+}
+
+/// What `file` says, and `otherwise` where it is silent.
+pub(crate) fn of_file(file: &SensorFile, otherwise: SensorFacts) -> SensorFacts {
+    SensorFacts {
+        footprint: file.footprint.or(otherwise.footprint),
+        opaque: file.opaque.or(otherwise.opaque),
+        reference_scene: file
+            .reference_scene
+            .clone()
+            .unwrap_or(otherwise.reference_scene),
+        frame_size: file.frame_size.or(otherwise.frame_size),
+    }
+}
