@@ -1,6 +1,7 @@
 //! The drivers as a program meets them: by name, with arguments, and going wrong.
 
 mod conformance;
+mod devices;
 mod doctor;
 mod fault;
 mod replay;

@@ -7,9 +7,9 @@ use std::time::Duration;
 use crate::support::{PATIENCE, capture, folder, gray, replay, sensor};
 use image::{ImageFormat, Rgb, RgbImage};
 use taceva_core::{
-    Deadline, DriverSource, ErrorKind, FrameInfo, FrameMut, PixelFormat, Rig, Sensor,
+    Deadline, DriverError, ErrorKind, FrameInfo, FrameMut, PixelFormat, Rig, Sensor,
 };
-use taceva_drivers::{Drivers, devices};
+use taceva_drivers::Drivers;
 
 fn refused(selector: &str) -> (ErrorKind, String) {
     let error = sensor(selector).map(|_| ()).expect_err(selector);
@@ -202,6 +202,83 @@ fn a_truncated_frame_is_refused_wherever_it_is_cut_and_the_next_one_comes() {
 }
 
 #[test]
+fn a_png_with_a_flipped_bit_is_refused_or_unharmed_and_a_jpeg_never_stops_the_replay() {
+    let picture = RgbImage::from_fn(24, 24, |x, y| {
+        Rgb([((x * 37) ^ (y * 91)).to_le_bytes()[0]; 3])
+    });
+    let folder = tempfile::tempdir().expect("a folder");
+    picture.save(folder.path().join("1.png")).expect("written");
+    for format in [ImageFormat::Png, ImageFormat::Jpeg] {
+        let mut file = Cursor::new(Vec::new());
+        picture.write_to(&mut file, format).expect("encodes");
+        let whole = file.into_inner();
+        for at in (0..whole.len()).step_by(3) {
+            let mut damaged = whole.clone();
+            damaged[at] ^= 1 << (at % 8);
+            fs::write(folder.path().join("2.png"), damaged).expect("written");
+            let mut sensor = replay(folder.path(), "");
+            pixels(sensor.as_mut()).expect("the first");
+            match pixels(sensor.as_mut()) {
+                Err(error) => assert_eq!(error.kind(), ErrorKind::Protocol, "byte {at}: {error}"),
+                // A JPEG has no checksum: what is wrong in it cannot be seen.
+                Ok(_) if format == ImageFormat::Jpeg => {}
+                Ok(pixels) => assert_eq!(&pixels, picture.as_raw(), "byte {at}"),
+            }
+            let end = pixels(sensor.as_mut()).expect_err("no third");
+            assert_eq!(end.kind(), ErrorKind::EndOfStream);
+        }
+    }
+}
+
+fn pixels(sensor: &mut dyn Sensor) -> Result<Vec<u8>, DriverError> {
+    let info = sensor.frame_info();
+    let mut pixels = vec![0; info.byte_len().expect("small")];
+    let frame = FrameMut::new(info, &mut pixels).expect("of that size");
+    sensor.capture(frame, PATIENCE).map(|_| pixels)
+}
+
+#[test]
+fn a_picture_beyond_the_caps_is_refused_before_it_is_decoded() {
+    let folder = tempfile::tempdir().expect("a folder");
+    gray(1, 16_385, 1, &folder.path().join("1.png"));
+    let (kind, message) = refused(&format!("sensor/replay:folder={}", folder.path().display()));
+    assert_eq!(kind, ErrorKind::Protocol, "{message}");
+    assert!(message.contains("1.png: "), "{message}");
+
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("1.jpg");
+    RgbImage::new(16, 16).save(&path).expect("written");
+    let mut bytes = fs::read(&path).expect("there");
+    let header = bytes
+        .windows(2)
+        .position(|pair| pair == [0xff, 0xc0])
+        .expect("a size");
+    bytes[header + 5..header + 9].copy_from_slice(&[0x40, 0, 0x40, 0]);
+    fs::write(&path, bytes).expect("written");
+    let (kind, message) = refused(&format!("sensor/replay:folder={}", folder.path().display()));
+    assert_eq!(kind, ErrorKind::Protocol);
+    assert!(
+        message.ends_with("a frame of 16384×16384 rgb8, expected at most 268435456 bytes"),
+        "{message}"
+    );
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_name_that_is_no_text_is_refused_rather_than_left_out() {
+    use std::os::unix::ffi::OsStrExt;
+    let folder = folder(1);
+    let name = std::ffi::OsStr::from_bytes(b"frame \xff.png");
+    gray(1, 8, 6, &folder.path().join(name));
+    let (kind, message) = refused(&format!("sensor/replay:folder={}", folder.path().display()));
+    assert_eq!(kind, ErrorKind::Protocol);
+    assert!(
+        message.ends_with("a name that is not UTF-8, expected another one"),
+        "{message}"
+    );
+}
+
+#[test]
 fn a_frame_that_vanishes_after_opening_is_not_found() {
     let folder = folder(2);
     let mut sensor = replay(folder.path(), "");
@@ -329,27 +406,6 @@ fn an_unknown_driver_and_a_bad_argument_are_answered_with_what_is_accepted() {
         message.contains("`folder`: missing, expected a path"),
         "{message}"
     );
-}
-
-#[test]
-fn the_list_of_devices_has_the_replay_with_its_arguments() {
-    let drivers = Drivers::builtin().expect("no contradiction");
-    let listed = devices(&drivers);
-    let replay = listed
-        .drivers
-        .iter()
-        .find(|driver| driver.key == "sensor/replay")
-        .expect("linked in");
-    assert_eq!(replay.source, DriverSource::Recorded);
-    let keys: Vec<_> = replay
-        .arguments
-        .iter()
-        .map(|argument| argument.key.as_str())
-        .collect();
-    assert_eq!(keys, ["folder", "rate", "times", "pace", "repeat"]);
-    assert!(replay.arguments[0].required);
-    assert_eq!(replay.arguments[1].default.as_deref(), Some("30"));
-    assert!(listed.found.is_empty() && listed.failed.is_empty());
 }
 
 #[test]

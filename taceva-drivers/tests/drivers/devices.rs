@@ -1,0 +1,144 @@
+//! The list of drivers and devices, and opening one of them by its name.
+
+use taceva_core::{
+    Access, Args, Descriptor, DescriptorSpec, DriverError, DriverKey, DriverSource, ErrorKind,
+    Factory, Facts, Found, Millimetre, Rig, Sensor, SensorFacts,
+};
+use taceva_drivers::{Drivers, devices, open};
+
+/// A driver that sees two cameras, or cannot look.
+struct Cameras {
+    descriptor: Descriptor,
+    can_look: bool,
+}
+
+impl Cameras {
+    fn boxed(key: &'static str, can_look: bool) -> Box<Cameras> {
+        let facts = SensorFacts {
+            opaque: Some(true),
+            depth_max: Some(Millimetre(1.5)),
+            ..SensorFacts::default()
+        };
+        let facts = Facts::Sensor(Box::new(facts));
+        let key = DriverKey::fixed(key);
+        let spec = DescriptorSpec::new(key, "cameras", DriverSource::Real, facts);
+        Box::new(Cameras {
+            descriptor: spec.check().expect("no contradiction"),
+            can_look,
+        })
+    }
+
+    fn error(&self, kind: ErrorKind, doing: &'static str) -> DriverError {
+        DriverError::new(kind, self.descriptor.key(), doing)
+    }
+}
+
+impl Factory<dyn Sensor> for Cameras {
+    fn descriptor(&self) -> &Descriptor {
+        &self.descriptor
+    }
+    fn open(&self, _: &Args, _: &mut Rig) -> Result<Box<dyn Sensor>, DriverError> {
+        Err(self.error(ErrorKind::Busy, "open /dev/video0"))
+    }
+    fn discover(&self) -> Result<Vec<Found>, DriverError> {
+        if !self.can_look {
+            return Err(self.error(ErrorKind::PermissionDenied, "look for cameras"));
+        }
+        let found = |arguments: &str, access| Found {
+            driver: self.descriptor.key().clone(),
+            title: "a camera".to_owned(),
+            arguments: arguments.to_owned(),
+            access,
+        };
+        let remedy = "join the group `video`".to_owned();
+        Ok(vec![
+            found("serial=D20042", Access::Ready),
+            found("", Access::Denied { remedy }),
+        ])
+    }
+}
+
+fn drivers() -> Drivers {
+    let mut drivers = Drivers::builtin().expect("no contradiction");
+    for (key, can_look) in [("test/seeing", true), ("test/blind", false)] {
+        drivers
+            .sensors
+            .add(Cameras::boxed(key, can_look))
+            .expect("new");
+    }
+    drivers
+}
+
+#[test]
+fn the_list_has_every_driver_what_it_sees_and_why_another_could_not_look() {
+    let listed = devices(&drivers());
+    let keys: Vec<_> = listed
+        .drivers
+        .iter()
+        .map(|driver| driver.key.as_str())
+        .collect();
+    assert_eq!(keys, ["sensor/replay", "test/blind", "test/seeing"]);
+    let found: Vec<_> = listed
+        .found
+        .iter()
+        .map(|device| (device.selector.as_str(), device.access.as_str()))
+        .collect();
+    assert_eq!(
+        found,
+        [
+            ("test/seeing:serial=D20042", "ready"),
+            (
+                "test/seeing",
+                "seen, but not permitted: join the group `video`"
+            ),
+        ]
+    );
+    assert_eq!(listed.failed.len(), 1);
+    assert_eq!(
+        listed.failed[0].to_string(),
+        "test/blind: cannot look for cameras: permission denied"
+    );
+}
+
+#[test]
+fn what_is_not_known_of_a_device_is_absent_from_the_list() {
+    let listed = devices(&drivers());
+    let seeing = serde_json::to_value(&listed.drivers[2]).expect("plain values");
+    assert_eq!(
+        seeing,
+        serde_json::json!({
+            "key": "test/seeing",
+            "title": "cameras",
+            "kind": "sensor",
+            "source": "real",
+            "opaque": true,
+            "Pz_max_mm": 1.5,
+            "arguments": [],
+        })
+    );
+    let replay = serde_json::to_value(&listed.drivers[0]).expect("plain values");
+    assert_eq!(
+        replay["arguments"][1],
+        serde_json::json!({
+            "key": "rate",
+            "takes": "a number from 0.001 to 100000 Hz",
+            "required": false,
+            "default": "30",
+            "help": "frames a second, where no table says when each was true",
+        })
+    );
+}
+
+#[test]
+fn a_device_that_does_not_open_keeps_its_kind_of_failure() {
+    let drivers = drivers();
+    let selector = "test/seeing".parse().expect("a selector");
+    let error = open(&drivers.sensors, &selector, &mut Rig::new())
+        .map(|_| ())
+        .expect_err("held");
+    assert_eq!(error.kind(), ErrorKind::Busy);
+    assert_eq!(
+        error.to_string(),
+        "test/seeing: cannot open /dev/video0: busy"
+    );
+}
