@@ -6,7 +6,10 @@ mod limits;
 mod phase;
 mod plan;
 mod press;
+mod run;
 mod scene;
+#[cfg(feature = "simulation")]
+pub mod simulation;
 mod source;
 mod specimen;
 
@@ -17,6 +20,11 @@ pub use plan::{
     Cause, Cost, Fit, Plan, PlanReason, PlanSkip, PlannedMetric, PlannedPress, Subject, plan,
 };
 pub use press::{Motion, Press, Station};
+pub use run::{
+    Cancel, Controls, Devices, Event, Left, Mode, Observation, Outcome, PressLog, PressRecord,
+    RunError, RunReport, RunSpec, SpecimenChanger, Stage, StopCause, Supervisor, Timekeeper, Trip,
+    run,
+};
 pub use scene::{
     BuiltinScene, Calibration, Contact, DeviceSpec, FootprintSpec, GREATEST_SCENE, Gratings,
     Hysteresis, Idle, LightSweep, LightingSpec, LimitSpec, MetricSettings, MetricsSpec, ModelSpec,

@@ -28,7 +28,8 @@ use crate::limits::Limits;
 use crate::phase::PhaseKind;
 use crate::scene::{Contact, Scene, SceneError, SceneProblem, Study};
 use crate::source::SourceInfo;
-use draft::{Draft, MetricNeeds};
+use draft::Draft;
+pub(crate) use draft::MetricNeeds;
 use facts::{Gather, StudyFacts};
 
 /// What is done for one sensor, what is not, and why. [`Display`](std::fmt::Display) explains it.
@@ -116,7 +117,7 @@ pub fn plan(
 }
 
 /// The plan of one study, of metrics that need `needs`.
-fn plan_study(
+pub(crate) fn plan_study(
     scene: &Scene,
     study: &Study,
     source: &SourceInfo,

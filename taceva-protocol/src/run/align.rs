@@ -47,7 +47,8 @@ impl Mix {
     }
 
     fn wrench(&self, before: &Wrench, after: &Wrench) -> Wrench {
-        let force = [0, 1, 2].map(|axis| Newton(self.of(before.force[axis].0, after.force[axis].0)));
+        let force =
+            [0, 1, 2].map(|axis| Newton(self.of(before.force[axis].0, after.force[axis].0)));
         let torque = [0, 1, 2]
             .map(|axis| NewtonMillimetre(self.of(before.torque[axis].0, after.torque[axis].0)));
         Wrench { force, torque }

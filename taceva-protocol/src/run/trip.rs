@@ -83,26 +83,44 @@ impl fmt::Display for Trip {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Trip::Depth { depth_mm, limit_mm } => {
-                write!(f, "the depth of {depth_mm:.3} mm is beyond the limit of {limit_mm} mm")
+                write!(
+                    f,
+                    "the depth of {depth_mm:.3} mm is beyond the limit of {limit_mm} mm"
+                )
             }
             Trip::NormalForce { force_n, limit_n } => {
-                write!(f, "the normal force of {force_n:.3} N is beyond the limit of {limit_n} N")
+                write!(
+                    f,
+                    "the normal force of {force_n:.3} N is beyond the limit of {limit_n} N"
+                )
             }
             Trip::ShearForce { force_n, limit_n } => {
-                write!(f, "the shear force of {force_n:.3} N is beyond the limit of {limit_n} N")
+                write!(
+                    f,
+                    "the shear force of {force_n:.3} N is beyond the limit of {limit_n} N"
+                )
             }
             Trip::UnexpectedContact { force_n } => {
-                write!(f, "a force of {force_n:.3} N where nothing should be touched")
+                write!(
+                    f,
+                    "a force of {force_n:.3} N where nothing should be touched"
+                )
             }
             Trip::ForceRate { rate_n_s } => {
-                write!(f, "the force changes by {rate_n_s:.0} N/s, faster than any gel makes it")
+                write!(
+                    f,
+                    "the force changes by {rate_n_s:.0} N/s, faster than any gel makes it"
+                )
             }
             Trip::Saturated { force_n } => {
                 write!(f, "the force transducer is saturated at {force_n:.3} N")
             }
             Trip::NotFinite => f.write_str("a reading is no number"),
             Trip::Frozen { readings } => {
-                write!(f, "{readings} equal readings of force although the tip moved: the signal is frozen")
+                write!(
+                    f,
+                    "{readings} equal readings of force although the tip moved: the signal is frozen"
+                )
             }
             Trip::StaleForce { age_s } => write!(f, "the last force is {:.0} ms old", age_s * 1e3),
             Trip::StalePose { age_s } => write!(f, "the last pose is {:.0} ms old", age_s * 1e3),

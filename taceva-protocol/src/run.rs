@@ -1,0 +1,375 @@
+//! Runs a plan on borrowed devices: safely, resumably, and without a clock or a file of its own.
+//!
+//! A press is an approach, a search for contact, its stations and a retreat. In contact the tip moves in segments of 15 ms; after each,
+//! force and pose are read and shown to the [`Supervisor`]. A limit of the gel ends the press and the run goes on; anything else stops it,
+//! the tip leaves the gel if its signals can be trusted, and the same call resumes the run.
+
+mod align;
+mod bounds;
+mod devices;
+mod error;
+mod event;
+mod log;
+mod station;
+mod supervisor;
+mod time;
+mod tip;
+mod trip;
+
+pub use devices::{Devices, SpecimenChanger};
+pub use error::{Left, RunError, StopCause};
+pub use event::Event;
+pub use log::{Outcome, PressLog, PressRecord};
+pub use supervisor::{Observation, Stage, Supervisor};
+pub use time::{Cancel, Timekeeper};
+pub use trip::Trip;
+
+#[cfg(feature = "simulation")]
+pub(crate) use supervisor::STALE_S;
+
+use taceva_core::{Degree, Lighting, Millimetre, Nanometre, Sample, Sensor};
+
+use crate::digest::Digest;
+use crate::plan::{Plan, PlannedPress};
+use crate::press::Motion;
+use crate::specimen::Specimen;
+use bounds::Bounds;
+use station::Camera;
+use tip::{DEADLINE, Pace, Step, Tip};
+
+/// What is run.
+#[derive(Clone, Copy, Debug)]
+pub struct RunSpec<'a> {
+    /// The plan.
+    pub plan: &'a Plan,
+    /// The unit that is on the rig; presses of others are left for another run.
+    pub unit: &'a str,
+    /// For real, or in the air.
+    pub mode: Mode,
+}
+
+/// For real, or in the air.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Mode {
+    /// Presses are made and recorded.
+    Acquire,
+    /// Every place is visited this much above the height of travel, with the same loop and the same supervisor; nothing is recorded.
+    Rehearse {
+        /// Added to the clearance.
+        height: Millimetre,
+    },
+}
+
+/// Time, the wish to stop, and whoever shows what happens.
+pub struct Controls<'a> {
+    /// The clock that the stamps of the devices are of.
+    pub clock: &'a mut dyn Timekeeper,
+    /// Ends the run before its next motion.
+    pub cancel: &'a Cancel,
+    /// Told what happens.
+    pub events: &'a mut dyn FnMut(&Event),
+}
+
+/// What a run did.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct RunReport {
+    /// Presses of this unit that were finished before.
+    pub resumed: usize,
+    /// Presses that were made and are durable; in a rehearsal, places visited.
+    pub made: usize,
+    /// Of those, ended by a limit of the gel.
+    pub limited: usize,
+    /// Of those, without contact.
+    pub without_contact: usize,
+    /// Samples that were recorded.
+    pub samples: usize,
+}
+
+/// Makes the presses of `spec` that `log` does not have yet, each durable before the next begins.
+///
+/// Sensor and transducer are started and stopped, the robot is left above the gel.
+///
+/// # Errors
+/// [`RunError`]: what stopped it, which press must be made again, and where the tip was left.
+pub fn run<'a>(
+    spec: &RunSpec<'a>,
+    devices: Devices<'a>,
+    log: &mut dyn PressLog,
+    controls: Controls<'a>,
+) -> Result<RunReport, RunError> {
+    let stopped = |cause| RunError {
+        press: None,
+        cause,
+        left: Left::Clear,
+    };
+    let mut run = Run::new(spec, devices, controls).map_err(stopped)?;
+    let done = run.all(spec, log);
+    let stopping = run.stop();
+    match done {
+        Ok(report) => stopping.map(|()| report).map_err(stopped),
+        Err(error) => Err(error),
+    }
+}
+
+struct Run<'a> {
+    tip: Tip<'a>,
+    camera: Option<Camera<'a>>,
+    lighting: Option<&'a mut dyn Lighting>,
+    specimens: Option<&'a mut dyn SpecimenChanger>,
+    events: &'a mut dyn FnMut(&Event),
+    plan: &'a Plan,
+    mounted: Option<Specimen>,
+    lit: Option<String>,
+}
+
+impl<'a> Run<'a> {
+    fn new(spec: &RunSpec<'a>, devices: Devices<'a>, controls: Controls<'a>) -> Step<Run<'a>> {
+        let plan = spec.plan;
+        if !plan.units.iter().any(|unit| unit == spec.unit) {
+            let problem = format!("unit `{}`, which it does not name", spec.unit);
+            return Err(StopCause::Missing(problem));
+        }
+        let height = match spec.mode {
+            Mode::Acquire => 0.0,
+            Mode::Rehearse { height } => height.0,
+        };
+        let nothing =
+            || StopCause::Missing("limits and a footprint: nothing in it moves".to_owned());
+        let pace = Pace::of(plan).ok_or_else(nothing)?;
+        let bounds = Bounds::of(plan, height).ok_or_else(nothing)?;
+        let limits = plan.limits.clone().ok_or_else(nothing)?;
+        let looks = plan.presses.iter().any(|press| press.frames);
+        let sensor: Option<&'a mut dyn Sensor> = match (looks, devices.sensor) {
+            (true, None) => return Err(StopCause::Missing("a sensor for its pictures".to_owned())),
+            (true, sensor) => sensor,
+            (false, _) => None,
+        };
+        let supervisor = Supervisor::new(limits, devices.robot.halt_handle());
+        let tip = Tip::new(
+            (devices.robot, devices.force),
+            (controls.clock, controls.cancel),
+            supervisor,
+            (bounds, pace),
+        );
+        tip.force.start(DEADLINE)?;
+        let mut camera = sensor.map(Camera::new);
+        if let Some(camera) = &mut camera {
+            camera.sensor.start(DEADLINE)?;
+        }
+        Ok(Run {
+            tip,
+            camera,
+            lighting: devices.lighting,
+            specimens: devices.specimens,
+            events: controls.events,
+            plan,
+            mounted: None,
+            lit: None,
+        })
+    }
+
+    fn stop(&mut self) -> Step<()> {
+        let camera = self.camera.as_mut().map(|camera| camera.sensor.stop());
+        let force = self.tip.force.stop();
+        camera.unwrap_or(Ok(()))?;
+        Ok(force?)
+    }
+
+    fn all(&mut self, spec: &RunSpec<'_>, log: &mut dyn PressLog) -> Result<RunReport, RunError> {
+        let of_unit = |press: &&PlannedPress| press.press.unit == spec.unit;
+        let presses: Vec<&PlannedPress> = self.plan.presses.iter().filter(of_unit).collect();
+        let mut report = RunReport::default();
+        if let Mode::Acquire = spec.mode {
+            report.resumed = presses
+                .iter()
+                .filter(|press| log.is_finished(press.id))
+                .count();
+        }
+        (self.events)(&Event::Started {
+            presses: presses.len(),
+            finished: report.resumed,
+        });
+        self.tip
+            .find()
+            .map_err(|cause| self.abandoned(None, cause))?;
+        for (position, planned) in presses.into_iter().enumerate() {
+            match spec.mode {
+                Mode::Rehearse { height } => {
+                    let done = self.rehearse(planned, height.0);
+                    done.map_err(|cause| self.abandoned(Some(planned.id), cause))?;
+                    report.made += 1;
+                }
+                Mode::Acquire if log.is_finished(planned.id) => {}
+                Mode::Acquire => {
+                    (self.events)(&Event::Approaching {
+                        press: planned.id,
+                        number: position + 1,
+                    });
+                    let record = self
+                        .acquire(planned)
+                        .map_err(|cause| self.abandoned(Some(planned.id), cause))?;
+                    log.append(&record).map_err(|error| RunError {
+                        press: Some(planned.id),
+                        cause: StopCause::Log(error),
+                        left: Left::Clear,
+                    })?;
+                    report.made += 1;
+                    report.samples += record.samples.len();
+                    report.limited += usize::from(record.outcome == Outcome::Limited);
+                    report.without_contact += usize::from(record.outcome == Outcome::NoContact);
+                    (self.events)(&Event::Finished {
+                        press: planned.id,
+                        outcome: record.outcome,
+                    });
+                }
+            }
+        }
+        Ok(report)
+    }
+
+    /// The error that ends the run, after the tip was brought to where it can be left.
+    fn abandoned(&mut self, press: Option<Digest>, cause: StopCause) -> RunError {
+        if let StopCause::Tripped(trip) = cause {
+            (self.events)(&Event::Halted(trip));
+        }
+        let left = if self.tip.abandon() {
+            (self.events)(&Event::Retracted);
+            Left::Clear
+        } else {
+            Left::InPlace
+        };
+        RunError { press, cause, left }
+    }
+
+    /// One press, from the height of travel and back to it.
+    fn acquire(&mut self, planned: &PlannedPress) -> Step<PressRecord> {
+        self.prepare(planned)?;
+        let mut samples = Vec::with_capacity(planned.press.samples());
+        let outcome = match self.press(planned, &mut samples) {
+            Ok(outcome) => outcome,
+            Err(StopCause::Tripped(trip)) if trip.is_limit() => {
+                (self.events)(&Event::Halted(trip));
+                Outcome::Limited
+            }
+            Err(cause) => return Err(cause),
+        };
+        self.tip.retreat()?;
+        if outcome == Outcome::Limited {
+            (self.events)(&Event::Retracted);
+        }
+        Ok(PressRecord {
+            press: planned.id,
+            outcome,
+            samples,
+        })
+    }
+
+    /// The specimen, the light and the place.
+    fn prepare(&mut self, planned: &PlannedPress) -> Step<()> {
+        let press = &planned.press;
+        if self.mounted != Some(press.specimen) {
+            match &mut self.specimens {
+                Some(changer) => {
+                    changer.mount(press.specimen, DEADLINE)?;
+                    (self.events)(&Event::Mounted(press.specimen));
+                }
+                None if self.mounted.is_some() => {
+                    let needed = format!("somebody who mounts a {}", press.specimen);
+                    return Err(StopCause::Missing(needed));
+                }
+                None => {}
+            }
+            self.mounted = Some(press.specimen);
+        }
+        if self.lit != press.light
+            && let Some(light) = &press.light
+        {
+            self.set_light(light)?;
+            self.lit = Some(light.clone());
+            (self.events)(&Event::Lit(light.clone()));
+        }
+        let place = press.place.map(Nanometre::to_millimetres);
+        let turn = Degree(f64::from(press.turn_millidegrees) / 1e3);
+        let height = -self.tip.pace.clearance_mm;
+        self.tip.travel(place, turn, height)
+    }
+
+    fn set_light(&mut self, light: &str) -> Step<()> {
+        let own = self
+            .camera
+            .as_mut()
+            .and_then(|camera| camera.sensor.lighting());
+        match (&mut self.lighting, own) {
+            (Some(lighting), _) => Ok(lighting.set(light, DEADLINE)?),
+            (None, Some(lighting)) => Ok(lighting.set(light, DEADLINE)?),
+            (None, None) => Err(StopCause::Missing(format!(
+                "a lighting that sets `{light}`"
+            ))),
+        }
+    }
+
+    fn rehearse(&mut self, planned: &PlannedPress, height_mm: f64) -> Step<()> {
+        let press = &planned.press;
+        let height = -self.tip.pace.clearance_mm - height_mm;
+        let place = press.place.map(Nanometre::to_millimetres);
+        let turn = Degree(f64::from(press.turn_millidegrees) / 1e3);
+        self.tip.travel(place, turn, height)?;
+        for station in press.stations() {
+            let target = Tip::station(press.place, station.shear, height, station.depth);
+            self.tip.approach(target)?;
+        }
+        (self.events)(&Event::Rehearsed(planned.id));
+        Ok(())
+    }
+
+    /// What happens between the approach and the retreat.
+    fn press(&mut self, planned: &PlannedPress, samples: &mut Vec<Sample>) -> Step<Outcome> {
+        let press = &planned.press;
+        if let Motion::Rest { frames } = press.motion {
+            for number in 0..frames {
+                let height = 0.0;
+                self.sample(planned, number, height, samples)?;
+            }
+            return Ok(Outcome::Complete);
+        }
+        let Some(contact) = self.tip.search()? else {
+            return Ok(Outcome::NoContact);
+        };
+        let height_mm = contact.pose.position.z.0;
+        let height = Millimetre(height_mm);
+        (self.events)(&Event::Contact { height });
+        match &press.motion {
+            Motion::Indent(stations) => {
+                for (number, station) in (0..).zip(stations) {
+                    let target = Tip::station(press.place, station.shear, height_mm, station.depth);
+                    self.tip.approach(target)?;
+                    self.sample(planned, number, height_mm, samples)?;
+                }
+            }
+            Motion::Touch | Motion::Rest { .. } => self.sample(planned, 0, 0.0, samples)?,
+        }
+        Ok(Outcome::Complete)
+    }
+
+    fn sample(
+        &mut self,
+        planned: &PlannedPress,
+        number: u32,
+        zero_mm: f64,
+        samples: &mut Vec<Sample>,
+    ) -> Step<()> {
+        let camera = self.camera.as_mut().filter(|_| planned.frames);
+        let observed = station::observe(&mut self.tip, camera, self.events)?;
+        samples.push(station::sample(
+            planned,
+            number,
+            zero_mm,
+            observed,
+            &self.plan.channels,
+        ));
+        (self.events)(&Event::Sampled {
+            number: samples.len() - 1,
+        });
+        Ok(())
+    }
+}

@@ -1,0 +1,175 @@
+//! The devices of the world, behind the traits that drivers implement.
+
+use std::sync::Arc;
+
+use taceva_core::{
+    Axes, Deadline, DriverError, DriverKey, ErrorKind, ForceTransducer, FrameInfo, FrameMut, Halt,
+    Millimetre, Newton, PixelFormat, Point, Pose, Robot, Rotation, Sensor, Speed, Stamp, Tare,
+    Wrench,
+};
+
+use super::world::{Sabotage, Shared};
+
+const ROBOT: DriverKey = DriverKey::fixed("faults/robot");
+const FORCE: DriverKey = DriverKey::fixed("faults/force");
+const SENSOR: DriverKey = DriverKey::fixed("faults/sensor");
+
+/// A frame carries what was true when it was exposed: the time, the height of the tip and the normal force.
+pub(super) const FRAME: FrameInfo = FrameInfo {
+    width: 24,
+    height: 1,
+    format: PixelFormat::Gray8,
+};
+
+/// Moves the tip.
+pub(super) struct SimulatedRobot(pub(super) Shared);
+
+/// Stops it.
+struct SimulatedHalt(Shared);
+
+impl Halt for SimulatedHalt {
+    fn halt(&self) -> Result<(), DriverError> {
+        let mut world = self.0.world();
+        world.link();
+        if world.sabotage == Sabotage::SlowHalt {
+            world.pass(0.06);
+        }
+        world.halted = true;
+        let now_s = world.now_s;
+        world.judge.halted(now_s);
+        Ok(())
+    }
+}
+
+impl Robot for SimulatedRobot {
+    fn pose(&mut self, _: Deadline) -> Result<(Pose, Stamp), DriverError> {
+        self.0.survive();
+        let mut world = self.0.world();
+        world.link();
+        let (tip, valid_s) = (world.tip, world.now_s);
+        world.link();
+        let received_s = Some(world.now_s);
+        let [x, y, z] = tip.map(Millimetre);
+        let pose = Pose {
+            position: Point { x, y, z },
+            rotation: Rotation::default(),
+        };
+        Ok((
+            pose,
+            Stamp {
+                valid_s,
+                received_s,
+            },
+        ))
+    }
+
+    fn move_to(&mut self, target: Pose, speed: Speed, _: Deadline) -> Result<Stamp, DriverError> {
+        self.0.survive();
+        let mut world = self.0.world();
+        world.link();
+        if world.halted {
+            return Err(DriverError::new(ErrorKind::Interrupted, &ROBOT, "move"));
+        }
+        let Point { x, y, z } = target.position;
+        world.glide([x.0, y.0, z.0], speed.mm_per_s());
+        let valid_s = world.now_s;
+        world.link();
+        drop(world);
+        self.0.survive();
+        Ok(Stamp {
+            valid_s,
+            received_s: None,
+        })
+    }
+
+    fn halt_handle(&self) -> Arc<dyn Halt> {
+        Arc::new(SimulatedHalt(self.0.clone()))
+    }
+
+    fn clear_halt(&mut self, _: Deadline) -> Result<(), DriverError> {
+        let mut world = self.0.world();
+        world.link();
+        world.release();
+        Ok(())
+    }
+}
+
+/// Says how hard it presses.
+pub(super) struct SimulatedForce(pub(super) Shared);
+
+impl ForceTransducer for SimulatedForce {
+    fn axes(&self) -> Axes {
+        Axes::FORCE
+    }
+
+    fn read(&mut self, deadline: Deadline) -> Result<(Wrench, Stamp), DriverError> {
+        self.0.survive();
+        let mut world = self.0.world();
+        let reading = world.read_force(deadline.remaining().as_secs_f64());
+        let (force, valid_s) =
+            reading.ok_or_else(|| DriverError::new(ErrorKind::Timeout, &FORCE, "read"))?;
+        world.link();
+        let wrench = Wrench {
+            force: force.map(Newton),
+            ..Wrench::default()
+        };
+        let received_s = Some(world.now_s);
+        Ok((
+            wrench,
+            Stamp {
+                valid_s,
+                received_s,
+            },
+        ))
+    }
+
+    fn tare(&mut self) -> Option<&mut dyn Tare> {
+        Some(self)
+    }
+}
+
+impl Tare for SimulatedForce {
+    fn zero(&mut self, _: Deadline) -> Result<(), DriverError> {
+        let mut world = self.0.world();
+        world.link();
+        world.tare();
+        Ok(())
+    }
+}
+
+/// Gives frames that tell the truth of their moment.
+pub(super) struct SimulatedSensor(pub(super) Shared);
+
+impl Sensor for SimulatedSensor {
+    fn frame_info(&self) -> FrameInfo {
+        FRAME
+    }
+
+    fn capture(
+        &mut self,
+        mut into: FrameMut<'_>,
+        deadline: Deadline,
+    ) -> Result<Stamp, DriverError> {
+        self.0.survive();
+        let mut world = self.0.world();
+        let exposed = world.expose(deadline.remaining().as_secs_f64());
+        let valid_s = exposed
+            .ok_or_else(|| DriverError::new(ErrorKind::Timeout, &SENSOR, "capture a frame"))?;
+        let force = world.force(world.tip);
+        let lag_s = if world.sabotage == Sabotage::OldFrames {
+            0.1
+        } else {
+            0.0
+        };
+        let truth = [valid_s - lag_s, world.tip[2], force];
+        for (bytes, value) in into.bytes_mut().chunks_exact_mut(8).zip(truth) {
+            bytes.copy_from_slice(&value.to_le_bytes());
+        }
+        world.link();
+        let received_s = Some(world.now_s);
+        Ok(Stamp {
+            valid_s,
+            received_s,
+        })
+    }
+}

@@ -1,0 +1,93 @@
+//! A disk that keeps what was synced, and of the rest whatever it likes.
+
+use super::fault::{FaultKind, fraction};
+use super::world::{Sabotage, Shared};
+use crate::draw::Draws;
+
+/// One file that only grows.
+pub(super) struct Disk {
+    shared: Shared,
+    draws: Draws,
+    durable: Vec<u8>,
+    pending: Vec<u8>,
+    crashes: u64,
+}
+
+/// The disk took no more.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("no space left on the simulated disk")]
+pub(super) struct Full;
+
+/// How long a write takes until it is durable, in s.
+const SYNC_S: f64 = 0.000_2;
+
+impl Disk {
+    pub(super) fn new(shared: Shared, draws: Draws) -> Disk {
+        Disk {
+            shared,
+            draws,
+            durable: Vec::new(),
+            pending: Vec::new(),
+            crashes: 0,
+        }
+    }
+
+    /// What a process that opens the file reads: everything written, durable or not.
+    pub(super) fn read(&self) -> Vec<u8> {
+        [self.durable.as_slice(), self.pending.as_slice()].concat()
+    }
+
+    /// Writes at the end; on a full disk, some of it.
+    pub(super) fn write(&mut self, bytes: &[u8]) -> Result<(), Full> {
+        let mut world = self.shared.world();
+        let now_s = world.now_s;
+        // Disks are full at the next write after the moment, however short that was.
+        let is_full = world.faults.strike_once(FaultKind::FullDisk, now_s);
+        drop(world);
+        let taken = if is_full {
+            bytes.len() / 2
+        } else {
+            bytes.len()
+        };
+        self.pending.extend_from_slice(&bytes[..taken]);
+        if is_full { Err(Full) } else { Ok(()) }
+    }
+
+    /// Makes durable what was written.
+    pub(super) fn sync(&mut self) {
+        self.shared.survive();
+        let mut world = self.shared.world();
+        world.pass(SYNC_S);
+        if world.sabotage != Sabotage::LazyDisk {
+            self.durable.append(&mut self.pending);
+        }
+        drop(world);
+        self.shared.survive();
+    }
+
+    /// Forgets what stands behind `length`.
+    pub(super) fn cut(&mut self, length: usize) {
+        self.durable.append(&mut self.pending);
+        self.durable.truncate(length);
+    }
+
+    /// The power goes: of what was not synced, a beginning of any length is left, its last byte perhaps another.
+    pub(super) fn crash(&mut self) {
+        self.crashes += 1;
+        #[expect(
+            clippy::cast_precision_loss,
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "a part of a length is a length"
+        )]
+        let kept =
+            (fraction(self.draws, [self.crashes, 0]) * (self.pending.len() as f64 + 1.0)) as usize;
+        self.pending.truncate(kept);
+        if let Some(last) = self.pending.last_mut()
+            && self.draws.bits([self.crashes, 1]).is_multiple_of(2)
+        {
+            *last ^= 0x40;
+        }
+        self.durable.append(&mut self.pending);
+    }
+}

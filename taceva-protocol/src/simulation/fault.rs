@@ -1,0 +1,200 @@
+//! What goes wrong, when, and for how long.
+
+use std::fmt;
+
+use crate::draw::Draws;
+
+/// A way in which a rig fails.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum FaultKind {
+    /// The force transducer says nothing.
+    Silence,
+    /// The force transducer repeats its last reading with fresh stamps.
+    Freeze,
+    /// The force transducer says NaN.
+    NotANumber,
+    /// The force transducer is at the end of its range.
+    Saturation,
+    /// The readings are old when they come.
+    StaleStamps,
+    /// The camera loses frames, or hands out old ones.
+    DroppedFrames,
+    /// Every call takes longer.
+    SlowLink,
+    /// The robot says it moved, and did not.
+    StuckRobot,
+    /// The disk takes part of what is written, and no more.
+    FullDisk,
+    /// The process ends between two instructions, and what was not synced may be lost or torn.
+    Kill,
+    /// Somebody wishes to stop.
+    Cancel,
+}
+
+impl FaultKind {
+    /// Every kind.
+    pub const ALL: [FaultKind; 11] = [
+        FaultKind::Silence,
+        FaultKind::Freeze,
+        FaultKind::NotANumber,
+        FaultKind::Saturation,
+        FaultKind::StaleStamps,
+        FaultKind::DroppedFrames,
+        FaultKind::SlowLink,
+        FaultKind::StuckRobot,
+        FaultKind::FullDisk,
+        FaultKind::Kill,
+        FaultKind::Cancel,
+    ];
+
+    /// The word in reports.
+    pub const fn name(self) -> &'static str {
+        match self {
+            FaultKind::Silence => "silence",
+            FaultKind::Freeze => "freeze",
+            FaultKind::NotANumber => "not a number",
+            FaultKind::Saturation => "saturation",
+            FaultKind::StaleStamps => "stale stamps",
+            FaultKind::DroppedFrames => "dropped frames",
+            FaultKind::SlowLink => "slow link",
+            FaultKind::StuckRobot => "stuck robot",
+            FaultKind::FullDisk => "full disk",
+            FaultKind::Kill => "kill",
+            FaultKind::Cancel => "cancel",
+        }
+    }
+}
+
+impl fmt::Display for FaultKind {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+/// How often each kind of fault struck a call.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct FaultCounts([u64; FaultKind::ALL.len()]);
+
+impl FaultCounts {
+    /// How often `kind` struck.
+    pub fn of(&self, kind: FaultKind) -> u64 {
+        self.0[kind as usize]
+    }
+
+    /// Adds those of another run.
+    pub fn add(&mut self, other: &FaultCounts) {
+        for (count, more) in self.0.iter_mut().zip(other.0) {
+            *count += more;
+        }
+    }
+
+    fn count(&mut self, kind: FaultKind) {
+        self.0[kind as usize] += 1;
+    }
+}
+
+/// A fault of a scenario.
+#[derive(Clone, Copy, Debug)]
+struct Fault {
+    kind: FaultKind,
+    from_s: f64,
+    until_s: f64,
+}
+
+/// The faults of a scenario.
+#[derive(Clone, Debug)]
+pub(super) struct Faults {
+    faults: Vec<Fault>,
+    struck: FaultCounts,
+}
+
+impl Faults {
+    /// Up to four faults within the first `span_s`; one seed in eight has none.
+    pub(super) fn draw(draws: Draws, span_s: f64) -> Faults {
+        let whole = |least, greatest, place| draws.between(least, greatest, place);
+        let count = if whole(0, 7, [0, 0]) == 0 {
+            0
+        } else {
+            whole(1, 4, [0, 1])
+        };
+        let faults = (1..=count.unsigned_abs()).map(|number| {
+            let kind = whole(0, FaultKind::ALL.len() as i64 - 1, [number, 0]).unsigned_abs();
+            let kind = FaultKind::ALL[usize::try_from(kind).unwrap_or(0)];
+            let part = |place| fraction(draws, [number, place]);
+            let from_s = part(1) * span_s;
+            // From a glitch of one reading to two seconds, short ones as likely as long ones.
+            let until_s = from_s + 0.005 * 400_f64.powf(part(2));
+            Fault {
+                kind,
+                from_s,
+                until_s,
+            }
+        });
+        Faults {
+            faults: faults.collect(),
+            struck: FaultCounts::default(),
+        }
+    }
+
+    /// No fault.
+    #[cfg(test)]
+    pub(super) fn none() -> Faults {
+        Faults {
+            faults: Vec::new(),
+            struck: FaultCounts::default(),
+        }
+    }
+
+    /// A fault of `kind` from `from_s` on, for ever.
+    #[cfg(test)]
+    pub(super) fn from(kind: FaultKind, from_s: f64) -> Faults {
+        let until_s = f64::INFINITY;
+        Faults {
+            faults: vec![Fault {
+                kind,
+                from_s,
+                until_s,
+            }],
+            ..Faults::none()
+        }
+    }
+
+    /// A fault of `kind` that was always there.
+    #[cfg(test)]
+    pub(super) fn always(kind: FaultKind) -> Faults {
+        Faults::from(kind, f64::NEG_INFINITY)
+    }
+
+    /// Whether `kind` strikes a call at `now_s`; if so it is counted.
+    pub(super) fn strike(&mut self, kind: FaultKind, now_s: f64) -> bool {
+        let active =
+            |fault: &Fault| fault.kind == kind && (fault.from_s..fault.until_s).contains(&now_s);
+        let strikes = self.faults.iter().any(active);
+        if strikes {
+            self.struck.count(kind);
+        }
+        strikes
+    }
+
+    /// Whether a fault of `kind` that strikes once is due at `now_s`; it does not come again.
+    pub(super) fn strike_once(&mut self, kind: FaultKind, now_s: f64) -> bool {
+        let due = |fault: &Fault| fault.kind == kind && fault.from_s <= now_s;
+        let place = self.faults.iter().position(due);
+        if let Some(place) = place {
+            self.faults.remove(place);
+            self.struck.count(kind);
+        }
+        place.is_some()
+    }
+
+    pub(super) fn struck(&self) -> FaultCounts {
+        self.struck
+    }
+}
+
+/// A number from 0 to 1, 1 excluded.
+pub(super) fn fraction(draws: Draws, place: [u64; 2]) -> f64 {
+    #[expect(clippy::cast_precision_loss, reason = "53 bits are exact in binary64")]
+    let bits = (draws.bits(place) >> 11) as f64;
+    bits / (1_u64 << 53) as f64
+}

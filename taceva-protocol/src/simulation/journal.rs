@@ -1,0 +1,141 @@
+//! A press log on the simulated disk: framed records, synced before they count, a torn tail cut away.
+
+use std::collections::BTreeSet;
+
+use taceva_core::SinkError;
+
+use super::disk::Disk;
+use crate::digest::{Digest, fnv_1a};
+use crate::run::{Outcome, PressLog, PressRecord};
+
+/// A press as it was recorded.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Entry {
+    pub(super) press: Digest,
+    pub(super) outcome: Outcome,
+    pub(super) samples: Vec<EntrySample>,
+}
+
+/// What the judge compares with the truth.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct EntrySample {
+    pub(super) number: u32,
+    pub(super) stamp_s: f64,
+    pub(super) depth_mm: f64,
+    pub(super) force_n: f64,
+    /// Time, height and force as the frame shows them.
+    pub(super) frame: Option<[f64; 3]>,
+}
+
+/// The log.
+pub(super) struct Journal<'a> {
+    disk: &'a mut Disk,
+    finished: BTreeSet<Digest>,
+    /// What was acknowledged, ever: kept outside of the process, to be compared with what is left.
+    acknowledged: &'a mut Vec<Digest>,
+}
+
+impl<'a> Journal<'a> {
+    /// Opens the log, cutting away a torn tail.
+    pub(super) fn open(disk: &'a mut Disk, acknowledged: &'a mut Vec<Digest>) -> Journal<'a> {
+        let (entries, whole) = entries(&disk.read());
+        disk.cut(whole);
+        Journal {
+            disk,
+            finished: entries.iter().map(|entry| entry.press).collect(),
+            acknowledged,
+        }
+    }
+}
+
+impl PressLog for Journal<'_> {
+    fn is_finished(&self, press: Digest) -> bool {
+        self.finished.contains(&press)
+    }
+
+    fn append(&mut self, record: &PressRecord) -> Result<(), SinkError> {
+        let payload = encode(record)?;
+        let length = u32::try_from(payload.len())?.to_le_bytes();
+        let check = fnv_1a(&payload).to_le_bytes();
+        self.disk
+            .write(&[&length, check.as_slice(), &payload].concat())?;
+        self.disk.sync();
+        self.finished.insert(record.press);
+        self.acknowledged.push(record.press);
+        Ok(())
+    }
+}
+
+/// The whole records of a file, and how many bytes they take.
+pub(super) fn entries(bytes: &[u8]) -> (Vec<Entry>, usize) {
+    let mut entries = Vec::new();
+    let mut whole = 0;
+    while let Some((entry, length)) = bytes.get(whole..).and_then(first_entry) {
+        entries.push(entry);
+        whole += length;
+    }
+    (entries, whole)
+}
+
+const HEAD: usize = 12;
+const SAMPLE: usize = 52;
+
+fn first_entry(bytes: &[u8]) -> Option<(Entry, usize)> {
+    let length = u32::from_le_bytes(bytes.get(..4)?.try_into().ok()?);
+    let check = u64::from_le_bytes(bytes.get(4..HEAD)?.try_into().ok()?);
+    let end = HEAD + usize::try_from(length).ok()?;
+    let payload = bytes.get(HEAD..end)?;
+    (fnv_1a(payload) == check).then_some(())?;
+    Some((decode(payload)?, end))
+}
+
+fn encode(record: &PressRecord) -> Result<Vec<u8>, SinkError> {
+    let mut payload = record.press.to_string().into_bytes();
+    payload.push(match record.outcome {
+        Outcome::Complete => 0,
+        Outcome::Limited => 1,
+        Outcome::NoContact => 2,
+    });
+    for sample in &record.samples {
+        let (_, number) = sample
+            .id
+            .split_once('/')
+            .ok_or("a sample without a number")?;
+        payload.extend(number.parse::<u32>()?.to_le_bytes());
+        let truth = |place| sample.truth.get(place).unwrap_or(f64::NAN);
+        let stamp_s = sample.stamp.map_or(f64::NAN, |stamp| stamp.valid_s);
+        for value in [stamp_s, truth(2), truth(5)] {
+            payload.extend(value.to_le_bytes());
+        }
+        match &sample.frame {
+            Some(frame) => payload.extend(frame.bytes()),
+            None => payload.extend([0xff; 24]),
+        }
+    }
+    Ok(payload)
+}
+
+fn decode(payload: &[u8]) -> Option<Entry> {
+    let press = Digest::from_hex(std::str::from_utf8(payload.get(..32)?).ok()?)?;
+    let outcome = match payload.get(32)? {
+        0 => Outcome::Complete,
+        1 => Outcome::Limited,
+        _ => Outcome::NoContact,
+    };
+    let samples = payload.get(33..)?.chunks_exact(SAMPLE).map(|sample| {
+        let value = |at: usize| Some(f64::from_le_bytes(sample.get(at..at + 8)?.try_into().ok()?));
+        let frame = [value(28)?, value(36)?, value(44)?];
+        Some(EntrySample {
+            number: u32::from_le_bytes(sample.get(..4)?.try_into().ok()?),
+            stamp_s: value(4)?,
+            depth_mm: value(12)?,
+            force_n: value(20)?,
+            frame: frame[0].is_finite().then_some(frame),
+        })
+    });
+    Some(Entry {
+        press,
+        outcome,
+        samples: samples.collect::<Option<_>>()?,
+    })
+}

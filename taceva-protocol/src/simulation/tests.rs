@@ -1,0 +1,434 @@
+//! Runs on the simulated rig, and proof that its judge is awake.
+
+use std::collections::BTreeSet;
+
+use taceva_core::{Deadline, DriverError, ErrorKind, Millimetre, SinkError};
+
+use super::devices::{SimulatedForce, SimulatedRobot, SimulatedSensor};
+use super::fault::{FaultCounts, FaultKind, Faults};
+use super::judge::{Judge, Stated};
+use super::scenario::{scenario_plan, simulate, simulate_with};
+use super::world::{Gel, Sabotage, Shared};
+use super::*;
+use crate::digest::Digest;
+use crate::draw::Draws;
+use crate::plan::Plan;
+use crate::press::Motion;
+use crate::run::{
+    Cancel, Controls, Devices, Event, Left, Mode, Outcome, PressLog, PressRecord, RunError,
+    RunReport, RunSpec, SpecimenChanger, StopCause, Timekeeper, run,
+};
+use crate::specimen::Specimen;
+
+const SOFT: Gel = Gel {
+    stiffness_n_mm: 0.5,
+    noise_n: 0.003,
+    saturation_n: 20.0,
+    normal_max_n: 1.5,
+};
+
+/// A gel so hard that every press ends at the limit of force.
+const HARD: Gel = Gel {
+    stiffness_n_mm: 5.0,
+    ..SOFT
+};
+
+#[derive(Default)]
+struct Memory {
+    records: Vec<PressRecord>,
+    full_after: Option<usize>,
+}
+
+impl PressLog for Memory {
+    fn is_finished(&self, press: Digest) -> bool {
+        self.records.iter().any(|record| record.press == press)
+    }
+    fn append(&mut self, record: &PressRecord) -> Result<(), SinkError> {
+        if self
+            .full_after
+            .is_some_and(|most| self.records.len() >= most)
+        {
+            return Err("no space left".into());
+        }
+        self.records.push(record.clone());
+        Ok(())
+    }
+}
+
+struct Bench {
+    shared: Shared,
+    plan: Plan,
+    cancel: Cancel,
+    events: Vec<Event>,
+}
+
+impl Bench {
+    fn new(gel: Gel) -> Bench {
+        let plan = scenario_plan(1, &gel).expect("a plan");
+        let limits = plan.limits.as_ref().expect("limits");
+        let stated = Stated::new(limits, gel.stiffness_n_mm, gel.noise_n, 0.1, 0.02);
+        let faultless = Faults::none();
+        Bench {
+            shared: Shared::new(gel, Judge::new(stated), faultless, Draws::new(1, "test")),
+            plan,
+            cancel: Cancel::new(),
+            events: Vec::new(),
+        }
+    }
+
+    fn run(&mut self, mode: Mode, log: &mut Memory) -> Result<RunReport, RunError> {
+        let unit = self.plan.units[0].clone();
+        self.run_unit(&unit, mode, log)
+    }
+
+    fn run_unit(
+        &mut self,
+        unit: &str,
+        mode: Mode,
+        log: &mut Memory,
+    ) -> Result<RunReport, RunError> {
+        let (mut robot, mut force, mut sensor) = (
+            SimulatedRobot(self.shared.clone()),
+            SimulatedForce(self.shared.clone()),
+            SimulatedSensor(self.shared.clone()),
+        );
+        let mut clock = self.shared.clone();
+        let (events, cancel) = (&mut self.events, &self.cancel);
+        let spec = RunSpec {
+            plan: &self.plan,
+            unit,
+            mode,
+        };
+        let devices = Devices {
+            robot: &mut robot,
+            force: &mut force,
+            sensor: Some(&mut sensor),
+            lighting: None,
+            specimens: None,
+        };
+        let mut note = |event: &Event| events.push(event.clone());
+        let controls = Controls {
+            clock: &mut clock,
+            cancel,
+            events: &mut note,
+        };
+        run(&spec, devices, log, controls)
+    }
+
+    fn height(&self) -> f64 {
+        self.shared.world().tip[2]
+    }
+}
+
+#[test]
+fn five_hundred_seeds_pass_without_a_violation_and_strike_with_every_fault() {
+    let mut struck = FaultCounts::default();
+    let mut checks = Checks::default();
+    let mut seeds_of = [0_u32; FaultKind::ALL.len()];
+    for seed in 0..500 {
+        let report = simulate(seed);
+        assert_eq!(
+            report.violations,
+            [],
+            "seed {seed}: play it again with `cargo run -p taceva-protocol --example faults -- 1 {seed}`"
+        );
+        for kind in FaultKind::ALL {
+            seeds_of[kind as usize] += u32::from(report.struck.of(kind) > 0);
+        }
+        struck.add(&report.struck);
+        checks.join(&report.checks);
+    }
+    for kind in FaultKind::ALL {
+        assert!(
+            seeds_of[kind as usize] >= 10,
+            "{kind} struck in too few seeds"
+        );
+    }
+    assert!(checks.halts > 500 && checks.samples > 5_000 && checks.motions > 100_000);
+    assert!(checks.slowest_halt_s <= HALT_WITHIN_S);
+}
+
+#[test]
+fn a_seed_is_the_same_run_every_time() {
+    for seed in [3, 17, 42] {
+        assert_eq!(simulate(seed), simulate(seed));
+    }
+}
+
+/// Violations of the first seeds with a mistake planted.
+fn found_with(sabotage: Sabotage) -> Vec<Violation> {
+    let reports = (0..60).map(|seed| simulate_with(seed, sabotage));
+    reports.flat_map(|report| report.violations).collect()
+}
+
+#[test]
+fn the_judge_finds_limits_that_were_loosened() {
+    let found = found_with(Sabotage::LooseLimits);
+    assert!(
+        found
+            .iter()
+            .any(|found| matches!(found, Violation::TooHard { .. })),
+        "{found:?}"
+    );
+}
+
+#[test]
+fn the_judge_finds_halts_that_come_late() {
+    let found = found_with(Sabotage::SlowHalt);
+    assert!(
+        found
+            .iter()
+            .any(|found| matches!(found, Violation::LateHalt { .. })),
+        "{found:?}"
+    );
+}
+
+#[test]
+fn the_judge_finds_a_disk_that_acknowledges_what_it_did_not_sync() {
+    let found = found_with(Sabotage::LazyDisk);
+    assert!(
+        found
+            .iter()
+            .any(|found| matches!(found, Violation::Lost(_) | Violation::Doubled(_))),
+        "{found:?}"
+    );
+}
+
+#[test]
+fn the_judge_finds_frames_of_another_time() {
+    let found = found_with(Sabotage::OldFrames);
+    assert!(
+        found
+            .iter()
+            .any(|found| matches!(found, Violation::Untrue(_))),
+        "{found:?}"
+    );
+}
+
+#[test]
+fn a_whole_run_makes_every_press_once_and_leaves_the_tip_above_the_gel() {
+    let mut bench = Bench::new(SOFT);
+    let mut log = Memory::default();
+    let report = bench.run(Mode::Acquire, &mut log).expect("no faults");
+    let presses = bench.plan.presses.len();
+    assert_eq!(
+        (report.made, report.resumed, report.limited),
+        (presses, 0, 0)
+    );
+    let made: BTreeSet<Digest> = log.records.iter().map(|record| record.press).collect();
+    assert_eq!(made.len(), presses);
+    assert_eq!(report.samples as u64, bench.plan.cost.samples);
+    assert!(bench.height() <= -bench.plan.contact.clearance_mm.value);
+    let seconds = bench.shared.now_s();
+    let estimate = bench.plan.cost.minutes * 60.0;
+    assert!(
+        (0.5..2.0).contains(&(seconds / estimate)),
+        "{seconds} s, estimated {estimate} s"
+    );
+}
+
+#[test]
+fn finished_presses_are_skipped_and_the_rest_is_made() {
+    let mut bench = Bench::new(SOFT);
+    let mut log = Memory {
+        full_after: Some(2),
+        ..Memory::default()
+    };
+    let error = bench.run(Mode::Acquire, &mut log).expect_err("full");
+    assert!(matches!(error.cause, StopCause::Log(_)) && error.left == Left::Clear);
+    let unfinished = error.press.expect("one was lost");
+    assert!(!log.is_finished(unfinished));
+    assert!(error.to_string().contains("no space left"), "{error}");
+    log.full_after = None;
+    let report = bench.run(Mode::Acquire, &mut log).expect("space again");
+    assert_eq!(
+        (report.resumed, report.made),
+        (2, bench.plan.presses.len() - 2)
+    );
+    let again = bench.run(Mode::Acquire, &mut log).expect("nothing to do");
+    assert_eq!((again.resumed, again.made), (bench.plan.presses.len(), 0));
+}
+
+#[test]
+fn a_press_that_reaches_the_limit_of_force_ends_there_and_the_run_goes_on() {
+    let mut bench = Bench::new(HARD);
+    let mut log = Memory::default();
+    let report = bench
+        .run(Mode::Acquire, &mut log)
+        .expect("limits are no faults");
+    assert!(report.limited > 0);
+    assert_eq!(report.made, bench.plan.presses.len());
+    let limited = log
+        .records
+        .iter()
+        .filter(|record| record.outcome == Outcome::Limited);
+    for record in limited {
+        let planned = bench
+            .plan
+            .presses
+            .iter()
+            .find(|press| press.id == record.press);
+        assert!(record.samples.len() < planned.expect("planned").press.samples());
+    }
+    assert_eq!(bench.shared.world().judge.violations, []);
+    let halted = bench
+        .events
+        .iter()
+        .filter(|event| matches!(event, Event::Halted(_)));
+    assert_eq!(halted.count(), report.limited);
+}
+
+#[test]
+fn a_wish_to_stop_leaves_the_tip_above_the_gel() {
+    let mut bench = Bench::new(SOFT);
+    bench.cancel.cancel();
+    let error = bench
+        .run(Mode::Acquire, &mut Memory::default())
+        .expect_err("cancelled");
+    assert!(matches!(error.cause, StopCause::Cancelled));
+    assert_eq!(error.left, Left::Clear);
+    assert!(bench.height() <= -0.5);
+}
+
+#[test]
+fn a_rehearsal_visits_every_place_touches_nothing_and_records_nothing() {
+    let mut bench = Bench::new(SOFT);
+    let mut log = Memory::default();
+    let height = Millimetre(20.0);
+    let report = bench.run(Mode::Rehearse { height }, &mut log).expect("air");
+    assert_eq!((report.made, report.samples), (bench.plan.presses.len(), 0));
+    assert!(log.records.is_empty());
+    assert!(bench.height() < -19.0);
+    let world = bench.shared.world();
+    assert!(world.judge.checks.greatest_force <= 0.0, "never in contact");
+}
+
+#[test]
+fn a_gel_that_is_not_there_is_searched_for_and_left() {
+    let mut bench = Bench::new(SOFT);
+    bench.shared.world().gel.stiffness_n_mm = 1e-9;
+    let mut log = Memory::default();
+    let report = bench
+        .run(Mode::Acquire, &mut log)
+        .expect("nothing touched is no fault");
+    let searched = bench.plan.presses.iter();
+    let searched = searched.filter(|press| !matches!(press.press.motion, Motion::Rest { .. }));
+    assert_eq!(report.without_contact, searched.count());
+}
+
+#[test]
+fn a_unit_that_the_plan_does_not_name_is_refused() {
+    let mut bench = Bench::new(SOFT);
+    let error = bench
+        .run_unit("9", Mode::Acquire, &mut Memory::default())
+        .expect_err("unknown");
+    assert_eq!(
+        error.to_string(),
+        "the plan needs unit `9`, which it does not name"
+    );
+}
+
+#[test]
+fn a_plan_with_pictures_is_not_run_without_a_sensor() {
+    let bench = Bench::new(SOFT);
+    let (mut robot, mut force) = (
+        SimulatedRobot(bench.shared.clone()),
+        SimulatedForce(bench.shared.clone()),
+    );
+    let mut clock = bench.shared.clone();
+    let spec = RunSpec {
+        plan: &bench.plan,
+        unit: &bench.plan.units[0],
+        mode: Mode::Acquire,
+    };
+    let devices = Devices {
+        robot: &mut robot,
+        force: &mut force,
+        sensor: None,
+        lighting: None,
+        specimens: None,
+    };
+    let controls = Controls {
+        clock: &mut clock,
+        cancel: &bench.cancel,
+        events: &mut |_| {},
+    };
+    let error = run(&spec, devices, &mut Memory::default(), controls).expect_err("blind");
+    assert_eq!(
+        error.to_string(),
+        "the plan needs a sensor for its pictures"
+    );
+}
+
+#[test]
+fn frames_that_never_come_stop_the_run_with_the_tip_above_the_gel() {
+    let mut bench = Bench::new(SOFT);
+    bench.shared.world().faults = Faults::always(FaultKind::DroppedFrames);
+    let error = bench
+        .run(Mode::Acquire, &mut Memory::default())
+        .expect_err("blind");
+    assert!(matches!(error.cause, StopCause::Frames { .. }), "{error}");
+    assert_eq!(error.left, Left::Clear);
+}
+
+#[test]
+fn a_transducer_that_stays_silent_leaves_the_tip_where_it_is() {
+    let mut bench = Bench::new(SOFT);
+    // The fault begins in the first press that touches the gel.
+    bench.shared.world().faults = Faults::from(FaultKind::Silence, 8.0);
+    let error = bench
+        .run(Mode::Acquire, &mut Memory::default())
+        .expect_err("deaf");
+    assert!(matches!(error.cause, StopCause::Tripped(_)), "{error}");
+    assert_eq!(error.left, Left::InPlace);
+    assert!(bench.shared.world().halted, "nobody moves blind");
+    assert!(error.to_string().contains("left where it stood"), "{error}");
+}
+
+struct NoBoards;
+
+impl SpecimenChanger for NoBoards {
+    fn mount(&mut self, specimen: Specimen, _: Deadline) -> Result<(), DriverError> {
+        let key = taceva_core::DriverKey::fixed("test/boards");
+        Err(DriverError::new(
+            ErrorKind::NotFound,
+            &key,
+            format!("mount a {specimen}"),
+        ))
+    }
+}
+
+#[test]
+fn a_specimen_that_cannot_be_mounted_stops_the_run_in_the_air() {
+    let bench = Bench::new(SOFT);
+    let (mut robot, mut force, mut sensor) = (
+        SimulatedRobot(bench.shared.clone()),
+        SimulatedForce(bench.shared.clone()),
+        SimulatedSensor(bench.shared.clone()),
+    );
+    let mut clock = bench.shared.clone();
+    let spec = RunSpec {
+        plan: &bench.plan,
+        unit: &bench.plan.units[0],
+        mode: Mode::Acquire,
+    };
+    let devices = Devices {
+        robot: &mut robot,
+        force: &mut force,
+        sensor: Some(&mut sensor),
+        lighting: None,
+        specimens: Some(&mut NoBoards),
+    };
+    let controls = Controls {
+        clock: &mut clock,
+        cancel: &bench.cancel,
+        events: &mut |_| {},
+    };
+    let error = run(&spec, devices, &mut Memory::default(), controls).expect_err("no board");
+    assert!(
+        error
+            .to_string()
+            .starts_with("test/boards: cannot mount a sphere of radius 2 mm"),
+        "{error}"
+    );
+}

@@ -1,0 +1,260 @@
+//! The world of a simulation: a tip on a spring, a clock that only calls advance, and faults that strike calls.
+
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+
+use super::fault::{FaultKind, Faults, fraction};
+use super::judge::{Judge, SILENCE};
+use crate::draw::Draws;
+use crate::run::{Cancel, Timekeeper};
+
+/// The gel and the instruments of one seed.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Gel {
+    pub(super) stiffness_n_mm: f64,
+    /// Half the span of the noise of the transducer.
+    pub(super) noise_n: f64,
+    /// The force at which the transducer is at the end of its range.
+    pub(super) saturation_n: f64,
+    pub(super) normal_max_n: f64,
+}
+
+/// How a call to a device travels, in s each way.
+const LINK_S: f64 = 0.000_5;
+const SLOW_LINK_S: f64 = 0.004;
+/// From one reading of the transducer to the next, in s.
+const READING_S: f64 = 0.005;
+/// From one frame to the next, in s.
+const FRAME_S: f64 = 0.02;
+/// How old readings are while their stamps are stale, in s.
+const STALE_S: f64 = 0.12;
+
+/// Everything there is.
+pub(super) struct World {
+    pub(super) now_s: f64,
+    pub(super) tip: [f64; 3],
+    pub(super) halted: bool,
+    pub(super) gel: Gel,
+    pub(super) judge: Judge,
+    pub(super) faults: Faults,
+    pub(super) cancel: Cancel,
+    draws: Draws,
+    readings: u64,
+    zero_n: f64,
+    last_force: Option<[f64; 3]>,
+    /// Since when the transducer shows an old force.
+    frozen: bool,
+    /// Since when somebody listens to a transducer that says nothing.
+    listening_s: Option<f64>,
+    last_frame_s: f64,
+    pub(super) sabotage: Sabotage,
+}
+
+/// A mistake planted in the world or in the rig, so that tests see the judge find it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(not(test), expect(dead_code, reason = "mistakes are planted by tests"))]
+pub(super) enum Sabotage {
+    /// None: the rig as it is.
+    Nothing,
+    /// The supervisor is told limits half as tight again.
+    LooseLimits,
+    /// Halts take longer than they may.
+    SlowHalt,
+    /// The disk acknowledges what it did not sync.
+    LazyDisk,
+    /// Frames carry the stamp of now and the picture of before.
+    OldFrames,
+}
+
+/// The world as devices, disk and clock share it.
+#[derive(Clone)]
+pub(super) struct Shared(Arc<Mutex<World>>);
+
+/// What is thrown when the process is killed: it is no error that code could handle.
+pub(super) struct Killed;
+
+impl Shared {
+    pub(super) fn new(gel: Gel, judge: Judge, faults: Faults, draws: Draws) -> Shared {
+        Shared(Arc::new(Mutex::new(World {
+            now_s: 0.0,
+            // Parked beside the gel and above it.
+            tip: [30.0, 5.0, -8.0],
+            halted: false,
+            gel,
+            judge,
+            faults,
+            cancel: Cancel::new(),
+            draws,
+            readings: 0,
+            zero_n: 0.0,
+            last_force: None,
+            frozen: false,
+            listening_s: None,
+            last_frame_s: 0.0,
+            sabotage: Sabotage::Nothing,
+        })))
+    }
+
+    /// The world; a kill while it was held left it whole, because kills come between calls.
+    pub(super) fn world(&self) -> MutexGuard<'_, World> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Lets the process die here, if it is due.
+    pub(super) fn survive(&self) {
+        let mut world = self.world();
+        let now_s = world.now_s;
+        if world.faults.strike_once(FaultKind::Kill, now_s) {
+            world.judge.killed();
+            drop(world);
+            // Unlike a panic it is not reported: nothing went wrong in the program.
+            std::panic::resume_unwind(Box::new(Killed));
+        }
+        if world.faults.strike_once(FaultKind::Cancel, now_s) {
+            world.cancel.cancel();
+        }
+    }
+}
+
+impl Timekeeper for Shared {
+    fn now_s(&self) -> f64 {
+        self.world().now_s
+    }
+
+    fn rest(&mut self, rest: std::time::Duration) {
+        self.world().pass(rest.as_secs_f64());
+        self.survive();
+    }
+}
+
+impl World {
+    /// Lets time pass.
+    pub(super) fn pass(&mut self, seconds: f64) {
+        self.now_s += seconds;
+        self.judge.passed(self.now_s);
+    }
+
+    /// Ends a halt; whoever listens from now on listens anew.
+    pub(super) fn release(&mut self) {
+        self.halted = false;
+        self.listening_s = None;
+    }
+
+    /// From `since_s` on the robot must be halted; one that is halted already needs no halt.
+    fn hazard(&mut self, hazard: &'static str, since_s: f64) {
+        if !self.halted {
+            self.judge.hazard(hazard, since_s);
+        }
+    }
+
+    /// One way of a call.
+    pub(super) fn link(&mut self) {
+        let slow = self.faults.strike(FaultKind::SlowLink, self.now_s);
+        self.pass(if slow { SLOW_LINK_S } else { LINK_S });
+    }
+
+    /// The height of the gel at a place: gently uneven.
+    pub(super) fn surface(&self, [x, y]: [f64; 2]) -> f64 {
+        0.1 + 0.05 * (0.7 * x).sin() * (0.9 * y).cos()
+    }
+
+    /// True indentation at a pose.
+    pub(super) fn depth(&self, [x, y, z]: [f64; 3]) -> f64 {
+        (z - self.surface([x, y])).max(0.0)
+    }
+
+    /// True normal force at a pose.
+    pub(super) fn force(&self, tip: [f64; 3]) -> f64 {
+        self.gel.stiffness_n_mm * self.depth(tip)
+    }
+
+    /// Moves the tip along a line.
+    pub(super) fn glide(&mut self, target: [f64; 3], speed_mm_s: f64) {
+        let from = self.tip;
+        let way = (0..3)
+            .map(|axis| (target[axis] - from[axis]).powi(2))
+            .sum::<f64>()
+            .sqrt();
+        let seconds = way / speed_mm_s;
+        let start_s = self.now_s;
+        let stuck = self.faults.strike(FaultKind::StuckRobot, start_s);
+        if !stuck {
+            let (before, after) = (self.force(from), self.force(target));
+            // Beyond the noise the next reading cannot but show it.
+            let bound = self.gel.normal_max_n + self.gel.noise_n;
+            let inward = after > before;
+            if inward && after > bound && !self.frozen {
+                let part = ((bound - before) / (after - before)).max(0.0);
+                self.hazard("a force beyond the limit", start_s + part * seconds);
+            }
+            self.tip = target;
+        }
+        self.pass(seconds);
+        let (depth, force) = (self.depth(self.tip), self.force(self.tip));
+        self.judge.moved(depth, force, self.frozen);
+    }
+
+    /// Waits for the next reading of force; `None` if none comes within `deadline_s`.
+    pub(super) fn read_force(&mut self, deadline_s: f64) -> Option<([f64; 3], f64)> {
+        if self.faults.strike(FaultKind::Silence, self.now_s) {
+            let listening_s = *self.listening_s.get_or_insert(self.now_s);
+            self.hazard(SILENCE, listening_s + STALE_AFTER_S);
+            self.pass(deadline_s);
+            return None;
+        }
+        self.listening_s = None;
+        self.judge.heard();
+        let next_s = ((self.now_s / READING_S).floor() + 1.0) * READING_S;
+        self.pass(next_s - self.now_s);
+        self.readings += 1;
+        let noise = |axis: u64| {
+            let part = fraction(self.draws, [self.readings, axis]);
+            self.gel.noise_n * (2.0 * part - 1.0)
+        };
+        let normal = self.force(self.tip) - self.zero_n;
+        let mut force = [noise(0), noise(1), normal + noise(2)];
+        let mut valid_s = self.now_s;
+        self.frozen = self.faults.strike(FaultKind::Freeze, self.now_s);
+        if let (true, Some(last)) = (self.frozen, self.last_force) {
+            force = last;
+        }
+        self.last_force = Some(force);
+        if self.faults.strike(FaultKind::NotANumber, self.now_s) {
+            force[2] = f64::NAN;
+            self.hazard("a reading that is no number", self.now_s);
+        }
+        if self.faults.strike(FaultKind::Saturation, self.now_s) {
+            force[2] = self.gel.saturation_n;
+            self.hazard("a saturated reading", self.now_s);
+        }
+        if self.faults.strike(FaultKind::StaleStamps, self.now_s) {
+            valid_s -= STALE_S;
+            self.hazard("a reading that is old", self.now_s);
+        }
+        Some((force, valid_s))
+    }
+
+    /// Calls the present load zero.
+    pub(super) fn tare(&mut self) {
+        self.zero_n = self.force(self.tip);
+    }
+
+    /// Waits for the next frame: when it was exposed, and whether it came in time.
+    pub(super) fn expose(&mut self, deadline_s: f64) -> Option<f64> {
+        if self.faults.strike(FaultKind::DroppedFrames, self.now_s) {
+            // Every other one comes, and is the one before.
+            if self.readings.is_multiple_of(2) {
+                self.pass(FRAME_S);
+                return Some(self.last_frame_s);
+            }
+            self.pass(deadline_s);
+            return None;
+        }
+        let next_s = ((self.now_s / FRAME_S).floor() + 1.0) * FRAME_S;
+        self.pass(next_s - self.now_s);
+        self.last_frame_s = self.now_s;
+        Some(self.now_s)
+    }
+}
+
+/// A silence of this length is one.
+const STALE_AFTER_S: f64 = crate::run::STALE_S;
