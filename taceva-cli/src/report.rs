@@ -7,6 +7,7 @@ mod csv;
 mod grid;
 mod json;
 mod latex;
+mod line;
 mod markdown;
 mod number;
 mod text;

@@ -1,9 +1,11 @@
-//! One row a score, numbers in full.
+//! One row a score or variant, numbers in full.
 
 use std::io::{self, Write};
 
+use taceva_metrics::Interval;
 use taceva_study::EvaluationReport;
 
+use super::line::lines;
 use super::number::{no_interval, reason};
 
 const HEAD: [&str; 11] = [
@@ -23,26 +25,29 @@ const HEAD: [&str; 11] = [
 pub(super) fn write(report: &EvaluationReport, out: &mut dyn Write) -> io::Result<()> {
     let mut writer = csv::Writer::from_writer(out);
     writer.write_record(HEAD)?;
-    for (metric, channel, score) in report.evaluation.scores() {
+    for line in lines(&report.evaluation) {
         let number =
             |value: Option<f64>| value.map_or_else(String::new, |value| format!("{value:?}"));
-        let ends = score.interval.ends();
-        let why = match score.value.scalar() {
-            None => reason(&score.value),
-            Some(_) => no_interval(&score.interval)
+        let ends = line.interval.and_then(Interval::ends);
+        let why = match line.value.scalar() {
+            None => reason(line.value),
+            Some(_) => line
+                .interval
+                .and_then(no_interval)
                 .map_or_else(String::new, |why| format!("interval {why}")),
         };
+        let method = line.interval.and_then(Interval::method);
         writer.write_record([
-            metric.id,
-            channel,
-            &number(score.value.scalar()),
-            score.unit.symbol(),
+            &line.name,
+            line.channel,
+            &number(line.value.scalar()),
+            line.unit.symbol(),
             &number(ends.map(|ends| ends[0])),
             &number(ends.map(|ends| ends[1])),
-            &score.interval.method().unwrap_or_default(),
-            &score.n.to_string(),
-            &score.n_invalid.to_string(),
-            score.definition,
+            &method.unwrap_or_default(),
+            &line.score.n.to_string(),
+            &line.score.n_invalid.to_string(),
+            line.score.definition,
             &why,
         ])?;
     }

@@ -2,6 +2,7 @@
 
 use taceva_study::EvaluationReport;
 
+use super::line::lines;
 use super::number::Printed;
 
 /// Scores by metric and channel.
@@ -9,7 +10,7 @@ pub(super) struct Grid {
     /// The channels and groups, in the order of their first score.
     pub(super) channels: Vec<String>,
     /// Metric by metric, a cell a channel.
-    pub(super) rows: Vec<(&'static str, Vec<Option<Cell>>)>,
+    pub(super) rows: Vec<(String, Vec<Option<Cell>>)>,
 }
 
 /// One score as printed.
@@ -33,12 +34,12 @@ impl Grid {
                 grid.channels.push(channel.to_owned());
             }
         }
-        for (metric, channel, score) in report.evaluation.scores() {
-            if grid.rows.last().is_none_or(|(last, _)| *last != metric.id) {
+        for line in lines(&report.evaluation) {
+            if !grid.rows.iter().any(|(name, _)| *name == line.name) {
                 let empty = grid.channels.iter().map(|_| None).collect();
-                grid.rows.push((metric.id, empty));
+                grid.rows.push((line.name.clone(), empty));
             }
-            let printed = Printed::of(score);
+            let printed = Printed::of(&line);
             let has_value = !printed.value.is_empty();
             let cell = Cell {
                 value: if has_value {
@@ -47,14 +48,15 @@ impl Grid {
                     printed.reason.unwrap_or_default()
                 },
                 interval: printed.interval,
-                unit: if has_value && score.unit.symbol() != "1" {
-                    score.unit.to_string()
+                unit: if has_value && line.unit.symbol() != "1" {
+                    line.unit.to_string()
                 } else {
                     String::new()
                 },
             };
-            let column = grid.channels.iter().position(|known| known == channel);
-            if let (Some((_, cells)), Some(column)) = (grid.rows.last_mut(), column) {
+            let column = grid.channels.iter().position(|known| known == line.channel);
+            let row = grid.rows.iter_mut().find(|(name, _)| *name == line.name);
+            if let (Some((_, cells)), Some(column)) = (row, column) {
                 cells[column] = Some(cell);
             }
         }

@@ -1,6 +1,8 @@
 //! Numbers as people read them: as many digits as their interval supports.
 
-use taceva_metrics::{Interval, Score, Value};
+use taceva_metrics::{Interval, Value};
+
+use super::line::Line;
 
 /// The value of a score and the ends of its interval, to the digit that the interval supports.
 pub(super) struct Printed {
@@ -13,15 +15,15 @@ pub(super) struct Printed {
 }
 
 impl Printed {
-    pub(super) fn of(score: &Score) -> Printed {
-        let Value::Scalar(value) = score.value else {
+    pub(super) fn of(line: &Line<'_>) -> Printed {
+        let Value::Scalar(value) = *line.value else {
             return Printed {
                 value: String::new(),
                 interval: None,
-                reason: Some(reason(&score.value)),
+                reason: Some(reason(line.value)),
             };
         };
-        let ends = score.interval.ends();
+        let ends = line.interval.and_then(Interval::ends);
         let decimals = ends.map_or_else(
             || decimals(value / 1e3),
             |[low, high]| decimals((high - low) / 20.0),
@@ -30,7 +32,7 @@ impl Printed {
         Printed {
             value: print(value),
             interval: ends.map(|ends| ends.map(print)),
-            reason: no_interval(&score.interval),
+            reason: line.interval.and_then(no_interval),
         }
     }
 }
@@ -48,6 +50,9 @@ pub(super) fn reason(value: &Value) -> String {
     match value {
         Value::Undefined(reason) => format!("undefined: {reason}"),
         Value::NotApplicable(reason) => format!("not applicable: {reason}"),
+        Value::Map(_) => "a map: see --format json".to_owned(),
+        Value::Curve(_) => "a curve: see --format json".to_owned(),
+        Value::Matrix(_) => "a matrix: see --format json".to_owned(),
         _ => String::new(),
     }
 }

@@ -4,38 +4,40 @@ use std::io::{self, Write};
 
 use taceva_study::EvaluationReport;
 
+use super::line::{flags, lines, pictures};
 use super::number::Printed;
 
 pub(super) fn write(report: &EvaluationReport, out: &mut dyn Write) -> io::Result<()> {
     heading(report, out)?;
-    let mut last = "";
-    let rows: Vec<[String; 6]> = report
-        .evaluation
-        .scores()
-        .map(|(metric, channel, score)| {
+    let mut last = String::new();
+    let rows: Vec<[String; 6]> = lines(&report.evaluation)
+        .iter()
+        .map(|line| {
             // A metric is named once, above its channels.
-            let name = if std::mem::replace(&mut last, metric.id) == metric.id {
-                ""
-            } else {
-                metric.id
-            };
-            let printed = Printed::of(score);
+            let is_new = last != line.name;
+            last.clone_from(&line.name);
+            let printed = Printed::of(line);
             let interval = printed
                 .interval
                 .map(|[low, high]| format!("{low} … {high}"));
-            let n = match score.n_invalid {
-                0 => score.n.to_string(),
-                invalid => format!("{} (+{invalid} invalid)", score.n),
+            let n = match (line.is_headline, line.score.n_invalid) {
+                (false, _) => String::new(),
+                (true, 0) => line.score.n.to_string(),
+                (true, invalid) => format!("{} (+{invalid} invalid)", line.score.n),
             };
             [
-                name.to_owned(),
-                channel.to_owned(),
+                if is_new {
+                    line.name.clone()
+                } else {
+                    String::new()
+                },
+                line.channel.to_owned(),
                 if printed.value.is_empty() {
                     "–".to_owned()
                 } else {
                     printed.value
                 },
-                unit(score.unit.symbol()),
+                unit(line.unit.symbol()),
                 interval.or(printed.reason).unwrap_or_default(),
                 n,
             ]
@@ -102,6 +104,12 @@ fn footer(report: &EvaluationReport, out: &mut dyn Write) -> io::Result<()> {
     writeln!(out)?;
     for method in methods {
         writeln!(out, "intervals  {method}")?;
+    }
+    for flag in flags(&report.evaluation) {
+        writeln!(out, "mind       {flag}")?;
+    }
+    for picture in pictures(&report.evaluation) {
+        writeln!(out, "in JSON    {picture}")?;
     }
     for skipped in report.evaluation.skipped() {
         writeln!(out, "skipped    {}: {}", skipped.what, skipped.reason)?;

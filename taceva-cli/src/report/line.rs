@@ -1,0 +1,84 @@
+//! Scores and their variants one after the other: what every table prints a row of.
+
+use taceva_core::Unit;
+use taceva_metrics::{Evaluation, Flag, Interval, Score, Value};
+
+/// One number of a report, or the reason why there is none.
+pub(super) struct Line<'a> {
+    /// The metric, with the name of the variant: `mae`, `r_spatial.within`.
+    pub(super) name: String,
+    /// The channel or plane.
+    pub(super) channel: &'a str,
+    /// What was found.
+    pub(super) value: &'a Value,
+    /// Its unit.
+    pub(super) unit: Unit,
+    /// Its interval; `None` where the question makes no sense.
+    pub(super) interval: Option<&'a Interval>,
+    /// The score it belongs to.
+    pub(super) score: &'a Score,
+    /// Whether it is the score itself and not one of its variants.
+    pub(super) is_headline: bool,
+}
+
+/// Every score, each followed by its variants that are one number; maps and curves are for JSON.
+pub(super) fn lines(evaluation: &Evaluation) -> Vec<Line<'_>> {
+    let mut lines = Vec::new();
+    for (metric, channel, score) in evaluation.scores() {
+        lines.push(Line {
+            name: metric.id.to_owned(),
+            channel,
+            value: &score.value,
+            unit: score.unit,
+            interval: Some(&score.interval),
+            score,
+            is_headline: true,
+        });
+        let numbers = score
+            .variants
+            .iter()
+            .filter(|variant| is_one(&variant.value));
+        lines.extend(numbers.map(|variant| Line {
+            name: format!("{}.{}", metric.id, variant.name),
+            channel,
+            value: &variant.value,
+            unit: variant.unit,
+            interval: variant.interval.as_ref(),
+            score,
+            is_headline: false,
+        }));
+    }
+    lines
+}
+
+/// What a reader must know of single scores: `uniformity Fz: one bin`.
+pub(super) fn flags(evaluation: &Evaluation) -> Vec<String> {
+    let of_score = |metric: &str, channel: &str, flag: &Flag| format!("{metric} {channel}: {flag}");
+    let scores = evaluation.scores();
+    scores
+        .flat_map(|(metric, channel, score)| {
+            let flags = score.flags.iter();
+            flags.map(move |flag| of_score(metric.id, channel, flag))
+        })
+        .collect()
+}
+
+/// The maps, curves and matrices that only JSON holds: `sensitivity Fz: map`.
+pub(super) fn pictures(evaluation: &Evaluation) -> Vec<String> {
+    let mut pictures = Vec::new();
+    for (metric, channel, score) in evaluation.scores() {
+        let many = score
+            .variants
+            .iter()
+            .filter(|variant| !is_one(&variant.value));
+        let names: Vec<&str> = many.map(|variant| variant.name.as_ref()).collect();
+        if !names.is_empty() {
+            pictures.push(format!("{} {channel}: {}", metric.id, names.join(", ")));
+        }
+    }
+    pictures
+}
+
+fn is_one(value: &Value) -> bool {
+    !matches!(value, Value::Map(_) | Value::Curve(_) | Value::Matrix(_))
+}
