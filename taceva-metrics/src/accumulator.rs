@@ -7,8 +7,10 @@ mod plane;
 mod resampling;
 
 pub(crate) use clustered::Clustered;
-pub(crate) use family::{Details, Family, Finished, Numbers, Output, each_row};
-pub(crate) use pairs::Pairs;
+pub(crate) use family::{
+    Details, Family, Finished, Intervals, Numbers, Output, each_row, midpoint,
+};
+pub(crate) use pairs::{Pairs, outputs as outputs_of_pairs};
 pub(crate) use plane::Plane;
 
 use taceva_core::Batch;

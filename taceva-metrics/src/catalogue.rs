@@ -2,11 +2,14 @@
 
 use crate::accuracy::{BIAS, MAE, MAE_EUCLID, R2, RMSE, SMAPE, SMAPE_GATED};
 use crate::error::UnknownMetric;
+use crate::lighting::R_LIGHT;
 use crate::metric::Metric;
+use crate::resolution::SR;
+use crate::spatial::R_SPATIAL;
 use crate::surface::{SENSITIVITY, UNIFORMITY};
 
 /// Every metric, in the order of reports.
-pub static ALL: [&Metric; 9] = [
+pub static ALL: [&Metric; 12] = [
     &MAE,
     &RMSE,
     &BIAS,
@@ -14,8 +17,11 @@ pub static ALL: [&Metric; 9] = [
     &SMAPE,
     &SMAPE_GATED,
     &MAE_EUCLID,
+    &SR,
     &SENSITIVITY,
     &UNIFORMITY,
+    &R_SPATIAL,
+    &R_LIGHT,
 ];
 
 /// Names that stand for several metrics.

@@ -77,3 +77,10 @@ pub(crate) fn written(footprint: &Footprint) -> String {
         None => outline,
     }
 }
+
+/// A constant as reports write it.
+pub(crate) fn as_f64(count: u64) -> f64 {
+    #[expect(clippy::cast_precision_loss, reason = "constants are far below 2^53")]
+    let count = count as f64;
+    count
+}

@@ -90,6 +90,12 @@ pub(crate) enum Formula {
     Plane(Finish<PlaneSums>),
     /// From the compliance of the surface, by place.
     Surface(SurfaceMetric),
+    /// From the errors of the spacing of gratings.
+    Resolution,
+    /// From errors by distance and depth.
+    Spatial,
+    /// From errors by scene.
+    Lighting,
 }
 
 /// From sums to a value.

@@ -5,8 +5,11 @@ use taceva_core::{Channels, Field, FieldSet, SkipReason, Skipped};
 use crate::accumulator::{Accumulator, Clustered, Family, Pairs, Plane};
 use crate::error::MetricError;
 use crate::facts::SensorFacts;
+use crate::lighting::Lighting;
 use crate::metric::{Formula, Metric};
+use crate::resolution::Resolution;
 use crate::settings::Settings;
+use crate::spatial::Spatial;
 use crate::stats::IntervalMethod;
 use crate::surface::Surface;
 
@@ -214,7 +217,10 @@ impl MetricPlan {
         let families = [
             Pairs::for_metrics(&self.kept, &self.channels).map(|family| self.clustered(family)),
             Plane::for_metrics(&self.kept, &self.channels).map(|family| self.clustered(family)),
+            Resolution::for_plan(self).map(|family| self.clustered(family)),
             Surface::for_plan(self).map(|family| self.clustered(family)),
+            Spatial::for_plan(self).map(|family| self.clustered(family)),
+            Lighting::for_plan(self).map(|family| self.clustered(family)),
         ];
         families.into_iter().flatten().collect()
     }

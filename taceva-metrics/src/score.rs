@@ -130,6 +130,24 @@ pub enum Interval {
         /// Replicates in which the score has no value; they are left out.
         undefined: usize,
     },
+    /// Carried over from the jackknife variances of what the value is made of, to first order.
+    Delta {
+        /// Lower end.
+        low: f64,
+        /// Upper end.
+        high: f64,
+        /// The root of the variance.
+        standard_error: f64,
+        /// Number of clusters with samples, of the part that has the fewest.
+        clusters: usize,
+    },
+    /// As if all samples were independent: what the interval of a share would be at best.
+    Wilson {
+        /// Lower end.
+        low: f64,
+        /// Upper end.
+        high: f64,
+    },
     /// There is none.
     Undefined(UndefinedReason),
 }
@@ -138,9 +156,10 @@ impl Interval {
     /// Both ends, if there is an interval.
     pub fn ends(&self) -> Option<[f64; 2]> {
         match *self {
-            Interval::Jackknife { low, high, .. } | Interval::Bootstrap { low, high, .. } => {
-                Some([low, high])
-            }
+            Interval::Jackknife { low, high, .. }
+            | Interval::Bootstrap { low, high, .. }
+            | Interval::Delta { low, high, .. }
+            | Interval::Wilson { low, high } => Some([low, high]),
             Interval::Undefined(_) => None,
         }
     }
@@ -152,6 +171,10 @@ impl Interval {
             Interval::Jackknife { clusters, .. } => {
                 Some(format!("jackknife by point_id, G={clusters}"))
             }
+            Interval::Delta { clusters, .. } => {
+                Some(format!("delta method by point_id, G={clusters}"))
+            }
+            Interval::Wilson { .. } => Some("Wilson, samples taken as independent".to_owned()),
             Interval::Bootstrap {
                 ends,
                 clusters,

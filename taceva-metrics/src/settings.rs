@@ -13,6 +13,8 @@ pub struct Settings {
     pub bins: u32,
     /// Samples that a bin needs to count: 1.
     pub n_min: u64,
+    /// What is taken off the number of bins where their spread is formed: 0, as the bins are the whole, or 1.
+    pub ddof: u32,
     /// Normal force from which on there is contact: 0.02 N.
     pub gate: Newton,
     /// Bins that a rolling mean spans, an odd number: 5.
@@ -26,6 +28,7 @@ impl Default for Settings {
         Settings {
             bins: 20,
             n_min: 1,
+            ddof: 0,
             gate: Newton(0.02),
             smoothing_window: 5,
             resolution_tolerance: Nanometre(50_000),
@@ -49,6 +52,9 @@ impl Settings {
         }
         if self.n_min == 0 {
             return Err(refuse("n_min", self.n_min.to_string(), "1 or more"));
+        }
+        if self.ddof > 1 {
+            return Err(refuse("ddof", self.ddof.to_string(), "0 or 1"));
         }
         if !(self.gate.0 > 0.0 && self.gate.0.is_finite()) {
             return Err(refuse("gate", self.gate.0.to_string(), "a force above 0 N"));
@@ -83,6 +89,7 @@ mod tests {
             (Settings { bins: 0, ..fine }, "bins"),
             (Settings { bins: 1001, ..fine }, "bins"),
             (Settings { n_min: 0, ..fine }, "n_min"),
+            (Settings { ddof: 2, ..fine }, "ddof"),
             (
                 Settings {
                     gate: Newton(0.0),

@@ -64,9 +64,12 @@ impl Spread {
         self.means.mean().ok_or(self.no_bin())
     }
 
-    /// σ = RN(√RN((B Σ m_b² − (Σ m_b)²) / B²)): population STD, because the bins are the whole and no sample of it.
-    pub(crate) fn deviation(&self) -> Finished {
-        self.means.deviation(0).ok_or(self.no_bin())
+    /// σ = RN(√RN((B Σ m_b² − (Σ m_b)²) / (B (B − ddof)))).
+    pub(crate) fn deviation(&self, ddof: u32) -> Finished {
+        let (have, least) = (self.bins(), u64::from(ddof) + 1);
+        self.mean()?;
+        let deviation = self.means.deviation(u64::from(ddof));
+        deviation.ok_or(UndefinedReason::TooFewBins { have, least })
     }
 
     /// The STD of the bin means that samples alone would give: √(s² mean(1 / n_b)), s² the pooled variance within bins.
@@ -136,7 +139,7 @@ mod tests {
         let bins = bins(&[&[1.0, 3.0], &[4.0], &[5.0, 7.0]]);
         let spread = Spread::of(bins.iter(), 1);
         close(spread.mean(), 4.0);
-        close(spread.deviation(), (8.0_f64 / 3.0).sqrt());
+        close(spread.deviation(0), (8.0_f64 / 3.0).sqrt());
         close(spread.noise_floor(), (4.0_f64 / 3.0).sqrt());
         close(spread.excess(), (4.0_f64 - 4.0 / 3.0).sqrt());
         close(spread.within(), 2.0 / 3.0);

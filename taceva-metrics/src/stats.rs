@@ -16,6 +16,7 @@ mod signed_sums;
 mod student;
 mod verdict;
 mod welch;
+pub(crate) mod wilson;
 
 pub(crate) use bootstrap::LEAST_REPLICATES;
 pub use bootstrap::{BootstrapEnds, PoissonBootstrap};

@@ -188,7 +188,7 @@ impl Family for Surface {
     fn numbers(&self, metric: &Metric, _output: &Output, sums: &SurfaceSums) -> Numbers {
         let mut numbers = match metric.formula {
             Formula::Surface(SurfaceMetric::Uniformity) => {
-                uniformity::uniformity(sums, self.settings.n_min)
+                uniformity::uniformity(sums, &self.settings)
             }
             _ => sensitivity::sensitivity(sums),
         };
@@ -232,7 +232,8 @@ impl Family for Surface {
         let parameter = |name, value| Parameter { name, value };
         details.parameters.extend([
             parameter("bins", f64::from(grid.bins())),
-            parameter("n_min", as_f64(self.settings.n_min)),
+            parameter("n_min", facts::as_f64(self.settings.n_min)),
+            parameter("ddof", f64::from(self.settings.ddof)),
         ]);
         match metric.formula {
             Formula::Surface(SurfaceMetric::Sensitivity) => {
@@ -245,11 +246,4 @@ impl Family for Surface {
         }
         details
     }
-}
-
-/// A constant as reports write it.
-fn as_f64(count: u64) -> f64 {
-    #[expect(clippy::cast_precision_loss, reason = "constants are far below 2^53")]
-    let count = count as f64;
-    count
 }

@@ -81,6 +81,16 @@ pub enum UndefinedReason {
     NoRepeats,
     /// The mean is zero, and nothing relates to it.
     ZeroMean,
+    /// No sample of the scene that the others are compared with.
+    NoReferenceScene,
+    /// No sample of another scene than the one the others are compared with.
+    OneScene,
+    /// The pictures of the reference scene are black.
+    ZeroIntensity,
+    /// The reference scene has no error.
+    ZeroBaseline,
+    /// Neither light nor error changed.
+    NoChange,
     /// The value is beyond the range of a binary64.
     Overflow,
     /// Too few contact locations for an interval.
@@ -113,6 +123,11 @@ impl fmt::Display for UndefinedReason {
             }
             UndefinedReason::NoRepeats => f.write_str("no bin has two samples"),
             UndefinedReason::ZeroMean => f.write_str("the mean is zero"),
+            UndefinedReason::NoReferenceScene => f.write_str("no sample of the reference scene"),
+            UndefinedReason::OneScene => f.write_str("no scene but the reference scene"),
+            UndefinedReason::ZeroIntensity => f.write_str("the reference scene is black"),
+            UndefinedReason::ZeroBaseline => f.write_str("the reference scene has no error"),
+            UndefinedReason::NoChange => f.write_str("neither light nor error changed"),
             UndefinedReason::Overflow => f.write_str("beyond the range of binary64"),
             UndefinedReason::TooFewClusters { have } => {
                 let least = crate::stats::jackknife::LEAST_CLUSTERS;

@@ -158,7 +158,7 @@ fn finite(value: f64) -> Finished {
 }
 
 /// RN((a + b) / 2): halving is exact unless the sum is tiny, and then the sum is; where the sum overflows, halves are exact.
-fn midpoint(left: f64, right: f64) -> f64 {
+pub(crate) fn midpoint(left: f64, right: f64) -> f64 {
     let sum = left + right;
     if sum.is_finite() {
         sum * 0.5

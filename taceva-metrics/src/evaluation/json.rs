@@ -142,13 +142,12 @@ fn serialize_interval<M: SerializeMap>(
 /// `[low, high]`, or `{"undefined": reason}`.
 impl Serialize for Interval {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        match self {
-            Interval::Jackknife { low, high, .. } | Interval::Bootstrap { low, high, .. } => {
-                [low, high].serialize(serializer)
-            }
-            Interval::Undefined(reason) => {
+        match (self, self.ends()) {
+            (_, Some(ends)) => ends.serialize(serializer),
+            (Interval::Undefined(reason), None) => {
                 serializer.collect_map([("undefined", reason.to_string())])
             }
+            (_, None) => serializer.serialize_none(),
         }
     }
 }

@@ -33,6 +33,10 @@ impl Dyadic {
         std::iter::once(value).collect::<ExactSum>().to_dyadic()
     }
 
+    pub(crate) fn is_negative(&self) -> bool {
+        self.negative && !self.is_zero()
+    }
+
     pub(crate) fn is_zero(&self) -> bool {
         self.magnitude.is_zero()
     }

@@ -70,6 +70,23 @@ pub(crate) fn standard_error(value: f64, left_out: &[LeftOut]) -> Result<f64, Un
     }
 }
 
+/// The interval about `value` whose variance was carried over from the jackknife variances of `clusters` clusters.
+pub(crate) fn delta_interval(value: f64, variance: f64, clusters: usize) -> Interval {
+    let freedom = u32::try_from(clusters.saturating_sub(1)).expect("at most 64 clusters");
+    let standard_error = variance.sqrt();
+    let half = quantile(COVERAGE, f64::from(freedom)) * standard_error;
+    let (low, high) = (value - half, value + half);
+    if !low.is_finite() || !high.is_finite() {
+        return Interval::Undefined(UndefinedReason::Overflow);
+    }
+    Interval::Delta {
+        low,
+        high,
+        standard_error,
+        clusters,
+    }
+}
+
 fn as_f64(count: u64) -> f64 {
     #[expect(
         clippy::cast_precision_loss,

@@ -5,7 +5,7 @@ use super::error::ComparisonError;
 use super::jackknife::LEAST_CLUSTERS;
 use super::sides::{Side, Sides};
 use crate::score::{Interval, Score};
-use crate::value::{InapplicableReason, Value};
+use crate::value::{InapplicableReason, UndefinedReason, Value};
 
 /// A score, how far it would move with other clusters, and how many there were to tell.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -77,7 +77,17 @@ impl Estimate {
                 standard_error,
                 clusters,
                 ..
+            }
+            | Interval::Delta {
+                standard_error,
+                clusters,
+                ..
             } => (standard_error, clusters),
+            // Samples taken as independent would make any two sensors differ.
+            Interval::Wilson { .. } => {
+                let reason = UndefinedReason::NoClusters;
+                return Err(ComparisonError::Undefined { side, reason });
+            }
             Interval::Undefined(reason) => {
                 return Err(ComparisonError::Undefined { side, reason });
             }

@@ -9,6 +9,7 @@ use crate::accumulator::{Finished, Numbers};
 use crate::exact::Dyadic;
 use crate::facts::Fact;
 use crate::metric::{Better, Formula, Metric, ScoreUnit};
+use crate::settings::Settings;
 use crate::spread::Spread;
 use crate::value::UndefinedReason;
 
@@ -37,7 +38,8 @@ pub(crate) static UNIFORMITY: Metric = Metric {
 const WELL_SAMPLED: u64 = 5;
 
 /// U = RN(1 / (1 + σ/|μ|)) over the cells with at least `n_min` samples.
-pub(super) fn uniformity(sums: &SurfaceSums, n_min: u64) -> Numbers {
+pub(super) fn uniformity(sums: &SurfaceSums, settings: &Settings) -> Numbers {
+    let Settings { n_min, ddof, .. } = *settings;
     if let Err(reason) = contact(sums).and_then(|()| on_surface(sums)) {
         return Numbers::of(Err(reason));
     }
@@ -45,7 +47,7 @@ pub(super) fn uniformity(sums: &SurfaceSums, n_min: u64) -> Numbers {
         let cells = sums.cells.values().map(move |cell| &cell[kind]);
         Spread::of(cells.filter(|cell| cell.n > 0), n_min)
     };
-    let plain = |spread: &Spread| ratio(spread.mean()?, spread.deviation()?);
+    let plain = |spread: &Spread| ratio(spread.mean()?, spread.deviation(ddof)?);
     let all = spread(0, n_min);
     let debiased = all.mean().and_then(|mean| ratio(mean, all.excess()?));
     Numbers::of(plain(&all))
@@ -53,7 +55,7 @@ pub(super) fn uniformity(sums: &SurfaceSums, n_min: u64) -> Numbers {
         .with("n_min_5", Unit::One, plain(&spread(0, WELL_SAMPLED)))
         .with(NORMAL_ONLY, Unit::One, plain(&spread(1, n_min)))
         .with("mean", Unit::MillimetrePerNewton, all.mean())
-        .with("deviation", Unit::MillimetrePerNewton, all.deviation())
+        .with("deviation", Unit::MillimetrePerNewton, all.deviation(ddof))
 }
 
 fn on_surface(sums: &SurfaceSums) -> Result<(), UndefinedReason> {

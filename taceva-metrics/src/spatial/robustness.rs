@@ -1,0 +1,107 @@
+//! How alike errors are over distance and depth.
+
+use taceva_core::{Field, FieldSet, Needs, Unit};
+
+use super::sums::SpatialSums;
+use crate::accumulator::{Finished, Numbers, midpoint};
+use crate::facts::Fact;
+use crate::metric::{Better, Formula, Metric, ScoreUnit};
+use crate::moments::Moments;
+use crate::settings::Settings;
+use crate::spread::Spread;
+use crate::value::UndefinedReason;
+
+pub(crate) static R_SPATIAL: Metric = Metric {
+    id: "r_spatial",
+    title: "spatial robustness",
+    better: Better::Lower,
+    unit: ScoreUnit::OfChannel,
+    definition: "r_spatial/1",
+    reference: "TacEva, equation (7)",
+    documentation: "How much the mean absolute error differs between places: the standard deviation of the means of a hundred \
+                    bins of distance from the axis, and of depth, and the mean of both. Bins with few samples differ by chance: \
+                    noise_floor says how much, excess is what remains, n_min_5 leaves out bins with fewer than five. smooth \
+                    is finished from the rolling mean that plots show; within is the other reading of the paper, the mean \
+                    of the deviations within the bins.",
+    needs: Needs {
+        fields: FieldSet::EMPTY.with(Field::Truth).with(Field::Prediction),
+        channels: &["Px", "Py", "Pz"],
+        least_samples: 1,
+    },
+    facts: &[Fact::Footprint, Fact::DepthMax],
+    constants: crate::accuracy::no_constants,
+    formula: Formula::Spatial,
+};
+
+/// Samples a bin from which on its mean is worth printing beside the paper's one.
+const WELL_SAMPLED: u64 = 5;
+
+/// R = RN((σ_distance + σ_depth) / 2), σ the population STD of the bin means; the variants are means of both axes likewise.
+pub(super) fn robustness(sums: &SpatialSums, settings: &Settings, unit: Unit) -> Numbers {
+    if sums.n == 0 {
+        let outside = sums.outside > 0;
+        return Numbers::of(Err(if outside {
+            UndefinedReason::OutsideFootprint
+        } else {
+            UndefinedReason::Empty
+        }));
+    }
+    let spread =
+        |n_min: u64| [&sums.distance, &sums.depth].map(|bins| Spread::of(bins.values(), n_min));
+    let both = |spreads: &[Spread; 2], of: &dyn Fn(&Spread) -> Finished| {
+        Ok(midpoint(of(&spreads[0])?, of(&spreads[1])?))
+    };
+    let deviation = |spread: &Spread| spread.deviation(settings.ddof);
+    let paper = spread(settings.n_min);
+    let smooth = [&sums.distance, &sums.depth].map(|bins| {
+        let means = smoothed(bins.values(), settings);
+        let least = settings.n_min;
+        let deviation = means.deviation(u64::from(settings.ddof));
+        deviation.ok_or(UndefinedReason::NoBin { least })
+    });
+    let [smooth_distance, smooth_depth] = smooth;
+    let smooth = smooth_distance.and_then(|distance| Ok(midpoint(distance, smooth_depth?)));
+    Numbers::of(both(&paper, &deviation))
+        .with("std_distance", unit, deviation(&paper[0]))
+        .with("std_depth", unit, deviation(&paper[1]))
+        .with("within", unit, both(&paper, &Spread::within))
+        .with("noise_floor", unit, both(&paper, &Spread::noise_floor))
+        .with("excess", unit, both(&paper, &Spread::excess))
+        .with("smooth", unit, smooth)
+        .with("n_min_5", unit, both(&spread(WELL_SAMPLED), &deviation))
+}
+
+/// The centred rolling means of the bins that have samples, each RN of an exact mean; the window is cut off at the ends.
+fn smoothed<'a>(bins: impl Iterator<Item = &'a Moments>, settings: &Settings) -> Moments {
+    let bins = bins.filter(|bin| bin.n >= settings.n_min);
+    let means: Vec<f64> = bins.filter_map(Moments::mean).collect();
+    let reach = settings.smoothing_window as usize / 2;
+    let windows = (0..means.len()).map(|centre| {
+        let window = &means[centre.saturating_sub(reach)..means.len().min(centre + reach + 1)];
+        window.iter().copied().collect::<Moments>()
+    });
+    windows.filter_map(|window| window.mean()).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_rolling_mean_is_cut_off_at_the_ends() {
+        let bins: Vec<Moments> = [0.0, 3.0, 6.0]
+            .into_iter()
+            .map(|mean| std::iter::once(mean).collect())
+            .collect();
+        let settings = Settings {
+            smoothing_window: 3,
+            ..Settings::default()
+        };
+        let means = smoothed(bins.iter(), &settings);
+        // 1.5, 3, 4.5
+        assert_eq!(
+            (means.n, means.mean(), means.variance(0)),
+            (3, Some(3.0), Some(1.5))
+        );
+    }
+}

@@ -1,0 +1,55 @@
+//! How far a share of independent trials may be from the truth.
+
+use crate::score::Interval;
+
+/// z within which, to both sides of 0, lies 95 % of the normal distribution.
+const Z: f64 = 1.959_963_984_540_054;
+
+/// The interval about `hits` of `trials`, at least one, as if all were independent.
+///
+/// # Reference
+/// Wilson, Probable inference, the law of succession, and statistical inference, JASA 22 (1927).
+pub(crate) fn interval(hits: u64, trials: u64) -> Interval {
+    let n = as_f64(trials);
+    let share = as_f64(hits) / n;
+    let scale = 1.0 + Z * Z / n;
+    let centre = (share + Z * Z / (2.0 * n)) / scale;
+    let spread = share * (1.0 - share) / n + Z * Z / (4.0 * n * n);
+    let half = Z * spread.sqrt() / scale;
+    Interval::Wilson {
+        low: (centre - half).max(0.0),
+        high: (centre + half).min(1.0),
+    }
+}
+
+fn as_f64(count: u64) -> f64 {
+    #[expect(
+        clippy::cast_precision_loss,
+        reason = "beyond 2^53 trials the interval has no digits left to lose"
+    )]
+    let count = count as f64;
+    count
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ten_hits_in_twenty_lie_where_tables_say() {
+        let [low, high] = interval(10, 20).ends().expect("an interval");
+        // Half of the last printed decimal.
+        assert!(
+            (low - 0.299_30).abs() < 5e-6 && (high - 0.700_70).abs() < 5e-6,
+            "{low} {high}"
+        );
+    }
+
+    #[test]
+    fn no_hit_and_no_miss_stay_within_a_share() {
+        let [low, high] = interval(0, 10).ends().expect("an interval");
+        assert!(low <= 0.0 && (high - 0.277_53).abs() < 5e-6, "{high}");
+        let [low, high] = interval(10, 10).ends().expect("an interval");
+        assert!(high >= 1.0 && (low - 0.722_47).abs() < 5e-6, "{low}");
+    }
+}

@@ -1,0 +1,178 @@
+//! Reads golden vectors of scores by place, scene and grating, and evaluates samples in every way that must not matter.
+//!
+//! Whatever is not understood is a panic, because a case that is skipped proves nothing. `TACEVA_GOLDEN` names a folder with
+//! another `structured.json` of the same schema.
+
+#![allow(
+    dead_code,
+    reason = "each test file is a program of its own and uses some of it"
+)]
+
+use std::path::PathBuf;
+
+use serde_json::Value;
+use taceva_core::{Sample, SampleSink};
+use taceva_metrics::{Evaluation, Evaluator, MetricPlan, State};
+
+/// The section called `name`, whose keys must be among `known`.
+pub(crate) fn section(name: &str, known: &[&str]) -> Value {
+    let folder = std::env::var_os("TACEVA_GOLDEN").map_or_else(
+        || PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/golden")),
+        PathBuf::from,
+    );
+    let file = folder.join("structured.json");
+    let text = std::fs::read_to_string(&file)
+        .unwrap_or_else(|error| panic!("cannot read {}: {error}", file.display()));
+    let golden: Value = serde_json::from_str(&text).expect("golden files are JSON");
+    assert_eq!(golden["schema"], "taceva-golden-structured/1");
+    let section = golden[name].clone();
+    assert!(!section.is_null(), "there is no section `{name}`");
+    if section.is_object() {
+        check_keys(&section, known);
+    }
+    section
+}
+
+/// Refuses a key that the reader does not know.
+pub(crate) fn check_keys(object: &Value, known: &[&str]) {
+    let keys = object.as_object().expect("an object").keys();
+    let unknown: Vec<&String> = keys.filter(|key| !known.contains(&key.as_str())).collect();
+    assert!(
+        unknown.is_empty(),
+        "keys that this reader does not know: {unknown:?}"
+    );
+}
+
+/// An unsigned whole number.
+pub(crate) fn whole(value: &Value) -> u64 {
+    value
+        .as_u64()
+        .unwrap_or_else(|| panic!("{value} is no count"))
+}
+
+/// A signed whole number.
+pub(crate) fn signed(value: &Value) -> i64 {
+    value
+        .as_i64()
+        .unwrap_or_else(|| panic!("{value} is no whole number"))
+}
+
+/// A binary64 number as JSON writes it.
+pub(crate) fn real(value: &Value) -> f64 {
+    value
+        .as_f64()
+        .unwrap_or_else(|| panic!("{value} is no number"))
+}
+
+/// A text.
+pub(crate) fn text(value: &Value) -> &str {
+    value
+        .as_str()
+        .unwrap_or_else(|| panic!("{value} is no text"))
+}
+
+/// A binary64 number by its bits: `"0x3ff…"`, or an object whose `bits` or `rn` are that.
+pub(crate) fn exact(value: &Value) -> f64 {
+    let digits = value
+        .as_str()
+        .or(value["bits"].as_str())
+        .or(value["rn"].as_str());
+    let digits = digits.and_then(|digits| digits.strip_prefix("0x"));
+    let digits = digits.unwrap_or_else(|| panic!("{value} has no bits"));
+    f64::from_bits(u64::from_str_radix(digits, 16).expect("64 bits"))
+}
+
+/// The generator of the recipes.
+pub(crate) struct Random(pub(crate) u64);
+
+impl Random {
+    pub(crate) fn next(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mixed = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        let mixed = (mixed ^ (mixed >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        mixed ^ (mixed >> 31)
+    }
+
+    /// `next() % bound`.
+    pub(crate) fn below(&mut self, bound: i64) -> i64 {
+        let bound = u64::try_from(bound).expect("a positive bound");
+        i64::try_from(self.next() % bound).expect("below an i64")
+    }
+
+    /// `u()`.
+    #[expect(clippy::cast_precision_loss, reason = "53 bits")]
+    pub(crate) fn unit(&mut self) -> f64 {
+        (self.next() >> 11) as f64 * (1.0 / 9_007_199_254_740_992.0)
+    }
+
+    /// `g()`.
+    pub(crate) fn bell(&mut self) -> f64 {
+        (1..12).fold(self.unit(), |sum, _| sum + self.unit()) - 6.0
+    }
+}
+
+/// The scores of `samples` in order, backwards, and shuffled over random parts whose states travel as JSON and merge.
+pub(crate) fn in_every_way(
+    plan: &MetricPlan,
+    samples: &[Sample],
+) -> Vec<(&'static str, Evaluation)> {
+    let taken = |samples: &mut dyn Iterator<Item = &Sample>| {
+        let mut evaluator = Evaluator::new(plan);
+        samples.for_each(|sample| evaluator.accept(sample).expect("the plan's channels"));
+        evaluator
+    };
+    let finish = |evaluator: Evaluator| evaluator.finish().expect("the plan's channels");
+    let mut random = Random(samples.len() as u64);
+    let mut parts: Vec<Vec<&Sample>> = vec![Vec::new(); 7];
+    for sample in samples {
+        let part = random.below(7).unsigned_abs() as usize;
+        let place = random.below(parts[part].len() as i64 + 1).unsigned_abs() as usize;
+        parts[part].insert(place, sample);
+    }
+    let mut merged = Evaluator::new(plan);
+    for part in &parts {
+        let states = taken(&mut part.iter().copied())
+            .states()
+            .expect("the plan's channels");
+        let written = serde_json::to_string(&states).expect("a state");
+        let read: Vec<State> = serde_json::from_str(&written).expect("its own text");
+        assert_eq!(read, states);
+        merged.merge_states(&read).expect("one plan");
+    }
+    vec![
+        ("in order", finish(taken(&mut samples.iter()))),
+        ("backwards", finish(taken(&mut samples.iter().rev()))),
+        ("shuffled and merged", finish(merged)),
+    ]
+}
+
+/// Counts what was compared and says so where a value is another.
+#[derive(Default)]
+pub(crate) struct Comparison {
+    compared: usize,
+}
+
+impl Comparison {
+    /// Both must be the same bits.
+    pub(crate) fn bits(&mut self, what: &str, found: Option<f64>, expected: f64) {
+        let found = found.unwrap_or_else(|| panic!("{what}: no number, expected {expected:e}"));
+        assert_eq!(
+            found.to_bits(),
+            expected.to_bits(),
+            "{what}: {found:e}, expected {expected:e}"
+        );
+        self.compared += 1;
+    }
+
+    /// Both must be the same count.
+    pub(crate) fn count(&mut self, what: &str, found: Option<u64>, expected: u64) {
+        assert_eq!(found, Some(expected), "{what}");
+        self.compared += 1;
+    }
+
+    /// How many values were compared; never none.
+    pub(crate) fn done(self) -> usize {
+        assert!(self.compared > 0, "nothing was compared");
+        self.compared
+    }
+}
