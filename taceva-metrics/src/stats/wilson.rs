@@ -16,9 +16,10 @@ pub(crate) fn interval(hits: u64, trials: u64) -> Interval {
     let centre = (share + Z * Z / (2.0 * n)) / scale;
     let spread = share * (1.0 - share) / n + Z * Z / (4.0 * n * n);
     let half = Z * spread.sqrt() / scale;
+    // At the ends the formula gives 0 and 1 exactly, but for rounding.
     Interval::Wilson {
-        low: (centre - half).max(0.0),
-        high: (centre + half).min(1.0),
+        low: if hits == 0 { 0.0 } else { centre - half },
+        high: if hits == trials { 1.0 } else { centre + half },
     }
 }
 
