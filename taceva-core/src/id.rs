@@ -1,6 +1,6 @@
 //! The name of a driver, the same on the command line, in scenes and in the registry.
 
-use std::borrow::Cow;
+use std::borrow::{Borrow, Cow};
 use std::fmt;
 use std::str::FromStr;
 
@@ -55,6 +55,13 @@ const fn is_key(key: &[u8]) -> bool {
         at += 1;
     }
     !word_begins
+}
+
+// Keys compare and hash as their text does, so that maps can be asked by text.
+impl Borrow<str> for DriverKey {
+    fn borrow(&self) -> &str {
+        &self.0
+    }
 }
 
 impl FromStr for DriverKey {

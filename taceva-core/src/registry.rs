@@ -71,9 +71,8 @@ impl<D: Device + ?Sized> Registry<D> {
     /// [`RegistryError::Unknown`], with the nearest key and every known one.
     pub fn get(&self, key: &str) -> Result<&dyn Factory<D>, RegistryError> {
         self.factories
-            .iter()
-            .find(|(known, _)| known.as_str() == key)
-            .map(|(_, factory)| factory.as_ref())
+            .get(key)
+            .map(AsRef::as_ref)
             .ok_or_else(|| RegistryError::Unknown {
                 kind: D::KIND,
                 key: key.to_owned(),
