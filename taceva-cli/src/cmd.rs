@@ -79,6 +79,14 @@ impl std::fmt::Display for Usage {
 
 impl std::error::Error for Usage {}
 
+/// Refuses an instruction set that TACEVA_ISA asks for and that is not there: its figures would be another one's.
+pub(crate) fn check_isa() -> anyhow::Result<()> {
+    match taceva_metrics::Isa::requested() {
+        Ok(_) => Ok(()),
+        Err(error) => Err(Usage::error(format!("TACEVA_ISA: {error}"))),
+    }
+}
+
 pub(crate) fn open(path: &Path) -> anyhow::Result<Dataset> {
     Ok(Dataset::open(path)?)
 }

@@ -25,22 +25,26 @@ fn main() -> ExitCode {
     let cli = Cli::parse();
     progress::listen_for_signals();
     let context = Context::new(&cli.everywhere);
-    let done = match &cli.command {
-        Command::Import(args) => cmd::import::run(args, &context),
-        Command::Check(args) => cmd::check::run(args, &context),
-        Command::Fit(args) => cmd::fit::run(args, &context),
-        Command::Evaluate(args) => cmd::evaluate::run(args, &context),
-        Command::Predict(args) => cmd::predict::run(args, &context),
-        Command::Score(args) => cmd::score::run(args, &context),
-        Command::Merge(args) => cmd::merge::run(args, &context),
-        Command::Bench(args) => cmd::bench::run(args, &context),
-        Command::Completions(args) => cmd::completions::run(args),
-    };
+    let done = cmd::check_isa().and_then(|()| run(&cli.command, &context));
     let code = done.unwrap_or_else(|error| {
         complain(&error);
         code_of(&error)
     });
     ExitCode::from(code)
+}
+
+fn run(command: &Command, context: &Context) -> anyhow::Result<u8> {
+    match command {
+        Command::Import(args) => cmd::import::run(args, context),
+        Command::Check(args) => cmd::check::run(args, context),
+        Command::Fit(args) => cmd::fit::run(args, context),
+        Command::Evaluate(args) => cmd::evaluate::run(args, context),
+        Command::Predict(args) => cmd::predict::run(args, context),
+        Command::Score(args) => cmd::score::run(args, context),
+        Command::Merge(args) => cmd::merge::run(args, context),
+        Command::Bench(args) => cmd::bench::run(args, context),
+        Command::Completions(args) => cmd::completions::run(args),
+    }
 }
 
 /// One line: what could not be done, on what, and why.

@@ -1,5 +1,7 @@
 //! From a dataset to scores, step by step: divide, fit, predict, score.
 
+mod passes;
+
 use std::collections::BTreeSet;
 use std::num::NonZeroUsize;
 
@@ -19,7 +21,8 @@ use crate::report::EvaluationReport;
 use crate::rows::{Divided, Part};
 use crate::state_file::StateFile;
 use crate::subject::Subject;
-use crate::tally::{Columns, tally};
+
+use passes::Passes;
 
 /// What to evaluate.
 #[derive(Debug)]
@@ -184,13 +187,8 @@ fn score(
     let points: Option<Vec<&str>> = predicted
         .points()
         .map(|points| points.iter().map(String::as_str).collect());
-    let columns = Columns {
-        truth: predicted.truth(),
-        prediction: predicted.prediction(),
-        table: dataset.table(),
-        rows: &target.rows,
-    };
-    let mut evaluator = tally(&columns, &plan, request.jobs)?;
+    let passes = Passes::new(&plan, request.part.is_some());
+    let mut evaluator = passes.run(dataset, predicted, &target.rows, request.jobs)?;
     let divided = target.divided.as_ref();
     let note = divided.and_then(|divided| divided.split.note.clone());
     let provenance = Provenance {
@@ -206,6 +204,7 @@ fn score(
             .into_iter()
             .chain(few_points_note(points.as_deref()))
             .chain(left_out_note(target.part.name(), predicted.left_out))
+            .chain(passes.note(dataset))
             .collect(),
         ..Provenance::default()
     };

@@ -3,7 +3,7 @@
 use std::io::{self, Write};
 use std::num::NonZeroUsize;
 
-use taceva_core::{Channels, Column, Progress};
+use taceva_core::{Channels, Column, Field, Progress};
 use taceva_dataset::Dataset;
 use taceva_models::{FeatureError, Model};
 
@@ -18,6 +18,8 @@ pub struct Predicted {
     channels: Channels,
     ids: Vec<String>,
     points: Option<Vec<String>>,
+    /// What else the table says of the rows, by the name of its column.
+    beside: Vec<(&'static str, Vec<Option<String>>)>,
     truth: Vec<Column>,
     prediction: Vec<Column>,
     pub(crate) frames_decoded: u64,
@@ -60,7 +62,8 @@ impl Predicted {
         self.write(&self.prediction, false, out)
     }
 
-    /// Writes the truth of the same samples: `id`, `point_id` where every sample has one, and a column a channel.
+    /// Writes the truth of the same samples: `id`, `point_id` where every sample has one, what else is known of them (`scene`,
+    /// `repeat`, `phase` and the like), and a column a channel.
     ///
     /// # Errors
     /// Those of `out`.
@@ -68,30 +71,25 @@ impl Predicted {
         self.write(&self.truth, true, out)
     }
 
-    fn write(&self, columns: &[Column], with_points: bool, out: &mut dyn Write) -> io::Result<()> {
-        let points = self.points.as_ref().filter(|_| with_points);
+    fn write(&self, columns: &[Column], is_truth: bool, out: &mut dyn Write) -> io::Result<()> {
+        let points = self.points.as_ref().filter(|_| is_truth);
+        let beside = if is_truth { &self.beside[..] } else { &[] };
         let mut writer = csv::Writer::from_writer(out);
-        let names = self.channels.iter().map(|channel| channel.name());
-        writer.write_record(
-            ["id"]
-                .into_iter()
-                .chain(points.map(|_| "point_id"))
-                .chain(names),
-        )?;
+        let mut head = vec!["id"];
+        head.extend(points.map(|_| "point_id"));
+        head.extend(beside.iter().map(|(name, _)| *name));
+        head.extend(self.channels.iter().map(|channel| channel.name()));
+        writer.write_record(head)?;
         for row in 0..self.rows() {
-            let cell = |column: &Column| {
-                column
-                    .get(row)
-                    .map_or_else(String::new, |value| format!("{value:?}"))
-            };
-            let point = points.map(|points| points[row].clone());
-            let values = columns.iter().map(cell);
-            writer.write_record(
-                [self.ids[row].clone()]
-                    .into_iter()
-                    .chain(point)
-                    .chain(values),
-            )?;
+            let mut cells = vec![self.ids[row].clone()];
+            cells.extend(points.map(|points| points[row].clone()));
+            let texts = beside.iter().map(|(_, texts)| texts[row].clone());
+            cells.extend(texts.map(Option::unwrap_or_default));
+            let values = columns.iter().map(|column| column.get(row));
+            let text =
+                |value: Option<f64>| value.map_or_else(String::new, |value| format!("{value:?}"));
+            cells.extend(values.map(text));
+            writer.write_record(cells)?;
         }
         writer.flush()
     }
@@ -228,6 +226,7 @@ pub(crate) fn run(
             .map(|&row| dataset.table().samples()[row].clone())
             .collect(),
         points,
+        beside: beside(dataset, rows),
         truth: channels
             .iter()
             .map(|channel| truth(dataset, channel, rows))
@@ -237,6 +236,29 @@ pub(crate) fn run(
         left_out: target.left_out,
         channels,
     })
+}
+
+/// What else the table says of `rows`, of the columns that `score` reads.
+fn beside(dataset: &Dataset, rows: &[usize]) -> Vec<(&'static str, Vec<Option<String>>)> {
+    const READ_BY_SCORE: [Field; 9] = [
+        Field::UnitId,
+        Field::Scene,
+        Field::DepthStep,
+        Field::Repeat,
+        Field::Phase,
+        Field::Stamp,
+        Field::Kind,
+        Field::Spacing,
+        Field::Intensity,
+    ];
+    let column = |field: Field| {
+        let texts = dataset.table().as_text(field.name())?;
+        Some((
+            field.name(),
+            rows.iter().map(|&row| texts[row].clone()).collect(),
+        ))
+    };
+    READ_BY_SCORE.into_iter().filter_map(column).collect()
 }
 
 /// The extractor of a fitted model on the frames of `dataset`.
@@ -254,7 +276,7 @@ fn extractor(dataset: &Dataset, model: &Model) -> Result<taceva_models::Extracto
 }
 
 /// What is true of `rows`; a channel that the dataset has not is absent in every row.
-fn truth(
+pub(crate) fn truth(
     dataset: &Dataset,
     channel: &taceva_core::Channel,
     rows: &[usize],

@@ -1,0 +1,97 @@
+//! Which metrics read which rows: scores of predictions belong to what the model has not seen, the truth alone to everything.
+
+use std::num::NonZeroUsize;
+
+use taceva_core::{Column, Field};
+use taceva_dataset::Dataset;
+use taceva_metrics::{Evaluator, Metric, MetricPlan};
+
+use crate::error::StudyError;
+use crate::predict::{Predicted, truth};
+use crate::tally::{Columns, tally};
+
+/// The metrics of a plan by the rows they read.
+pub(super) struct Passes<'a> {
+    plan: &'a MetricPlan,
+    /// Those that compare predictions with the truth.
+    of_predictions: Vec<&'static Metric>,
+    /// Those that look at the truth alone.
+    of_truth: Vec<&'static Metric>,
+}
+
+impl<'a> Passes<'a> {
+    /// Deals the metrics of `plan`; where a part was asked for, every metric reads that part.
+    pub(super) fn new(plan: &'a MetricPlan, is_part_asked_for: bool) -> Passes<'a> {
+        let kept = plan.kept().iter().copied();
+        let (of_truth, of_predictions) =
+            kept.partition(|metric| !is_part_asked_for && reads_no_prediction(metric));
+        Passes {
+            plan,
+            of_predictions,
+            of_truth,
+        }
+    }
+
+    /// Takes in `predicted`, which are the rows `rows` of `dataset`, and of the rest what metrics of the truth alone read.
+    pub(super) fn run(
+        &self,
+        dataset: &Dataset,
+        predicted: &Predicted,
+        rows: &[usize],
+        jobs: NonZeroUsize,
+    ) -> Result<Evaluator, StudyError> {
+        let mut total = Evaluator::new(self.plan);
+        let columns = Columns {
+            truth: predicted.truth(),
+            prediction: predicted.prediction(),
+            table: dataset.table(),
+            rows,
+        };
+        let plan = self.restricted(&self.of_predictions)?;
+        total.merge(tally(&columns, &plan, jobs)?)?;
+        if !self.of_truth.is_empty() {
+            let rows = dataset.all_rows();
+            let channels = self.plan.channels().iter();
+            let truth: Vec<Column> = channels
+                .map(|channel| truth(dataset, channel, &rows))
+                .collect::<Result<_, _>>()?;
+            let mut nothing = Column::default();
+            rows.iter().for_each(|_| nothing.push(None));
+            let columns = Columns {
+                prediction: &vec![nothing; truth.len()],
+                truth: &truth,
+                table: dataset.table(),
+                rows: &rows,
+            };
+            let plan = self.restricted(&self.of_truth)?;
+            total.merge(tally(&columns, &plan, jobs)?)?;
+        }
+        Ok(total)
+    }
+
+    /// What a reader must know where two sets of rows were read.
+    pub(super) fn note(&self, dataset: &Dataset) -> Option<String> {
+        let ids: Vec<&str> = self.of_truth.iter().map(|metric| metric.id).collect();
+        (!ids.is_empty() && !self.of_predictions.is_empty()).then(|| {
+            let rows = dataset.table().rows();
+            let ids = ids.join(", ");
+            format!("no prediction enters {ids}: all {rows} samples count there, in every part")
+        })
+    }
+
+    /// The plan with fewer metrics and everything else alike, so that its states join those of the whole one.
+    fn restricted(&self, metrics: &[&'static Metric]) -> Result<MetricPlan, StudyError> {
+        let plan = self.plan;
+        let restricted = MetricPlan::new(metrics, plan.channels().clone(), plan.available())
+            .with_facts(plan.facts().clone())
+            .with_seed(plan.seed())
+            .with_interval_method(plan.interval_method())
+            .with_settings(*plan.settings())?;
+        Ok(restricted)
+    }
+}
+
+fn reads_no_prediction(metric: &Metric) -> bool {
+    let fields = metric.needs.fields;
+    !fields.contains(Field::Prediction) && !fields.contains(Field::PredictedSpacing)
+}
