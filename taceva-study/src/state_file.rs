@@ -46,6 +46,7 @@ struct WrittenPlan {
     frame_size: Option<[u32; 2]>,
     bins: u32,
     n_min: u64,
+    ddof: u32,
     gate_n: f64,
     smoothing_window: u32,
     resolution_tolerance_nm: i64,
@@ -200,6 +201,7 @@ impl WrittenPlan {
             frame_size: facts.frame_size,
             bins: settings.bins,
             n_min: settings.n_min,
+            ddof: settings.ddof,
             gate_n: settings.gate.0,
             smoothing_window: settings.smoothing_window,
             resolution_tolerance_nm: settings.resolution_tolerance.0,
@@ -236,6 +238,7 @@ impl WrittenPlan {
             .with_settings(Settings {
                 bins: self.bins,
                 n_min: self.n_min,
+                ddof: self.ddof,
                 gate: Newton(self.gate_n),
                 smoothing_window: self.smoothing_window,
                 resolution_tolerance: Nanometre(self.resolution_tolerance_nm),
