@@ -10,6 +10,7 @@ mod unit;
 pub mod contact;
 pub mod displacement;
 pub mod elastic;
+pub mod optics;
 pub mod random;
 
 pub use bench::{Bench, Press, PressError};

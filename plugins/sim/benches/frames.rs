@@ -1,0 +1,90 @@
+//! Pictures a second of each simulated sensor, one core, from contact to bytes.
+//!
+//! `cargo bench -p taceva-sim --bench frames`; 19,200 pixels a frame, noise included, the press moving from frame to frame.
+
+use divan::Bencher;
+use divan::counter::ItemsCount;
+use taceva_core::FrameMut;
+use taceva_sim::Model;
+use taceva_sim::contact::{Contact, Indentation, Solid};
+use taceva_sim::optics::{Camera, OpticsSpec, Stimulus, View};
+
+fn main() {
+    divan::main();
+}
+
+/// How the ball moves along the gel.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Touch {
+    Pressed,
+    Dragged,
+}
+
+#[divan::bench(args = Model::ALL)]
+fn untouched(bencher: Bencher<'_, '_>, model: Model) {
+    frames(bencher, model, &[]);
+}
+
+#[divan::bench(args = Model::ALL)]
+fn pressed(bencher: Bencher<'_, '_>, model: Model) {
+    frames(bencher, model, &contacts(model, Touch::Pressed));
+}
+
+#[divan::bench(args = Model::ALL)]
+fn dragged(bencher: Bencher<'_, '_>, model: Model) {
+    frames(bencher, model, &contacts(model, Touch::Dragged));
+}
+
+/// Sixty-four contacts over the probed surface, at every depth.
+fn contacts(model: Model, touch: Touch) -> Vec<Contact> {
+    let parameters = model.parameters();
+    let solid = Solid::new(&parameters);
+    let probing = &parameters.probing;
+    (0..64_u32)
+        .map(|number| {
+            let turn = f64::from(number);
+            // A disc filled evenly: the golden angle, and the root of the number.
+            let out = 0.9 * (turn / 64.0).sqrt();
+            let (sin, cos) = (2.399_963 * turn).sin_cos();
+            let depth_mm = probing.depth_max_mm * (0.2 + 0.8 * (turn * 0.618).fract());
+            let shear = match touch {
+                Touch::Pressed => 0.0,
+                Touch::Dragged => probing.shear_max_mm,
+            };
+            solid.contact(&Indentation {
+                place_mm: [
+                    probing.half_width_mm * out * cos,
+                    probing.half_height_mm * out * sin,
+                ],
+                depth_mm,
+                deepest_mm: depth_mm,
+                shear_mm: [shear * sin, shear * cos],
+                indenter_radius_mm: 2.0,
+                stiffness: 1.0,
+            })
+        })
+        .collect()
+}
+
+fn frames(bencher: Bencher<'_, '_>, model: Model, contacts: &[Contact]) {
+    let spec = OpticsSpec::new(&model.parameters());
+    let upright = spec.native[1] > spec.native[0];
+    let size = if upright { [120, 160] } else { [160, 120] };
+    let mut camera = Camera::new(&spec, size, 0, 1).expect("a frame below the native size");
+    let info = camera.frame_info();
+    let mut bytes = vec![0; info.byte_len().expect("a small frame")];
+    let mut picture = 0_u32;
+    bencher.counter(ItemsCount::new(1_u32)).bench_local(|| {
+        picture += 1;
+        let turn = usize::try_from(picture).expect("a small number") % contacts.len().max(1);
+        let view = View {
+            stimulus: contacts
+                .get(turn)
+                .map_or(Stimulus::Nothing, |contact| Stimulus::Ball(*contact)),
+            press: u64::from(picture),
+            ..View::default()
+        };
+        let into = FrameMut::new(info, &mut bytes).expect("the camera's own frame");
+        camera.render(&view, into).expect("a picture")
+    });
+}

@@ -1,0 +1,70 @@
+//! Light from outside, which a transparent gel lets in.
+
+use std::fmt;
+
+/// A scene of light from outside, as the paper sets them up.
+///
+/// # Reference
+/// TacEva (2025), robustness to lighting, scenes S1 to S4.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum AmbientLight {
+    /// The light under which the sensor was calibrated: its own.
+    #[default]
+    Normal,
+    /// S1: a diffuse ceiling.
+    Ceiling,
+    /// S2: a wide beam from the side.
+    WideBeam,
+    /// S3: a ring below the sensor.
+    Ring,
+    /// S4: a narrow spot.
+    Spot,
+}
+
+impl AmbientLight {
+    /// Every scene, the normal one first.
+    pub const ALL: [AmbientLight; 5] = [
+        AmbientLight::Normal,
+        AmbientLight::Ceiling,
+        AmbientLight::WideBeam,
+        AmbientLight::Ring,
+        AmbientLight::Spot,
+    ];
+
+    /// The word used in tables.
+    pub const fn name(self) -> &'static str {
+        match self {
+            AmbientLight::Normal => "normal",
+            AmbientLight::Ceiling => "S1",
+            AmbientLight::WideBeam => "S2",
+            AmbientLight::Ring => "S3",
+            AmbientLight::Spot => "S4",
+        }
+    }
+
+    /// The scene written as `name`.
+    pub fn from_name(name: &str) -> Option<AmbientLight> {
+        AmbientLight::ALL
+            .into_iter()
+            .find(|scene| scene.name() == name)
+    }
+}
+
+impl fmt::Display for AmbientLight {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_scene_is_found_by_its_name() {
+        for scene in AmbientLight::ALL {
+            assert_eq!(AmbientLight::from_name(scene.name()), Some(scene));
+        }
+        assert_eq!(AmbientLight::from_name("s1"), None);
+    }
+}

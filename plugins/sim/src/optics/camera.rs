@@ -1,0 +1,180 @@
+//! The camera inside a tactile sensor.
+
+use taceva_core::{FrameInfo, FrameMut};
+
+use super::ambient::AmbientLight;
+use super::band::Band;
+use super::error::OpticsError;
+use super::gel::Gel;
+use super::luma::Luma;
+use super::noise;
+use super::number::narrow;
+use super::raster::Raster;
+use super::readout::Readout;
+use super::simd;
+use super::spec::{CameraSpec, OpticsSpec};
+use super::stimulus::Stimulus;
+use crate::random::{Purpose, Random};
+
+/// What the camera looks at, once.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct View {
+    /// What touches the gel.
+    pub stimulus: Stimulus,
+    /// The light from outside.
+    pub light: AmbientLight,
+    /// The press, by number: what happens to the gel by chance belongs to it.
+    pub press: u64,
+    /// The picture of that press: the camera's noise belongs to it.
+    pub picture: u32,
+}
+
+/// The camera inside one unit of a tactile sensor, at one frame size.
+///
+/// A picture is a function of the sensor, the unit, the seed and the [`View`]: not of pictures taken before, of the thread or of the
+/// processor. At full size samples have 8 bits; at a reduced size they have 16, 256 counts a DN, with the noise of the pixels they
+/// stand for averaged and never rounded to whole DN.
+///
+/// ```
+/// use taceva_core::FrameMut;
+/// use taceva_sim::Model;
+/// use taceva_sim::optics::{Camera, OpticsSpec, View};
+/// let spec = OpticsSpec::new(&Model::ViTacTip.parameters());
+/// let mut camera = Camera::new(&spec, [96, 96], 0, 7)?;
+/// let info = camera.frame_info();
+/// let mut bytes = vec![0; info.byte_len().expect("a small frame")];
+/// let luma = camera.render(&View::default(), FrameMut::new(info, &mut bytes)?)?;
+/// assert!((luma.mean_dn() - 12.0).abs() < 0.5);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct Camera {
+    info: FrameInfo,
+    noise: CameraSpec,
+    binning: f64,
+    random: Random,
+    is_transparent: bool,
+    gel: Gel,
+    /// Rows painted at a time, and the room for them.
+    band_rows: usize,
+    light: Vec<f32>,
+}
+
+/// Numbers painted at a time: they stay in the processor's first cache.
+const BAND: usize = 6144;
+
+impl Camera {
+    /// The camera of unit `unit` of a sensor, giving frames of `size` pixels, width first; `seed` is that of the noise.
+    ///
+    /// # Errors
+    /// [`OpticsError::Size`] for a frame of no pixels or of more than the sensor has.
+    pub fn new(
+        spec: &OpticsSpec,
+        size: [u32; 2],
+        unit: u64,
+        seed: u64,
+    ) -> Result<Camera, OpticsError> {
+        let info = spec.frame_info(size)?;
+        let [width, height] = size.map(|pixels| usize::try_from(pixels).unwrap_or(usize::MAX));
+        let raster = Raster::new([width, height], spec.field);
+        let gel = Gel::new(&spec.gel, raster, unit);
+        let row = width * info.format.samples();
+        let band_rows = (BAND / row).clamp(1, height);
+        Ok(Camera {
+            info,
+            noise: spec.camera,
+            binning: spec.binning(size),
+            random: Random::new(seed),
+            is_transparent: spec.is_transparent && gel.has_outside_light(),
+            gel,
+            band_rows,
+            light: vec![0.0; band_rows * row],
+        })
+    }
+
+    /// Size and format of its frames.
+    pub fn frame_info(&self) -> FrameInfo {
+        self.info
+    }
+
+    /// Whether light from outside reaches it.
+    pub fn is_transparent(&self) -> bool {
+        self.is_transparent
+    }
+
+    /// Takes a picture.
+    ///
+    /// # Errors
+    /// [`OpticsError::Frame`] for a buffer of another frame, [`OpticsError::Opaque`] for light that the gel keeps out, and
+    /// [`OpticsError::Value`] for numbers that are none.
+    /// The buffer is then as it was.
+    pub fn render(&mut self, view: &View, mut into: FrameMut<'_>) -> Result<Luma, OpticsError> {
+        if into.info() != self.info {
+            return Err(OpticsError::Frame {
+                found: into.info(),
+                expected: self.info,
+            });
+        }
+        if view.light != AmbientLight::Normal && !self.is_transparent {
+            return Err(OpticsError::Opaque { scene: view.light });
+        }
+        self.gel.pose(view, &self.random)?;
+        Ok(self.expose(view, into.bytes_mut()))
+    }
+
+    fn expose(&mut self, view: &View, bytes: &mut [u8]) -> Luma {
+        let readout = self.readout(view);
+        let pixel_noise = self.random.stream(Purpose::PixelNoise, view.press);
+        let channels = self.info.format.samples();
+        let sample_bytes = self.info.format.bytes_per_sample();
+        let row_length = self.light.len() / self.band_rows;
+        let width = row_length / channels;
+        let mut luma = Luma::new(if sample_bytes == 1 { 1 } else { COUNTS_PER_DN });
+        let mut first_row = 0;
+        for rows in bytes.chunks_mut(self.band_rows * row_length * sample_bytes) {
+            let length = rows.len() / sample_bytes;
+            let light = &mut self.light[..length];
+            self.gel.paint(&mut Band {
+                first_row,
+                width,
+                channels,
+                light,
+            });
+            for (light, into) in light
+                .chunks_exact(row_length)
+                .zip(rows.chunks_exact_mut(row_length * sample_bytes))
+            {
+                let index = u64::from(view.picture) << 32 | first_row as u64;
+                let noise = noise::row(&pixel_noise, index, row_length);
+                let sums = if sample_bytes == 1 {
+                    simd::read_out::<1>(&readout, light, noise, into)
+                } else {
+                    simd::read_out::<2>(&readout, light, noise, into)
+                };
+                luma.add_row(&sums, channels, width);
+                first_row += 1;
+            }
+        }
+        luma
+    }
+
+    fn readout(&self, view: &View) -> Readout {
+        let flicker = self.random.stream(Purpose::Flicker, view.press);
+        let flicker = self.noise.flicker * flicker.normal(u64::from(view.picture));
+        let read = self.noise.read_noise_dn;
+        Readout {
+            gain: narrow(1.0 + flicker),
+            shot: narrow(self.noise.shot_gain_dn / self.binning),
+            read_variance: narrow(read * read / self.binning),
+            counts_per_dn: if self.info.format.bytes_per_sample() == 1 {
+                1.0
+            } else {
+                narrow(COUNTS_PER_DN as f64)
+            },
+            full_counts: f32::from(self.info.format.full_scale()),
+        }
+    }
+}
+
+/// Counts of a 16-bit frame that are one DN of the sensor's own 8 bits.
+pub(super) const COUNTS_PER_DN: u64 = 256;

@@ -1,0 +1,269 @@
+//! GelSight: a coated gel that shows its slopes in the colours of the lamps around it.
+
+mod dent;
+mod lamp;
+mod spec;
+
+pub use lamp::LampSpec;
+pub use spec::{GelsightSpec, MarkerGrid};
+
+use std::sync::Arc;
+
+use self::dent::Dent;
+use self::lamp::{CHUNK, Caster, Lamp, Slopes};
+use super::band::Band;
+use super::camera::View;
+use super::disc::{Disc, DiscSpec};
+use super::error::OpticsError;
+use super::number::narrow;
+use super::raster::Raster;
+use super::relief::{Relief, Window};
+use super::stimulus::Stimulus;
+use super::texture::{self, Texture};
+use crate::displacement::{Field, Profile, Tables};
+use crate::random::{Purpose, Random};
+
+/// A coated gel of one unit, at one frame size.
+#[derive(Clone, Debug)]
+pub(super) struct Gelsight {
+    scene: Arc<Scene>,
+    profile: Profile,
+    touch: Touch,
+    dent: Dent,
+    markers: Vec<[f32; 2]>,
+}
+
+/// What stays the same from frame to frame.
+#[derive(Debug)]
+struct Scene {
+    raster: Raster,
+    spec: GelsightSpec,
+    lamps: Vec<Lamp>,
+    ambient: [f32; 3],
+    /// Slope of the untouched surface a mm, towards the camera.
+    sag: [f32; 2],
+    coating: Texture,
+    tables: Tables,
+    /// The untouched gel without markers.
+    background: Vec<f32>,
+    disc: Option<Disc>,
+    markers: Vec<[f32; 2]>,
+}
+
+/// What touches the gel in this frame.
+#[derive(Clone, Debug)]
+enum Touch {
+    Nothing,
+    Ball,
+    Board(Relief),
+}
+
+impl Gelsight {
+    pub(super) fn new(spec: &GelsightSpec, raster: Raster, unit: u64) -> Gelsight {
+        let scene = Scene::new(spec, raster, unit);
+        Gelsight {
+            profile: Profile::new(),
+            touch: Touch::Nothing,
+            dent: Dent::default(),
+            markers: scene.markers.clone(),
+            scene: Arc::new(scene),
+        }
+    }
+
+    pub(super) fn pose(&mut self, view: &View) -> Result<(), OpticsError> {
+        let scene = &self.scene;
+        self.markers.copy_from_slice(&scene.markers);
+        self.touch = match view.stimulus {
+            Stimulus::Nothing => Touch::Nothing,
+            Stimulus::Ball(contact) if !contact.touches() => Touch::Nothing,
+            Stimulus::Ball(contact) => {
+                let load = contact.load();
+                scene.tables.profile(&load, &mut self.profile);
+                let spec = &scene.spec;
+                self.dent
+                    .take(&load, &self.profile, spec.blur_mm, spec.shadow);
+                let field = Field::new(&self.profile, &load);
+                for place in &mut self.markers {
+                    let [x, y] = *place;
+                    let [along_x, along_y, _] = field.at(x, y);
+                    *place = [x + along_x, y + along_y];
+                }
+                Touch::Ball
+            }
+            Stimulus::Board(board) => Touch::Board(Relief::new(
+                &board,
+                Window {
+                    layer_mm: Some(scene.spec.thickness_mm),
+                    blur_mm: scene.spec.blur_mm,
+                    pixel_mm: 0.5 * f64::from(scene.raster.pitch[0] + scene.raster.pitch[1]),
+                },
+            )?),
+        };
+        Ok(())
+    }
+
+    pub(super) fn paint(&self, band: &mut Band<'_>) {
+        let scene = &*self.scene;
+        let start = band.first_row * band.width * 3;
+        let length = band.light.len();
+        band.light
+            .copy_from_slice(&scene.background[start..start + length]);
+        match &self.touch {
+            Touch::Nothing => {}
+            Touch::Ball => self.paint_ball(band),
+            Touch::Board(relief) => scene.paint_board(relief, band),
+        }
+        if let Some(disc) = &scene.disc {
+            for [x, y] in &self.markers {
+                disc.stamp(&scene.raster, *x, *y, band);
+            }
+        }
+    }
+
+    fn paint_ball(&self, band: &mut Band<'_>) {
+        let (scene, dent) = (&*self.scene, &self.dent);
+        for row in band.rows_among(scene.raster.rows(dent.y, dent.reach)) {
+            let y = scene.raster.y(row);
+            let half = (dent.reach * dent.reach - (y - dent.y) * (y - dent.y))
+                .max(0.0)
+                .sqrt();
+            let columns = scene.raster.columns(dent.x, half);
+            scene.shade(row, columns, dent.caster(), band, |x, slopes| {
+                dent.add_to(x, y, slopes);
+            });
+        }
+    }
+}
+
+impl Scene {
+    fn new(spec: &GelsightSpec, raster: Raster, unit: u64) -> Scene {
+        let random = Random::new(unit);
+        let gains = random.stream(Purpose::LampGain, 0);
+        let lamps = spec
+            .lamps
+            .iter()
+            .zip(0..)
+            .map(|(lamp, number)| {
+                let gain = Lamp::gain(&gains, number, spec.lamp_gain_spread);
+                Lamp::new(lamp, spec.lamp_reach_mm, gain)
+            })
+            .collect();
+        let coating = texture::smooth_noise(&random.stream(Purpose::Texture, 0), 0, 6.0);
+        let mut scene = Scene {
+            raster,
+            spec: spec.clone(),
+            lamps,
+            ambient: spec.ambient_dn.map(narrow),
+            sag: [
+                narrow(2.0 * spec.sag_mm[0] / (7.0 * 7.0)),
+                narrow(2.0 * spec.sag_mm[1] / (9.0 * 9.0)),
+            ],
+            coating: Texture::new(TEXEL_MM, &[coating]),
+            tables: Tables::new(spec.thickness_mm, 0.0),
+            background: Vec::new(),
+            disc: spec.markers.map(|grid| {
+                let disc = DiscSpec {
+                    radius: 0.5 * grid.diameter_mm,
+                    darkness: grid.darkness,
+                    edge: MARKER_EDGE_MM,
+                };
+                Disc::new(disc, &raster)
+            }),
+            markers: spec
+                .markers
+                .map_or_else(Vec::new, |grid| places(&grid, &random)),
+        };
+        let mut background = vec![0.0; raster.width * raster.height * 3];
+        let mut band = Band {
+            first_row: 0,
+            width: raster.width,
+            channels: 3,
+            light: &mut background,
+        };
+        for row in 0..raster.height {
+            scene.shade(
+                row,
+                0..raster.width,
+                Caster::default(),
+                &mut band,
+                |_, _| {},
+            );
+        }
+        scene.background = background;
+        scene
+    }
+
+    fn paint_board(&self, relief: &Relief, band: &mut Band<'_>) {
+        let [x, y] = relief.centre();
+        for row in band.rows_among(self.raster.rows(y, relief.reach())) {
+            let y = self.raster.y(row);
+            let columns = self.raster.columns(x, relief.reach());
+            self.shade(row, columns, Caster::default(), band, |x, slopes| {
+                for (i, x) in x.iter().enumerate() {
+                    let [slope_x, slope_y] = relief.slope(*x, y);
+                    slopes.x[i] += slope_x;
+                    slopes.y[i] += slope_y;
+                }
+            });
+        }
+    }
+
+    /// Shades the pixels of a row of the frame, with what `press` adds to the slopes of the untouched gel.
+    #[inline(always)]
+    fn shade(
+        &self,
+        row: usize,
+        columns: std::ops::Range<usize>,
+        caster: Caster,
+        band: &mut Band<'_>,
+        press: impl Fn(&[f32; CHUNK], &mut Slopes),
+    ) {
+        let y = self.raster.y(row);
+        let light = band.row_mut(row - band.first_row);
+        for first in columns.clone().step_by(CHUNK) {
+            let x: [f32; CHUNK] = std::array::from_fn(|i| self.raster.x(first + i));
+            let mut slopes = Slopes {
+                x: x.map(|x| self.sag[0] * x),
+                y: [self.sag[1] * y; CHUNK],
+                shadow: [0.0; CHUNK],
+            };
+            press(&x, &mut slopes);
+            let mut colours = self.ambient.map(|dn| [dn; CHUNK]);
+            for lamp in &self.lamps {
+                lamp.light(&x, y, &slopes, caster, &mut colours);
+            }
+            let last = columns.end.min(first + CHUNK);
+            let pixels = light[3 * first..3 * last].chunks_exact_mut(3);
+            for (i, pixel) in pixels.enumerate() {
+                let reflectance =
+                    1.0 + narrow(self.spec.coating_spread) * self.coating.at(x[i], y)[0];
+                for (light, colour) in pixel.iter_mut().zip(&colours) {
+                    *light = colour[i] * reflectance;
+                }
+            }
+        }
+    }
+}
+
+/// A texel of the coating: six are the standard deviation of its unevenness, 1.1 mm.
+const TEXEL_MM: f64 = 0.18;
+/// The scale of a marker's edge.
+const MARKER_EDGE_MM: f64 = 0.045;
+
+/// Where the markers of a unit lie.
+fn places(grid: &MarkerGrid, random: &Random) -> Vec<[f32; 2]> {
+    let jitter = random.stream(Purpose::MarkerJitter, 0);
+    let [columns, rows] = grid.count;
+    let middle = |number: u16, count: u16| f64::from(number) - 0.5 * (f64::from(count) - 1.0);
+    let cells = (0..rows).flat_map(|row| (0..columns).map(move |column| (column, row)));
+    cells
+        .zip(0..)
+        .map(|((column, row), number)| {
+            let [x, y] = [middle(column, columns), middle(row, rows)];
+            [
+                narrow(x * grid.pitch_mm + grid.jitter_mm * jitter.normal(2 * number)),
+                narrow(y * grid.pitch_mm + grid.jitter_mm * jitter.normal(2 * number + 1)),
+            ]
+        })
+        .collect()
+}

@@ -1,0 +1,110 @@
+//! The lamps around a coated gel, and what its coating throws back.
+
+use super::super::number::narrow;
+use crate::random::Stream;
+
+/// A bar of light beside the gel.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LampSpec {
+    /// The middle of the bar: x, y, and its height over the gel, on the camera's side.
+    pub middle_mm: [f64; 3],
+    /// Half its length along x and along y.
+    pub half_length_mm: [f64; 2],
+    /// What it adds to red, green and blue on a gel that faces it, one reach away.
+    pub colour_dn: [f64; 3],
+}
+
+/// A bar of light in the numbers of the inner loop.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Lamp {
+    pub(super) low: [f32; 2],
+    pub(super) high: [f32; 2],
+    pub(super) height: f32,
+    pub(super) colour: [f32; 3],
+}
+
+/// Pixels shaded together.
+pub(super) const CHUNK: usize = 32;
+
+/// The slopes of the coating under a run of pixels of one row, as the camera sees it.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Slopes {
+    /// Slope towards the camera along x and along y.
+    pub(super) x: [f32; CHUNK],
+    pub(super) y: [f32; CHUNK],
+    /// How deep in the contact's shadow, a mm of distance from its centre; 0 where there is none.
+    pub(super) shadow: [f32; CHUNK],
+}
+
+/// Where a shadow falls from.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Caster {
+    pub(super) x: f32,
+    pub(super) y: f32,
+}
+
+impl Lamp {
+    /// A lamp with `gain`, its own in this unit.
+    pub(super) fn new(spec: &LampSpec, reach_mm: f64, gain: f64) -> Lamp {
+        let end = |axis: usize, side: f64| {
+            narrow(spec.middle_mm[axis] + side * spec.half_length_mm[axis])
+        };
+        Lamp {
+            low: [end(0, -1.0), end(1, -1.0)],
+            high: [end(0, 1.0), end(1, 1.0)],
+            height: narrow(spec.middle_mm[2]),
+            colour: spec.colour_dn.map(|dn| narrow(dn * reach_mm * gain)),
+        }
+    }
+
+    /// The gain of lamp `number` of a unit: 1 with a standard deviation of `spread`.
+    pub(super) fn gain(stream: &Stream, number: u64, spread: f64) -> f64 {
+        1.0 + spread * stream.normal(number)
+    }
+
+    /// Adds its light to red, green and blue of the pixels at `x`, `y`.
+    ///
+    /// I = ρ (d₀/d) max(0, n·l) with l the unit vector to the nearest point of the bar, d away, and n ∝ (−Hx, −Hy, 1); with the
+    /// vector L = d l this is ρ d₀ max(0, n·L) / d², so that only the length of n takes a root.
+    #[inline(always)]
+    pub(super) fn light(
+        &self,
+        x: &[f32; CHUNK],
+        y: f32,
+        slopes: &Slopes,
+        caster: Caster,
+        colours: &mut [[f32; CHUNK]; 3],
+    ) {
+        let ahead_y = clamp(y, self.low[1], self.high[1]) - y;
+        let ahead_z = self.height;
+        let away = ahead_y * ahead_y + ahead_z * ahead_z;
+        // The direction of the shadow, from the contact away from the lamp.
+        let to_lamp = [
+            clamp(caster.x, self.low[0], self.high[0]) - caster.x,
+            clamp(caster.y, self.low[1], self.high[1]) - caster.y,
+        ];
+        let length = (to_lamp[0] * to_lamp[0] + to_lamp[1] * to_lamp[1]).sqrt();
+        let inverse = if length > 0.0 { 1.0 / length } else { 0.0 };
+        let behind = [-to_lamp[0] * inverse, -to_lamp[1] * inverse];
+        let behind_y = (y - caster.y) * behind[1];
+        for i in 0..CHUNK {
+            let ahead_x = clamp(x[i], self.low[0], self.high[0]) - x[i];
+            let facing = ahead_z - slopes.x[i] * ahead_x - slopes.y[i] * ahead_y;
+            let facing = if facing > 0.0 { facing } else { 0.0 };
+            let squared = slopes.x[i] * slopes.x[i] + slopes.y[i] * slopes.y[i];
+            let lit = facing / ((ahead_x * ahead_x + away) * (1.0 + squared).sqrt());
+            let behind = (x[i] - caster.x) * behind[0] + behind_y;
+            let behind = if behind > 0.0 { behind } else { 0.0 };
+            let lit = lit * (1.0 - slopes.shadow[i] * behind);
+            for (colour, strength) in colours.iter_mut().zip(self.colour) {
+                colour[i] += lit * strength;
+            }
+        }
+    }
+}
+
+#[inline(always)]
+fn clamp(value: f32, low: f32, high: f32) -> f32 {
+    let value = if value > low { value } else { low };
+    if value < high { value } else { high }
+}

@@ -1,0 +1,101 @@
+//! The figures of a coated gel.
+
+use super::lamp::LampSpec;
+use crate::parameters::{Layer, Markers, Parameters};
+
+/// A coated flat gel under coloured lamps.
+#[derive(Clone, Debug, PartialEq)]
+pub struct GelsightSpec {
+    /// Thickness of the gel (literature).
+    pub thickness_mm: f64,
+    /// How far the surface lies back at x = 7 mm and at y = 9 mm (geometry).
+    pub sag_mm: [f64; 2],
+    /// The lamps: red left, green right, blue at the bottom, a weak cyan one on top (free).
+    pub lamps: Vec<LampSpec>,
+    /// The distance at which the lamps have their colours' strength (free).
+    pub lamp_reach_mm: f64,
+    /// Light from everywhere: red, green, blue (free).
+    pub ambient_dn: [f64; 3],
+    /// Standard deviation of the lamps' gains between units (free).
+    pub lamp_gain_spread: f64,
+    /// Standard deviation of the coating's reflectance (free).
+    pub coating_spread: f64,
+    /// The part of a lamp's light that a contact's rim keeps off behind it (free).
+    pub shadow: f64,
+    /// Standard deviation of the lens's blur, on the gel (fit: gratings).
+    pub blur_mm: f64,
+    /// The markers, if there are any.
+    pub markers: Option<MarkerGrid>,
+}
+
+/// Dark discs in rows and columns, on the gel's surface.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MarkerGrid {
+    /// How many along x and along y.
+    pub count: [u16; 2],
+    /// Between middles (literature).
+    pub pitch_mm: f64,
+    /// Diameter (literature).
+    pub diameter_mm: f64,
+    /// The part of the light a marker takes (free).
+    pub darkness: f64,
+    /// Standard deviation of the places between units (free).
+    pub jitter_mm: f64,
+}
+
+impl GelsightSpec {
+    /// The look of a coated layer.
+    pub(in crate::optics) fn new(parameters: &Parameters, layer: &Layer) -> GelsightSpec {
+        let brightness = parameters.camera.mean_gray / NOMINAL_GRAY;
+        let lamp = |x: f64, y: f64, along: [f64; 2], colour: [f64; 3]| LampSpec {
+            middle_mm: [x, y, 3.5],
+            half_length_mm: along,
+            colour_dn: colour.map(|dn| dn * brightness),
+        };
+        let surface = &parameters.surface;
+        // Beside the picture, wherever that ends.
+        let [side, end] = [0.5 * surface.width_mm + 4.85, 0.5 * surface.height_mm + 4.7];
+        GelsightSpec {
+            thickness_mm: layer.thickness_mm,
+            sag_mm: [surface.sag_x_mm, surface.sag_y_mm],
+            lamps: vec![
+                lamp(-side, 0.0, [0.0, 3.0], [190.0, 34.0, 42.0]),
+                lamp(side, 4.0, [0.0, 3.0], [24.0, 160.0, 56.0]),
+                lamp(0.0, -end, [3.0, 0.0], [40.0, 48.0, 160.0]),
+                lamp(0.0, end, [3.0, 0.0], [17.0, 63.0, 63.0]),
+            ],
+            lamp_reach_mm: 14.0,
+            ambient_dn: [28.0, 38.0, 40.0].map(|dn| dn * brightness),
+            lamp_gain_spread: 0.02,
+            coating_spread: 0.01,
+            shadow: 0.35,
+            blur_mm: parameters.gratings.blur_mm,
+            markers: parameters.markers.as_ref().map(MarkerGrid::new),
+        }
+    }
+}
+
+impl MarkerGrid {
+    fn new(markers: &Markers) -> MarkerGrid {
+        MarkerGrid {
+            count: [markers.columns, markers.rows].map(whole),
+            pitch_mm: markers.pitch_mm,
+            diameter_mm: markers.diameter_mm,
+            darkness: 0.85,
+            jitter_mm: markers.jitter_mm,
+        }
+    }
+}
+
+/// Mean gray of the untouched gel as the lamps are told above (fit).
+const NOMINAL_GRAY: f64 = 93.0;
+
+fn whole(count: f64) -> u16 {
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "a cast of a float saturates, and parameters are checked to lie between 1 and 200"
+    )]
+    let count = count.round() as u16;
+    count
+}

@@ -1,0 +1,52 @@
+//! The printed lattice: three patterns at three depths.
+
+use std::f64::consts::TAU;
+
+use super::spec::MagictacSpec;
+use crate::optics::number::{count, narrow};
+use crate::optics::texture::{SIDE, Texture, smooth_noise};
+use crate::random::{Purpose, Random};
+
+/// A texel of a layer. The pattern repeats after 128 of them, 23 mm, more than is seen.
+const TEXEL_MM: f64 = 0.18;
+/// Texels over which speckle and the unevenness of the lines vary.
+const SPECKLE: f64 = 2.2;
+const UNEVENNESS: f64 = 20.0;
+/// Standard deviation of a line's place.
+const LINE_JITTER_MM: f64 = 0.22;
+/// A cell of the buckling lattice, and the cells over which it is alike.
+const CELL_MM: f64 = 0.73;
+const CELLS_ALIKE: f64 = 2.0;
+
+/// Lines and speckle of the three layers of a unit: contrast around 0, red, green, blue.
+pub(super) fn layers(spec: &MagictacSpec, unit: u64) -> [Texture; 3] {
+    let random = Random::new(unit);
+    let [lines, speckle] = spec.contrast;
+    // A whole number of lines on the torus, so that it has no seam.
+    let periods = (count(SIDE) * TEXEL_MM / spec.pitch_mm).round().max(1.0);
+    [0, 1, 2].map(|layer| {
+        let stream = random.stream(Purpose::Texture, layer);
+        let jitter = smooth_noise(&stream, 0, UNEVENNESS);
+        let colours = [1, 2, 3].map(|colour| {
+            let speckles = smooth_noise(&stream, colour, SPECKLE);
+            (0..SIDE * SIDE)
+                .map(|index| {
+                    let shift = LINE_JITTER_MM / spec.pitch_mm * f64::from(jitter[index]);
+                    let line = |texel: usize| {
+                        libm::cos(TAU * (periods * count(texel) / count(SIDE) + shift))
+                    };
+                    let line = 0.5 * (line(index % SIDE) + line(index / SIDE));
+                    narrow(lines * line + speckle * f64::from(speckles[index]))
+                })
+                .collect()
+        });
+        Texture::new(TEXEL_MM, &colours)
+    })
+}
+
+/// How the lattice may buckle: two numbers of standard deviation 1 a place. A press looks at a part of its own.
+pub(super) fn buckling(unit: u64) -> Texture {
+    let stream = Random::new(unit).stream(Purpose::Buckling, 0);
+    let patterns = [0, 1].map(|layer| smooth_noise(&stream, layer, CELLS_ALIKE));
+    Texture::new(CELL_MM, &patterns)
+}

@@ -1,0 +1,65 @@
+//! The figures of a clear block with a lattice.
+
+use crate::optics::spec::grating_contrast;
+use crate::parameters::{Lattice, Layer, Parameters};
+
+/// A clear block with a printed lattice in three layers.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MagictacSpec {
+    /// Thickness of the block (geometry).
+    pub thickness_mm: f64,
+    /// Depths of the lattice's layers below the surface (geometry).
+    pub layers_mm: [f64; 3],
+    /// Between the lattice's lines (free).
+    pub pitch_mm: f64,
+    /// Contrast of the lines and of the speckle between them (free).
+    pub contrast: [f64; 2],
+    /// How far a slope of the surface shifts what is seen below it (free).
+    pub refraction_mm: f64,
+    /// Brightening by the slope of the surface (free).
+    pub gloss: f64,
+    /// Brightening where the ball touches (free).
+    pub wetting: f64,
+    /// Buckling of the lattice: a part of the local displacement, by chance from press to press (free).
+    pub buckling: f64,
+    /// Strength of the coloured glow and of the light from everywhere (fit: mean gray 107).
+    pub glow_dn: [f64; 2],
+    /// Contrast of a grating in the first layer (fit).
+    pub grating_contrast: f64,
+    /// Standard deviation of the lens's blur, on the gel (fit: gratings).
+    pub blur_mm: f64,
+    /// Standard deviation of the lamps' gains between units (free).
+    pub lamp_gain_spread: f64,
+}
+
+impl MagictacSpec {
+    /// The look of a clear layer with a lattice.
+    pub(in crate::optics) fn new(
+        parameters: &Parameters,
+        layer: &Layer,
+        lattice: &Lattice,
+    ) -> MagictacSpec {
+        let brightness = parameters.camera.mean_gray / NOMINAL_GRAY;
+        MagictacSpec {
+            thickness_mm: layer.thickness_mm,
+            layers_mm: [
+                lattice.first_depth_mm,
+                lattice.second_depth_mm,
+                lattice.third_depth_mm,
+            ],
+            pitch_mm: lattice.pitch_mm,
+            contrast: [0.12, 0.16],
+            refraction_mm: 0.35,
+            gloss: 1.2,
+            wetting: 0.10,
+            buckling: lattice.buckling,
+            glow_dn: [130.0, 55.0].map(|dn| dn * brightness),
+            grating_contrast: grating_contrast(parameters),
+            blur_mm: parameters.gratings.blur_mm,
+            lamp_gain_spread: 0.02,
+        }
+    }
+}
+
+/// Mean gray of the untouched block as the glow is told above (fit).
+const NOMINAL_GRAY: f64 = 107.0;

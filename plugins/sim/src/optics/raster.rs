@@ -1,0 +1,94 @@
+//! The pixels of a frame, laid over the field of view.
+
+use super::number::narrow;
+
+/// A grid of pixels over a field of view that is centred on the axis; x to the right, y up, row 0 on top.
+///
+/// A frame of another shape shows the same field, so its pixels need not be square.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Raster {
+    pub(super) width: usize,
+    pub(super) height: usize,
+    /// Width and height of a pixel, in the field's unit.
+    pub(super) pitch: [f32; 2],
+}
+
+impl Raster {
+    /// `size` pixels over `field`, width first.
+    pub(super) fn new(size: [usize; 2], field: [f64; 2]) -> Raster {
+        let pitch = |axis: usize| narrow(field[axis] / super::number::count(size[axis]));
+        Raster {
+            width: size[0],
+            height: size[1],
+            pitch: [pitch(0), pitch(1)],
+        }
+    }
+
+    /// x of the middle of a column.
+    #[inline]
+    pub(super) fn x(&self, column: usize) -> f32 {
+        self.pitch[0] * (whole(column) + 0.5 - 0.5 * whole(self.width))
+    }
+
+    /// y of the middle of a row.
+    #[inline]
+    pub(super) fn y(&self, row: usize) -> f32 {
+        self.pitch[1] * (0.5 * whole(self.height) - 0.5 - whole(row))
+    }
+
+    /// The columns whose middles lie within `reach` of `x`: from, and up to but without.
+    pub(super) fn columns(&self, x: f32, reach: f32) -> std::ops::Range<usize> {
+        let middle = x / self.pitch[0] + 0.5 * whole(self.width) - 0.5;
+        span(middle, reach / self.pitch[0], self.width)
+    }
+
+    /// The rows whose middles lie within `reach` of `y`.
+    pub(super) fn rows(&self, y: f32, reach: f32) -> std::ops::Range<usize> {
+        let middle = 0.5 * whole(self.height) - 0.5 - y / self.pitch[1];
+        span(middle, reach / self.pitch[1], self.height)
+    }
+}
+
+fn span(middle: f32, reach: f32, count: usize) -> std::ops::Range<usize> {
+    let clamp = |at: f32| -> usize {
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "clamped to the frame, and a cast of a float saturates"
+        )]
+        let at = at.clamp(0.0, whole(count)) as usize;
+        at
+    };
+    let first = clamp((middle - reach).ceil());
+    first..clamp((middle + reach).floor() + 1.0).max(first)
+}
+
+#[expect(
+    clippy::cast_precision_loss,
+    reason = "no frame has 2^24 columns or rows"
+)]
+fn whole(count: usize) -> f32 {
+    count as f32
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_middle_of_the_frame_is_the_axis_and_y_goes_up() {
+        let raster = Raster::new([4, 2], [8.0, 6.0]);
+        assert_eq!([raster.x(0), raster.x(3)], [-3.0, 3.0]);
+        assert_eq!([raster.y(0), raster.y(1)], [1.5, -1.5]);
+    }
+
+    #[test]
+    fn spans_hold_the_middles_within_reach_and_stay_on_the_frame() {
+        let raster = Raster::new([10, 10], [10.0, 10.0]);
+        assert_eq!(raster.columns(0.5, 1.0), 4..7);
+        assert_eq!(raster.rows(4.5, 1.2), 0..2);
+        assert!(raster.columns(40.0, 2.0).is_empty());
+        assert!(raster.rows(-40.0, 2.0).is_empty());
+        assert_eq!(raster.columns(0.0, 1e9), 0..10);
+    }
+}

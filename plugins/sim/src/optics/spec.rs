@@ -1,0 +1,165 @@
+//! What a tactile sensor's camera and gel look like, as numbers.
+
+use taceva_core::{FrameInfo, PixelFormat};
+
+use super::error::OpticsError;
+use super::gelsight::GelsightSpec;
+use super::magictac::MagictacSpec;
+use super::noise::LONGEST_ROW;
+use super::vitactip::VitactipSpec;
+use crate::parameters::{self, Body, Parameters};
+
+/// The look of a tactile sensor.
+#[derive(Clone, Debug, PartialEq)]
+pub struct OpticsSpec {
+    /// Pixels of a full-size frame, width first.
+    pub native: [u32; 2],
+    /// Width and height of what the frame shows, in the gel's unit: mm, or radii of the dome's rim.
+    pub field: [f64; 2],
+    /// The camera.
+    pub camera: CameraSpec,
+    /// Whether light from outside reaches the camera.
+    pub is_transparent: bool,
+    /// The gel.
+    pub gel: GelSpec,
+}
+
+/// The noise of a camera at full size.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CameraSpec {
+    /// Variance of the shot noise a DN of light.
+    pub shot_gain_dn: f64,
+    /// Standard deviation of the read noise.
+    pub read_noise_dn: f64,
+    /// Standard deviation of a frame's brightness, as a part of it.
+    pub flicker: f64,
+}
+
+impl CameraSpec {
+    /// A camera without noise, for tests and for reference pictures.
+    pub const QUIET: CameraSpec = CameraSpec {
+        shot_gain_dn: 0.0,
+        read_noise_dn: 0.0,
+        flicker: 0.0,
+    };
+
+    /// The noise that a picture 96 pixels wide has as `camera` says, told for a pixel of a picture `width` pixels wide.
+    fn new(camera: &parameters::Camera, width: u32) -> CameraSpec {
+        let across = f64::from(width) / REFERENCE_WIDTH;
+        CameraSpec {
+            shot_gain_dn: camera.shot_gain * across * across,
+            read_noise_dn: camera.read_noise * across,
+            flicker: camera.flicker,
+        }
+    }
+}
+
+/// The width of the picture for which parameters tell the noise.
+const REFERENCE_WIDTH: f64 = 96.0;
+
+/// A grating's contrast as a part of the light, from its contrast over the noise of a pixel as parameters tell it.
+pub(super) fn grating_contrast(parameters: &Parameters) -> f64 {
+    let camera = &parameters.camera;
+    let variance = camera.shot_gain * camera.mean_gray + camera.read_noise * camera.read_noise;
+    parameters.gratings.contrast * variance.sqrt() / camera.mean_gray.max(1.0)
+}
+
+fn pixels(count: f64) -> u32 {
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "a cast of a float saturates, and parameters are checked to lie between 16 and 16,384"
+    )]
+    let count = count.round() as u32;
+    count
+}
+
+/// The gel in front of a camera.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum GelSpec {
+    /// A coated flat gel under coloured lamps.
+    Gelsight(GelsightSpec),
+    /// A clear dome with markers in its skin.
+    Vitactip(VitactipSpec),
+    /// A clear block with a printed lattice in layers.
+    Magictac(MagictacSpec),
+}
+
+impl OpticsSpec {
+    /// The look of the sensor that `parameters` describe: a dome is a ViTacTip, a layer with a lattice a MagicTac, and any other
+    /// layer a GelSight, with markers if it has them.
+    ///
+    /// The frame stands as the field does, its longer side along the longer side of the gel; a dome's is cut to a square.
+    pub fn new(parameters: &Parameters) -> OpticsSpec {
+        let camera = &parameters.camera;
+        let [longer, shorter] = {
+            let [width, height] = [camera.width_px, camera.height_px].map(pixels);
+            [width.max(height), width.min(height)]
+        };
+        let surface = &parameters.surface;
+        let flat = [surface.width_mm, surface.height_mm];
+        let upright = if flat[1] >= flat[0] {
+            [shorter, longer]
+        } else {
+            [longer, shorter]
+        };
+        let (native, field, gel) = match (parameters.body, &parameters.lattice) {
+            (Body::Dome(dome), _) => {
+                let gel = VitactipSpec::new(parameters, &dome);
+                ([shorter; 2], [gel.frame_side(); 2], GelSpec::Vitactip(gel))
+            }
+            (Body::Layer(layer), Some(lattice)) => {
+                let gel = MagictacSpec::new(parameters, &layer, lattice);
+                (upright, flat, GelSpec::Magictac(gel))
+            }
+            (Body::Layer(layer), None) => {
+                let gel = GelsightSpec::new(parameters, &layer);
+                (upright, flat, GelSpec::Gelsight(gel))
+            }
+        };
+        OpticsSpec {
+            native,
+            field,
+            camera: CameraSpec::new(camera, native[0]),
+            is_transparent: camera.transparency > 0.5,
+            gel,
+        }
+    }
+
+    /// Size and format of a frame of `size` pixels: 8 bits at full size, 16 below it.
+    ///
+    /// # Errors
+    /// [`OpticsError::Size`] for a frame of no pixels, or with more rows or columns than the sensor has.
+    pub fn frame_info(&self, size: [u32; 2]) -> Result<FrameInfo, OpticsError> {
+        let [width, height] = size;
+        let [native_width, native_height] = self.native;
+        let format = match (&self.gel, size == self.native) {
+            (GelSpec::Vitactip(_), true) => PixelFormat::Gray8,
+            (GelSpec::Vitactip(_), false) => PixelFormat::Gray16,
+            (_, true) => PixelFormat::Rgb8,
+            (_, false) => PixelFormat::Rgb16,
+        };
+        let longest = LONGEST_ROW / format.samples();
+        let fits = (1..=native_width).contains(&width)
+            && (1..=native_height).contains(&height)
+            && usize::try_from(width).is_ok_and(|width| width <= longest);
+        fits.then_some(FrameInfo {
+            width,
+            height,
+            format,
+        })
+        .ok_or(OpticsError::Size {
+            width,
+            height,
+            native_width,
+            native_height,
+        })
+    }
+
+    /// Pixels of the full-size frame in one of a frame of `size`.
+    pub(super) fn binning(&self, size: [u32; 2]) -> f64 {
+        let pixels = |size: [u32; 2]| f64::from(size[0]) * f64::from(size[1]);
+        pixels(self.native) / pixels(size)
+    }
+}

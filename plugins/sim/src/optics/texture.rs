@@ -1,0 +1,159 @@
+//! Smooth random patterns that repeat: speckle, unevenness of a coating, the buckling of a lattice.
+
+use super::number::{count, narrow};
+use crate::random::Stream;
+
+/// A pattern on a torus of texels, four values each; linear between them.
+#[derive(Clone, Debug)]
+pub(super) struct Texture {
+    texels: Vec<[f32; 4]>,
+    texels_per_unit: f32,
+}
+
+/// Texels a side; a power of two.
+pub(super) const SIDE: usize = 128;
+const MASK: u32 = SIDE as u32 - 1;
+/// Added to a number from −2²¹ to 2²¹, leaves its nearest whole number in the low bits.
+const ROUND: f32 = 12_582_912.0;
+
+impl Texture {
+    /// A texture of `layers`, at `pitch` of the field's unit a texel.
+    pub(super) fn new(pitch: f64, layers: &[Vec<f32>]) -> Texture {
+        let texel = |index: usize| {
+            std::array::from_fn(|lane| layers.get(lane).map_or(0.0, |layer| layer[index]))
+        };
+        Texture {
+            texels: (0..SIDE * SIDE).map(texel).collect(),
+            texels_per_unit: narrow(1.0 / pitch),
+        }
+    }
+
+    /// The four values at a place, in the field's unit.
+    #[inline(always)]
+    pub(super) fn at(&self, x: f32, y: f32) -> [f32; 4] {
+        let (left, right, across) = cell(x * self.texels_per_unit);
+        let (low, high, up) = cell(y * self.texels_per_unit);
+        let texel = |column: usize, row: usize| &self.texels[(row * SIDE + column) % (SIDE * SIDE)];
+        let corners = [
+            texel(left, low),
+            texel(right, low),
+            texel(left, high),
+            texel(right, high),
+        ];
+        let mut value = [0.0; 4];
+        for lane in 0..4 {
+            let below = corners[0][lane] + across * (corners[1][lane] - corners[0][lane]);
+            let above = corners[2][lane] + across * (corners[3][lane] - corners[2][lane]);
+            value[lane] = below + up * (above - below);
+        }
+        value
+    }
+}
+
+/// The texel before a place, the one after it, and how far on from the first; on a torus.
+#[inline(always)]
+fn cell(place: f32) -> (usize, usize, f32) {
+    // The nearest whole number to place − ½ is the one before it; a tie makes the fraction 0 or 1, which is the same point.
+    let shifted = (place - 0.5) + ROUND;
+    let whole = shifted - ROUND;
+    let before = shifted.to_bits() & MASK;
+    let after = (before + 1) & MASK;
+    (before as usize, after as usize, place - whole)
+}
+
+/// A pattern of mean 0 and standard deviation 1 that varies over `sigma` texels, row by row.
+///
+/// White noise under a Gaussian window of that standard deviation, wrapped around.
+pub(super) fn smooth_noise(stream: &Stream, layer: u64, sigma: f64) -> Vec<f32> {
+    let first = layer * (SIDE * SIDE) as u64;
+    let white: Vec<f64> = (first..first + (SIDE * SIDE) as u64)
+        .map(|index| stream.normal(index))
+        .collect();
+    let window = window(sigma);
+    let blurred = blur_rows(&transposed(&blur_rows(&white, &window)), &window);
+    let mean = blurred.iter().sum::<f64>() / count(blurred.len());
+    let variance =
+        blurred.iter().map(|x| (x - mean) * (x - mean)).sum::<f64>() / count(blurred.len());
+    blurred
+        .iter()
+        .map(|x| narrow((x - mean) / variance.sqrt()))
+        .collect()
+}
+
+/// A Gaussian window from its middle outwards.
+fn window(sigma: f64) -> Vec<f64> {
+    (0..SIDE / 2)
+        .map(count)
+        .take_while(|distance| *distance <= 4.0 * sigma)
+        .map(|distance| libm::exp(-0.5 * (distance / sigma) * (distance / sigma)))
+        .collect()
+}
+
+fn blur_rows(pattern: &[f64], window: &[f64]) -> Vec<f64> {
+    let mut blurred = Vec::with_capacity(pattern.len());
+    for row in pattern.chunks_exact(SIDE) {
+        for column in 0..SIDE {
+            let sum: f64 = window
+                .iter()
+                .enumerate()
+                .skip(1)
+                .map(|(distance, weight)| {
+                    let left = row[(column + SIDE - distance) % SIDE];
+                    weight * (left + row[(column + distance) % SIDE])
+                })
+                .sum();
+            blurred.push(sum + window[0] * row[column]);
+        }
+    }
+    blurred
+}
+
+fn transposed(pattern: &[f64]) -> Vec<f64> {
+    (0..SIDE * SIDE)
+        .map(|index| pattern[(index % SIDE) * SIDE + index / SIDE])
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::random::{Purpose, Random};
+
+    fn stream() -> Stream {
+        Random::new(5).stream(Purpose::Texture, 0)
+    }
+
+    #[test]
+    fn texels_come_back_at_their_places_and_the_pattern_repeats() {
+        let layer = smooth_noise(&stream(), 0, 2.0);
+        let texture = Texture::new(0.5, std::slice::from_ref(&layer));
+        for (column, row) in [(0_u16, 0_u16), (5, 7), (127, 127)] {
+            let [x, y] = [column, row].map(|texel| f32::from(texel) * 0.5);
+            let expected = layer[usize::from(row) * SIDE + usize::from(column)];
+            for around in [0.0, 64.0, -64.0] {
+                let found = texture.at(x + around, y - around)[0];
+                assert!((found - expected).abs() < 1e-5, "{found} {expected}");
+            }
+        }
+    }
+
+    #[test]
+    fn between_texels_it_is_linear() {
+        let texture = Texture::new(1.0, &[smooth_noise(&stream(), 0, 2.0)]);
+        let [left, middle, right] = [3.0, 3.25, 4.0].map(|x| texture.at(x, 9.0)[0]);
+        assert!((middle - (0.75 * left + 0.25 * right)).abs() < 1e-5);
+    }
+
+    #[test]
+    fn neighbours_resemble_each_other_as_the_window_says() {
+        let sigma = 2.0;
+        let layer = smooth_noise(&stream(), 1, sigma);
+        let product: f32 = (0..SIDE * SIDE)
+            .map(|index| layer[index] * layer[index - index % SIDE + (index + 2) % SIDE])
+            .sum();
+        // The correlation of Gaussian windows a distance d apart: exp(−d²/4σ²).
+        let expected = libm::exp(-0.25 * (2.0 / sigma) * (2.0 / sigma));
+        let found = f64::from(product) / count(SIDE * SIDE);
+        assert!((found - expected).abs() < 0.05, "{found} {expected}");
+    }
+}

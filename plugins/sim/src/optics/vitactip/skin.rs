@@ -1,0 +1,46 @@
+//! How bright the skin of the dome is: by its own lamps, and by light from outside.
+
+use super::spec::VitactipSpec;
+use crate::optics::ambient::AmbientLight;
+
+/// The part of a place that is inside the dome: 1 in it, 0 beside it, `edge` wide.
+///
+/// # Units
+/// Radii of the rim, here and below.
+pub(super) fn inside(from_middle: f64, edge: f64) -> f64 {
+    1.0 / (1.0 + libm::exp((from_middle - OUTLINE) / edge))
+}
+
+/// Where the dome's outline is seen: a little outside its rim.
+const OUTLINE: f64 = 47.0 / 46.0;
+
+/// The skin under its own lamps, for a brightness of 1: even, more in the middle, and a ring before the rim.
+pub(super) fn glow(from_middle: f64) -> f64 {
+    7.0 + 9.0 * bell(from_middle, 30.0 / 46.0) + 5.0 * bell(from_middle - 42.0 / 46.0, 3.0 / 46.0)
+}
+
+/// The light that a scene adds to the skin, in DN (fit: mean gray 17, 28, 34.5 and 47 under S1 to S4, from 12).
+pub(super) fn outside(scene: AmbientLight, x: f64, y: f64) -> f64 {
+    let from = |middle: f64| ((x - middle) * (x - middle) + y * y).sqrt();
+    match scene {
+        AmbientLight::Normal => 0.0,
+        AmbientLight::Ceiling => 7.0,
+        AmbientLight::WideBeam => 15.6 + 19.2 * bell(from(-8.0 / 46.0), 30.0 / 46.0),
+        AmbientLight::Ring => 19.2 + 22.6 * bell(from(0.0) - 20.0 / 46.0, 18.0 / 46.0),
+        AmbientLight::Spot => {
+            let spot = 220.0 * bell(from(34.0 / 46.0), 16.1 / 46.0);
+            22.0 + spot + 18.0 * bell(from(20.0 / 46.0), 30.0 / 46.0)
+        }
+    }
+}
+
+/// The skin's brightness beside that of the default figures.
+pub(super) fn base(spec: &VitactipSpec, from_middle: f64, uneven: f64, edge: f64) -> f64 {
+    let within = inside(from_middle, edge);
+    let skin = spec.skin_dn * glow(from_middle);
+    (within * skin + (1.0 - within) * spec.surroundings_dn) * (1.0 + spec.unevenness * uneven)
+}
+
+fn bell(x: f64, width: f64) -> f64 {
+    libm::exp(-(x / width) * (x / width))
+}

@@ -1,0 +1,89 @@
+//! The figures of a clear dome.
+
+use crate::elastic::shell;
+use crate::optics::spec::grating_contrast;
+use crate::parameters::{Dome, Parameters};
+
+/// A clear dome with markers in its skin, seen from inside by a wide lens.
+///
+/// Places in the picture are told in radii of the dome's rim as it is seen; the rim is 1 away from the middle.
+#[derive(Clone, Debug, PartialEq)]
+pub struct VitactipSpec {
+    /// Radius of the dome (geometry).
+    pub dome_radius_mm: f64,
+    /// Between the apex and the camera, on the axis (geometry).
+    pub camera_distance_mm: f64,
+    /// Length over which a dimple of the skin dies away (literature: 1 mm of skin).
+    pub dimple_mm: f64,
+    /// How far the dome leans under a lateral force, at its apex (free).
+    pub sway_mm_per_n: f64,
+    /// Markers between the middle one and the corner of the hexagon: 6 are 127 markers (literature).
+    pub rings: i32,
+    /// Between markers, seen along the axis (literature).
+    pub marker_pitch_mm: f64,
+    /// Radius of a marker in the picture, as at the apex (free).
+    pub marker_radius: f64,
+    /// The part of the light a marker takes (free).
+    pub marker_darkness: f64,
+    /// Standard deviation of the places between units (free).
+    pub marker_jitter_mm: f64,
+    /// Brightness of the skin (fit: mean gray 12).
+    pub skin_dn: f64,
+    /// Brightness beside the dome (free).
+    pub surroundings_dn: f64,
+    /// Standard deviation of the skin's unevenness (free).
+    pub unevenness: f64,
+    /// How much brighter the ball looks through the skin at first touch, and how much more 3.5 mm deep (free).
+    pub ball_glow: [f64; 2],
+    /// Contrast of a grating seen through the skin (fit).
+    pub grating_contrast: f64,
+    /// Standard deviation of the blur by skin and lens, on the board (fit: gratings).
+    pub blur_mm: f64,
+    /// Standard deviation of the lamps' gain between units (free).
+    pub lamp_gain_spread: f64,
+}
+
+impl VitactipSpec {
+    /// The look of a dome.
+    pub(in crate::optics) fn new(parameters: &Parameters, dome: &Dome) -> VitactipSpec {
+        let markers = parameters.markers.as_ref();
+        let camera_distance_mm = 2.5 * dome.radius_mm;
+        let rim_angle = libm::atan2(dome.radius_mm, camera_distance_mm - dome.radius_mm);
+        let diameter_mm = markers.map_or(0.0, |markers| markers.diameter_mm);
+        VitactipSpec {
+            dome_radius_mm: dome.radius_mm,
+            camera_distance_mm,
+            dimple_mm: shell::decay_length(dome.radius_mm, dome.skin_thickness_mm, 0.5),
+            sway_mm_per_n: dome.sway_mm_per_n,
+            rings: markers.map_or(-1, |markers| rings(markers.columns)),
+            marker_pitch_mm: markers.map_or(1.0, |markers| markers.pitch_mm),
+            marker_radius: 0.5 * diameter_mm / (rim_angle * camera_distance_mm),
+            marker_darkness: 0.8,
+            marker_jitter_mm: markers.map_or(0.0, |markers| markers.jitter_mm),
+            skin_dn: 1.38 * parameters.camera.mean_gray / NOMINAL_GRAY,
+            surroundings_dn: 3.5 * parameters.camera.mean_gray / NOMINAL_GRAY,
+            unevenness: 0.03,
+            ball_glow: [0.5, 0.6],
+            grating_contrast: grating_contrast(parameters),
+            blur_mm: parameters.gratings.blur_mm,
+            lamp_gain_spread: 0.02,
+        }
+    }
+
+    /// The side of the square frame, in radii of the rim: 46 of 48 parts of half of it are the dome.
+    pub(in crate::optics) fn frame_side(&self) -> f64 {
+        2.0 * 48.0 / 46.0
+    }
+}
+
+/// Mean gray of the untouched dome as the skin is told above (fit).
+const NOMINAL_GRAY: f64 = 12.0;
+
+fn rings(columns: f64) -> i32 {
+    #[expect(
+        clippy::cast_possible_truncation,
+        reason = "a cast of a float saturates, and parameters are checked to lie between 1 and 200"
+    )]
+    let rings = columns.round() as i32;
+    rings
+}
