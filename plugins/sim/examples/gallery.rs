@@ -14,7 +14,7 @@ use image::{Rgb, RgbImage};
 use taceva_core::{Frame, FrameMut, GratingKind, Nanometre};
 use taceva_sim::contact::{Indentation, Solid};
 use taceva_sim::optics::{AmbientLight, Board, Camera, OpticsSpec, Stimulus, View};
-use taceva_sim::{Model, Parameters};
+use taceva_sim::{Grating, GratingPose, Model, Parameters};
 
 /// Black pixels between frames.
 const GAP: u32 = 4;
@@ -69,10 +69,11 @@ fn touches(parameters: &Parameters) -> Vec<View> {
     };
     let board = |kind, spacing_nm| {
         Stimulus::Board(Board {
-            kind,
-            spacing: Nanometre(spacing_nm),
-            yaw_deg: 12.0,
-            centre_mm: [0.4, -0.3],
+            grating: Grating::new(kind, Nanometre(spacing_nm)).expect("in the catalogue"),
+            pose: GratingPose {
+                yaw_degree: 12.0,
+                offset_mm: [0.4, -0.3],
+            },
             pressure_mpa: 0.1,
             depth_mm: 1.0,
             young_modulus_mpa: 0.3,

@@ -71,7 +71,7 @@ impl Camera {
     pub fn new(
         spec: &OpticsSpec,
         size: [u32; 2],
-        unit: u64,
+        unit: u32,
         seed: u64,
     ) -> Result<Camera, OpticsError> {
         let info = spec.frame_info(size)?;

@@ -19,7 +19,7 @@ pub(super) enum Gel {
 }
 
 impl Gel {
-    pub(super) fn new(spec: &GelSpec, raster: Raster, unit: u64) -> Gel {
+    pub(super) fn new(spec: &GelSpec, raster: Raster, unit: u32) -> Gel {
         match spec {
             GelSpec::Gelsight(spec) => Gel::Gelsight(Box::new(Gelsight::new(spec, raster, unit))),
             GelSpec::Magictac(spec) => Gel::Magictac(Box::new(Magictac::new(spec, raster, unit))),

@@ -42,7 +42,8 @@ struct Scene {
     ambient: [f32; 3],
     /// Slope of the untouched surface a mm, towards the camera.
     sag: [f32; 2],
-    coating: Texture,
+    /// What the coating throws back, a pixel each.
+    reflectance: Vec<f32>,
     tables: Tables,
     /// The untouched gel without markers.
     background: Vec<f32>,
@@ -59,7 +60,7 @@ enum Touch {
 }
 
 impl Gelsight {
-    pub(super) fn new(spec: &GelsightSpec, raster: Raster, unit: u64) -> Gelsight {
+    pub(super) fn new(spec: &GelsightSpec, raster: Raster, unit: u32) -> Gelsight {
         let scene = Scene::new(spec, raster, unit);
         Gelsight {
             profile: Profile::new(),
@@ -136,8 +137,8 @@ impl Gelsight {
 }
 
 impl Scene {
-    fn new(spec: &GelsightSpec, raster: Raster, unit: u64) -> Scene {
-        let random = Random::new(unit);
+    fn new(spec: &GelsightSpec, raster: Raster, unit: u32) -> Scene {
+        let random = Random::new(u64::from(unit));
         let gains = random.stream(Purpose::LampGain, 0);
         let lamps = spec
             .lamps
@@ -149,6 +150,7 @@ impl Scene {
             })
             .collect();
         let coating = texture::smooth_noise(&random.stream(Purpose::Texture, 0), 0, 6.0);
+        let coating = Texture::new(TEXEL_MM, &[coating]);
         let mut scene = Scene {
             raster,
             spec: spec.clone(),
@@ -158,7 +160,13 @@ impl Scene {
                 narrow(2.0 * spec.sag_mm[0] / (7.0 * 7.0)),
                 narrow(2.0 * spec.sag_mm[1] / (9.0 * 9.0)),
             ],
-            coating: Texture::new(TEXEL_MM, &[coating]),
+            reflectance: (0..raster.height)
+                .flat_map(|row| (0..raster.width).map(move |column| (column, row)))
+                .map(|(column, row)| {
+                    let uneven = coating.at(raster.x(column), raster.y(row))[0];
+                    1.0 + narrow(spec.coating_spread) * uneven
+                })
+                .collect(),
             tables: Tables::new(spec.thickness_mm, 0.0),
             background: Vec::new(),
             disc: spec.markers.map(|grid| {
@@ -219,6 +227,7 @@ impl Scene {
         press: impl Fn(&[f32; CHUNK], &mut Slopes),
     ) {
         let y = self.raster.y(row);
+        let band_width = band.width;
         let light = band.row_mut(row - band.first_row);
         for first in columns.clone().step_by(CHUNK) {
             let x: [f32; CHUNK] = std::array::from_fn(|i| self.raster.x(first + i));
@@ -226,20 +235,19 @@ impl Scene {
                 x: x.map(|x| self.sag[0] * x),
                 y: [self.sag[1] * y; CHUNK],
                 shadow: [0.0; CHUNK],
+                upright: [0.0; CHUNK],
             };
             press(&x, &mut slopes);
+            slopes.measure();
             let mut colours = self.ambient.map(|dn| [dn; CHUNK]);
             for lamp in &self.lamps {
                 lamp.light(&x, y, &slopes, caster, &mut colours);
             }
             let last = columns.end.min(first + CHUNK);
-            let pixels = light[3 * first..3 * last].chunks_exact_mut(3);
-            for (i, pixel) in pixels.enumerate() {
-                let reflectance =
-                    1.0 + narrow(self.spec.coating_spread) * self.coating.at(x[i], y)[0];
-                for (light, colour) in pixel.iter_mut().zip(&colours) {
-                    *light = colour[i] * reflectance;
-                }
+            let reflectance = &self.reflectance[row * band_width..][first..last];
+            let (pixels, _) = light[3 * first..3 * last].as_chunks_mut::<3>();
+            for (i, (pixel, reflectance)) in pixels.iter_mut().zip(reflectance).enumerate() {
+                *pixel = [0, 1, 2].map(|colour: usize| colours[colour][i] * reflectance);
             }
         }
     }

@@ -43,6 +43,9 @@ struct Scene {
     tables: [Tables; 3],
     layers: [Texture; 3],
     buckling: Texture,
+    buckling_part: f32,
+    refraction: f32,
+    gloss: f32,
     /// The lamps' light, red, green and blue of each pixel.
     glow: Vec<f32>,
 }
@@ -68,7 +71,7 @@ enum Touch {
 const FACING: [[f32; 2]; 3] = [[0.7, -0.5], [-0.8, -0.2], [0.0, 0.9]];
 
 impl Magictac {
-    pub(super) fn new(spec: &MagictacSpec, raster: Raster, unit: u64) -> Magictac {
+    pub(super) fn new(spec: &MagictacSpec, raster: Raster, unit: u32) -> Magictac {
         let scene = Scene::new(spec, raster, unit);
         Magictac {
             lighting: Arc::new(Lighting::new(&scene, AmbientLight::Normal)),
@@ -92,7 +95,7 @@ impl Magictac {
                 }
                 self.shift.take(&load, &self.profiles, scene.spec.wetting);
                 let place = random.stream(Purpose::Buckling, view.press);
-                self.buckling = [0, 1].map(|axis| narrow(place.between(axis, 0.0, 90.0)));
+                self.buckling = [0, 1].map(|axis| narrow(place.between(axis, 0.0, 20.0)));
                 Touch::Ball
             }
             Stimulus::Board(board) => Touch::Board(Relief::new(
@@ -138,14 +141,14 @@ impl Magictac {
     /// A lattice under load gives way by chance: a part of how far it has moved, in a direction of its own.
     #[inline(always)]
     fn buckled(&self, mut moved: Moved, x: f32, y: f32) -> Moved {
-        let chance = self
-            .scene
-            .buckling
-            .at(x + self.buckling[0], y + self.buckling[1]);
-        let part = narrow(self.scene.spec.buckling);
-        for layer in &mut moved.layers {
-            let size = part * (layer[0] * layer[0] + layer[1] * layer[1]).sqrt();
-            *layer = [layer[0] + size * chance[0], layer[1] + size * chance[1]];
+        let [chance_x, chance_y] = (self.scene.buckling)
+            .near(x + self.buckling[0], y + self.buckling[1])
+            .map(|chance| chance * self.scene.buckling_part);
+        // The fourth lane is no layer's: the surface does not buckle.
+        for lane in 0..3 {
+            let size = (moved.x[lane] * moved.x[lane] + moved.y[lane] * moved.y[lane]).sqrt();
+            moved.x[lane] += size * chance_x;
+            moved.y[lane] += size * chance_y;
         }
         moved
     }
@@ -192,15 +195,18 @@ impl Magictac {
 
 impl Moved {
     const NOWHERE: Moved = Moved {
-        layers: [[0.0; 2]; 3],
-        gradient: [0.0; 2],
+        x: [0.0; 4],
+        y: [0.0; 4],
         wetting: 0.0,
     };
 }
 
 impl Scene {
-    fn new(spec: &MagictacSpec, raster: Raster, unit: u64) -> Scene {
-        let glow = Glow::new(spec, &Random::new(unit).stream(Purpose::LampGain, 0));
+    fn new(spec: &MagictacSpec, raster: Raster, unit: u32) -> Scene {
+        let glow = Glow::new(
+            spec,
+            &Random::new(u64::from(unit)).stream(Purpose::LampGain, 0),
+        );
         Scene {
             raster,
             spec: spec.clone(),
@@ -209,6 +215,9 @@ impl Scene {
                 .map(|depth| Tables::new(spec.thickness_mm, depth)),
             layers: lattice::layers(spec, unit),
             buckling: lattice::buckling(unit),
+            buckling_part: narrow(spec.buckling),
+            refraction: narrow(spec.refraction_mm),
+            gloss: narrow(spec.gloss),
             glow: field(&raster, |x, y| glow.at(x, y)),
         }
     }
@@ -216,22 +225,14 @@ impl Scene {
     /// What the lattice and the surface do to the light at `x`, `y`: parts of it, around 0.
     #[inline(always)]
     fn pattern(&self, moved: &Moved, x: f32, y: f32) -> [f32; 3] {
-        let refraction = narrow(self.spec.refraction_mm);
-        let [slope_x, slope_y] = moved.gradient;
-        let mut sum = [0.0; 4];
-        for (layer, [moved_x, moved_y]) in self.layers.iter().zip(moved.layers) {
-            let seen = layer.at(
-                x - moved_x - refraction * slope_x,
-                y - moved_y - refraction * slope_y,
-            );
-            for lane in 0..4 {
-                sum[lane] += seen[lane];
-            }
-        }
-        let gloss = narrow(self.spec.gloss);
+        let [bent_x, bent_y] = [moved.x[3], moved.y[3]].map(|slope| slope * self.refraction);
+        let seen_x = moved.x.map(|moved| x - moved - bent_x);
+        let seen_y = moved.y.map(|moved| y - moved - bent_y);
+        let sum = Texture::sum_at(&self.layers, seen_x, seen_y);
+        let [slope_x, slope_y] = [moved.x[3], moved.y[3]].map(|slope| slope * self.gloss);
         std::array::from_fn(|colour| {
             let [facing_x, facing_y] = FACING[colour];
-            sum[colour] - gloss * (slope_x * facing_x + slope_y * facing_y) + moved.wetting
+            sum[colour] - (slope_x * facing_x + slope_y * facing_y) + moved.wetting
         })
     }
 }

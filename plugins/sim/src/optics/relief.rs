@@ -1,6 +1,6 @@
 //! What a sensor sees of a grating pressed into its gel.
 
-use std::f64::consts::{FRAC_PI_4, PI};
+use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
 
 use taceva_core::GratingKind;
 
@@ -40,8 +40,8 @@ pub(super) struct Relief {
 
 /// Height of a board's relief above its middle, mm (literature).
 const AMPLITUDE_MM: f64 = 0.2;
-/// Half the side of a board (geometry: boards of 9 to 10 mm).
-const HALF_SIDE_MM: f32 = 4.75;
+/// Half the side of a board (geometry).
+const HALF_SIDE_MM: f32 = 5.0;
 /// Over which a board's edge fades.
 const EDGE_MM: f32 = 0.15;
 const HARMONICS: [f64; 3] = [1.0, 3.0, 5.0];
@@ -50,19 +50,20 @@ impl Relief {
     /// What `window` leaves of the grating of `board`.
     ///
     /// # Errors
-    /// [`OpticsError::Value`] for a spacing, pressure or modulus that is not positive, or a place that is no number.
+    /// [`OpticsError::Value`] for a pressure or modulus that is not positive, or a place that is no number.
     pub(super) fn new(board: &Board, window: Window) -> Result<Relief, OpticsError> {
-        let spacing_mm = board.spacing.to_millimetres();
-        positive("spacing", spacing_mm)?;
+        let kind = board.grating.kind();
         positive("pressure_mpa", board.pressure_mpa)?;
         positive("young_modulus_mpa", board.young_modulus_mpa)?;
-        finite("yaw_deg", board.yaw_deg)?;
-        finite("centre_mm", board.centre_mm[0])?;
-        finite("centre_mm", board.centre_mm[1])?;
-        let wave_number = PI / spacing_mm;
+        finite("depth_mm", board.depth_mm)?;
+        finite("yaw_degree", board.pose.yaw_degree)?;
+        for offset_mm in board.pose.offset_mm {
+            finite("offset_mm", offset_mm)?;
+        }
+        let wave_number = 2.0 * PI / board.grating.period_mm();
         let left = HARMONICS.map(|across| {
             HARMONICS.map(|along| {
-                let (part, k) = match board.kind {
+                let (part, k) = match kind {
                     GratingKind::Line if across > 1.0 => return 0.0,
                     GratingKind::Line => (square_wave(along), along * wave_number),
                     GratingKind::Dot => (
@@ -76,12 +77,12 @@ impl Relief {
                 narrow(part * followed * resolved(&window, k))
             })
         });
-        let (sin, cos) = libm::sincos(board.yaw_deg.to_radians());
+        let (sin, cos) = libm::sincos(board.pose.yaw_degree.to_radians());
         Ok(Relief {
             left,
-            kind: board.kind,
+            kind,
             wave_number: narrow(wave_number),
-            centre: board.centre_mm.map(narrow),
+            centre: board.pose.offset_mm.map(narrow),
             turn: [narrow(cos), narrow(sin)],
         })
     }
@@ -147,8 +148,8 @@ impl Relief {
 
 /// The part of harmonic m in a square wave of ±1 that is even about 0: ±4/(π m).
 fn square_wave(m: f64) -> f64 {
-    let sign = if m % 4.0 == 1.0 { 1.0 } else { -1.0 };
-    sign / (FRAC_PI_4 * m)
+    // cos((m − 1) π/2) is +1, −1, +1 for m = 1, 3, 5.
+    libm::cos((m - 1.0) * FRAC_PI_2).signum() / (FRAC_PI_4 * m)
 }
 
 /// The part of a wave's amplitude that the layer follows.
@@ -219,6 +220,7 @@ fn finite(quantity: &'static str, value: f64) -> Result<(), OpticsError> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::specimen::{Grating, GratingPose};
     use taceva_core::Nanometre;
 
     const SHARP: Window = Window {
@@ -229,10 +231,11 @@ mod tests {
 
     fn board(kind: GratingKind, spacing_nm: i64) -> Board {
         Board {
-            kind,
-            spacing: Nanometre(spacing_nm),
-            yaw_deg: 0.0,
-            centre_mm: [0.0, 0.0],
+            grating: Grating::new(kind, Nanometre(spacing_nm)).expect("in the catalogue"),
+            pose: GratingPose {
+                yaw_degree: 0.0,
+                offset_mm: [0.0, 0.0],
+            },
             pressure_mpa: 0.1,
             depth_mm: 0.5,
             young_modulus_mpa: 0.325,
@@ -263,7 +266,7 @@ mod tests {
     fn the_layer_follows_as_much_as_the_table_of_pressures_says() {
         // simulated bench, gratings: 0.2 mm needs 0.55, 0.27, 0.14, 0.08 MPa at 0.25, 0.5, 1, 1.75 mm on the GelSight gel.
         for (spacing, needed) in [(0.25, 0.55), (0.5, 0.27), (1.0, 0.14), (1.75, 0.08)] {
-            let part = followed(&board(GratingKind::Line, 1), 0.2, PI / spacing, 4.25);
+            let part = followed(&board(GratingKind::Line, 250_000), 0.2, PI / spacing, 4.25);
             let expected = (0.1_f64 / needed).min(1.0);
             assert!(
                 (part - expected).abs() < 0.02 + 0.03 * expected,
@@ -286,8 +289,10 @@ mod tests {
     #[test]
     fn slopes_are_those_of_the_relief() {
         let mut board = board(GratingKind::Dot, 1_500_000);
-        board.yaw_deg = 17.0;
-        board.centre_mm = [0.4, -0.2];
+        board.pose = GratingPose {
+            yaw_degree: 17.0,
+            offset_mm: [0.4, -0.2],
+        };
         let relief = Relief::new(
             &board,
             Window {
@@ -315,15 +320,16 @@ mod tests {
 
     #[test]
     fn numbers_that_are_none_are_refused_by_name() {
-        let mut board = board(GratingKind::Line, 0);
+        let mut board = board(GratingKind::Line, 250_000);
+        board.pressure_mpa = 0.0;
         assert_eq!(
             Relief::new(&board, SHARP)
-                .expect_err("no spacing")
+                .expect_err("no pressure")
                 .to_string(),
-            "spacing = 0: expected a number above 0"
+            "pressure_mpa = 0: expected a number above 0"
         );
-        board.spacing = Nanometre(250_000);
-        board.yaw_deg = f64::NAN;
+        board.pressure_mpa = 0.1;
+        board.pose.yaw_degree = f64::NAN;
         assert!(Relief::new(&board, SHARP).is_err());
     }
 }

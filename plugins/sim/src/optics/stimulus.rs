@@ -1,8 +1,7 @@
 //! What touches the gel while the camera looks.
 
-use taceva_core::{GratingKind, Nanometre};
-
 use crate::contact::Contact;
+use crate::specimen::{Grating, GratingPose};
 
 /// What touches the gel.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -18,18 +17,12 @@ pub enum Stimulus {
 }
 
 /// A board whose grating is pressed flat into the gel.
-///
-/// Width and spacing are equal, so the period is twice the spacing.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Board {
-    /// Lines or dots.
-    pub kind: GratingKind,
-    /// Between neighbours, edge to edge.
-    pub spacing: Nanometre,
-    /// How the board is turned about the axis, against the clock.
-    pub yaw_deg: f64,
-    /// Where its middle is.
-    pub centre_mm: [f64; 2],
+    /// What it carries.
+    pub grating: Grating,
+    /// How it lies on the gel.
+    pub pose: GratingPose,
     /// How hard it is pressed, over its whole area.
     pub pressure_mpa: f64,
     /// How far it is pressed into a dome: so much nearer it is seen.

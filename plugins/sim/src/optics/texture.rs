@@ -11,8 +11,9 @@ pub(super) struct Texture {
 }
 
 /// Texels a side; a power of two.
-pub(super) const SIDE: usize = 128;
-const MASK: u32 = SIDE as u32 - 1;
+pub(super) const SIDE: usize = 1 << SIDE_BITS;
+const SIDE_BITS: u32 = 7;
+const MASK: u32 = (1 << SIDE_BITS) - 1;
 /// Added to a number from −2²¹ to 2²¹, leaves its nearest whole number in the low bits.
 const ROUND: f32 = 12_582_912.0;
 
@@ -31,8 +32,42 @@ impl Texture {
     /// The four values at a place, in the field's unit.
     #[inline(always)]
     pub(super) fn at(&self, x: f32, y: f32) -> [f32; 4] {
-        let (left, right, across) = cell(x * self.texels_per_unit);
-        let (low, high, up) = cell(y * self.texels_per_unit);
+        self.in_cell(
+            cell(x * self.texels_per_unit),
+            cell(y * self.texels_per_unit),
+        )
+    }
+
+    /// The sum of three textures of one pitch, each at the place in its lane; the fourth lane is left alone.
+    #[inline(always)]
+    pub(super) fn sum_at(layers: &[Texture; 3], x: [f32; 4], y: [f32; 4]) -> [f32; 4] {
+        let pitch = layers[0].texels_per_unit;
+        let columns = x.map(|x| cell(x * pitch));
+        let rows = y.map(|y| cell(y * pitch));
+        let mut sum = [0.0; 4];
+        for (layer, texture) in layers.iter().enumerate() {
+            let value = texture.in_cell(columns[layer], rows[layer]);
+            for lane in 0..4 {
+                sum[lane] += value[lane];
+            }
+        }
+        sum
+    }
+
+    /// The first two values of the texel nearest to a place.
+    #[inline(always)]
+    pub(super) fn near(&self, x: f32, y: f32) -> [f32; 2] {
+        let texel = |place: f32| ((place * self.texels_per_unit + ROUND).to_bits() & MASK) as usize;
+        let [first, second, _, _] = self.texels[texel(y) * SIDE + texel(x)];
+        [first, second]
+    }
+
+    #[inline(always)]
+    fn in_cell(
+        &self,
+        (left, right, across): (usize, usize, f32),
+        (low, high, up): (usize, usize, f32),
+    ) -> [f32; 4] {
         let texel = |column: usize, row: usize| &self.texels[(row * SIDE + column) % (SIDE * SIDE)];
         let corners = [
             texel(left, low),

@@ -79,7 +79,7 @@ const EDGE: f64 = 0.25 / 46.0;
 const TEXEL: f64 = 1.0 / 46.0;
 
 impl Vitactip {
-    pub(super) fn new(spec: &VitactipSpec, raster: Raster, unit: u64) -> Vitactip {
+    pub(super) fn new(spec: &VitactipSpec, raster: Raster, unit: u32) -> Vitactip {
         let scene = Scene::new(spec, raster, unit);
         Vitactip {
             lighting: Arc::new(Lighting::new(&scene, AmbientLight::Normal)),
@@ -131,8 +131,8 @@ impl Vitactip {
 }
 
 impl Scene {
-    fn new(spec: &VitactipSpec, raster: Raster, unit: u64) -> Scene {
-        let random = Random::new(unit);
+    fn new(spec: &VitactipSpec, raster: Raster, unit: u32) -> Scene {
+        let random = Random::new(u64::from(unit));
         let lens = Lens::new(spec);
         let markers = places(spec, &random);
         let disc = DiscSpec {

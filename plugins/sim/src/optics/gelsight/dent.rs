@@ -77,8 +77,8 @@ impl Dent {
     #[inline(always)]
     pub(super) fn add_to(&self, x: &[f32; CHUNK], y: f32, slopes: &mut Slopes) {
         let dy = y - self.y;
-        for i in 0..CHUNK {
-            let dx = x[i] - self.x;
+        for (i, x) in x.iter().enumerate() {
+            let dx = x - self.x;
             let t = 1.0 + (dx * dx + dy * dy) * self.inverse_radius_squared;
             let place = crate::displacement::locate(t);
             let (below, above) = (&self.nodes[place.cell], &self.nodes[place.cell + 1]);

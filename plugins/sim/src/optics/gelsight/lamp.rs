@@ -34,6 +34,19 @@ pub(super) struct Slopes {
     pub(super) y: [f32; CHUNK],
     /// How deep in the contact's shadow, a mm of distance from its centre; 0 where there is none.
     pub(super) shadow: [f32; CHUNK],
+    /// How upright the surface stands: the part along the axis of its unit normal.
+    pub(super) upright: [f32; CHUNK],
+}
+
+impl Slopes {
+    /// Works out how upright the surface stands, once its slopes are known.
+    #[inline(always)]
+    pub(super) fn measure(&mut self) {
+        for i in 0..CHUNK {
+            let squared = self.x[i] * self.x[i] + self.y[i] * self.y[i];
+            self.upright[i] = 1.0 / (1.0 + squared).sqrt();
+        }
+    }
 }
 
 /// Where a shadow falls from.
@@ -87,18 +100,19 @@ impl Lamp {
         let inverse = if length > 0.0 { 1.0 / length } else { 0.0 };
         let behind = [-to_lamp[0] * inverse, -to_lamp[1] * inverse];
         let behind_y = (y - caster.y) * behind[1];
+        let [strength_red, strength_green, strength_blue] = self.colour;
+        let [red, green, blue] = colours;
         for i in 0..CHUNK {
             let ahead_x = clamp(x[i], self.low[0], self.high[0]) - x[i];
             let facing = ahead_z - slopes.x[i] * ahead_x - slopes.y[i] * ahead_y;
             let facing = if facing > 0.0 { facing } else { 0.0 };
-            let squared = slopes.x[i] * slopes.x[i] + slopes.y[i] * slopes.y[i];
-            let lit = facing / ((ahead_x * ahead_x + away) * (1.0 + squared).sqrt());
+            let lit = facing * slopes.upright[i] / (ahead_x * ahead_x + away);
             let behind = (x[i] - caster.x) * behind[0] + behind_y;
             let behind = if behind > 0.0 { behind } else { 0.0 };
             let lit = lit * (1.0 - slopes.shadow[i] * behind);
-            for (colour, strength) in colours.iter_mut().zip(self.colour) {
-                colour[i] += lit * strength;
-            }
+            red[i] += lit * strength_red;
+            green[i] += lit * strength_green;
+            blue[i] += lit * strength_blue;
         }
     }
 }

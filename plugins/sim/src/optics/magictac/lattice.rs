@@ -14,13 +14,12 @@ const SPECKLE: f64 = 2.2;
 const UNEVENNESS: f64 = 20.0;
 /// Standard deviation of a line's place.
 const LINE_JITTER_MM: f64 = 0.22;
-/// A cell of the buckling lattice, and the cells over which it is alike.
-const CELL_MM: f64 = 0.73;
-const CELLS_ALIKE: f64 = 2.0;
+/// Texels over which the lattice buckles alike: 1.5 mm, two of its cells.
+const BUCKLE: f64 = 8.0;
 
 /// Lines and speckle of the three layers of a unit: contrast around 0, red, green, blue.
-pub(super) fn layers(spec: &MagictacSpec, unit: u64) -> [Texture; 3] {
-    let random = Random::new(unit);
+pub(super) fn layers(spec: &MagictacSpec, unit: u32) -> [Texture; 3] {
+    let random = Random::new(u64::from(unit));
     let [lines, speckle] = spec.contrast;
     // A whole number of lines on the torus, so that it has no seam.
     let periods = (count(SIDE) * TEXEL_MM / spec.pitch_mm).round().max(1.0);
@@ -45,8 +44,8 @@ pub(super) fn layers(spec: &MagictacSpec, unit: u64) -> [Texture; 3] {
 }
 
 /// How the lattice may buckle: two numbers of standard deviation 1 a place. A press looks at a part of its own.
-pub(super) fn buckling(unit: u64) -> Texture {
-    let stream = Random::new(unit).stream(Purpose::Buckling, 0);
-    let patterns = [0, 1].map(|layer| smooth_noise(&stream, layer, CELLS_ALIKE));
-    Texture::new(CELL_MM, &patterns)
+pub(super) fn buckling(unit: u32) -> Texture {
+    let stream = Random::new(u64::from(unit)).stream(Purpose::Buckling, 0);
+    let patterns = [0, 1].map(|layer| smooth_noise(&stream, layer, BUCKLE));
+    Texture::new(TEXEL_MM, &patterns)
 }

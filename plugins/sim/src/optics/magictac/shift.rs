@@ -15,16 +15,15 @@ pub(super) struct Shift {
     pub(super) reach: f32,
 }
 
-/// Outward over r, along the shear, towards its axis over r², for each layer; then the surface's slope over r and the wetting.
-type Node = [f32; 12];
+/// Four rows of lanes: outward over r, along the shear, towards the shear's axis over r², and last the wetting. In each row one lane
+/// a layer; the fourth lane of the first row is the surface's slope over r, so that its gradient falls out beside the layers' shifts.
+type Node = [[f32; 4]; 4];
 
-/// What happens at a place.
+/// What happens at a place: how far each layer has moved, and in the fourth lane the gradient of the surface's depth.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Moved {
-    /// How far each layer has moved: x, then y.
-    pub(super) layers: [[f32; 2]; 3],
-    /// The gradient of the surface's depth.
-    pub(super) gradient: [f32; 2],
+    pub(super) x: [f32; 4],
+    pub(super) y: [f32; 4],
     /// Brightening by contact.
     pub(super) wetting: f32,
 }
@@ -37,7 +36,7 @@ const FADE: f64 = 0.2;
 impl Default for Shift {
     fn default() -> Shift {
         Shift {
-            nodes: Box::new([[0.0; 12]; NODES]),
+            nodes: Box::new([[[0.0; 4]; 4]; NODES]),
             x: 0.0,
             y: 0.0,
             shear: [1.0, 0.0],
@@ -60,17 +59,15 @@ impl Shift {
             let mut furthest = 0.0_f64;
             for (layer, profile) in profiles.iter().enumerate() {
                 let value = |quantity| profile.table(quantity)[position];
-                let moved = [
-                    value(Quantity::Outward),
-                    value(Quantity::Along),
-                    value(Quantity::Radial),
-                ];
-                values[3 * layer..3 * layer + 3].copy_from_slice(&moved);
-                let [outward, along, radial] = moved.map(|part| f64::from(part).abs());
+                values[0][layer] = value(Quantity::Outward);
+                values[1][layer] = value(Quantity::Along);
+                values[2][layer] = value(Quantity::Radial);
+                let [outward, along, radial] =
+                    [0, 1, 2].map(|row: usize| f64::from(values[row][layer]).abs());
                 furthest = furthest.max(distance * (outward + distance * radial) + along);
             }
-            values[9] = profiles[0].table(Quantity::SinkSlope)[position];
-            values[10] = narrow(wetting / (1.0 + libm::exp(4.0 * (distance - radius))));
+            values[0][3] = profiles[0].table(Quantity::SinkSlope)[position];
+            values[3][0] = narrow(wetting / (1.0 + libm::exp(4.0 * (distance - radius))));
             if furthest > LEAST_MM {
                 reach = distance;
             }
@@ -87,7 +84,7 @@ impl Shift {
             if distance > start {
                 let left = ((reach - distance) / (reach - start)).clamp(0.0, 1.0);
                 let left = narrow(left * left * (3.0 - 2.0 * left));
-                for value in values {
+                for value in values.as_flattened_mut() {
                     *value *= left;
                 }
             }
@@ -100,25 +97,22 @@ impl Shift {
         let [dx, dy] = [x - self.x, y - self.y];
         let place = locate(1.0 + (dx * dx + dy * dy) * self.inverse_radius_squared);
         let (below, above) = (&self.nodes[place.cell], &self.nodes[place.cell + 1]);
-        let mut value = [0.0; 12];
-        for lane in 0..12 {
-            value[lane] = below[lane] + place.fraction * (above[lane] - below[lane]);
-        }
+        let value = |row: usize, lane: usize| {
+            below[row][lane] + place.fraction * (above[row][lane] - below[row][lane])
+        };
         let [shear_x, shear_y] = self.shear;
         let towards = dx * shear_x + dy * shear_y;
-        let mut layers = [[0.0; 2]; 3];
-        for (layer, moved) in layers.iter_mut().enumerate() {
-            let outward = value[3 * layer] - towards * value[3 * layer + 2];
-            let along = value[3 * layer + 1];
-            *moved = [
-                dx * outward + shear_x * along,
-                dy * outward + shear_y * along,
-            ];
+        let (mut moved_x, mut moved_y) = ([0.0; 4], [0.0; 4]);
+        for lane in 0..4 {
+            let outward = value(0, lane) - towards * value(2, lane);
+            let along = value(1, lane);
+            moved_x[lane] = dx * outward + shear_x * along;
+            moved_y[lane] = dy * outward + shear_y * along;
         }
         Moved {
-            layers,
-            gradient: [dx * value[9], dy * value[9]],
-            wetting: value[10],
+            x: moved_x,
+            y: moved_y,
+            wetting: value(3, 0),
         }
     }
 }
