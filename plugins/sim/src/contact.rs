@@ -3,6 +3,7 @@
 //! Everything here is the truth of the bench, without noise. Forces and depths follow the signs of the project: positive into the gel
 //! and in compression; tangential forces are those of the ball on the gel, along its displacement.
 
+mod board;
 mod dome;
 mod flat;
 mod friction;
@@ -10,6 +11,7 @@ mod relaxation;
 mod solid;
 mod wear;
 
+pub(crate) use board::SIDE_MM as BOARD_SIDE_MM;
 pub use friction::Friction;
 pub use relaxation::{Decay, Relaxation};
 pub use solid::{Indentation, Solid};

@@ -1,5 +1,6 @@
 //! A ball on a flat bonded gel.
 
+use super::board;
 use super::solid::Answer;
 use crate::elastic::layer;
 use crate::parameters::Layer;
@@ -8,6 +9,7 @@ use crate::parameters::Layer;
 #[derive(Clone, Copy, Debug)]
 pub(super) struct LayerLaw {
     layer: Layer,
+    board_n_per_mm: f64,
 }
 
 /// (4/3) / (1 − ν²) and 8 / (2 (1 + ν) (2 − ν)) at ν = 1/2.
@@ -15,7 +17,19 @@ const INCOMPRESSIBLE: f64 = 16.0 / 9.0;
 
 impl LayerLaw {
     pub(super) fn new(layer: Layer) -> LayerLaw {
-        LayerLaw { layer }
+        LayerLaw {
+            board_n_per_mm: board::layer_stiffness_n_per_mm(&layer),
+            layer,
+        }
+    }
+
+    /// The force of a flat board and the modulus that the gel shows it.
+    pub(super) fn board(&self, depth_mm: f64) -> (f64, f64) {
+        let stiffening = 1.0 + self.layer.stiffening_per_mm * depth_mm;
+        (
+            self.board_n_per_mm * depth_mm * stiffening,
+            self.layer.young_modulus_mpa * stiffening,
+        )
     }
 
     #[inline]

@@ -121,6 +121,20 @@ impl Solid {
         self.answer(&stand, indentation).force_n * indentation.stiffness
     }
 
+    /// A flat board `depth_mm` below touching at the apex: the force of a gel without time to relax in N, and the modulus it shows in MPa.
+    pub fn board(&self, depth_mm: f64) -> (f64, f64) {
+        if depth_mm <= 0.0 {
+            return (0.0, 0.0);
+        }
+        match &self.law {
+            Law::Layer(layer) => layer.board(depth_mm),
+            Law::Dome(dome) => {
+                let answer = dome.answer(depth_mm, FLAT_MM);
+                (answer.force_n, answer.young_modulus_mpa)
+            }
+        }
+    }
+
     /// The memory of this body.
     pub fn relaxation(&self) -> Relaxation {
         self.relaxation
@@ -237,6 +251,9 @@ impl Solid {
         contact
     }
 }
+
+/// A ball so large that it is flat.
+const FLAT_MM: f64 = 1e9;
 
 /// Steps in which a ramp is remembered; the force is taken as linear in each.
 const RAMP_STEPS: u32 = 12;

@@ -1,0 +1,63 @@
+//! A flat board on a gel, as stiff as its outline makes it; what its relief does is a matter of pictures.
+
+use std::f64::consts::{PI, TAU};
+
+use crate::elastic::kernel::Kernel;
+use crate::parameters::Layer;
+
+/// The side of every board.
+pub(crate) const SIDE_MM: f64 = 10.0;
+
+/// Force a depth of a flat board on a bonded layer, N/mm, before a lattice closes.
+///
+/// The board is taken as a disc of equal area under the pressure P/(2π a √(a² − r²)), which is exact on a half-space; the layer's kernel
+/// gives the mean depth under it: at ν = 1/2, c E a = 3/8 + (1/2π) ∫ (sin x/x)² (3/2) (L(x h/a) − 1) dx.
+pub(super) fn layer_stiffness_n_per_mm(layer: &Layer) -> f64 {
+    let radius = SIDE_MM / PI.sqrt();
+    let thickness = layer.thickness_mm / radius;
+    let end = ZETA_MAX / thickness;
+    let step = end / f64::from(INTERVALS);
+    let correction: f64 = (0..INTERVALS)
+        .map(|interval| {
+            let x = (f64::from(interval) + 0.5) * step;
+            let spectrum = libm::sin(x) / x;
+            let kernel = Kernel::of_layer(x * thickness, layer.poisson_ratio);
+            spectrum * spectrum * 1.5 * (kernel.normal - 1.0) * step
+        })
+        .sum();
+    layer.young_modulus_mpa * radius / (0.375 + correction / TAU)
+}
+
+/// Where the layer's correction has died away.
+const ZETA_MAX: f64 = 14.0;
+/// Intervals of the midpoint rule; the integrand is smooth and even.
+const INTERVALS: u32 = 2000;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::elastic::hertz;
+
+    fn layer(thickness_mm: f64) -> Layer {
+        Layer {
+            thickness_mm,
+            young_modulus_mpa: 1.0,
+            poisson_ratio: 0.5,
+            stiffening_per_mm: 0.0,
+        }
+    }
+
+    #[test]
+    fn on_a_thick_gel_a_board_is_boussinesq_s_punch() {
+        let radius = SIDE_MM / PI.sqrt();
+        let punch = 2.0 * hertz::reduced_modulus(1.0, 0.5) * radius;
+        let board = layer_stiffness_n_per_mm(&layer(1e4));
+        assert!((board / punch - 1.0).abs() < 2e-3, "{board} {punch}");
+    }
+
+    #[test]
+    fn a_thin_gel_holds_a_board_up_much_harder() {
+        let ratio = layer_stiffness_n_per_mm(&layer(4.25)) / layer_stiffness_n_per_mm(&layer(1e4));
+        assert!((3.0..8.0).contains(&ratio), "{ratio}");
+    }
+}

@@ -1,0 +1,117 @@
+//! A force transducer under a simulated indenter.
+
+use taceva_core::{
+    Args, Axes, Deadline, Descriptor, DescriptorError, DescriptorSpec, DriverError, DriverKey,
+    DriverSource, ErrorKind, Factory, Facts, ForceFacts, ForceTransducer, Hertz, Newton, Rig,
+    Stamp, Tare, Wrench,
+};
+
+use super::error::{failed, rig_argument, rig_name};
+use super::rig::SimulatedRig;
+use crate::parameters::Model;
+
+const KEY: DriverKey = DriverKey::fixed("sim/force-transducer");
+/// Readings a second; each averages over the time since the last.
+const RATE_HZ: f64 = 200.0;
+
+/// Opens simulated force transducers.
+#[derive(Debug)]
+pub struct ForceTransducerFactory {
+    descriptor: Descriptor,
+}
+
+impl ForceTransducerFactory {
+    /// The factory of `sim/force-transducer`.
+    ///
+    /// # Errors
+    /// [`DescriptorError`] if its description contradicts itself.
+    pub fn new() -> Result<ForceTransducerFactory, DescriptorError> {
+        let facts = ForceFacts {
+            axes: Axes::FORCE,
+            rate: Some(Hertz(RATE_HZ)),
+            force_max: Some(Newton(Model::GelSight.parameters().transducer.range_n)),
+            tare: true,
+        };
+        let spec = DescriptorSpec::new(
+            KEY,
+            "simulated force transducer",
+            DriverSource::Simulated,
+            Facts::Force(facts),
+        );
+        Ok(ForceTransducerFactory {
+            descriptor: spec.arguments([rig_argument()]).check()?,
+        })
+    }
+}
+
+impl Factory<dyn ForceTransducer> for ForceTransducerFactory {
+    fn descriptor(&self) -> &Descriptor {
+        &self.descriptor
+    }
+
+    fn open(&self, args: &Args, rig: &mut Rig) -> Result<Box<dyn ForceTransducer>, DriverError> {
+        Ok(Box::new(SimulatedTransducer {
+            rig: SimulatedRig::of(rig, rig_name(args)),
+        }))
+    }
+}
+
+taceva_core::submit_builtin!(dyn ForceTransducer, || Ok(Box::new(
+    ForceTransducerFactory::new()?
+)));
+
+struct SimulatedTransducer {
+    rig: SimulatedRig,
+}
+
+impl SimulatedTransducer {
+    /// Lets the time of a reading pass.
+    fn wait(&self, doing: &'static str, deadline: Deadline) -> Result<(), DriverError> {
+        let (period_s, patience_s) = (1.0 / RATE_HZ, deadline.remaining().as_secs_f64());
+        self.rig.state().rest(period_s.min(patience_s));
+        if patience_s < period_s {
+            let why = format!("no reading within {deadline}");
+            return Err(failed(ErrorKind::Timeout, &KEY, doing, why));
+        }
+        Ok(())
+    }
+}
+
+impl ForceTransducer for SimulatedTransducer {
+    fn axes(&self) -> Axes {
+        Axes::FORCE
+    }
+
+    fn read(&mut self, deadline: Deadline) -> Result<(Wrench, Stamp), DriverError> {
+        let doing = "read the force";
+        self.wait(doing, deadline)?;
+        let mut state = self.rig.state();
+        let force_n = state.read();
+        let range_n = state.force_range_n();
+        if let Some(beyond) = force_n.iter().find(|force| force.abs() >= range_n) {
+            let why = format!("{beyond} N, expected less than {range_n} N");
+            return Err(failed(ErrorKind::OutOfRange, &KEY, doing, why));
+        }
+        let wrench = Wrench {
+            force: force_n.map(Newton),
+            ..Wrench::default()
+        };
+        let stamp = Stamp {
+            valid_s: state.now_s,
+            received_s: Some(state.now_s),
+        };
+        Ok((wrench, stamp))
+    }
+
+    fn tare(&mut self) -> Option<&mut dyn Tare> {
+        Some(self)
+    }
+}
+
+impl Tare for SimulatedTransducer {
+    fn zero(&mut self, deadline: Deadline) -> Result<(), DriverError> {
+        self.wait("call the load zero", deadline)?;
+        self.rig.state().tare();
+        Ok(())
+    }
+}

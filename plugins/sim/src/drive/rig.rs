@@ -1,0 +1,140 @@
+//! The bench that devices share, for whoever conducts a run on it.
+
+use std::fmt;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::time::Duration;
+
+use taceva_core::{GratingKind, Nanometre, Rig};
+use thiserror::Error;
+
+use super::state::State;
+use crate::contact::Contact;
+use crate::provenance::Provenance;
+use crate::specimen::{Grating, GratingError, Indenter};
+
+/// What the robot of a simulated rig carries.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Mounted {
+    /// A ball.
+    Ball(Indenter),
+    /// A board with a grating.
+    Board(Grating),
+}
+
+impl Mounted {
+    /// A ball of `radius`.
+    ///
+    /// # Errors
+    /// [`MountError::Ball`] if the bench has none.
+    pub fn ball(radius: Nanometre) -> Result<Mounted, MountError> {
+        Indenter::from_radius(radius)
+            .map(Mounted::Ball)
+            .ok_or(MountError::Ball { radius })
+    }
+
+    /// A board of the catalogue.
+    ///
+    /// # Errors
+    /// [`MountError::Board`] if the catalogue has none.
+    pub fn board(kind: GratingKind, spacing: Nanometre) -> Result<Mounted, MountError> {
+        Ok(Mounted::Board(Grating::new(kind, spacing)?))
+    }
+}
+
+impl Default for Mounted {
+    fn default() -> Mounted {
+        Mounted::Ball(Indenter::default())
+    }
+}
+
+/// Why a specimen was not mounted.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+#[non_exhaustive]
+pub enum MountError {
+    /// A ball that the bench does not have.
+    #[error("no ball of {radius} radius, expected 2, 4 or 10 mm")]
+    Ball {
+        /// Its radius.
+        radius: Nanometre,
+    },
+    /// A board that the catalogue does not have.
+    #[error(transparent)]
+    Board(#[from] GratingError),
+    /// The tip is in the gel.
+    #[error("the tip is in the gel, expected it in the air")]
+    InContact,
+}
+
+/// A simulated rig: the clock and the gel that its devices share.
+///
+/// ```
+/// use taceva_core::{Nanometre, Rig};
+/// use taceva_sim::{Mounted, SimulatedRig};
+/// let bench = SimulatedRig::of(&mut Rig::new(), "bench");
+/// bench.mount(Mounted::ball(Nanometre(10_000_000))?)?;
+/// bench.rest(std::time::Duration::from_secs(3600));
+/// assert_eq!(bench.now_s(), 3600.0);
+/// # Ok::<(), taceva_sim::MountError>(())
+/// ```
+#[derive(Clone)]
+pub struct SimulatedRig {
+    state: Arc<Mutex<State>>,
+}
+
+impl SimulatedRig {
+    /// The simulated rig called `name` among the devices of `rig`, made if there is none.
+    pub fn of(rig: &mut Rig, name: &str) -> SimulatedRig {
+        let state = rig
+            .share(&format!("taceva-sim {name}"), || Ok(Mutex::new(State::new())))
+            .expect("making a state does not fail");
+        SimulatedRig { state }
+    }
+
+    /// The time of the rig's clock: that of every stamp of its devices.
+    pub fn now_s(&self) -> f64 {
+        self.state().now_s
+    }
+
+    /// Lets time pass.
+    pub fn rest(&self, rest: Duration) {
+        self.state().rest(rest.as_secs_f64());
+    }
+
+    /// Exchanges what the robot carries.
+    ///
+    /// # Errors
+    /// [`MountError::InContact`] while the tip is in the gel.
+    pub fn mount(&self, specimen: Mounted) -> Result<(), MountError> {
+        let mut state = self.state();
+        if state.is_touching() {
+            return Err(MountError::InContact);
+        }
+        state.release();
+        state.mounted = specimen;
+        Ok(())
+    }
+
+    /// What it says of itself; `None` before a sensor was opened in it.
+    pub fn provenance(&self) -> Option<Provenance> {
+        let state = self.state();
+        state.bench.as_ref().map(|bench| bench.provenance())
+    }
+
+    /// The contact of a ball, as it truly is now; `None` under a board, or before a sensor was opened.
+    pub fn truth(&self) -> Option<Contact> {
+        self.state().contact()
+    }
+
+    /// The state, whole whatever happened to another thread: every change of it is finished before it can be interrupted.
+    pub(super) fn state(&self) -> MutexGuard<'_, State> {
+        self.state.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+impl fmt::Debug for SimulatedRig {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("SimulatedRig")
+            .field("now_s", &self.now_s())
+            .finish_non_exhaustive()
+    }
+}

@@ -1,0 +1,199 @@
+//! A robot that carries a ball or a board over a simulated gel.
+
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use taceva_core::{
+    Args, Deadline, Descriptor, DescriptorError, DescriptorSpec, DriverError, DriverKey,
+    DriverSource, ErrorKind, Factory, Facts, Guard, GuardedMotion, GuardedStop, Halt, Millimetre,
+    Point, Pose, Rig, Robot, RobotFacts, Speed, Stamp, Workspace, check_pose,
+};
+
+use super::error::{failed, rig_argument, rig_name};
+use super::rig::SimulatedRig;
+use super::state::{Ended, Motion};
+use crate::parameters::Model;
+
+const KEY: DriverKey = DriverKey::fixed("sim/robot");
+/// The box in which the tip may be, mm, z into the gel.
+const LEAST_MM: [f64; 3] = [-40.0, -40.0, -60.0];
+const GREATEST_MM: [f64; 3] = [40.0, 40.0, 25.0];
+const SPEED_MAX_MM_PER_S: f64 = 100.0;
+
+/// Opens simulated robots.
+#[derive(Debug)]
+pub struct RobotFactory {
+    descriptor: Descriptor,
+}
+
+impl RobotFactory {
+    /// The factory of `sim/robot`.
+    ///
+    /// # Errors
+    /// [`DescriptorError`] if its description contradicts itself.
+    pub fn new() -> Result<RobotFactory, DescriptorError> {
+        let facts = RobotFacts {
+            workspace: Some(workspace()),
+            speed_max: Speed::try_new(SPEED_MAX_MM_PER_S).ok(),
+            repeatability: Some(Millimetre(Model::GelSight.parameters().robot.positioning_mm)),
+            guarded_motion: true,
+        };
+        let spec = DescriptorSpec::new(
+            KEY,
+            "simulated robot",
+            DriverSource::Simulated,
+            Facts::Robot(facts),
+        );
+        Ok(RobotFactory {
+            descriptor: spec.arguments([rig_argument()]).check()?,
+        })
+    }
+}
+
+impl Factory<dyn Robot> for RobotFactory {
+    fn descriptor(&self) -> &Descriptor {
+        &self.descriptor
+    }
+
+    fn open(&self, args: &Args, rig: &mut Rig) -> Result<Box<dyn Robot>, DriverError> {
+        Ok(Box::new(SimulatedRobot {
+            rig: SimulatedRig::of(rig, rig_name(args)),
+            latch: Arc::default(),
+        }))
+    }
+}
+
+taceva_core::submit_builtin!(dyn Robot, || Ok(Box::new(RobotFactory::new()?)));
+
+struct SimulatedRobot {
+    rig: SimulatedRig,
+    latch: Arc<Latch>,
+}
+
+/// A halt that stays until it is cleared; each robot has its own.
+#[derive(Debug, Default)]
+struct Latch {
+    is_halted: AtomicBool,
+}
+
+impl Halt for Latch {
+    fn halt(&self) -> Result<(), DriverError> {
+        self.is_halted.store(true, Ordering::Release);
+        Ok(())
+    }
+}
+
+impl SimulatedRobot {
+    fn go(
+        &mut self,
+        target: Pose,
+        speed: Speed,
+        guard_n: Option<f64>,
+        deadline: Deadline,
+    ) -> Result<(Ended, Stamp), DriverError> {
+        let doing = "move the tip";
+        check_pose(&target)
+            .map_err(|error| failed(ErrorKind::InvalidArgument, &KEY, doing, error))?;
+        let Point { x, y, z } = target.position;
+        if !workspace().contains(&target.position) {
+            let why = format!(
+                "{x}, {y}, {z} lies outside the workspace from {LEAST_MM:?} to {GREATEST_MM:?} mm"
+            );
+            return Err(failed(ErrorKind::OutOfRange, &KEY, doing, why));
+        }
+        if speed.mm_per_s() > SPEED_MAX_MM_PER_S {
+            let why = format!("{speed}, expected at most {SPEED_MAX_MM_PER_S} mm/s");
+            return Err(failed(ErrorKind::OutOfRange, &KEY, doing, why));
+        }
+        let is_halted = || self.latch.is_halted.load(Ordering::Acquire);
+        let mut state = self.rig.state();
+        let ended = state.travel(&Motion {
+            target,
+            speed_mm_per_s: speed.mm_per_s(),
+            patience_s: deadline.remaining().as_secs_f64(),
+            is_halted: &is_halted,
+            guard_n,
+        });
+        match ended {
+            Ended::Arrived | Ended::Guarded => Ok((ended, now(state.now_s))),
+            Ended::OutOfTime => {
+                let why = format!("did not arrive within {deadline}");
+                Err(failed(ErrorKind::Timeout, &KEY, doing, why))
+            }
+            Ended::Halted => Err(failed(ErrorKind::Interrupted, &KEY, doing, "it was halted")),
+        }
+    }
+}
+
+impl Robot for SimulatedRobot {
+    fn pose(&mut self, _: Deadline) -> Result<(Pose, Stamp), DriverError> {
+        let state = self.rig.state();
+        Ok((state.sent(), now(state.now_s)))
+    }
+
+    fn move_to(
+        &mut self,
+        target: Pose,
+        speed: Speed,
+        deadline: Deadline,
+    ) -> Result<Stamp, DriverError> {
+        Ok(self.go(target, speed, None, deadline)?.1)
+    }
+
+    fn halt_handle(&self) -> Arc<dyn Halt> {
+        Arc::clone(&self.latch) as Arc<dyn Halt>
+    }
+
+    fn clear_halt(&mut self, _: Deadline) -> Result<(), DriverError> {
+        self.latch.is_halted.store(false, Ordering::Release);
+        Ok(())
+    }
+
+    fn guarded_motion(&mut self) -> Option<&mut dyn GuardedMotion> {
+        Some(self)
+    }
+}
+
+impl GuardedMotion for SimulatedRobot {
+    fn move_guarded(
+        &mut self,
+        target: Pose,
+        speed: Speed,
+        guard: Guard,
+        deadline: Deadline,
+    ) -> Result<GuardedStop, DriverError> {
+        let force_n = guard.force.0;
+        if !(force_n > 0.0 && force_n.is_finite()) {
+            let why = format!("a guard of {force_n} N, expected a number above 0");
+            let doing = "move the tip under guard";
+            return Err(failed(ErrorKind::InvalidArgument, &KEY, doing, why));
+        }
+        let (ended, stamp) = self.go(target, speed, Some(force_n), deadline)?;
+        Ok(if ended == Ended::Guarded {
+            let pose = self.rig.state().sent();
+            GuardedStop::Guarded { pose, stamp }
+        } else {
+            GuardedStop::Arrived { stamp }
+        })
+    }
+}
+
+fn workspace() -> Workspace {
+    let corner = |[x, y, z]: [f64; 3]| Point {
+        x: Millimetre(x),
+        y: Millimetre(y),
+        z: Millimetre(z),
+    };
+    Workspace {
+        least: corner(LEAST_MM),
+        greatest: corner(GREATEST_MM),
+    }
+}
+
+/// Something that was true when it was heard of.
+fn now(now_s: f64) -> Stamp {
+    Stamp {
+        valid_s: now_s,
+        received_s: Some(now_s),
+    }
+}

@@ -1,0 +1,367 @@
+//! What goes on in a simulated rig: a tip that moves, a gel that remembers, a clock that both turn.
+
+use taceva_core::{Millimetre, Pose};
+
+use super::place::{VisitKey, Visits, nanometres};
+use super::rig::Mounted;
+use crate::bench::Bench;
+use crate::contact::{Contact, Indentation, Relaxation};
+use crate::optics::AmbientLight;
+use crate::parameters::{Model, Robot, Transducer};
+use crate::random::{Purpose, Random};
+use crate::rig::TransducerModel;
+
+/// The state behind the devices of one rig.
+#[derive(Debug)]
+pub(super) struct State {
+    pub(super) now_s: f64,
+    pub(super) bench: Option<Bench>,
+    pub(super) sensor_is_open: bool,
+    pub(super) mounted: Mounted,
+    pub(super) light: AmbientLight,
+    /// Where the robot believes it stands.
+    sent: Pose,
+    /// Where the tip is: its lowest point, z into the gel.
+    tip_mm: [f64; 3],
+    robot: Robot,
+    transducer: Transducer,
+    errors: TransducerModel,
+    random: Random,
+    tare_n: [f64; 3],
+    visits: Visits,
+    visit: Visit,
+}
+
+/// The time over one place.
+#[derive(Debug, Default)]
+struct Visit {
+    key: VisitKey,
+    moves: u64,
+    readings: u64,
+    pictures: u32,
+    has_touched: bool,
+    touch: Option<Touch>,
+}
+
+/// An indentation under way.
+#[derive(Debug)]
+struct Touch {
+    place_mm: [f64; 2],
+    surface_mm: f64,
+    stiffness: f64,
+    deepest_mm: f64,
+    memory: Relaxation,
+}
+
+/// How a motion ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Ended {
+    /// At its target.
+    Arrived,
+    /// Because its time was up.
+    OutOfTime,
+    /// Because somebody halted it.
+    Halted,
+    /// Because the guard was reached.
+    Guarded,
+}
+
+/// A motion to be made.
+pub(super) struct Motion<'a> {
+    pub(super) target: Pose,
+    pub(super) speed_mm_per_s: f64,
+    pub(super) patience_s: f64,
+    pub(super) is_halted: &'a dyn Fn() -> bool,
+    pub(super) guard_n: Option<f64>,
+}
+
+/// Where the tip begins: out of every gel.
+pub(super) const HOME_MM: [f64; 3] = [0.0, 0.0, -20.0];
+/// The way of a tip is followed in steps of this length.
+const STEP_MM: f64 = 0.05;
+
+impl State {
+    pub(super) fn new() -> State {
+        let parameters = Model::GelSight.parameters();
+        let random = Random::new(0);
+        let mut visits = Visits::default();
+        let key = visits.next([HOME_MM[0], HOME_MM[1]]);
+        State {
+            now_s: 0.0,
+            bench: None,
+            sensor_is_open: false,
+            mounted: Mounted::default(),
+            light: AmbientLight::Normal,
+            sent: pose(HOME_MM),
+            tip_mm: HOME_MM,
+            robot: parameters.robot,
+            transducer: parameters.transducer,
+            errors: TransducerModel::new(parameters.transducer, random),
+            random,
+            tare_n: [0.0; 3],
+            visits,
+            visit: Visit {
+                key,
+                ..Visit::default()
+            },
+        }
+    }
+
+    /// Puts a sensor under the tip, in the place of the last one.
+    pub(super) fn install(&mut self, bench: Bench) {
+        self.robot = bench.parameters().robot;
+        self.transducer = bench.parameters().transducer;
+        self.random = bench.random();
+        self.errors = TransducerModel::new(self.transducer, self.random);
+        self.visit.touch = None;
+        self.bench = Some(bench);
+        self.sensor_is_open = true;
+    }
+
+    pub(super) fn sent(&self) -> Pose {
+        self.sent
+    }
+
+    pub(super) fn force_range_n(&self) -> f64 {
+        self.transducer.range_n
+    }
+
+    /// The visit and the number of the next picture in it.
+    pub(super) fn next_picture(&mut self) -> (u64, u32) {
+        let number = self.visit.pictures;
+        self.visit.pictures = number.wrapping_add(1);
+        (self.visit.key.visit, number)
+    }
+
+    /// Lets time pass; the tip rests.
+    pub(super) fn rest(&mut self, seconds: f64) {
+        self.now_s += seconds;
+        self.follow(seconds);
+    }
+
+    /// Moves the tip along a straight line.
+    pub(super) fn travel(&mut self, motion: &Motion<'_>) -> Ended {
+        let (from, sent) = (self.tip_mm, coordinates(&self.sent));
+        let target = coordinates(&motion.target);
+        let error = self.positioning_error();
+        let to: [f64; 3] = std::array::from_fn(|axis| target[axis] + error[axis]);
+        let length = distance(from, to);
+        let steps = (length / STEP_MM).ceil().max(1.0);
+        let step_s = length / steps / motion.speed_mm_per_s;
+        let start_s = self.now_s;
+        let mut done = 0.0;
+        let mut ended = Ended::Arrived;
+        while done < steps {
+            if (motion.is_halted)() {
+                ended = Ended::Halted;
+                break;
+            }
+            // Time is counted from the start, so that it does not depend on how the sum is rounded.
+            let then_s = (done + 1.0) * step_s;
+            if then_s > motion.patience_s {
+                ended = Ended::OutOfTime;
+                break;
+            }
+            done += 1.0;
+            self.tip_mm = mix(from, to, done / steps);
+            self.now_s = start_s + then_s;
+            self.follow(step_s);
+            let reached = |guard: f64| size(self.force_n()) >= guard;
+            if motion.guard_n.is_some_and(reached) {
+                ended = Ended::Guarded;
+                break;
+            }
+        }
+        self.sent = if ended == Ended::Arrived {
+            motion.target
+        } else {
+            let [x, y, z] = mix(sent, target, done / steps).map(Millimetre);
+            let mut stopped = self.sent;
+            (stopped.position.x, stopped.position.y, stopped.position.z) = (x, y, z);
+            stopped
+        };
+        self.arrive();
+        ended
+    }
+
+    /// What the transducer says next.
+    pub(super) fn read(&mut self) -> [f64; 3] {
+        let raw = self.raw_reading();
+        std::array::from_fn(|axis| raw[axis] - self.tare_n[axis])
+    }
+
+    /// Calls the present load zero; over a gel that was touched this begins a new visit.
+    pub(super) fn tare(&mut self) {
+        if self.visit.has_touched && self.visit.touch.is_none() {
+            self.begin_visit();
+        }
+        self.tare_n = self.raw_reading();
+    }
+
+    /// The contact of a ball, as it truly is; `None` under a board or without a gel.
+    pub(super) fn contact(&self) -> Option<Contact> {
+        let bench = self.bench.as_ref()?;
+        let Mounted::Ball(ball) = self.mounted else {
+            return None;
+        };
+        let Some(touch) = &self.visit.touch else {
+            return Some(Contact {
+                position_mm: [self.tip_mm[0], self.tip_mm[1]],
+                indenter_radius_mm: ball.radius_mm(),
+                ..Contact::default()
+            });
+        };
+        let indentation = self.indentation(touch, ball.radius_mm());
+        let mut contact = bench
+            .solid()
+            .contact_at(&indentation, touch.memory.ratio());
+        contact.travel_mm = contact.depth_mm;
+        Some(contact)
+    }
+
+    /// Depth, force in N and modulus in MPa under a board.
+    pub(super) fn board(&self) -> [f64; 3] {
+        let (Some(bench), Some(touch)) = (&self.bench, &self.visit.touch) else {
+            return [0.0; 3];
+        };
+        let depth = self.tip_mm[2] - touch.surface_mm;
+        let (_, modulus) = bench.solid().board(depth);
+        [depth, touch.memory.force_n(), modulus * touch.stiffness * touch.memory.ratio()]
+    }
+
+    pub(super) fn tip_mm(&self) -> [f64; 3] {
+        self.tip_mm
+    }
+
+    /// Forgets the contact, because the specimen was exchanged.
+    pub(super) fn release(&mut self) {
+        self.visit.touch = None;
+    }
+
+    pub(super) fn is_touching(&self) -> bool {
+        self.visit.touch.is_some()
+    }
+
+    fn force_n(&self) -> [f64; 3] {
+        match self.mounted {
+            Mounted::Ball(_) => self.contact().map_or([0.0; 3], |contact| contact.force_n),
+            Mounted::Board(_) => [0.0, 0.0, self.board()[1]],
+        }
+    }
+
+    fn raw_reading(&mut self) -> [f64; 3] {
+        let VisitKey { point, visit, .. } = self.visit.key;
+        let (drift, later) = (self.errors.point_zero_n(point), self.errors.press_zero_n(visit));
+        let zero = std::array::from_fn(|axis| drift[axis] + later[axis]);
+        let noise = self.random.stream(Purpose::ForceNoise, visit);
+        self.visit.readings += 1;
+        self.errors.read(self.force_n(), zero, noise, self.visit.readings)
+    }
+
+    fn positioning_error(&mut self) -> [f64; 3] {
+        let stream = self.random.stream(Purpose::Positioning, self.visit.key.visit);
+        let first = 3 * self.visit.moves;
+        self.visit.moves += 1;
+        [0, 1, 2].map(|axis| self.robot.positioning_mm * stream.normal(first + axis))
+    }
+
+    /// In the air over another place a new visit begins.
+    fn arrive(&mut self) {
+        let place = coordinates(&self.sent);
+        let moved = nanometres([place[0], place[1]]) != self.visit.key.place;
+        if moved && self.visit.touch.is_none() {
+            self.begin_visit();
+        }
+    }
+
+    fn begin_visit(&mut self) {
+        let [x, y, _] = coordinates(&self.sent);
+        self.visit = Visit {
+            key: self.visits.next([x, y]),
+            ..Visit::default()
+        };
+    }
+
+    /// Tells the gel where the tip is, `step_s` after it was told last.
+    fn follow(&mut self, step_s: f64) {
+        let Some(bench) = &self.bench else {
+            return;
+        };
+        let [x, y, z] = self.tip_mm;
+        let mut touch = match self.visit.touch.take() {
+            Some(touch) => touch,
+            None => Touch {
+                place_mm: [x, y],
+                surface_mm: surface_mm(bench, self.mounted, [x, y]),
+                stiffness: bench.unit().stiffness([x, y]),
+                deepest_mm: 0.0,
+                memory: bench.solid().relaxation(),
+            },
+        };
+        let depth = z - touch.surface_mm;
+        if depth <= 0.0 {
+            return;
+        }
+        touch.deepest_mm = touch.deepest_mm.max(depth);
+        let elastic_n = match self.mounted {
+            Mounted::Ball(ball) => {
+                let indentation = self.indentation(&touch, ball.radius_mm());
+                bench.solid().elastic_force_n(&indentation, depth)
+            }
+            Mounted::Board(_) => bench.solid().board(depth).0 * touch.stiffness,
+        };
+        let decay = touch.memory.decay(step_s);
+        touch.memory.step(elastic_n, decay);
+        self.visit.has_touched = true;
+        self.visit.touch = Some(touch);
+    }
+
+    fn indentation(&self, touch: &Touch, indenter_radius_mm: f64) -> Indentation {
+        let [x, y, z] = self.tip_mm;
+        let depth_mm = z - touch.surface_mm;
+        Indentation {
+            place_mm: touch.place_mm,
+            depth_mm,
+            deepest_mm: touch.deepest_mm.max(depth_mm),
+            shear_mm: [x - touch.place_mm[0], y - touch.place_mm[1]],
+            indenter_radius_mm,
+            stiffness: touch.stiffness,
+        }
+    }
+}
+
+/// Where a tip begins to touch, z into the gel.
+fn surface_mm(bench: &Bench, mounted: Mounted, place_mm: [f64; 2]) -> f64 {
+    match mounted {
+        Mounted::Ball(ball) => {
+            let ideal = bench.solid().touch_height_mm(place_mm, ball.radius_mm());
+            -ideal - bench.unit().height_mm(place_mm)
+        }
+        // A board rests on the middle of the gel.
+        Mounted::Board(_) => -bench.unit().height_mm([0.0; 2]),
+    }
+}
+
+fn pose([x, y, z]: [f64; 3]) -> Pose {
+    let mut pose = Pose::default();
+    let position = &mut pose.position;
+    (position.x, position.y, position.z) = (Millimetre(x), Millimetre(y), Millimetre(z));
+    pose
+}
+
+fn coordinates(pose: &Pose) -> [f64; 3] {
+    let position = &pose.position;
+    [position.x.0, position.y.0, position.z.0]
+}
+
+fn mix(from: [f64; 3], to: [f64; 3], share: f64) -> [f64; 3] {
+    std::array::from_fn(|axis| from[axis] + (to[axis] - from[axis]) * share)
+}
+
+fn distance(from: [f64; 3], to: [f64; 3]) -> f64 {
+    size(std::array::from_fn(|axis| to[axis] - from[axis]))
+}
+
+fn size(vector: [f64; 3]) -> f64 {
+    vector.iter().map(|side| side * side).sum::<f64>().sqrt()
+}
