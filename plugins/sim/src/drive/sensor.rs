@@ -14,6 +14,7 @@ use crate::bench::Bench;
 use crate::contact::BOARD_SIDE_MM;
 use crate::optics::{AmbientLight, Board, Camera, OpticsSpec, Stimulus, View};
 use crate::parameters::{Body, Model, Outline, Parameters};
+use crate::specimen::GratingPose;
 
 /// Opens simulated sensors of one model.
 #[derive(Debug)]
@@ -65,14 +66,15 @@ impl Factory<dyn Sensor> for SensorFactory {
         let doing = "open the sensor";
         let refused = |why: String| failed(ErrorKind::InvalidArgument, &driver, doing, why);
         let parameters = self.parameters(args).map_err(refused)?;
-        let [unit, seed] = ["unit", "seed"].map(|key| args.whole(key).unsigned_abs());
+        let seed = args.whole("seed").unsigned_abs();
+        let unit = u32::try_from(args.whole("unit"))
+            .expect("its declaration keeps the number of a unit small");
         let spec = OpticsSpec::new(&parameters);
         let reduced = reduced(spec.native, reduction(args, &parameters));
         let camera = Camera::new(&spec, reduced, unit, seed)
             .map_err(|error| failed(ErrorKind::InvalidArgument, &driver, doing, error))?;
         let rig = SimulatedRig::of(rig, rig_name(args));
         let period_s = 1.0 / parameters.camera.rate_hz;
-        let unit = u32::try_from(unit).expect("its declaration keeps the number of a unit small");
         {
             let mut state = rig.state();
             if state.sensor_is_open {
@@ -188,10 +190,11 @@ fn view(state: &mut State, is_transparent: bool) -> View {
             let [depth_mm, force_n, young_modulus_mpa] = state.board();
             let [x, y, _] = state.tip_mm();
             Stimulus::Board(Board {
-                kind: grating.kind(),
-                spacing: grating.spacing(),
-                yaw_deg: state.sent().rotation.z.0,
-                centre_mm: [x, y],
+                grating,
+                pose: GratingPose {
+                    yaw_degree: state.sent().rotation.z.0,
+                    offset_mm: [x, y],
+                },
                 pressure_mpa: force_n / (BOARD_SIDE_MM * BOARD_SIDE_MM),
                 depth_mm,
                 young_modulus_mpa,
