@@ -1,6 +1,7 @@
 #![doc = include_str!("../README.md")]
 
 mod bench;
+mod drive;
 mod parameters;
 mod provenance;
 mod rig;
@@ -15,6 +16,10 @@ pub mod random;
 
 pub use bench::{Bench, Press, PressError};
 pub use contact::{Contact, History};
+pub use drive::{
+    ForceTransducerFactory, LightingFactory, MountError, Mounted, RobotFactory, SensorFactory,
+    SimulatedRig,
+};
 pub use parameters::{
     Body, Camera, Dome, Entry, Gratings, Lattice, Layer, Markers, Material, Model, Origin, Outline,
     ParameterDigest, ParameterError, ParameterErrorKind, Parameters, Probing, Robot, Search,

@@ -42,7 +42,10 @@ impl Factory<dyn Lighting> for LightingFactory {
     }
 
     fn open(&self, args: &Args, rig: &mut Rig) -> Result<Box<dyn Lighting>, DriverError> {
-        Ok(Box::new(Lamps::new(SimulatedRig::of(rig, rig_name(args)), KEY)))
+        Ok(Box::new(Lamps::new(
+            SimulatedRig::of(rig, rig_name(args)),
+            KEY,
+        )))
     }
 }
 
@@ -74,7 +77,12 @@ impl Lighting for Lamps {
         let light = AmbientLight::from_name(scene).ok_or_else(|| {
             let known = self.scenes.join("`, `");
             let why = format!("{scene:?}: expected one of `{known}`");
-            failed(ErrorKind::InvalidArgument, &self.driver, "set the light", why)
+            failed(
+                ErrorKind::InvalidArgument,
+                &self.driver,
+                "set the light",
+                why,
+            )
         })?;
         self.rig.state().light = light;
         Ok(())
@@ -83,5 +91,7 @@ impl Lighting for Lamps {
 
 /// The names of the scenes, that of the calibration first.
 pub(super) fn scenes() -> Vec<String> {
-    AmbientLight::ALL.map(|light| light.name().to_owned()).into()
+    AmbientLight::ALL
+        .map(|light| light.name().to_owned())
+        .into()
 }

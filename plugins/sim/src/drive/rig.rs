@@ -85,7 +85,9 @@ impl SimulatedRig {
     /// The simulated rig called `name` among the devices of `rig`, made if there is none.
     pub fn of(rig: &mut Rig, name: &str) -> SimulatedRig {
         let state = rig
-            .share(&format!("taceva-sim {name}"), || Ok(Mutex::new(State::new())))
+            .share(&format!("taceva-sim {name}"), || {
+                Ok(Mutex::new(State::new()))
+            })
             .expect("making a state does not fail");
         SimulatedRig { state }
     }

@@ -35,7 +35,9 @@ impl RobotFactory {
         let facts = RobotFacts {
             workspace: Some(workspace()),
             speed_max: Speed::try_new(SPEED_MAX_MM_PER_S).ok(),
-            repeatability: Some(Millimetre(Model::GelSight.parameters().robot.positioning_mm)),
+            repeatability: Some(Millimetre(
+                Model::GelSight.parameters().robot.positioning_mm,
+            )),
             guarded_motion: true,
         };
         let spec = DescriptorSpec::new(

@@ -146,15 +146,18 @@ impl Sensor for SimulatedSensor {
         let patience_s = deadline.remaining().as_secs_f64();
         if wait_s > patience_s {
             state.rest(patience_s);
-            return Err(refused(ErrorKind::Timeout, format!("no frame within {deadline}")));
+            return Err(refused(
+                ErrorKind::Timeout,
+                format!("no frame within {deadline}"),
+            ));
         }
         state.rest(wait_s);
         state.now_s = beat_s;
         let view = view(&mut state, self.lamps.is_some());
         drop(state);
-        self.camera.render(&view, into).map_err(|error| {
-            failed(ErrorKind::Internal, &self.driver, "capture a frame", error)
-        })?;
+        self.camera
+            .render(&view, into)
+            .map_err(|error| failed(ErrorKind::Internal, &self.driver, "capture a frame", error))?;
         Ok(Stamp {
             valid_s: beat_s,
             received_s: Some(beat_s),

@@ -212,9 +212,7 @@ impl State {
             });
         };
         let indentation = self.indentation(touch, ball.radius_mm());
-        let mut contact = bench
-            .solid()
-            .contact_at(&indentation, touch.memory.ratio());
+        let mut contact = bench.solid().contact_at(&indentation, touch.memory.ratio());
         contact.travel_mm = contact.depth_mm;
         Some(contact)
     }
@@ -226,7 +224,11 @@ impl State {
         };
         let depth = self.tip_mm[2] - touch.surface_mm;
         let (_, modulus) = bench.solid().board(depth);
-        [depth, touch.memory.force_n(), modulus * touch.stiffness * touch.memory.ratio()]
+        [
+            depth,
+            touch.memory.force_n(),
+            modulus * touch.stiffness * touch.memory.ratio(),
+        ]
     }
 
     pub(super) fn tip_mm(&self) -> [f64; 3] {
@@ -251,15 +253,21 @@ impl State {
 
     fn raw_reading(&mut self) -> [f64; 3] {
         let VisitKey { point, visit, .. } = self.visit.key;
-        let (drift, later) = (self.errors.point_zero_n(point), self.errors.press_zero_n(visit));
+        let (drift, later) = (
+            self.errors.point_zero_n(point),
+            self.errors.press_zero_n(visit),
+        );
         let zero = std::array::from_fn(|axis| drift[axis] + later[axis]);
         let noise = self.random.stream(Purpose::ForceNoise, visit);
         self.visit.readings += 1;
-        self.errors.read(self.force_n(), zero, noise, self.visit.readings)
+        self.errors
+            .read(self.force_n(), zero, noise, self.visit.readings)
     }
 
     fn positioning_error(&mut self) -> [f64; 3] {
-        let stream = self.random.stream(Purpose::Positioning, self.visit.key.visit);
+        let stream = self
+            .random
+            .stream(Purpose::Positioning, self.visit.key.visit);
         let first = 3 * self.visit.moves;
         self.visit.moves += 1;
         [0, 1, 2].map(|axis| self.robot.positioning_mm * stream.normal(first + axis))
