@@ -20,8 +20,10 @@ pub use cost::Cost;
 pub use draft::{Fit, PlannedMetric, PlannedPress};
 pub use reason::{Cause, PlanReason, PlanSkip, Subject};
 
-use taceva_core::{FieldSet, Footprint, FrameInfo, SkipReason};
-use taceva_metrics::catalogue;
+use taceva_core::{
+    Channel, Channels, FieldSet, Footprint, FrameInfo, Nanometre, Outline, SkipReason, Unit,
+};
+use taceva_metrics::{SensorFacts, catalogue};
 
 use crate::digest::{Digest, Hasher};
 use crate::limits::Limits;
@@ -29,7 +31,7 @@ use crate::phase::PhaseKind;
 use crate::scene::{Contact, Scene, SceneError, SceneProblem, Study};
 use crate::source::SourceInfo;
 use draft::Draft;
-pub(crate) use draft::MetricNeeds;
+pub(crate) use draft::{MetricNeeds, SURFACE};
 use facts::{Gather, StudyFacts};
 
 /// What is done for one sensor, what is not, and why. [`Display`](std::fmt::Display) explains it.
@@ -88,6 +90,45 @@ impl Plan {
                 hasher.whole(i64::from(press.frames))
             })
             .finish()
+    }
+
+    /// The channels of the truth of every sample, in order.
+    pub fn truth_channels(&self) -> Channels {
+        let channels = self.channels.iter().filter_map(|name| {
+            let of_six = Channel::SIX
+                .into_iter()
+                .find(|channel| channel.name() == name);
+            of_six.or_else(|| Channel::named(name, Unit::Millimetre).ok())
+        });
+        Channels::new(channels).unwrap_or_default()
+    }
+
+    /// What metrics are told of the sensor; the scene of light that others are compared with is that of calibration.
+    pub fn sensor_facts(&self) -> SensorFacts {
+        let depth_max_mm = self.limits.as_ref().map(|limits| limits.depth_max.0);
+        let footprint = self
+            .footprint
+            .map(|footprint| match (footprint.outline(), depth_max_mm) {
+                (Outline::Disc { radius }, Some(_)) => {
+                    Footprint::disc(radius.to_millimetres(), depth_max_mm).unwrap_or(footprint)
+                }
+                (Outline::Rectangle { half_x, half_y }, Some(_)) => {
+                    let [half_x, half_y] = [half_x, half_y].map(Nanometre::to_millimetres);
+                    Footprint::rectangle(half_x, half_y, depth_max_mm).unwrap_or(footprint)
+                }
+                _ => footprint,
+            });
+        let default = SensorFacts::default();
+        SensorFacts {
+            footprint,
+            opaque: self.opaque,
+            reference_scene: self
+                .lights
+                .first()
+                .cloned()
+                .unwrap_or(default.reference_scene),
+            frame_size: self.frame.map(|frame| [frame.width, frame.height]),
+        }
     }
 
     /// The presses of one part of the protocol, in order.

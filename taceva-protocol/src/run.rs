@@ -10,6 +10,7 @@ mod devices;
 mod error;
 mod event;
 mod log;
+mod retreat;
 mod station;
 mod supervisor;
 mod time;
@@ -327,8 +328,7 @@ impl<'a> Run<'a> {
         let press = &planned.press;
         if let Motion::Rest { frames } = press.motion {
             for number in 0..frames {
-                let height = 0.0;
-                self.sample(planned, number, height, samples)?;
+                self.sample(planned, number, 0.0, samples)?;
             }
             return Ok(Outcome::Complete);
         }

@@ -437,9 +437,23 @@ fn more_presses_than_any_gel_survives_are_refused() {
     // The presses are counted before they are drawn, and never printed.
     match plan(&scene, |_| source.clone())
         .err()
-        .map(|error| error.problem)
+        .map(|error| *error.problem)
     {
         Some(SceneProblem::TooManyPresses { found, .. }) => assert!(found > 1_000_000),
         other => panic!("{}", other.is_none()),
     }
+}
+
+#[test]
+fn every_example_scene_reads() {
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../examples/scenes");
+    let mut read = 0;
+    for entry in std::fs::read_dir(folder).expect("the folder of examples") {
+        let path = entry.expect("an entry").path();
+        let text = std::fs::read_to_string(&path).expect("a text");
+        let scene = Scene::parse(&path.to_string_lossy(), &text);
+        assert!(scene.is_ok(), "{}", scene.expect_err("refused"));
+        read += 1;
+    }
+    assert!(read >= 4, "{read} examples");
 }

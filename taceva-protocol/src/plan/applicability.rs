@@ -31,6 +31,10 @@ fn obstacle(metric: &PlannedMetric, draft: &Draft, facts: &StudyFacts<'_>) -> Op
     if about_light && facts.opaque == Some(true) {
         return Some(PlanReason::Skip(SkipReason::GelIsOpaque));
     }
+    let needs_pictures = metric.phase == PhaseKind::Idle && !facts.is_recording();
+    if needs_pictures && let Some(reason) = draft.reason_of(&Subject::Field(Field::Frame)) {
+        return Some(reason.clone());
+    }
     let absent_field = metric
         .fields
         .iter()
@@ -48,6 +52,9 @@ fn obstacle(metric: &PlannedMetric, draft: &Draft, facts: &StudyFacts<'_>) -> Op
         let absent = || PlanReason::Skip(SkipReason::ChannelAbsent(name.clone()));
         let known = draft.reason_of(&Subject::Channel(name.clone())).cloned();
         return Some(known.unwrap_or_else(absent));
+    }
+    if let Some(reason) = metric.facts.iter().find_map(|fact| facts.absent(*fact)) {
+        return Some(PlanReason::Skip(reason));
     }
     let is_pressed = |kind| {
         draft
@@ -70,7 +77,7 @@ fn obstacle(metric: &PlannedMetric, draft: &Draft, facts: &StudyFacts<'_>) -> Op
 /// Without markers nothing in the picture follows shear, so how far it repeats says nothing about the sensor (TacEva 2025).
 fn narrow_shear(metric: &mut PlannedMetric, draft: &mut Draft, facts: &StudyFacts<'_>) {
     let reads_repeats =
-        metric.fields.contains(Field::Repeat) && metric.fields.contains(Field::Prediction);
+        metric.phase == PhaseKind::Repeatability && metric.fields.contains(Field::Prediction);
     if facts.markers != Some(false) || !reads_repeats {
         return;
     }

@@ -1,7 +1,7 @@
 //! What passes work on: everything there is at first, and less after each pass.
 
 use taceva_core::{Field, FieldSet};
-use taceva_metrics::{Metric, catalogue};
+use taceva_metrics::{Fact, Metric, catalogue};
 
 use super::facts::StudyFacts;
 use super::reason::{PlanReason, PlanSkip, Subject};
@@ -15,6 +15,7 @@ pub(crate) struct MetricNeeds {
     pub(crate) id: String,
     pub(crate) fields: FieldSet,
     pub(crate) channels: Vec<String>,
+    pub(crate) facts: &'static [Fact],
     pub(crate) phase: PhaseKind,
 }
 
@@ -28,8 +29,11 @@ impl MetricNeeds {
     }
 
     fn of(metric: &Metric) -> MetricNeeds {
-        let channels = metric.needs.channels;
-        MetricNeeds::new(metric.id, metric.needs.fields, channels)
+        let needs = &metric.needs;
+        MetricNeeds {
+            facts: metric.facts,
+            ..MetricNeeds::new(metric.id, needs.fields, needs.channels)
+        }
     }
 
     pub(crate) fn new(id: &str, fields: FieldSet, channels: &[&str]) -> MetricNeeds {
@@ -37,6 +41,7 @@ impl MetricNeeds {
             id: id.to_owned(),
             fields,
             channels: channels.iter().map(|&name| name.to_owned()).collect(),
+            facts: &[],
             phase: phase_of(id, fields),
         }
     }
@@ -52,7 +57,7 @@ fn phase_of(id: &str, fields: FieldSet) -> PhaseKind {
         _ if reads(Field::Scene) || reads(Field::Intensity) => PhaseKind::LightSweep,
         _ if reads(Field::UnitId) => PhaseKind::SurfaceMap,
         _ if reads(Field::Phase) => PhaseKind::LoadUnload,
-        _ if reads(Field::Repeat) => PhaseKind::Repeatability,
+        _ if reads(Field::Repeat) || reads(Field::DepthStep) => PhaseKind::Repeatability,
         _ if reads(Field::Stamp) && reads(Field::Truth) => PhaseKind::Repeatability,
         _ if reads(Field::Stamp) || !(reads(Field::Truth) || reads(Field::Prediction)) => {
             PhaseKind::Idle
@@ -72,6 +77,7 @@ pub struct PlannedMetric {
     pub phase: PhaseKind,
     pub(crate) fields: FieldSet,
     pub(crate) required: Vec<String>,
+    pub(crate) facts: &'static [Fact],
 }
 
 /// A press of the plan.
@@ -109,7 +115,10 @@ pub(crate) struct Draft {
 }
 
 /// The channels that a rig could measure, in order.
-pub(crate) const CHANNELS: [&str; 6] = ["Px", "Py", "Pz", "Fx", "Fy", "Fz"];
+pub(crate) const CHANNELS: [&str; 7] = ["Px", "Py", "Pz", "Fx", "Fy", "Fz", SURFACE];
+
+/// The height at which a surface is first felt, along z of the sensor's frame, in mm.
+pub(crate) const SURFACE: &str = "surface_z";
 
 impl Draft {
     /// Everything: all metrics, all presses, all fields, all models.
@@ -117,10 +126,11 @@ impl Draft {
         let channels = facts.all_channels();
         let metrics = metrics.iter().map(|needs| PlannedMetric {
             id: needs.id.clone(),
-            channels: channels.clone(),
+            channels: facts.channels_on(needs.phase),
             phase: needs.phase,
             fields: needs.fields,
             required: needs.channels.clone(),
+            facts: needs.facts,
         });
         let presses = facts.ground.iter().flat_map(|ground| {
             PhaseKind::ALL.into_iter().flat_map(|kind| {
@@ -171,6 +181,10 @@ impl Draft {
 
     /// Whether a kept metric or model of the part `kind` looks at pictures.
     pub(crate) fn looks_at_pictures(&self, kind: PhaseKind) -> bool {
+        // What is asked of a sensor at rest is how its pictures come.
+        if kind == PhaseKind::Idle {
+            return self.phases.contains(&kind);
+        }
         let seen = |fields: FieldSet| PICTURES.into_iter().any(|field| fields.contains(field));
         let metric = |metric: &PlannedMetric| metric.phase == kind && seen(metric.fields);
         let fit = |fit: &Fit| fit.phase == kind;

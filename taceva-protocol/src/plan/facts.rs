@@ -1,12 +1,14 @@
 //! What is known about a study before it begins: the statements of the scene and of the descriptors, joined and free of contradiction.
 
 use taceva_core::{
-    Axes, Axis, Channel, Descriptor, Field, FieldSet, Footprint, FrameInfo, Nanometre,
+    Axes, Axis, Channel, Descriptor, Field, FieldSet, Footprint, FrameInfo, Millimetre, Nanometre,
+    Point, SkipReason,
 };
+use taceva_metrics::Fact;
 
-use super::draft::CHANNELS;
+use super::draft::{CHANNELS, SURFACE};
 use crate::limits::{Limits, limits};
-use crate::phase::Ground;
+use crate::phase::{Ground, PhaseKind};
 use crate::scene::{Scene, SceneError, SceneProblem, Setting, Study};
 use crate::source::{RecordingInfo, RigInfo, SourceInfo};
 
@@ -61,6 +63,36 @@ impl StudyFacts<'_> {
         }
     }
 
+    /// The channels that presses of `kind` could give: a height where the surface is felt, a depth where it is pressed.
+    pub(crate) fn channels_on(&self, kind: PhaseKind) -> Vec<String> {
+        let mut channels = self.all_channels();
+        if !self.is_recording() {
+            let foreign = if kind == PhaseKind::SurfaceMap {
+                "Pz"
+            } else {
+                SURFACE
+            };
+            channels.retain(|name| name != foreign);
+        }
+        channels
+    }
+
+    /// What keeps `fact` from being known.
+    pub(crate) fn absent(&self, fact: Fact) -> Option<SkipReason> {
+        let depth_max = self.footprint.and_then(|footprint| footprint.depth_max());
+        let (known, name) = match fact {
+            Fact::NotOpaque => {
+                return (self.opaque == Some(true)).then_some(SkipReason::GelIsOpaque);
+            }
+            Fact::Footprint => (self.footprint.is_some(), "footprint"),
+            Fact::DepthMax => (self.limits.is_some() || depth_max.is_some(), "depth_max_mm"),
+            Fact::FrameSize => (self.frame.is_some(), "frame_size"),
+            // A fact of a later catalogue is asked for where the metric is computed.
+            _ => return None,
+        };
+        (!known).then_some(SkipReason::FactAbsent(name))
+    }
+
     /// Whether the source is a recording.
     pub(crate) fn is_recording(&self) -> bool {
         matches!(self.supplier, Supplier::Recording { .. })
@@ -111,6 +143,7 @@ impl<'a> Gather<'a> {
         let ground = match (&limits, footprint) {
             (Some(limits), Some(footprint)) => {
                 self.depths(limits)?;
+                self.workspace(rig, &footprint)?;
                 Some(Ground {
                     protocol: &scene.protocol,
                     footprint,
@@ -205,6 +238,44 @@ impl<'a> Gather<'a> {
             return Err(self.refusal(written.at(), problem));
         }
         Ok(Some(footprint))
+    }
+
+    /// Refuses a surface that the robot does not reach from the height of travel down to the end of the search.
+    fn workspace(&self, rig: &RigInfo, footprint: &Footprint) -> Result<(), SceneError> {
+        let robot = rig.robot.as_ref();
+        let workspace = robot.and_then(|robot| robot.robot()?.workspace);
+        let (Some(robot), Some(workspace)) = (robot, workspace) else {
+            return Ok(());
+        };
+        let contact = &self.scene.protocol.contact;
+        let [half_x, half_y] = footprint.half_extent().map(Nanometre::to_millimetres);
+        let heights = [-contact.clearance_mm.value, contact.search_mm.value];
+        let corner = |x: f64, y: f64, z: f64| {
+            let [x, y, z] = [x, y, z].map(Millimetre);
+            Point { x, y, z }
+        };
+        let corners = heights.into_iter().flat_map(|z| {
+            [
+                (-half_x, -half_y),
+                (-half_x, half_y),
+                (half_x, -half_y),
+                (half_x, half_y),
+            ]
+            .map(|(x, y)| corner(x, y, z))
+        });
+        match corners
+            .into_iter()
+            .find(|corner| !workspace.contains(corner))
+        {
+            None => Ok(()),
+            Some(Point { x, y, z }) => {
+                let problem = format!(
+                    "the robot `{}` does not reach ({x}, {y}, {z}): shorten `search_mm` or `clearance_mm`, or state a smaller footprint",
+                    robot.key()
+                );
+                Err(self.refusal(contact.search_mm.at(), SceneProblem::Contradiction(problem)))
+            }
+        }
     }
 
     /// Refuses depths of the protocol that the limit forbids.

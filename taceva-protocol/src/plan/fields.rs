@@ -2,12 +2,13 @@
 
 use taceva_core::{Field, FieldSet};
 
-use super::draft::Draft;
+use super::draft::{Draft, PlannedMetric, SURFACE};
 use super::facts::StudyFacts;
 use super::reason::{PlanReason, Subject};
+use crate::phase::PhaseKind;
 
 /// Removes fields that no kept metric or model reads, and the pictures of presses that none looks at.
-pub(super) fn pass(mut draft: Draft, _: &StudyFacts<'_>) -> Draft {
+pub(super) fn pass(mut draft: Draft, facts: &StudyFacts<'_>) -> Draft {
     let of_metrics = draft.metrics.iter().map(|metric| metric.fields);
     let read = of_metrics.fold(FieldSet::EMPTY, |all, fields| all | fields);
     let seen = draft
@@ -24,11 +25,24 @@ pub(super) fn pass(mut draft: Draft, _: &StudyFacts<'_>) -> Draft {
         (false, false) => read.with(Field::Point),
         (false, true) => read,
     };
+    let needed = match draft.phases.contains(&PhaseKind::Idle) {
+        true => needed.with(Field::Stamp),
+        false => needed,
+    };
     for field in draft.fields.iter().collect::<Vec<Field>>() {
         if !needed.contains(field) {
             draft.fields = draft.fields.without(field);
             draft.skip(Subject::Field(field), PlanReason::NoMetricNeeds);
         }
+    }
+    let feels = |metric: &PlannedMetric| metric.phase == PhaseKind::SurfaceMap;
+    if !facts.is_recording()
+        && draft.channels.iter().any(|name| name == SURFACE)
+        && !draft.metrics.iter().any(feels)
+    {
+        draft.channels.retain(|name| name != SURFACE);
+        let height = Subject::Channel(SURFACE.to_owned());
+        draft.skip(height, PlanReason::NoMetricNeeds);
     }
     let seen: Vec<_> = draft
         .phases

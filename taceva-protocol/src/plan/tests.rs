@@ -1,116 +1,13 @@
 //! The planner on metrics of its own, so that each rule is tried whatever the catalogue holds.
 
-use taceva_core::{
-    Axes, Descriptor, DescriptorSpec, DriverKey, DriverSource, Facts, FieldSet, Footprint,
-    ForceFacts, FrameInfo, Hertz, LightingFacts, Millimetre, Newton, PixelFormat, RobotFacts,
-    SensorFacts,
-};
+mod bench;
+
+use taceva_core::{Axes, FieldSet, Millimetre, SensorFacts};
 use taceva_core::{Channel, Channels, Field};
 
 use super::*;
 use crate::source::{RecordingInfo, RigInfo};
-
-fn descriptor(key: &'static str, facts: Facts) -> Descriptor {
-    DescriptorSpec::new(DriverKey::fixed(key), key, DriverSource::Simulated, facts)
-        .check()
-        .expect("no contradiction")
-}
-
-fn sensor() -> SensorFacts {
-    SensorFacts {
-        frame: Some(FrameInfo {
-            width: 64,
-            height: 48,
-            format: PixelFormat::Rgb8,
-        }),
-        rate: Some(Hertz(25.0)),
-        opaque: Some(false),
-        markers: Some(true),
-        footprint: Some(Footprint::rectangle(8.0, 10.0, Some(1.0)).expect("lengths")),
-        force_max: Some(Newton(1.83)),
-        ..SensorFacts::default()
-    }
-}
-
-fn rig_of(sensor: SensorFacts, axes: Axes) -> RigInfo {
-    RigInfo {
-        sensor: Some(descriptor("test/gel", Facts::Sensor(Box::new(sensor)))),
-        robot: Some(descriptor(
-            "test/robot",
-            Facts::Robot(RobotFacts::default()),
-        )),
-        force: Some(descriptor(
-            "test/force",
-            Facts::Force(ForceFacts {
-                axes,
-                force_max: Some(Newton(20.0)),
-                ..ForceFacts::default()
-            }),
-        )),
-        lighting: Some(descriptor(
-            "test/light",
-            Facts::Lighting(LightingFacts {
-                scenes: ["normal", "S1", "S2"].map(str::to_owned).to_vec(),
-            }),
-        )),
-    }
-}
-
-/// The metrics of the paper as the planner sees them.
-fn paper_metrics() -> Vec<MetricNeeds> {
-    let truth = FieldSet::EMPTY.with(Field::Truth);
-    let cells = FieldSet::EMPTY.with(Field::Prediction).with(Field::Point);
-    let spacing = FieldSet::EMPTY
-        .with(Field::Kind)
-        .with(Field::Spacing)
-        .with(Field::PredictedSpacing);
-    vec![
-        MetricNeeds::new("mae", FieldSet::PAIRS, &[]),
-        MetricNeeds::new("sr", spacing, &[]),
-        MetricNeeds::new("sensitivity", truth, &["Px", "Py", "Pz", "Fz"]),
-        MetricNeeds::new("r_spatial", FieldSet::PAIRS, &["Px", "Py", "Pz"]),
-        MetricNeeds::new(
-            "r_light",
-            FieldSet::PAIRS.with(Field::Scene).with(Field::Intensity),
-            &[],
-        ),
-        MetricNeeds::new(
-            "repeatability",
-            cells.with(Field::Repeat).with(Field::DepthStep),
-            &[],
-        ),
-        MetricNeeds::new("hysteresis", truth.with(Field::Phase), &["Pz", "Fz"]),
-        MetricNeeds::new(
-            "inter_sensor",
-            truth.with(Field::UnitId),
-            &["Px", "Py", "Pz"],
-        ),
-        MetricNeeds::new(
-            "intrinsic",
-            FieldSet::EMPTY.with(Field::Stamp).with(Field::Frame),
-            &[],
-        ),
-    ]
-}
-
-const SMALL: &str = r#"
-scene_version = 1
-name = "small"
-[sensor]
-driver = "test/gel"
-units = ["a", "b"]
-[model]
-name = "ridge"
-[protocol]
-calibration = { points = 5, indentations = 4 }
-spatial = { points = 6 }
-gratings = { step_mm = 0.5, presses = 2 }
-lighting = { points = 3 }
-repeatability = { points = 2, trials = 3, depth_step_mm = 0.25 }
-hysteresis = { points = 2 }
-surface = { points = 4 }
-idle = { frames = 10 }
-"#;
+use bench::{SMALL, paper_metrics, rig_of, sensor};
 
 fn planned_as(text: &str, source: SourceInfo, needs: &[MetricNeeds]) -> Plan {
     let scene = Scene::parse("small", text).expect("a scene");
@@ -373,7 +270,7 @@ fn a_recording_is_planned_by_what_it_holds() {
         "dataset = \"mine\"",
     );
     let plan = planned_as(&text, SourceInfo::Recording(recording), &paper_metrics());
-    assert_eq!(ids(&plan), ["mae"]);
+    assert_eq!(ids(&plan), ["mae", "intrinsic"]);
     assert_eq!(reason(&plan, "hysteresis"), "no sample carries `phase`");
     assert_eq!(reason(&plan, "sensitivity"), "there is no channel `Px`");
     assert!(plan.phases.is_empty() && plan.presses.is_empty());
@@ -407,4 +304,60 @@ fn a_plan_says_the_same_as_data() {
     );
     assert_eq!(json["limits"]["normal_max"], 1.83);
     assert_eq!(json["digest"], plan.digest().to_string());
+}
+
+#[test]
+fn a_whole_rig_gives_every_metric_of_the_catalogue() {
+    let catalogue = MetricNeeds::catalogue();
+    let source = SourceInfo::Rig(Box::new(rig_of(sensor(), Axes::FORCE)));
+    let plan = planned_as(SMALL, source, &catalogue);
+    let left_out: Vec<&MetricNeeds> = catalogue
+        .iter()
+        .filter(|needs| !ids(&plan).contains(&needs.id.as_str()))
+        .collect();
+    assert!(left_out.is_empty(), "{left_out:?}\n{plan}");
+}
+
+#[test]
+fn each_metric_is_computed_on_the_presses_that_vary_what_it_reads() {
+    let expected = [
+        ("mae", PhaseKind::Calibration),
+        ("smape_gated", PhaseKind::Calibration),
+        ("sensitivity", PhaseKind::Calibration),
+        ("uniformity", PhaseKind::Calibration),
+        ("sr", PhaseKind::Gratings),
+        ("r_spatial", PhaseKind::Spatial),
+        ("r_light", PhaseKind::LightSweep),
+    ];
+    let catalogue = MetricNeeds::catalogue();
+    for (id, phase) in expected {
+        let needs = catalogue
+            .iter()
+            .find(|needs| needs.id == id)
+            .expect("in the catalogue");
+        assert_eq!(needs.phase, phase, "{id}");
+    }
+    let of_paper = paper_metrics();
+    let phase = |id: &str| {
+        of_paper
+            .iter()
+            .find(|needs| needs.id == id)
+            .map(|needs| needs.phase)
+    };
+    assert_eq!(phase("repeatability"), Some(PhaseKind::Repeatability));
+    assert_eq!(phase("hysteresis"), Some(PhaseKind::LoadUnload));
+    assert_eq!(phase("inter_sensor"), Some(PhaseKind::SurfaceMap));
+    assert_eq!(phase("intrinsic"), Some(PhaseKind::Idle));
+}
+
+#[test]
+fn metrics_are_told_of_the_sensor_what_the_plan_knows() {
+    let facts = planned(SMALL, rig_of(sensor(), Axes::FORCE)).sensor_facts();
+    assert_eq!(
+        (facts.opaque, facts.frame_size),
+        (Some(false), Some([64, 48]))
+    );
+    assert_eq!(facts.reference_scene, "normal");
+    let depth = facts.footprint.and_then(|footprint| footprint.depth_max());
+    assert_eq!(depth, Some(taceva_core::Nanometre(1_000_000)));
 }

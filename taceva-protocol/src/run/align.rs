@@ -13,7 +13,7 @@ pub(crate) struct Look {
 
 impl Look {
     /// The time from which on everything in it is news.
-    pub(crate) fn from_s(&self) -> f64 {
+    pub(crate) fn since_s(&self) -> f64 {
         self.wrench_s.max(self.pose_s)
     }
 }

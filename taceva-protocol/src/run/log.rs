@@ -25,8 +25,8 @@ pub struct PressRecord {
     pub outcome: Outcome,
     /// Its samples in order, called `<press>/<number>`.
     ///
-    /// Truth is in the channels `Px Py Pz Fx Fy Fz`, in that order. `Pz` is the depth from the first contact; of a
-    /// [`Touch`](crate::Motion::Touch) and a [`Rest`](crate::Motion::Rest) it is the height in the sensor's frame, positive into the gel.
+    /// Truth is in the channels of the plan, in its order. `Pz` is the depth from the first contact, `surface_z` the height in the
+    /// sensor's frame at which a surface was felt, positive into the gel; each is absent where the other is meant.
     pub samples: Vec<Sample>,
 }
 

@@ -10,7 +10,8 @@ use super::align::between;
 use super::error::StopCause;
 use super::event::Event;
 use super::tip::{Step, Tip};
-use crate::plan::PlannedPress;
+use crate::plan::{PlannedPress, SURFACE};
+use crate::press::Motion;
 use crate::specimen::Specimen;
 
 /// Frames that are lost, damaged or older than the rest of the tip before the run gives up.
@@ -93,7 +94,7 @@ pub(super) fn observe(
             frame: None,
         });
     };
-    let (frame, stamp) = camera.frame(before.from_s(), tip, events)?;
+    let (frame, stamp) = camera.frame(before.since_s(), tip, events)?;
     let received_s = stamp.received_s.or(Some(tip.clock.now_s()));
     let after = tip.look()?;
     let (wrench, pose) = between(&before, &after, stamp.valid_s);
@@ -119,20 +120,18 @@ pub(super) fn sample(
     let press = &planned.press;
     let position = observed.pose.position;
     let [fx, fy, fz] = observed.wrench.force.map(|force| force.0);
-    let named = [
-        ("Px", position.x.0),
-        ("Py", position.y.0),
-        ("Pz", position.z.0 - zero_mm),
-        ("Fx", fx),
-        ("Fy", fy),
-        ("Fz", fz),
-    ];
-    let measured = |(name, value): (&str, f64)| {
-        channels
-            .iter()
-            .any(|channel| channel == name)
-            .then_some(value)
-    };
+    let is_press = matches!(press.motion, Motion::Indent(_));
+    let is_touch = matches!(press.motion, Motion::Touch);
+    let truth = channels.iter().map(|name| match name.as_str() {
+        "Px" => Some(position.x.0),
+        "Py" => Some(position.y.0),
+        "Pz" => is_press.then_some(position.z.0 - zero_mm),
+        "Fx" => Some(fx),
+        "Fy" => Some(fy),
+        "Fz" => Some(fz),
+        SURFACE => is_touch.then_some(position.z.0),
+        _ => None,
+    });
     let (kind, spacing): (_, Option<Nanometre>) = match press.specimen {
         Specimen::Sphere { .. } => (None, None),
         Specimen::Grating { kind, spacing } => (Some(kind), Some(spacing)),
@@ -152,7 +151,7 @@ pub(super) fn sample(
         kind,
         spacing,
         frame: observed.frame,
-        truth: Readings::new(named.map(measured).to_vec()),
+        truth: Readings::new(truth.collect()),
         ..Sample::default()
     }
 }

@@ -13,6 +13,7 @@ use super::error::StopCause;
 use super::supervisor::{Observation, Stage, Supervisor, distance};
 use super::time::{Cancel, Timekeeper};
 use super::trip::Trip;
+use crate::limits::FROZEN_READINGS;
 use crate::plan::Plan;
 
 /// A transducer that says nothing for so long is asked again, until the supervisor calls it silent.
@@ -21,11 +22,8 @@ const READ_DEADLINE: Duration = Duration::from_millis(20);
 const READ_TRIES: u32 = 16;
 /// For everything that is no motion.
 pub(super) const DEADLINE: Deadline = Deadline::after(Duration::from_secs(2));
-/// Above the first contact by this much the tip is in the air again, in mm.
-const AIR_MM: f64 = 0.5;
-/// Looks that must find force and pose healthy before the tip moves again after a fault.
-const RECOVERY_TRIES: u32 = 10;
-const RECOVERY_REST: Duration = Duration::from_millis(20);
+/// Segments that a motion may take beyond twice those of its way, before the robot counts as stuck.
+const SPARE_SEGMENTS: f64 = 8.0;
 
 /// A step of a press: done, or the reason why the run must stop.
 pub(super) type Step<T> = Result<T, StopCause>;
@@ -39,21 +37,23 @@ pub(super) struct Tip<'a> {
     pub(super) supervisor: Supervisor,
     pub(super) bounds: Bounds,
     pub(super) pace: Pace,
+    /// Where it was seen last.
+    pub(super) at: Pose,
     /// Where it was sent last.
-    target: Pose,
+    pub(super) target: Pose,
     /// The height of the first contact, while it may be in the gel.
-    contact_mm: Option<f64>,
+    pub(super) contact_mm: Option<f64>,
     /// Whether the robot itself reported a fault: then a person must look first.
-    robot_failed: bool,
+    pub(super) robot_failed: bool,
     /// Whether a wish to stop is left for later, because the tip is leaving already.
-    deaf: bool,
+    pub(super) deaf: bool,
 }
 
 /// How fast, how far, how hard.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Pace {
     contact: Speed,
-    travel: Speed,
+    pub(super) travel: Speed,
     segment_mm: f64,
     step_mm: f64,
     search_mm: f64,
@@ -95,6 +95,7 @@ impl<'a> Tip<'a> {
             supervisor,
             bounds,
             pace,
+            at: Pose::default(),
             target: Pose::default(),
             contact_mm: None,
             robot_failed: false,
@@ -105,7 +106,7 @@ impl<'a> Tip<'a> {
     /// Learns where it stands, and goes straight up to the height of travel if it stands below.
     pub(super) fn find(&mut self) -> Step<()> {
         self.clear_halt()?;
-        self.target = self.pose()?.0;
+        self.find_pose()?;
         let height = -self.pace.clearance_mm;
         if self.target.position.z.0 > height {
             // Whoever left it there may have left it in the gel.
@@ -149,8 +150,7 @@ impl<'a> Tip<'a> {
                 break;
             }
             self.approach([self.target.position.x.0, self.target.position.y.0, z])?;
-            self.clock.rest(self.pace.settle);
-            let look = self.look()?;
+            let look = self.settle()?;
             if look.wrench.force[2].0 >= self.pace.threshold_n {
                 let height_mm = look.pose.position.z.0;
                 self.contact_mm = Some(height_mm);
@@ -163,117 +163,44 @@ impl<'a> Tip<'a> {
     }
 
     /// Goes straight to a place in mm, in segments, each followed by a look.
+    ///
+    /// Each segment begins where the tip really is, so that one that lagged behind does not leap after its target.
     pub(super) fn approach(&mut self, [x, y, z]: [f64; 3]) -> Step<()> {
-        let from = self.target;
         let [x, y, z] = [x, y, z].map(Millimetre);
-        let to = Pose {
-            position: Point { x, y, z },
-            ..from
-        };
-        let segments = (distance(&from, &to) / self.pace.segment_mm)
-            .ceil()
-            .max(1.0);
-        #[expect(
-            clippy::cast_possible_truncation,
-            clippy::cast_sign_loss,
-            reason = "a way within the bounds has some thousand segments"
-        )]
-        let segments = segments as u32;
-        for segment in 1..segments {
-            self.go(
-                part_way(&from, &to, f64::from(segment) / f64::from(segments)),
-                self.pace.contact,
-            )?;
-        }
-        self.go(to, self.pace.contact)
-    }
-
-    /// Lets the gel come to rest, and looks.
-    pub(super) fn settle(&mut self) -> Step<Look> {
-        self.clock.rest(self.pace.settle);
-        self.look()
-    }
-
-    /// Leaves the gel along the way it came, under watch, up to the height of travel.
-    pub(super) fn retreat(&mut self) -> Step<()> {
-        self.clear_halt()?;
-        self.target = self.pose()?.0;
-        let now_s = self.clock.now_s();
-        self.supervisor.watch(
-            Stage::Retreat {
-                force_n: f64::INFINITY,
-            },
-            now_s,
-        );
-        let force_n = self.look()?.wrench.force[2].0;
-        let now_s = self.clock.now_s();
-        self.supervisor.watch(Stage::Retreat { force_n }, now_s);
-        let Point { x, y, z } = self.target.position;
-        let height = -self.pace.clearance_mm;
-        let air = self
-            .contact_mm
-            .map_or(height, |contact| (contact - AIR_MM).max(height));
-        if z.0 > air {
-            self.approach([x.0, y.0, air])?;
-        }
-        let z = Millimetre(height.min(z.0));
-        let up = Pose {
+        let goal = Pose {
             position: Point { x, y, z },
             ..self.target
         };
-        self.go(up, self.pace.travel)?;
-        self.contact_mm = None;
-        Ok(())
-    }
-
-    /// After a fault: leaves the gel if force and pose can be trusted again, else stays halted. Whether it is in the air.
-    pub(super) fn abandon(&mut self) -> bool {
-        let _ = self.robot.halt();
-        if self.robot_failed {
-            return false;
-        }
-        for _ in 0..RECOVERY_TRIES {
-            self.clock.rest(RECOVERY_REST);
-            let retreated = self.is_trustworthy() && self.go_clear().is_ok();
-            if retreated {
-                return true;
+        let segment_mm = self.pace.segment_mm;
+        let mut patience = SPARE_SEGMENTS + 2.0 * distance(&self.at, &goal) / segment_mm;
+        loop {
+            let way_mm = distance(&self.at, &goal);
+            if way_mm <= segment_mm {
+                return self.go(goal, self.pace.contact);
             }
-            let _ = self.robot.halt();
-            if self.robot_failed {
-                return false;
+            let next = part_way(&self.at, &goal, segment_mm / way_mm);
+            self.go(next, self.pace.contact)?;
+            patience -= 1.0;
+            if patience < 0.0 {
+                let distance_mm = distance(&self.at, &goal);
+                let trip = self.supervisor.trip(Trip::Diverged { distance_mm });
+                return Err(StopCause::Tripped(trip));
             }
         }
-        false
     }
 
-    fn go_clear(&mut self) -> Step<()> {
-        // A wish to stop is no reason to stay in the gel.
-        self.deaf = true;
-        let done = self.retreat();
-        self.deaf = false;
-        done
-    }
-
-    /// Whether two looks at the resting tip are healthy and differ, as those of a live transducer do.
-    fn is_trustworthy(&mut self) -> bool {
-        if self.clear_halt().is_err() {
-            return false;
+    /// Lets the gel come to rest, and looks until the force is not that of before the last motion.
+    pub(super) fn settle(&mut self) -> Step<Look> {
+        self.clock.rest(self.pace.settle);
+        for _ in 0..FROZEN_READINGS {
+            let look = self.look()?;
+            if self.supervisor.is_fresh() {
+                return Ok(look);
+            }
         }
-        let now_s = self.clock.now_s();
-        self.supervisor.watch(
-            Stage::Retreat {
-                force_n: f64::INFINITY,
-            },
-            now_s,
-        );
-        match self.pose() {
-            Ok((pose, _)) => self.target = pose,
-            Err(_) => return false,
-        }
-        match (self.look(), self.look()) {
-            (Ok(one), Ok(other)) => one.wrench != other.wrench,
-            _ => false,
-        }
+        let readings = FROZEN_READINGS;
+        let trip = self.supervisor.trip(Trip::Frozen { readings });
+        Err(StopCause::Tripped(trip))
     }
 
     fn watch_travel(&mut self, threshold_n: f64) {
@@ -281,18 +208,21 @@ impl<'a> Tip<'a> {
         self.supervisor.watch(Stage::Travel { threshold_n }, now_s);
     }
 
-    fn clear_halt(&mut self) -> Step<()> {
+    pub(super) fn clear_halt(&mut self) -> Step<()> {
         self.robot.clear_halt(DEADLINE).map_err(|error| {
             self.robot_failed = true;
             StopCause::Device(error)
         })
     }
 
-    fn pose(&mut self) -> Step<(Pose, f64)> {
-        match self.robot.pose(DEADLINE) {
-            Ok((pose, stamp)) => Ok((pose, stamp.valid_s)),
-            Err(error) => Err(self.failed(error)),
-        }
+    /// Learns where the tip is; it is where it should be.
+    pub(super) fn find_pose(&mut self) -> Step<()> {
+        let (pose, _) = match self.robot.pose(DEADLINE) {
+            Ok(read) => read,
+            Err(error) => return Err(self.failed(error)),
+        };
+        (self.at, self.target) = (pose, pose);
+        Ok(())
     }
 
     /// A robot that fails is halted, whatever it says.
@@ -304,14 +234,14 @@ impl<'a> Tip<'a> {
     }
 
     /// One straight motion, then a look.
-    fn go(&mut self, target: Pose, speed: Speed) -> Step<()> {
+    pub(super) fn go(&mut self, target: Pose, speed: Speed) -> Step<()> {
         if self.cancel.is_cancelled() && !self.deaf {
             return Err(StopCause::Cancelled);
         }
-        if !is_straight_up(&self.target, &target) {
+        if !is_straight_up(&self.at, &target) {
             self.bounds.admit(&target)?;
         }
-        let seconds = 1.0 + 2.0 * distance(&self.target, &target) / speed.mm_per_s();
+        let seconds = 1.0 + 2.0 * distance(&self.at, &target) / speed.mm_per_s();
         let deadline = Deadline::after(Duration::from_secs_f64(seconds));
         self.target = target;
         if let Err(error) = self.robot.move_to(target, speed, deadline) {
@@ -327,6 +257,7 @@ impl<'a> Tip<'a> {
             Ok(read) => read,
             Err(error) => return Err(self.failed(error)),
         };
+        self.at = pose;
         let observation = Observation::Pose {
             pose,
             stamp,

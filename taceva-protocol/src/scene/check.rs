@@ -1,9 +1,11 @@
 //! From what is written to a scene: the checks that a parser of types cannot make.
 
+mod protocol;
+
 use std::collections::BTreeSet;
 
 use serde::Deserialize;
-use taceva_metrics::catalogue;
+use taceva_metrics::{Settings, catalogue};
 
 use super::Scene;
 use super::counts::Protocol;
@@ -14,10 +16,7 @@ use super::metrics::{MetricsSpec, ReportSpec};
 use super::parse::Text;
 use super::setting::Setting;
 use super::study::Study;
-use crate::specimen;
 
-/// The most of anything that can be counted in a scene.
-const GREATEST_COUNT: u64 = 1_000_000;
 /// The longest length in a scene, in mm.
 const GREATEST_LENGTH: f64 = 1_000.0;
 
@@ -292,7 +291,7 @@ impl Check<'_> {
             ("smoothing", &settings.smoothing),
         ] {
             if let Some(count) = count {
-                self.count(key, count, 1, 10_000)?;
+                self.count(key, count, 1, u64::from(Settings::BINS_MAX))?;
             }
         }
         for (key, number) in [
@@ -323,67 +322,6 @@ impl Check<'_> {
             }
         }
         Ok(())
-    }
-
-    fn protocol(&self, protocol: &Protocol) -> Checked {
-        let Protocol {
-            contact,
-            calibration,
-            spatial,
-            gratings,
-            lighting,
-            repeatability,
-            hysteresis,
-            surface,
-            idle,
-        } = protocol;
-        for (key, count) in [
-            ("points", &calibration.points),
-            ("points", &spatial.points),
-            ("presses", &gratings.presses),
-            ("points", &lighting.points),
-            ("points", &repeatability.points),
-            ("points", &hysteresis.points),
-            ("points", &surface.points),
-            ("frames", &idle.frames),
-        ] {
-            self.count(key, count, 1, GREATEST_COUNT)?;
-        }
-        self.count("indentations", &calibration.indentations, 1, 1_000)?;
-        // One approach repeats nothing, and one picture has no rate.
-        self.count("trials", &repeatability.trials, 2, GREATEST_COUNT)?;
-        self.count("frames", &idle.frames, 2, GREATEST_COUNT)?;
-        for (key, length) in [
-            ("indenter_radius_mm", &contact.indenter_radius_mm),
-            ("step_mm", &contact.step_mm),
-            ("threshold_N", &contact.threshold_n),
-            ("clearance_mm", &contact.clearance_mm),
-            ("search_mm", &contact.search_mm),
-            ("travel_mm_s", &contact.travel_mm_s),
-            ("depth_min_mm", &calibration.depth_min_mm),
-            ("depth_min_mm", &spatial.depth_min_mm),
-            ("depth_step_mm", &repeatability.depth_step_mm),
-            ("depth_step_mm", &hysteresis.depth_step_mm),
-        ] {
-            self.length(key, length)?;
-        }
-        for shear in [
-            &calibration.shear_mm,
-            &spatial.shear_mm,
-            &repeatability.shear_mm,
-        ] {
-            if shear.value != 0.0 {
-                self.length("shear_mm", shear)?;
-            }
-        }
-        self.range("settle_s", &contact.settle_s, 10.0)?;
-        self.range("step_mm", &contact.step_mm, 0.5)?;
-        // In contact the tip must be able to stop within a step.
-        self.range("speed_mm_s", &contact.speed_mm_s, 5.0)?;
-        self.range("depth_fraction", &gratings.depth_fraction, 1.0)?;
-        specimen::spacings(gratings)
-            .map(drop)
-            .map_err(|refused| self.text.error(refused.at, refused.problem))
     }
 
     fn count(&self, key: &'static str, count: &Setting<u32>, least: u64, greatest: u64) -> Checked {

@@ -12,7 +12,7 @@ pub struct SceneError {
     /// The line, from 1, if one line is to blame.
     pub line: Option<u64>,
     /// What is wrong.
-    pub problem: SceneProblem,
+    pub problem: Box<SceneProblem>,
 }
 
 impl fmt::Display for SceneError {

@@ -1,6 +1,8 @@
 //! What a scene wants computed and written.
 
 use serde::Deserialize;
+use taceva_core::{Nanometre, Newton};
+use taceva_metrics::Settings;
 
 use super::setting::Setting;
 
@@ -29,6 +31,28 @@ pub struct MetricSettings {
     pub smoothing: Option<Setting<u32>>,
     /// The error up to which a spacing counts as recognised, in mm.
     pub tolerance_mm: Option<Setting<f64>>,
+}
+
+impl MetricSettings {
+    /// The settings, with the defaults of the metrics where the scene says nothing.
+    pub fn settings(&self) -> Settings {
+        let default = Settings::default();
+        let tolerance = self
+            .tolerance_mm
+            .and_then(|length| Nanometre::from_millimetres(length.value));
+        Settings {
+            bins: self.bins.map_or(default.bins, |bins| bins.value),
+            n_min: self
+                .n_min
+                .map_or(default.n_min, |least| u64::from(least.value)),
+            gate: self.gate_n.map_or(default.gate, |gate| Newton(gate.value)),
+            smoothing_window: self
+                .smoothing
+                .map_or(default.smoothing_window, |width| width.value),
+            resolution_tolerance: tolerance.unwrap_or(default.resolution_tolerance),
+            ..default
+        }
+    }
 }
 
 /// How results are written.

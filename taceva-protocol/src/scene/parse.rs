@@ -43,7 +43,7 @@ impl Text {
         SceneError {
             source_name: self.source_name.clone(),
             line: at.map(|at| self.line(at)),
-            problem,
+            problem: Box::new(problem),
         }
     }
 

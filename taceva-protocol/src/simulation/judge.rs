@@ -184,6 +184,11 @@ impl Judge {
         self.hazard.get_or_insert((hazard, since_s));
     }
 
+    /// The transducer fell silent: whatever its next reading would have shown, the silence is what there is to answer.
+    pub(super) fn hushed(&mut self) {
+        self.hazard.take_if(|(hazard, _)| *hazard != SILENCE);
+    }
+
     /// The transducer speaks again: a silence that was shorter than a stale reading was none.
     pub(super) fn heard(&mut self) {
         self.hazard.take_if(|(hazard, _)| *hazard == SILENCE);

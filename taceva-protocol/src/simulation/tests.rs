@@ -1,15 +1,16 @@
-//! Runs on the simulated rig, and proof that its judge is awake.
+//! Runs on the simulated rig, one property each.
+
+mod seeds;
 
 use std::collections::BTreeSet;
 
 use taceva_core::{Deadline, DriverError, ErrorKind, Millimetre, SinkError};
 
 use super::devices::{SimulatedForce, SimulatedRobot, SimulatedSensor};
-use super::fault::{FaultCounts, FaultKind, Faults};
+use super::fault::{FaultKind, Faults};
 use super::judge::{Judge, Stated};
-use super::scenario::{scenario_plan, simulate, simulate_with};
-use super::world::{Gel, Sabotage, Shared};
-use super::*;
+use super::scenario::scenario_plan;
+use super::world::{Gel, Shared};
 use crate::digest::Digest;
 use crate::draw::Draws;
 use crate::plan::Plan;
@@ -118,91 +119,6 @@ impl Bench {
     fn height(&self) -> f64 {
         self.shared.world().tip[2]
     }
-}
-
-#[test]
-fn five_hundred_seeds_pass_without_a_violation_and_strike_with_every_fault() {
-    let mut struck = FaultCounts::default();
-    let mut checks = Checks::default();
-    let mut seeds_of = [0_u32; FaultKind::ALL.len()];
-    for seed in 0..500 {
-        let report = simulate(seed);
-        assert_eq!(
-            report.violations,
-            [],
-            "seed {seed}: play it again with `cargo run -p taceva-protocol --example faults -- 1 {seed}`"
-        );
-        for kind in FaultKind::ALL {
-            seeds_of[kind as usize] += u32::from(report.struck.of(kind) > 0);
-        }
-        struck.add(&report.struck);
-        checks.join(&report.checks);
-    }
-    for kind in FaultKind::ALL {
-        assert!(
-            seeds_of[kind as usize] >= 10,
-            "{kind} struck in too few seeds"
-        );
-    }
-    assert!(checks.halts > 500 && checks.samples > 5_000 && checks.motions > 100_000);
-    assert!(checks.slowest_halt_s <= HALT_WITHIN_S);
-}
-
-#[test]
-fn a_seed_is_the_same_run_every_time() {
-    for seed in [3, 17, 42] {
-        assert_eq!(simulate(seed), simulate(seed));
-    }
-}
-
-/// Violations of the first seeds with a mistake planted.
-fn found_with(sabotage: Sabotage) -> Vec<Violation> {
-    let reports = (0..60).map(|seed| simulate_with(seed, sabotage));
-    reports.flat_map(|report| report.violations).collect()
-}
-
-#[test]
-fn the_judge_finds_limits_that_were_loosened() {
-    let found = found_with(Sabotage::LooseLimits);
-    assert!(
-        found
-            .iter()
-            .any(|found| matches!(found, Violation::TooHard { .. })),
-        "{found:?}"
-    );
-}
-
-#[test]
-fn the_judge_finds_halts_that_come_late() {
-    let found = found_with(Sabotage::SlowHalt);
-    assert!(
-        found
-            .iter()
-            .any(|found| matches!(found, Violation::LateHalt { .. })),
-        "{found:?}"
-    );
-}
-
-#[test]
-fn the_judge_finds_a_disk_that_acknowledges_what_it_did_not_sync() {
-    let found = found_with(Sabotage::LazyDisk);
-    assert!(
-        found
-            .iter()
-            .any(|found| matches!(found, Violation::Lost(_) | Violation::Doubled(_))),
-        "{found:?}"
-    );
-}
-
-#[test]
-fn the_judge_finds_frames_of_another_time() {
-    let found = found_with(Sabotage::OldFrames);
-    assert!(
-        found
-            .iter()
-            .any(|found| matches!(found, Violation::Untrue(_))),
-        "{found:?}"
-    );
 }
 
 #[test]

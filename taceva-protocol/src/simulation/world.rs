@@ -197,6 +197,8 @@ impl World {
     pub(super) fn read_force(&mut self, deadline_s: f64) -> Option<([f64; 3], f64)> {
         if self.faults.strike(FaultKind::Silence, self.now_s) {
             let listening_s = *self.listening_s.get_or_insert(self.now_s);
+            // What the force is, nobody can know until it speaks; the tip rests meanwhile.
+            self.judge.hushed();
             self.hazard(SILENCE, listening_s + STALE_AFTER_S);
             self.pass(deadline_s);
             return None;

@@ -1,0 +1,104 @@
+//! A rig, a scene and metrics to plan with.
+
+use taceva_core::Field;
+use taceva_core::{
+    Axes, Descriptor, DescriptorSpec, DriverKey, DriverSource, Facts, FieldSet, Footprint,
+    ForceFacts, FrameInfo, Hertz, LightingFacts, Newton, PixelFormat, RobotFacts, SensorFacts,
+};
+
+use crate::plan::draft::MetricNeeds;
+use crate::source::RigInfo;
+
+fn descriptor(key: &'static str, facts: Facts) -> Descriptor {
+    DescriptorSpec::new(DriverKey::fixed(key), key, DriverSource::Simulated, facts)
+        .check()
+        .expect("no contradiction")
+}
+
+pub(super) fn sensor() -> SensorFacts {
+    SensorFacts {
+        frame: Some(FrameInfo {
+            width: 64,
+            height: 48,
+            format: PixelFormat::Rgb8,
+        }),
+        rate: Some(Hertz(25.0)),
+        opaque: Some(false),
+        markers: Some(true),
+        footprint: Some(Footprint::rectangle(8.0, 10.0, Some(1.0)).expect("lengths")),
+        force_max: Some(Newton(1.83)),
+        ..SensorFacts::default()
+    }
+}
+
+pub(super) fn rig_of(sensor: SensorFacts, axes: Axes) -> RigInfo {
+    RigInfo {
+        sensor: Some(descriptor("test/gel", Facts::Sensor(Box::new(sensor)))),
+        robot: Some(descriptor(
+            "test/robot",
+            Facts::Robot(RobotFacts::default()),
+        )),
+        force: Some(descriptor(
+            "test/force",
+            Facts::Force(ForceFacts {
+                axes,
+                force_max: Some(Newton(20.0)),
+                ..ForceFacts::default()
+            }),
+        )),
+        lighting: Some(descriptor(
+            "test/light",
+            Facts::Lighting(LightingFacts {
+                scenes: ["normal", "S1", "S2"].map(str::to_owned).to_vec(),
+            }),
+        )),
+    }
+}
+
+/// The metrics of the paper as the planner sees them.
+pub(super) fn paper_metrics() -> Vec<MetricNeeds> {
+    let truth = FieldSet::EMPTY.with(Field::Truth);
+    let cells = FieldSet::EMPTY.with(Field::Prediction).with(Field::Point);
+    let spacing = FieldSet::EMPTY
+        .with(Field::Kind)
+        .with(Field::Spacing)
+        .with(Field::PredictedSpacing);
+    vec![
+        MetricNeeds::new("mae", FieldSet::PAIRS, &[]),
+        MetricNeeds::new("sr", spacing, &[]),
+        MetricNeeds::new("sensitivity", truth, &["Px", "Py", "Pz", "Fz"]),
+        MetricNeeds::new("r_spatial", FieldSet::PAIRS, &["Px", "Py", "Pz"]),
+        MetricNeeds::new(
+            "r_light",
+            FieldSet::PAIRS.with(Field::Scene).with(Field::Intensity),
+            &[],
+        ),
+        MetricNeeds::new("repeatability", cells.with(Field::DepthStep), &[]),
+        MetricNeeds::new("hysteresis", truth.with(Field::Phase), &["Pz", "Fz"]),
+        MetricNeeds::new(
+            "inter_sensor",
+            truth.with(Field::UnitId),
+            &["Px", "Py", "surface_z"],
+        ),
+        MetricNeeds::new("intrinsic", FieldSet::EMPTY, &[]),
+    ]
+}
+
+pub(super) const SMALL: &str = r#"
+scene_version = 1
+name = "small"
+[sensor]
+driver = "test/gel"
+units = ["a", "b"]
+[model]
+name = "ridge"
+[protocol]
+calibration = { points = 5, indentations = 4 }
+spatial = { points = 6 }
+gratings = { step_mm = 0.5, presses = 2 }
+lighting = { points = 3 }
+repeatability = { points = 2, trials = 3, depth_step_mm = 0.25 }
+hysteresis = { points = 2 }
+surface = { points = 4 }
+idle = { frames = 10 }
+"#;

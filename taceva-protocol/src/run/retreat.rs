@@ -1,0 +1,97 @@
+//! The way out of the gel: after a press, after a halt, and after a fault whose signals must first be trusted again.
+
+use std::time::Duration;
+
+use taceva_core::{Millimetre, Point, Pose};
+
+use super::supervisor::Stage;
+use super::tip::{Step, Tip};
+
+/// Above the first contact by this much the tip is in the air again, in mm.
+const AIR_MM: f64 = 0.5;
+/// Looks that must find force and pose healthy before the tip moves again after a fault.
+const RECOVERY_TRIES: u32 = 10;
+const RECOVERY_REST: Duration = Duration::from_millis(20);
+
+impl Tip<'_> {
+    /// Leaves the gel along the way it came, under watch, up to the height of travel.
+    pub(super) fn retreat(&mut self) -> Step<()> {
+        self.clear_halt()?;
+        self.find_pose()?;
+        let now_s = self.clock.now_s();
+        self.supervisor.watch(
+            Stage::Retreat {
+                force_n: f64::INFINITY,
+            },
+            now_s,
+        );
+        let force_n = self.look()?.wrench.force[2].0;
+        let now_s = self.clock.now_s();
+        self.supervisor.watch(Stage::Retreat { force_n }, now_s);
+        let Point { x, y, z } = self.target.position;
+        let height = -self.pace.clearance_mm;
+        let air = self
+            .contact_mm
+            .map_or(height, |contact| (contact - AIR_MM).max(height));
+        if z.0 > air {
+            self.approach([x.0, y.0, air])?;
+        }
+        let z = Millimetre(height.min(z.0));
+        let up = Pose {
+            position: Point { x, y, z },
+            ..self.target
+        };
+        self.go(up, self.pace.travel)?;
+        self.contact_mm = None;
+        Ok(())
+    }
+
+    /// After a fault: leaves the gel if force and pose can be trusted again, else stays halted. Whether it is in the air.
+    pub(super) fn abandon(&mut self) -> bool {
+        let _ = self.robot.halt();
+        if self.robot_failed {
+            return false;
+        }
+        for _ in 0..RECOVERY_TRIES {
+            self.clock.rest(RECOVERY_REST);
+            let retreated = self.is_trustworthy() && self.go_clear().is_ok();
+            if retreated {
+                return true;
+            }
+            let _ = self.robot.halt();
+            if self.robot_failed {
+                return false;
+            }
+        }
+        false
+    }
+
+    fn go_clear(&mut self) -> Step<()> {
+        // A wish to stop is no reason to stay in the gel.
+        self.deaf = true;
+        let done = self.retreat();
+        self.deaf = false;
+        done
+    }
+
+    /// Whether two looks at the resting tip are healthy and differ, as those of a live transducer do.
+    fn is_trustworthy(&mut self) -> bool {
+        if self.clear_halt().is_err() {
+            return false;
+        }
+        let now_s = self.clock.now_s();
+        self.supervisor.watch(
+            Stage::Retreat {
+                force_n: f64::INFINITY,
+            },
+            now_s,
+        );
+        if self.find_pose().is_err() {
+            return false;
+        }
+        match (self.look(), self.look()) {
+            (Ok(one), Ok(other)) => one.wrench != other.wrench,
+            _ => false,
+        }
+    }
+}
