@@ -20,6 +20,8 @@ mod metric;
 mod moments;
 mod pair_sums;
 mod paired;
+#[cfg(feature = "rayon")]
+mod parallel;
 mod plan;
 mod plane_sums;
 mod resolution;
