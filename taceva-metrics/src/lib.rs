@@ -13,6 +13,7 @@ mod facts;
 mod flag;
 pub mod kernels;
 mod lighting;
+mod geometry;
 mod map;
 mod matrix;
 mod merge;
