@@ -3,6 +3,7 @@
 use std::cmp::Ordering;
 
 use crate::exact::{Dyadic, ExactSum};
+use crate::merge::Merge;
 
 /// `value`, which is finite, without rounding.
 pub(crate) fn exactly(value: f64) -> Dyadic {
@@ -23,6 +24,12 @@ pub(crate) fn magnitude(value: Dyadic) -> Dyadic {
     match sign(&value) {
         Ordering::Less => -value,
         _ => value,
+    }
+}
+
+impl Merge for ExactSum {
+    fn merge(&mut self, other: &ExactSum) {
+        ExactSum::merge(self, other);
     }
 }
 

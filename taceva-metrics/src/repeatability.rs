@@ -75,7 +75,7 @@ fn repeatability(spreads: &SpreadSums, unit: Unit) -> Numbers {
 /// RN of the mean of exact values.
 fn mean(sum: &ExactSum, count: u64) -> Result<f64, UndefinedReason> {
     if count == 0 {
-        return Err(UndefinedReason::NoRepeats);
+        return Err(UndefinedReason::NoRepeatedPress);
     }
     Ok(sum.to_dyadic().over(&Dyadic::from(count)))
 }

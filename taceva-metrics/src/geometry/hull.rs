@@ -3,6 +3,7 @@
 use std::cmp::Ordering;
 
 use super::orientation::{Place, doubled_area, turn};
+use crate::paired::is_valid;
 
 /// The corners of the convex hull of points in the plane.
 ///
@@ -32,6 +33,18 @@ impl Hull {
         corners.pop();
         corners.extend(&upper[..upper.len() - 1]);
         Hull { corners }
+    }
+
+    /// The hull with the given corners, x, y, x, y, …, as a state holds them.
+    ///
+    /// # Errors
+    /// What is wrong with them, if they are not the corners of a hull in their order.
+    pub(crate) fn from_values(values: &[f64]) -> Result<Hull, String> {
+        let corners: Vec<Place> = values.chunks_exact(2).map(|pair| [pair[0], pair[1]]).collect();
+        let whole = values.len() % 2 == 0 && values.iter().all(|value| is_valid(*value));
+        let hull = whole.then(|| Hull::of(corners.iter().copied()));
+        let same = hull.filter(|hull| hull.corners == corners);
+        same.ok_or_else(|| "the corners of a hull are not those of one, anticlockwise".to_owned())
     }
 
     /// The corners in order.

@@ -32,6 +32,11 @@ impl Gap {
             points: there + back,
         })
     }
+
+    /// RN of the mean of both directions; lengths are far from the ends of binary64.
+    pub(crate) fn both(&self) -> f64 {
+        (self.forward + self.backward) * 0.5
+    }
 }
 
 /// RN of the mean distance from the points of `from` within the hull of `to` to the nearest of `to`, and how many they are.

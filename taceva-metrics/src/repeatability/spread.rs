@@ -104,7 +104,7 @@ impl SpreadSums {
         } else if !cells.are_named() {
             Some(UndefinedReason::NoClusters)
         } else if spreads.is_empty() {
-            Some(UndefinedReason::NoRepeats)
+            Some(UndefinedReason::NoRepeatedPress)
         } else if !spreads.iter().all(Spread::is_finite) {
             Some(UndefinedReason::Overflow)
         } else {
