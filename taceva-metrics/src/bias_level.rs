@@ -81,7 +81,10 @@ fn greatest_bias(sums: &LevelSums) -> Finished {
     if sums.n == 0 {
         return Err(UndefinedReason::Empty);
     }
-    let enough = sums.levels.values().filter(|level| level.n >= LEAST_SAMPLES);
+    let enough = sums
+        .levels
+        .values()
+        .filter(|level| level.n >= LEAST_SAMPLES);
     let biases = enough.map(|level| level.mean().abs());
     biases.max_by(f64::total_cmp).ok_or(UndefinedReason::NoBin {
         least: LEAST_SAMPLES,
@@ -94,7 +97,11 @@ fn curve(sums: &LevelSums, unit: Unit, width: i64) -> Curve {
     Curve {
         x: sums.levels.keys().map(middle).collect(),
         x_unit: unit,
-        values: sums.levels.values().map(|level| Some(level.mean())).collect(),
+        values: sums
+            .levels
+            .values()
+            .map(|level| Some(level.mean()))
+            .collect(),
         counts: sums.levels.values().map(|level| level.n).collect(),
         band: None,
     }
@@ -145,13 +152,18 @@ impl Channelwise for Levels {
         let (&[n, n_invalid], []) = record.with_cells()?;
         // Beyond this no level has a middle.
         let parse = |text: &str| {
-            let level = text.parse::<i64>().ok().filter(|level| level.abs() <= 1 << 40);
+            let level = text
+                .parse::<i64>()
+                .ok()
+                .filter(|level| level.abs() <= 1 << 40);
             level.filter(|level| level.to_string() == text)
         };
         let levels = record.read_cells(parse, |record| {
             let (&[n], [errors]) = record.exactly()?;
             let errors = errors.clone();
-            Some(LevelErrors { n, errors }).filter(|_| n > 0).ok_or("no sample".to_owned())
+            Some(LevelErrors { n, errors })
+                .filter(|_| n > 0)
+                .ok_or("no sample".to_owned())
         })?;
         Ok(LevelSums {
             n,
@@ -173,14 +185,19 @@ impl Channelwise for Levels {
     }
 
     fn inapplicable(&self, output: &Output) -> Option<InapplicableReason> {
-        step(output.unit).is_none().then_some(InapplicableReason::NoStep(output.unit))
+        step(output.unit)
+            .is_none()
+            .then_some(InapplicableReason::NoStep(output.unit))
     }
 
     fn details(&self, _metric: &Metric, output: &Output, parts: &[&LevelSums]) -> Details {
         let (&[sums], Some(width)) = (parts, step(output.unit)) else {
             return Details::default();
         };
-        let enough = sums.levels.values().filter(|level| level.n >= LEAST_SAMPLES);
+        let enough = sums
+            .levels
+            .values()
+            .filter(|level| level.n >= LEAST_SAMPLES);
         let curve = Value::Curve(curve(sums, output.unit, width));
         Details {
             variants: vec![Variant::plain("curve", output.unit, curve)],

@@ -127,10 +127,7 @@ impl<V: Merge + Clone + Default> Cells<V> {
     }
 
     /// The cells as records by key, for [`Record::cells`].
-    pub(crate) fn to_records(
-        &self,
-        to_record: impl Fn(&V) -> Record,
-    ) -> BTreeMap<String, Record> {
+    pub(crate) fn to_records(&self, to_record: impl Fn(&V) -> Record) -> BTreeMap<String, Record> {
         let cells = self.cells.iter();
         cells
             .map(|(key, cell)| (key.to_text(), to_record(cell)))

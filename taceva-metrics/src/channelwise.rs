@@ -30,13 +30,7 @@ pub(crate) trait Channelwise: Send {
         true
     }
     /// Adds `rows` of `batch`, all of them for `None`, to what is kept of the channel at `position`.
-    fn deposit(
-        &self,
-        sums: &mut Self::Sums,
-        batch: &Batch,
-        position: usize,
-        rows: Option<&[u32]>,
-    );
+    fn deposit(&self, sums: &mut Self::Sums, batch: &Batch, position: usize, rows: Option<&[u32]>);
     /// As a state holds it.
     fn to_record(&self, sums: &Self::Sums) -> Record;
     /// Back from a state.

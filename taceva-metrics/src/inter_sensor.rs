@@ -124,7 +124,11 @@ impl Family for InterSensor {
 
     fn numbers(&self, _metric: &Metric, _output: &Output, sums: &SurfaceClouds) -> Numbers {
         let gaps = UnitGaps::of(sums);
-        let mean = |number| gaps.as_ref().map_err(|reason| *reason).and_then(|gaps| gaps.mean(number));
+        let mean = |number| {
+            gaps.as_ref()
+                .map_err(|reason| *reason)
+                .and_then(|gaps| gaps.mean(number))
+        };
         Numbers::of(mean(|gap| gap.both()))
             .with("forward", Unit::Millimetre, mean(|gap| gap.forward))
             .with("backward", Unit::Millimetre, mean(|gap| gap.backward))

@@ -6,7 +6,7 @@ mod times;
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 
-use taceva_core::{Batch, Field, FieldSet, Labels, Needs, Unit};
+use taceva_core::{Batch, Field, FieldSet, Labels, Needs, SkipReason, Unit};
 
 use crate::accumulator::{Details, Family, Finished, Numbers, Output, each_row};
 use crate::metric::{Better, Formula, Metric, ScoreUnit};
@@ -103,6 +103,14 @@ impl Intrinsic {
         })
     }
 
+    /// What `plan` lacks, if the samples say nothing of any property.
+    pub(crate) fn obstacle(plan: &MetricPlan) -> Option<SkipReason> {
+        let named = |name| plan.channels().position(name).is_some();
+        let places = plan.carries(Field::Truth) && named("Px") && named("Py");
+        let any = plan.carries(Field::Stamp) || places || plan.facts().frame_size.is_some();
+        (!any).then_some(SkipReason::FieldAbsent(Field::Stamp))
+    }
+
     /// The true place of the sample at `row`, if it is in contact.
     fn contact_mm(&self, batch: &Batch, row: usize) -> Option<[f64; 2]> {
         let [x, y] = self.place?;
@@ -112,7 +120,9 @@ impl Intrinsic {
 
     /// Width times height.
     fn resolution(&self) -> Finished {
-        let [width, height] = self.frame_size.ok_or(UndefinedReason::NotDeclared("frame_size"))?;
+        let [width, height] = self
+            .frame_size
+            .ok_or(UndefinedReason::NotDeclared("frame_size"))?;
         Ok(f64::from(width) * f64::from(height))
     }
 }
@@ -191,7 +201,9 @@ impl Family for Intrinsic {
                     .with("height", Unit::Millimetre, extent(1))
             }
             _ => {
-                let sides = self.frame_size.ok_or(UndefinedReason::NotDeclared("frame_size"));
+                let sides = self
+                    .frame_size
+                    .ok_or(UndefinedReason::NotDeclared("frame_size"));
                 let side = |at: usize| sides.map(|sides| f64::from(sides[at]));
                 Numbers::of(self.resolution())
                     .with("width", Unit::Pixel, side(0))

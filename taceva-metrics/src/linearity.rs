@@ -72,7 +72,11 @@ impl Channelwise for Lines {
         let line = Line::through(sums);
         let of = |number: fn(&Line) -> f64| line.map(|line| number(&line));
         Numbers::of(of(|line| line.relative_deviation))
-            .with("greatest_deviation", output.unit, of(|line| line.greatest_deviation))
+            .with(
+                "greatest_deviation",
+                output.unit,
+                of(|line| line.greatest_deviation),
+            )
             .with("slope", Unit::One, of(|line| line.slope))
             .with("offset", output.unit, of(|line| line.offset))
     }

@@ -14,7 +14,7 @@ use crate::exact::{Dyadic, ExactSum};
 use crate::metric::{Better, Formula, Metric, ScoreUnit};
 use crate::score::Parameter;
 use crate::value::UndefinedReason;
-use spread::{Spread, SpreadSums};
+use spread::SpreadSums;
 
 /// Which score of the spread within cells.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -67,7 +67,11 @@ fn limit_factor(_: Unit) -> Vec<Parameter> {
 fn repeatability(spreads: &SpreadSums, unit: Unit) -> Numbers {
     let pooled = spreads.pooled();
     Numbers::of(spreads.mean(|spread| spread.deviation))
-        .with("population", unit, spreads.mean(|spread| spread.population_deviation))
+        .with(
+            "population",
+            unit,
+            spreads.mean(|spread| spread.population_deviation),
+        )
         .with("pooled", unit, pooled)
         .with("limit", unit, pooled.map(|pooled| LIMIT_FACTOR * pooled))
 }

@@ -70,7 +70,7 @@ impl ErrorCounts {
         if self.n == 0 {
             return Err(UndefinedReason::Empty);
         }
-        let within = self.classes[..=position].iter().sum();
+        let within: u64 = self.classes[..=position].iter().sum();
         Ok(Dyadic::from(within).over(&Dyadic::from(self.n)))
     }
 }
@@ -117,7 +117,9 @@ impl Channelwise for Tolerances {
 
     fn read_record(&self, record: &Record) -> Result<ErrorCounts, String> {
         let (&[n, n_invalid, ref classes @ ..], []) = record.exactly::<10, 0>()?;
-        let within = classes.iter().try_fold(0_u64, |sum, count| sum.checked_add(*count));
+        let within = classes
+            .iter()
+            .try_fold(0_u64, |sum, count| sum.checked_add(*count));
         match within.filter(|within| *within <= n) {
             Some(_) => Ok(ErrorCounts {
                 n,
@@ -153,7 +155,9 @@ impl Channelwise for Tolerances {
         let curve = Curve {
             x: tolerances.map(from_millionths).to_vec(),
             x_unit: output.unit,
-            values: positions.map(|position| sums.share(position).ok()).collect(),
+            values: positions
+                .map(|position| sums.share(position).ok())
+                .collect(),
             counts: vec![sums.n; tolerances.len()],
             band: None,
         };

@@ -56,7 +56,12 @@ impl Leaks {
             shares
         };
         let shares: Vec<Vec<Option<f64>>> = (0..channels).map(row).collect();
-        if !shares.iter().flatten().flatten().all(|share| share.is_finite()) {
+        if !shares
+            .iter()
+            .flatten()
+            .flatten()
+            .all(|share| share.is_finite())
+        {
             return Err(UndefinedReason::Overflow);
         }
         Ok(Leaks {
@@ -73,7 +78,9 @@ impl Leaks {
             others.filter(move |(column, _)| *column != row)
         });
         let sizes = leaks.filter_map(|(_, share)| share.map(f64::abs));
-        sizes.max_by(f64::total_cmp).ok_or(UndefinedReason::ConstantTruth { perfect: false })
+        sizes
+            .max_by(f64::total_cmp)
+            .ok_or(UndefinedReason::ConstantTruth { perfect: false })
     }
 }
 
@@ -107,9 +114,9 @@ impl Factor {
 
     /// The joint slopes of one prediction.
     fn slopes(&self, sums: &JointSums, varying: &[usize], predicted: usize) -> Vec<f64> {
-        let shared = varying.iter().map(|&truth| {
-            sums.shared_products(predicted, truth).to_f64() / deviation(sums, truth)
-        });
+        let shared = varying
+            .iter()
+            .map(|&truth| sums.shared_products(predicted, truth).to_f64() / deviation(sums, truth));
         let mut solution: Vec<f64> = Vec::with_capacity(varying.len());
         for (row, shared) in self.rows.iter().zip(shared) {
             let known: f64 = solution.iter().zip(row).map(|(a, b)| a * b).sum();
@@ -121,7 +128,9 @@ impl Factor {
             solution[place] = (solution[place] - known) / self.rows[place][place];
         }
         let scaled = solution.iter().zip(varying);
-        scaled.map(|(slope, &truth)| slope / deviation(sums, truth)).collect()
+        scaled
+            .map(|(slope, &truth)| slope / deviation(sums, truth))
+            .collect()
     }
 }
 
@@ -190,7 +199,10 @@ mod tests {
             for (j, slope) in row.iter().enumerate() {
                 let found = leaks.shares[i][j].expect("a share");
                 let expected = slope * ranges[j] / ranges[i];
-                assert!((found - expected).abs() < 1e-13, "{i} {j}: {found}, {expected}");
+                assert!(
+                    (found - expected).abs() < 1e-13,
+                    "{i} {j}: {found}, {expected}"
+                );
             }
         }
         let greatest = leaks.greatest().expect("a share");
@@ -214,7 +226,10 @@ mod tests {
         let leaks = Leaks::of(&sums(still, identity)).expect("varied truths");
         assert_eq!((leaks.shares[0][1], leaks.shares[1][0]), (None, None));
         let constant = Leaks::of(&sums(|_| [1.0, 2.0, 3.0], identity));
-        assert_eq!(constant, Err(UndefinedReason::ConstantTruth { perfect: false }));
+        assert_eq!(
+            constant,
+            Err(UndefinedReason::ConstantTruth { perfect: false })
+        );
         assert_eq!(Leaks::of(&JointSums::new(3)), Err(UndefinedReason::Empty));
         let mut alone = JointSums::new(1);
         (0..4).for_each(|row| {

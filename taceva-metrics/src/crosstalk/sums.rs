@@ -135,10 +135,14 @@ impl JointSums {
             .chunks_exact(2)
             .map(|pair| [pair[0], pair[1]])
             .collect();
-        let ascending = |range: &[f64; 2]| is_valid(range[0]) && is_valid(range[1]) && range[0] <= range[1];
+        let ascending =
+            |range: &[f64; 2]| is_valid(range[0]) && is_valid(range[1]) && range[0] <= range[1];
         let ranged = if n == 0 { 0 } else { channels };
         if record.values.len() != 2 * ranged || !ranges.iter().all(ascending) {
-            return Err(format!("{} values, expected {ranged} ranges", record.values.len()));
+            return Err(format!(
+                "{} values, expected {ranged} ranges",
+                record.values.len()
+            ));
         }
         let (values, products) = record.sums.split_at(lengths[0]);
         let (truths, shared) = products.split_at(lengths[1]);

@@ -40,8 +40,11 @@ impl Hull {
     /// # Errors
     /// What is wrong with them, if they are not the corners of a hull in their order.
     pub(crate) fn from_values(values: &[f64]) -> Result<Hull, String> {
-        let corners: Vec<Place> = values.chunks_exact(2).map(|pair| [pair[0], pair[1]]).collect();
-        let whole = values.len() % 2 == 0 && values.iter().all(|value| is_valid(*value));
+        let corners: Vec<Place> = values
+            .chunks_exact(2)
+            .map(|pair| [pair[0], pair[1]])
+            .collect();
+        let whole = values.len().is_multiple_of(2) && values.iter().all(|value| is_valid(*value));
         let hull = whole.then(|| Hull::of(corners.iter().copied()));
         let same = hull.filter(|hull| hull.corners == corners);
         same.ok_or_else(|| "the corners of a hull are not those of one, anticlockwise".to_owned())
@@ -143,7 +146,7 @@ mod tests {
     fn points() -> impl Strategy<Value = Vec<Place>> {
         let coordinate = prop_oneof![
             6 => (-4_i32..5).prop_map(|step| f64::from(step) * 0.1),
-            1 => (-1e300..1e300_f64),
+            1 => -1e300..1e300_f64,
         ];
         prop::collection::vec([coordinate.clone(), coordinate], 0..40)
     }

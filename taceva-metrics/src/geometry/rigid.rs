@@ -102,8 +102,8 @@ fn clear(matrix: &mut [[f64; 4]; 4], vectors: &mut [[f64; 4]; 4], low: usize, hi
         row[high] = sine * left + cosine * right;
     };
     matrix.iter_mut().for_each(mix);
-    for column in 0..4 {
-        let (upper, lower) = (matrix[low][column], matrix[high][column]);
+    let [upper, lower] = [matrix[low], matrix[high]];
+    for (column, (upper, lower)) in upper.into_iter().zip(lower).enumerate() {
         matrix[low][column] = cosine * upper - sine * lower;
         matrix[high][column] = sine * upper + cosine * lower;
     }

@@ -149,6 +149,14 @@ fn read_branch(record: &Record) -> Result<Branch, String> {
     if !sound || record.counts.len() != depths.len() || record.sums.len() != depths.len() {
         return Err("depths are not ascending, each with a count and a sum of forces".to_owned());
     }
-    let forces = record.counts.iter().copied().zip(record.sums.iter().cloned());
-    Ok(depths.iter().map(|depth| Ordered::new(*depth)).zip(forces).collect())
+    let forces = record
+        .counts
+        .iter()
+        .copied()
+        .zip(record.sums.iter().cloned());
+    Ok(depths
+        .iter()
+        .map(|depth| Ordered::new(*depth))
+        .zip(forces)
+        .collect())
 }

@@ -142,9 +142,17 @@ impl Family for Loops {
     fn numbers(&self, _metric: &Metric, _output: &Output, sums: &LoopSums) -> Numbers {
         let mean = |number: &dyn Fn(&Press) -> Option<f64>| sums.mean(number);
         Numbers::of(mean(&|press| Some(press.area)))
-            .with("signed_area", Unit::NewtonMillimetre, mean(&|press| Some(press.signed_area)))
+            .with(
+                "signed_area",
+                Unit::NewtonMillimetre,
+                mean(&|press| Some(press.signed_area)),
+            )
             .with("ratio", Unit::One, mean(&Press::ratio))
-            .with("greatest_difference", Unit::One, mean(&Press::relative_difference))
+            .with(
+                "greatest_difference",
+                Unit::One,
+                mean(&Press::relative_difference),
+            )
     }
 
     fn details(&self, _metric: &Metric, _output: &Output, parts: &[&LoopSums]) -> Details {

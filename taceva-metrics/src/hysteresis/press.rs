@@ -77,7 +77,9 @@ fn common_grid(load: Branch<'_>, unload: Branch<'_>) -> Result<Vec<f64>, Undefin
         return Err(UndefinedReason::NoOverlap);
     }
     let depths = load.iter().chain(unload).map(|[depth, _]| *depth);
-    let mut grid: Vec<f64> = depths.filter(|depth| (start..=end).contains(depth)).collect();
+    let mut grid: Vec<f64> = depths
+        .filter(|depth| (start..=end).contains(depth))
+        .collect();
     grid.sort_by(f64::total_cmp);
     grid.dedup_by(|one, other| one.total_cmp(other) == Ordering::Equal);
     Ok(grid)
@@ -137,7 +139,10 @@ impl Stretch {
 
     /// The greater of |u| and |v|: a difference of straight lines is greatest at an end.
     fn greatest_difference(&self) -> f64 {
-        let ends = self.difference.iter().map(|end| end.over(&self.scale).abs());
+        let ends = self
+            .difference
+            .iter()
+            .map(|end| end.over(&self.scale).abs());
         ends.fold(0.0, f64::max)
     }
 }
@@ -154,7 +159,8 @@ impl Chord {
     fn over(branch: Branch<'_>, depths: [f64; 2]) -> Chord {
         let after = branch.partition_point(|[depth, _]| *depth <= depths[0]);
         let [[start, start_force], [end, end_force]] = [branch[after - 1], branch[after]];
-        let [start, end, start_force, end_force] = [start, end, start_force, end_force].map(exactly);
+        let [start, end, start_force, end_force] =
+            [start, end, start_force, end_force].map(exactly);
         let force = |depth: f64| {
             let depth = exactly(depth);
             &(&start_force * &(&end - &depth)) + &(&end_force * &(&depth - &start))
@@ -171,7 +177,10 @@ fn twice(value: &Dyadic) -> Dyadic {
 }
 
 fn finite(value: f64) -> Result<f64, UndefinedReason> {
-    value.is_finite().then_some(value).ok_or(UndefinedReason::Overflow)
+    value
+        .is_finite()
+        .then_some(value)
+        .ok_or(UndefinedReason::Overflow)
 }
 
 #[cfg(test)]
@@ -202,8 +211,14 @@ mod tests {
     #[test]
     fn branches_that_share_no_stretch_of_depths_are_not_compared() {
         let (shallow, deep) = ([[0.0, 0.0], [0.2, 0.1]], [[0.2, 0.4], [1.0, 1.0]]);
-        assert_eq!(Press::compare(&shallow, &deep), Err(UndefinedReason::NoOverlap));
-        assert_eq!(Press::compare(&shallow, &deep[..1]), Err(UndefinedReason::ShortBranch));
+        assert_eq!(
+            Press::compare(&shallow, &deep),
+            Err(UndefinedReason::NoOverlap)
+        );
+        assert_eq!(
+            Press::compare(&shallow, &deep[..1]),
+            Err(UndefinedReason::ShortBranch)
+        );
     }
 
     #[test]

@@ -43,15 +43,14 @@ impl Gap {
 fn mean_distance(from: &[Point], to: &[Point]) -> Result<(f64, u64), UndefinedReason> {
     let seen_from_above = |&[x, y, _]: &Point| [x, y];
     let hull = Hull::of(to.iter().map(seen_from_above));
-    let common = from.iter().filter(|point| hull.contains(seen_from_above(point)));
+    let common = from
+        .iter()
+        .filter(|point| hull.contains(seen_from_above(point)));
     mean_of_nearest(common, to).ok_or(UndefinedReason::NoOverlap)
 }
 
 /// RN of the mean distance from each of `from` to the nearest of `to`, and how many of `from` there are.
-fn mean_of_nearest<'a>(
-    from: impl Iterator<Item = &'a Point>,
-    to: &[Point],
-) -> Option<(f64, u64)> {
+fn mean_of_nearest<'a>(from: impl Iterator<Item = &'a Point>, to: &[Point]) -> Option<(f64, u64)> {
     let search = NearestPoints::new(to.iter().copied());
     let (mut count, mut distances) = (0, ExactSum::default());
     for point in from {

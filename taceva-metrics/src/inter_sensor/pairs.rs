@@ -51,7 +51,11 @@ impl UnitGaps {
     /// # Errors
     /// The reason of the first pair, if none has one.
     pub(super) fn mean(&self, number: fn(&Gap) -> f64) -> Finished {
-        let gaps: Vec<&Gap> = self.pairs.iter().filter_map(|pair| pair.gap.as_ref().ok()).collect();
+        let gaps: Vec<&Gap> = self
+            .pairs
+            .iter()
+            .filter_map(|pair| pair.gap.as_ref().ok())
+            .collect();
         let sum: ExactSum = gaps.iter().map(|gap| number(gap)).collect();
         match self.pairs.iter().find_map(|pair| pair.gap.err()) {
             Some(reason) if gaps.is_empty() => Err(reason),
@@ -119,7 +123,10 @@ fn compare(units: [usize; 2], onto: &Cloud, from: &Cloud) -> UnitPair {
     };
     let gap = match &registration {
         Some(registration) => {
-            let moved = from.points.iter().map(|&point| registration.motion.apply(point));
+            let moved = from
+                .points
+                .iter()
+                .map(|&point| registration.motion.apply(point));
             Gap::between(&onto.points, &moved.collect::<Vec<_>>())
         }
         None => Err(UndefinedReason::OpenTurn),
@@ -134,8 +141,12 @@ fn compare(units: [usize; 2], onto: &Cloud, from: &Cloud) -> UnitPair {
 
 /// The points of both clouds at the locations they share, in one order.
 fn shared_points(from: &Cloud, onto: &Cloud) -> [Vec<Point>; 2] {
-    let onto: BTreeMap<usize, Point> =
-        onto.locations.iter().copied().zip(onto.points.iter().copied()).collect();
+    let onto: BTreeMap<usize, Point> = onto
+        .locations
+        .iter()
+        .copied()
+        .zip(onto.points.iter().copied())
+        .collect();
     let located = from.locations.iter().zip(&from.points);
     let (from, onto) = located
         .filter_map(|(location, &point)| Some((point, *onto.get(location)?)))

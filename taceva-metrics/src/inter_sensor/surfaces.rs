@@ -78,7 +78,9 @@ impl SurfaceClouds {
                     cloud.points.push(mean_place(places));
                     cloud.locations.push(location);
                 } else {
-                    cloud.points.extend(places.iter().map(|place| place.map(Ordered::value)));
+                    cloud
+                        .points
+                        .extend(places.iter().map(|place| place.map(Ordered::value)));
                 }
             }
         }
@@ -111,8 +113,11 @@ impl SurfaceClouds {
     pub(super) fn read_record(record: &Record) -> Result<SurfaceClouds, String> {
         let (&[n, n_invalid, named], []) = record.with_cells()?;
         let places = |record: &Record| {
-            let lengths = record.values.iter().all(|value| millionths(*value).is_some());
-            let whole = lengths && record.values.len() % 3 == 0 && record.cells.is_empty();
+            let lengths = record
+                .values
+                .iter()
+                .all(|value| millionths(*value).is_some());
+            let whole = lengths && record.values.len().is_multiple_of(3) && record.cells.is_empty();
             let triples = record.values.chunks_exact(3);
             let places: BTreeSet<[Ordered; 3]> = triples
                 .map(|place| [place[0], place[1], place[2]].map(Ordered::new))

@@ -128,7 +128,9 @@ impl IntrinsicSums {
             (PLAIN, part(&|digest| digest.is_none())),
             (DIGESTED, part(&|digest| digest.is_some())),
         ];
-        let parts = parts.into_iter().filter(|(_, part)| !part.values.is_empty());
+        let parts = parts
+            .into_iter()
+            .filter(|(_, part)| !part.values.is_empty());
         Record {
             counts: vec![self.n_invalid, self.timed, self.contacts],
             values: self.hull.corners().concat(),
@@ -153,7 +155,11 @@ impl IntrinsicSums {
             if !whole {
                 return Err(format!("frames `{name}` are no times with their digests"));
             }
-            let digests = part.counts.into_iter().map(Some).chain(std::iter::repeat(None));
+            let digests = part
+                .counts
+                .into_iter()
+                .map(Some)
+                .chain(std::iter::repeat(None));
             frames.extend(part.values.into_iter().map(Ordered::new).zip(digests));
         }
         Ok(IntrinsicSums {

@@ -50,7 +50,9 @@ impl Intervals {
     /// RN of the standard deviation (over n − 1) of the intervals that are no gap, s.
     pub(super) fn jitter(&self) -> Finished {
         let regular: Moments = self.regular().iter().copied().collect();
-        regular.deviation(1).ok_or(UndefinedReason::TooFew { least: 3 })
+        regular
+            .deviation(1)
+            .ok_or(UndefinedReason::TooFew { least: 3 })
     }
 
     /// RN of the share of intervals that are a gap.
@@ -101,7 +103,13 @@ mod tests {
     fn without_two_times_there_is_no_interval_and_the_reason_says_which_it_is() {
         let reason = |sums: &IntrinsicSums| Intervals::of(sums).err();
         assert_eq!(reason(&sums(&[])), Some(UndefinedReason::NoTimes));
-        assert_eq!(reason(&sums(&[1.0])), Some(UndefinedReason::TooFew { least: 2 }));
-        assert_eq!(reason(&sums(&[1.0, 1.0])), Some(UndefinedReason::EqualTimes));
+        assert_eq!(
+            reason(&sums(&[1.0])),
+            Some(UndefinedReason::TooFew { least: 2 })
+        );
+        assert_eq!(
+            reason(&sums(&[1.0, 1.0])),
+            Some(UndefinedReason::EqualTimes)
+        );
     }
 }

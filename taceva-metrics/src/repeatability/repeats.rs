@@ -119,7 +119,9 @@ impl Channelwise for Repeats {
         };
         let counts = vec![
             count("cells_valid", |sums| SpreadSums::of(&sums.cells).count()),
-            count("cells_total", |sums| sums.cells.iter().fold(0, |count, _| count + 1)),
+            count("cells_total", |sums| {
+                sums.cells.iter().fold(0, |count, _| count + 1)
+            }),
         ];
         let variants = match metric.formula {
             Formula::Repeats(RepeatMetric::Repeatability) => {
@@ -154,7 +156,10 @@ fn depth_curve(parts: &[&RepeatSums]) -> Value {
     Value::Curve(Curve {
         x: steps.keys().map(|&step| f64::from(step)).collect(),
         x_unit: Unit::One,
-        values: steps.values().map(|(sum, count)| mean(sum, *count).ok()).collect(),
+        values: steps
+            .values()
+            .map(|(sum, count)| mean(sum, *count).ok())
+            .collect(),
         counts: steps.values().map(|(_, count)| count / channels).collect(),
         band: None,
     })
