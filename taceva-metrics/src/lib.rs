@@ -24,6 +24,7 @@ mod geometry;
 mod hysteresis;
 mod inter_sensor;
 mod intrinsic;
+pub mod kernels;
 mod level;
 mod linearity;
 mod map;
