@@ -11,8 +11,6 @@ pub(crate) use family::{
     Details, Family, Finished, Intervals, Numbers, Output, each_row, midpoint,
 };
 pub(crate) use pairs::{Pairs, outputs as outputs_of_pairs};
-pub(crate) use family::{Details, Family, Finished, Numbers, Output, each_row};
-pub(crate) use pairs::{Pairs, outputs as channel_outputs};
 pub(crate) use plane::Plane;
 
 use taceva_core::Batch;

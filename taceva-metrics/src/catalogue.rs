@@ -6,22 +6,20 @@ use crate::crosstalk::CROSSTALK;
 use crate::detection::MINIMUM_DETECTABLE_FORCE;
 use crate::drift::DRIFT;
 use crate::error::UnknownMetric;
-use crate::lighting::R_LIGHT;
-use crate::metric::Metric;
-use crate::resolution::SR;
-use crate::spatial::R_SPATIAL;
 use crate::hysteresis::HYSTERESIS;
 use crate::inter_sensor::INTER_SENSOR;
 use crate::intrinsic::INTRINSIC;
+use crate::lighting::R_LIGHT;
 use crate::linearity::LINEARITY;
 use crate::metric::Metric;
 use crate::repeatability::{REPEATABILITY, SIGNAL_TO_REPEATABILITY};
+use crate::resolution::SR;
+use crate::spatial::R_SPATIAL;
 use crate::surface::{SENSITIVITY, UNIFORMITY};
 use crate::tolerance::TOLERANCE;
 
 /// Every metric, in the order of reports.
-pub static ALL: [&Metric; 12] = [
-pub static ALL: [&Metric; 20] = [
+pub static ALL: [&Metric; 23] = [
     &MAE,
     &RMSE,
     &BIAS,

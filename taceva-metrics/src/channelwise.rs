@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use taceva_core::{Batch, Channel};
 
-use crate::accumulator::{Details, Family, Numbers, Output, channel_outputs, each_row};
+use crate::accumulator::{Details, Family, Numbers, Output, each_row, outputs_of_pairs};
 use crate::merge::Merge;
 use crate::metric::Metric;
 use crate::paired::Paired;
@@ -69,7 +69,7 @@ impl<K: Channelwise> ByChannel<K> {
             .filter(|(_, channel)| kind.takes(channel))
             .map(|(position, _)| position)
             .collect();
-        let outputs = channel_outputs(plan.channels()).into_iter();
+        let outputs = outputs_of_pairs(plan.channels()).into_iter();
         let outputs = outputs.filter_map(|output| {
             let part = |of: &usize| positions.iter().position(|position| position == of);
             let parts = output.parts.iter().map(part).collect::<Option<Vec<_>>>()?;

@@ -34,7 +34,8 @@ const NEEDS: Needs = Needs {
     fields: FieldSet::EMPTY
         .with(Field::Prediction)
         .with(Field::Point)
-        .with(Field::DepthStep),
+        .with(Field::DepthStep)
+        .with(Field::Repeat),
     channels: &[],
     least_samples: 2,
 };
