@@ -64,6 +64,52 @@ fn mean_of_nearest<'a>(from: impl Iterator<Item = &'a Point>, to: &[Point]) -> O
 mod tests {
     use super::*;
 
+    /// The clouds of `inter_sensor` in the golden vectors, whose mean distances are 45-digit truth; `TACEVA_GOLDEN` names a
+    /// folder with others.
+    #[test]
+    fn distances_to_the_nearest_point_are_those_of_the_golden_vectors() {
+        let own = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/golden");
+        let folder = std::env::var("TACEVA_GOLDEN").unwrap_or_else(|_| own.to_owned());
+        let text = std::fs::read_to_string(format!("{folder}/structured.json")).expect("a file");
+        let golden: serde_json::Value = serde_json::from_str(&text).expect("JSON");
+        let section = &golden["inter_sensor"];
+        let mut state = section["params"]["seed"].as_u64().expect("a seed");
+        let mut below = |bound: u64| {
+            let drawn = crate::clusters::splitmix64(state);
+            state = state.wrapping_add(0x9e37_79b9_7f4a_7c15);
+            f64::from(u32::try_from(drawn % bound).expect("a small bound"))
+        };
+        let mut clouds = [Vec::new(), Vec::new()];
+        for _ in 0..section["params"]["m"].as_u64().expect("a count") {
+            for cloud in &mut clouds {
+                cloud.push([below(1000), below(1000), below(100)]);
+            }
+        }
+        let [first, second] = &clouds;
+        let gap = Gap {
+            forward: mean_of_nearest(first.iter(), second).expect("points").0,
+            backward: mean_of_nearest(second.iter(), first).expect("points").0,
+            points: 0,
+        };
+        let close = |found: f64, key: &str| {
+            let decimals = section[key].as_str().expect("a decimal number");
+            let expected: f64 = decimals.parse().expect("a decimal number");
+            assert!(
+                (found - expected).abs() <= 1e-15 * expected,
+                "{key}: {found}"
+            );
+        };
+        close(gap.forward, "mean_nn_ab");
+        close(gap.backward, "mean_nn_ba");
+        close(gap.both(), "gap_symmetric");
+        for (sum, [from, to]) in [[first, second], [second, first]].into_iter().enumerate() {
+            let search = NearestPoints::new(to.iter().copied());
+            let nearest = from.iter().filter_map(|point| search.nearest(*point));
+            let squares: f64 = nearest.map(|nearest| nearest.squared).sum();
+            assert_eq!(Some(squares), section["nn_sq_sum"][sum].as_f64());
+        }
+    }
+
     fn sheet(height: f64, shift: f64) -> Vec<Point> {
         let places = (0..36).map(|at| (f64::from(at % 6) + shift, f64::from(at / 6)));
         places.map(|(x, y)| [x, y, height]).collect()

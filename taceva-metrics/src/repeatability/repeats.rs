@@ -63,13 +63,19 @@ impl Channelwise for Repeats {
             let (Some(prediction), Some(step)) = (predictions.get(row), steps.get(row)) else {
                 return;
             };
-            match whole_step(step).filter(|_| is_valid(prediction)) {
-                Some(step) => {
-                    let point = points.and_then(|points| points.get(row));
-                    sums.cells.at(point, step).add(prediction);
-                    sums.n += 1;
-                }
-                None => sums.n_invalid += 1,
+            let Some(step) = whole_step(step) else {
+                sums.n_invalid += 1;
+                return;
+            };
+            // A press of which nothing is usable is still one that was made: its cell is counted.
+            let cell = sums
+                .cells
+                .at(points.and_then(|points| points.get(row)), step);
+            if is_valid(prediction) {
+                cell.add(prediction);
+                sums.n += 1;
+            } else {
+                sums.n_invalid += 1;
             }
         });
     }
