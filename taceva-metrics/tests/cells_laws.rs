@@ -61,7 +61,7 @@ fn samples() -> impl Strategy<Value = Vec<Sample>> {
     let points = prop_oneof![4 => Just(3_u32), 1 => Just(100_u32)];
     (points, prop::bool::weighted(0.8)).prop_flat_map(|(points, all_named)| {
         let named = prop::bool::weighted(0.95).prop_map(move |named| named || all_named);
-        let readings = prop::collection::vec(value(), 7);
+        let readings = || prop::collection::vec(value(), 7);
         let labels = (
             0..points,
             named,
@@ -70,7 +70,7 @@ fn samples() -> impl Strategy<Value = Vec<Sample>> {
             0_u32..4,
             any::<bool>(),
         );
-        let sample = (readings.clone(), readings, labels);
+        let sample = (readings(), readings(), labels);
         let sample = sample.prop_map(|(truth, prediction, labels)| {
             let (point, named, step, unit, time, load) = labels;
             let phase = if load { Phase::Load } else { Phase::Unload };
