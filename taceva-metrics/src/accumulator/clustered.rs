@@ -147,7 +147,7 @@ impl<F: Family> Clustered<F> {
         };
         let interval = |value: &Value, name: Option<&str>| match value {
             Value::Undefined(reason) => Interval::Undefined(*reason),
-            Value::Scalar(_) if cells.is_none() => Interval::Undefined(UndefinedReason::NoClusters),
+            Value::Scalar(_) if cells.is_none() => Interval::Undefined(self.family.unclustered()),
             Value::Scalar(value) => match (&own, name) {
                 (Some(own), None) => own.value,
                 (Some(own), Some(name)) if own.variants.contains_key(name) => own.variants[name],
