@@ -9,9 +9,8 @@ mod recipe;
 
 use std::path::PathBuf;
 
-use recipe::{Case, read_cases};
+use recipe::{Case, SplitMix64, read_cases};
 use taceva_core::{Batch, Channel, Channels, Column, FieldSet};
-use taceva_metrics::kernels::SplitMix64;
 use taceva_metrics::{
     Evaluation, Evaluator, Isa, MetricPlan, PairSpec, PairSums, Paired, Stream, Streams,
     UndefinedReason, Value, catalogue,
