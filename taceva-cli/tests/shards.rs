@@ -191,6 +191,7 @@ fn the_race_of_kernels_says_who_is_right_in_any_order() {
 }
 
 #[test]
+#[expect(clippy::print_stdout, reason = "says what was not compared")]
 fn an_instruction_set_that_is_not_there_is_refused_and_any_other_gives_the_same_bytes() {
     let bench = bench();
     let run = |isa: &str| {

@@ -3,13 +3,15 @@
 //! usage: kernel_times COLUMNS CHANNELS [REPEATS]
 //!
 //! COLUMNS: little-endian binary64, first the references and then the estimates of each channel in turn, all of one length.
-//! Times are nanoseconds a pair, of the process's wall clock; every way is run once a round, so that all see the same machine.
+//! For each way the best and the median of the processor time of the thread, and of the wall clock, in nanoseconds a pair:
+//! `[best, median, best, median]`. Every way is run once a round, so that all see the same machine.
 
 #![expect(clippy::print_stdout, reason = "an example's result is what it prints")]
 
 use std::hint::black_box;
 use std::time::Instant;
 
+use rustix::time::{ClockId, clock_gettime};
 use taceva_metrics::Paired;
 use taceva_metrics::kernels::{Contender, stream_sum};
 
@@ -54,23 +56,39 @@ fn main() -> Result<(), Error> {
         }
     }
 
-    let mut times = vec![Vec::with_capacity(repeats); ways.len()];
+    let mut times = vec![[Vec::new(), Vec::new()]; ways.len()];
     for _ in 0..repeats {
-        for ((_, run), times) in ways.iter().zip(&mut times) {
-            let start = Instant::now();
+        for ((_, run), [busy, wall]) in ways.iter().zip(&mut times) {
+            let (start, start_busy) = (Instant::now(), thread_seconds());
             run();
-            times.push(start.elapsed());
+            busy.push(thread_seconds() - start_busy);
+            wall.push(start.elapsed().as_secs_f64());
         }
     }
-    let lines = ways.iter().zip(&mut times).map(|((name, _), times)| {
-        times.sort_unstable();
-        #[expect(clippy::cast_precision_loss, reason = "a count of rows")]
-        let nanoseconds = |at: usize| times[at].as_secs_f64() * 1e9 / pairs as f64;
-        let (best, median) = (nanoseconds(0), nanoseconds(times.len() / 2));
-        format!("  \"{name}\": [{best:.4}, {median:.4}]")
+    let lines = ways.iter().zip(times).map(|((name, _), clocks)| {
+        let [busy, wall] = clocks.map(|seconds| best_and_median(seconds, pairs));
+        format!(
+            "  \"{name}\": [{}, {}, {}, {}]",
+            busy[0], busy[1], wall[0], wall[1]
+        )
     });
     println!("{{\n{}\n}}", lines.collect::<Vec<_>>().join(",\n"));
     Ok(())
+}
+
+/// In nanoseconds a pair, to four places.
+fn best_and_median(mut seconds: Vec<f64>, pairs: usize) -> [String; 2] {
+    seconds.sort_by(f64::total_cmp);
+    #[expect(clippy::cast_precision_loss, reason = "a count of rows")]
+    let pairs = pairs as f64;
+    [0, seconds.len() / 2].map(|at| format!("{:.4}", seconds[at] * 1e9 / pairs))
+}
+
+/// What this thread has computed so far, without the time in which others had its processor.
+#[expect(clippy::cast_precision_loss, reason = "seconds of one run")]
+fn thread_seconds() -> f64 {
+    let time = clock_gettime(ClockId::ThreadCPUTime);
+    time.tv_sec as f64 + time.tv_nsec as f64 * 1e-9
 }
 
 /// The columns of each channel.

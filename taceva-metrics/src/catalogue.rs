@@ -1,15 +1,25 @@
 //! Every metric there is: the only source of names, units, directions, definitions and texts.
 
 use crate::accuracy::{BIAS, MAE, MAE_EUCLID, R2, RMSE, SMAPE, SMAPE_GATED};
+use crate::bias_level::BIAS_LEVEL;
+use crate::crosstalk::CROSSTALK;
+use crate::detection::MINIMUM_DETECTABLE_FORCE;
+use crate::drift::DRIFT;
 use crate::error::UnknownMetric;
+use crate::hysteresis::HYSTERESIS;
+use crate::inter_sensor::INTER_SENSOR;
+use crate::intrinsic::INTRINSIC;
 use crate::lighting::R_LIGHT;
+use crate::linearity::LINEARITY;
 use crate::metric::Metric;
+use crate::repeatability::{REPEATABILITY, SIGNAL_TO_REPEATABILITY};
 use crate::resolution::SR;
 use crate::spatial::R_SPATIAL;
 use crate::surface::{SENSITIVITY, UNIFORMITY};
+use crate::tolerance::TOLERANCE;
 
 /// Every metric, in the order of reports.
-pub static ALL: [&Metric; 12] = [
+pub static ALL: [&Metric; 23] = [
     &MAE,
     &RMSE,
     &BIAS,
@@ -22,6 +32,17 @@ pub static ALL: [&Metric; 12] = [
     &UNIFORMITY,
     &R_SPATIAL,
     &R_LIGHT,
+    &REPEATABILITY,
+    &HYSTERESIS,
+    &INTER_SENSOR,
+    &INTRINSIC,
+    &MINIMUM_DETECTABLE_FORCE,
+    &SIGNAL_TO_REPEATABILITY,
+    &LINEARITY,
+    &CROSSTALK,
+    &BIAS_LEVEL,
+    &TOLERANCE,
+    &DRIFT,
 ];
 
 /// Names that stand for several metrics.

@@ -12,11 +12,18 @@ pub enum Flag {
     LowStimulus,
     /// In some scene the error is smaller than in the reference scene, which the score counts like a larger one.
     ImprovedError,
+    /// The truths of some channels move together, so that nobody can tell what leaks from which.
+    CollinearTruths,
 }
 
 impl Flag {
     /// Every flag.
-    pub const ALL: [Flag; 3] = [Flag::OneBin, Flag::LowStimulus, Flag::ImprovedError];
+    pub const ALL: [Flag; 4] = [
+        Flag::OneBin,
+        Flag::LowStimulus,
+        Flag::ImprovedError,
+        Flag::CollinearTruths,
+    ];
 }
 
 impl fmt::Display for Flag {
@@ -25,6 +32,7 @@ impl fmt::Display for Flag {
             Flag::OneBin => "one bin",
             Flag::LowStimulus => "low stimulus",
             Flag::ImprovedError => "improved error",
+            Flag::CollinearTruths => "collinear truths",
         })
     }
 }

@@ -5,6 +5,7 @@ use taceva_core::{Needs, Unit};
 use crate::facts::Fact;
 use crate::pair_sums::PairSums;
 use crate::plane_sums::PlaneSums;
+use crate::repeatability::RepeatMetric;
 use crate::score::Parameter;
 use crate::streams::Streams;
 use crate::surface::SurfaceMetric;
@@ -46,6 +47,8 @@ pub enum Better {
     Higher,
     /// Those near zero.
     NearZero,
+    /// None: they describe.
+    Described,
 }
 
 /// The unit of a metric's values.
@@ -54,6 +57,8 @@ pub enum Better {
 pub enum ScoreUnit {
     /// That of the channel.
     OfChannel,
+    /// That of the channel an hour; mm and N only.
+    PerHour,
     /// Always this one.
     Fixed(Unit),
     /// None: a ratio.
@@ -65,6 +70,10 @@ impl ScoreUnit {
     pub fn of(self, channel: Unit) -> Unit {
         match self {
             ScoreUnit::OfChannel => channel,
+            ScoreUnit::PerHour => match channel {
+                Unit::Newton => Unit::NewtonPerHour,
+                _ => Unit::MillimetrePerHour,
+            },
             ScoreUnit::Fixed(unit) => unit,
             ScoreUnit::One => Unit::One,
         }
@@ -96,6 +105,26 @@ pub(crate) enum Formula {
     Spatial,
     /// From errors by scene.
     Lighting,
+    /// From predictions of the same press.
+    Repeats(RepeatMetric),
+    /// From loading and unloading, by point.
+    Hysteresis,
+    /// From the surfaces of several units.
+    InterSensor,
+    /// From times, digests and places of contact.
+    Intrinsic,
+    /// From predictions without contact.
+    Detection,
+    /// From predictions over truth.
+    Linearity,
+    /// From all predictions over all truths.
+    Crosstalk,
+    /// From errors by level of the truth.
+    BiasLevel,
+    /// From magnitudes of errors.
+    Tolerance,
+    /// From errors over time.
+    Drift,
 }
 
 /// From sums to a value.

@@ -3,15 +3,26 @@
 use taceva_core::{Channels, Field, FieldSet, SkipReason, Skipped};
 
 use crate::accumulator::{Accumulator, Clustered, Family, Pairs, Plane};
+use crate::bias_level::Levels;
+use crate::channelwise::{ByChannel, Channelwise};
+use crate::crosstalk::Crosstalk;
+use crate::detection::Idle;
+use crate::drift::Drifts;
 use crate::error::MetricError;
 use crate::facts::SensorFacts;
+use crate::hysteresis::Loops;
+use crate::inter_sensor::InterSensor;
+use crate::intrinsic::{self, Intrinsic};
 use crate::lighting::Lighting;
+use crate::linearity::Lines;
 use crate::metric::{Formula, Metric};
+use crate::repeatability::Repeats;
 use crate::resolution::Resolution;
 use crate::settings::Settings;
 use crate::spatial::Spatial;
 use crate::stats::IntervalMethod;
 use crate::surface::Surface;
+use crate::tolerance::Tolerances;
 
 /// What an evaluation of given channels and fields will compute.
 ///
@@ -97,7 +108,7 @@ impl MetricPlan {
                 }),
                 None => {
                     self.kept.push(metric);
-                    self.fields = self.fields | metric.needs.fields;
+                    self.fields = self.fields | metric.needs.fields | self.optional(metric);
                 }
             }
         }
@@ -187,6 +198,15 @@ impl MetricPlan {
         self.available.contains(field)
     }
 
+    /// What `metric` reads where samples carry it, and does without where they do not.
+    fn optional(&self, metric: &Metric) -> FieldSet {
+        let fields = match metric.formula {
+            Formula::Intrinsic => intrinsic::OPTIONAL_FIELDS,
+            _ => FieldSet::EMPTY,
+        };
+        fields.iter().filter(|field| self.carries(*field)).collect()
+    }
+
     /// What keeps `metric` from having a value.
     fn obstacle(&self, metric: &Metric) -> Option<SkipReason> {
         let absent_field = metric
@@ -210,6 +230,10 @@ impl MetricPlan {
                 let facts = metric.facts.iter();
                 facts.filter_map(|fact| fact.obstacle(&self.facts)).next()
             })
+            .or_else(|| match metric.formula {
+                Formula::Intrinsic => Intrinsic::obstacle(self),
+                _ => None,
+            })
     }
 
     /// One accumulator for all metrics that share what is kept.
@@ -221,8 +245,25 @@ impl MetricPlan {
             Surface::for_plan(self).map(|family| self.clustered(family)),
             Spatial::for_plan(self).map(|family| self.clustered(family)),
             Lighting::for_plan(self).map(|family| self.clustered(family)),
+            self.by_channel(Repeats),
+            Loops::for_plan(self).map(|family| self.clustered(family)),
+            InterSensor::for_plan(self).map(|family| self.clustered(family)),
+            Intrinsic::for_plan(self).map(|family| self.clustered(family)),
+            Idle::for_plan(self).and_then(|kind| self.by_channel(kind)),
+            self.by_channel(Lines),
+            Crosstalk::for_plan(self).map(|family| self.clustered(family)),
+            self.by_channel(Levels),
+            self.by_channel(Tolerances),
+            self.by_channel(Drifts),
         ];
         families.into_iter().flatten().collect()
+    }
+
+    fn by_channel<K>(&self, kind: K) -> Option<Box<dyn Accumulator>>
+    where
+        K: Channelwise + 'static,
+    {
+        ByChannel::for_plan(kind, self).map(|family| self.clustered(family))
     }
 
     fn clustered<F>(&self, family: F) -> Box<dyn Accumulator>

@@ -59,7 +59,7 @@ impl Settings {
         if !(self.gate.0 > 0.0 && self.gate.0.is_finite()) {
             return Err(refuse("gate", self.gate.0.to_string(), "a force above 0 N"));
         }
-        if self.smoothing_window % 2 == 0 {
+        if self.smoothing_window.is_multiple_of(2) {
             return Err(refuse(
                 "smoothing_window",
                 self.smoothing_window.to_string(),

@@ -5,6 +5,35 @@ use crate::exact::{Dyadic, ExactSum};
 use crate::moments::Moments;
 use crate::value::UndefinedReason;
 
+/// One bin, with all that is rounded of it: formed once, asked for several spreads.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Bin {
+    n: u64,
+    /// m_b = RN of the exact mean.
+    pub(crate) mean: f64,
+    /// RN(Σ (q − m_b)²).
+    squares: f64,
+    /// RN(STD), ddof 0.
+    deviation: f64,
+}
+
+impl Bin {
+    /// The bin of these samples; `None` if there is none.
+    pub(crate) fn of(moments: &Moments) -> Option<Bin> {
+        Some(Bin {
+            n: moments.n,
+            mean: moments.mean()?,
+            squares: moments.squared_deviations()?,
+            deviation: moments.deviation(0)?,
+        })
+    }
+
+    /// Whether it has at least `n_min` samples.
+    pub(crate) fn has(&self, n_min: u64) -> bool {
+        self.n >= n_min
+    }
+}
+
 /// The means m_b of some bins and what is known of the scatter within them.
 ///
 /// Each m_b is RN of an exact mean; everything else is exact over those binary64 numbers and rounded where a line says RN.
@@ -26,29 +55,24 @@ pub(crate) struct Spread {
 
 impl Spread {
     /// The spread of those `bins` that have at least `n_min` samples.
-    pub(crate) fn of<'a>(bins: impl Iterator<Item = &'a Moments>, n_min: u64) -> Spread {
+    pub(crate) fn of(bins: &[Bin], n_min: u64) -> Spread {
         let mut spread = Spread {
             n_min,
             ..Spread::default()
         };
-        for bin in bins.filter(|bin| bin.n >= n_min) {
+        for bin in bins.iter().filter(|bin| bin.has(n_min)) {
             spread.add(bin);
         }
         spread
     }
 
-    fn add(&mut self, bin: &Moments) {
-        let (Some(mean), Some(squares), Some(deviation)) =
-            (bin.mean(), bin.squared_deviations(), bin.deviation(0))
-        else {
-            return;
-        };
-        self.means.add(mean);
+    fn add(&mut self, bin: &Bin) {
+        self.means.add(bin.mean);
         self.shares.add(Dyadic::from(1).over(&Dyadic::from(bin.n)));
         self.within_freedom = self.within_freedom.saturating_add(bin.n - 1);
-        if squares.is_finite() {
-            self.within_squares.add(squares);
-            self.deviations.add(deviation);
+        if bin.squares.is_finite() {
+            self.within_squares.add(bin.squares);
+            self.deviations.add(bin.deviation);
         } else {
             self.overflow = true;
         }
@@ -119,9 +143,9 @@ impl Spread {
 mod tests {
     use super::*;
 
-    fn bins(values: &[&[f64]]) -> Vec<Moments> {
-        let moments = |values: &&[f64]| values.iter().copied().collect();
-        values.iter().map(moments).collect()
+    fn bins(values: &[&[f64]]) -> Vec<Bin> {
+        let bin = |values: &&[f64]| Bin::of(&values.iter().copied().collect());
+        values.iter().filter_map(bin).collect()
     }
 
     fn close(found: Finished, expected: f64) {
@@ -137,22 +161,22 @@ mod tests {
     fn a_hand_calculation_with_three_bins() {
         // Means 2, 4, 6; squares within 2, 0, 2 with freedom 1, 0, 1; pooled variance 2; mean of 1/n is (1/2 + 1 + 1/2) / 3.
         let bins = bins(&[&[1.0, 3.0], &[4.0], &[5.0, 7.0]]);
-        let spread = Spread::of(bins.iter(), 1);
+        let spread = Spread::of(&bins, 1);
         close(spread.mean(), 4.0);
         close(spread.deviation(0), (8.0_f64 / 3.0).sqrt());
         close(spread.noise_floor(), (4.0_f64 / 3.0).sqrt());
         close(spread.excess(), (4.0_f64 - 4.0 / 3.0).sqrt());
         close(spread.within(), 2.0 / 3.0);
-        assert_eq!(Spread::of(bins.iter(), 2).bins(), 2);
+        assert_eq!(Spread::of(&bins, 2).bins(), 2);
     }
 
     #[test]
     fn bins_of_one_sample_leave_chance_unknown() {
         let bins = bins(&[&[1.0], &[2.0]]);
-        let spread = Spread::of(bins.iter(), 1);
+        let spread = Spread::of(&bins, 1);
         assert_eq!(spread.noise_floor(), Err(UndefinedReason::NoRepeats));
         assert_eq!(
-            Spread::of(bins.iter(), 2).mean(),
+            Spread::of(&bins, 2).mean(),
             Err(UndefinedReason::NoBin { least: 2 })
         );
     }
@@ -161,7 +185,7 @@ mod tests {
     fn scatter_beyond_binary64_is_an_overflow_and_no_panic() {
         let large = 2.0_f64.powi(1020);
         let bins = bins(&[&[large, -large], &[0.0, 1.0]]);
-        let spread = Spread::of(bins.iter(), 1);
+        let spread = Spread::of(&bins, 1);
         assert_eq!(spread.noise_floor(), Err(UndefinedReason::Overflow));
         assert_eq!(spread.within(), Err(UndefinedReason::Overflow));
     }

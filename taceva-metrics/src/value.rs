@@ -79,6 +79,43 @@ pub enum UndefinedReason {
     },
     /// No bin or cell has two samples, so that nobody knows what is chance.
     NoRepeats,
+    /// No press was made twice.
+    NoRepeatedPress,
+    /// Fewer repeated presses than the formula needs.
+    TooFewCells {
+        /// How many there are.
+        have: u64,
+        /// What it needs.
+        least: u64,
+    },
+    /// Repeats do not differ at all, so that nothing relates to them.
+    EqualRepeats,
+    /// No point has samples at two depths on both branches.
+    ShortBranch,
+    /// No stretch is common to what is compared.
+    NoOverlap,
+    /// No force was met.
+    NoForce,
+    /// No sample is without contact.
+    NoIdleSamples,
+    /// No sample is in contact and says where.
+    NoContact,
+    /// One channel, where two or more are compared.
+    OneChannel,
+    /// One unit, where two or more are compared.
+    OneUnit,
+    /// Points on one line, or fewer than three: how a unit is turned is open.
+    OpenTurn,
+    /// No sample has a time.
+    NoTimes,
+    /// All samples have the same time.
+    EqualTimes,
+    /// No two successive frames have a digest.
+    NoDigests,
+    /// Nobody has declared a fact about the sensor.
+    NotDeclared(&'static str),
+    /// No interval is defined for this score.
+    NoInterval,
     /// The mean is zero, and nothing relates to it.
     ZeroMean,
     /// No sample of the scene that the others are compared with.
@@ -122,6 +159,26 @@ impl fmt::Display for UndefinedReason {
                 write!(f, "{have} bins, {least} are needed")
             }
             UndefinedReason::NoRepeats => f.write_str("no bin has two samples"),
+            UndefinedReason::NoRepeatedPress => f.write_str("no press was repeated"),
+            UndefinedReason::TooFewCells { have, least } => {
+                write!(f, "{have} repeated presses, {least} are needed")
+            }
+            UndefinedReason::EqualRepeats => f.write_str("repeats do not differ"),
+            UndefinedReason::ShortBranch => f.write_str("no point has two depths on both branches"),
+            UndefinedReason::NoOverlap => f.write_str("no common range"),
+            UndefinedReason::NoForce => f.write_str("no force was met"),
+            UndefinedReason::NoIdleSamples => f.write_str("no sample is without contact"),
+            UndefinedReason::NoContact => f.write_str("no sample in contact says where"),
+            UndefinedReason::OneChannel => f.write_str("one channel, two are needed"),
+            UndefinedReason::OneUnit => f.write_str("one unit, two are needed"),
+            UndefinedReason::OpenTurn => f.write_str("points on one line leave a turn open"),
+            UndefinedReason::NoTimes => f.write_str("no time stamps"),
+            UndefinedReason::EqualTimes => f.write_str("equal time stamps"),
+            UndefinedReason::NoDigests => f.write_str("no successive digests of frames"),
+            UndefinedReason::NotDeclared(fact) => {
+                write!(f, "the sensor's `{fact}` is not declared")
+            }
+            UndefinedReason::NoInterval => f.write_str("no interval is defined"),
             UndefinedReason::ZeroMean => f.write_str("the mean is zero"),
             UndefinedReason::NoReferenceScene => f.write_str("no sample of the reference scene"),
             UndefinedReason::OneScene => f.write_str("no scene but the reference scene"),
@@ -151,6 +208,8 @@ impl fmt::Display for UndefinedReason {
 pub enum InapplicableReason {
     /// Nobody has said from which magnitude on values of this unit count as contact.
     NoGate(Unit),
+    /// Nobody has said how fine this unit is looked at.
+    NoStep(Unit),
     /// The samples carry no such channel.
     ChannelAbsent(&'static str),
     /// The value is a map, a curve or a matrix, and the question is one of numbers.
@@ -161,6 +220,7 @@ impl fmt::Display for InapplicableReason {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             InapplicableReason::NoGate(unit) => write!(f, "no gate is defined for {unit}"),
+            InapplicableReason::NoStep(unit) => write!(f, "no step is defined for {unit}"),
             InapplicableReason::ChannelAbsent(name) => write!(f, "there is no channel `{name}`"),
             InapplicableReason::NotOneNumber => f.write_str("not one number but many"),
         }

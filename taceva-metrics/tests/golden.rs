@@ -12,7 +12,7 @@ use std::path::PathBuf;
 use recipe::{Case, SplitMix64, read_cases};
 use taceva_core::{Batch, Channel, Channels, Column, FieldSet};
 use taceva_metrics::{
-    Evaluation, Evaluator, MetricPlan, PairSpec, PairSums, Paired, Stream, Streams,
+    Evaluation, Evaluator, Isa, MetricPlan, PairSpec, PairSums, Paired, Stream, Streams,
     UndefinedReason, Value, catalogue,
 };
 
@@ -166,6 +166,26 @@ fn shuffled_chunks(case: &Case, random: &mut SplitMix64) -> Vec<Outcome> {
     chunks
 }
 
+/// Runs the other test in a process of its own for each instruction set, as which one is used is decided once a process.
+#[test]
+fn every_golden_value_is_met_on_every_instruction_set_of_the_machine() {
+    let program = std::env::current_exe().expect("this program");
+    for isa in Isa::available() {
+        let run = std::process::Command::new(&program)
+            .args(["--exact", EVERY_VALUE, "--nocapture"])
+            .env("TACEVA_ISA", isa.name())
+            .output()
+            .expect("this program starts");
+        let printed = String::from_utf8_lossy(&run.stdout);
+        assert!(run.status.success(), "{isa}: {printed}");
+        let compared = format!("on {isa}: compared");
+        assert!(printed.contains(&compared), "{isa}: {printed}");
+    }
+}
+
+/// The name of the test below.
+const EVERY_VALUE: &str = "every_golden_value_is_met_bit_for_bit_however_the_samples_come";
+
 #[test]
 fn every_golden_value_is_met_bit_for_bit_however_the_samples_come() {
     let cases = cases();
@@ -201,7 +221,8 @@ fn every_golden_value_is_met_bit_for_bit_however_the_samples_come() {
     }
     assert!(!cases.is_empty(), "no case was compared");
     println!(
-        "compared {} golden cases, {values} values each in 4 ways",
+        "on {}: compared {} golden cases, {values} values each in 4 ways",
+        Isa::detect(),
         cases.len()
     );
 }

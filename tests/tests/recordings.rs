@@ -40,6 +40,7 @@ fn evaluated(dataset: &Dataset, model: &str, split: &str, seed: u64) -> Evaluate
         }),
         metrics: vec!["r2".to_owned()],
         part: None,
+        sensor: None,
         jobs: JOBS,
     };
     evaluate(dataset, &request, &Silent).expect("evaluated")

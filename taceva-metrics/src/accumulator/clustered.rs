@@ -4,7 +4,7 @@ use taceva_core::{Batch, Channels};
 
 use super::Accumulator;
 use super::family::{Details, Family, Numbers, Output};
-use super::resampling::{Resampling, each_left_out};
+use super::resampling::{Cell, Resampling, each_left_out};
 use crate::clusters::{Clustering, Clusters};
 use crate::error::MetricError;
 use crate::evaluation::Entry;
@@ -88,7 +88,7 @@ impl<F: Family> Clustered<F> {
     }
 
     /// Finishes every score again with clusters left out or weighted.
-    fn resample(&self, requests: &mut [Request], cells: &[(u64, &Vec<F::Sums>)]) {
+    fn resample(&self, requests: &mut [Request], cells: &[Cell<'_, F::Sums>]) {
         match self.interval_method {
             IntervalMethod::Jackknife => {
                 each_left_out(&self.clustering.empty, cells, |cell, others| {
@@ -104,7 +104,7 @@ impl<F: Family> Clustered<F> {
             IntervalMethod::PoissonBootstrap(bootstrap) => {
                 for request in requests {
                     let (metric, output) = (request.metric, &request.output);
-                    let cells: Vec<(u64, &Vec<F::Sums>)> = cells
+                    let cells: Vec<Cell<'_, F::Sums>> = cells
                         .iter()
                         .copied()
                         .filter(|(_, cell)| self.samples(metric, output, cell) > 0)
@@ -122,7 +122,7 @@ impl<F: Family> Clustered<F> {
         &self,
         request: Request,
         total: &[F::Sums],
-        cells: Option<&[(u64, &Vec<F::Sums>)]>,
+        cells: Option<&[Cell<'_, F::Sums>]>,
     ) -> Score {
         let Request {
             metric,
@@ -147,7 +147,7 @@ impl<F: Family> Clustered<F> {
         };
         let interval = |value: &Value, name: Option<&str>| match value {
             Value::Undefined(reason) => Interval::Undefined(*reason),
-            Value::Scalar(_) if cells.is_none() => Interval::Undefined(UndefinedReason::NoClusters),
+            Value::Scalar(_) if cells.is_none() => Interval::Undefined(self.family.unclustered()),
             Value::Scalar(value) => match (&own, name) {
                 (Some(own), None) => own.value,
                 (Some(own), Some(name)) if own.variants.contains_key(name) => own.variants[name],

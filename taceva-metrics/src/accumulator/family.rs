@@ -33,6 +33,10 @@ pub(crate) trait Family: Send {
     fn clusters<'a>(&self, batch: &'a Batch) -> Option<Cow<'a, Labels>> {
         batch.points().map(Cow::Borrowed)
     }
+    /// Why a score has no interval where samples are not clustered.
+    fn unclustered(&self) -> UndefinedReason {
+        UndefinedReason::NoClusters
+    }
     /// As a state holds it.
     fn to_record(&self, sums: &Self::Sums) -> Record;
     /// Back from a state, for the part at `position`.

@@ -9,24 +9,27 @@ use crate::stats::PoissonBootstrap;
 use crate::stats::jackknife::{self, LeftOut};
 use crate::value::UndefinedReason;
 
+/// A cluster: a number that stands for its name, and the sums of each part.
+pub(super) type Cell<'a, S> = (u64, &'a Vec<S>);
+
 /// Shows `visit` each cluster with the sums of all the others.
 ///
 /// Sums of the clusters before and of those after are carried along, so that nothing need ever be taken away: sets that only
 /// grow have intervals too.
 pub(super) fn each_left_out<S: Merge + Clone>(
-    empty: &Vec<S>,
-    cells: &[(u64, &Vec<S>)],
+    empty: &[S],
+    cells: &[Cell<'_, S>],
     mut visit: impl FnMut(&[S], &[S]),
 ) {
     let mut after = Vec::with_capacity(cells.len());
-    let mut sums = empty.clone();
+    let mut sums = empty.to_vec();
     for (_, cell) in cells.iter().rev() {
         after.push(sums.clone());
         sums.merge(cell);
     }
-    let mut before = empty.clone();
+    let mut before = empty.to_vec();
     for (_, cell) in cells {
-        let mut others = after.pop().unwrap_or_else(|| empty.clone());
+        let mut others = after.pop().unwrap_or_else(|| empty.to_vec());
         others.merge(&before);
         visit(cell, &others);
         before.merge(cell);
@@ -69,8 +72,8 @@ impl Resampling {
     pub(super) fn weigh<S: Merge + Clone>(
         &mut self,
         bootstrap: PoissonBootstrap,
-        empty: &Vec<S>,
-        cells: &[(u64, &Vec<S>)],
+        empty: &[S],
+        cells: &[Cell<'_, S>],
         total: &Numbers,
         finish: impl Fn(&[S]) -> Numbers,
     ) {
@@ -78,7 +81,7 @@ impl Resampling {
         let mut replicates: Vec<Vec<Finished>> = Vec::new();
         // The weights depend on clusters and seed alone: the first pass finishes all numbers, later ones look theirs up.
         bootstrap.interval(0.0, &keys, |weights| {
-            let mut sums = empty.clone();
+            let mut sums = empty.to_vec();
             for ((_, cell), &weight) in cells.iter().zip(weights) {
                 sums.merge_times(cell, weight);
             }

@@ -5,6 +5,8 @@
 //! that does not fit is taken out of its block and added on its own. Which pairs those are depends on what came before; the
 //! sums do not, because every way is exact.
 
+use std::ops::Range;
+
 use super::bounds::{Bounds, Grids, TERMS};
 use super::grid::{Grid, SquareUnits};
 use super::isa::Machine;
@@ -74,8 +76,10 @@ impl BlockSums {
         if pairs.estimate.len() < FEW_ROWS {
             return pairs.iter().for_each(|pair| self.add_pair(pair));
         }
-        for pairs in pairs.blocks(Block::rows_on(self.machine)) {
-            if !self.add_block(pairs) {
+        let mut blocks = pairs.blocks(Block::rows_on(self.machine)).peekable();
+        while let Some(pairs) = blocks.next() {
+            let next = blocks.peek().copied().unwrap_or_default();
+            if !self.add_block(pairs, next) {
                 self.add_strays_apart(pairs);
             }
         }
@@ -104,12 +108,13 @@ impl BlockSums {
     }
 
     /// Adds a block whose pairs all fit the grids in use; false, and nothing added, if one does not.
-    fn add_block(&mut self, pairs: Paired<&[f64]>) -> bool {
+    fn add_block(&mut self, pairs: Paired<&[f64]>, next: Paired<&[f64]>) -> bool {
         let Some(pending) = &mut self.pending else {
             return false;
         };
         let block = Block {
             pairs,
+            next,
             streams: self.streams,
             gate: self.gate,
             grids: pending.grids,
@@ -138,40 +143,22 @@ impl BlockSums {
     #[cold]
     #[inline(never)]
     fn add_strays_apart(&mut self, pairs: Paired<&[f64]>) {
-        let bounds = self.bounds_for(pairs);
-        let rows = pairs.estimate.len();
-        let (mut estimate, mut reference) = ([0.0; BLOCK_ROWS], [0.0; BLOCK_ROWS]);
-        let mut kept = 0;
-        for pair in pairs.iter() {
-            if bounds.hold(pair) {
-                (estimate[kept], reference[kept]) = (pair.estimate, pair.reference);
-                kept += 1;
-            } else {
-                self.add_pair(pair);
-            }
-        }
-        let added = self.add_block(Paired {
-            estimate: &estimate[..kept],
-            reference: &reference[..kept],
-        });
-        assert!(added, "what is out of bounds was taken out");
+        let mut parts = Parts::default();
         if let Some(pending) = &mut self.pending {
-            pending.strays += rows - kept;
+            parts.divide(pairs, &pending.bounds);
+            pending.strays += parts.strays;
         }
-    }
-
-    /// The bounds in use, or new ones if too many pairs were out of them.
-    fn bounds_for(&mut self, pairs: Paired<&[f64]>) -> Bounds {
-        if let Some(pending) = &self.pending {
-            let here = pairs.iter().filter(|pair| !pending.bounds.hold(*pair));
-            let strays = pending.strays + here.count();
-            if strays <= FREE_STRAYS + pending.rows_on_grids / ROWS_PER_STRAY {
-                return pending.bounds;
-            }
+        let pending = self.pending.as_ref();
+        if pending.is_none_or(|pending| pending.strays > pending.free_strays()) {
+            self.settle();
+            let pending = Pending::new(Grids::fitting(pairs, self.streams), self.streams);
+            parts.divide(pairs, &self.pending.insert(pending).bounds);
         }
-        self.settle();
-        let pending = Pending::new(Grids::fitting(pairs, self.streams), self.streams);
-        self.pending.insert(pending).bounds
+        let strays = parts.rows(pairs.estimate.len() - parts.strays..pairs.estimate.len());
+        strays.iter().for_each(|pair| self.add_pair(pair));
+        let fitting = parts.rows(0..pairs.estimate.len() - parts.strays);
+        let added = self.add_block(fitting, Paired::default());
+        assert!(added, "what is out of bounds was taken out");
     }
 
     /// Adds one pair to the superaccumulators.
@@ -275,6 +262,11 @@ impl Pending {
         }
     }
 
+    /// How many rows may be off these grids before others are chosen.
+    fn free_strays(&self) -> usize {
+        FREE_STRAYS + self.rows_on_grids / ROWS_PER_STRAY
+    }
+
     fn clear(&mut self) {
         self.errors = ErrorUnits::default();
         self.values = ValueUnits::default();
@@ -291,6 +283,50 @@ impl Pending {
             Stream::Truth => deposit(self.values.truth, truth, sum),
             Stream::TruthSquared => deposit_squares(self.values.squared, truth, sum),
             Stream::Symmetric => deposit(self.values.symmetric, TERMS, sum),
+        }
+    }
+}
+
+/// A block's rows, those that fit before those that stray.
+struct Parts {
+    estimate: [f64; BLOCK_ROWS],
+    reference: [f64; BLOCK_ROWS],
+    strays: usize,
+}
+
+impl Parts {
+    /// Copies `pairs` to one end or the other.
+    fn divide(&mut self, pairs: Paired<&[f64]>, bounds: &Bounds) {
+        let (mut fitting, mut strays) = (0, 0);
+        for pair in pairs.iter() {
+            let fits = bounds.hold(pair);
+            // Without a branch, which would be guessed wrong at each stray.
+            let place = if fits {
+                fitting
+            } else {
+                pairs.estimate.len() - 1 - strays
+            };
+            (self.estimate[place], self.reference[place]) = (pair.estimate, pair.reference);
+            fitting += usize::from(fits);
+            strays += usize::from(!fits);
+        }
+        self.strays = strays;
+    }
+
+    fn rows(&self, rows: Range<usize>) -> Paired<&[f64]> {
+        Paired {
+            estimate: &self.estimate[rows.clone()],
+            reference: &self.reference[rows],
+        }
+    }
+}
+
+impl Default for Parts {
+    fn default() -> Parts {
+        Parts {
+            estimate: [0.0; BLOCK_ROWS],
+            reference: [0.0; BLOCK_ROWS],
+            strays: 0,
         }
     }
 }

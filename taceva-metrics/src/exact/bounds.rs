@@ -36,7 +36,7 @@ impl Range {
     }
 
     fn holds(self, magnitude: f64) -> bool {
-        magnitude == 0.0 || (self.least <= magnitude && magnitude <= self.greatest)
+        (magnitude == 0.0) | ((self.least <= magnitude) & (magnitude <= self.greatest))
     }
 }
 
@@ -104,7 +104,7 @@ impl Bounds {
 
     /// Whether the vector sums hold `pair`.
     pub(super) fn hold(&self, pair: Paired<f64>) -> bool {
-        self.residual.holds(pair.residual().abs()) && self.truth.holds(pair.reference.abs())
+        self.residual.holds(pair.residual().abs()) & self.truth.holds(pair.reference.abs())
     }
 }
 

@@ -79,11 +79,11 @@ impl<V: Vector> GridSum<V> {
 
     /// Adds a value that is zero or has an exponent within the grid's reach below its top.
     #[inline(always)]
-    pub(super) fn add(&mut self, value: V) {
+    pub(super) fn add(&mut self, value: V, one: V) {
         let next = self.coarse.plus(value);
         let taken = next.minus(self.coarse);
         self.coarse = next;
-        self.fine = self.fine.plus(value.minus(taken));
+        self.fine = self.fine.plus_aside(value.minus(taken), one);
     }
 
     /// Whether no NaN was added.
@@ -121,10 +121,10 @@ impl<V: Vector> SquareSum<V> {
 
     /// Adds the square of a value that is zero or within the grid's reach of squares.
     #[inline(always)]
-    pub(super) fn add_square_of(&mut self, value: V) {
+    pub(super) fn add_square_of(&mut self, value: V, one: V) {
         let [rounded, lost] = value.square();
-        self.rounded.add(rounded);
-        self.lost.add(lost);
+        self.rounded.add(rounded, one);
+        self.lost.add(lost, one);
     }
 
     /// Whether no NaN was added.
@@ -169,10 +169,11 @@ mod tests {
         fn run<V: Vector>(self, proof: V::Proof) -> Self::Output {
             let mut sum = GridSum::<V>::new(proof, self.grid);
             let mut squares = SquareSum::<V>::new(proof, self.grid);
+            let one = V::splat(proof, 1.0);
             for &value in self.values {
                 let value = V::splat(proof, value);
-                sum.add(value);
-                squares.add_square_of(value);
+                sum.add(value, one);
+                squares.add_square_of(value, one);
             }
             assert!(sum.is_sound() && squares.is_sound());
             let lanes = u32::try_from(V::LANES).expect("a few");

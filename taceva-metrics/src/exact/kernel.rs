@@ -13,12 +13,14 @@ use crate::paired::Paired;
 use crate::streams::{Stream, Streams};
 
 /// Rows of the longest block.
-pub(super) const BLOCK_ROWS: usize = 1024;
+pub(super) const BLOCK_ROWS: usize = 512;
 
 /// What is to be summed of a block, and where.
 #[derive(Clone, Copy)]
 pub(super) struct Block<'a> {
     pub(super) pairs: Paired<&'a [f64]>,
+    /// The pairs of the block after it, which are sent for meanwhile.
+    pub(super) next: Paired<&'a [f64]>,
     pub(super) streams: Streams,
     /// The least |y| of a pair of the gated sum, if there is one.
     pub(super) gate: Option<f64>,
@@ -136,17 +138,39 @@ trait Visit<V> {
     fn visit(&mut self, estimate: V, reference: V);
 }
 
-/// Shows `visitor` all pairs, and zeros beside the last ones.
+/// Rows whose values of one column fill a line of the cache.
+const LINE_ROWS: usize = 8;
+
+/// Shows `visitor` all pairs, and zeros beside the last ones; sends for the lines of `next` meanwhile.
 #[inline(always)]
-fn visit_all<V: Vector>(proof: V::Proof, pairs: Paired<&[f64]>, visitor: &mut impl Visit<V>) {
-    let estimates = pairs.estimate.chunks_exact(V::LANES);
-    let references = pairs.reference.chunks_exact(V::LANES);
+fn visit_all<V: Vector>(
+    proof: V::Proof,
+    pairs: Paired<&[f64]>,
+    next: Paired<&[f64]>,
+    visitor: &mut impl Visit<V>,
+) {
+    let estimates = pairs.estimate.chunks_exact(LINE_ROWS);
+    let references = pairs.reference.chunks_exact(LINE_ROWS);
     let rest = (estimates.remainder(), references.remainder());
+    let mut next_estimates = next.estimate.chunks(LINE_ROWS);
+    let mut next_references = next.reference.chunks(LINE_ROWS);
     for (estimate, reference) in estimates.zip(references) {
-        visitor.visit(V::load(proof, estimate), V::load(proof, reference));
+        if let Some(line) = next_estimates.next() {
+            V::prefetch(line);
+        }
+        if let Some(line) = next_references.next() {
+            V::prefetch(line);
+        }
+        let vectors = estimate.chunks_exact(V::LANES);
+        for (estimate, reference) in vectors.zip(reference.chunks_exact(V::LANES)) {
+            visitor.visit(V::load(proof, estimate), V::load(proof, reference));
+        }
     }
-    if !rest.0.is_empty() {
-        visitor.visit(V::load_short(proof, rest.0), V::load_short(proof, rest.1));
+    for (estimate, reference) in rest.0.chunks(V::LANES).zip(rest.1.chunks(V::LANES)) {
+        visitor.visit(
+            V::load_short(proof, estimate),
+            V::load_short(proof, reference),
+        );
     }
 }
 
@@ -154,6 +178,7 @@ fn visit_all<V: Vector>(proof: V::Proof, pairs: Paired<&[f64]>, visitor: &mut im
 struct Errors<'a, const STREAMS: u8>(Block<'a>);
 
 struct ErrorSums<V, const STREAMS: u8> {
+    one: V,
     greatest_residual: V,
     greatest_truth: V,
     /// The predecessors of the least magnitudes that are not zero.
@@ -175,13 +200,13 @@ impl<V: Vector, const STREAMS: u8> Visit<V> for ErrorSums<V, STREAMS> {
         self.least_residual = magnitude.predecessor().least(self.least_residual);
         self.least_truth = truth.predecessor().least(self.least_truth);
         if const { has(STREAMS, Stream::Absolute) } {
-            self.absolute.add(magnitude);
+            self.absolute.add(magnitude, self.one);
         }
         if const { has(STREAMS, Stream::Residual) } {
-            self.residual.add(residual);
+            self.residual.add(residual, self.one);
         }
         if const { has(STREAMS, Stream::Squared) } {
-            self.squared.add_square_of(residual);
+            self.squared.add_square_of(residual, self.one);
         }
     }
 }
@@ -194,6 +219,7 @@ impl<const STREAMS: u8> Job for Errors<'_, STREAMS> {
         let Errors(block) = self;
         let (grid, bounds) = (block.grids.residual, block.bounds);
         let mut sums = ErrorSums::<V, STREAMS> {
+            one: V::splat(proof, std::hint::black_box(1.0)),
             greatest_residual: V::splat(proof, 0.0),
             greatest_truth: V::splat(proof, 0.0),
             least_residual: V::splat(proof, f64::MAX),
@@ -202,7 +228,7 @@ impl<const STREAMS: u8> Job for Errors<'_, STREAMS> {
             residual: GridSum::new(proof, grid),
             squared: SquareSum::new(proof, grid),
         };
-        visit_all(proof, block.pairs, &mut sums);
+        visit_all(proof, block.pairs, block.next, &mut sums);
         let residual = bounds.residual.in_lanes::<V>(proof);
         let truth = bounds.truth.in_lanes::<V>(proof);
         let within = residual.hold(sums.least_residual, sums.greatest_residual)
@@ -224,6 +250,7 @@ impl<const STREAMS: u8> Job for Errors<'_, STREAMS> {
 struct Values<'a, const STREAMS: u8, const GATED: bool>(Block<'a>);
 
 struct ValueSums<V, const STREAMS: u8, const GATED: bool> {
+    one: V,
     half: V,
     epsilon: V,
     gate: V,
@@ -242,17 +269,18 @@ impl<V: Vector, const STREAMS: u8, const GATED: bool> Visit<V> for ValueSums<V, 
             let sum = truth.plus(estimate.magnitude());
             let scale = sum.times(self.half).plus(self.epsilon);
             let term = reference.minus(estimate).magnitude().over(scale);
-            self.symmetric.add(term);
+            self.symmetric.add(term, self.one);
             if GATED {
-                self.gated.add(truth.keep_at_least(self.gate, term));
+                self.gated
+                    .add(truth.keep_at_least(self.gate, term), self.one);
                 self.n_gated += truth.count_at_least(self.gate);
             }
         }
         if const { has(STREAMS, Stream::Truth) } {
-            self.truth.add(reference);
+            self.truth.add(reference, self.one);
         }
         if const { has(STREAMS, Stream::TruthSquared) } {
-            self.squared.add_square_of(reference);
+            self.squared.add_square_of(reference, self.one);
         }
     }
 }
@@ -267,6 +295,7 @@ impl<const STREAMS: u8, const GATED: bool> Job for Values<'_, STREAMS, GATED> {
         // Where nothing is gated, what the gated sums are is not looked at.
         let gate = block.gate.unwrap_or(f64::INFINITY);
         let mut sums = ValueSums::<V, STREAMS, GATED> {
+            one: V::splat(proof, std::hint::black_box(1.0)),
             half: V::splat(proof, 0.5),
             epsilon: V::splat(proof, EPSILON),
             gate: V::splat(proof, gate),
@@ -276,7 +305,7 @@ impl<const STREAMS: u8, const GATED: bool> Job for Values<'_, STREAMS, GATED> {
             gated: GridSum::new(proof, TERMS),
             n_gated: 0,
         };
-        visit_all(proof, block.pairs, &mut sums);
+        visit_all(proof, block.pairs, Paired::default(), &mut sums);
         ValueUnits {
             truth: sums.truth.units(),
             squared: sums.squared.units(),

@@ -19,6 +19,10 @@ pub(crate) trait Vector: Copy {
 
     /// RN(self + other).
     fn plus(self, other: Self) -> Self;
+    /// RN(self + other) by whichever unit is less busy: the multiplier forms self + other × one.
+    ///
+    /// `one` is one in every lane, which the compiler must not know of, lest it turned this into an addition again.
+    fn plus_aside(self, other: Self, one: Self) -> Self;
     /// RN(self − other).
     fn minus(self, other: Self) -> Self;
     /// RN(self × other).
@@ -47,6 +51,8 @@ pub(crate) trait Vector: Copy {
     /// The lanes' distances from `start` in units of its last place, summed; all are in one binade.
     fn units_above(self, start: Self) -> i64;
 
+    /// Asks for the memory of `values` ahead of its use, where the machine listens to that.
+    fn prefetch(values: &[f64]);
     /// The rounded sum of the lanes.
     fn sum_of_lanes(self) -> f64;
 

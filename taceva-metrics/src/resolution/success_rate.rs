@@ -20,7 +20,8 @@ pub(crate) static SR: Metric = Metric {
     documentation: "Which share of gratings is recognised to within 0.05 mm of their spacing, lines and dots apart. Spacings \
                     are compared in whole nanometres, because 0.40 − 0.35 ≤ 0.05 is false in binary64. exact is the share \
                     without any error, curve the share for every tolerance up to 1 mm; wilson says how narrow an interval of \
-                    independent samples would be, which presses of one board are not.",
+                    independent samples would be, which presses of one board are not. Where samples name no point_id, kind and spacing of their board \
+                    stand for it.",
     needs: Needs {
         fields: FieldSet::EMPTY
             .with(Field::Kind)

@@ -8,7 +8,7 @@ use crate::facts::Fact;
 use crate::metric::{Better, Formula, Metric, ScoreUnit};
 use crate::moments::Moments;
 use crate::settings::Settings;
-use crate::spread::Spread;
+use crate::spread::{Bin, Spread};
 use crate::value::UndefinedReason;
 
 pub(crate) static R_SPATIAL: Metric = Metric {
@@ -46,15 +46,18 @@ pub(super) fn robustness(sums: &SpatialSums, settings: &Settings, unit: Unit) ->
             UndefinedReason::Empty
         }));
     }
-    let spread =
-        |n_min: u64| [&sums.distance, &sums.depth].map(|bins| Spread::of(bins.values(), n_min));
+    let bins = [&sums.distance, &sums.depth].map(|bins| -> Vec<Bin> {
+        let bins = bins.values();
+        bins.filter_map(Bin::of).collect()
+    });
+    let spread = |n_min: u64| [0, 1].map(|axis: usize| Spread::of(&bins[axis], n_min));
     let both = |spreads: &[Spread; 2], of: &dyn Fn(&Spread) -> Finished| {
         Ok(midpoint(of(&spreads[0])?, of(&spreads[1])?))
     };
     let deviation = |spread: &Spread| spread.deviation(settings.ddof);
     let paper = spread(settings.n_min);
-    let smooth = [&sums.distance, &sums.depth].map(|bins| {
-        let means = smoothed(bins.values(), settings);
+    let smooth = [&bins[0], &bins[1]].map(|bins| {
+        let means = smoothed(bins, settings);
         let least = settings.n_min;
         let deviation = means.deviation(u64::from(settings.ddof));
         deviation.ok_or(UndefinedReason::NoBin { least })
@@ -72,9 +75,9 @@ pub(super) fn robustness(sums: &SpatialSums, settings: &Settings, unit: Unit) ->
 }
 
 /// The centred rolling means of the bins that have samples, each RN of an exact mean; the window is cut off at the ends.
-fn smoothed<'a>(bins: impl Iterator<Item = &'a Moments>, settings: &Settings) -> Moments {
-    let bins = bins.filter(|bin| bin.n >= settings.n_min);
-    let means: Vec<f64> = bins.filter_map(Moments::mean).collect();
+fn smoothed(bins: &[Bin], settings: &Settings) -> Moments {
+    let bins = bins.iter().filter(|bin| bin.has(settings.n_min));
+    let means: Vec<f64> = bins.map(|bin| bin.mean).collect();
     let reach = settings.smoothing_window as usize / 2;
     let windows = (0..means.len()).map(|centre| {
         let window = &means[centre.saturating_sub(reach)..means.len().min(centre + reach + 1)];
@@ -89,15 +92,13 @@ mod tests {
 
     #[test]
     fn a_rolling_mean_is_cut_off_at_the_ends() {
-        let bins: Vec<Moments> = [0.0, 3.0, 6.0]
-            .into_iter()
-            .map(|mean| std::iter::once(mean).collect())
-            .collect();
+        let bin = |mean: f64| Bin::of(&std::iter::once(mean).collect());
+        let bins: Vec<Bin> = [0.0, 3.0, 6.0].into_iter().filter_map(bin).collect();
         let settings = Settings {
             smoothing_window: 3,
             ..Settings::default()
         };
-        let means = smoothed(bins.iter(), &settings);
+        let means = smoothed(&bins, &settings);
         // 1.5, 3, 4.5
         assert_eq!(
             (means.n, means.mean(), means.variance(0)),

@@ -130,7 +130,7 @@ fn better(difference: &Difference, better: Better) -> Option<Side> {
         Better::Higher => Some(higher),
         Better::NearZero if a >= 0.0 && b >= 0.0 => Some(lower),
         Better::NearZero if a <= 0.0 && b <= 0.0 => Some(higher),
-        Better::NearZero => None,
+        Better::NearZero | Better::Described => None,
     }
 }
 

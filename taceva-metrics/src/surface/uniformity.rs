@@ -10,7 +10,7 @@ use crate::exact::Dyadic;
 use crate::facts::Fact;
 use crate::metric::{Better, Formula, Metric, ScoreUnit};
 use crate::settings::Settings;
-use crate::spread::Spread;
+use crate::spread::{Bin, Spread};
 use crate::value::UndefinedReason;
 
 pub(crate) static UNIFORMITY: Metric = Metric {
@@ -43,17 +43,22 @@ pub(super) fn uniformity(sums: &SurfaceSums, settings: &Settings) -> Numbers {
     if let Err(reason) = contact(sums).and_then(|()| on_surface(sums)) {
         return Numbers::of(Err(reason));
     }
-    let spread = |kind: usize, n_min: u64| {
-        let cells = sums.cells.values().map(move |cell| &cell[kind]);
-        Spread::of(cells.filter(|cell| cell.n > 0), n_min)
+    let bins = |kind: usize| -> Vec<Bin> {
+        let cells = sums.cells.values();
+        cells.filter_map(|cell| Bin::of(&cell[kind])).collect()
     };
+    let (bins, normal) = (bins(0), bins(1));
     let plain = |spread: &Spread| ratio(spread.mean()?, spread.deviation(ddof)?);
-    let all = spread(0, n_min);
+    let all = Spread::of(&bins, n_min);
     let debiased = all.mean().and_then(|mean| ratio(mean, all.excess()?));
     Numbers::of(plain(&all))
         .with("debiased", Unit::One, debiased)
-        .with("n_min_5", Unit::One, plain(&spread(0, WELL_SAMPLED)))
-        .with(NORMAL_ONLY, Unit::One, plain(&spread(1, n_min)))
+        .with(
+            "n_min_5",
+            Unit::One,
+            plain(&Spread::of(&bins, WELL_SAMPLED)),
+        )
+        .with(NORMAL_ONLY, Unit::One, plain(&Spread::of(&normal, n_min)))
         .with("mean", Unit::MillimetrePerNewton, all.mean())
         .with("deviation", Unit::MillimetrePerNewton, all.deviation(ddof))
 }

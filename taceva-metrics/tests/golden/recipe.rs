@@ -3,6 +3,8 @@
 //! Whatever is not understood is a panic, because a case that is skipped proves nothing.
 
 use serde_json::{Map, Value};
+pub(crate) use taceva_metrics::kernels::SplitMix64;
+use taceva_metrics::kernels::{Kind, Order, Recipe};
 
 /// A case's inputs in its own order, and what must come of them.
 pub(crate) struct Case {
@@ -114,106 +116,84 @@ fn read_expected(expected: &Value, name: &str) -> Expected {
 }
 
 fn generate(case: &Map<String, Value>) -> (Vec<f64>, Vec<f64>) {
-    let kind = text(&case["kind"]);
     let parameters = case["p"].as_object().expect("parameters");
     let real = |key: &str| parameters[key].as_f64().expect("a number");
-    let power = |key: &str| parameters[key].as_i64().expect("an exponent");
-    let mut random = SplitMix64(case["seed"].as_u64().expect("a seed"));
-    let mut pairs: Vec<(f64, f64)> = Vec::new();
-    for row in 0..case["n"].as_u64().expect("a count") {
-        let truth = match kind.as_str() {
-            "lab" | "smallerr" => real("a") + (real("b") - real("a")) * random.unit(),
-            "offset" => real("off") + (real("a") + (real("b") - real("a")) * random.unit()),
-            "wide" | "wide_near" => random.wide(power("lo"), power("hi")),
-            "cancel" if row % 2 == 0 => random.wide(power("lo"), power("hi")),
-            "cancel" => -pairs[pairs.len() - 1].0,
-            "denorm" => random.denormal(),
-            "const" | "const_eq" => real("a"),
-            "f32" => narrow(real("a") + (real("b") - real("a")) * random.unit()),
-            "decimal3" => {
-                #[expect(clippy::cast_possible_truncation, reason = "whole numbers")]
-                let (low, high) = (real("a") as i64, real("b") as i64);
-                let levels = u64::try_from(high - low + 1).expect("a range");
-                let level = i64::try_from(random.next() % levels).expect("a level");
-                #[expect(clippy::cast_precision_loss, reason = "thousands")]
-                let level = (low + level) as f64;
-                level / 1000.0
-            }
-            other => panic!("kind `{other}` is not known to this reader"),
-        };
-        let prediction = match kind.as_str() {
-            "wide" => random.wide(power("lo"), power("hi")),
-            "wide_near" => truth * (1.0 + real("s") * random.bell()),
-            "denorm" => random.denormal(),
-            "const_eq" => truth,
-            "f32" => narrow(truth + real("s") * random.bell()),
-            "smallerr" => truth + random.wide(power("lo"), power("hi")),
-            _ => truth + real("s") * random.bell(),
-        };
-        pairs.push((truth, prediction));
-    }
-    match text(&case["order"]).as_str() {
-        "none" => {}
-        "reverse" => pairs.reverse(),
-        "sort" => pairs.sort_by(|left, right| left.partial_cmp(right).expect("finite")),
-        "shuffle" => SplitMix64(case["seed2"].as_u64().expect("a seed")).shuffle(&mut pairs),
+    let whole = |key: &str| {
+        let whole = parameters[key].as_i64().expect("a whole number");
+        i32::try_from(whole).expect("a small number")
+    };
+    #[expect(
+        clippy::cast_possible_truncation,
+        reason = "whole numbers of thousandths"
+    )]
+    let thousandths = |key: &str| real(key) as i32;
+    let count = |key: &str| case[key].as_u64().expect("a count");
+    let (low, high, noise) = ("a", "b", "s");
+    let kind = match text(&case["kind"]).as_str() {
+        "lab" => Kind::Lab {
+            low: real(low),
+            high: real(high),
+            noise: real(noise),
+        },
+        "offset" => Kind::Offset {
+            offset: real("off"),
+            low: real(low),
+            high: real(high),
+            noise: real(noise),
+        },
+        "wide" => Kind::Wide {
+            low: whole("lo"),
+            high: whole("hi"),
+        },
+        "wide_near" => Kind::WideNear {
+            low: whole("lo"),
+            high: whole("hi"),
+            noise: real(noise),
+        },
+        "cancel" => Kind::Cancelling {
+            low: whole("lo"),
+            high: whole("hi"),
+            noise: real(noise),
+        },
+        "denorm" => Kind::Denormal,
+        "const" => Kind::Constant {
+            value: real("a"),
+            noise: real(noise),
+        },
+        "const_eq" => Kind::Met { value: real("a") },
+        "f32" => Kind::Single {
+            low: real(low),
+            high: real(high),
+            noise: real(noise),
+        },
+        "decimal3" => Kind::Thousandths {
+            low: thousandths(low),
+            high: thousandths(high),
+            noise: real(noise),
+        },
+        "smallerr" => Kind::SmallErrors {
+            low: real(low),
+            high: real(high),
+            least: whole("lo"),
+            greatest: whole("hi"),
+        },
+        other => panic!("kind `{other}` is not known to this reader"),
+    };
+    let order = match text(&case["order"]).as_str() {
+        "none" => Order::AsMade,
+        "reverse" => Order::Reversed,
+        "sort" => Order::Sorted,
+        "shuffle" => Order::Shuffled(count("seed2")),
         other => panic!("order `{other}` is not known to this reader"),
-    }
-    pairs.into_iter().unzip()
-}
-
-#[expect(
-    clippy::cast_possible_truncation,
-    reason = "the recipe rounds to binary32"
-)]
-fn narrow(value: f64) -> f64 {
-    f64::from(value as f32)
-}
-
-/// The generator of the recipes.
-pub(crate) struct SplitMix64(pub(crate) u64);
-
-impl SplitMix64 {
-    pub(crate) fn next(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mixed = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        let mixed = (mixed ^ (mixed >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        mixed ^ (mixed >> 31)
-    }
-
-    /// A number below `bound`.
-    pub(crate) fn below(&mut self, bound: usize) -> usize {
-        usize::try_from(self.next() % bound as u64).expect("below a usize")
-    }
-
-    pub(crate) fn shuffle<T>(&mut self, list: &mut [T]) {
-        for last in (1..list.len()).rev() {
-            let other = self.below(last + 1);
-            list.swap(last, other);
-        }
-    }
-
-    #[expect(clippy::cast_precision_loss, reason = "53 bits")]
-    fn unit(&mut self) -> f64 {
-        (self.next() >> 11) as f64 * (1.0 / 9_007_199_254_740_992.0)
-    }
-
-    pub(crate) fn bell(&mut self) -> f64 {
-        (1..12).fold(self.unit(), |sum, _| sum + self.unit()) - 6.0
-    }
-
-    fn wide(&mut self, low: i64, high: i64) -> f64 {
-        let word = self.next();
-        let span = u64::try_from(high - low + 1).expect("a range");
-        let exponent = low + i64::try_from(self.next() % span).expect("an exponent");
-        let field = u64::try_from(exponent + 1023).expect("a normal number");
-        f64::from_bits((word & 1 << 63) | field << 52 | (word & ((1 << 52) - 1)))
-    }
-
-    fn denormal(&mut self) -> f64 {
-        let fraction = self.next() & ((1 << 52) - 1);
-        f64::from_bits(fraction | (self.next() & 1 << 63))
-    }
+    };
+    let recipe = Recipe {
+        kind,
+        rows: usize::try_from(count("n")).expect("a count"),
+        seed: count("seed"),
+        order,
+    };
+    let columns = recipe.columns();
+    (columns.reference, columns.estimate)
 }
 
 fn runs(runs: &Value) -> Vec<f64> {

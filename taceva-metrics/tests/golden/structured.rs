@@ -99,6 +99,11 @@ impl Random {
         i64::try_from(self.next() % bound).expect("below an i64")
     }
 
+    /// A position in a list of `length`.
+    fn index(&mut self, length: usize) -> usize {
+        usize::try_from(self.next() % length as u64).expect("below a usize")
+    }
+
     /// `u()`.
     #[expect(clippy::cast_precision_loss, reason = "53 bits")]
     pub(crate) fn unit(&mut self) -> f64 {
@@ -125,8 +130,8 @@ pub(crate) fn in_every_way(
     let mut random = Random(samples.len() as u64);
     let mut parts: Vec<Vec<&Sample>> = vec![Vec::new(); 7];
     for sample in samples {
-        let part = random.below(7).unsigned_abs() as usize;
-        let place = random.below(parts[part].len() as i64 + 1).unsigned_abs() as usize;
+        let part = random.index(parts.len());
+        let place = random.index(parts[part].len() + 1);
         parts[part].insert(place, sample);
     }
     let mut merged = Evaluator::new(plan);

@@ -3,30 +3,33 @@
 #![expect(unsafe_code, reason = "vector instructions and loads")]
 
 use std::arch::x86_64::{
-    __m256d, _CMP_GE_OQ, _CMP_LE_OQ, _mm_add_epi64, _mm_add_pd, _mm_cvtsd_f64, _mm_cvtsi128_si64,
-    _mm_unpackhi_epi64, _mm_unpackhi_pd, _mm256_add_pd, _mm256_and_pd, _mm256_andnot_pd,
-    _mm256_castpd_si256, _mm256_castpd256_pd128, _mm256_castsi256_pd, _mm256_castsi256_si128,
-    _mm256_cmp_pd, _mm256_div_pd, _mm256_extractf128_pd, _mm256_extracti128_si256, _mm256_fmsub_pd,
-    _mm256_loadu_pd, _mm256_max_pd, _mm256_min_pd, _mm256_movemask_pd, _mm256_mul_pd,
-    _mm256_set1_epi64x, _mm256_set1_pd, _mm256_sub_epi64, _mm256_sub_pd,
+    __m256d, _CMP_GE_OQ, _CMP_LE_OQ, _MM_HINT_T1, _mm_add_epi64, _mm_add_pd, _mm_cvtsd_f64,
+    _mm_cvtsi128_si64, _mm_prefetch, _mm_unpackhi_epi64, _mm_unpackhi_pd, _mm256_add_pd,
+    _mm256_and_pd, _mm256_andnot_pd, _mm256_castpd_si256, _mm256_castpd256_pd128,
+    _mm256_castsi256_pd, _mm256_castsi256_si128, _mm256_cmp_pd, _mm256_div_pd,
+    _mm256_extractf128_pd, _mm256_extracti128_si256, _mm256_fmsub_pd, _mm256_loadu_pd,
+    _mm256_max_pd, _mm256_min_pd, _mm256_movemask_pd, _mm256_mul_pd, _mm256_set1_epi64x,
+    _mm256_set1_pd, _mm256_sub_epi64, _mm256_sub_pd,
 };
 
 use crate::exact::vector::{Job, Vector};
 
-/// Evidence that the machine has AVX2 and FMA.
+/// Evidence that the machine has AVX2 and FMA and counts bits.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Avx2(());
 
 impl Avx2 {
     /// The evidence, if there is any.
     pub(in crate::exact) fn detect() -> Option<Avx2> {
-        let found = is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma");
+        let found = is_x86_feature_detected!("avx2")
+            && is_x86_feature_detected!("fma")
+            && is_x86_feature_detected!("popcnt");
         found.then_some(Avx2(()))
     }
 
     /// Does `job` with vectors of four.
     pub(in crate::exact) fn run<J: Job>(self, job: J) -> J::Output {
-        #[target_feature(enable = "avx2,fma")]
+        #[target_feature(enable = "avx2,fma,popcnt")]
         fn with_instructions<J: Job>(proof: Avx2, job: J) -> J::Output {
             job.run::<Four>(proof)
         }
@@ -76,6 +79,18 @@ impl Vector for Four {
     #[inline(always)]
     fn plus(self, other: Four) -> Four {
         Four(with_avx2!(_mm256_add_pd(self.0, other.0)))
+    }
+
+    #[inline(always)]
+    fn plus_aside(self, other: Four, _one: Four) -> Four {
+        // Of sixteen registers none is left for ones, and to load them each time takes longer than is won.
+        self.plus(other)
+    }
+
+    #[inline(always)]
+    fn prefetch(values: &[f64]) {
+        // SAFETY: a prefetch of any address is harmless.
+        unsafe { _mm_prefetch::<_MM_HINT_T1>(values.as_ptr().cast()) }
     }
 
     #[inline(always)]

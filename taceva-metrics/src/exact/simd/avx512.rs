@@ -3,27 +3,29 @@
 #![expect(unsafe_code, reason = "vector instructions and loads")]
 
 use std::arch::x86_64::{
-    __m512d, _CMP_GE_OQ, _CMP_LE_OQ, _mm512_abs_pd, _mm512_add_pd, _mm512_castpd_si512,
-    _mm512_castsi512_pd, _mm512_cmp_pd_mask, _mm512_div_pd, _mm512_fmsub_pd, _mm512_loadu_pd,
-    _mm512_maskz_mov_pd, _mm512_max_pd, _mm512_min_pd, _mm512_mul_pd, _mm512_reduce_add_epi64,
-    _mm512_reduce_add_pd, _mm512_set1_epi64, _mm512_set1_pd, _mm512_sub_epi64, _mm512_sub_pd,
+    __m512d, _CMP_GE_OQ, _CMP_LE_OQ, _MM_HINT_T1, _mm_prefetch, _mm512_abs_pd, _mm512_add_pd,
+    _mm512_castpd_si512, _mm512_castsi512_pd, _mm512_cmp_pd_mask, _mm512_div_pd, _mm512_fmadd_pd,
+    _mm512_fmsub_pd, _mm512_loadu_pd, _mm512_maskz_mov_pd, _mm512_max_pd, _mm512_min_pd,
+    _mm512_mul_pd, _mm512_reduce_add_epi64, _mm512_reduce_add_pd, _mm512_set1_epi64,
+    _mm512_set1_pd, _mm512_sub_epi64, _mm512_sub_pd,
 };
 
 use crate::exact::vector::{Job, Vector};
 
-/// Evidence that the machine has AVX-512F.
+/// Evidence that the machine has AVX-512F and counts bits.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Avx512(());
 
 impl Avx512 {
     /// The evidence, if there is any.
     pub(in crate::exact) fn detect() -> Option<Avx512> {
-        is_x86_feature_detected!("avx512f").then_some(Avx512(()))
+        let found = is_x86_feature_detected!("avx512f") && is_x86_feature_detected!("popcnt");
+        found.then_some(Avx512(()))
     }
 
     /// Does `job` with vectors of eight.
     pub(in crate::exact) fn run<J: Job>(self, job: J) -> J::Output {
-        #[target_feature(enable = "avx512f")]
+        #[target_feature(enable = "avx512f,popcnt")]
         fn with_instructions<J: Job>(proof: Avx512, job: J) -> J::Output {
             job.run::<Eight>(proof)
         }
@@ -63,6 +65,17 @@ impl Vector for Eight {
     #[inline(always)]
     fn plus(self, other: Eight) -> Eight {
         Eight(with_avx512!(_mm512_add_pd(self.0, other.0)))
+    }
+
+    #[inline(always)]
+    fn plus_aside(self, other: Eight, one: Eight) -> Eight {
+        Eight(with_avx512!(_mm512_fmadd_pd(other.0, one.0, self.0)))
+    }
+
+    #[inline(always)]
+    fn prefetch(values: &[f64]) {
+        // SAFETY: a prefetch of any address is harmless.
+        unsafe { _mm_prefetch::<_MM_HINT_T1>(values.as_ptr().cast()) }
     }
 
     #[inline(always)]

@@ -66,6 +66,16 @@ impl Vector for Two {
     }
 
     #[inline(always)]
+    fn plus_aside(self, other: Two, _one: Two) -> Two {
+        self.plus(other)
+    }
+
+    #[inline(always)]
+    fn prefetch(_values: &[f64]) {
+        // There is no instruction for it in the stable library.
+    }
+
+    #[inline(always)]
     fn minus(self, other: Two) -> Two {
         Two(with_neon!(vsubq_f64(self.0, other.0)))
     }

@@ -55,6 +55,14 @@ impl Vector for Pair {
     }
 
     #[inline(always)]
+    fn plus_aside(self, other: Pair, _one: Pair) -> Pair {
+        self.plus(other)
+    }
+
+    #[inline(always)]
+    fn prefetch(_values: &[f64]) {}
+
+    #[inline(always)]
     fn minus(self, other: Pair) -> Pair {
         self.lanewise(other, |a, b| a - b)
     }

@@ -1,0 +1,10 @@
+//! Batches, merges and damaged states in any sequence: `cargo +nightly fuzz run program`.
+
+#![no_main]
+
+#[path = "../../tests/support/program.rs"]
+mod program;
+
+libfuzzer_sys::fuzz_target!(|bytes: &[u8]| {
+    program::run(bytes);
+});

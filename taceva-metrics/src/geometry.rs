@@ -1,0 +1,12 @@
+//! Points in the plane and in space: hulls decided without rounding, clouds brought into one frame.
+
+mod hull;
+mod nearest;
+mod orientation;
+mod register;
+mod rigid;
+
+pub(crate) use hull::Hull;
+pub(crate) use nearest::NearestPoints;
+pub(crate) use register::{Registration, register_clouds};
+pub(crate) use rigid::{Motion, Point};

@@ -1,0 +1,207 @@
+//! Convex hulls that merge: the hull of two hulls is the hull of all their points.
+
+use std::cmp::Ordering;
+
+use super::orientation::{Place, doubled_area, turn};
+use crate::paired::is_valid;
+
+/// The corners of the convex hull of points in the plane.
+///
+/// They run anticlockwise from the leftmost, the lowest of those first; no corner lies between two others, so that equal
+/// sets of points have equal hulls. A hull is flat if all points lie on one line: it has at most two corners then.
+///
+/// # Laws
+/// Merging is associative, commutative and idempotent; the empty hull changes nothing.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct Hull {
+    corners: Vec<Place>,
+}
+
+impl Hull {
+    /// The hull of `points`, whose coordinates are finite.
+    pub(crate) fn of(points: impl IntoIterator<Item = Place>) -> Hull {
+        // A zero has one sign here, or equal sets would have two hulls.
+        let plain = |[x, y]: Place| [x + 0.0, y + 0.0];
+        let mut points: Vec<Place> = points.into_iter().map(plain).collect();
+        points.sort_unstable_by(compare);
+        points.dedup_by(|one, other| compare(one, other) == Ordering::Equal);
+        if points.len() < 3 {
+            return Hull { corners: points };
+        }
+        let mut corners = chain(points.iter().copied());
+        let upper = chain(points.iter().rev().copied());
+        corners.pop();
+        corners.extend(&upper[..upper.len() - 1]);
+        Hull { corners }
+    }
+
+    /// The hull with the given corners, x, y, x, y, …, as a state holds them.
+    ///
+    /// # Errors
+    /// What is wrong with them, if they are not the corners of a hull in their order.
+    pub(crate) fn from_values(values: &[f64]) -> Result<Hull, String> {
+        let corners: Vec<Place> = values
+            .chunks_exact(2)
+            .map(|pair| [pair[0], pair[1]])
+            .collect();
+        let whole = values.len().is_multiple_of(2) && values.iter().all(|value| is_valid(*value));
+        let hull = whole.then(|| Hull::of(corners.iter().copied()));
+        let same = hull.filter(|hull| hull.corners == corners);
+        same.ok_or_else(|| "the corners of a hull are not those of one, anticlockwise".to_owned())
+    }
+
+    /// The corners in order.
+    pub(crate) fn corners(&self) -> &[Place] {
+        &self.corners
+    }
+
+    /// Whether there is no point.
+    pub(crate) fn is_empty(&self) -> bool {
+        self.corners.is_empty()
+    }
+
+    /// Widens the hull so that it holds `points` too.
+    pub(crate) fn extend(&mut self, points: impl IntoIterator<Item = Place>) {
+        *self = Hull::of(self.corners.iter().copied().chain(points));
+    }
+
+    /// Widens the hull so that it holds `other` too.
+    pub(crate) fn merge(&mut self, other: &Hull) {
+        self.extend(other.corners.iter().copied());
+    }
+
+    /// RN of the area; 0 for a flat hull.
+    pub(crate) fn area(&self) -> f64 {
+        // Halving is exact but for areas below the least normal number, which have no use for their last bit.
+        doubled_area(&self.corners).to_f64() * 0.5
+    }
+
+    /// The least and greatest value along `axis`, 0 or 1; `None` for no point.
+    pub(crate) fn extent(&self, axis: usize) -> Option<[f64; 2]> {
+        let along = || self.corners.iter().map(|corner| corner[axis]);
+        let low = along().min_by(f64::total_cmp)?;
+        let high = along().max_by(f64::total_cmp)?;
+        Some([low, high])
+    }
+
+    /// Whether `place` lies in the hull or on its edge.
+    pub(crate) fn contains(&self, place: Place) -> bool {
+        match self.corners[..] {
+            [] => false,
+            [only] => compare(&only, &place) == Ordering::Equal,
+            [start, end] => {
+                let between = compare(&start, &place) != Ordering::Greater
+                    && compare(&place, &end) != Ordering::Greater;
+                between && turn(start, end, place) == Ordering::Equal
+            }
+            _ => {
+                let next = self.corners.iter().cycle().skip(1);
+                let mut edges = self.corners.iter().zip(next);
+                edges.all(|(&start, &end)| turn(start, end, place) != Ordering::Less)
+            }
+        }
+    }
+}
+
+/// One half of the hull of sorted points: what turns left all the way.
+///
+/// # Reference
+/// Andrew, Another efficient algorithm for convex hulls in two dimensions (1979).
+fn chain(points: impl Iterator<Item = Place>) -> Vec<Place> {
+    let mut chain: Vec<Place> = Vec::new();
+    for point in points {
+        while let [.., before, last] = chain[..] {
+            if turn(before, last, point) == Ordering::Greater {
+                break;
+            }
+            chain.pop();
+        }
+        chain.push(point);
+    }
+    chain
+}
+
+/// By x, then by y; both zeros are one number.
+fn compare(left: &Place, right: &Place) -> Ordering {
+    let along = |axis: usize| (left[axis] + 0.0).total_cmp(&(right[axis] + 0.0));
+    along(0).then_with(|| along(1))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+    use proptest::test_runner::RngSeed;
+
+    fn config() -> ProptestConfig {
+        ProptestConfig {
+            cases: 200,
+            rng_seed: RngSeed::Fixed(2025),
+            failure_persistence: None,
+            ..ProptestConfig::default()
+        }
+    }
+
+    /// A coarse grid, so that many points share a line, and values of every size.
+    fn points() -> impl Strategy<Value = Vec<Place>> {
+        let coordinate = prop_oneof![
+            6 => (-4_i32..5).prop_map(|step| f64::from(step) * 0.1),
+            1 => -1e300..1e300_f64,
+        ];
+        prop::collection::vec([coordinate.clone(), coordinate], 0..40)
+    }
+
+    proptest! {
+        #![proptest_config(config())]
+
+        #[test]
+        fn a_hull_of_parts_is_the_hull_of_all(points in points(), cut in any::<prop::sample::Index>()) {
+            let (left, right) = points.split_at(cut.index(points.len() + 1));
+            let whole = Hull::of(points.iter().copied());
+            let mut merged = Hull::of(right.iter().copied());
+            merged.merge(&Hull::of(left.iter().copied()));
+            prop_assert_eq!(&merged, &whole);
+            merged.merge(&whole);
+            prop_assert_eq!(&merged, &whole);
+            let backwards = Hull::of(points.iter().rev().copied());
+            prop_assert_eq!(&backwards, &whole);
+        }
+
+        #[test]
+        fn a_hull_holds_its_points_and_turns_left_at_every_corner(points in points()) {
+            let hull = Hull::of(points.iter().copied());
+            prop_assert!(points.iter().all(|&point| hull.contains(point)));
+            let corners = hull.corners();
+            prop_assert!(corners.iter().all(|corner| points.contains(corner)));
+            let corner = |at: usize| corners[at % corners.len()];
+            for at in 0..if corners.len() < 3 { 0 } else { corners.len() } {
+                let left = turn(corner(at), corner(at + 1), corner(at + 2));
+                prop_assert_eq!(left, Ordering::Greater);
+            }
+        }
+    }
+
+    #[test]
+    fn points_on_an_edge_are_no_corners() {
+        let grid =
+            (0..5).flat_map(|x| (0..4).map(move |y| [f64::from(x) * 0.1, f64::from(y) * 0.1]));
+        let hull = Hull::of(grid);
+        let (right, top) = (4.0 * 0.1, 3.0 * 0.1);
+        let expected = [[0.0, 0.0], [right, 0.0], [right, top], [0.0, top]];
+        assert_eq!(hull.corners(), expected);
+        assert_eq!(hull.extent(1), Some([0.0, top]));
+        assert!((hull.area() - 0.12).abs() < 1e-16);
+        assert!(!hull.contains([right + f64::EPSILON, 0.0]));
+    }
+
+    #[test]
+    fn a_flat_hull_has_two_corners_and_no_area() {
+        let line = (0..9).map(|step| [f64::from(step), f64::from(step)]);
+        let hull = Hull::of(line);
+        assert_eq!(hull.corners(), [[0.0, 0.0], [8.0, 8.0]]);
+        assert_eq!(hull.area().to_bits(), 0.0_f64.to_bits());
+        assert!(hull.contains([2.5, 2.5]) && !hull.contains([2.5, 2.6]));
+        assert!(!hull.contains([9.0, 9.0]));
+        assert!(Hull::default().extent(0).is_none() && Hull::default().is_empty());
+    }
+}

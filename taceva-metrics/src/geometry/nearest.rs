@@ -1,0 +1,117 @@
+//! The nearest of many points, and of equally near ones the first.
+
+use super::rigid::Point;
+
+/// Points in an order in which the nearest is found without visiting all.
+#[derive(Clone, Debug)]
+pub(crate) struct NearestPoints {
+    /// By x, then by index.
+    sorted: Vec<(Point, usize)>,
+}
+
+/// A point that was found.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Nearest {
+    /// Which of the points it is.
+    pub(crate) index: usize,
+    /// Where it lies.
+    pub(crate) point: Point,
+    /// RN of its squared distance as the rounded sum of three rounded squares.
+    pub(crate) squared: f64,
+}
+
+impl NearestPoints {
+    /// The given points; their order decides between equally near ones.
+    pub(crate) fn new(points: impl IntoIterator<Item = Point>) -> NearestPoints {
+        let mut sorted: Vec<(Point, usize)> = points
+            .into_iter()
+            .enumerate()
+            .map(|(index, point)| (point, index))
+            .collect();
+        sorted.sort_by(|(left, _), (right, _)| left[0].total_cmp(&right[0]));
+        NearestPoints { sorted }
+    }
+
+    /// The point nearest to `place`; `None` if there is no point.
+    pub(crate) fn nearest(&self, place: Point) -> Option<Nearest> {
+        let middle = self
+            .sorted
+            .partition_point(|(point, _)| point[0] < place[0]);
+        let (left, right) = self.sorted.split_at(middle);
+        let mut best = None;
+        // A squared distance is at least that along x, also when rounded: beyond it no point is nearer or as near.
+        for (points, backwards) in [(right, false), (left, true)] {
+            let mut visit =
+                |&(point, index): &(Point, usize)| closer(&mut best, place, point, index);
+            if backwards {
+                points.iter().rev().all(&mut visit);
+            } else {
+                points.iter().all(&mut visit);
+            }
+        }
+        best
+    }
+}
+
+/// Keeps the nearer of the best so far and `point`; whether points further along x can still be as near.
+fn closer(best: &mut Option<Nearest>, place: Point, point: Point, index: usize) -> bool {
+    let [x, y, z]: Point = std::array::from_fn(|axis| point[axis] - place[axis]);
+    let along = x * x;
+    let squared = along + y * y + z * z;
+    match best {
+        Some(best) if along > best.squared => return false,
+        Some(best) if (squared, index) >= (best.squared, best.index) => {}
+        _ => {
+            *best = Some(Nearest {
+                index,
+                point,
+                squared,
+            });
+        }
+    }
+    true
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_nearest_is_that_of_a_full_search_and_ties_go_to_the_first() {
+        // A grid: every place between two of its points has ties.
+        let points: Vec<Point> = (0..60)
+            .map(|at| {
+                [
+                    f64::from(at * 7 % 5),
+                    f64::from(at * 7 / 5 % 4),
+                    f64::from(at % 3),
+                ]
+            })
+            .collect();
+        let search = NearestPoints::new(points.iter().copied());
+        for at in 0..500 {
+            let place = [
+                f64::from(at % 11) * 0.5,
+                f64::from(at % 9) * 0.5,
+                f64::from(at % 5) * 0.5,
+            ];
+            let squared = |point: Point| {
+                let [x, y, z]: Point = std::array::from_fn(|axis| point[axis] - place[axis]);
+                x * x + y * y + z * z
+            };
+            let best = points
+                .iter()
+                .map(|&point| squared(point))
+                .fold(f64::INFINITY, f64::min);
+            let first = points.iter().position(|&point| squared(point) <= best);
+            let found = search.nearest(place).expect("points");
+            assert_eq!(Some(found.index), first, "{place:?}");
+            assert_eq!(found.squared.to_bits(), best.to_bits());
+        }
+    }
+
+    #[test]
+    fn no_point_is_near_to_anything() {
+        assert_eq!(NearestPoints::new([]).nearest([0.0; 3]), None);
+    }
+}

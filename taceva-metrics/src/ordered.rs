@@ -1,0 +1,51 @@
+//! Finite numbers as keys.
+
+use std::cmp::Ordering;
+
+/// A finite binary64 that can be sorted and looked up; both zeros are one key.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Ordered(f64);
+
+impl Ordered {
+    /// The key of `value`, which is finite.
+    pub(crate) fn new(value: f64) -> Ordered {
+        Ordered(value + 0.0)
+    }
+
+    /// The number.
+    pub(crate) fn value(self) -> f64 {
+        self.0
+    }
+}
+
+impl PartialEq for Ordered {
+    fn eq(&self, other: &Ordered) -> bool {
+        self.cmp(other) == Ordering::Equal
+    }
+}
+
+impl Eq for Ordered {}
+
+impl PartialOrd for Ordered {
+    fn partial_cmp(&self, other: &Ordered) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl Ord for Ordered {
+    fn cmp(&self, other: &Ordered) -> Ordering {
+        self.0.total_cmp(&other.0)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn both_zeros_are_one_key() {
+        assert_eq!(Ordered::new(-0.0), Ordered::new(0.0));
+        assert!(Ordered::new(-1.0) < Ordered::new(-0.5));
+        assert_eq!(Ordered::new(-0.0).value().to_bits(), 0);
+    }
+}

@@ -1,0 +1,212 @@
+//! Splitting, ordering and merging change nothing of what is kept by press, unit, time or level, and states survive a file.
+
+use proptest::prelude::*;
+use proptest::test_runner::RngSeed;
+use taceva_core::{
+    Channel, Channels, Field, FieldSet, Footprint, Phase, Readings, Sample, SampleSink, Stamp, Unit,
+};
+use taceva_metrics::{Evaluator, MetricError, MetricPlan, SensorFacts, State, catalogue};
+
+const METRICS: [&str; 11] = [
+    "repeatability",
+    "signal_to_repeatability",
+    "hysteresis",
+    "inter_sensor",
+    "intrinsic",
+    "minimum_detectable_force",
+    "linearity",
+    "crosstalk",
+    "bias_level",
+    "tolerance",
+    "drift",
+];
+
+fn config() -> ProptestConfig {
+    ProptestConfig {
+        cases: 60,
+        rng_seed: RngSeed::Fixed(2025),
+        failure_persistence: None,
+        ..ProptestConfig::default()
+    }
+}
+
+fn plan() -> MetricPlan {
+    let surface = Channel::named("surface_z", Unit::Millimetre).expect("a plain name");
+    let channels = Channels::new(Channel::SIX.into_iter().chain([surface])).expect("distinct");
+    let wanted = catalogue::select(METRICS).expect("known names");
+    let facts = SensorFacts {
+        footprint: Some(Footprint::disc(4.0, None).expect("a length")),
+        frame_size: Some([640, 480]),
+        ..SensorFacts::default()
+    };
+    let available: FieldSet = Field::ALL.into_iter().collect();
+    let plan = MetricPlan::new(&wanted, channels, available).with_facts(facts);
+    assert_eq!(plan.kept().len(), METRICS.len());
+    plan
+}
+
+/// Few values, so that many are equal, now and then one of any size, none, or no number.
+fn value() -> impl Strategy<Value = Option<f64>> {
+    prop_oneof![
+        12 => (-8_i32..9).prop_map(|step| Some(f64::from(step) * 0.3)),
+        2 => (-2.0..2.0).prop_map(Some),
+        1 => any::<f64>().prop_map(Some),
+        1 => Just(Some(-0.0)),
+        1 => Just(None),
+    ]
+}
+
+/// Samples of few points, units and times; at times some name no point.
+fn samples() -> impl Strategy<Value = Vec<Sample>> {
+    let points = prop_oneof![4 => Just(3_u32), 1 => Just(100_u32)];
+    (points, prop::bool::weighted(0.8)).prop_flat_map(|(points, all_named)| {
+        let named = prop::bool::weighted(0.95).prop_map(move |named| named || all_named);
+        let readings = || prop::collection::vec(value(), 7);
+        let labels = (
+            0..points,
+            named,
+            0_u32..3,
+            0_u32..3,
+            0_u32..4,
+            any::<bool>(),
+        );
+        let sample = (readings(), readings(), labels);
+        let sample = sample.prop_map(|(truth, prediction, labels)| {
+            let (point, named, step, unit, time, load) = labels;
+            let phase = if load { Phase::Load } else { Phase::Unload };
+            Sample {
+                point_id: named.then(|| format!("point {point}")),
+                unit_id: (unit > 0).then(|| format!("unit {unit}")),
+                depth_step: Some(step),
+                repeat: Some(step),
+                phase: Some(phase),
+                stamp: (time > 0).then(|| Stamp {
+                    valid_s: f64::from(time) * 0.1,
+                    received_s: None,
+                }),
+                frame_digest: load.then(|| format!("{step}")),
+                truth: Readings::new(truth),
+                prediction: Some(Readings::new(prediction)),
+                ..Sample::default()
+            }
+        });
+        prop::collection::vec(sample, 0..60)
+    })
+}
+
+fn evaluator<'a>(samples: impl IntoIterator<Item = &'a Sample>) -> Evaluator {
+    let mut evaluator = Evaluator::new(&plan());
+    for sample in samples {
+        evaluator.accept(sample).expect("the plan's channels");
+    }
+    evaluator
+}
+
+fn states(mut evaluator: Evaluator) -> Vec<State> {
+    evaluator.states().expect("the plan's channels")
+}
+
+fn report(evaluator: Evaluator) -> String {
+    let evaluation = evaluator.finish().expect("the plan's channels");
+    serde_json::to_string(&evaluation).expect("a report")
+}
+
+fn merged(mut left: Evaluator, right: Evaluator) -> Evaluator {
+    left.merge(right).expect("one plan");
+    left
+}
+
+proptest! {
+    #![proptest_config(config())]
+
+    #[test]
+    fn a_whole_equals_its_merged_parts(samples in samples(), cut in any::<prop::sample::Index>()) {
+        let (left, right) = samples.split_at(cut.index(samples.len() + 1));
+        let parts = || merged(evaluator(left), evaluator(right));
+        prop_assert_eq!(states(parts()), states(evaluator(&samples)));
+        prop_assert_eq!(report(parts()), report(evaluator(&samples)));
+    }
+
+    #[test]
+    fn one_by_one_and_backwards_is_the_same(samples in samples()) {
+        let mut single = Evaluator::new(&plan());
+        for sample in samples.iter().rev() {
+            single.accept(sample).expect("the plan's channels");
+            single.states().expect("the plan's channels");
+        }
+        prop_assert_eq!(states(single), states(evaluator(&samples)));
+    }
+
+    #[test]
+    fn merging_is_commutative_and_associative_and_nothing_is_its_identity(
+        a in samples(), b in samples(), c in samples(),
+    ) {
+        let [a, b, c] = [a, b, c].map(|samples| move || evaluator(&samples));
+        prop_assert_eq!(states(merged(a(), b())), states(merged(b(), a())));
+        let left = merged(merged(a(), b()), c());
+        let right = merged(a(), merged(b(), c()));
+        prop_assert_eq!(states(left), states(right));
+        let nothing = || Evaluator::new(&plan());
+        prop_assert_eq!(states(merged(a(), nothing())), states(a()));
+        prop_assert_eq!(states(merged(nothing(), a())), states(a()));
+    }
+
+    #[test]
+    fn a_state_that_was_written_and_read_is_the_same(samples in samples()) {
+        let written = states(evaluator(&samples));
+        let text = serde_json::to_string(&written).expect("a state");
+        let read: Vec<State> = serde_json::from_str(&text).expect("its own text");
+        prop_assert_eq!(&read, &written);
+        let mut again = Evaluator::new(&plan());
+        again.merge_states(&read).expect("one plan");
+        prop_assert_eq!(report(again), report(evaluator(&samples)));
+    }
+}
+
+#[test]
+fn a_broken_state_is_refused_by_name_and_changes_nothing() {
+    let sample = |phase, depth: f64, time: f64| Sample {
+        point_id: Some("a".to_owned()),
+        unit_id: Some("u".to_owned()),
+        depth_step: Some(1),
+        repeat: Some(0),
+        phase: Some(phase),
+        stamp: Some(Stamp {
+            valid_s: time,
+            received_s: None,
+        }),
+        truth: Readings::from_values([0.0, 0.0, depth, 0.0, 0.0, depth, 0.25]),
+        prediction: Some(Readings::from_values([depth; 7])),
+        ..Sample::default()
+    };
+    let samples = [
+        sample(Phase::Load, 0.5, 1.0),
+        sample(Phase::Load, 1.0, 2.0),
+        sample(Phase::Unload, 0.5, 3.0),
+    ];
+    let whole = serde_json::to_string(&states(evaluator(&samples))).expect("a state");
+    let edits = [
+        ("\"1:a\":", "\"x:a\":"),
+        ("\"values\":[0.5,1.0]", "\"values\":[1.0,0.5]"),
+        ("\"values\":[0.0,0.0,0.25]", "\"values\":[0.0,0.0]"),
+        ("\"load\":", "\"sideways\":"),
+        ("\"plain\":", "\"bare\":"),
+        ("\"10\":{\"counts\":[1]", "\"10\":{\"counts\":[0]"),
+        ("\"values\":[1.0,2.0,3.0]", "\"values\":[1.0,2.0,1e999]"),
+    ];
+    for (from, to) in edits {
+        let broken = whole.replacen(from, to, 1);
+        assert_ne!(broken, whole, "{from} is in {whole}");
+        let Ok(read) = serde_json::from_str::<Vec<State>>(&broken) else {
+            continue;
+        };
+        let refused = read.iter().any(|state| {
+            let mut fresh = Evaluator::new(&plan());
+            let outcome = fresh.merge_states(std::slice::from_ref(state));
+            let malformed = matches!(outcome, Err(MetricError::Malformed { .. }));
+            let untouched = states(fresh) == states(Evaluator::new(&plan()));
+            malformed && untouched
+        });
+        assert!(refused, "{to} was taken");
+    }
+}
