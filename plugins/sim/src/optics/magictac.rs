@@ -178,18 +178,16 @@ impl Magictac {
     ) {
         let (scene, lighting) = (&*self.scene, &*self.lighting);
         let y = scene.raster.y(row);
-        let start = row * band.width;
-        let (glows, _) = lighting.glow.as_chunks::<3>();
-        let (outsides, _) = lighting.outside.as_chunks::<3>();
+        let pixels = row * band.width + columns.start..row * band.width + columns.end;
+        let glows = &lighting.glow.as_chunks::<3>().0[pixels.clone()];
+        let outsides = &lighting.outside.as_chunks::<3>().0[pixels];
         let light = band.row_mut(row - band.first_row);
-        let (lights, _) = light.as_chunks_mut::<3>();
-        for column in columns {
+        let lights = &mut light.as_chunks_mut::<3>().0[columns.clone()];
+        for (((column, light), glow), outside) in columns.zip(lights).zip(glows).zip(outsides) {
             let x = scene.raster.x(column);
             let (moved, brighter) = at(x);
             let pattern = scene.pattern(&moved, x, y);
-            let pixel = start + column;
-            let (glow, outside) = (glows[pixel], outsides[pixel]);
-            lights[column] = [0, 1, 2].map(|colour: usize| {
+            *light = [0, 1, 2].map(|colour: usize| {
                 glow[colour] * (1.0 + (pattern[colour] + brighter)) + outside[colour]
             });
         }

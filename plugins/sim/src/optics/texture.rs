@@ -7,7 +7,7 @@ use crate::random::Stream;
 /// A pattern on a torus of texels, four values each; linear between them.
 #[derive(Clone, Debug)]
 pub(super) struct Texture {
-    texels: Vec<[f32; 4]>,
+    texels: Box<[[f32; 4]; SIDE * SIDE]>,
     texels_per_unit: f32,
 }
 
@@ -25,7 +25,7 @@ impl Texture {
             std::array::from_fn(|lane| layers.get(lane).map_or(0.0, |layer| layer[index]))
         };
         Texture {
-            texels: (0..SIDE * SIDE).map(texel).collect(),
+            texels: boxed(texel),
             texels_per_unit: narrow(1.0 / pitch),
         }
     }
@@ -58,8 +58,8 @@ impl Texture {
     #[inline(always)]
     fn between(&self, columns: &Cells, across: usize, rows: &Cells, up: usize) -> Lanes {
         let texel = |column: u32, row: u32| {
-            // Both are masked, so the index is always in range; saying it again spares the check.
-            let index = (row as usize * SIDE + column as usize) % (SIDE * SIDE);
+            // Both are masked, so the index is in range; masked once more, the compiler knows it too.
+            let index = (row << SIDE_BITS | column) as usize & (SIDE * SIDE - 1);
             Lanes::new(self.texels[index])
         };
         let [left, right] = [columns.before[across], columns.after[across]];
@@ -69,6 +69,12 @@ impl Texture {
         let above = texel(left, high).towards(texel(right, high), part);
         below.towards(above, Lanes::splat(rows.fraction[up]))
     }
+}
+
+/// The texels one after another, on the heap from the start.
+fn boxed(texel: impl Fn(usize) -> [f32; 4]) -> Box<[[f32; 4]; SIDE * SIDE]> {
+    let texels: Vec<[f32; 4]> = (0..SIDE * SIDE).map(texel).collect();
+    texels.try_into().expect("as many as were asked for")
 }
 
 /// For each lane the texel before a place, the one after it, and how far on from the first; on a torus.

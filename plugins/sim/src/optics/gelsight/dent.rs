@@ -17,8 +17,8 @@ pub(super) struct Dent {
     pub(super) reach: f32,
 }
 
-/// A slope that moves the light by some 0.03 DN: a tenth of the noise of the smallest frame.
-const LEAST_SLOPE: f64 = 3e-4;
+/// A slope that moves the light by some 0.1 DN: less than the noise of the smallest frames.
+const LEAST_SLOPE: f64 = 1e-3;
 
 impl Default for Dent {
     fn default() -> Dent {
