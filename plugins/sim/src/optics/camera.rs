@@ -119,10 +119,12 @@ impl Camera {
             return Err(OpticsError::Opaque { scene: view.light });
         }
         self.gel.pose(view, &self.random)?;
-        Ok(self.expose(view, into.bytes_mut()))
+        Ok(simd::expose(self, view, into.bytes_mut()))
     }
 
-    fn expose(&mut self, view: &View, bytes: &mut [u8]) -> Luma {
+    /// Paints the view taken in and reads it out; made twice, see [`simd::expose`].
+    #[inline(always)]
+    pub(super) fn expose(&mut self, view: &View, bytes: &mut [u8]) -> Luma {
         let readout = self.readout(view);
         let pixel_noise = self.random.stream(Purpose::PixelNoise, view.press);
         let channels = self.info.format.samples();
@@ -147,9 +149,9 @@ impl Camera {
                 let index = u64::from(view.picture) << 32 | first_row as u64;
                 let noise = noise::row(&pixel_noise, index, row_length);
                 let sums = if sample_bytes == 1 {
-                    simd::read_out::<1>(&readout, light, noise, into)
+                    readout.row::<1>(light, noise, into)
                 } else {
-                    simd::read_out::<2>(&readout, light, noise, into)
+                    readout.row::<2>(light, noise, into)
                 };
                 luma.add_row(&sums, channels, width);
                 first_row += 1;
@@ -178,3 +180,63 @@ impl Camera {
 
 /// Counts of a 16-bit frame that are one DN of the sensor's own 8 bits.
 pub(super) const COUNTS_PER_DN: u64 = 256;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::contact::{Indentation, Solid};
+    use crate::parameters::Model;
+
+    fn pressed(model: Model) -> (Camera, View) {
+        let parameters = model.parameters();
+        let spec = OpticsSpec::new(&parameters);
+        let depth_mm = parameters.probing.depth_max_mm;
+        let contact = Solid::new(&parameters).contact(&Indentation {
+            place_mm: [1.3, -2.1],
+            depth_mm,
+            deepest_mm: depth_mm,
+            shear_mm: [0.4, 0.3],
+            indenter_radius_mm: 2.0,
+            stiffness: 1.0,
+        });
+        let camera = Camera::new(&spec, [77, 91], 0, 5).expect("below the native size");
+        let view = View {
+            stimulus: Stimulus::Ball(contact),
+            press: 3,
+            ..View::default()
+        };
+        (camera, view)
+    }
+
+    fn take(camera: &mut Camera, view: &View) -> Vec<u8> {
+        let mut bytes = vec![0; camera.info.byte_len().expect("a small frame")];
+        let into = FrameMut::new(camera.info, &mut bytes).expect("its own frame");
+        camera.render(view, into).expect("a picture");
+        bytes
+    }
+
+    #[test]
+    fn the_rows_painted_at_a_time_do_not_matter() {
+        for model in Model::ALL {
+            let (mut camera, view) = pressed(model);
+            let whole = take(&mut camera, &view);
+            let row = camera.light.len() / camera.band_rows;
+            for band_rows in [1, 7, 91] {
+                camera.band_rows = band_rows;
+                camera.light = vec![0.0; band_rows * row];
+                assert!(take(&mut camera, &view) == whole, "{model}: {band_rows}");
+            }
+        }
+    }
+
+    #[test]
+    fn the_width_of_vectors_does_not_matter() {
+        for model in Model::ALL {
+            let (mut camera, view) = pressed(model);
+            let widest = take(&mut camera, &view);
+            let mut plain = vec![0; widest.len()];
+            camera.expose(&view, &mut plain);
+            assert!(plain == widest, "{model}");
+        }
+    }
+}

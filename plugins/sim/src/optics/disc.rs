@@ -25,8 +25,8 @@ pub(super) struct DiscSpec {
 }
 
 const BINS: usize = 256;
-/// Edge scales after which a disc has ended: it is 10⁻³ dark there, which is taken off so that it ends without a step.
-const EDGES: f64 = 7.0;
+/// Edge scales after which a disc has ended: it is 7·10⁻³ dark there, which is taken off so that it ends without a step.
+const EDGES: f64 = 5.0;
 
 impl Disc {
     /// A disc seen in pixels of `raster`: its edge is never sharper than a quarter of a pixel.
@@ -47,6 +47,7 @@ impl Disc {
     }
 
     /// Darkens the pixels of `band` around `x`, `y`.
+    #[inline(always)]
     pub(super) fn stamp(&self, raster: &Raster, x: f32, y: f32, band: &mut Band<'_>) {
         let columns = raster.columns(x, self.reach);
         let first = band.first_row;

@@ -42,6 +42,7 @@ impl Gel {
     }
 
     /// Paints the light of some rows of the view last taken in.
+    #[inline(always)]
     pub(super) fn paint(&self, band: &mut Band<'_>) {
         match self {
             Gel::Gelsight(gel) => gel.paint(band),

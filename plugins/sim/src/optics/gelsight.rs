@@ -103,6 +103,7 @@ impl Gelsight {
         Ok(())
     }
 
+    #[inline(always)]
     pub(super) fn paint(&self, band: &mut Band<'_>) {
         let scene = &*self.scene;
         let start = band.first_row * band.width * 3;
@@ -121,6 +122,7 @@ impl Gelsight {
         }
     }
 
+    #[inline(always)]
     fn paint_ball(&self, band: &mut Band<'_>) {
         let (scene, dent) = (&*self.scene, &self.dent);
         for row in band.rows_among(scene.raster.rows(dent.y, dent.reach)) {

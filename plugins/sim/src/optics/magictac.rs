@@ -18,6 +18,7 @@ use super::error::OpticsError;
 use super::number::narrow;
 use super::raster::Raster;
 use super::relief::{Relief, Window};
+use super::simd::Lanes;
 use super::stimulus::Stimulus;
 use super::texture::Texture;
 use crate::displacement::{Profile, Tables};
@@ -54,8 +55,8 @@ struct Scene {
 #[derive(Debug)]
 struct Lighting {
     scene: AmbientLight,
-    exposure: f32,
-    /// What comes in from outside; empty if nothing does.
+    /// The lamps' light as it is exposed, and what comes in from outside.
+    glow: Vec<f32>,
     outside: Vec<f32>,
     background: Vec<f32>,
 }
@@ -67,8 +68,8 @@ enum Touch {
     Board(Relief),
 }
 
-/// Where the surface has to face for red, green and blue to grow.
-const FACING: [[f32; 2]; 3] = [[0.7, -0.5], [-0.8, -0.2], [0.0, 0.9]];
+/// Where the surface has to face for red, green and blue to grow: along x, along y.
+const FACING: [[f32; 4]; 2] = [[0.7, -0.8, 0.0, 0.0], [-0.5, -0.2, 0.9, 0.0]];
 
 impl Magictac {
     pub(super) fn new(spec: &MagictacSpec, raster: Raster, unit: u32) -> Magictac {
@@ -113,6 +114,7 @@ impl Magictac {
         Ok(())
     }
 
+    #[inline(always)]
     pub(super) fn paint(&self, band: &mut Band<'_>) {
         let start = band.first_row * band.width * 3;
         let length = band.light.len();
@@ -125,6 +127,7 @@ impl Magictac {
         }
     }
 
+    #[inline(always)]
     fn paint_ball(&self, band: &mut Band<'_>) {
         let (raster, shift) = (&self.scene.raster, &self.shift);
         for row in band.rows_among(raster.rows(shift.y, shift.reach)) {
@@ -145,11 +148,10 @@ impl Magictac {
             .near(x + self.buckling[0], y + self.buckling[1])
             .map(|chance| chance * self.scene.buckling_part);
         // The fourth lane is no layer's: the surface does not buckle.
-        for lane in 0..3 {
-            let size = (moved.x[lane] * moved.x[lane] + moved.y[lane] * moved.y[lane]).sqrt();
-            moved.x[lane] += size * chance_x;
-            moved.y[lane] += size * chance_y;
-        }
+        let size = moved.x.times(moved.x).plus(moved.y.times(moved.y)).root();
+        let by = |chance: f32| size.times(Lanes::new([chance, chance, chance, 0.0]));
+        moved.x = moved.x.plus(by(chance_x));
+        moved.y = moved.y.plus(by(chance_y));
         moved
     }
 
@@ -160,7 +162,7 @@ impl Magictac {
         for row in band.rows_among(raster.rows(y, relief.reach())) {
             let y = raster.y(row);
             self.paint_row(row, raster.columns(x, relief.reach()), band, |x| {
-                (Moved::NOWHERE, contrast * relief.at(x, y))
+                (Moved::nowhere(), contrast * relief.at(x, y))
             });
         }
     }
@@ -176,29 +178,32 @@ impl Magictac {
     ) {
         let (scene, lighting) = (&*self.scene, &*self.lighting);
         let y = scene.raster.y(row);
-        let start = row * band.width;
+        let pixels = row * band.width + columns.start..row * band.width + columns.end;
+        let glows = &lighting.glow.as_chunks::<3>().0[pixels.clone()];
+        let outsides = &lighting.outside.as_chunks::<3>().0[pixels];
         let light = band.row_mut(row - band.first_row);
-        for column in columns {
+        let lights = &mut light.as_chunks_mut::<3>().0[columns.clone()];
+        for (((column, light), glow), outside) in columns.zip(lights).zip(glows).zip(outsides) {
             let x = scene.raster.x(column);
             let (moved, brighter) = at(x);
             let pattern = scene.pattern(&moved, x, y);
-            let pixel = 3 * (start + column);
-            for colour in 0..3 {
-                let glow = scene.glow[pixel + colour];
-                let outside = lighting.outside.get(pixel + colour).copied().unwrap_or(0.0);
-                light[3 * column + colour] =
-                    lighting.exposure * (glow * (1.0 + (pattern[colour] + brighter))) + outside;
-            }
+            *light = [0, 1, 2].map(|colour: usize| {
+                glow[colour] * (1.0 + (pattern[colour] + brighter)) + outside[colour]
+            });
         }
     }
 }
 
 impl Moved {
-    const NOWHERE: Moved = Moved {
-        x: [0.0; 4],
-        y: [0.0; 4],
-        wetting: 0.0,
-    };
+    /// What happens where nothing touches.
+    #[inline(always)]
+    fn nowhere() -> Moved {
+        Moved {
+            x: Lanes::splat(0.0),
+            y: Lanes::splat(0.0),
+            wetting: 0.0,
+        }
+    }
 }
 
 impl Scene {
@@ -222,47 +227,47 @@ impl Scene {
         }
     }
 
-    /// What the lattice and the surface do to the light at `x`, `y`: parts of it, around 0.
+    /// What the lattice and the surface do to the light at `x`, `y`: parts of it, around 0, red, green and blue.
     #[inline(always)]
-    fn pattern(&self, moved: &Moved, x: f32, y: f32) -> [f32; 3] {
-        let [bent_x, bent_y] = [moved.x[3], moved.y[3]].map(|slope| slope * self.refraction);
-        let seen_x = moved.x.map(|moved| x - moved - bent_x);
-        let seen_y = moved.y.map(|moved| y - moved - bent_y);
-        let sum = Texture::sum_at(&self.layers, seen_x, seen_y);
-        let [slope_x, slope_y] = [moved.x[3], moved.y[3]].map(|slope| slope * self.gloss);
-        std::array::from_fn(|colour| {
-            let [facing_x, facing_y] = FACING[colour];
-            sum[colour] - (slope_x * facing_x + slope_y * facing_y) + moved.wetting
-        })
+    fn pattern(&self, moved: &Moved, x: f32, y: f32) -> [f32; 4] {
+        let [slope_x, slope_y] = [moved.x.to_array()[3], moved.y.to_array()[3]];
+        let seen = |at: f32, moved: Lanes, slope: f32| {
+            Lanes::splat(at - self.refraction * slope).minus(moved)
+        };
+        let sum = Texture::sum_at(
+            &self.layers,
+            seen(x, moved.x, slope_x),
+            seen(y, moved.y, slope_y),
+        );
+        let [facing_x, facing_y] = FACING.map(Lanes::new);
+        let facing_x = Lanes::splat(self.gloss * slope_x).times(facing_x);
+        let facing_y = Lanes::splat(self.gloss * slope_y).times(facing_y);
+        let wet = Lanes::splat(moved.wetting);
+        sum.minus(facing_x.plus(facing_y)).plus(wet).to_array()
     }
 }
 
 impl Lighting {
     fn new(scene: &Scene, light: AmbientLight) -> Lighting {
         let source = Outside::new(light);
-        let outside = if light == AmbientLight::Normal {
-            Vec::new()
-        } else {
-            field(&scene.raster, |x, y| source.at(x, y))
-        };
-        let exposure = narrow(source.exposure());
-        let mut background = scene.glow.clone();
         let raster = &scene.raster;
-        let pixels = background.chunks_exact_mut(3).enumerate();
-        for (index, pixel) in pixels {
-            let [x, y] = [
-                raster.x(index % raster.width),
-                raster.y(index / raster.width),
-            ];
-            let pattern = scene.pattern(&Moved::NOWHERE, x, y);
-            for (colour, light) in pixel.iter_mut().enumerate() {
-                let outside = outside.get(3 * index + colour).copied().unwrap_or(0.0);
-                *light = exposure * (*light * (1.0 + (pattern[colour] + 0.0))) + outside;
-            }
+        let exposure = narrow(source.exposure());
+        let glow: Vec<f32> = scene.glow.iter().map(|glow| exposure * glow).collect();
+        let outside = field(raster, |x, y| source.at(x, y));
+        let mut background = vec![0.0; glow.len()];
+        let (pixels, _) = background.as_chunks_mut::<3>();
+        for (index, pixel) in pixels.iter_mut().enumerate() {
+            let x = raster.x(index % raster.width);
+            let y = raster.y(index / raster.width);
+            let pattern = scene.pattern(&Moved::nowhere(), x, y);
+            *pixel = [0, 1, 2].map(|colour: usize| {
+                let sample = 3 * index + colour;
+                glow[sample] * (1.0 + (pattern[colour] + 0.0)) + outside[sample]
+            });
         }
         Lighting {
             scene: light,
-            exposure,
+            glow,
             outside,
             background,
         }

@@ -1,14 +1,7 @@
-//! Where kernels meet the processor.
+//! Where pictures meet the processor: arithmetic on four numbers at once, and the widest vectors there are.
 
-use super::noise::RowNoise;
-use super::readout::{LANES, Readout};
+mod lanes;
+mod widest;
 
-/// [`Readout::row`].
-pub(super) fn read_out<const BYTES: usize>(
-    readout: &Readout,
-    light: &[f32],
-    noise: RowNoise,
-    into: &mut [u8],
-) -> [u32; LANES] {
-    readout.row::<BYTES>(light, noise, into)
-}
+pub(super) use lanes::Lanes;
+pub(super) use widest::expose;

@@ -1,12 +1,13 @@
 //! Smooth random patterns that repeat: speckle, unevenness of a coating, the buckling of a lattice.
 
 use super::number::{count, narrow};
+use super::simd::Lanes;
 use crate::random::Stream;
 
 /// A pattern on a torus of texels, four values each; linear between them.
 #[derive(Clone, Debug)]
 pub(super) struct Texture {
-    texels: Vec<[f32; 4]>,
+    texels: Box<[[f32; 4]; SIDE * SIDE]>,
     texels_per_unit: f32,
 }
 
@@ -24,7 +25,7 @@ impl Texture {
             std::array::from_fn(|lane| layers.get(lane).map_or(0.0, |layer| layer[index]))
         };
         Texture {
-            texels: (0..SIDE * SIDE).map(texel).collect(),
+            texels: boxed(texel),
             texels_per_unit: narrow(1.0 / pitch),
         }
     }
@@ -32,26 +33,17 @@ impl Texture {
     /// The four values at a place, in the field's unit.
     #[inline(always)]
     pub(super) fn at(&self, x: f32, y: f32) -> [f32; 4] {
-        self.in_cell(
-            cell(x * self.texels_per_unit),
-            cell(y * self.texels_per_unit),
-        )
+        let cells = Cells::of(Lanes::new([x, y, 0.0, 0.0]), self.texels_per_unit);
+        self.between(&cells, 0, &cells, 1).to_array()
     }
 
-    /// The sum of three textures of one pitch, each at the place in its lane; the fourth lane is left alone.
+    /// The sum of three textures of one pitch, each at the place in its lane; the fourth lane of the places is left alone.
     #[inline(always)]
-    pub(super) fn sum_at(layers: &[Texture; 3], x: [f32; 4], y: [f32; 4]) -> [f32; 4] {
+    pub(super) fn sum_at(layers: &[Texture; 3], x: Lanes, y: Lanes) -> Lanes {
         let pitch = layers[0].texels_per_unit;
-        let columns = x.map(|x| cell(x * pitch));
-        let rows = y.map(|y| cell(y * pitch));
-        let mut sum = [0.0; 4];
-        for (layer, texture) in layers.iter().enumerate() {
-            let value = texture.in_cell(columns[layer], rows[layer]);
-            for lane in 0..4 {
-                sum[lane] += value[lane];
-            }
-        }
-        sum
+        let (columns, rows) = (Cells::of(x, pitch), Cells::of(y, pitch));
+        let value = |layer: usize| layers[layer].between(&columns, layer, &rows, layer);
+        value(0).plus(value(1)).plus(value(2))
     }
 
     /// The first two values of the texel nearest to a place.
@@ -62,38 +54,50 @@ impl Texture {
         [first, second]
     }
 
+    /// The values in the cell of `columns` in lane `across` and of `rows` in lane `up`.
     #[inline(always)]
-    fn in_cell(
-        &self,
-        (left, right, across): (usize, usize, f32),
-        (low, high, up): (usize, usize, f32),
-    ) -> [f32; 4] {
-        let texel = |column: usize, row: usize| &self.texels[(row * SIDE + column) % (SIDE * SIDE)];
-        let corners = [
-            texel(left, low),
-            texel(right, low),
-            texel(left, high),
-            texel(right, high),
-        ];
-        let mut value = [0.0; 4];
-        for lane in 0..4 {
-            let below = corners[0][lane] + across * (corners[1][lane] - corners[0][lane]);
-            let above = corners[2][lane] + across * (corners[3][lane] - corners[2][lane]);
-            value[lane] = below + up * (above - below);
-        }
-        value
+    fn between(&self, columns: &Cells, across: usize, rows: &Cells, up: usize) -> Lanes {
+        let texel = |column: u32, row: u32| {
+            // Both are masked, so the index is in range; masked once more, the compiler knows it too.
+            let index = (row << SIDE_BITS | column) as usize & (SIDE * SIDE - 1);
+            Lanes::new(self.texels[index])
+        };
+        let [left, right] = [columns.before[across], columns.after[across]];
+        let [low, high] = [rows.before[up], rows.after[up]];
+        let part = Lanes::splat(columns.fraction[across]);
+        let below = texel(left, low).towards(texel(right, low), part);
+        let above = texel(left, high).towards(texel(right, high), part);
+        below.towards(above, Lanes::splat(rows.fraction[up]))
     }
 }
 
-/// The texel before a place, the one after it, and how far on from the first; on a torus.
-#[inline(always)]
-fn cell(place: f32) -> (usize, usize, f32) {
-    // The nearest whole number to place − ½ is the one before it; a tie makes the fraction 0 or 1, which is the same point.
-    let shifted = (place - 0.5) + ROUND;
-    let whole = shifted - ROUND;
-    let before = shifted.to_bits() & MASK;
-    let after = (before + 1) & MASK;
-    (before as usize, after as usize, place - whole)
+/// The texels one after another, on the heap from the start.
+fn boxed(texel: impl Fn(usize) -> [f32; 4]) -> Box<[[f32; 4]; SIDE * SIDE]> {
+    let texels: Vec<[f32; 4]> = (0..SIDE * SIDE).map(texel).collect();
+    texels.try_into().expect("as many as were asked for")
+}
+
+/// For each lane the texel before a place, the one after it, and how far on from the first; on a torus.
+struct Cells {
+    before: [u32; 4],
+    after: [u32; 4],
+    fraction: [f32; 4],
+}
+
+impl Cells {
+    #[inline(always)]
+    fn of(places: Lanes, texels_per_unit: f32) -> Cells {
+        // The nearest whole number to place − ½ is the one before it; a tie makes the fraction 0 or 1, which is the same point.
+        let places = places.times(Lanes::splat(texels_per_unit));
+        let round = Lanes::splat(ROUND);
+        let shifted = places.minus(Lanes::splat(0.5)).plus(round);
+        let before = shifted.masked_bits(MASK);
+        Cells {
+            before,
+            after: before.map(|before| (before + 1) & MASK),
+            fraction: places.minus(shifted.minus(round)).to_array(),
+        }
+    }
 }
 
 /// A pattern of mean 0 and standard deviation 1 that varies over `sigma` texels, row by row.

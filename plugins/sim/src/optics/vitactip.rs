@@ -113,6 +113,7 @@ impl Vitactip {
         Ok(())
     }
 
+    #[inline(always)]
     pub(super) fn paint(&self, band: &mut Band<'_>) {
         let scene = &*self.scene;
         let start = band.first_row * band.width;
@@ -179,6 +180,7 @@ impl Scene {
         }
     }
 
+    #[inline(always)]
     fn paint_ball(&self, ball: &Ball, band: &mut Band<'_>) {
         let [x, y] = ball.middle;
         let reach = WIDTHS * ball.width;

@@ -3,6 +3,7 @@
 use super::lamp::{CHUNK, Caster, Slopes};
 use crate::displacement::{Load, NODES, Profile, Quantity, node};
 use crate::optics::number::narrow;
+use crate::optics::simd::Lanes;
 
 /// The slopes around one contact, a node of the radial tables each: sink's slope over r, bulge over r, its slope over r, shadow over r.
 #[derive(Clone, Debug)]
@@ -16,8 +17,8 @@ pub(super) struct Dent {
     pub(super) reach: f32,
 }
 
-/// A slope that moves the light by some 0.03 DN: a tenth of the noise of the smallest frame.
-const LEAST_SLOPE: f64 = 3e-4;
+/// A slope that moves the light by some 0.1 DN: less than the noise of the smallest frames.
+const LEAST_SLOPE: f64 = 1e-3;
 
 impl Default for Dent {
     fn default() -> Dent {
@@ -82,11 +83,9 @@ impl Dent {
             let t = 1.0 + (dx * dx + dy * dy) * self.inverse_radius_squared;
             let place = crate::displacement::locate(t);
             let (below, above) = (&self.nodes[place.cell], &self.nodes[place.cell + 1]);
-            let mut value = [0.0; 4];
-            for lane in 0..4 {
-                value[lane] = below[lane] + place.fraction * (above[lane] - below[lane]);
-            }
-            let [sink_slope, bulge, bulge_slope, shadow] = value;
+            let [sink_slope, bulge, bulge_slope, shadow] = Lanes::new(*below)
+                .towards(Lanes::new(*above), Lanes::splat(place.fraction))
+                .to_array();
             let towards = dx * self.shear[0] + dy * self.shear[1];
             let radial = sink_slope - towards * bulge_slope;
             slopes.x[i] += dx * radial - self.shear[0] * bulge;
@@ -114,6 +113,9 @@ fn blurred(profile: &Profile, distance: f64, sigma: f64) -> f32 {
 
 /// How dark the shadow is at `rho` contact radii: a band behind the rim.
 fn shade(rho: f64) -> f64 {
+    if rho > 2.5 {
+        return 0.0;
+    }
     let from_middle = (rho - 1.2) / 0.25;
     libm::exp(-from_middle * from_middle)
 }

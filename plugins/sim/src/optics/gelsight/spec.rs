@@ -1,5 +1,7 @@
 //! The figures of a coated gel.
 
+use std::f64::consts::FRAC_PI_4;
+
 use super::lamp::LampSpec;
 use crate::parameters::{Layer, Markers, Parameters};
 
@@ -46,7 +48,9 @@ pub struct MarkerGrid {
 impl GelsightSpec {
     /// The look of a coated layer.
     pub(in crate::optics) fn new(parameters: &Parameters, layer: &Layer) -> GelsightSpec {
-        let brightness = parameters.camera.mean_gray / NOMINAL_GRAY;
+        let markers = parameters.markers.as_ref().map(MarkerGrid::new);
+        let taken = markers.map_or(0.0, |grid| grid.light_taken(parameters));
+        let brightness = parameters.camera.mean_gray / (NOMINAL_GRAY * (1.0 - taken));
         let lamp = |x: f64, y: f64, along: [f64; 2], colour: [f64; 3]| LampSpec {
             middle_mm: [x, y, 3.5],
             half_length_mm: along,
@@ -70,7 +74,7 @@ impl GelsightSpec {
             coating_spread: 0.01,
             shadow: 0.35,
             blur_mm: parameters.gratings.blur_mm,
-            markers: parameters.markers.as_ref().map(MarkerGrid::new),
+            markers,
         }
     }
 }
@@ -85,10 +89,18 @@ impl MarkerGrid {
             jitter_mm: markers.jitter_mm,
         }
     }
+
+    /// The part of all light that the markers take.
+    fn light_taken(&self, parameters: &Parameters) -> f64 {
+        let [columns, rows] = self.count.map(f64::from);
+        let discs = columns * rows * FRAC_PI_4 * self.diameter_mm * self.diameter_mm;
+        let surface = &parameters.surface;
+        (self.darkness * discs / (surface.width_mm * surface.height_mm)).min(0.9)
+    }
 }
 
-/// Mean gray of the untouched gel as the lamps are told above (fit).
-const NOMINAL_GRAY: f64 = 93.0;
+/// Mean gray of the untouched gel without markers as the lamps are told above (fit).
+const NOMINAL_GRAY: f64 = 144.8;
 
 fn whole(count: f64) -> u16 {
     #[expect(

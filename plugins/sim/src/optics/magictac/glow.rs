@@ -80,7 +80,7 @@ impl Outside {
             }
             AmbientLight::Spot => {
                 let squared = x * x + (y - 6.0) * (y - 6.0);
-                [90.0 * libm::exp(-squared / 18.0); 3]
+                [69.0 * libm::exp(-squared / 18.0); 3]
             }
         }
     }

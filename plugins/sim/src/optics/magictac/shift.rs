@@ -2,6 +2,7 @@
 
 use crate::displacement::{Load, NODES, Profile, Quantity, locate, node};
 use crate::optics::number::narrow;
+use crate::optics::simd::Lanes;
 
 /// A ball's work on the three layers and on the surface, a node of the radial tables each.
 #[derive(Clone, Debug)]
@@ -22,8 +23,8 @@ type Node = [[f32; 4]; 4];
 /// What happens at a place: how far each layer has moved, and in the fourth lane the gradient of the surface's depth.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Moved {
-    pub(super) x: [f32; 4],
-    pub(super) y: [f32; 4],
+    pub(super) x: Lanes,
+    pub(super) y: Lanes,
     /// Brightening by contact.
     pub(super) wetting: f32,
 }
@@ -32,6 +33,14 @@ pub(super) struct Moved {
 const LEAST_MM: f64 = 0.004;
 /// The part of the reach, counted from outside, over which everything fades.
 const FADE: f64 = 0.2;
+
+/// The part of full contact that is seen `beyond` mm outside the rim.
+fn wet(beyond: f64) -> f64 {
+    if beyond > 8.0 {
+        return 0.0;
+    }
+    1.0 / (1.0 + libm::exp(4.0 * beyond))
+}
 
 impl Default for Shift {
     fn default() -> Shift {
@@ -67,7 +76,7 @@ impl Shift {
                 furthest = furthest.max(distance * (outward + distance * radial) + along);
             }
             values[0][3] = profiles[0].table(Quantity::SinkSlope)[position];
-            values[3][0] = narrow(wetting / (1.0 + libm::exp(4.0 * (distance - radius))));
+            values[3][0] = narrow(wetting * wet(distance - radius));
             if furthest > LEAST_MM {
                 reach = distance;
             }
@@ -97,22 +106,21 @@ impl Shift {
         let [dx, dy] = [x - self.x, y - self.y];
         let place = locate(1.0 + (dx * dx + dy * dy) * self.inverse_radius_squared);
         let (below, above) = (&self.nodes[place.cell], &self.nodes[place.cell + 1]);
-        let value = |row: usize, lane: usize| {
-            below[row][lane] + place.fraction * (above[row][lane] - below[row][lane])
-        };
+        let part = Lanes::splat(place.fraction);
+        let row = |row: usize| Lanes::new(below[row]).towards(Lanes::new(above[row]), part);
         let [shear_x, shear_y] = self.shear;
-        let towards = dx * shear_x + dy * shear_y;
-        let (mut moved_x, mut moved_y) = ([0.0; 4], [0.0; 4]);
-        for lane in 0..4 {
-            let outward = value(0, lane) - towards * value(2, lane);
-            let along = value(1, lane);
-            moved_x[lane] = dx * outward + shear_x * along;
-            moved_y[lane] = dy * outward + shear_y * along;
-        }
+        let towards = Lanes::splat(dx * shear_x + dy * shear_y);
+        let outward = row(0).minus(towards.times(row(2)));
+        let along = row(1);
+        let moved = |from_centre: f32, shear: f32| {
+            let outward = Lanes::splat(from_centre).times(outward);
+            outward.plus(Lanes::splat(shear).times(along))
+        };
+        let [below, above] = [below[3][0], above[3][0]];
         Moved {
-            x: moved_x,
-            y: moved_y,
-            wetting: value(3, 0),
+            x: moved(dx, shear_x),
+            y: moved(dy, shear_y),
+            wetting: below + place.fraction * (above - below),
         }
     }
 }

@@ -62,4 +62,4 @@ impl MagictacSpec {
 }
 
 /// Mean gray of the untouched block as the glow is told above (fit).
-const NOMINAL_GRAY: f64 = 107.0;
+const NOMINAL_GRAY: f64 = 114.8;

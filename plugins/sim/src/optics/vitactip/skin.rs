@@ -25,11 +25,11 @@ pub(super) fn outside(scene: AmbientLight, x: f64, y: f64) -> f64 {
     match scene {
         AmbientLight::Normal => 0.0,
         AmbientLight::Ceiling => 7.0,
-        AmbientLight::WideBeam => 15.6 + 19.2 * bell(from(-8.0 / 46.0), 30.0 / 46.0),
-        AmbientLight::Ring => 19.2 + 22.6 * bell(from(0.0) - 20.0 / 46.0, 18.0 / 46.0),
+        AmbientLight::WideBeam => 15.3 + 18.9 * bell(from(-8.0 / 46.0), 30.0 / 46.0),
+        AmbientLight::Ring => 18.8 + 22.1 * bell(from(0.0) - 20.0 / 46.0, 18.0 / 46.0),
         AmbientLight::Spot => {
             let spot = 220.0 * bell(from(34.0 / 46.0), 16.1 / 46.0);
-            22.0 + spot + 18.0 * bell(from(20.0 / 46.0), 30.0 / 46.0)
+            20.6 + spot + 18.0 * bell(from(20.0 / 46.0), 30.0 / 46.0)
         }
     }
 }

@@ -60,7 +60,7 @@ impl VitactipSpec {
             marker_radius: 0.5 * diameter_mm / (rim_angle * camera_distance_mm),
             marker_darkness: 0.8,
             marker_jitter_mm: markers.map_or(0.0, |markers| markers.jitter_mm),
-            skin_dn: 1.38 * parameters.camera.mean_gray / NOMINAL_GRAY,
+            skin_dn: 1.34 * parameters.camera.mean_gray / NOMINAL_GRAY,
             surroundings_dn: 3.5 * parameters.camera.mean_gray / NOMINAL_GRAY,
             unevenness: 0.03,
             ball_glow: [0.5, 0.6],

@@ -1,0 +1,154 @@
+#![expect(
+    unsafe_code,
+    reason = "vectors and arrays of four numbers are told to be the same bytes"
+)]
+//! Four numbers in one register.
+//!
+//! Left to itself the compiler keeps the four numbers of a texel apart. Every operation here is the one of IEEE 754 on each lane, so the
+//! vector of the processor and the array that stands for it elsewhere give the same bits. SSE2 is part of every x86-64.
+
+#[cfg(target_arch = "x86_64")]
+use std::arch::x86_64 as isa;
+
+/// Four numbers.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::optics) struct Lanes(Vector);
+
+#[cfg(target_arch = "x86_64")]
+type Vector = isa::__m128;
+#[cfg(not(target_arch = "x86_64"))]
+type Vector = [f32; 4];
+
+#[cfg(target_arch = "x86_64")]
+impl Lanes {
+    #[inline(always)]
+    pub(in crate::optics) fn new([a, b, c, d]: [f32; 4]) -> Lanes {
+        // SAFETY: every x86-64 has SSE2.
+        Lanes(unsafe { isa::_mm_setr_ps(a, b, c, d) })
+    }
+
+    #[inline(always)]
+    pub(in crate::optics) fn to_array(self) -> [f32; 4] {
+        // SAFETY: both are sixteen bytes, and any bytes are four numbers.
+        unsafe { std::mem::transmute::<isa::__m128, [f32; 4]>(self.0) }
+    }
+
+    #[inline(always)]
+    pub(in crate::optics) fn plus(self, other: Lanes) -> Lanes {
+        // SAFETY: every x86-64 has SSE2.
+        Lanes(unsafe { isa::_mm_add_ps(self.0, other.0) })
+    }
+
+    #[inline(always)]
+    pub(in crate::optics) fn minus(self, other: Lanes) -> Lanes {
+        // SAFETY: every x86-64 has SSE2.
+        Lanes(unsafe { isa::_mm_sub_ps(self.0, other.0) })
+    }
+
+    #[inline(always)]
+    pub(in crate::optics) fn times(self, other: Lanes) -> Lanes {
+        // SAFETY: every x86-64 has SSE2.
+        Lanes(unsafe { isa::_mm_mul_ps(self.0, other.0) })
+    }
+
+    #[inline(always)]
+    pub(in crate::optics) fn root(self) -> Lanes {
+        // SAFETY: every x86-64 has SSE2.
+        Lanes(unsafe { isa::_mm_sqrt_ps(self.0) })
+    }
+
+    /// The low bits of each lane's pattern that `mask` keeps.
+    #[inline(always)]
+    pub(in crate::optics) fn masked_bits(self, mask: u32) -> [u32; 4] {
+        // SAFETY: every x86-64 has SSE2.
+        let mask = unsafe { isa::_mm_set1_epi32(mask.cast_signed()) };
+        // SAFETY: every x86-64 has SSE2.
+        let bits = unsafe { isa::_mm_castps_si128(self.0) };
+        // SAFETY: every x86-64 has SSE2.
+        let kept = unsafe { isa::_mm_and_si128(bits, mask) };
+        // SAFETY: both are sixteen bytes, and any bytes are four whole numbers.
+        unsafe { std::mem::transmute::<isa::__m128i, [u32; 4]>(kept) }
+    }
+}
+
+#[cfg(not(target_arch = "x86_64"))]
+impl Lanes {
+    #[inline(always)]
+    pub(in crate::optics) fn new(numbers: [f32; 4]) -> Lanes {
+        Lanes(numbers)
+    }
+
+    #[inline(always)]
+    pub(in crate::optics) fn to_array(self) -> [f32; 4] {
+        self.0
+    }
+
+    #[inline(always)]
+    pub(in crate::optics) fn plus(self, other: Lanes) -> Lanes {
+        Lanes(std::array::from_fn(|lane| self.0[lane] + other.0[lane]))
+    }
+
+    #[inline(always)]
+    pub(in crate::optics) fn minus(self, other: Lanes) -> Lanes {
+        Lanes(std::array::from_fn(|lane| self.0[lane] - other.0[lane]))
+    }
+
+    #[inline(always)]
+    pub(in crate::optics) fn times(self, other: Lanes) -> Lanes {
+        Lanes(std::array::from_fn(|lane| self.0[lane] * other.0[lane]))
+    }
+
+    #[inline(always)]
+    pub(in crate::optics) fn root(self) -> Lanes {
+        Lanes(self.0.map(f32::sqrt))
+    }
+
+    /// The low bits of each lane's pattern that `mask` keeps.
+    #[inline(always)]
+    pub(in crate::optics) fn masked_bits(self, mask: u32) -> [u32; 4] {
+        self.0.map(|number| number.to_bits() & mask)
+    }
+}
+
+impl Lanes {
+    /// The same number in each lane.
+    #[inline(always)]
+    pub(in crate::optics) fn splat(number: f32) -> Lanes {
+        Lanes::new([number; 4])
+    }
+
+    /// From `self` towards `other` by `part` of the way.
+    #[inline(always)]
+    pub(in crate::optics) fn towards(self, other: Lanes, part: Lanes) -> Lanes {
+        self.plus(part.times(other.minus(self)))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lanes_reckon_as_numbers_do_to_the_bit() {
+        let [a, b] = [[1.5e-3_f32, -7.1, 0.3, 2e20], [3.3_f32, 0.7, -1e-9, 5.5]];
+        let [left, right] = [a, b].map(Lanes::new);
+        let expect = |found: Lanes, expected: fn(f32, f32) -> f32| {
+            let expected: [f32; 4] = std::array::from_fn(|lane| expected(a[lane], b[lane]));
+            assert_eq!(
+                found.to_array().map(f32::to_bits),
+                expected.map(f32::to_bits)
+            );
+        };
+        expect(left.plus(right), |a, b| a + b);
+        expect(left.minus(right), |a, b| a - b);
+        expect(left.times(right), |a, b| a * b);
+        expect(left.times(left).root(), |a, _| (a * a).sqrt());
+        expect(left.towards(right, Lanes::splat(0.25)), |a, b| {
+            a + 0.25 * (b - a)
+        });
+        assert_eq!(
+            left.masked_bits(0xff),
+            a.map(|number| number.to_bits() & 0xff)
+        );
+    }
+}

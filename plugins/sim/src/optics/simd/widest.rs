@@ -1,0 +1,27 @@
+#![expect(
+    unsafe_code,
+    reason = "a function made for AVX2 is called once the processor is known to have it"
+)]
+//! The same code made twice: for every processor, and for those with AVX2.
+//!
+//! Vectors of eight do what vectors of four do, lane by lane, and no multiplication is fused with an addition, so both give the same
+//! bytes.
+
+use crate::optics::camera::{Camera, View};
+use crate::optics::luma::Luma;
+
+/// [`Camera::expose`] with the widest vectors of this processor.
+pub(in crate::optics) fn expose(camera: &mut Camera, view: &View, bytes: &mut [u8]) -> Luma {
+    #[cfg(target_arch = "x86_64")]
+    if is_x86_feature_detected!("avx2") {
+        // SAFETY: the processor has just been asked for AVX2.
+        return unsafe { expose_with_avx2(camera, view, bytes) };
+    }
+    camera.expose(view, bytes)
+}
+
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx2")]
+fn expose_with_avx2(camera: &mut Camera, view: &View, bytes: &mut [u8]) -> Luma {
+    camera.expose(view, bytes)
+}
