@@ -31,13 +31,20 @@ pub(crate) enum RecordKind {
     Sample = 2,
     /// The frame without contact.
     Reference = 3,
+    /// All samples of one press.
+    Press = 4,
 }
 
 impl RecordKind {
     fn from_byte(byte: u8) -> Option<RecordKind> {
-        [RecordKind::Start, RecordKind::Sample, RecordKind::Reference]
-            .into_iter()
-            .find(|kind| *kind as u8 == byte)
+        [
+            RecordKind::Start,
+            RecordKind::Sample,
+            RecordKind::Reference,
+            RecordKind::Press,
+        ]
+        .into_iter()
+        .find(|kind| *kind as u8 == byte)
     }
 }
 

@@ -1,17 +1,14 @@
 //! A recording while it is made: each sample is durable before it counts.
 
-use std::collections::HashSet;
+use std::collections::{BTreeSet, HashSet};
 use std::fs::{self, File};
 use std::path::{Path, PathBuf};
 
 use taceva_core::{Channels, Field, FieldSet, Frame, FrameInfo, Sample, SampleSink, SinkError};
 
-use crate::decode::ChannelOrder;
-use crate::digest::Digest;
-use crate::encode::encode_png;
 use crate::error::DatasetError;
-use crate::file::{parent_of, sync_folder, write_durable};
-use crate::header::{FramesInfo, Header, ReferenceInfo};
+use crate::file::{parent_of, sync_folder};
+use crate::header::{Header, ReferenceInfo};
 use crate::journal::{Journal, Record, RecordKind};
 use crate::layout;
 use crate::samples::from_parquet;
@@ -21,10 +18,12 @@ use crate::table::{FrameEntry, Row, Table};
 
 mod check;
 mod folder;
+mod frames;
+mod press;
 mod written;
 
 use folder::{empty_folder, remove_journal};
-use written::{WrittenFrame, WrittenSample, WrittenStart};
+use written::{WrittenFrame, WrittenPress, WrittenSample, WrittenStart};
 
 /// What a recording is of.
 #[derive(Clone, Debug, PartialEq)]
@@ -75,6 +74,7 @@ pub struct Recorder {
     facts: RecordingFacts,
     table: Table,
     finished: HashSet<String>,
+    presses: BTreeSet<String>,
     frame_info: Option<FrameInfo>,
     reference: Option<ReferenceInfo>,
     cut_bytes: u64,
@@ -174,6 +174,7 @@ impl Recorder {
             facts: spec.facts,
             table: Table::new(spec.channels, Vec::new()),
             finished: HashSet::new(),
+            presses: BTreeSet::new(),
             frame_info: None,
             reference: None,
             cut_bytes: 0,
@@ -207,7 +208,7 @@ impl Recorder {
         let frame = sample
             .frame
             .as_ref()
-            .map(|frame| self.write_frame(frame))
+            .map(|frame| self.write_frame(self.table.rows(), frame))
             .transpose()?;
         let row = self.row(sample, frame);
         let info = sample.frame.as_ref().map(Frame::info);
@@ -274,6 +275,7 @@ impl Recorder {
                 self.take_reference(WrittenFrame::parse(&record.payload)?);
                 Ok(())
             }
+            RecordKind::Press => self.replay_press(WrittenPress::parse(&record.payload)?),
         }
     }
 
@@ -316,49 +318,6 @@ impl Recorder {
             attributes: Vec::new(),
             frame,
         }
-    }
-
-    fn write_frame(&mut self, frame: &Frame) -> Result<FrameEntry, DatasetError> {
-        let number = self.table.rows();
-        let folder = self.path.join(layout::frame_folder(number));
-        if self.synced_folder.as_ref() != Some(&folder) {
-            // Even where it is there: a killed process leaves names that nobody made durable.
-            fs::create_dir_all(&folder).map_err(DatasetError::io("create", &folder))?;
-            sync_folder(parent_of(&folder))?;
-            sync_folder(&self.path)?;
-            self.synced_folder = Some(folder);
-        }
-        let path = layout::frame_path(number, "png");
-        let digest = self.write_image(&path, frame)?;
-        Ok(FrameEntry { path, digest })
-    }
-
-    /// Writes a frame; its bytes and its name are durable.
-    fn write_image(&self, relative: &str, frame: &Frame) -> Result<Digest, DatasetError> {
-        let path = self.path.join(relative);
-        let bytes = encode_png(frame).map_err(|problem| DatasetError::Image {
-            place: None,
-            path: path.clone(),
-            problem,
-        })?;
-        write_durable(&path, &bytes)?;
-        sync_folder(parent_of(&path))?;
-        Ok(Digest::of(&bytes))
-    }
-
-    fn frames_info(&self) -> Option<FramesInfo> {
-        let info = self.frame_info?;
-        let is_gray = info.format.samples() == 1;
-        Some(FramesInfo {
-            count: self.table.frames().iter().flatten().count() as u64,
-            info,
-            channel_order: if is_gray {
-                ChannelOrder::Gray
-            } else {
-                ChannelOrder::Rgb
-            },
-            reference: self.reference.clone(),
-        })
     }
 
     fn verify(&self, samples: &Path, header: &Header) -> Result<(), DatasetError> {

@@ -97,6 +97,23 @@ pub(super) struct WrittenSample {
     frame: Option<WrittenFrame>,
 }
 
+/// A press with all its samples.
+#[derive(Serialize, Deserialize)]
+pub(super) struct WrittenPress {
+    pub(super) press: String,
+    pub(super) samples: Vec<WrittenSample>,
+}
+
+impl WrittenPress {
+    pub(super) fn to_toml(&self) -> String {
+        to_toml(self)
+    }
+
+    pub(super) fn parse(payload: &[u8]) -> Result<WrittenPress, String> {
+        from_toml(payload)
+    }
+}
+
 /// The file of a frame.
 #[derive(Serialize, Deserialize)]
 pub(super) struct WrittenFrame {

@@ -1,0 +1,91 @@
+//! A press of a protocol: one record of the journal, so that after any interruption all of its samples are there or none.
+
+use std::collections::BTreeSet;
+
+use taceva_core::{Frame, Sample};
+
+use super::Recorder;
+use super::written::{WrittenPress, WrittenSample};
+use crate::error::DatasetError;
+use crate::journal::RecordKind;
+
+impl Recorder {
+    /// Whether a press of this name is recorded.
+    pub fn has_press(&self, press: &str) -> bool {
+        self.presses.contains(press)
+    }
+
+    /// Records a press with all its samples, which may be none, and returns its number in the journal once it is durable.
+    ///
+    /// # Errors
+    /// As [`append`](Recorder::append), for the first sample that is refused; [`DatasetError::Sample`] if the name of the press is
+    /// empty or taken; [`DatasetError::Request`] for more samples than one record holds, some thousands. Nothing is recorded then.
+    pub fn append_press(&mut self, press: &str, samples: &[Sample]) -> Result<u64, DatasetError> {
+        self.check_press(press, samples)?;
+        let mut rows = Vec::with_capacity(samples.len());
+        for (position, sample) in samples.iter().enumerate() {
+            let number = self.table.rows() + position;
+            let frame = sample.frame.as_ref();
+            let entry = frame.map(|frame| self.write_frame(number, frame));
+            let row = self.row(sample, entry.transpose()?);
+            rows.push((row, frame.map(Frame::info)));
+        }
+        let channels = self.table.channels();
+        let written = rows
+            .iter()
+            .map(|(row, info)| WrittenSample::new(row, channels, *info));
+        let written = WrittenPress {
+            press: press.to_owned(),
+            samples: written.collect(),
+        };
+        let sequence = self
+            .journal
+            .append(RecordKind::Press, written.to_toml().as_bytes())?;
+        for (row, info) in rows {
+            self.take(row, info);
+        }
+        self.presses.insert(press.to_owned());
+        Ok(sequence)
+    }
+
+    pub(super) fn replay_press(&mut self, written: WrittenPress) -> Result<(), String> {
+        for sample in written.samples {
+            let (row, info) = sample.into_row(self.table.channels())?;
+            self.take(row, info);
+        }
+        self.presses.insert(written.press);
+        Ok(())
+    }
+
+    fn check_press(&self, press: &str, samples: &[Sample]) -> Result<(), DatasetError> {
+        let refused = |id: &str, problem: String| {
+            Err(DatasetError::Sample {
+                id: id.to_owned(),
+                problem,
+            })
+        };
+        if press.is_empty() || self.has_press(press) {
+            return refused(press, "the name of the press is empty or taken".to_owned());
+        }
+        let mut names = BTreeSet::new();
+        let mut expected = self.frame_info;
+        for sample in samples {
+            self.check(sample)?;
+            if !names.insert(&sample.id) {
+                return refused(
+                    &sample.id,
+                    "the press has two samples of this name".to_owned(),
+                );
+            }
+            let found = sample.frame.as_ref().map(Frame::info);
+            match (expected, found) {
+                (Some(expected), Some(found)) if expected != found => {
+                    let problem = format!("a frame of {found}, expected {expected} as the first");
+                    return refused(&sample.id, problem);
+                }
+                _ => expected = expected.or(found),
+            }
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,99 @@
+//! A press is recorded as a whole: after any interruption all of its samples are there or none.
+
+use std::fs;
+use std::path::Path;
+
+use taceva_core::{Channel, Channels, Clock, Frame, FrameInfo, PixelFormat, Readings, Sample};
+use taceva_dataset::{
+    Dataset, DatasetError, Known, Recorder, RecordingFacts, RecordingSpec, SensorFacts, Source,
+};
+
+fn spec() -> RecordingSpec {
+    RecordingSpec {
+        facts: RecordingFacts {
+            source: Source::Simulated,
+            clock: Clock::Monotonic,
+            sensor: SensorFacts {
+                model: "bench".into(),
+                serial: "1".into(),
+                gel: "2".into(),
+                opaque: Known::Is(false),
+            },
+            footprint: None,
+        },
+        channels: Channels::new([Channel::PX, Channel::FZ]).expect("distinct"),
+    }
+}
+
+fn sample(press: &str, number: u8, width: u32) -> Sample {
+    let info = FrameInfo {
+        width,
+        height: 1,
+        format: PixelFormat::Gray8,
+    };
+    let pixels = (0..width).map(|_| number).collect();
+    Sample {
+        id: format!("{press}/{number}"),
+        truth: Readings::from_values([0.25, f64::from(number)]),
+        frame: Some(Frame::new(info, pixels).expect("its own length")),
+        ..Sample::default()
+    }
+}
+
+fn press(name: &str) -> Vec<Sample> {
+    (0..3).map(|number| sample(name, number, 4)).collect()
+}
+
+fn recorded(path: &Path) -> Recorder {
+    let mut recorder = Recorder::create(path, &spec()).expect("new");
+    recorder.append_press("a", &press("a")).expect("recorded");
+    recorder.append_press("b", &[]).expect("recorded");
+    recorder
+}
+
+#[test]
+fn a_torn_press_leaves_none_of_its_samples_and_can_be_made_again() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let whole = folder.path().join("whole");
+    let mut recorder = recorded(&whole);
+    let before = fs::metadata(whole.join("journal")).expect("there").len();
+    recorder.append_press("c", &press("c")).expect("recorded");
+    drop(recorder);
+    let bytes = fs::read(whole.join("journal")).expect("reads");
+    let before = usize::try_from(before).expect("small");
+    for end in (before..bytes.len()).step_by(97) {
+        fs::write(whole.join("journal"), &bytes[..end]).expect("torn");
+        let mut resumed = Recorder::resume(&whole).expect("resumes");
+        assert_eq!(resumed.table().rows(), 3);
+        assert!(resumed.has_press("a") && resumed.has_press("b") && !resumed.has_press("c"));
+        resumed.append_press("c", &press("c")).expect("made again");
+    }
+    let resumed = Recorder::open(&whole, &spec()).expect("of the same");
+    let digest = resumed.close().expect("closes").digest;
+    let dataset = Dataset::open(&whole).expect("a dataset");
+    assert_eq!((dataset.table().rows(), dataset.digest()), (6, digest));
+    assert_eq!(dataset.table().samples()[5], "c/2");
+    let uninterrupted = folder.path().join("uninterrupted");
+    let mut recorder = recorded(&uninterrupted);
+    recorder.append_press("c", &press("c")).expect("recorded");
+    assert_eq!(recorder.close().expect("closes").digest, digest);
+}
+
+#[test]
+fn a_press_that_is_refused_leaves_nothing() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut recorder = recorded(&folder.path().join("r"));
+    let refused = [
+        ("", press("x")),
+        ("a", press("x")),
+        ("x", vec![sample("x", 0, 4), sample("x", 0, 4)]),
+        ("x", vec![sample("x", 0, 4), sample("x", 1, 5)]),
+        ("x", press("a")),
+    ];
+    for (name, samples) in refused {
+        let error = recorder.append_press(name, &samples).expect_err(name);
+        assert!(matches!(error, DatasetError::Sample { .. }), "{error}");
+    }
+    assert_eq!(recorder.table().rows(), 3);
+    assert!(!recorder.has_press("x"));
+}
