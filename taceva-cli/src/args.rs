@@ -54,6 +54,12 @@ pub(crate) enum Command {
     Merge(Merge),
     /// Run time against error, with the Pareto front marked
     Bench(Bench),
+    /// Say what `run` would do with a scene, keep and skip, and why; opens no device
+    Plan(PlanArgs),
+    /// List every driver, what it can do and what it may be told, and the devices that are present
+    Devices(Listing),
+    /// Look at this machine: what a rig could use, what stands in the way, and what to do about it
+    Doctor(Listing),
     /// Print a script that completes taceva's arguments in a shell
     Completions(Completions),
 }
@@ -259,6 +265,48 @@ pub(crate) struct BenchKernels {
     pub(crate) svg: Option<PathBuf>,
     #[command(flatten)]
     pub(crate) output: Output,
+}
+
+/// A scene, and what may be said otherwise than it is written there.
+#[derive(Debug, Args)]
+pub(crate) struct SceneArgs {
+    /// A file, or the name of a scene that is built in: quick, paper
+    #[arg(value_name = "SCENE", default_value = "quick")]
+    pub(crate) scene: String,
+    /// The seed of every draw, in the place of the scene's
+    #[arg(long, value_name = "N")]
+    pub(crate) seed: Option<u64>,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct PlanArgs {
+    #[command(flatten)]
+    pub(crate) scene: SceneArgs,
+    #[command(flatten)]
+    pub(crate) listing: Listing,
+}
+
+/// A list, for people or for programs.
+#[derive(Debug, Args)]
+pub(crate) struct Listing {
+    /// The form of the list
+    #[arg(long, value_enum, default_value_t = ListFormat::Text)]
+    pub(crate) format: ListFormat,
+    /// Write the list to a file instead of standard output
+    #[arg(long = "out", value_name = "PATH")]
+    pub(crate) path: Option<PathBuf>,
+    /// Replace a file that stands there already
+    #[arg(long)]
+    pub(crate) force: bool,
+}
+
+/// The form of a list or a plan.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum ListFormat {
+    /// For people
+    Text,
+    /// For programs; the key `schema` says which form it has
+    Json,
 }
 
 #[derive(Debug, Args)]

@@ -3,11 +3,15 @@
 pub(crate) mod bench;
 pub(crate) mod check;
 pub(crate) mod completions;
+pub(crate) mod devices;
+pub(crate) mod doctor;
 pub(crate) mod evaluate;
 pub(crate) mod fit;
 pub(crate) mod import;
 pub(crate) mod merge;
+pub(crate) mod plan;
 pub(crate) mod predict;
+mod scene;
 pub(crate) mod score;
 
 use std::num::NonZeroUsize;

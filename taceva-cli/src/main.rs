@@ -10,6 +10,9 @@ mod output;
 mod progress;
 mod report;
 
+// Its drivers are found by being linked, and what is only named in Cargo.toml is not linked.
+use taceva_sim as _;
+
 use std::process::ExitCode;
 
 use anyhow::Error;
@@ -43,6 +46,9 @@ fn run(command: &Command, context: &Context) -> anyhow::Result<u8> {
         Command::Score(args) => cmd::score::run(args, context),
         Command::Merge(args) => cmd::merge::run(args, context),
         Command::Bench(args) => cmd::bench::run(args, context),
+        Command::Plan(args) => cmd::plan::run(args, context),
+        Command::Devices(args) => cmd::devices::run(args, context),
+        Command::Doctor(args) => cmd::doctor::run(args, context),
         Command::Completions(args) => cmd::completions::run(args),
     }
 }

@@ -4,12 +4,14 @@ mod bench;
 mod chart;
 mod check;
 mod csv;
+pub(crate) mod devices;
 mod grid;
 mod json;
 mod latex;
 mod line;
 mod markdown;
 mod number;
+pub(crate) mod plan;
 mod text;
 
 use std::io::{self, Write};

@@ -4,8 +4,10 @@ use std::path::PathBuf;
 
 use taceva_core::{ErrorKind, ModelError};
 use taceva_dataset::DatasetError;
+use taceva_drivers::OpenError;
 use taceva_metrics::{MetricError, UnknownMetric};
 use taceva_models::{FeatureError, FormatError, SettingError, SplitError, UnknownModel};
+use taceva_protocol::{RunError, SceneError, StopCause};
 
 /// Why a study cannot be run.
 #[derive(Debug, thiserror::Error)]
@@ -57,6 +59,33 @@ pub enum StudyError {
         /// What is wrong with it, and what was expected.
         problem: String,
     },
+    /// A scene that cannot be meant; the error names its line.
+    #[error(transparent)]
+    Scene(Box<SceneError>),
+    /// A device that did not open.
+    #[error("study `{study}`: {source}")]
+    Open {
+        /// The study.
+        study: String,
+        /// Why.
+        source: Box<OpenError>,
+    },
+    /// A rig that stopped before its end; every press before is recorded, and the same study goes on from there.
+    #[error("study `{study}`: {source}")]
+    Acquisition {
+        /// The study.
+        study: String,
+        /// Why, and how the tip was left.
+        source: Box<RunError>,
+    },
+    /// A folder of a run that cannot be made, read or gone on with.
+    #[error("{}: {problem}", path.display())]
+    RunFolder {
+        /// The folder or a file in it.
+        path: PathBuf,
+        /// What is wrong, and what was expected.
+        problem: String,
+    },
     /// Something was asked for that the dataset or the model does not have.
     #[error("{0}")]
     Request(String),
@@ -71,7 +100,26 @@ impl StudyError {
             StudyError::Tables { .. } | StudyError::State { .. } | StudyError::Scores(_) => {
                 ErrorKind::Protocol
             }
+            StudyError::Open { source, .. } => source.kind(),
+            StudyError::Acquisition { source, .. } => match &source.cause {
+                StopCause::Cancelled => ErrorKind::Interrupted,
+                StopCause::Device(error) => error.kind(),
+                StopCause::Missing(_) => ErrorKind::Unsupported,
+                StopCause::Log(_) => ErrorKind::Protocol,
+                _ => ErrorKind::DeviceFault,
+            },
             _ => ErrorKind::InvalidArgument,
+        }
+    }
+
+    /// Whether a device failed, rather than what was typed, read or written.
+    pub fn is_of_device(&self) -> bool {
+        match self {
+            StudyError::Open { source, .. } => matches!(**source, OpenError::Device(_)),
+            StudyError::Acquisition { source, .. } => {
+                !matches!(source.cause, StopCause::Cancelled | StopCause::Log(_))
+            }
+            _ => false,
         }
     }
 

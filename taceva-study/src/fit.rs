@@ -45,6 +45,33 @@ pub struct Fitted {
     pub left_out: usize,
 }
 
+/// What a request asks for, before any data is looked at.
+pub(crate) struct Recipe {
+    info: &'static ModelInfo,
+    estimator: Box<dyn LinearEstimator>,
+    features: FeatureSpec,
+}
+
+impl Recipe {
+    /// Finds the model and reads its settings.
+    pub(crate) fn of(request: &FitRequest) -> Result<Recipe, StudyError> {
+        let info = taceva_models::find(&request.model)?;
+        let (of_features, of_model) = request.settings.clone().partition(FeatureSpec::SETTINGS);
+        let known: Vec<_> = info
+            .settings
+            .iter()
+            .chain(FeatureSpec::SETTINGS)
+            .copied()
+            .collect();
+        request.settings.check_keys(&known)?;
+        Ok(Recipe {
+            info,
+            estimator: info.estimator(&of_model)?,
+            features: FeatureSpec::from_settings(&of_features)?,
+        })
+    }
+}
+
 /// A request made definite.
 pub(crate) struct FitPlan<'a> {
     dataset: &'a Dataset,
@@ -64,19 +91,24 @@ impl<'a> FitPlan<'a> {
         dataset: &'a Dataset,
         request: &FitRequest,
     ) -> Result<FitPlan<'a>, StudyError> {
-        let info = taceva_models::find(&request.model)?;
-        let (of_features, of_model) = request.settings.clone().partition(FeatureSpec::SETTINGS);
-        let known: Vec<_> = info
-            .settings
-            .iter()
-            .chain(FeatureSpec::SETTINGS)
-            .copied()
-            .collect();
-        request.settings.check_keys(&known)?;
-        let estimator = info.estimator(&of_model)?;
-        let features = FeatureSpec::from_settings(&of_features)?;
-        let channels = chosen_channels(dataset, &request.channels)?;
+        let recipe = Recipe::of(request)?;
         let divided = Divided::new(dataset.table(), request.split.as_deref(), request.seed)?;
+        FitPlan::on(dataset, request, recipe, divided)
+    }
+
+    /// The same of a dataset that was divided elsewhere.
+    pub(crate) fn on(
+        dataset: &'a Dataset,
+        request: &FitRequest,
+        recipe: Recipe,
+        divided: Divided,
+    ) -> Result<FitPlan<'a>, StudyError> {
+        let Recipe {
+            info,
+            estimator,
+            features,
+        } = recipe;
+        let channels = chosen_channels(dataset, &request.channels)?;
         let need = || Need {
             frame: info.reads_features,
             labels: Some(&channels),

@@ -1,0 +1,150 @@
+//! Drivers, devices and what stands in their way, as lists.
+
+use std::io::{self, Write};
+
+use serde::Serialize;
+use taceva_drivers::doctor::{Finding, State};
+use taceva_drivers::{Devices, ListedArgument, ListedDevice, ListedDriver};
+
+use super::json;
+use crate::args::ListFormat;
+
+/// What there is.
+pub(crate) fn list(devices: &Devices, format: ListFormat, out: &mut dyn Write) -> io::Result<()> {
+    match format {
+        ListFormat::Text => text(devices, out),
+        ListFormat::Json => json::write(&WrittenDevices::of(devices), out),
+    }
+}
+
+/// What was looked at.
+pub(crate) fn findings(
+    findings: &[Finding],
+    format: ListFormat,
+    out: &mut dyn Write,
+) -> io::Result<()> {
+    if format == ListFormat::Json {
+        let written = WrittenFindings {
+            schema: "taceva.doctor/1",
+            findings,
+        };
+        return json::write(&written, out);
+    }
+    for finding in findings {
+        writeln!(
+            out,
+            "{:<8} {:<28} {}",
+            word(finding.state),
+            finding.subject,
+            finding.detail
+        )?;
+        if let Some(remedy) = &finding.remedy {
+            writeln!(out, "         remedy: {remedy}")?;
+        }
+    }
+    let count = |state| {
+        findings
+            .iter()
+            .filter(|finding| finding.state == state)
+            .count()
+    };
+    writeln!(
+        out,
+        "{} good, {} absent, {} problems",
+        count(State::Good),
+        count(State::Absent),
+        count(State::Problem)
+    )
+}
+
+fn word(state: State) -> &'static str {
+    match state {
+        State::Good => "good",
+        State::Absent => "absent",
+        State::Problem => "problem",
+    }
+}
+
+#[derive(Serialize)]
+struct WrittenDevices<'a> {
+    schema: &'static str,
+    drivers: &'a [ListedDriver],
+    found: &'a [ListedDevice],
+    failed: Vec<String>,
+}
+
+impl WrittenDevices<'_> {
+    fn of(devices: &Devices) -> WrittenDevices<'_> {
+        WrittenDevices {
+            schema: "taceva.devices/1",
+            drivers: &devices.drivers,
+            found: &devices.found,
+            failed: devices.failed.iter().map(ToString::to_string).collect(),
+        }
+    }
+}
+
+#[derive(Serialize)]
+struct WrittenFindings<'a> {
+    schema: &'static str,
+    findings: &'a [Finding],
+}
+
+fn text(devices: &Devices, out: &mut dyn Write) -> io::Result<()> {
+    for driver in &devices.drivers {
+        let (key, kind) = (&driver.key, driver.kind.to_string());
+        let (title, source) = (&driver.title, driver.source);
+        writeln!(out, "{key:<22} {kind:<9} {source:<10} {title}")?;
+        let facts = facts(driver);
+        if !facts.is_empty() {
+            writeln!(out, "    {}", facts.join(", "))?;
+        }
+        for argument in &driver.arguments {
+            describe(argument, out)?;
+        }
+    }
+    for device in &devices.found {
+        let (selector, title) = (&device.selector, &device.title);
+        writeln!(out, "present  {selector}   {title}: {}", device.access)?;
+    }
+    for error in &devices.failed {
+        writeln!(out, "failed   {error}")?;
+    }
+    let (drivers, found) = (devices.drivers.len(), devices.found.len());
+    writeln!(out, "{drivers} drivers, {found} devices that they see")
+}
+
+/// What is known of a device before it is opened, in words.
+fn facts(driver: &ListedDriver) -> Vec<String> {
+    let yes_no = |fact: Option<bool>, yes: &str, no: &str| {
+        fact.map(|fact| if fact { yes } else { no }.to_owned())
+    };
+    let number = |value: Option<f64>, name: &str, unit: &str| {
+        value.map(|value| format!("{name}{value} {unit}"))
+    };
+    let scenes = (!driver.scenes.is_empty()).then(|| format!("light {}", driver.scenes.join(" ")));
+    [
+        driver.frame.clone(),
+        number(driver.rate_hz, "", "Hz"),
+        yes_no(driver.opaque, "opaque", "lets light through"),
+        yes_no(driver.markers, "markers", "no markers"),
+        number(driver.depth_max_mm, "Pz up to ", "mm"),
+        number(driver.force_max_n, "Fz up to ", "N"),
+        driver.axes.clone(),
+        number(driver.speed_max_mm_s, "up to ", "mm/s"),
+        scenes,
+    ]
+    .into_iter()
+    .flatten()
+    .collect()
+}
+
+fn describe(argument: &ListedArgument, out: &mut dyn Write) -> io::Result<()> {
+    let presence = match (&argument.default, argument.required) {
+        (Some(default), _) => format!(" [{default}]"),
+        (None, true) => " (required)".to_owned(),
+        (None, false) => String::new(),
+    };
+    let (key, takes, help) = (&argument.key, &argument.takes, &argument.help);
+    writeln!(out, "    {key:<10} {takes}{presence}: {help}")
+}

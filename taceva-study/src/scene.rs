@@ -1,0 +1,209 @@
+//! A scene and its plans: what the text says, joined with what drivers and recordings say of themselves. No device is opened.
+
+mod rig;
+mod text;
+
+use std::path::{Path, PathBuf};
+
+use taceva_core::FieldSet;
+use taceva_dataset::{Dataset, Known};
+use taceva_drivers::Drivers;
+use taceva_models::Settings;
+use taceva_protocol::{
+    Plan, RecordingInfo, Scene, SceneError, SceneProblem, SourceInfo, Study, plan,
+};
+
+use crate::error::StudyError;
+use crate::fit::{FitRequest, Recipe};
+
+pub(crate) use rig::RigSpec;
+pub use text::SceneText;
+
+/// A scene with the plan of each of its studies.
+#[derive(Debug)]
+pub struct PlannedScene {
+    /// What the scene says, with the seed that counts.
+    pub scene: Scene,
+    /// Its text, as it was written.
+    pub text: SceneText,
+    /// Its studies, in order.
+    pub studies: Vec<PlannedStudy>,
+}
+
+/// One sensor of a scene, and what is done with it.
+#[derive(Debug)]
+pub struct PlannedStudy {
+    /// What is done, what is not, and why.
+    pub plan: Plan,
+    pub(crate) study: Study,
+    #[expect(dead_code, reason = "read where the plan is carried out")]
+    pub(crate) source: StudySource,
+}
+
+/// Where the samples of a study come from.
+#[expect(dead_code, reason = "read where the plan is carried out")]
+#[derive(Debug)]
+pub(crate) enum StudySource {
+    /// Devices by name.
+    Rig(RigSpec),
+    /// The folder of a recording.
+    Recording(PathBuf),
+}
+
+impl PlannedScene {
+    /// Reads what `text` says and plans it with `drivers`; `seed` stands in the place of the one that is written.
+    ///
+    /// # Errors
+    /// [`StudyError::Scene`] with the line: see [`Scene::parse`] and [`plan`], and drivers, arguments, models and recordings that are
+    /// not there.
+    pub fn new(
+        text: SceneText,
+        drivers: &Drivers,
+        seed: Option<u64>,
+    ) -> Result<PlannedScene, StudyError> {
+        let mut scene = Scene::parse(&text.name, &text.text)?;
+        scene.seed = seed.unwrap_or(scene.seed);
+        rig::check_drivers(&scene, drivers)?;
+        let mut sources = Vec::new();
+        for study in &scene.studies {
+            sources.push(Source::of(study, &scene, &text, drivers)?);
+        }
+        let mut infos = sources.iter().map(|source| source.info.clone());
+        let plans = plan(&scene, |_| {
+            infos.next().expect("a source was made for each study")
+        })?;
+        let studies = scene.studies.iter().zip(plans).zip(sources);
+        let studies = studies.map(|((study, plan), source)| PlannedStudy {
+            plan,
+            study: study.clone(),
+            source: source.source,
+        });
+        Ok(PlannedScene {
+            studies: studies.collect(),
+            scene,
+            text,
+        })
+    }
+
+    /// Refuses a model that is to be fitted and that this program does not have, or a setting that it does not take.
+    ///
+    /// Apart from [`new`](PlannedScene::new), because a plan can be read where it cannot be run.
+    ///
+    /// # Errors
+    /// [`StudyError::Scene`] with the line.
+    pub fn check_models(&self) -> Result<(), StudyError> {
+        for planned in &self.studies {
+            let (Some(model), false) = (&planned.study.model, planned.plan.fits.is_empty()) else {
+                continue;
+            };
+            if let (Some(name), Some(request)) = (&model.name, planned.fit_request(self.scene.seed))
+            {
+                let refused = |error: StudyError| {
+                    let problem = SceneProblem::Contradiction(error.to_string());
+                    self.text.error(name.at(), problem)
+                };
+                request
+                    .and_then(|request| Recipe::of(&request).map(drop))
+                    .map_err(refused)?;
+            }
+        }
+        Ok(())
+    }
+}
+
+impl PlannedStudy {
+    /// The fit that the scene asks for, if it asks for one; contact points are kept whole.
+    pub(crate) fn fit_request(&self, seed: u64) -> Option<Result<FitRequest, StudyError>> {
+        let model = self.study.model.as_ref()?;
+        let name = model.name.as_ref()?;
+        let words: Vec<String> = model
+            .set
+            .iter()
+            .map(|(key, value)| match value {
+                toml::Value::String(text) => format!("{key}={text}"),
+                other => format!("{key}={other}"),
+            })
+            .collect();
+        let settings = Settings::parse(words.iter().map(String::as_str));
+        Some(
+            settings
+                .map_err(StudyError::from)
+                .map(|settings| FitRequest {
+                    model: name.value.clone(),
+                    settings,
+                    channels: self.plan.channels.clone(),
+                    split: None,
+                    seed,
+                }),
+        )
+    }
+
+    #[expect(dead_code, reason = "read where the plan is carried out")]
+    /// The file of the finished model that the scene names, relative to its folder.
+    pub(crate) fn model_file(&self) -> Option<&str> {
+        let model = self.study.model.as_ref()?;
+        Some(model.file.as_ref()?.value.as_str())
+    }
+}
+
+/// What a study is fed from, for the planner and for those who carry the plan out.
+struct Source {
+    info: SourceInfo,
+    source: StudySource,
+}
+
+impl Source {
+    fn of(
+        study: &Study,
+        scene: &Scene,
+        text: &SceneText,
+        drivers: &Drivers,
+    ) -> Result<Source, StudyError> {
+        let Some(dataset) = &study.sensor.dataset else {
+            let spec = RigSpec::new(study, scene.seed);
+            let info = spec
+                .info(study, drivers)
+                .map_err(|(at, problem)| text.error(at, problem))?;
+            return Ok(Source {
+                info: SourceInfo::Rig(Box::new(info)),
+                source: StudySource::Rig(spec),
+            });
+        };
+        let path = text.folder.join(&dataset.value);
+        let info = recording(&path).map_err(|error| {
+            let problem = SceneProblem::Contradiction(error.to_string());
+            text.error(dataset.at(), problem)
+        })?;
+        Ok(Source {
+            info: SourceInfo::Recording(info),
+            source: StudySource::Recording(path),
+        })
+    }
+}
+
+/// What the recording at `path` holds.
+fn recording(path: &Path) -> Result<RecordingInfo, StudyError> {
+    let dataset = Dataset::open(path)?;
+    let header = dataset.header();
+    let footprint = header
+        .footprint
+        .as_ref()
+        .map(|footprint| footprint.to_core());
+    let fields: FieldSet = dataset.table().fields();
+    Ok(RecordingInfo {
+        fields,
+        channels: dataset.table().channels().clone(),
+        opaque: match header.sensor.opaque {
+            Known::Is(opaque) => Some(opaque),
+            Known::Unknown => None,
+        },
+        footprint: footprint.transpose().map_err(StudyError::Request)?,
+        frame: header.frames.as_ref().map(|frames| frames.info),
+    })
+}
+
+impl From<SceneError> for StudyError {
+    fn from(error: SceneError) -> StudyError {
+        StudyError::Scene(Box::new(error))
+    }
+}

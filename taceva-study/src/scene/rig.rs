@@ -1,0 +1,137 @@
+//! The devices that a study names: what each is told, and what its driver says of it before anything is opened.
+
+use taceva_core::{Descriptor, Device, DriverKind, Registry};
+use taceva_drivers::{Drivers, Selector};
+use taceva_protocol::{RigInfo, Scene, SceneError, SceneProblem, Setting, Study};
+
+/// What is wrong, and at which byte of the scene.
+pub(crate) type Refused = (Option<usize>, SceneProblem);
+
+/// The devices of a study, by name.
+#[derive(Clone, Debug)]
+pub(crate) struct RigSpec {
+    pub(crate) sensor: Option<Setting<String>>,
+    pub(crate) robot: Option<Setting<String>>,
+    pub(crate) force: Option<Setting<String>>,
+    pub(crate) lighting: Option<Setting<String>>,
+    seed: u64,
+}
+
+impl RigSpec {
+    pub(crate) fn new(study: &Study, seed: u64) -> RigSpec {
+        let driver = |device: &Option<taceva_protocol::DeviceSpec>| {
+            device.as_ref().map(|device| device.driver.clone())
+        };
+        let lighting = study.lighting.as_ref();
+        RigSpec {
+            sensor: study.sensor.driver.clone(),
+            robot: driver(&study.robot),
+            force: driver(&study.force),
+            lighting: lighting.map(|lighting| lighting.driver.clone()),
+            seed,
+        }
+    }
+
+    /// The descriptors of the devices.
+    pub(crate) fn info(&self, study: &Study, drivers: &Drivers) -> Result<RigInfo, Refused> {
+        let units = study.units();
+        if let (Some(sensor), [first, .., last]) = (&self.sensor, units.as_slice()) {
+            let ways = [first, last].map(|unit| self.selector(&drivers.sensors, sensor, unit));
+            let [Ok(one), Ok(other)] = ways else {
+                return Err(not_a_selector(sensor));
+            };
+            if one == other {
+                let problem = format!(
+                    "`{}` takes no argument `unit`: units `{first}` and `{last}` would be one device",
+                    sensor.value
+                );
+                return Err((sensor.at(), SceneProblem::Contradiction(problem)));
+            }
+        }
+        let (first, others) = units.split_first().expect("a study has a unit");
+        for unit in others {
+            self.describe(&drivers.sensors, self.sensor.as_ref(), unit)?;
+        }
+        Ok(RigInfo {
+            sensor: self.describe(&drivers.sensors, self.sensor.as_ref(), first)?,
+            robot: self.describe(&drivers.robots, self.robot.as_ref(), first)?,
+            force: self.describe(&drivers.forces, self.force.as_ref(), first)?,
+            lighting: self.describe(&drivers.lightings, self.lighting.as_ref(), first)?,
+        })
+    }
+
+    /// What opens `device` for `unit`: as written, with seed and unit where its driver takes them and the scene does not say them.
+    pub(crate) fn selector<D: Device + ?Sized>(
+        &self,
+        registry: &Registry<D>,
+        device: &Setting<String>,
+        unit: &str,
+    ) -> Result<Selector, Refused> {
+        let written: Selector = device.value.parse().map_err(|_| not_a_selector(device))?;
+        let refused = |error: String| (device.at(), SceneProblem::Contradiction(error));
+        let factory = registry
+            .get(written.driver())
+            .map_err(|error| refused(error.to_string()))?;
+        let mut arguments = written.arguments().to_owned();
+        for (key, value) in [("seed", self.seed.to_string()), ("unit", unit.to_owned())] {
+            let taken = factory.descriptor().arguments();
+            let takes = taken.iter().any(|argument| argument.key == key);
+            let told = arguments.split(';').filter_map(|part| part.split_once('='));
+            if takes && !told.into_iter().any(|(told, _)| told.trim() == key) {
+                let separator = if arguments.is_empty() { "" } else { ";" };
+                arguments = format!("{arguments}{separator}{key}={value}");
+            }
+        }
+        let whole = format!("{}:{arguments}", written.driver());
+        whole.parse().map_err(|_| not_a_selector(device))
+    }
+
+    fn describe<D: Device + ?Sized>(
+        &self,
+        registry: &Registry<D>,
+        device: Option<&Setting<String>>,
+        unit: &str,
+    ) -> Result<Option<Descriptor>, Refused> {
+        let Some(device) = device else {
+            return Ok(None);
+        };
+        let refused = |error: String| {
+            let problem = format!("`{}`: {error}", device.value);
+            (device.at(), SceneProblem::Contradiction(problem))
+        };
+        let selector = self.selector(registry, device, unit)?;
+        let factory = registry
+            .get(selector.driver())
+            .map_err(|error| refused(error.to_string()))?;
+        let args = factory
+            .descriptor()
+            .args(selector.arguments())
+            .map_err(|error| refused(error.to_string()))?;
+        let described = factory.describe(&args);
+        described
+            .map(Some)
+            .map_err(|error| refused(error.to_string()))
+    }
+}
+
+/// Refuses drivers that are not linked in, with the line and the nearest one.
+pub(crate) fn check_drivers(scene: &Scene, drivers: &Drivers) -> Result<(), SceneError> {
+    let known: Vec<(DriverKind, &str)> = keys(&drivers.sensors)
+        .chain(keys(&drivers.robots))
+        .chain(keys(&drivers.forces))
+        .chain(keys(&drivers.lightings))
+        .collect();
+    scene.check_drivers(&known)
+}
+
+fn keys<D: Device + ?Sized>(registry: &Registry<D>) -> impl Iterator<Item = (DriverKind, &str)> {
+    registry.keys().map(|key| (D::KIND, key.as_str()))
+}
+
+fn not_a_selector(device: &Setting<String>) -> Refused {
+    let problem = format!(
+        "`{}` names no driver, expected `driver` or `driver:key=value;key=value`",
+        device.value
+    );
+    (device.at(), SceneProblem::Contradiction(problem))
+}

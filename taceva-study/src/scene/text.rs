@@ -1,0 +1,65 @@
+//! The text of a scene and where it stands, so that what is refused names its line and what is named beside it is found.
+
+use std::fs::File;
+use std::io::Read;
+use std::path::{Path, PathBuf};
+
+use taceva_protocol::{BuiltinScene, GREATEST_SCENE, SceneError, SceneProblem};
+
+use crate::error::StudyError;
+
+/// A scene as it was written.
+#[derive(Clone, Debug)]
+pub struct SceneText {
+    /// What errors call it: its path, or the name of a built-in one.
+    pub name: String,
+    /// Its TOML.
+    pub text: String,
+    /// What paths in it are relative to.
+    pub folder: PathBuf,
+}
+
+impl SceneText {
+    /// A scene that is compiled in.
+    pub fn builtin(scene: BuiltinScene) -> SceneText {
+        SceneText {
+            name: scene.name().to_owned(),
+            text: scene.text().to_owned(),
+            folder: PathBuf::from("."),
+        }
+    }
+
+    /// The scene in the file at `path`.
+    ///
+    /// # Errors
+    /// [`StudyError::Scene`] if it cannot be read.
+    pub fn read(path: &Path) -> Result<SceneText, StudyError> {
+        let name = path.display().to_string();
+        let mut text = String::new();
+        // One byte more than is accepted is enough to see that there are too many.
+        let most = GREATEST_SCENE as u64 + 1;
+        let read = File::open(path).and_then(|file| file.take(most).read_to_string(&mut text));
+        if let Err(error) = read {
+            return Err(StudyError::from(SceneError {
+                source_name: name,
+                line: None,
+                problem: Box::new(SceneProblem::Syntax(error.to_string())),
+            }));
+        }
+        let folder = path.parent().unwrap_or(Path::new("")).to_owned();
+        Ok(SceneText { name, text, folder })
+    }
+
+    /// `problem`, at the line of the byte `at`.
+    pub(crate) fn error(&self, at: Option<usize>, problem: SceneProblem) -> StudyError {
+        let line = at.map(|at| {
+            let before = self.text.bytes().take(at);
+            1 + before.filter(|byte| *byte == b'\n').count() as u64
+        });
+        StudyError::from(SceneError {
+            source_name: self.name.clone(),
+            line,
+            problem: Box::new(problem),
+        })
+    }
+}
