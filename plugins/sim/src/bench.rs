@@ -156,6 +156,10 @@ impl Bench {
         }
     }
 
+    pub(crate) fn conditioning(&self) -> &Conditioning {
+        &self.conditioning
+    }
+
     fn find(&self, press: &Press) -> Touch {
         let indentation = Indentation {
             place_mm: press.place_mm,

@@ -14,7 +14,7 @@ mod wear;
 pub(crate) use board::SIDE_MM as BOARD_SIDE_MM;
 pub use friction::Friction;
 pub use relaxation::{Decay, Relaxation};
-pub use solid::{Indentation, Solid};
+pub use solid::{BoardStand, Indentation, Solid};
 pub use wear::{Conditioning, History, Wear};
 
 use crate::displacement::Load;

@@ -15,6 +15,7 @@ mod rig;
 mod robot;
 mod sensor;
 mod state;
+mod ticks;
 
 pub use force::ForceTransducerFactory;
 pub use lighting::LightingFactory;

@@ -210,7 +210,7 @@ fn boards_and_balls_are_mounted_in_the_air_and_only_those_there_are() {
     station.rig.mount(board).expect("in the air");
     let blank = station.picture();
     for step in 0..100 {
-        station.go(0.0, 0.0, 0.02 * f64::from(step));
+        station.go(0.0, 0.0, 0.05 * f64::from(step));
         if station.force_z() > 1.0 {
             break;
         }

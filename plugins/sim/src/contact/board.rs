@@ -28,6 +28,26 @@ pub(super) fn layer_stiffness_n_per_mm(layer: &Layer) -> f64 {
     layer.young_modulus_mpa * radius / (0.375 + correction / TAU)
 }
 
+/// A board hangs on a holder that lets it level itself on the gel and gives way by so much, N/mm; a rigid one would pass the force limit
+/// of any flat gel within a tenth of a millimetre.
+const HOLDER_N_PER_MM: f64 = 1.0;
+/// Halvings of a depth: far below a nanometre.
+const BISECTIONS: u32 = 40;
+
+/// How deep a board stands in the gel when its holder stands `travel_mm` below touching; `force_n` is the gel's at a depth.
+pub(super) fn depth_under_holder_mm(travel_mm: f64, force_n: impl Fn(f64) -> f64) -> f64 {
+    let (mut low, mut high) = (0.0, travel_mm);
+    for _ in 0..BISECTIONS {
+        let middle = 0.5 * (low + high);
+        if force_n(middle) < HOLDER_N_PER_MM * (travel_mm - middle) {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    low
+}
+
 /// Where the layer's correction has died away.
 const ZETA_MAX: f64 = 14.0;
 /// Intervals of the midpoint rule; the integrand is smooth and even.
@@ -53,6 +73,13 @@ mod tests {
         let punch = 2.0 * hertz::reduced_modulus(1.0, 0.5) * radius;
         let board = layer_stiffness_n_per_mm(&layer(1e4));
         assert!((board / punch - 1.0).abs() < 2e-3, "{board} {punch}");
+    }
+
+    #[test]
+    fn board_and_holder_share_the_way_as_springs_in_series_do() {
+        let gel = 3.0;
+        let depth = depth_under_holder_mm(0.8, |depth| gel * depth);
+        assert!((depth - 0.8 * HOLDER_N_PER_MM / (HOLDER_N_PER_MM + gel)).abs() < 1e-9);
     }
 
     #[test]

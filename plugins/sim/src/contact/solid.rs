@@ -1,5 +1,6 @@
 //! A body, and what is asked of it.
 
+use super::board;
 use super::dome::DomeLaw;
 use super::flat::LayerLaw;
 use super::{Contact, Friction, Relaxation};
@@ -35,6 +36,17 @@ pub struct Indentation {
     pub indenter_radius_mm: f64,
     /// How stiff the gel is here over its nominal stiffness.
     pub stiffness: f64,
+}
+
+/// How a flat board stands in a gel.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct BoardStand {
+    /// How deep.
+    pub depth_mm: f64,
+    /// How hard it is pressed.
+    pub force_n: f64,
+    /// The modulus that the gel shows it.
+    pub young_modulus_mpa: f64,
 }
 
 /// How a ball stands in a body: what both laws need.
@@ -121,17 +133,24 @@ impl Solid {
         self.answer(&stand, indentation).force_n * indentation.stiffness
     }
 
-    /// A flat board `depth_mm` below touching at the apex: the force of a gel without time to relax in N, and the modulus it shows in MPa.
-    pub fn board(&self, depth_mm: f64) -> (f64, f64) {
-        if depth_mm <= 0.0 {
-            return (0.0, 0.0);
+    /// A flat board whose holder stands `travel_mm` below touching at the apex, on a gel of nominal stiffness without time to relax.
+    pub fn board(&self, travel_mm: f64) -> BoardStand {
+        if travel_mm <= 0.0 {
+            return BoardStand::default();
         }
-        match &self.law {
+        let law = |depth_mm: f64| match &self.law {
             Law::Layer(layer) => layer.board(depth_mm),
             Law::Dome(dome) => {
                 let answer = dome.answer(depth_mm, FLAT_MM);
                 (answer.force_n, answer.young_modulus_mpa)
             }
+        };
+        let depth_mm = board::depth_under_holder_mm(travel_mm, |depth_mm| law(depth_mm).0);
+        let (force_n, young_modulus_mpa) = law(depth_mm);
+        BoardStand {
+            depth_mm,
+            force_n,
+            young_modulus_mpa,
         }
     }
 

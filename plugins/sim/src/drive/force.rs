@@ -1,5 +1,7 @@
 //! A force transducer under a simulated indenter.
 
+use std::time::Duration;
+
 use taceva_core::{
     Args, Axes, Deadline, Descriptor, DescriptorError, DescriptorSpec, DriverError, DriverKey,
     DriverSource, ErrorKind, Factory, Facts, ForceFacts, ForceTransducer, Hertz, Newton, Rig,
@@ -13,6 +15,9 @@ use crate::parameters::Model;
 const KEY: DriverKey = DriverKey::fixed("sim/force-transducer");
 /// Readings a second; each averages over the time since the last.
 const RATE_HZ: f64 = 200.0;
+const READING: Duration = Duration::from_millis(5);
+/// Readings whose mean becomes zero.
+const TARE_READINGS: u32 = 16;
 
 /// Opens simulated force transducers.
 #[derive(Debug)]
@@ -65,11 +70,16 @@ struct SimulatedTransducer {
 }
 
 impl SimulatedTransducer {
-    /// Lets the time of a reading pass.
-    fn wait(&self, doing: &'static str, deadline: Deadline) -> Result<(), DriverError> {
-        let (period_s, patience_s) = (1.0 / RATE_HZ, deadline.remaining().as_secs_f64());
-        self.rig.state().rest(period_s.min(patience_s));
-        if patience_s < period_s {
+    /// Lets the time of some readings pass.
+    fn wait(
+        &self,
+        doing: &'static str,
+        readings: u32,
+        deadline: Deadline,
+    ) -> Result<(), DriverError> {
+        let period = READING * readings;
+        self.rig.state().rest(period.min(deadline.remaining()));
+        if deadline.remaining() < period {
             let why = format!("no reading within {deadline}");
             return Err(failed(ErrorKind::Timeout, &KEY, doing, why));
         }
@@ -84,7 +94,7 @@ impl ForceTransducer for SimulatedTransducer {
 
     fn read(&mut self, deadline: Deadline) -> Result<(Wrench, Stamp), DriverError> {
         let doing = "read the force";
-        self.wait(doing, deadline)?;
+        self.wait(doing, 1, deadline)?;
         let mut state = self.rig.state();
         let force_n = state.read();
         let range_n = state.force_range_n();
@@ -97,8 +107,8 @@ impl ForceTransducer for SimulatedTransducer {
             ..Wrench::default()
         };
         let stamp = Stamp {
-            valid_s: state.now_s,
-            received_s: Some(state.now_s),
+            valid_s: state.now_s(),
+            received_s: Some(state.now_s()),
         };
         Ok((wrench, stamp))
     }
@@ -110,8 +120,8 @@ impl ForceTransducer for SimulatedTransducer {
 
 impl Tare for SimulatedTransducer {
     fn zero(&mut self, deadline: Deadline) -> Result<(), DriverError> {
-        self.wait("call the load zero", deadline)?;
-        self.rig.state().tare();
+        self.wait("call the load zero", TARE_READINGS, deadline)?;
+        self.rig.state().tare(TARE_READINGS);
         Ok(())
     }
 }

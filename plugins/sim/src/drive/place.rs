@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use taceva_core::Nanometre;
 
-use crate::random::{Purpose, Random};
+use crate::random::{Purpose, Random, Stream};
 
 /// How often each place was visited.
 #[derive(Debug, Default)]
@@ -26,14 +26,24 @@ impl Visits {
         let place = nanometres(place_mm);
         let count = self.counts.entry(place).or_default();
         *count += 1;
-        let [x, y] = place.map(|side| side.0.cast_unsigned());
-        let names = Random::new(x).stream(Purpose::Draws, y);
+        let names = names(place);
         VisitKey {
             place,
             point: names.bits(0),
             visit: names.bits(*count),
         }
     }
+}
+
+/// The name of a place.
+pub(super) fn point_of(place_mm: [f64; 2]) -> u64 {
+    names(nanometres(place_mm)).bits(0)
+}
+
+/// The names of a place and of its visits, in order.
+fn names(place: [Nanometre; 2]) -> Stream {
+    let [x, y] = place.map(|side| side.0.cast_unsigned());
+    Random::new(x).stream(Purpose::Draws, y)
 }
 
 /// A place in whole nanometres, 0 for a coordinate beyond all measure.

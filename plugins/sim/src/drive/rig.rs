@@ -94,12 +94,12 @@ impl SimulatedRig {
 
     /// The time of the rig's clock: that of every stamp of its devices.
     pub fn now_s(&self) -> f64 {
-        self.state().now_s
+        self.state().now_s()
     }
 
     /// Lets time pass.
     pub fn rest(&self, rest: Duration) {
-        self.state().rest(rest.as_secs_f64());
+        self.state().rest(rest);
     }
 
     /// Exchanges what the robot carries.
@@ -114,6 +114,19 @@ impl SimulatedRig {
         state.release();
         state.mounted = specimen;
         Ok(())
+    }
+
+    /// Calls the press that begins now by `name`: from the next tare in the air on, all that is random in it is a function of the name and
+    /// the place. So a run that was interrupted and resumed meets the errors it would have met anyway.
+    ///
+    /// Without names, visits to a place are counted.
+    pub fn name_press(&self, name: u64) {
+        self.state().name_visits(name);
+    }
+
+    /// Notes a press that an earlier session finished, for gels that are conditioned by use.
+    pub fn remember(&self, place_mm: [f64; 2], deepest_mm: f64) {
+        self.state().remember(place_mm, deepest_mm);
     }
 
     /// What it says of itself; `None` before a sensor was opened in it.

@@ -112,12 +112,12 @@ impl SimulatedRobot {
         let ended = state.travel(&Motion {
             target,
             speed_mm_per_s: speed.mm_per_s(),
-            patience_s: deadline.remaining().as_secs_f64(),
+            patience: deadline.remaining(),
             is_halted: &is_halted,
             guard_n,
         });
         match ended {
-            Ended::Arrived | Ended::Guarded => Ok((ended, now(state.now_s))),
+            Ended::Arrived | Ended::Guarded => Ok((ended, now(state.now_s()))),
             Ended::OutOfTime => {
                 let why = format!("did not arrive within {deadline}");
                 Err(failed(ErrorKind::Timeout, &KEY, doing, why))
@@ -130,7 +130,7 @@ impl SimulatedRobot {
 impl Robot for SimulatedRobot {
     fn pose(&mut self, _: Deadline) -> Result<(Pose, Stamp), DriverError> {
         let state = self.rig.state();
-        Ok((state.sent(), now(state.now_s)))
+        Ok((state.sent(), now(state.now_s())))
     }
 
     fn move_to(

@@ -1,5 +1,7 @@
 //! A simulated sensor.
 
+use std::time::Duration;
+
 use taceva_core::{
     ArgSpec, ArgValue, Args, Deadline, Descriptor, DescriptorError, DescriptorSpec, DriverError,
     DriverKey, DriverSource, ErrorKind, Factory, Facts, Footprint, FrameInfo, FrameMut, Hertz,
@@ -74,7 +76,7 @@ impl Factory<dyn Sensor> for SensorFactory {
         let camera = Camera::new(&spec, reduced, unit, seed)
             .map_err(|error| failed(ErrorKind::InvalidArgument, &driver, doing, error))?;
         let rig = SimulatedRig::of(rig, rig_name(args));
-        let period_s = 1.0 / parameters.camera.rate_hz;
+        let period = Duration::from_secs_f64(1.0 / parameters.camera.rate_hz);
         {
             let mut state = rig.state();
             if state.sensor_is_open {
@@ -90,7 +92,7 @@ impl Factory<dyn Sensor> for SensorFactory {
             camera,
             rig,
             driver,
-            period_s,
+            period,
             is_running: false,
         }))
     }
@@ -114,7 +116,7 @@ struct SimulatedSensor {
     lamps: Option<Lamps>,
     rig: SimulatedRig,
     driver: DriverKey,
-    period_s: f64,
+    period: Duration,
     is_running: bool,
 }
 
@@ -140,19 +142,14 @@ impl Sensor for SimulatedSensor {
             return Err(refused(ErrorKind::InvalidArgument, why));
         }
         let mut state = self.rig.state();
-        // Frames come on the beat of the camera.
-        let beat_s = ((state.now_s / self.period_s).floor() + 1.0) * self.period_s;
-        let wait_s = beat_s - state.now_s;
-        let patience_s = deadline.remaining().as_secs_f64();
-        if wait_s > patience_s {
-            state.rest(patience_s);
-            return Err(refused(
-                ErrorKind::Timeout,
-                format!("no frame within {deadline}"),
-            ));
+        let wait = state.to_next_beat(self.period);
+        if wait > deadline.remaining() {
+            state.rest(deadline.remaining());
+            let why = format!("no frame within {deadline}");
+            return Err(refused(ErrorKind::Timeout, why));
         }
-        state.rest(wait_s);
-        state.now_s = beat_s;
+        state.rest(wait);
+        let beat_s = state.now_s();
         let view = view(&mut state, self.lamps.is_some());
         drop(state);
         self.camera
@@ -190,7 +187,7 @@ fn view(state: &mut State, is_transparent: bool) -> View {
         },
         Mounted::Board(_) if !state.is_touching() => Stimulus::Nothing,
         Mounted::Board(grating) => {
-            let [depth_mm, force_n, young_modulus_mpa] = state.board();
+            let stand = state.board();
             let [x, y, _] = state.tip_mm();
             Stimulus::Board(Board {
                 grating,
@@ -198,9 +195,9 @@ fn view(state: &mut State, is_transparent: bool) -> View {
                     yaw_degree: state.sent().rotation.z.0,
                     offset_mm: [x, y],
                 },
-                pressure_mpa: force_n / (BOARD_SIDE_MM * BOARD_SIDE_MM),
-                depth_mm,
-                young_modulus_mpa,
+                pressure_mpa: stand.force_n / (BOARD_SIDE_MM * BOARD_SIDE_MM),
+                depth_mm: stand.depth_mm,
+                young_modulus_mpa: stand.young_modulus_mpa,
             })
         }
     };

@@ -1,11 +1,14 @@
 //! What goes on in a simulated rig: a tip that moves, a gel that remembers, a clock that both turn.
 
+use std::time::Duration;
+
 use taceva_core::{Millimetre, Pose};
 
-use super::place::{VisitKey, Visits, nanometres};
+use super::place::{VisitKey, Visits, nanometres, point_of};
 use super::rig::Mounted;
+use super::ticks::Ticks;
 use crate::bench::Bench;
-use crate::contact::{Contact, Indentation, Relaxation};
+use crate::contact::{BoardStand, Contact, History, Indentation, Relaxation, Wear};
 use crate::optics::AmbientLight;
 use crate::parameters::{Model, Robot, Transducer};
 use crate::random::{Purpose, Random};
@@ -14,7 +17,7 @@ use crate::rig::TransducerModel;
 /// The state behind the devices of one rig.
 #[derive(Debug)]
 pub(super) struct State {
-    pub(super) now_s: f64,
+    now: Ticks,
     pub(super) bench: Option<Bench>,
     pub(super) sensor_is_open: bool,
     pub(super) mounted: Mounted,
@@ -30,13 +33,16 @@ pub(super) struct State {
     tare_n: [f64; 3],
     visits: Visits,
     visit: Visit,
+    /// What the visits to come are called, if anybody named them.
+    name: Option<u64>,
+    history: History,
 }
 
 /// The time over one place.
 #[derive(Debug, Default)]
 struct Visit {
     key: VisitKey,
-    moves: u64,
+    began: Ticks,
     readings: u64,
     pictures: u32,
     has_touched: bool,
@@ -50,6 +56,7 @@ struct Touch {
     surface_mm: f64,
     stiffness: f64,
     deepest_mm: f64,
+    wear: Wear,
     memory: Relaxation,
 }
 
@@ -70,7 +77,7 @@ pub(super) enum Ended {
 pub(super) struct Motion<'a> {
     pub(super) target: Pose,
     pub(super) speed_mm_per_s: f64,
-    pub(super) patience_s: f64,
+    pub(super) patience: Duration,
     pub(super) is_halted: &'a dyn Fn() -> bool,
     pub(super) guard_n: Option<f64>,
 }
@@ -87,7 +94,9 @@ impl State {
         let mut visits = Visits::default();
         let key = visits.next([HOME_MM[0], HOME_MM[1]]);
         State {
-            now_s: 0.0,
+            now: Ticks::default(),
+            history: History::new(),
+            name: None,
             bench: None,
             sensor_is_open: false,
             mounted: Mounted::default(),
@@ -133,10 +142,34 @@ impl State {
         (self.visit.key.visit, number)
     }
 
+    /// The time.
+    pub(super) fn now_s(&self) -> f64 {
+        self.now.seconds()
+    }
+
     /// Lets time pass; the tip rests.
-    pub(super) fn rest(&mut self, seconds: f64) {
-        self.now_s += seconds;
-        self.follow(seconds);
+    pub(super) fn rest(&mut self, rest: Duration) {
+        let rest = Ticks::of(rest);
+        self.now = self.now.after(rest);
+        self.follow(rest.seconds());
+    }
+
+    /// How long it is to the next beat of a camera that began to count with the visit.
+    pub(super) fn to_next_beat(&self, period: Duration) -> Duration {
+        self.now
+            .since(self.visit.began)
+            .to_next(Ticks::of(period))
+            .duration()
+    }
+
+    /// Calls the visits to come by `name`, in the place of a number.
+    pub(super) fn name_visits(&mut self, name: u64) {
+        self.name = Some(name);
+    }
+
+    /// Notes a press that was made before this rig was set up.
+    pub(super) fn remember(&mut self, place_mm: [f64; 2], deepest_mm: f64) {
+        self.history.finish(point_of(place_mm), deepest_mm);
     }
 
     /// Moves the tip along a straight line.
@@ -148,7 +181,8 @@ impl State {
         let length = distance(from, to);
         let steps = (length / STEP_MM).ceil().max(1.0);
         let step_s = length / steps / motion.speed_mm_per_s;
-        let start_s = self.now_s;
+        let (start, mut last) = (self.now, Ticks::default());
+        let patience = Ticks::of(motion.patience);
         let mut done = 0.0;
         let mut ended = Ended::Arrived;
         while done < steps {
@@ -157,15 +191,21 @@ impl State {
                 break;
             }
             // Time is counted from the start, so that it does not depend on how the sum is rounded.
-            let then_s = (done + 1.0) * step_s;
-            if then_s > motion.patience_s {
+            let then = Ticks::of(Duration::from_secs_f64((done + 1.0) * step_s));
+            if then > patience {
                 ended = Ended::OutOfTime;
                 break;
             }
             done += 1.0;
-            self.tip_mm = mix(from, to, done / steps);
-            self.now_s = start_s + then_s;
-            self.follow(step_s);
+            // The end is met to the bit, wherever the way began.
+            self.tip_mm = if done < steps {
+                mix(from, to, done / steps)
+            } else {
+                to
+            };
+            self.now = start.after(then);
+            self.follow(then.since(last).seconds());
+            last = then;
             let reached = |guard: f64| size(self.force_n()) >= guard;
             if motion.guard_n.is_some_and(reached) {
                 ended = Ended::Guarded;
@@ -190,12 +230,20 @@ impl State {
         std::array::from_fn(|axis| raw[axis] - self.tare_n[axis])
     }
 
-    /// Calls the present load zero; over a gel that was touched this begins a new visit.
-    pub(super) fn tare(&mut self) {
-        if self.visit.has_touched && self.visit.touch.is_none() {
+    /// Calls the mean of some readings zero; in the air, over a gel that was touched or in a visit with a name, this begins a new visit.
+    pub(super) fn tare(&mut self, readings: u32) {
+        let is_over = self.visit.has_touched || self.name.is_some();
+        if is_over && self.visit.touch.is_none() {
             self.begin_visit();
         }
-        self.tare_n = self.raw_reading();
+        let mut sum = [0.0; 3];
+        for _ in 0..readings {
+            let reading = self.raw_reading();
+            for (sum, reading) in sum.iter_mut().zip(reading) {
+                *sum += reading;
+            }
+        }
+        self.tare_n = sum.map(|sum| sum / f64::from(readings));
     }
 
     /// The contact of a ball, as it truly is; `None` under a board or without a gel.
@@ -217,18 +265,19 @@ impl State {
         Some(contact)
     }
 
-    /// Depth, force in N and modulus in MPa under a board.
-    pub(super) fn board(&self) -> [f64; 3] {
+    /// How a board stands in the gel now.
+    pub(super) fn board(&self) -> BoardStand {
         let (Some(bench), Some(touch)) = (&self.bench, &self.visit.touch) else {
-            return [0.0; 3];
+            return BoardStand::default();
         };
-        let depth = self.tip_mm[2] - touch.surface_mm;
-        let (_, modulus) = bench.solid().board(depth);
-        [
-            depth,
-            touch.memory.force_n(),
-            modulus * touch.stiffness * touch.memory.ratio(),
-        ]
+        let travel_mm = self.tip_mm[2] - touch.surface_mm;
+        let stand = bench.solid().board(travel_mm);
+        let stiffness = self.stiffness(touch, travel_mm) * touch.memory.ratio();
+        BoardStand {
+            force_n: touch.memory.force_n(),
+            young_modulus_mpa: stand.young_modulus_mpa * stiffness,
+            ..stand
+        }
     }
 
     pub(super) fn tip_mm(&self) -> [f64; 3] {
@@ -247,7 +296,7 @@ impl State {
     fn force_n(&self) -> [f64; 3] {
         match self.mounted {
             Mounted::Ball(_) => self.contact().map_or([0.0; 3], |contact| contact.force_n),
-            Mounted::Board(_) => [0.0, 0.0, self.board()[1]],
+            Mounted::Board(_) => [0.0, 0.0, self.board().force_n],
         }
     }
 
@@ -264,13 +313,12 @@ impl State {
             .read(self.force_n(), zero, noise, self.visit.readings)
     }
 
-    fn positioning_error(&mut self) -> [f64; 3] {
+    /// How far beside its targets the robot stands: it errs from visit to visit, and repeats itself within one.
+    fn positioning_error(&self) -> [f64; 3] {
         let stream = self
             .random
             .stream(Purpose::Positioning, self.visit.key.visit);
-        let first = 3 * self.visit.moves;
-        self.visit.moves += 1;
-        [0, 1, 2].map(|axis| self.robot.positioning_mm * stream.normal(first + axis))
+        [0, 1, 2].map(|axis| self.robot.positioning_mm * stream.normal(axis))
     }
 
     /// In the air over another place a new visit begins.
@@ -282,12 +330,20 @@ impl State {
         }
     }
 
+    /// Begins a visit in the air. The robot errs in a new way from here on, so that nothing of what follows depends on how it came.
     fn begin_visit(&mut self) {
-        let [x, y, _] = coordinates(&self.sent);
+        let sent = coordinates(&self.sent);
+        let mut key = self.visits.next([sent[0], sent[1]]);
+        if let Some(name) = self.name {
+            key.visit = name;
+        }
         self.visit = Visit {
-            key: self.visits.next([x, y]),
+            key,
+            began: self.now,
             ..Visit::default()
         };
+        let error = self.positioning_error();
+        self.tip_mm = std::array::from_fn(|axis| sent[axis] + error[axis]);
     }
 
     /// Tells the gel where the tip is, `step_s` after it was told last.
@@ -303,11 +359,15 @@ impl State {
                 surface_mm: surface_mm(bench, self.mounted, [x, y]),
                 stiffness: bench.unit().stiffness([x, y]),
                 deepest_mm: 0.0,
+                wear: self.history.wear(self.visit.key.point),
                 memory: bench.solid().relaxation(),
             },
         };
         let depth = z - touch.surface_mm;
         if depth <= 0.0 {
+            if touch.deepest_mm > 0.0 {
+                self.history.finish(self.visit.key.point, touch.deepest_mm);
+            }
             return;
         }
         touch.deepest_mm = touch.deepest_mm.max(depth);
@@ -316,7 +376,7 @@ impl State {
                 let indentation = self.indentation(&touch, ball.radius_mm());
                 bench.solid().elastic_force_n(&indentation, depth)
             }
-            Mounted::Board(_) => bench.solid().board(depth).0 * touch.stiffness,
+            Mounted::Board(_) => bench.solid().board(depth).force_n * self.stiffness(&touch, depth),
         };
         let decay = touch.memory.decay(step_s);
         touch.memory.step(elastic_n, decay);
@@ -333,8 +393,16 @@ impl State {
             deepest_mm: touch.deepest_mm.max(depth_mm),
             shear_mm: [x - touch.place_mm[0], y - touch.place_mm[1]],
             indenter_radius_mm,
-            stiffness: touch.stiffness,
+            stiffness: self.stiffness(touch, depth_mm),
         }
+    }
+
+    /// How stiff the gel is under a touch, after what it has gone through.
+    fn stiffness(&self, touch: &Touch, depth_mm: f64) -> f64 {
+        let remaining = self.bench.as_ref().map_or(1.0, |bench| {
+            bench.conditioning().remaining(touch.wear, depth_mm)
+        });
+        touch.stiffness * remaining
     }
 }
 
