@@ -16,6 +16,7 @@ mod robot;
 mod sensor;
 mod state;
 mod ticks;
+mod touch;
 
 pub use force::ForceTransducerFactory;
 pub use lighting::LightingFactory;

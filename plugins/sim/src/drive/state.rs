@@ -7,8 +7,9 @@ use taceva_core::{Millimetre, Pose};
 use super::place::{VisitKey, Visits, nanometres, point_of};
 use super::rig::Mounted;
 use super::ticks::Ticks;
+use super::touch::Touch;
 use crate::bench::Bench;
-use crate::contact::{BoardStand, Contact, History, Indentation, Relaxation, Wear};
+use crate::contact::{BoardStand, Contact, History};
 use crate::optics::AmbientLight;
 use crate::parameters::{Model, Robot, Transducer};
 use crate::random::{Purpose, Random};
@@ -47,17 +48,6 @@ struct Visit {
     pictures: u32,
     has_touched: bool,
     touch: Option<Touch>,
-}
-
-/// An indentation under way.
-#[derive(Debug)]
-struct Touch {
-    place_mm: [f64; 2],
-    surface_mm: f64,
-    stiffness: f64,
-    deepest_mm: f64,
-    wear: Wear,
-    memory: Relaxation,
 }
 
 /// How a motion ended.
@@ -252,31 +242,21 @@ impl State {
         let Mounted::Ball(ball) = self.mounted else {
             return None;
         };
-        let Some(touch) = &self.visit.touch else {
-            return Some(Contact {
+        Some(match &self.visit.touch {
+            Some(touch) => touch.contact(bench, ball.radius_mm(), self.tip_mm),
+            None => Contact {
                 position_mm: [self.tip_mm[0], self.tip_mm[1]],
                 indenter_radius_mm: ball.radius_mm(),
                 ..Contact::default()
-            });
-        };
-        let indentation = self.indentation(touch, ball.radius_mm());
-        let mut contact = bench.solid().contact_at(&indentation, touch.memory.ratio());
-        contact.travel_mm = contact.depth_mm;
-        Some(contact)
+            },
+        })
     }
 
     /// How a board stands in the gel now.
     pub(super) fn board(&self) -> BoardStand {
-        let (Some(bench), Some(touch)) = (&self.bench, &self.visit.touch) else {
-            return BoardStand::default();
-        };
-        let travel_mm = self.tip_mm[2] - touch.surface_mm;
-        let stand = bench.solid().board(travel_mm);
-        let stiffness = self.stiffness(touch, travel_mm) * touch.memory.ratio();
-        BoardStand {
-            force_n: touch.memory.force_n(),
-            young_modulus_mpa: stand.young_modulus_mpa * stiffness,
-            ..stand
+        match (&self.bench, &self.visit.touch) {
+            (Some(bench), Some(touch)) => touch.board(bench, self.tip_mm),
+            _ => BoardStand::default(),
         }
     }
 
@@ -351,70 +331,17 @@ impl State {
         let Some(bench) = &self.bench else {
             return;
         };
-        let [x, y, z] = self.tip_mm;
-        let mut touch = match self.visit.touch.take() {
-            Some(touch) => touch,
-            None => Touch {
-                place_mm: [x, y],
-                surface_mm: surface_mm(bench, self.mounted, [x, y]),
-                stiffness: bench.unit().stiffness([x, y]),
-                deepest_mm: 0.0,
-                wear: self.history.wear(self.visit.key.point),
-                memory: bench.solid().relaxation(),
-            },
-        };
-        let depth = z - touch.surface_mm;
-        if depth <= 0.0 {
-            if touch.deepest_mm > 0.0 {
-                self.history.finish(self.visit.key.point, touch.deepest_mm);
-            }
-            return;
-        }
-        touch.deepest_mm = touch.deepest_mm.max(depth);
-        let elastic_n = match self.mounted {
-            Mounted::Ball(ball) => {
-                let indentation = self.indentation(&touch, ball.radius_mm());
-                bench.solid().elastic_force_n(&indentation, depth)
-            }
-            Mounted::Board(_) => bench.solid().board(depth).force_n * self.stiffness(&touch, depth),
-        };
-        let decay = touch.memory.decay(step_s);
-        touch.memory.step(elastic_n, decay);
-        self.visit.has_touched = true;
-        self.visit.touch = Some(touch);
-    }
-
-    fn indentation(&self, touch: &Touch, indenter_radius_mm: f64) -> Indentation {
-        let [x, y, z] = self.tip_mm;
-        let depth_mm = z - touch.surface_mm;
-        Indentation {
-            place_mm: touch.place_mm,
-            depth_mm,
-            deepest_mm: touch.deepest_mm.max(depth_mm),
-            shear_mm: [x - touch.place_mm[0], y - touch.place_mm[1]],
-            indenter_radius_mm,
-            stiffness: self.stiffness(touch, depth_mm),
-        }
-    }
-
-    /// How stiff the gel is under a touch, after what it has gone through.
-    fn stiffness(&self, touch: &Touch, depth_mm: f64) -> f64 {
-        let remaining = self.bench.as_ref().map_or(1.0, |bench| {
-            bench.conditioning().remaining(touch.wear, depth_mm)
+        let point = self.visit.key.point;
+        let mut touch = self.visit.touch.take().unwrap_or_else(|| {
+            let wear = self.history.wear(point);
+            Touch::above(bench, self.mounted, self.tip_mm, wear)
         });
-        touch.stiffness * remaining
-    }
-}
-
-/// Where a tip begins to touch, z into the gel.
-fn surface_mm(bench: &Bench, mounted: Mounted, place_mm: [f64; 2]) -> f64 {
-    match mounted {
-        Mounted::Ball(ball) => {
-            let ideal = bench.solid().touch_height_mm(place_mm, ball.radius_mm());
-            -ideal - bench.unit().height_mm(place_mm)
+        if touch.follow(bench, self.mounted, self.tip_mm, step_s) {
+            self.visit.has_touched = true;
+            self.visit.touch = Some(touch);
+        } else if touch.deepest_mm() > 0.0 {
+            self.history.finish(point, touch.deepest_mm());
         }
-        // A board rests on the middle of the gel.
-        Mounted::Board(_) => -bench.unit().height_mm([0.0; 2]),
     }
 }
 
