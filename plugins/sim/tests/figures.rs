@@ -14,3 +14,7 @@ mod calibration;
 mod hysteresis;
 #[path = "figures/sensitivity.rs"]
 mod sensitivity;
+#[path = "figures/study.rs"]
+mod study;
+#[path = "run/trial.rs"]
+mod trial;

@@ -9,17 +9,17 @@ const BINS: usize = 15;
 /// The force below which a ratio of travel and force says nothing.
 const GATE_N: f64 = 0.02;
 /// Published S in mm/N and U.
-const PUBLISHED: [(Model, f64, f64); 4] = [
+pub(crate) const PUBLISHED: [(Model, f64, f64); 4] = [
     (Model::GelSight, 0.857, 0.900),
     (Model::GelSightWm, 0.948, 0.892),
     (Model::MagicTac, 1.277, 0.875),
     (Model::ViTacTip, 6.753, 0.863),
 ];
 /// How far the bench may be off, as a fraction.
-const TOLERANCE: f64 = 0.05;
+pub(crate) const TOLERANCE: f64 = 0.05;
 
 /// S and U of one run: Pz/Fz of every label, their mean in each bin, the mean μ of the bins and 1/(1 + σ/μ).
-fn sensitivity(model: Model, labels: &[Label]) -> (f64, f64) {
+pub(crate) fn sensitivity(model: Model, labels: &[Label]) -> (f64, f64) {
     let probing = model.parameters().probing;
     let half = [probing.half_width_mm, probing.half_height_mm];
     let mut bins = vec![(0.0_f64, 0_u32); BINS * BINS];

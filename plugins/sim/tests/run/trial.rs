@@ -1,0 +1,156 @@
+//! A bench on which `taceva-protocol` runs a plan, and a log in memory.
+
+use std::collections::BTreeSet;
+use std::time::Duration;
+
+use taceva_core::{Deadline, Device, DriverError, DriverKey, ErrorKind, Factory, Rig, SinkError};
+use taceva_protocol::{
+    Cancel, Controls, Devices, Digest, Event, Mode, Plan, PressLog, PressRecord, RigInfo, RunSpec,
+    Scene, SourceInfo, Specimen, SpecimenChanger, StopCause, Timekeeper, plan, run,
+};
+use taceva_sim::{
+    ForceTransducerFactory, LightingFactory, Model, Mounted, RobotFactory, SensorFactory,
+    SimulatedRig,
+};
+
+/// The clock and the hands of a rig.
+struct Hands(SimulatedRig);
+
+impl Timekeeper for Hands {
+    fn now_s(&self) -> f64 {
+        self.0.now_s()
+    }
+
+    fn rest(&mut self, rest: Duration) {
+        self.0.rest(rest);
+    }
+}
+
+impl SpecimenChanger for Hands {
+    fn mount(&mut self, specimen: Specimen, _: Deadline) -> Result<(), DriverError> {
+        let mounted = match specimen {
+            Specimen::Sphere { radius } => Mounted::ball(radius),
+            Specimen::Grating { kind, spacing } => Mounted::board(kind, spacing),
+        };
+        let key = DriverKey::fixed("sim/robot");
+        mounted
+            .and_then(|mounted| self.0.mount(mounted))
+            .map_err(|error| {
+                DriverError::new(ErrorKind::InvalidArgument, &key, "mount").because(error)
+            })
+    }
+}
+
+/// A log in memory.
+#[derive(Default)]
+pub(crate) struct Log {
+    finished: BTreeSet<Digest>,
+    pub(crate) records: Vec<PressRecord>,
+}
+
+impl PressLog for Log {
+    fn is_finished(&self, press: Digest) -> bool {
+        self.finished.contains(&press)
+    }
+
+    fn append(&mut self, record: &PressRecord) -> Result<(), SinkError> {
+        self.finished.insert(record.press);
+        self.records.push(record.clone());
+        Ok(())
+    }
+}
+
+fn open<D: Device + ?Sized>(factory: &dyn Factory<D>, text: &str, rig: &mut Rig) -> Box<D> {
+    let args = factory.descriptor().args(text).expect(text);
+    factory.open(&args, rig).expect("opens")
+}
+
+/// A bench with a study of `model` planned on it.
+pub(crate) struct Trial {
+    pub(crate) model: Model,
+    pub(crate) plan: Plan,
+    sensors: SensorFactory,
+    robots: RobotFactory,
+    forces: ForceTransducerFactory,
+    lamps: LightingFactory,
+}
+
+impl Trial {
+    /// The first study of a scene, which is of `model`.
+    pub(crate) fn new(model: Model, scene: &str) -> Trial {
+        let sensors = SensorFactory::new(model).expect("a driver");
+        let robots = RobotFactory::new().expect("a driver");
+        let forces = ForceTransducerFactory::new().expect("a driver");
+        let lamps = LightingFactory::new().expect("a driver");
+        let scene = Scene::parse("trial", scene).expect("a scene");
+        let info = RigInfo {
+            sensor: Some(sensors.descriptor().clone()),
+            robot: Some(robots.descriptor().clone()),
+            force: Some(forces.descriptor().clone()),
+            lighting: Some(lamps.descriptor().clone()),
+        };
+        let plans = plan(&scene, |_| SourceInfo::Rig(Box::new(info.clone()))).expect("a plan");
+        Trial {
+            model,
+            plan: plans.into_iter().next().expect("a study"),
+            sensors,
+            robots,
+            forces,
+            lamps,
+        }
+    }
+
+    /// Runs what `log` does not have of a unit on a new bench, but no more than `most` presses.
+    pub(crate) fn run(&self, unit: &str, log: &mut Log, most: usize) {
+        let mut rig = Rig::new();
+        let arguments = format!("unit={unit};seed=7;reduction=40");
+        let mut sensor = open(&self.sensors, &arguments, &mut rig);
+        let mut robot = open(&self.robots, "", &mut rig);
+        let mut force = open(&self.forces, "", &mut rig);
+        let mut lighting = open(&self.lamps, "", &mut rig);
+        let bench = SimulatedRig::of(&mut rig, "bench");
+        let (mut clock, mut hands) = (Hands(bench.clone()), Hands(bench.clone()));
+        let cancel = Cancel::new();
+        let mut begun = 0;
+        let mut events = |event: &Event| {
+            if let Event::Approaching { press, .. } = event {
+                bench.name_press(name(*press));
+                begun += 1;
+                if begun > most {
+                    cancel.cancel();
+                }
+            }
+        };
+        let done = run(
+            &RunSpec {
+                plan: &self.plan,
+                unit,
+                mode: Mode::Acquire,
+            },
+            Devices {
+                robot: robot.as_mut(),
+                force: force.as_mut(),
+                sensor: Some(sensor.as_mut()),
+                lighting: Some(lighting.as_mut()),
+                specimens: Some(&mut hands),
+            },
+            log,
+            Controls {
+                clock: &mut clock,
+                cancel: &cancel,
+                events: &mut events,
+            },
+        );
+        match done {
+            Ok(_) => {}
+            Err(error) if matches!(error.cause, StopCause::Cancelled) => {}
+            Err(error) => panic!("{}: {error}", self.model),
+        }
+    }
+}
+
+/// A number that names a press.
+fn name(press: Digest) -> u64 {
+    let text = press.to_string();
+    u64::from_str_radix(&text[..16], 16).expect("a digest is written in hexadecimal")
+}
