@@ -452,3 +452,8 @@ fn robustness_to_lighting_is_one_rational_of_four_numbers() {
     }
     println!("compared {} values of r_light", comparison.done());
 }
+
+#[test]
+fn scores_by_place_scene_and_grating_are_the_same_on_every_instruction_set() {
+    structured::again_on_every_instruction_set();
+}

@@ -173,3 +173,8 @@ fn hysteresis_is_that_of_the_golden_vectors_to_a_rounding() {
     assert!(compared > 0, "nothing was compared");
     println!("{compared} values of hysteresis compared");
 }
+
+#[test]
+fn scores_by_press_are_the_same_on_every_instruction_set() {
+    golden::structured::again_on_every_instruction_set();
+}

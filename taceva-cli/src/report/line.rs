@@ -63,20 +63,28 @@ pub(super) fn flags(evaluation: &Evaluation) -> Vec<String> {
         .collect()
 }
 
-/// The maps, curves and matrices that only JSON holds: `sensitivity Fz: map`.
+/// The maps, curves and matrices that only JSON holds, a line a metric: `r_spatial Px Py Fz: distance, depth`.
 pub(super) fn pictures(evaluation: &Evaluation) -> Vec<String> {
-    let mut pictures = Vec::new();
+    let mut pictures: Vec<(&str, Vec<&str>, String)> = Vec::new();
     for (metric, channel, score) in evaluation.scores() {
         let many = score
             .variants
             .iter()
             .filter(|variant| !is_one(&variant.value));
         let names: Vec<&str> = many.map(|variant| variant.name.as_ref()).collect();
-        if !names.is_empty() {
-            pictures.push(format!("{} {channel}: {}", metric.id, names.join(", ")));
+        let names = names.join(", ");
+        match pictures.last_mut() {
+            _ if names.is_empty() => {}
+            Some((id, channels, same)) if *id == metric.id && *same == names => {
+                channels.push(channel);
+            }
+            _ => pictures.push((metric.id, vec![channel], names)),
         }
     }
-    pictures
+    let line = |(id, channels, names): (&str, Vec<&str>, String)| {
+        format!("{id} {}: {names}", channels.join(" "))
+    };
+    pictures.into_iter().map(line).collect()
 }
 
 fn is_one(value: &Value) -> bool {

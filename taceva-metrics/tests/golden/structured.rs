@@ -181,3 +181,19 @@ impl Comparison {
         self.compared
     }
 }
+
+/// Runs all other tests of this program in a process of its own for each instruction set, as which one is used is decided once
+/// a process.
+pub(crate) fn again_on_every_instruction_set() {
+    let program = std::env::current_exe().expect("this program");
+    for isa in taceva_metrics::Isa::available() {
+        let run = std::process::Command::new(&program)
+            .args(["--nocapture", "--skip", "on_every_instruction_set"])
+            .env("TACEVA_ISA", isa.name())
+            .output()
+            .expect("this program starts");
+        let printed = String::from_utf8_lossy(&run.stdout);
+        assert!(run.status.success(), "{isa}: {printed}");
+        assert!(printed.contains("compared"), "{isa}: {printed}");
+    }
+}
