@@ -29,6 +29,22 @@ impl Evaluation {
         Evaluation { entries, skipped }
     }
 
+    /// The scores of `parts` as one evaluation, in the order of reports; what none of them has is in `skipped`.
+    ///
+    /// For metrics that are computed on samples of their own each: nothing is merged.
+    pub fn joined(
+        parts: impl IntoIterator<Item = Evaluation>,
+        skipped: Vec<Skipped>,
+    ) -> Evaluation {
+        let mut entries: Vec<Entry> = parts.into_iter().flat_map(|part| part.entries).collect();
+        let rank = |entry: &Entry| {
+            let order = crate::catalogue::ALL.iter();
+            order.take_while(|metric| metric.id != entry.metric.id).count()
+        };
+        entries.sort_by_key(rank);
+        Evaluation { entries, skipped }
+    }
+
     /// Every score with its metric and the name of its channel or plane.
     pub fn scores(&self) -> impl Iterator<Item = (&'static Metric, &str, &Score)> {
         let entries = self.entries.iter();

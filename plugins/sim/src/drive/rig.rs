@@ -124,6 +124,12 @@ impl SimulatedRig {
         self.state().name_visits(name);
     }
 
+    /// Lets the next tare in the air wait until `at` on the rig's clock, unless it is later already: with a schedule of its own, a run that
+    /// was interrupted and resumed takes place at the hour at which it would have taken place anyway.
+    pub fn schedule(&self, at: Duration) {
+        self.state().schedule(at);
+    }
+
     /// Notes a press that an earlier session finished, for gels that are conditioned by use.
     pub fn remember(&self, place_mm: [f64; 2], deepest_mm: f64) {
         self.state().remember(place_mm, deepest_mm);

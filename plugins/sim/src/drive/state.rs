@@ -36,6 +36,8 @@ pub(super) struct State {
     visit: Visit,
     /// What the visits to come are called, if anybody named them.
     name: Option<u64>,
+    /// The time before which the next visit does not begin.
+    appointment: Ticks,
     history: History,
 }
 
@@ -87,6 +89,7 @@ impl State {
             now: Ticks::default(),
             history: History::new(),
             name: None,
+            appointment: Ticks::default(),
             bench: None,
             sensor_is_open: false,
             mounted: Mounted::default(),
@@ -157,6 +160,11 @@ impl State {
         self.name = Some(name);
     }
 
+    /// Lets the next tare in the air wait until `at`.
+    pub(super) fn schedule(&mut self, at: Duration) {
+        self.appointment = Ticks::of(at);
+    }
+
     /// Notes a press that was made before this rig was set up.
     pub(super) fn remember(&mut self, place_mm: [f64; 2], deepest_mm: f64) {
         self.history.finish(point_of(place_mm), deepest_mm);
@@ -223,8 +231,11 @@ impl State {
     /// Calls the mean of some readings zero; in the air, over a gel that was touched or in a visit with a name, this begins a new visit.
     pub(super) fn tare(&mut self, readings: u32) {
         let is_over = self.visit.has_touched || self.name.is_some();
-        if is_over && self.visit.touch.is_none() {
-            self.begin_visit();
+        if self.visit.touch.is_none() {
+            self.now = self.now.max(self.appointment);
+            if is_over {
+                self.begin_visit();
+            }
         }
         let mut sum = [0.0; 3];
         for _ in 0..readings {
