@@ -6,11 +6,13 @@ use clap::{ArgGroup, Args, Parser, Subcommand, ValueEnum};
 
 const AFTER_HELP: &str = "\
 Start here:
+  taceva run                                           four sensors on the simulated bench, every metric
   taceva import FOLDER --map MAP.toml --to DATASET     a lab's folder becomes a dataset
   taceva evaluate DATASET --model ridge                how well does the sensor measure?
 
 Exit codes:
-  0 done   1 done, but a check failed   2 usage   3 bad input   5 stopped by a signal   70 a bug of ours";
+  0 done   1 done, but a check failed   2 usage   3 bad input   4 a device failed
+  5 stopped by a signal   70 a bug of ours";
 
 /// How well does a vision-based tactile sensor measure?
 #[derive(Debug, Parser)]
@@ -54,6 +56,8 @@ pub(crate) enum Command {
     Merge(Merge),
     /// Run time against error, with the Pareto front marked
     Bench(Bench),
+    /// Plan, acquire, fit, evaluate and report a scene; without one, four sensors on the simulated bench
+    Run(Run),
     /// Say what `run` would do with a scene, keep and skip, and why; opens no device
     Plan(PlanArgs),
     /// List every driver, what it can do and what it may be told, and the devices that are present
@@ -276,6 +280,24 @@ pub(crate) struct SceneArgs {
     /// The seed of every draw, in the place of the scene's
     #[arg(long, value_name = "N")]
     pub(crate) seed: Option<u64>,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct Run {
+    #[command(flatten)]
+    pub(crate) scene: SceneArgs,
+    /// The folder of the run [default: runs/SCENE-NUMBER, a new one]
+    #[arg(long = "out", value_name = "FOLDER")]
+    pub(crate) folder: Option<PathBuf>,
+    /// Go on with the run in that folder, or with the last one
+    #[arg(long, conflicts_with = "force")]
+    pub(crate) resume: bool,
+    /// Remove the run in that folder, or the last one, and begin anew
+    #[arg(long)]
+    pub(crate) force: bool,
+    /// The form of the reports on standard output
+    #[arg(long, value_enum, default_value_t = Format::Text)]
+    pub(crate) format: Format,
 }
 
 #[derive(Debug, Args)]

@@ -11,6 +11,7 @@ pub(crate) mod import;
 pub(crate) mod merge;
 pub(crate) mod plan;
 pub(crate) mod predict;
+pub(crate) mod run;
 mod scene;
 pub(crate) mod score;
 
@@ -30,6 +31,7 @@ pub(crate) struct Context {
     pub(crate) progress: Terminal,
     pub(crate) jobs: NonZeroUsize,
     verbose: bool,
+    quiet: bool,
 }
 
 impl Context {
@@ -42,6 +44,18 @@ impl Context {
             progress: Terminal::new(everywhere.quiet),
             jobs: asked.unwrap_or_else(all_cores),
             verbose: everywhere.verbose > 0,
+            quiet: everywhere.quiet,
+        }
+    }
+
+    /// Says where results will be, unless nothing is to be said.
+    #[expect(
+        clippy::print_stderr,
+        reason = "what is no result is for standard error"
+    )]
+    pub(crate) fn say(&self, words: std::fmt::Arguments<'_>) {
+        if !self.quiet {
+            eprintln!("taceva: {words}");
         }
     }
 

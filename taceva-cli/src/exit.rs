@@ -8,6 +8,8 @@ pub(crate) const CHECK_FAILED: u8 = 1;
 pub(crate) const USAGE: u8 = 2;
 /// A file, a row or a value is not what it should be.
 pub(crate) const BAD_INPUT: u8 = 3;
+/// A device failed; the run can be gone on with.
+pub(crate) const DEVICE: u8 = 4;
 /// Stopped by a signal; what was written before is whole.
 pub(crate) const STOPPED: u8 = 5;
 /// A bug of ours.

@@ -46,6 +46,7 @@ fn run(command: &Command, context: &Context) -> anyhow::Result<u8> {
         Command::Score(args) => cmd::score::run(args, context),
         Command::Merge(args) => cmd::merge::run(args, context),
         Command::Bench(args) => cmd::bench::run(args, context),
+        Command::Run(args) => cmd::run::run(args, context),
         Command::Plan(args) => cmd::plan::run(args, context),
         Command::Devices(args) => cmd::devices::run(args, context),
         Command::Doctor(args) => cmd::doctor::run(args, context),
@@ -89,6 +90,8 @@ fn code_of(error: &Error) -> u8 {
         if let Some(study) = cause.downcast_ref::<StudyError>() {
             return if study.is_usage() {
                 exit::USAGE
+            } else if study.is_of_device() {
+                exit::DEVICE
             } else {
                 code_of_kind(study.kind())
             };

@@ -36,6 +36,37 @@ pub(crate) fn evaluation(
     }
 }
 
+/// Writes the evaluations of the studies of a scene, one after the other.
+pub(crate) fn profiles(
+    reports: &[EvaluationReport],
+    format: Format,
+    out: &mut dyn Write,
+) -> io::Result<()> {
+    if format == Format::Json {
+        return json::write(
+            &Profiles {
+                schema: "taceva.run/1",
+                studies: reports,
+            },
+            out,
+        );
+    }
+    for (number, report) in reports.iter().enumerate() {
+        if number > 0 {
+            writeln!(out)?;
+        }
+        evaluation(report, format, out)?;
+    }
+    Ok(())
+}
+
+/// Schema `taceva.run/1`.
+#[derive(serde::Serialize)]
+struct Profiles<'a> {
+    schema: &'static str,
+    studies: &'a [EvaluationReport],
+}
+
 /// Writes findings in the form asked for.
 pub(crate) fn findings(
     report: &CheckReport,

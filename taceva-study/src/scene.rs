@@ -5,6 +5,7 @@ mod text;
 
 use std::path::{Path, PathBuf};
 
+use serde::ser::{Serialize, SerializeStruct, Serializer};
 use taceva_core::FieldSet;
 use taceva_dataset::{Dataset, Known};
 use taceva_drivers::Drivers;
@@ -36,12 +37,10 @@ pub struct PlannedStudy {
     /// What is done, what is not, and why.
     pub plan: Plan,
     pub(crate) study: Study,
-    #[expect(dead_code, reason = "read where the plan is carried out")]
     pub(crate) source: StudySource,
 }
 
 /// Where the samples of a study come from.
-#[expect(dead_code, reason = "read where the plan is carried out")]
 #[derive(Debug)]
 pub(crate) enum StudySource {
     /// Devices by name.
@@ -138,7 +137,6 @@ impl PlannedStudy {
         )
     }
 
-    #[expect(dead_code, reason = "read where the plan is carried out")]
     /// The file of the finished model that the scene names, relative to its folder.
     pub(crate) fn model_file(&self) -> Option<&str> {
         let model = self.study.model.as_ref()?;
@@ -200,6 +198,19 @@ fn recording(path: &Path) -> Result<RecordingInfo, StudyError> {
         footprint: footprint.transpose().map_err(StudyError::Request)?,
         frame: header.frames.as_ref().map(|frames| frames.info),
     })
+}
+
+/// Schema `taceva.plans/1`: the plan of every study.
+impl Serialize for PlannedScene {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let plans: Vec<&Plan> = self.studies.iter().map(|study| &study.plan).collect();
+        let mut scene = serializer.serialize_struct("PlannedScene", 4)?;
+        scene.serialize_field("schema", "taceva.plans/1")?;
+        scene.serialize_field("scene", &self.scene.name)?;
+        scene.serialize_field("seed", &self.scene.seed)?;
+        scene.serialize_field("studies", &plans)?;
+        scene.end()
+    }
 }
 
 impl From<SceneError> for StudyError {

@@ -42,7 +42,9 @@ impl Bench {
     }
 
     pub(crate) fn write(&self, name: &str, text: &str) {
-        fs::write(self.path(name), text).expect("written");
+        let path = self.path(name);
+        fs::create_dir_all(path.parent().expect("in a folder")).expect("created");
+        fs::write(path, text).expect("written");
     }
 
     /// The program, to be started in this folder.

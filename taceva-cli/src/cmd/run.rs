@@ -1,0 +1,90 @@
+//! `taceva run`.
+
+mod bench;
+
+use std::path::{Path, PathBuf};
+
+use anyhow::Context as _;
+use taceva_drivers::Drivers;
+use taceva_study::{EvaluationReport, Existing, PlannedScene, RunFolder, Workshop, run_scene};
+
+use super::{Context, Usage, scene};
+use crate::args::{Format, Run};
+use crate::{exit, output, progress, report};
+
+/// The folder in which runs are numbered.
+const RUNS: &str = "runs";
+
+pub(crate) fn run(args: &Run, context: &Context) -> anyhow::Result<u8> {
+    let drivers = Drivers::builtin()?;
+    let planned = scene::planned(&args.scene, &drivers)?;
+    planned.check_models()?;
+    let formats = formats(&planned)?;
+    let existing = match (args.resume, args.force) {
+        (true, _) => Existing::Resume,
+        (_, true) => Existing::Replace,
+        _ => Existing::Refuse,
+    };
+    let path = args
+        .folder
+        .clone()
+        .unwrap_or_else(|| RunFolder::numbered(Path::new(RUNS), &planned.scene.name, existing));
+    let folder = RunFolder::open(&path, &planned, existing)?;
+    context.say(format_args!("run in {}", path.display()));
+    let workshop = Workshop {
+        drivers: &drivers,
+        surroundings: &bench::surroundings,
+        progress: &context.progress,
+    };
+    let reports = run_scene(&planned, &folder, workshop, context.jobs);
+    let reports = reports.with_context(|| match progress::is_stopped() {
+        true => format!(
+            "stopped; taceva run {} --resume --out {} goes on",
+            args.scene.scene,
+            path.display()
+        ),
+        false => format!("run in {}", path.display()),
+    })?;
+    write_files(&planned, &folder, &reports, &formats)?;
+    output::write(None, |out| report::profiles(&reports, args.format, out))?;
+    Ok(exit::DONE)
+}
+
+/// The forms in which the scene wants its reports written into the folder; JSON always.
+fn formats(planned: &PlannedScene) -> anyhow::Result<Vec<(Format, &'static str)>> {
+    let mut formats = vec![(Format::Json, "json")];
+    for name in &planned.scene.report.formats {
+        let format = match name.value.as_str() {
+            "json" => continue,
+            "text" => (Format::Text, "txt"),
+            "csv" => (Format::Csv, "csv"),
+            "md" => (Format::Md, "md"),
+            "tex" => (Format::Tex, "tex"),
+            other => {
+                return Err(Usage::error(format!(
+                    "[report] formats: this program writes no `{other}`, expected text, json, csv, md or tex"
+                )));
+            }
+        };
+        if !formats.contains(&format) {
+            formats.push(format);
+        }
+    }
+    Ok(formats)
+}
+
+/// Writes every report beside its recording.
+fn write_files(
+    planned: &PlannedScene,
+    folder: &RunFolder,
+    reports: &[EvaluationReport],
+    formats: &[(Format, &'static str)],
+) -> anyhow::Result<()> {
+    for (number, (study, written)) in planned.studies.iter().zip(reports).enumerate() {
+        for (format, extension) in formats {
+            let path: PathBuf = folder.report(number, &study.plan.name, extension);
+            output::write(Some(&path), |out| report::evaluation(written, *format, out))?;
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,252 @@
+//! A scene, end to end on the simulated bench: scores, and a folder that survives whatever ends the program.
+
+mod support;
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Child, Command, Stdio};
+
+use serde_json::Value;
+use support::Bench;
+
+/// One sensor, every part of the protocol, a few presses each.
+const SMALL: &str = r#"scene_version = 1
+name = "small"
+seed = 7
+robot = { driver = "sim/robot" }
+force = { driver = "sim/force-transducer" }
+lighting = { driver = "sim/lighting" }
+model = { name = "ridge", set = { size = "8x8" } }
+sensor = { driver = "sim/vitactip:reduction=16", units = ["1", "2"] }
+protocol = { calibration = { points = 16, indentations = 2 }, spatial = { points = 5 }, gratings = { step_mm = 0.75, presses = 2 }, lighting = { points = 2 }, repeatability = { points = 2, trials = 3, depth_step_mm = 0.5 }, hysteresis = { points = 2, depth_step_mm = 0.5 }, surface = { points = 6 }, idle = { frames = 6 } }
+"#;
+
+fn with_small() -> Bench {
+    let bench = Bench::new();
+    bench.write("small.toml", SMALL);
+    bench
+}
+
+/// Every file of reports in a folder of a run, with its bytes.
+fn reports(folder: &Path) -> Vec<(String, Vec<u8>)> {
+    let entries = fs::read_dir(folder.join("reports")).expect("a folder");
+    let mut files: Vec<(String, Vec<u8>)> = entries
+        .map(|entry| {
+            let path = entry.expect("readable").path();
+            let name = path
+                .file_name()
+                .expect("named")
+                .to_string_lossy()
+                .into_owned();
+            (name, fs::read(path).expect("reads"))
+        })
+        .collect();
+    files.sort();
+    files
+}
+
+fn dataset_of(folder: &Path) -> String {
+    let (_, bytes) = reports(folder).swap_remove(0);
+    let report: Value = serde_json::from_slice(&bytes).expect("JSON");
+    report["provenance"]["dataset"]
+        .as_str()
+        .expect("a digest")
+        .to_owned()
+}
+
+#[test]
+fn a_scene_gives_scores_of_every_part_and_says_that_nothing_was_measured() {
+    let bench = with_small();
+    let run = bench.json("run small.toml");
+    assert_eq!(run["schema"], "taceva.run/1");
+    let report = &run["studies"][0];
+    assert_eq!(report["subject"]["source"], "simulated");
+    let gel = report["subject"]["gel"].as_str().expect("a name");
+    assert!(
+        gel.starts_with("bench ") && gel.ends_with("seed 7"),
+        "{gel}"
+    );
+    let metrics = report["metrics"].as_object().expect("scores");
+    for (metric, channel, greatest) in [
+        ("mae", "Fz", 0.7),
+        ("sensitivity", "Fz", 30.0),
+        ("r_spatial", "Fz", 0.7),
+        ("r_light", "Fz", 10.0),
+        ("repeatability", "Fz", 0.7),
+        ("hysteresis", "Fz", 5.0),
+        ("inter_sensor", "surface_z", 1.0),
+    ] {
+        let value = metrics[metric][channel]["value"].as_f64();
+        let value = value.unwrap_or_else(|| panic!("{metric}: {}", metrics[metric]));
+        assert!(value > 0.0 && value < greatest, "{metric}: {value}");
+    }
+    assert_eq!(metrics["intrinsic"]["frame_rate"]["n"], 6);
+    let out = bench.ok("run small.toml -q");
+    assert!(out.contains("Nothing here was measured"), "{out}");
+}
+
+#[test]
+fn a_run_never_writes_over_another_unless_told_to() {
+    let bench = with_small();
+    bench.ok("run small.toml -q");
+    bench.ok("run small.toml -q");
+    let first = reports(&bench.path("runs/small-1"));
+    assert_eq!(first, reports(&bench.path("runs/small-2")));
+    bench.refused("run small.toml --out runs/small-1", 3, "exists already");
+    bench.refused(
+        "run small.toml --out runs/small-1 --resume --seed 8",
+        3,
+        "other plans",
+    );
+    bench.refused(
+        "run small.toml --out nowhere --resume",
+        3,
+        "no run to go on with",
+    );
+    bench.write("mine/notes.txt", "mine");
+    bench.refused("run small.toml --out mine --force", 3, "no run");
+    bench.ok("run small.toml --out runs/small-1 --force --seed 8 -q");
+    assert_ne!(first, reports(&bench.path("runs/small-1")));
+}
+
+#[test]
+fn the_reports_of_several_sensors_do_not_depend_on_the_number_of_jobs() {
+    let bench = Bench::new();
+    let sensor = SMALL
+        .lines()
+        .find(|line| line.starts_with("sensor"))
+        .expect("one");
+    let studies = r#"[[study]]
+name = "one"
+sensor = { driver = "sim/gelsight:reduction=16", units = ["1", "2"] }
+[[study]]
+name = "other"
+sensor = { driver = "sim/magictac:reduction=16", units = ["1", "2"] }
+"#;
+    let scene = SMALL.replace(sensor, "");
+    bench.write("two.toml", &format!("{scene}{studies}"));
+    bench.ok("run two.toml --out a --jobs 1 -q");
+    bench.ok("run two.toml --out b --jobs 3 -q");
+    let alone = reports(&bench.path("a"));
+    assert_eq!(alone.len(), 2);
+    assert_eq!(alone, reports(&bench.path("b")));
+}
+
+#[test]
+fn a_scene_of_forces_takes_and_decodes_no_frame() {
+    let bench = Bench::new();
+    let want = "metrics = { want = [\"sensitivity\", \"hysteresis\", \"inter_sensor\"] }\n";
+    bench.write("force.toml", &format!("{SMALL}{want}"));
+    let run = bench.json("run force.toml --out f");
+    let report = &run["studies"][0];
+    assert_eq!(report["provenance"]["frames_decoded"], 0);
+    assert_eq!(report["metrics"].as_object().expect("scores").len(), 3);
+    let frames = fs::read_dir(bench.path("f/recordings/1-small/frames")).expect("a folder");
+    assert_eq!(frames.count(), 0);
+}
+
+/// A run that was started and is ended from outside.
+struct Started {
+    child: Child,
+    journal: PathBuf,
+}
+
+impl Started {
+    fn new(bench: &Bench, folder: &str) -> Started {
+        let mut command = bench.command(&format!("run small.toml --out {folder} -q"));
+        let child = command.stdout(Stdio::null()).stderr(Stdio::piped()).spawn();
+        Started {
+            child: child.expect("starts"),
+            journal: bench.path(folder).join("recordings/1-small/journal"),
+        }
+    }
+
+    /// Waits until so many bytes are recorded.
+    fn reaches(&mut self, bytes: u64) {
+        loop {
+            let length = fs::metadata(&self.journal).map_or(0, |journal| journal.len());
+            if length >= bytes {
+                return;
+            }
+            let ended = self.child.try_wait().expect("asked");
+            assert!(ended.is_none(), "it ended with {length} bytes recorded");
+            std::thread::yield_now();
+        }
+    }
+}
+
+#[test]
+fn whatever_ends_a_run_it_goes_on_to_the_same_bytes() {
+    let bench = with_small();
+    bench.ok("run small.toml --out whole -q");
+    let whole = reports(&bench.path("whole"));
+
+    // Between two presses at one place, in another light, on a board: wherever it happens to be.
+    for bytes in [3_000, 20_000, 45_000] {
+        let mut killed = Started::new(&bench, "killed");
+        killed.reaches(bytes);
+        killed.child.kill().expect("killed");
+        killed.child.wait().expect("ended");
+        bench.ok("run small.toml --out killed --resume -q");
+        assert_eq!(
+            dataset_of(&bench.path("killed")),
+            dataset_of(&bench.path("whole"))
+        );
+        assert_eq!(reports(&bench.path("killed")), whole);
+        fs::remove_dir_all(bench.path("killed")).expect("removed");
+    }
+}
+
+#[cfg(unix)]
+#[test]
+fn a_signal_stops_a_run_between_motions_and_it_says_how_to_go_on() {
+    let bench = with_small();
+    let mut stopped = Started::new(&bench, "stopped");
+    stopped.reaches(10_000);
+    let id = stopped.child.id().to_string();
+    let sent = Command::new("kill").args(["-TERM", &id]).status();
+    assert!(sent.expect("there is a kill").success());
+    let ended = stopped.child.wait_with_output().expect("ended");
+    assert_eq!(ended.status.code(), Some(5));
+    let message = String::from_utf8(ended.stderr).expect("UTF-8");
+    assert!(
+        message.contains("--resume --out stopped goes on"),
+        "{message}"
+    );
+    assert!(reports(&bench.path("stopped")).is_empty());
+    bench.ok("run small.toml --out stopped --resume -q");
+    bench.ok("run small.toml --out whole -q");
+    assert_eq!(
+        reports(&bench.path("stopped")),
+        reports(&bench.path("whole"))
+    );
+}
+
+#[test]
+fn what_cannot_be_run_is_refused_before_a_folder_is_made() {
+    let bench = Bench::new();
+    let cases = [
+        (
+            SMALL.replace("sim/robot", "sim/rbot"),
+            "s.toml, line 4: `sim/rbot`: unknown driver of a robot",
+        ),
+        (
+            format!("{SMALL}limits = {{ Pz_max_mm = 9.0 }}\n"),
+            "s.toml, line 10: ",
+        ),
+        (
+            format!("{SMALL}depht = 1\n"),
+            "s.toml, line 10: `depht`: unknown key",
+        ),
+        (
+            SMALL.replace("\"ridge\"", "\"rigde\""),
+            "s.toml, line 7: no model is called `rigde`",
+        ),
+        (SMALL.replace("8x8", "8y8"), "s.toml, line 7: "),
+    ];
+    for (scene, message) in cases {
+        bench.write("s.toml", &scene);
+        bench.refused("run s.toml --out r", 3, message);
+        assert!(!bench.path("r").exists(), "{message}");
+    }
+}

@@ -1,0 +1,93 @@
+//! Presses in a recording: what a run asks before it presses, and writes to when it has.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use taceva_core::{Nanometre, Sample, SinkError};
+use taceva_dataset::Recorder;
+use taceva_protocol::{Digest, Plan, PlannedPress, PressLog, PressRecord};
+
+/// The presses of a recording that is being made.
+pub(super) struct RecordedPresses {
+    recorder: Recorder,
+    /// Presses that are recorded and made again all the same.
+    relived: BTreeSet<Digest>,
+    /// The rows of their samples, by name.
+    rows: BTreeMap<String, usize>,
+}
+
+impl RecordedPresses {
+    /// Goes on with what `recorder` holds.
+    pub(super) fn new(recorder: Recorder) -> RecordedPresses {
+        RecordedPresses {
+            recorder,
+            relived: BTreeSet::new(),
+            rows: BTreeMap::new(),
+        }
+    }
+
+    /// Has recorded presses of `unit` made again, and compared, where a press at the same place is still to come.
+    pub(super) fn relive(&mut self, plan: &Plan, unit: &str) {
+        let of_unit = || plan.presses.iter().filter(|press| press.press.unit == unit);
+        let is_recorded = |press: &&PlannedPress| self.has(press.id);
+        let missing: BTreeSet<[Nanometre; 2]> = of_unit()
+            .filter(|press| !is_recorded(press))
+            .map(|press| press.press.place)
+            .collect();
+        let relived: BTreeSet<Digest> = of_unit()
+            .filter(is_recorded)
+            .filter(|press| missing.contains(&press.press.place))
+            .map(|press| press.id)
+            .collect();
+        if !relived.is_empty() && self.rows.is_empty() {
+            let names = self.recorder.table().samples().iter().cloned();
+            self.rows = names.zip(0..).collect();
+        }
+        self.relived = relived;
+    }
+
+    pub(super) fn into_recorder(self) -> Recorder {
+        self.recorder
+    }
+
+    fn has(&self, press: Digest) -> bool {
+        self.recorder.has_press(&press.to_string())
+    }
+
+    /// Refuses a press that was made again and came out otherwise.
+    fn check(&self, samples: &[Sample]) -> Result<(), SinkError> {
+        let table = self.recorder.table();
+        let bits = |value: Option<f64>| value.map(f64::to_bits);
+        let is_as_recorded = |sample: &Sample| {
+            let Some(&row) = self.rows.get(&sample.id) else {
+                return false;
+            };
+            let stamp = sample.stamp.map(|stamp| stamp.valid_s);
+            let mut channels = 0..table.channels().len();
+            bits(stamp) == bits(table.t_s()[row])
+                && channels.all(|at| bits(sample.truth.get(at)) == bits(table.truth(at).get(row)))
+        };
+        match samples.iter().find(|sample| !is_as_recorded(sample)) {
+            None => Ok(()),
+            Some(sample) => Err(format!(
+                "sample {} was made again and came out otherwise than it was recorded: the recording was begun with another version of the bench",
+                sample.id
+            )
+            .into()),
+        }
+    }
+}
+
+impl PressLog for RecordedPresses {
+    fn is_finished(&self, press: Digest) -> bool {
+        self.has(press) && !self.relived.contains(&press)
+    }
+
+    fn append(&mut self, record: &PressRecord) -> Result<(), SinkError> {
+        if self.relived.contains(&record.press) {
+            return self.check(&record.samples);
+        }
+        let name = record.press.to_string();
+        self.recorder.append_press(&name, &record.samples)?;
+        Ok(())
+    }
+}

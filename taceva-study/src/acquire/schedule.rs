@@ -1,0 +1,32 @@
+//! When each press of a unit begins, as a function of its number alone.
+
+use std::time::Duration;
+
+use taceva_protocol::Plan;
+
+/// Equal slots, long enough for the longest press of a plan.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Schedule {
+    slot: Duration,
+}
+
+/// For the way there, the search for contact and the way back.
+const WAY: Duration = Duration::from_secs(240);
+/// For a station: its way, its rest and its picture.
+const STATION: Duration = Duration::from_secs(2);
+
+impl Schedule {
+    pub(super) fn of(plan: &Plan) -> Schedule {
+        let samples = plan.presses.iter().map(|press| press.press.samples());
+        let most = u32::try_from(samples.max().unwrap_or(0)).unwrap_or(u32::MAX);
+        Schedule {
+            slot: WAY.saturating_add(STATION.saturating_mul(most)),
+        }
+    }
+
+    /// When press `number` begins, counted from 1.
+    pub(super) fn begins(&self, number: usize) -> Duration {
+        let number = u32::try_from(number).unwrap_or(u32::MAX);
+        self.slot.saturating_mul(number)
+    }
+}

@@ -1,0 +1,48 @@
+//! What presses are made with, beside the devices themselves: drivers, clocks and whoever exchanges specimens.
+
+use std::time::Duration;
+
+use taceva_core::{Progress, Rig};
+use taceva_drivers::{Drivers, Selector};
+use taceva_protocol::{Digest, SpecimenChanger, Timekeeper};
+
+/// What a rig has beside its devices.
+pub struct Surroundings {
+    /// The clock that the stamps of its devices are of.
+    pub clock: Box<dyn Timekeeper>,
+    /// Who exchanges what the robot carries; without one a single specimen serves every press.
+    pub specimens: Option<Box<dyn SpecimenChanger>>,
+    /// Told of each press before the tip goes there.
+    pub upcoming: Option<Box<dyn FnMut(Upcoming)>>,
+    /// What the recording calls the gel.
+    pub gel: Option<String>,
+    /// Whether its gel is new in every process, and remembers within one what was done to it.
+    ///
+    /// Such a rig goes on after an interruption only where the past of a place is done again first: recorded presses there are made
+    /// once more, compared with what was recorded, and not recorded twice.
+    pub begins_anew: bool,
+}
+
+/// A press that is about to be made.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Upcoming {
+    /// Its name.
+    pub press: Digest,
+    /// When it begins by the clock of the rig, on a schedule that leaves every press ample time: a rig whose time can be
+    /// turned gives the same times to a press whether the run was interrupted or not.
+    pub begins: Duration,
+}
+
+/// Gives the surroundings of the rig whose robot was opened by a selector; `None` where nobody knows its clock.
+pub type SurroundingsOf<'a> = &'a (dyn Fn(&Selector, &mut Rig) -> Option<Surroundings> + Sync);
+
+/// What presses are made with.
+#[derive(Clone, Copy)]
+pub struct Workshop<'a> {
+    /// The drivers of the program.
+    pub drivers: &'a Drivers,
+    /// What rigs have beside their devices.
+    pub surroundings: SurroundingsOf<'a>,
+    /// Whoever listens, and may wish to stop.
+    pub progress: &'a dyn Progress,
+}

@@ -1,0 +1,104 @@
+//! A whole scene, end to end: acquire every study, then fit, predict and score it.
+
+mod folder;
+
+use std::num::NonZeroUsize;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Mutex, PoisonError};
+
+use taceva_dataset::Dataset;
+use taceva_protocol::{Cancel, StopCause};
+
+use crate::acquire::{Workshop, acquire};
+use crate::error::StudyError;
+use crate::features::Work;
+use crate::report::EvaluationReport;
+use crate::scene::{PlannedScene, PlannedStudy, StudySource};
+use crate::stage::assess;
+pub use folder::{Existing, RunFolder};
+
+/// The reports of the studies of `scene`, in order; what is acquired is recorded in `folder`, several studies at a time.
+///
+/// Reports do not depend on `jobs`, nor on how often the run was interrupted and gone on with.
+///
+/// # Errors
+/// [`StudyError::Open`] and [`StudyError::Acquisition`] if a device failed or somebody wished to stop: the same call with the same folder
+/// goes on. [`StudyError::Scene`] for a model that this program does not have; others as [`evaluate`](crate::evaluate).
+pub fn run_scene(
+    scene: &PlannedScene,
+    folder: &RunFolder,
+    workshop: Workshop<'_>,
+    jobs: NonZeroUsize,
+) -> Result<Vec<EvaluationReport>, StudyError> {
+    scene.check_models()?;
+    let datasets = acquire_all(scene, folder, workshop, jobs)?;
+    let work = Work {
+        jobs,
+        progress: workshop.progress,
+    };
+    let studies = scene.studies.iter().zip(&datasets);
+    studies
+        .map(|(study, dataset)| assess(scene, study, dataset, work))
+        .collect()
+}
+
+/// The recordings of all studies; each worker takes the next study that nobody has taken.
+fn acquire_all(
+    scene: &PlannedScene,
+    folder: &RunFolder,
+    workshop: Workshop<'_>,
+    jobs: NonZeroUsize,
+) -> Result<Vec<Dataset>, StudyError> {
+    let studies = &scene.studies;
+    let presses: usize = studies.iter().map(|study| study.plan.presses.len()).sum();
+    workshop.progress.begin("press", Some(presses as u64));
+    let cancel = Cancel::new();
+    let next = AtomicUsize::new(0);
+    let done: Mutex<Vec<Option<Result<Dataset, StudyError>>>> =
+        Mutex::new(studies.iter().map(|_| None).collect());
+    std::thread::scope(|scope| {
+        for _ in 0..jobs.get().min(studies.len()) {
+            scope.spawn(|| {
+                loop {
+                    let number = next.fetch_add(1, Ordering::Relaxed);
+                    let Some(study) = studies.get(number) else {
+                        return;
+                    };
+                    let dataset = obtain(study, number, folder, (workshop, &cancel));
+                    if dataset.is_err() {
+                        // The others stop at their next motion: nobody waits hours to read of a failure.
+                        cancel.cancel();
+                    }
+                    done.lock().unwrap_or_else(PoisonError::into_inner)[number] = Some(dataset);
+                }
+            });
+        }
+    });
+    workshop.progress.end();
+    let done = done.into_inner().unwrap_or_else(PoisonError::into_inner);
+    let done: Vec<Result<Dataset, StudyError>> = done.into_iter().flatten().collect();
+    let (datasets, mut errors): (Vec<_>, Vec<_>) = done.into_iter().partition(Result::is_ok);
+    // Studies that were only told to stop say less than the one that failed.
+    errors.sort_by_key(|result| matches!(result, Err(error) if is_cancelled(error)));
+    errors.into_iter().chain(datasets).collect()
+}
+
+/// The recording of one study: pressed now, or there already.
+fn obtain(
+    study: &PlannedStudy,
+    number: usize,
+    folder: &RunFolder,
+    (workshop, cancel): (Workshop<'_>, &Cancel),
+) -> Result<Dataset, StudyError> {
+    match &study.source {
+        StudySource::Rig(rig) => {
+            let path = folder.recording(number, &study.plan.name);
+            acquire(study, rig, &path, (workshop, cancel))
+        }
+        StudySource::Recording(path) => Ok(Dataset::open(path)?),
+    }
+}
+
+fn is_cancelled(error: &StudyError) -> bool {
+    matches!(error, StudyError::Acquisition { source, .. } if matches!(source.cause, StopCause::Cancelled))
+}

@@ -1,0 +1,153 @@
+//! From the recording of a study to its report: fit, predict and score, each on the presses that the plan means for it.
+
+mod deal;
+mod score;
+
+use taceva_dataset::Dataset;
+use taceva_models::Model;
+
+use crate::error::StudyError;
+use crate::features::Work;
+use crate::fit::{FitPlan, FitRequest, Fitted, Recipe};
+use crate::predict::{self, Predicted, Target, reads_frames};
+use crate::provenance::{ModelProvenance, Provenance};
+use crate::report::EvaluationReport;
+use crate::rows::{Divided, Need, Part, usable};
+use crate::scene::{PlannedScene, PlannedStudy};
+use crate::subject::Subject;
+
+use deal::{Deal, seen};
+use score::{Scores, score};
+
+/// The report of `study`, whose recording is `dataset`.
+pub(crate) fn assess(
+    scene: &PlannedScene,
+    study: &PlannedStudy,
+    dataset: &Dataset,
+    work: Work<'_>,
+) -> Result<EvaluationReport, StudyError> {
+    let deal = Deal::new(study, dataset);
+    let learnt = Learnt::new(scene, study, dataset, &deal, work)?;
+    let predicted = learnt
+        .as_ref()
+        .map(|learnt| learnt.predict(study, dataset, &deal, work))
+        .transpose()?;
+    let input = Scores {
+        scene,
+        study,
+        dataset,
+        deal: &deal,
+        predicted: predicted.as_ref(),
+        jobs: work.jobs,
+    };
+    let (evaluation, mut notes) = score(&input)?;
+    notes.extend(deal.shortfall());
+    let divided = learnt.as_ref().and_then(|learnt| learnt.divided.as_ref());
+    let fitted_frames = learnt.as_ref().map_or(0, |learnt| learnt.frames_decoded);
+    let provenance = Provenance {
+        taceva: env!("CARGO_PKG_VERSION").to_owned(),
+        dataset: Some(dataset.digest().to_string()),
+        model: learnt
+            .as_ref()
+            .map(|learnt| ModelProvenance::of(&learnt.model))
+            .transpose()?,
+        split: divided.map(|divided| divided.spec.to_string()),
+        seed: Some(scene.scene.seed),
+        samples: divided.map(Divided::counts).unwrap_or_default(),
+        frames_decoded: fitted_frames
+            + predicted
+                .as_ref()
+                .map_or(0, |(predicted, _)| predicted.frames_decoded),
+        notes,
+        ..Provenance::default()
+    };
+    Ok(EvaluationReport::new(
+        Subject::of(dataset),
+        evaluation,
+        provenance,
+    ))
+}
+
+/// The model of a study, and what it has seen.
+struct Learnt {
+    model: Model,
+    divided: Option<Divided>,
+    frames_decoded: u64,
+}
+
+impl Learnt {
+    /// Fits or opens the model that the plan needs; `None` where no metric reads a prediction.
+    fn new(
+        scene: &PlannedScene,
+        study: &PlannedStudy,
+        dataset: &Dataset,
+        deal: &Deal<'_>,
+        work: Work<'_>,
+    ) -> Result<Option<Learnt>, StudyError> {
+        if !deal.reads_predictions() {
+            return Ok(None);
+        }
+        if let Some(file) = study.model_file() {
+            let model = Model::open(&scene.text.folder.join(file))
+                .map_err(|error| StudyError::Request(error.to_string()))?;
+            return Ok(Some(Learnt {
+                model,
+                divided: None,
+                frames_decoded: 0,
+            }));
+        }
+        let Some(request) = study.fit_request(scene.scene.seed) else {
+            return Ok(None);
+        };
+        let request = FitRequest {
+            channels: deal.predicted_channels(),
+            ..request?
+        };
+        let recipe = Recipe::of(&request)?;
+        let divided = deal.divided(&request)?;
+        let fitted: Fitted = FitPlan::on(dataset, &request, recipe, divided)?.run(work)?;
+        Ok(Some(Learnt {
+            model: fitted.model,
+            divided: Some(fitted.divided),
+            frames_decoded: fitted.frames_decoded,
+        }))
+    }
+
+    /// Predictions of everything that a metric reads one of and that the model has not seen.
+    fn predict(
+        &self,
+        study: &PlannedStudy,
+        dataset: &Dataset,
+        deal: &Deal<'_>,
+        work: Work<'_>,
+    ) -> Result<(Predicted, Vec<usize>), StudyError> {
+        let seen = self.divided.as_ref().map_or_else(Vec::new, seen);
+        let phases = deal.predicted_phases();
+        let mut rows: Vec<usize> = phases
+            .into_iter()
+            .flat_map(|kind| deal.rows(kind))
+            .collect();
+        rows.sort_unstable();
+        rows.dedup();
+        rows.retain(|row| seen.binary_search(row).is_err());
+        let need = Need {
+            frame: reads_frames(&self.model),
+            labels: None,
+        };
+        let usable = usable(dataset, &rows, need);
+        if usable.is_empty() {
+            return Err(StudyError::Request(format!(
+                "study `{}` has no sample that could be predicted",
+                study.plan.name
+            )));
+        }
+        let target = Target {
+            part: Part::All,
+            left_out: rows.len() - usable.len(),
+            rows: usable,
+            divided: None,
+        };
+        let predicted = predict::run(dataset, &self.model, &target, work)?;
+        Ok((predicted, target.rows))
+    }
+}

@@ -1,0 +1,158 @@
+//! Which rows of a recording belong to which part of the protocol, and which of them a model may see.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use taceva_core::Field;
+use taceva_dataset::Dataset;
+use taceva_metrics::{Metric, catalogue};
+use taceva_models::{SplitInput, SplitKind, SplitSpec};
+use taceva_protocol::{PhaseKind, Plan, PlannedMetric};
+
+use crate::error::StudyError;
+use crate::fit::FitRequest;
+use crate::rows::{Divided, Part};
+use crate::scene::PlannedStudy;
+
+/// The rows of a recording, dealt to the parts of the protocol that they were pressed for.
+pub(super) struct Deal<'a> {
+    plan: &'a Plan,
+    dataset: &'a Dataset,
+    /// Absent of a recording that nobody here planned: then every row belongs to every part.
+    rows: Option<BTreeMap<PhaseKind, Vec<usize>>>,
+}
+
+impl<'a> Deal<'a> {
+    pub(super) fn new(study: &'a PlannedStudy, dataset: &'a Dataset) -> Deal<'a> {
+        let plan = &study.plan;
+        let rows = (!plan.presses.is_empty()).then(|| by_phase(plan, dataset));
+        Deal {
+            plan,
+            dataset,
+            rows,
+        }
+    }
+
+    /// The rows of a part of the protocol, ascending.
+    pub(super) fn rows(&self, kind: PhaseKind) -> Vec<usize> {
+        match &self.rows {
+            Some(rows) => rows.get(&kind).cloned().unwrap_or_default(),
+            None => self.dataset.all_rows(),
+        }
+    }
+
+    /// The planned metrics with their entries in the catalogue.
+    pub(super) fn metrics(&self) -> impl Iterator<Item = (&'a PlannedMetric, &'static Metric)> {
+        let planned = self.plan.metrics.iter();
+        planned.filter_map(|metric| Some((metric, catalogue::find(&metric.id)?)))
+    }
+
+    /// Whether a metric compares predictions with the truth.
+    pub(super) fn reads_predictions(&self) -> bool {
+        !self.predicted_phases().is_empty()
+    }
+
+    /// The parts of the protocol of which predictions are read.
+    pub(super) fn predicted_phases(&self) -> BTreeSet<PhaseKind> {
+        let metrics = self.metrics();
+        let predicted = metrics.filter(|(_, metric)| reads_prediction(metric));
+        predicted.map(|(planned, _)| planned.phase).collect()
+    }
+
+    /// The channels of which predictions are read, in the order of the plan.
+    pub(super) fn predicted_channels(&self) -> Vec<String> {
+        let channels = self.plan.channels.iter();
+        let is_predicted = |channel: &&String| {
+            let mut metrics = self.metrics();
+            metrics.any(|(planned, metric)| {
+                reads_prediction(metric) && planned.channels.contains(channel)
+            })
+        };
+        channels.filter(is_predicted).cloned().collect()
+    }
+
+    /// The presses that a model is fitted on, divided with contact points kept whole; all others are in no part.
+    pub(super) fn divided(&self, request: &FitRequest) -> Result<Divided, StudyError> {
+        let table = self.dataset.table();
+        if self.rows.is_none() {
+            return Divided::new(table, request.split.as_deref(), request.seed);
+        }
+        let rows = self.rows(PhaseKind::Calibration);
+        let points = rows.iter().map(|&row| table.point_id()[row].clone());
+        let points: Option<Vec<String>> = points.collect();
+        let spec = SplitSpec {
+            kind: SplitKind::ByPoint,
+            fractions: Default::default(),
+        };
+        let input = SplitInput {
+            rows: rows.len(),
+            points: points.as_deref(),
+            times_s: None,
+            parts: None,
+            columns: BTreeMap::new(),
+        };
+        let mut split = spec.assign(&input, request.seed)?;
+        for part in [
+            &mut split.train,
+            &mut split.validation,
+            &mut split.test,
+            &mut split.left_out,
+        ] {
+            part.iter_mut()
+                .for_each(|position| *position = rows[*position]);
+        }
+        let others = self.dataset.all_rows().into_iter();
+        let others = others.filter(|row| rows.binary_search(row).is_err());
+        split.left_out.extend(others);
+        split.left_out.sort_unstable();
+        Ok(Divided {
+            spec,
+            seed: request.seed,
+            split,
+        })
+    }
+
+    /// What a reader must know if presses ended early.
+    pub(super) fn shortfall(&self) -> Option<String> {
+        self.rows.as_ref()?;
+        let presses = self.plan.presses.iter();
+        let planned: usize = presses.map(|press| press.press.samples()).sum();
+        let found = self.dataset.table().rows();
+        (found < planned).then(|| {
+            format!(
+                "{} of {planned} planned samples were not taken: their presses met a limit of the gel, or no gel",
+                planned - found
+            )
+        })
+    }
+}
+
+/// Whether a prediction of channels enters `metric`.
+pub(super) fn reads_prediction(metric: &Metric) -> bool {
+    metric.needs.fields.contains(Field::Prediction)
+}
+
+/// The rows that a model was fitted on or whose settings were chosen on, ascending.
+pub(super) fn seen(divided: &Divided) -> Vec<usize> {
+    let parts = [Part::Train, Part::Validation].map(|part| divided.rows(part));
+    let mut rows = parts.concat();
+    rows.sort_unstable();
+    rows
+}
+
+/// The rows of each part of the protocol: samples are called `<press>/<number>`.
+fn by_phase(plan: &Plan, dataset: &Dataset) -> BTreeMap<PhaseKind, Vec<usize>> {
+    let presses = plan.presses.iter();
+    let phases: BTreeMap<String, &[PhaseKind]> = presses
+        .map(|press| (press.id.to_string(), press.phases.as_slice()))
+        .collect();
+    let mut rows: BTreeMap<PhaseKind, Vec<usize>> = BTreeMap::new();
+    for (row, sample) in dataset.table().samples().iter().enumerate() {
+        let press = sample
+            .split_once('/')
+            .map_or(sample.as_str(), |(press, _)| press);
+        for kind in phases.get(press).copied().unwrap_or_default() {
+            rows.entry(*kind).or_default().push(row);
+        }
+    }
+    rows
+}

@@ -1,0 +1,138 @@
+//! Scores: each metric on the presses and the channels that the plan means for it.
+
+use std::collections::BTreeMap;
+use std::num::NonZeroUsize;
+
+use taceva_core::{Channel, Channels, Column, Field, FieldSet, SkipReason, Skipped};
+use taceva_dataset::Dataset;
+use taceva_metrics::{Evaluation, Metric, MetricPlan};
+use taceva_protocol::{PhaseKind, PlanReason, Subject};
+
+use super::deal::{Deal, reads_prediction};
+use crate::error::StudyError;
+use crate::predict::{Predicted, truth};
+use crate::scene::{PlannedScene, PlannedStudy};
+use crate::tally::{Columns, tally};
+
+/// What is scored.
+pub(super) struct Scores<'a> {
+    pub(super) scene: &'a PlannedScene,
+    pub(super) study: &'a PlannedStudy,
+    pub(super) dataset: &'a Dataset,
+    pub(super) deal: &'a Deal<'a>,
+    /// What was predicted, and which rows of the dataset that is; ascending.
+    pub(super) predicted: Option<&'a (Predicted, Vec<usize>)>,
+    pub(super) jobs: NonZeroUsize,
+}
+
+/// Metrics that are computed on the same rows and channels.
+#[derive(PartialEq, Eq, PartialOrd, Ord)]
+struct Ground {
+    phase: PhaseKind,
+    channels: Vec<String>,
+    of_predictions: bool,
+}
+
+/// The scores, and what a reader must know of what was left out beyond what a skip can say.
+pub(super) fn score(scores: &Scores<'_>) -> Result<(Evaluation, Vec<String>), StudyError> {
+    let mut grounds: BTreeMap<Ground, Vec<&'static Metric>> = BTreeMap::new();
+    for (planned, metric) in scores.deal.metrics() {
+        let ground = Ground {
+            phase: planned.phase,
+            channels: planned.channels.clone(),
+            of_predictions: reads_prediction(metric),
+        };
+        grounds.entry(ground).or_default().push(metric);
+    }
+    let (mut skipped, notes) = left_out(scores.study);
+    let mut parts = Vec::new();
+    for (ground, metrics) in &grounds {
+        let part = scores.on(ground, metrics)?;
+        skipped.extend(part.skipped().iter().cloned());
+        parts.push(part);
+    }
+    Ok((Evaluation::joined(parts, skipped), notes))
+}
+
+impl Scores<'_> {
+    fn on(&self, ground: &Ground, metrics: &[&'static Metric]) -> Result<Evaluation, StudyError> {
+        let channels = self.channels(ground)?;
+        let (rows, prediction) = self.rows(ground, &channels);
+        let truth: Vec<Column> = channels
+            .iter()
+            .map(|channel| truth(self.dataset, channel, &rows))
+            .collect::<Result<_, _>>()?;
+        let table = self.dataset.table();
+        let available: FieldSet = match self.predicted {
+            Some(_) => table.fields().with(Field::Prediction),
+            None => table.fields(),
+        };
+        let settings = self.scene.scene.metrics.settings.settings();
+        let plan = MetricPlan::new(metrics, channels, available)
+            .with_facts(self.study.plan.sensor_facts())
+            .with_seed(self.scene.scene.seed)
+            .with_settings(settings)?;
+        let columns = Columns {
+            truth: &truth,
+            prediction: &prediction,
+            table,
+            rows: &rows,
+        };
+        Ok(tally(&columns, &plan, self.jobs)?.finish()?)
+    }
+
+    /// The channels of the recording that the metrics of `ground` look at.
+    fn channels(&self, ground: &Ground) -> Result<Channels, StudyError> {
+        let known = self.dataset.table().channels();
+        let chosen = ground
+            .channels
+            .iter()
+            .filter_map(|name| known.by_name(name));
+        let chosen: Vec<Channel> = chosen.cloned().collect();
+        Channels::new(chosen).map_err(|error| StudyError::Request(error.to_string()))
+    }
+
+    /// The rows of `ground` and what is predicted of them; where a metric reads predictions, rows without one take no part.
+    fn rows(&self, ground: &Ground, channels: &Channels) -> (Vec<usize>, Vec<Column>) {
+        let rows = self.deal.rows(ground.phase);
+        let (true, Some((predicted, of_rows))) = (ground.of_predictions, self.predicted) else {
+            let mut nothing = Column::default();
+            rows.iter().for_each(|_| nothing.push(None));
+            return (rows, vec![nothing; channels.len()]);
+        };
+        let found = rows
+            .into_iter()
+            .filter_map(|row| Some((row, of_rows.binary_search(&row).ok()?)));
+        let (rows, positions): (Vec<usize>, Vec<usize>) = found.unzip();
+        let column = |channel: &Channel| {
+            let at = predicted.channels().position(channel.name());
+            let mut column = Column::default();
+            for &position in &positions {
+                column.push(at.and_then(|at| predicted.prediction()[at].get(position)));
+            }
+            column
+        };
+        let prediction = channels.iter().map(column).collect();
+        (rows, prediction)
+    }
+}
+
+/// What the plan left out of what was asked for: reasons that any stream may have, and in words those that only a plan can.
+fn left_out(study: &PlannedStudy) -> (Vec<Skipped>, Vec<String>) {
+    let (mut skipped, mut notes) = (Vec::new(), Vec::new());
+    for skip in &study.plan.skipped {
+        if !matches!(skip.subject, Subject::Metric(_)) {
+            continue;
+        }
+        let what = skip.subject.key();
+        match &skip.reason {
+            PlanReason::Skip(SkipReason::NotWanted) => {}
+            PlanReason::Skip(reason) => skipped.push(Skipped {
+                what,
+                reason: reason.clone(),
+            }),
+            reason => notes.push(format!("{what}: {reason}")),
+        }
+    }
+    (skipped, notes)
+}
