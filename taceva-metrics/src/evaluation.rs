@@ -39,7 +39,9 @@ impl Evaluation {
         let mut entries: Vec<Entry> = parts.into_iter().flat_map(|part| part.entries).collect();
         let rank = |entry: &Entry| {
             let order = crate::catalogue::ALL.iter();
-            order.take_while(|metric| metric.id != entry.metric.id).count()
+            order
+                .take_while(|metric| metric.id != entry.metric.id)
+                .count()
         };
         entries.sort_by_key(rank);
         Evaluation { entries, skipped }
