@@ -48,16 +48,14 @@ struct Scene {
     refraction: f32,
     gloss: f32,
     /// The lamps' light, red, green and blue of each pixel.
-    glow: Vec<f32>,
+    glow: Vec<[f32; 3]>,
 }
 
 /// The untouched block under one scene of light.
 #[derive(Debug)]
 struct Lighting {
     scene: AmbientLight,
-    /// The lamps' light as it is exposed, and what comes in from outside.
-    glow: Vec<f32>,
-    outside: Vec<f32>,
+    sources: Vec<Source>,
     background: Vec<f32>,
 }
 
@@ -127,17 +125,33 @@ impl Magictac {
         }
     }
 
+    /// The lattice moves smoothly: where it goes is worked out for every other pixel of a row, and between them lies in the middle.
     #[inline(always)]
     fn paint_ball(&self, band: &mut Band<'_>) {
-        let (raster, shift) = (&self.scene.raster, &self.shift);
+        let (scene, raster, shift) = (&*self.scene, &self.scene.raster, &self.shift);
         for row in band.rows_among(raster.rows(shift.y, shift.reach)) {
             let y = raster.y(row);
             let dy = y - shift.y;
             let half = (shift.reach * shift.reach - dy * dy).max(0.0).sqrt();
-            self.paint_row(row, raster.columns(shift.x, half), band, |x| {
-                let moved = shift.at(x, y);
-                (self.buckled(moved, x, y), 0.0)
-            });
+            let moved = |x: f32| self.buckled(shift.at(x, y), x, y);
+            let columns = raster.columns(shift.x, half);
+            let Stretch { light, source } = self.stretch(row, columns.clone(), band);
+            let mut here = moved(raster.x(columns.start));
+            for ((light, source), column) in light
+                .chunks_mut(2)
+                .zip(source.chunks(2))
+                .zip(columns.step_by(2))
+            {
+                let next = moved(raster.x(column + 2));
+                let seen = [here, here.halfway_to(&next)];
+                for (((light, source), moved), column) in
+                    light.iter_mut().zip(source).zip(&seen).zip(column..)
+                {
+                    let pattern = scene.pattern(moved, raster.x(column), y);
+                    *light = source.under(&pattern, 0.0);
+                }
+                here = next;
+            }
         }
     }
 
@@ -155,42 +169,62 @@ impl Magictac {
         moved
     }
 
+    #[inline(always)]
     fn paint_board(&self, relief: &Relief, band: &mut Band<'_>) {
-        let raster = &self.scene.raster;
+        let (scene, raster) = (&*self.scene, &self.scene.raster);
         let [x, y] = relief.centre();
-        let contrast = narrow(self.scene.spec.grating_contrast);
+        let contrast = narrow(scene.spec.grating_contrast);
         for row in band.rows_among(raster.rows(y, relief.reach())) {
             let y = raster.y(row);
-            self.paint_row(row, raster.columns(x, relief.reach()), band, |x| {
-                (Moved::nowhere(), contrast * relief.at(x, y))
-            });
+            let columns = raster.columns(x, relief.reach());
+            let Stretch { light, source } = self.stretch(row, columns.clone(), band);
+            for ((light, source), column) in light.iter_mut().zip(source).zip(columns) {
+                let x = raster.x(column);
+                let pattern = scene.pattern(&Moved::nowhere(), x, y);
+                *light = source.under(&pattern, contrast * relief.at(x, y));
+            }
         }
     }
 
-    /// Paints some pixels of a row; `at` says what happened at x, and how much brighter it is.
+    /// Some pixels of a row.
     #[inline(always)]
-    fn paint_row(
-        &self,
+    fn stretch<'a>(
+        &'a self,
         row: usize,
         columns: std::ops::Range<usize>,
-        band: &mut Band<'_>,
-        at: impl Fn(f32) -> (Moved, f32),
-    ) {
-        let (scene, lighting) = (&*self.scene, &*self.lighting);
-        let y = scene.raster.y(row);
-        let pixels = row * band.width + columns.start..row * band.width + columns.end;
-        let glows = &lighting.glow.as_chunks::<3>().0[pixels.clone()];
-        let outsides = &lighting.outside.as_chunks::<3>().0[pixels];
+        band: &'a mut Band<'_>,
+    ) -> Stretch<'a> {
+        let first = row * band.width;
         let light = band.row_mut(row - band.first_row);
-        let lights = &mut light.as_chunks_mut::<3>().0[columns.clone()];
-        for (((column, light), glow), outside) in columns.zip(lights).zip(glows).zip(outsides) {
-            let x = scene.raster.x(column);
-            let (moved, brighter) = at(x);
-            let pattern = scene.pattern(&moved, x, y);
-            *light = [0, 1, 2].map(|colour: usize| {
-                glow[colour] * (1.0 + (pattern[colour] + brighter)) + outside[colour]
-            });
+        Stretch {
+            light: &mut light.as_chunks_mut::<3>().0[columns.clone()],
+            source: &self.lighting.sources[first + columns.start..first + columns.end],
         }
+    }
+}
+
+/// Pixels beside each other.
+struct Stretch<'a> {
+    light: &'a mut [[f32; 3]],
+    source: &'a [Source],
+}
+
+/// What lights a pixel: red, green and blue.
+#[derive(Clone, Copy, Debug)]
+struct Source {
+    /// The lamps' light as it is exposed.
+    glow: [f32; 3],
+    /// What comes in from outside.
+    outside: [f32; 3],
+}
+
+impl Source {
+    /// The light of a pixel whose lattice shows `pattern` and is brighter by a part.
+    #[inline(always)]
+    fn under(&self, pattern: &[f32; 4], brighter: f32) -> [f32; 3] {
+        [0, 1, 2].map(|colour: usize| {
+            self.glow[colour] * (1.0 + (pattern[colour] + brighter)) + self.outside[colour]
+        })
     }
 }
 
@@ -202,6 +236,16 @@ impl Moved {
             x: Lanes::splat(0.0),
             y: Lanes::splat(0.0),
             wetting: 0.0,
+        }
+    }
+
+    #[inline(always)]
+    fn halfway_to(&self, other: &Moved) -> Moved {
+        let half = Lanes::splat(0.5);
+        Moved {
+            x: self.x.plus(other.x).times(half),
+            y: self.y.plus(other.y).times(half),
+            wetting: 0.5 * (self.wetting + other.wetting),
         }
     }
 }
@@ -252,34 +296,35 @@ impl Lighting {
         let source = Outside::new(light);
         let raster = &scene.raster;
         let exposure = narrow(source.exposure());
-        let glow: Vec<f32> = scene.glow.iter().map(|glow| exposure * glow).collect();
-        let outside = field(raster, |x, y| source.at(x, y));
-        let mut background = vec![0.0; glow.len()];
-        let (pixels, _) = background.as_chunks_mut::<3>();
-        for (index, pixel) in pixels.iter_mut().enumerate() {
+        let sources: Vec<Source> = scene
+            .glow
+            .iter()
+            .zip(field(raster, |x, y| source.at(x, y)))
+            .map(|(glow, outside)| Source {
+                glow: glow.map(|glow| exposure * glow),
+                outside,
+            })
+            .collect();
+        let background = sources.iter().enumerate().flat_map(|(index, source)| {
             let x = raster.x(index % raster.width);
             let y = raster.y(index / raster.width);
-            let pattern = scene.pattern(&Moved::nowhere(), x, y);
-            *pixel = [0, 1, 2].map(|colour: usize| {
-                let sample = 3 * index + colour;
-                glow[sample] * (1.0 + (pattern[colour] + 0.0)) + outside[sample]
-            });
-        }
+            source.under(&scene.pattern(&Moved::nowhere(), x, y), 0.0)
+        });
         Lighting {
             scene: light,
-            glow,
-            outside,
-            background,
+            background: background.collect(),
+            sources,
         }
     }
 }
 
-/// A field of light over the frame.
-fn field(raster: &Raster, at: impl Fn(f64, f64) -> [f64; 3]) -> Vec<f32> {
-    let rows = (0..raster.height).map(|row| f64::from(raster.y(row)));
-    rows.flat_map(|y| {
-        let at = &at;
-        (0..raster.width).flat_map(move |column| at(f64::from(raster.x(column)), y).map(narrow))
-    })
-    .collect()
+/// A field of light over the frame, a colour a pixel.
+fn field(raster: &Raster, at: impl Fn(f64, f64) -> [f64; 3]) -> Vec<[f32; 3]> {
+    (0..raster.width * raster.height)
+        .map(|index| {
+            let x = raster.x(index % raster.width);
+            let y = raster.y(index / raster.width);
+            at(f64::from(x), f64::from(y)).map(narrow)
+        })
+        .collect()
 }

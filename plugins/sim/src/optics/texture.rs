@@ -7,25 +7,37 @@ use crate::random::Stream;
 /// A pattern on a torus of texels, four values each; linear between them.
 #[derive(Clone, Debug)]
 pub(super) struct Texture {
-    texels: Box<[[f32; 4]; SIDE * SIDE]>,
+    cells: Box<[Cell; SIDE * SIDE]>,
     texels_per_unit: f32,
 }
 
+/// All that a place between four texels needs, together in one line of the cache: the first texel, how much the next one in its row and
+/// the one above it differ from it, and how much the fourth differs from these three taken together.
+type Cell = [[f32; 4]; 4];
+
 /// Texels a side; a power of two.
 pub(super) const SIDE: usize = 1 << SIDE_BITS;
-const SIDE_BITS: u32 = 7;
-const MASK: u32 = (1 << SIDE_BITS) - 1;
+const SIDE_BITS: i32 = 7;
 /// Added to a number from −2²¹ to 2²¹, leaves its nearest whole number in the low bits.
 const ROUND: f32 = 12_582_912.0;
 
 impl Texture {
     /// A texture of `layers`, at `pitch` of the field's unit a texel.
     pub(super) fn new(pitch: f64, layers: &[Vec<f32>]) -> Texture {
-        let texel = |index: usize| {
+        let texel = |row: usize, column: usize| {
+            let index = row % SIDE * SIDE + column % SIDE;
             std::array::from_fn(|lane| layers.get(lane).map_or(0.0, |layer| layer[index]))
         };
+        let cells: Vec<Cell> = (0..SIDE * SIDE)
+            .map(|index| {
+                let (row, column) = (index / SIDE, index % SIDE);
+                cell_of(
+                    [(0, 0), (0, 1), (1, 0), (1, 1)].map(|(up, on)| texel(row + up, column + on)),
+                )
+            })
+            .collect();
         Texture {
-            texels: boxed(texel),
+            cells: cells.try_into().expect("as many as were asked for"),
             texels_per_unit: narrow(1.0 / pitch),
         }
     }
@@ -33,69 +45,76 @@ impl Texture {
     /// The four values at a place, in the field's unit.
     #[inline(always)]
     pub(super) fn at(&self, x: f32, y: f32) -> [f32; 4] {
-        let cells = Cells::of(Lanes::new([x, y, 0.0, 0.0]), self.texels_per_unit);
-        self.between(&cells, 0, &cells, 1).to_array()
+        let places = Places::of(Lanes::splat(x), Lanes::splat(y), self.texels_per_unit);
+        self.between(&places, 0).to_array()
     }
 
     /// The sum of three textures of one pitch, each at the place in its lane; the fourth lane of the places is left alone.
     #[inline(always)]
     pub(super) fn sum_at(layers: &[Texture; 3], x: Lanes, y: Lanes) -> Lanes {
-        let pitch = layers[0].texels_per_unit;
-        let (columns, rows) = (Cells::of(x, pitch), Cells::of(y, pitch));
-        let value = |layer: usize| layers[layer].between(&columns, layer, &rows, layer);
+        let places = Places::of(x, y, layers[0].texels_per_unit);
+        let value = |layer: usize| layers[layer].between(&places, layer);
         value(0).plus(value(1)).plus(value(2))
     }
 
     /// The first two values of the texel nearest to a place.
     #[inline(always)]
     pub(super) fn near(&self, x: f32, y: f32) -> [f32; 2] {
-        let texel = |place: f32| ((place * self.texels_per_unit + ROUND).to_bits() & MASK) as usize;
-        let [first, second, _, _] = self.texels[texel(y) * SIDE + texel(x)];
-        [first, second]
+        let nearest = |place: f32| Lanes::splat(place * self.texels_per_unit + ROUND);
+        let [index, ..] = nearest(x).joined_with::<SIDE_BITS>(nearest(y));
+        let [[first, second, ..], ..] = self.cell(index);
+        [*first, *second]
     }
 
-    /// The values in the cell of `columns` in lane `across` and of `rows` in lane `up`.
+    /// The values at the place in a lane of `places`.
     #[inline(always)]
-    fn between(&self, columns: &Cells, across: usize, rows: &Cells, up: usize) -> Lanes {
-        let texel = |column: u32, row: u32| {
-            // Both are masked, so the index is in range; masked once more, the compiler knows it too.
-            let index = (row << SIDE_BITS | column) as usize & (SIDE * SIDE - 1);
-            Lanes::new(self.texels[index])
-        };
-        let [left, right] = [columns.before[across], columns.after[across]];
-        let [low, high] = [rows.before[up], rows.after[up]];
-        let part = Lanes::splat(columns.fraction[across]);
-        let below = texel(left, low).towards(texel(right, low), part);
-        let above = texel(left, high).towards(texel(right, high), part);
-        below.towards(above, Lanes::splat(rows.fraction[up]))
+    fn between(&self, places: &Places, lane: usize) -> Lanes {
+        let [first, on, up, both] = self.cell(places.index[lane]).map(Lanes::new);
+        let across = Lanes::splat(places.across[lane]);
+        let rise = up.plus(across.times(both));
+        first
+            .plus(across.times(on))
+            .plus(Lanes::splat(places.up[lane]).times(rise))
+    }
+
+    #[inline(always)]
+    fn cell(&self, index: u32) -> &Cell {
+        // It has no more bits than the cells have; masked, the compiler knows it too.
+        &self.cells[index as usize & (SIDE * SIDE - 1)]
     }
 }
 
-/// The texels one after another, on the heap from the start.
-fn boxed(texel: impl Fn(usize) -> [f32; 4]) -> Box<[[f32; 4]; SIDE * SIDE]> {
-    let texels: Vec<[f32; 4]> = (0..SIDE * SIDE).map(texel).collect();
-    texels.try_into().expect("as many as were asked for")
+/// The cell of a texel, the next in its row, the one above it and the one beside that.
+fn cell_of([first, next, above, beside]: [[f32; 4]; 4]) -> Cell {
+    let lanes = |value: fn(f32, f32, f32, f32) -> f32| {
+        std::array::from_fn(|lane| value(first[lane], next[lane], above[lane], beside[lane]))
+    };
+    [
+        first,
+        lanes(|first, next, _, _| next - first),
+        lanes(|first, _, above, _| above - first),
+        lanes(|first, next, above, beside| (beside - above) - (next - first)),
+    ]
 }
 
-/// For each lane the texel before a place, the one after it, and how far on from the first; on a torus.
-struct Cells {
-    before: [u32; 4],
-    after: [u32; 4],
-    fraction: [f32; 4],
+/// For each lane the cell that a place lies in, and how far on in it; on a torus.
+struct Places {
+    index: [u32; 4],
+    across: [f32; 4],
+    up: [f32; 4],
 }
 
-impl Cells {
+impl Places {
     #[inline(always)]
-    fn of(places: Lanes, texels_per_unit: f32) -> Cells {
+    fn of(x: Lanes, y: Lanes, texels_per_unit: f32) -> Places {
+        let [x, y] = [x, y].map(|places| places.times(Lanes::splat(texels_per_unit)));
         // The nearest whole number to place − ½ is the one before it; a tie makes the fraction 0 or 1, which is the same point.
-        let places = places.times(Lanes::splat(texels_per_unit));
         let round = Lanes::splat(ROUND);
-        let shifted = places.minus(Lanes::splat(0.5)).plus(round);
-        let before = shifted.masked_bits(MASK);
-        Cells {
-            before,
-            after: before.map(|before| (before + 1) & MASK),
-            fraction: places.minus(shifted.minus(round)).to_array(),
+        let [column, row] = [x, y].map(|places| places.minus(Lanes::splat(0.5)).plus(round));
+        Places {
+            index: column.joined_with::<SIDE_BITS>(row),
+            across: x.minus(column.minus(round)).to_array(),
+            up: y.minus(row.minus(round)).to_array(),
         }
     }
 }

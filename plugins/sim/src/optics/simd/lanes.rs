@@ -57,17 +57,19 @@ impl Lanes {
         Lanes(unsafe { isa::_mm_sqrt_ps(self.0) })
     }
 
-    /// The low bits of each lane's pattern that `mask` keeps.
+    /// The low `BITS` bits of each lane's pattern, and above them those of `high`.
     #[inline(always)]
-    pub(in crate::optics) fn masked_bits(self, mask: u32) -> [u32; 4] {
+    pub(in crate::optics) fn joined_with<const BITS: i32>(self, high: Lanes) -> [u32; 4] {
         // SAFETY: every x86-64 has SSE2.
-        let mask = unsafe { isa::_mm_set1_epi32(mask.cast_signed()) };
+        let mask = unsafe { isa::_mm_set1_epi32((1 << BITS) - 1) };
         // SAFETY: every x86-64 has SSE2.
-        let bits = unsafe { isa::_mm_castps_si128(self.0) };
+        let low = unsafe { isa::_mm_and_si128(isa::_mm_castps_si128(self.0), mask) };
         // SAFETY: every x86-64 has SSE2.
-        let kept = unsafe { isa::_mm_and_si128(bits, mask) };
+        let high = unsafe { isa::_mm_and_si128(isa::_mm_castps_si128(high.0), mask) };
+        // SAFETY: every x86-64 has SSE2.
+        let joined = unsafe { isa::_mm_or_si128(isa::_mm_slli_epi32::<BITS>(high), low) };
         // SAFETY: both are sixteen bytes, and any bytes are four whole numbers.
-        unsafe { std::mem::transmute::<isa::__m128i, [u32; 4]>(kept) }
+        unsafe { std::mem::transmute::<isa::__m128i, [u32; 4]>(joined) }
     }
 }
 
@@ -103,10 +105,11 @@ impl Lanes {
         Lanes(self.0.map(f32::sqrt))
     }
 
-    /// The low bits of each lane's pattern that `mask` keeps.
+    /// The low `BITS` bits of each lane's pattern, and above them those of `high`.
     #[inline(always)]
-    pub(in crate::optics) fn masked_bits(self, mask: u32) -> [u32; 4] {
-        self.0.map(|number| number.to_bits() & mask)
+    pub(in crate::optics) fn joined_with<const BITS: i32>(self, high: Lanes) -> [u32; 4] {
+        let low_bits = |number: f32| number.to_bits() & ((1 << BITS) - 1);
+        std::array::from_fn(|lane| low_bits(high.0[lane]) << BITS | low_bits(self.0[lane]))
     }
 }
 
@@ -146,9 +149,8 @@ mod tests {
         expect(left.towards(right, Lanes::splat(0.25)), |a, b| {
             a + 0.25 * (b - a)
         });
-        assert_eq!(
-            left.masked_bits(0xff),
-            a.map(|number| number.to_bits() & 0xff)
-        );
+        let bits = |number: f32| number.to_bits() & 0xff;
+        let joined: [u32; 4] = std::array::from_fn(|lane| bits(b[lane]) << 8 | bits(a[lane]));
+        assert_eq!(left.joined_with::<8>(right), joined);
     }
 }
