@@ -10,10 +10,16 @@
 
 #[path = "figures/calibration.rs"]
 mod calibration;
+#[path = "figures/discriminant.rs"]
+mod discriminant;
+#[path = "figures/gratings.rs"]
+mod gratings;
 #[path = "figures/hysteresis.rs"]
 mod hysteresis;
 #[path = "figures/sensitivity.rs"]
 mod sensitivity;
+#[path = "figures/spectrum.rs"]
+mod spectrum;
 #[path = "figures/study.rs"]
 mod study;
 #[path = "run/trial.rs"]

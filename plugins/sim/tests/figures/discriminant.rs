@@ -1,0 +1,93 @@
+//! Fisher's linear discriminant.
+
+/// Classes with one covariance.
+pub(crate) struct Discriminant {
+    means: Vec<Vec<f64>>,
+    /// Each mean solved by the covariance, and half its product with the mean.
+    weights: Vec<(Vec<f64>, f64)>,
+}
+
+/// Added to the variances, as a part of their mean.
+const RIDGE: f64 = 1e-3;
+
+impl Discriminant {
+    /// Learns from the vectors of each class.
+    pub(crate) fn learn(classes: &[Vec<Vec<f64>>]) -> Discriminant {
+        let width = classes[0][0].len();
+        let means: Vec<Vec<f64>> = classes
+            .iter()
+            .map(|vectors| {
+                let sum = |index: usize| vectors.iter().map(|vector| vector[index]).sum::<f64>();
+                (0..width)
+                    .map(|index| sum(index) / vectors.len() as f64)
+                    .collect()
+            })
+            .collect();
+        let mut covariance = vec![vec![0.0; width]; width];
+        let mut count = 0.0;
+        for (vectors, mean) in classes.iter().zip(&means) {
+            for vector in vectors {
+                count += 1.0;
+                for row in 0..width {
+                    for column in 0..width {
+                        covariance[row][column] +=
+                            (vector[row] - mean[row]) * (vector[column] - mean[column]);
+                    }
+                }
+            }
+        }
+        let trace: f64 = (0..width).map(|index| covariance[index][index]).sum();
+        for (index, row) in covariance.iter_mut().enumerate() {
+            row[index] += RIDGE * trace / width as f64;
+            for value in row {
+                *value /= count;
+            }
+        }
+        let weights = means
+            .iter()
+            .map(|mean| {
+                let weight = solved(covariance.clone(), mean.clone());
+                let half = 0.5 * product(&weight, mean);
+                (weight, half)
+            })
+            .collect();
+        Discriminant { means, weights }
+    }
+
+    /// The class that a vector most probably is of.
+    pub(crate) fn tell(&self, vector: &[f64]) -> usize {
+        let score = |class: usize| {
+            let (weight, half) = &self.weights[class];
+            product(weight, vector) - half
+        };
+        (0..self.means.len())
+            .max_by(|one, other| score(*one).total_cmp(&score(*other)))
+            .expect("there are classes")
+    }
+}
+
+fn product(one: &[f64], other: &[f64]) -> f64 {
+    one.iter().zip(other).map(|(one, other)| one * other).sum()
+}
+
+/// Gauss's elimination for a matrix that is positive definite.
+fn solved(mut matrix: Vec<Vec<f64>>, mut right: Vec<f64>) -> Vec<f64> {
+    let size = right.len();
+    for pivot in 0..size {
+        for row in pivot + 1..size {
+            let part = matrix[row][pivot] / matrix[pivot][pivot];
+            for column in pivot..size {
+                let above = matrix[pivot][column];
+                matrix[row][column] -= part * above;
+            }
+            right[row] -= part * right[pivot];
+        }
+    }
+    for row in (0..size).rev() {
+        let known: f64 = (row + 1..size)
+            .map(|column| matrix[row][column] * right[column])
+            .sum();
+        right[row] = (right[row] - known) / matrix[row][row];
+    }
+    right
+}
