@@ -75,10 +75,11 @@ fn solved(mut matrix: Vec<Vec<f64>>, mut right: Vec<f64>) -> Vec<f64> {
     let size = right.len();
     for pivot in 0..size {
         for row in pivot + 1..size {
-            let part = matrix[row][pivot] / matrix[pivot][pivot];
-            for column in pivot..size {
-                let above = matrix[pivot][column];
-                matrix[row][column] -= part * above;
+            let (above, below) = matrix.split_at_mut(row);
+            let (above, below) = (&above[pivot], &mut below[0]);
+            let part = below[pivot] / above[pivot];
+            for (below, above) in below.iter_mut().zip(above).skip(pivot) {
+                *below -= part * above;
             }
             right[row] -= part * right[pivot];
         }
