@@ -138,7 +138,8 @@ impl Grids {
     }
 }
 
-/// The top of the `reach` + 1 neighbouring exponents that most values have, and of those the lowest.
+/// The top of the `reach` + 1 neighbouring exponents that most values have; of several such, the one above the lowest, so that a
+/// value somewhat greater than those seen here fits too.
 fn best_top(values: impl Iterator<Item = f64>, reach: i32) -> i32 {
     let usable = -GREATEST_TOP..=GREATEST_TOP;
     let mut exponents: Vec<i32> = values
@@ -147,16 +148,17 @@ fn best_top(values: impl Iterator<Item = f64>, reach: i32) -> i32 {
         .filter(|exponent| usable.contains(exponent))
         .collect();
     exponents.sort_unstable();
-    let (mut first, mut most, mut top) = (0, 0, 0);
+    let (mut first, mut most, mut top, mut headroom) = (0, 0, 0, 0);
     for (last, &exponent) in exponents.iter().enumerate() {
         while exponents[first] < exponent - reach {
             first += 1;
         }
         if last - first >= most {
             (most, top) = (last - first, exponent);
+            headroom = exponents[first] + reach - exponent;
         }
     }
-    top
+    (top + headroom.min(1)).min(GREATEST_TOP)
 }
 
 /// The exponent of the leading bit of a normal number; of others one that no grid has.
@@ -172,7 +174,8 @@ mod tests {
     #[test]
     fn the_top_is_where_most_values_are_whatever_lies_far_off() {
         let values = [1e300, 4.0, 3.0, 0.0, 2.5, 1e-300, f64::NAN, f64::INFINITY];
-        assert_eq!(best_top(values.into_iter(), 16), 2);
+        assert_eq!(best_top(values.into_iter(), 16), 3);
+        assert_eq!(best_top([4.0, 1.0].into_iter(), 2), 2, "no room above");
         assert_eq!(best_top([0.0].into_iter(), 16), 0);
         assert_eq!(best_top([f64::from_bits(1)].into_iter(), 16), 0);
     }
