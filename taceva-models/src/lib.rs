@@ -3,6 +3,7 @@
 mod baseline;
 mod choice;
 mod features;
+mod gratings;
 mod label_scaling;
 mod linalg;
 mod linear;
@@ -19,6 +20,7 @@ mod split;
 pub use baseline::Baseline;
 pub use choice::{ChannelChoice, Choice, ChosenBy};
 pub use features::{Color, Extractor, FeatureError, FeatureSpec, Pca};
+pub use gratings::{Discriminant, FourierPlane, RadialSpectrum};
 pub use label_scaling::LabelScaling;
 pub use linear::{LinearEstimator, LinearFit, LinearRegressor};
 pub use model::{
