@@ -53,6 +53,8 @@ fn phase_of(id: &str, fields: FieldSet) -> PhaseKind {
     match id {
         // What it reads is what every accuracy reads; only its name says that it wants points no model has seen.
         "r_spatial" => PhaseKind::Spatial,
+        // It looks at what is predicted where nothing is touched.
+        "minimum_detectable_force" => PhaseKind::Idle,
         _ if reads(Field::Spacing) || reads(Field::Kind) => PhaseKind::Gratings,
         _ if reads(Field::Scene) || reads(Field::Intensity) => PhaseKind::LightSweep,
         _ if reads(Field::UnitId) => PhaseKind::SurfaceMap,
