@@ -81,6 +81,10 @@ fn a_scene_gives_scores_of_every_part_and_says_that_nothing_was_measured() {
         assert!(value > 0.0 && value < greatest, "{metric}: {value}");
     }
     assert_eq!(metrics["intrinsic"]["frame_rate"]["n"], 6);
+    // Three boards of each relief, pressed twice.
+    for kind in ["line", "dot"] {
+        assert_eq!(metrics["sr"][kind]["n"], 6, "{}", metrics["sr"]);
+    }
     let out = bench.ok("run small.toml -q");
     assert!(out.contains("Nothing here was measured"), "{out}");
 }

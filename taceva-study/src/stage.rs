@@ -1,10 +1,12 @@
 //! From the recording of a study to its report: fit, predict and score, each on the presses that the plan means for it.
 
 mod deal;
+mod gratings;
 mod score;
 
 use taceva_dataset::Dataset;
 use taceva_models::Model;
+use taceva_protocol::PhaseKind;
 
 use crate::error::StudyError;
 use crate::features::Work;
@@ -17,6 +19,7 @@ use crate::scene::{PlannedScene, PlannedStudy};
 use crate::subject::Subject;
 
 use deal::{Deal, seen};
+use gratings::ToldSpacings;
 use score::{Scores, score};
 
 /// The report of `study`, whose recording is `dataset`.
@@ -32,18 +35,30 @@ pub(crate) fn assess(
         .as_ref()
         .map(|learnt| learnt.predict(study, dataset, &deal, work))
         .transpose()?;
+    let told = deal
+        .reads_spacings()
+        .then(|| ToldSpacings::of(dataset, deal.rows(PhaseKind::Gratings), work))
+        .transpose()?;
     let input = Scores {
         scene,
         study,
         dataset,
         deal: &deal,
         predicted: predicted.as_ref(),
+        told: told.as_ref(),
         jobs: work.jobs,
     };
     let (evaluation, mut notes) = score(&input)?;
+    notes.extend(told.as_ref().map(|_| ToldSpacings::NOTE.to_owned()));
     notes.extend(deal.shortfall());
     let divided = learnt.as_ref().and_then(|learnt| learnt.divided.as_ref());
-    let fitted_frames = learnt.as_ref().map_or(0, |learnt| learnt.frames_decoded);
+    let frames_decoded = [
+        learnt.as_ref().map(|learnt| learnt.frames_decoded),
+        predicted
+            .as_ref()
+            .map(|(predicted, _)| predicted.frames_decoded),
+        told.as_ref().map(|told| told.frames_decoded),
+    ];
     let provenance = Provenance {
         taceva: env!("CARGO_PKG_VERSION").to_owned(),
         dataset: Some(dataset.digest().to_string()),
@@ -54,10 +69,7 @@ pub(crate) fn assess(
         split: divided.map(|divided| divided.spec.to_string()),
         seed: Some(scene.scene.seed),
         samples: divided.map(Divided::counts).unwrap_or_default(),
-        frames_decoded: fitted_frames
-            + predicted
-                .as_ref()
-                .map_or(0, |(predicted, _)| predicted.frames_decoded),
+        frames_decoded: frames_decoded.into_iter().flatten().sum(),
         notes,
         ..Provenance::default()
     };

@@ -51,6 +51,12 @@ impl<'a> Deal<'a> {
         !self.predicted_phases().is_empty()
     }
 
+    /// Whether a metric compares spacings that were told with the true ones.
+    pub(super) fn reads_spacings(&self) -> bool {
+        let mut metrics = self.metrics();
+        metrics.any(|(_, metric)| metric.needs.fields.contains(Field::PredictedSpacing))
+    }
+
     /// The parts of the protocol of which predictions are read.
     pub(super) fn predicted_phases(&self) -> BTreeSet<PhaseKind> {
         let metrics = self.metrics();

@@ -2,17 +2,19 @@
 
 use std::collections::BTreeMap;
 use std::num::NonZeroUsize;
+use std::ops::Range;
 
-use taceva_core::{Channel, Channels, Column, Field, FieldSet, SkipReason, Skipped};
+use taceva_core::{Batch, Channel, Channels, Column, Field, FieldSet, SkipReason, Skipped};
 use taceva_dataset::Dataset;
 use taceva_metrics::{Evaluation, Metric, MetricPlan};
 use taceva_protocol::{PhaseKind, PlanReason, Subject};
 
 use super::deal::{Deal, reads_prediction};
+use super::gratings::ToldSpacings;
 use crate::error::StudyError;
 use crate::predict::{Predicted, truth};
 use crate::scene::{PlannedScene, PlannedStudy};
-use crate::tally::{Columns, tally};
+use crate::tally::{Columns, Rows, tally};
 
 /// What is scored.
 pub(super) struct Scores<'a> {
@@ -22,6 +24,8 @@ pub(super) struct Scores<'a> {
     pub(super) deal: &'a Deal<'a>,
     /// What was predicted, and which rows of the dataset that is; ascending.
     pub(super) predicted: Option<&'a (Predicted, Vec<usize>)>,
+    /// Which spacings the presses of gratings were taken for.
+    pub(super) told: Option<&'a ToldSpacings>,
     pub(super) jobs: NonZeroUsize,
 }
 
@@ -63,12 +67,13 @@ impl Scores<'_> {
             .map(|channel| truth(self.dataset, channel, &rows))
             .collect::<Result<_, _>>()?;
         let table = self.dataset.table();
-        let available: FieldSet = match self.predicted {
-            Some(_) => table.fields().with(Field::Prediction),
-            None => table.fields(),
-        };
+        let made = [
+            self.predicted.map(|_| Field::Prediction),
+            self.told.map(|_| Field::PredictedSpacing),
+        ];
+        let made: FieldSet = made.into_iter().flatten().collect();
         let settings = self.scene.scene.metrics.settings.settings();
-        let plan = MetricPlan::new(metrics, channels, available)
+        let plan = MetricPlan::new(metrics, channels, table.fields() | made)
             .with_facts(self.study.plan.sensor_facts())
             .with_seed(self.scene.scene.seed)
             .with_settings(settings)?;
@@ -78,7 +83,12 @@ impl Scores<'_> {
             table,
             rows: &rows,
         };
-        Ok(tally(&columns, &plan, self.jobs)?.finish()?)
+        let told = self.told.filter(|told| told.rows == rows);
+        let samples = Samples {
+            columns,
+            spacings: told.map(|told| &told.spacings),
+        };
+        Ok(tally(&samples, &plan, self.jobs)?.finish()?)
     }
 
     /// The channels of the recording that the metrics of `ground` look at.
@@ -114,6 +124,26 @@ impl Scores<'_> {
         };
         let prediction = channels.iter().map(column).collect();
         (rows, prediction)
+    }
+}
+
+/// Rows with the spacings that were told of them, if any were.
+struct Samples<'a> {
+    columns: Columns<'a>,
+    spacings: Option<&'a Column>,
+}
+
+impl Rows for Samples<'_> {
+    fn rows(&self) -> usize {
+        self.columns.rows()
+    }
+
+    fn batch(&self, plan: &MetricPlan, rows: Range<usize>) -> Result<Batch, StudyError> {
+        let batch = self.columns.batch(plan, rows.clone())?;
+        Ok(match self.spacings {
+            Some(spacings) => batch.with_numbers(Field::PredictedSpacing, spacings.slice(rows)),
+            None => batch,
+        })
     }
 }
 
