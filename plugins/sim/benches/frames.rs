@@ -1,6 +1,6 @@
 //! Pictures a second of each simulated sensor, one core, from contact to bytes.
 //!
-//! `cargo bench -p taceva-sim --bench frames`; 19,200 pixels a frame, noise included. A sample is 64 frames, the press moving from frame
+//! `cargo bench -p taceva-sim --bench frames`; 19,200 pixels a frame unless named otherwise, noise included. A sample is 64 frames, the press moving from frame
 //! to frame, so that the fastest sample is of no easier press.
 
 use divan::Bencher;
@@ -14,6 +14,8 @@ fn main() {
     divan::main();
 }
 
+/// The longer side of a frame as models take it, in pixels; the shorter one is three quarters of it.
+const SMALL: u32 = 160;
 /// Frames a sample.
 const FRAMES: u32 = 64;
 
@@ -26,17 +28,22 @@ enum Touch {
 
 #[divan::bench(args = Model::ALL)]
 fn untouched(bencher: Bencher<'_, '_>, model: Model) {
-    frames(bencher, model, &[]);
+    frames(bencher, model, SMALL, &[]);
 }
 
 #[divan::bench(args = Model::ALL)]
 fn pressed(bencher: Bencher<'_, '_>, model: Model) {
-    frames(bencher, model, &contacts(model, Touch::Pressed));
+    frames(bencher, model, SMALL, &contacts(model, Touch::Pressed));
+}
+
+#[divan::bench(args = Model::ALL)]
+fn pressed_640_by_480(bencher: Bencher<'_, '_>, model: Model) {
+    frames(bencher, model, 640, &contacts(model, Touch::Pressed));
 }
 
 #[divan::bench(args = Model::ALL)]
 fn dragged(bencher: Bencher<'_, '_>, model: Model) {
-    frames(bencher, model, &contacts(model, Touch::Dragged));
+    frames(bencher, model, SMALL, &contacts(model, Touch::Dragged));
 }
 
 /// Sixty-four contacts over the probed surface, at every depth.
@@ -70,10 +77,15 @@ fn contacts(model: Model, touch: Touch) -> Vec<Contact> {
         .collect()
 }
 
-fn frames(bencher: Bencher<'_, '_>, model: Model, contacts: &[Contact]) {
+fn frames(bencher: Bencher<'_, '_>, model: Model, longer: u32, contacts: &[Contact]) {
     let spec = OpticsSpec::new(&model.parameters());
     let upright = spec.native[1] > spec.native[0];
-    let size = if upright { [120, 160] } else { [160, 120] };
+    let shorter = longer * 3 / 4;
+    let size = if upright {
+        [shorter, longer]
+    } else {
+        [longer, shorter]
+    };
     let mut camera = Camera::new(&spec, size, 0, 1).expect("a frame below the native size");
     let info = camera.frame_info();
     let mut bytes = vec![0; info.byte_len().expect("a small frame")];

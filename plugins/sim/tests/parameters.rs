@@ -217,3 +217,12 @@ fn every_number_knows_its_line_unit_and_origin() {
     );
     assert_eq!(thickness.line, line_of("thickness_mm"));
 }
+
+#[test]
+fn the_report_on_the_bench_is_about_these_parameters() {
+    let report = include_str!("../../../docs/validation.md");
+    for model in Model::ALL {
+        let digest = model.parameters().digest().to_string();
+        assert!(report.contains(&digest), "{model}: {digest}");
+    }
+}

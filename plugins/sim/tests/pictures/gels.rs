@@ -39,6 +39,7 @@ fn mean_grays_are_those_of_the_papers_lighting_figure() {
     for (model, expected) in figure {
         for (light, expected) in AmbientLight::ALL.into_iter().zip(expected) {
             let found = mean_gray(model, light);
+            println!("{model} {light}: mean gray {found:.1} DN ({expected})");
             assert!(
                 (found / expected - 1.0).abs() < 0.02,
                 "{model} {light}: {found} {expected}"
