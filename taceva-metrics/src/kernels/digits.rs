@@ -26,9 +26,10 @@ pub fn digits(value: f64, truth: f64) -> f64 {
         difference / truth.abs()
     };
     let digits = -error.log10();
-    if digits.is_nan() {
-        0.0
+    if digits > 0.0 {
+        digits.min(ALL_DIGITS)
     } else {
-        digits.clamp(0.0, ALL_DIGITS)
+        // Also for what is no number, and never −0.
+        0.0
     }
 }
