@@ -12,6 +12,7 @@ mod line;
 mod markdown;
 mod number;
 pub(crate) mod plan;
+mod profile;
 mod text;
 
 use std::io::{self, Write};
@@ -36,7 +37,7 @@ pub(crate) fn evaluation(
     }
 }
 
-/// Writes the evaluations of the studies of a scene, one after the other.
+/// Writes the evaluations of the studies of a scene: for people side by side where they are several, else one after the other.
 pub(crate) fn profiles(
     reports: &[EvaluationReport],
     format: Format,
@@ -50,6 +51,9 @@ pub(crate) fn profiles(
             },
             out,
         );
+    }
+    if format == Format::Text && reports.len() > 1 {
+        return profile::write(reports, out);
     }
     for (number, report) in reports.iter().enumerate() {
         if number > 0 {

@@ -80,7 +80,10 @@ fn a_scene_gives_scores_of_every_part_and_says_that_nothing_was_measured() {
         let value = value.unwrap_or_else(|| panic!("{metric}: {}", metrics[metric]));
         assert!(value > 0.0 && value < greatest, "{metric}: {value}");
     }
-    assert_eq!(metrics["intrinsic"]["frame_rate"]["n"], 6);
+    // Pictures at rest come as fast as the camera gives them, so that their times say how fast that is.
+    let rate = &metrics["intrinsic"]["frame_rate"];
+    let rate_hz = rate["value"].as_f64().expect("a rate");
+    assert!((rate_hz - 30.0).abs() < 0.1, "{rate}");
     // Three boards of each relief, pressed twice.
     for kind in ["line", "dot"] {
         assert_eq!(metrics["sr"][kind]["n"], 6, "{}", metrics["sr"]);
@@ -132,7 +135,8 @@ sensor = { driver = "sim/magictac:reduction=16", units = ["1", "2"] }
     bench.ok("run two.toml --out a --jobs 1 -q");
     bench.ok("run two.toml --out b --jobs 3 -q");
     let alone = reports(&bench.path("a"));
-    assert_eq!(alone.len(), 2);
+    // JSON and text of each.
+    assert_eq!(alone.len(), 4);
     assert_eq!(alone, reports(&bench.path("b")));
 }
 

@@ -34,6 +34,7 @@ use crate::digest::Digest;
 use crate::plan::{Plan, PlannedPress};
 use crate::press::Motion;
 use crate::specimen::Specimen;
+use align::Look;
 use bounds::Bounds;
 use station::Camera;
 use tip::{DEADLINE, Pace, Step, Tip};
@@ -327,8 +328,11 @@ impl<'a> Run<'a> {
     fn press(&mut self, planned: &PlannedPress, samples: &mut Vec<Sample>) -> Step<Outcome> {
         let press = &planned.press;
         if let Motion::Rest { frames } = press.motion {
+            let mut before = self.tip.settle()?;
             for number in 0..frames {
-                self.sample(planned, number, 0.0, samples)?;
+                self.sample(planned, (number, 0.0), before, samples)?;
+                // No rest between: the pictures come as fast as the sensor gives them.
+                before = self.tip.look()?;
             }
             return Ok(Outcome::Complete);
         }
@@ -343,10 +347,14 @@ impl<'a> Run<'a> {
                 for (number, station) in (0..).zip(stations) {
                     let target = Tip::station(press.place, station.shear, height_mm, station.depth);
                     self.tip.approach(target)?;
-                    self.sample(planned, number, height_mm, samples)?;
+                    let rested = self.tip.settle()?;
+                    self.sample(planned, (number, height_mm), rested, samples)?;
                 }
             }
-            Motion::Touch | Motion::Rest { .. } => self.sample(planned, 0, 0.0, samples)?,
+            Motion::Touch | Motion::Rest { .. } => {
+                let rested = self.tip.settle()?;
+                self.sample(planned, (0, 0.0), rested, samples)?;
+            }
         }
         Ok(Outcome::Complete)
     }
@@ -354,12 +362,12 @@ impl<'a> Run<'a> {
     fn sample(
         &mut self,
         planned: &PlannedPress,
-        number: u32,
-        zero_mm: f64,
+        (number, zero_mm): (u32, f64),
+        before: Look,
         samples: &mut Vec<Sample>,
     ) -> Step<()> {
         let camera = self.camera.as_mut().filter(|_| planned.frames);
-        let observed = station::observe(&mut self.tip, camera, self.events)?;
+        let observed = station::observe(before, &mut self.tip, camera, self.events)?;
         samples.push(station::sample(
             planned,
             number,

@@ -158,7 +158,7 @@ impl Source {
         drivers: &Drivers,
     ) -> Result<Source, StudyError> {
         let Some(dataset) = &study.sensor.dataset else {
-            let spec = RigSpec::new(study, scene.seed);
+            let spec = RigSpec::new(study, scene.seed, &text.folder);
             let info = spec
                 .info(study, drivers)
                 .map_err(|(at, problem)| text.error(at, problem))?;

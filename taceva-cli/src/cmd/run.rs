@@ -20,6 +20,11 @@ pub(crate) fn run(args: &Run, context: &Context) -> anyhow::Result<u8> {
     let planned = scene::planned(&args.scene, &drivers)?;
     planned.check_models()?;
     let formats = formats(&planned)?;
+    if args.format == Format::Csv && planned.studies.len() > 1 {
+        return Err(Usage::error(
+            "--format csv: rows of several sensors cannot be told apart; name `csv` under [report] formats for a file a sensor",
+        ));
+    }
     let existing = match (args.resume, args.force) {
         (true, _) => Existing::Resume,
         (_, true) => Existing::Replace,
@@ -47,16 +52,19 @@ pub(crate) fn run(args: &Run, context: &Context) -> anyhow::Result<u8> {
     })?;
     write_files(&planned, &folder, &reports, &formats)?;
     output::write(None, |out| report::profiles(&reports, args.format, out))?;
+    context.say(format_args!(
+        "reports are in {}",
+        folder.reports().display()
+    ));
     Ok(exit::DONE)
 }
 
-/// The forms in which the scene wants its reports written into the folder; JSON always.
+/// The forms in which the scene wants its reports written into the folder; text and JSON always.
 fn formats(planned: &PlannedScene) -> anyhow::Result<Vec<(Format, &'static str)>> {
-    let mut formats = vec![(Format::Json, "json")];
+    let mut formats = vec![(Format::Json, "json"), (Format::Text, "txt")];
     for name in &planned.scene.report.formats {
         let format = match name.value.as_str() {
-            "json" => continue,
-            "text" => (Format::Text, "txt"),
+            "json" | "text" => continue,
             "csv" => (Format::Csv, "csv"),
             "md" => (Format::Md, "md"),
             "tex" => (Format::Tex, "tex"),

@@ -24,10 +24,10 @@ impl Printed {
             };
         };
         let ends = line.interval.and_then(Interval::ends);
-        let decimals = ends.map_or_else(
-            || decimals(value / 1e3),
-            |[low, high]| decimals((high - low) / 20.0),
-        );
+        // Without an interval, or with one of no width, four digits.
+        let step = ends.map(|[low, high]| (high - low) / 20.0);
+        let step = step.filter(|step| *step > 0.0).unwrap_or(value / 1e3);
+        let decimals = if step.abs() > 0.0 { decimals(step) } else { 0 };
         let print = |number: f64| format!("{number:.decimals$}");
         Printed {
             value: print(value),

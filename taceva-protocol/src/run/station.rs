@@ -6,7 +6,7 @@ use taceva_core::{
     Deadline, ErrorKind, Frame, FrameMut, Nanometre, Pose, Readings, Sample, Sensor, Stamp, Wrench,
 };
 
-use super::align::between;
+use super::align::{Look, between};
 use super::error::StopCause;
 use super::event::Event;
 use super::tip::{Step, Tip};
@@ -76,13 +76,13 @@ pub(super) struct Observed {
     frame: Option<Frame>,
 }
 
-/// Lets the gel come to rest and observes it; force and pose are read before and after the picture and told for its moment.
+/// Observes what is there after `before`; force and pose are read before and after the picture and told for its moment.
 pub(super) fn observe(
+    before: Look,
     tip: &mut Tip<'_>,
     camera: Option<&mut Camera<'_>>,
     events: &mut dyn FnMut(&Event),
 ) -> Step<Observed> {
-    let before = tip.settle()?;
     let Some(camera) = camera else {
         return Ok(Observed {
             wrench: before.wrench,

@@ -89,6 +89,11 @@ impl RunFolder {
         &self.path
     }
 
+    /// Where its reports are.
+    pub fn reports(&self) -> PathBuf {
+        self.path.join(REPORTS)
+    }
+
     /// Where study `number`, counted from 0, is recorded.
     pub fn recording(&self, number: usize, study: &str) -> PathBuf {
         let name = format!("{}-{}", number + 1, slug(study));
@@ -98,7 +103,7 @@ impl RunFolder {
     /// Where the report of study `number`, counted from 0, is written in the form with this extension.
     pub fn report(&self, number: usize, study: &str, extension: &str) -> PathBuf {
         let name = format!("{}-{}.{extension}", number + 1, slug(study));
-        self.path.join(REPORTS).join(name)
+        self.reports().join(name)
     }
 
     /// The first path `<parent>/<scene>-<number>` that is free, counted from 1; or the last that is taken.

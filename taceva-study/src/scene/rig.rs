@@ -1,6 +1,8 @@
 //! The devices that a study names: what each is told, and what its driver says of it before anything is opened.
 
-use taceva_core::{Descriptor, Device, DriverKind, Registry};
+use std::path::{Path, PathBuf};
+
+use taceva_core::{ArgKind, ArgSpec, Descriptor, Device, DriverKind, Registry};
 use taceva_drivers::{Drivers, Selector};
 use taceva_protocol::{RigInfo, Scene, SceneError, SceneProblem, Setting, Study};
 
@@ -15,10 +17,12 @@ pub(crate) struct RigSpec {
     pub(crate) force: Option<Setting<String>>,
     pub(crate) lighting: Option<Setting<String>>,
     seed: u64,
+    /// What paths in the scene are relative to.
+    folder: PathBuf,
 }
 
 impl RigSpec {
-    pub(crate) fn new(study: &Study, seed: u64) -> RigSpec {
+    pub(crate) fn new(study: &Study, seed: u64, folder: &Path) -> RigSpec {
         let driver = |device: &Option<taceva_protocol::DeviceSpec>| {
             device.as_ref().map(|device| device.driver.clone())
         };
@@ -29,6 +33,7 @@ impl RigSpec {
             force: driver(&study.force),
             lighting: lighting.map(|lighting| lighting.driver.clone()),
             seed,
+            folder: folder.to_owned(),
         }
     }
 
@@ -72,9 +77,9 @@ impl RigSpec {
         let factory = registry
             .get(written.driver())
             .map_err(|error| refused(error.to_string()))?;
-        let mut arguments = written.arguments().to_owned();
+        let taken = factory.descriptor().arguments();
+        let mut arguments = self.located(written.arguments(), taken);
         for (key, value) in [("seed", self.seed.to_string()), ("unit", unit.to_owned())] {
-            let taken = factory.descriptor().arguments();
             let takes = taken.iter().any(|argument| argument.key == key);
             let told = arguments.split(';').filter_map(|part| part.split_once('='));
             if takes && !told.into_iter().any(|(told, _)| told.trim() == key) {
@@ -84,6 +89,23 @@ impl RigSpec {
         }
         let whole = format!("{}:{arguments}", written.driver());
         whole.parse().map_err(|_| not_a_selector(device))
+    }
+
+    /// `arguments` with relative paths joined to the folder of the scene.
+    fn located(&self, arguments: &str, taken: &[ArgSpec]) -> String {
+        let is_path = |key: &str| {
+            let mut paths = taken.iter().filter(|taken| taken.kind == ArgKind::Path);
+            paths.any(|path| path.key == key.trim())
+        };
+        let located = arguments.split(';').map(|part| match part.split_once('=') {
+            Some((key, value)) if is_path(key) => {
+                let folder = self.folder.display().to_string().replace(';', ";;");
+                let path = Path::new(&folder).join(value.trim());
+                format!("{key}={}", path.display())
+            }
+            _ => part.to_owned(),
+        });
+        located.collect::<Vec<_>>().join(";")
     }
 
     fn describe<D: Device + ?Sized>(
