@@ -183,26 +183,43 @@ impl Started {
     }
 }
 
-#[test]
-fn whatever_ends_a_run_it_goes_on_to_the_same_bytes() {
-    let bench = with_small();
+/// Kills a run each time so many bytes are recorded, goes on, and compares with the run that nobody killed.
+fn survives(bench: &Bench, moments: &[u64]) {
     bench.ok("run small.toml --out whole -q");
     let whole = reports(&bench.path("whole"));
-
-    // Between two presses at one place, in another light, on a board: wherever it happens to be.
-    for bytes in [3_000, 20_000, 45_000] {
-        let mut killed = Started::new(&bench, "killed");
-        killed.reaches(bytes);
+    for bytes in moments {
+        let mut killed = Started::new(bench, "killed");
+        killed.reaches(*bytes);
         killed.child.kill().expect("killed");
         killed.child.wait().expect("ended");
         bench.ok("run small.toml --out killed --resume -q");
-        assert_eq!(
-            dataset_of(&bench.path("killed")),
-            dataset_of(&bench.path("whole"))
-        );
+        let datasets = ["killed", "whole"].map(|run| dataset_of(&bench.path(run)));
+        assert_eq!(datasets[0], datasets[1], "killed at {bytes} bytes");
         assert_eq!(reports(&bench.path("killed")), whole);
         fs::remove_dir_all(bench.path("killed")).expect("removed");
     }
+}
+
+#[test]
+fn whatever_ends_a_run_it_goes_on_to_the_same_bytes() {
+    // Between two presses at one place, in another light, on a board: wherever it happens to be.
+    survives(&with_small(), &[3_000, 20_000, 45_000]);
+}
+
+#[test]
+fn a_gel_that_is_softened_by_use_is_brought_back_to_where_it_was() {
+    let bench = Bench::new();
+    let table = include_str!("../../plugins/sim/parameters/vitactip.toml")
+        .replace(
+            "conditioning_fraction = { value = 0.0",
+            "conditioning_fraction = { value = 0.4",
+        )
+        .replace(';', ";;");
+    assert!(table.contains("value = 0.4"));
+    let driver = "\"sim/vitactip:reduction=16\"";
+    let softened = format!("'''sim/vitactip:reduction=16;table={table}'''");
+    bench.write("small.toml", &SMALL.replace(driver, &softened));
+    survives(&bench, &[30_000, 45_000]);
 }
 
 #[cfg(unix)]
@@ -257,4 +274,43 @@ fn what_cannot_be_run_is_refused_before_a_folder_is_made() {
         bench.refused("run s.toml --out r", 3, message);
         assert!(!bench.path("r").exists(), "{message}");
     }
+}
+
+#[test]
+fn a_device_that_fails_stops_the_run_with_a_code_of_its_own() {
+    let bench = Bench::new();
+    let ball = "protocol = { contact = { indenter_radius_mm = 3.0 }, ";
+    bench.write("small.toml", &SMALL.replace("protocol = { ", ball));
+    bench.refused("run small.toml --out r", 4, "expected 2, 4 or 10 mm");
+    bench.refused(
+        "run small.toml --out r --resume",
+        4,
+        "expected 2, 4 or 10 mm",
+    );
+}
+
+#[test]
+fn what_was_recorded_is_scored_again_without_a_press() {
+    let bench = with_small();
+    bench.ok("run small.toml --out first -q");
+    let again = "scene_version = 1\nname = \"again\"\nmodel = { name = \"ridge\", set = { size = \"8x8\" } }\n\
+                 sensor = { dataset = \"../first/recordings/1-small\" }\n";
+    bench.write("scenes/again.toml", again);
+    let run = bench.json("run scenes/again.toml --out again");
+    let report = &run["studies"][0];
+    assert_eq!(report["subject"]["source"], "simulated");
+    assert!(
+        report["metrics"]["mae"]["Fz"]["value"].is_number(),
+        "{report}"
+    );
+    assert!(
+        report["metrics"]["sr"]["line"]["value"].is_number(),
+        "{report}"
+    );
+    assert!(
+        fs::read_dir(bench.path("again/recordings"))
+            .expect("a folder")
+            .next()
+            .is_none()
+    );
 }

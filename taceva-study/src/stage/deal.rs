@@ -64,16 +64,29 @@ impl<'a> Deal<'a> {
         predicted.map(|(planned, _)| planned.phase).collect()
     }
 
-    /// The channels of which predictions are read, in the order of the plan.
+    /// The channels of which predictions are read, in the order of the plan: those that samples with a picture carry.
     pub(super) fn predicted_channels(&self) -> Vec<String> {
-        let channels = self.plan.channels.iter();
+        let table = self.dataset.table();
+        let is_seen = |channel: &str| {
+            let position = table.channels().position(channel);
+            let seen = |(row, frame): (usize, &Option<_>)| {
+                let truth = position.and_then(|position| table.truth(position).get(row));
+                frame.is_some() && truth.is_some()
+            };
+            table.frames().iter().enumerate().any(seen)
+        };
         let is_predicted = |channel: &&String| {
             let mut metrics = self.metrics();
             metrics.any(|(planned, metric)| {
                 reads_prediction(metric) && planned.channels.contains(channel)
             })
         };
-        channels.filter(is_predicted).cloned().collect()
+        let channels = self.plan.channels.iter();
+        let predicted = channels.filter(is_predicted);
+        predicted
+            .filter(|channel| is_seen(channel))
+            .cloned()
+            .collect()
     }
 
     /// The presses that a model is fitted on, divided with contact points kept whole; all others are in no part.
