@@ -62,12 +62,16 @@ impl Lanes {
     pub(in crate::optics) fn joined_with<const BITS: i32>(self, high: Lanes) -> [u32; 4] {
         // SAFETY: every x86-64 has SSE2.
         let mask = unsafe { isa::_mm_set1_epi32((1 << BITS) - 1) };
+        let low_bits = |lanes: Lanes| {
+            // SAFETY: every x86-64 has SSE2.
+            let bits = unsafe { isa::_mm_castps_si128(lanes.0) };
+            // SAFETY: every x86-64 has SSE2.
+            unsafe { isa::_mm_and_si128(bits, mask) }
+        };
         // SAFETY: every x86-64 has SSE2.
-        let low = unsafe { isa::_mm_and_si128(isa::_mm_castps_si128(self.0), mask) };
+        let above = unsafe { isa::_mm_slli_epi32::<BITS>(low_bits(high)) };
         // SAFETY: every x86-64 has SSE2.
-        let high = unsafe { isa::_mm_and_si128(isa::_mm_castps_si128(high.0), mask) };
-        // SAFETY: every x86-64 has SSE2.
-        let joined = unsafe { isa::_mm_or_si128(isa::_mm_slli_epi32::<BITS>(high), low) };
+        let joined = unsafe { isa::_mm_or_si128(above, low_bits(self)) };
         // SAFETY: both are sixteen bytes, and any bytes are four whole numbers.
         unsafe { std::mem::transmute::<isa::__m128i, [u32; 4]>(joined) }
     }
