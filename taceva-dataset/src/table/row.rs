@@ -13,7 +13,7 @@ pub struct FrameEntry {
     pub digest: Digest,
 }
 
-/// One row of a [`Table`]; what is absent is `None`.
+/// One row of a [`Table`](super::Table); what is absent is `None`.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Row {
     /// Its name, once in a table.
