@@ -1,5 +1,6 @@
 //! The folder of a run: the scene as it was read, its plans, a recording a study, and the reports.
 
+use std::ffi::OsString;
 use std::fs::{self, File};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -76,11 +77,7 @@ impl RunFolder {
             }
             _ => {}
         }
-        for inner in [RECORDINGS, REPORTS] {
-            fs::create_dir_all(path.join(inner)).map_err(failed)?;
-        }
-        write(&path.join(SCENE), &scene.text.text).map_err(failed)?;
-        write(&path.join(PLANS), &format!("{plans}\n")).map_err(failed)?;
+        make(path, &scene.text.text, &format!("{plans}\n")).map_err(failed)?;
         Ok(folder)
     }
 
@@ -134,11 +131,117 @@ fn is_empty(path: &Path) -> io::Result<bool> {
     Ok(fs::read_dir(path)?.next().is_none())
 }
 
-/// Writes a file that is absent or whole.
-fn write(path: &Path, text: &str) -> io::Result<()> {
-    let beside = path.with_extension("partial");
-    let mut file = File::create(&beside)?;
-    file.write_all(text.as_bytes())?;
-    file.sync_all()?;
-    fs::rename(beside, path)
+/// Makes the folder of a run beside its place and moves it there, so that it is absent or whole.
+fn make(path: &Path, scene: &str, plans: &str) -> io::Result<()> {
+    let name = path.file_name().ok_or(io::ErrorKind::InvalidInput)?;
+    let mut hidden = OsString::from(".");
+    hidden.push(name);
+    hidden.push(format!(".{}.partial", std::process::id()));
+    let beside = path.with_file_name(hidden);
+    for inner in [RECORDINGS, REPORTS] {
+        fs::create_dir_all(beside.join(inner))?;
+    }
+    for (name, text) in [(SCENE, scene), (PLANS, plans)] {
+        let mut file = File::create(beside.join(name))?;
+        file.write_all(text.as_bytes())?;
+        file.sync_all()?;
+    }
+    if path.exists() {
+        // It is empty, or the move is refused.
+        fs::remove_dir(path)?;
+    }
+    let moved = fs::rename(&beside, path);
+    if moved.is_err() {
+        // The error that counts is that of the move.
+        drop(fs::remove_dir_all(&beside));
+    }
+    moved
+}
+
+#[cfg(test)]
+mod tests {
+    use taceva_drivers::Drivers;
+
+    use super::*;
+    use crate::scene::SceneText;
+
+    const SCENE_TEXT: &str = "scene_version = 1\nname = \"My gel, twice\"\n\
+                              sensor = { dataset = \"recording\" }\n";
+
+    /// A scene of a recording of one sample, in a folder of its own.
+    fn scene(folder: &Path, seed: u64) -> PlannedScene {
+        let recording = folder.join("recording");
+        if !recording.exists() {
+            let spec = taceva_dataset::RecordingSpec {
+                facts: taceva_dataset::RecordingFacts {
+                    source: taceva_dataset::Source::Synthetic,
+                    clock: taceva_core::Clock::Unknown,
+                    sensor: taceva_dataset::SensorFacts {
+                        model: "drawn".into(),
+                        serial: "1".into(),
+                        gel: "1".into(),
+                        opaque: taceva_dataset::Known::Unknown,
+                    },
+                    footprint: None,
+                },
+                channels: taceva_core::Channels::new([taceva_core::Channel::FZ]).expect("one"),
+            };
+            let recorder = taceva_dataset::Recorder::create(&recording, &spec).expect("new");
+            recorder.close().expect("closed");
+        }
+        let text = SceneText {
+            name: "s.toml".to_owned(),
+            text: SCENE_TEXT.to_owned(),
+            folder: folder.to_owned(),
+        };
+        let drivers = Drivers::builtin().expect("consistent");
+        PlannedScene::new(text, &drivers, Some(seed)).expect("a plan")
+    }
+
+    #[test]
+    fn a_folder_of_something_else_is_never_touched() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let scene = scene(folder.path(), 1);
+        let mine = folder.path().join("mine");
+        fs::create_dir(&mine).expect("made");
+        fs::write(mine.join("notes"), "mine").expect("written");
+        for existing in [Existing::Refuse, Existing::Resume, Existing::Replace] {
+            assert!(
+                RunFolder::open(&mine, &scene, existing).is_err(),
+                "{existing:?}"
+            );
+        }
+        assert_eq!(fs::read(mine.join("notes")).expect("there"), b"mine");
+    }
+
+    #[test]
+    fn a_run_goes_on_with_its_own_plans_only() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let run = folder.path().join("deep/run");
+        let [own, other] = [1, 2].map(|seed| scene(folder.path(), seed));
+        assert!(RunFolder::open(&run, &own, Existing::Resume).is_err());
+        RunFolder::open(&run, &own, Existing::Refuse).expect("made");
+        assert!(RunFolder::open(&run, &own, Existing::Refuse).is_err());
+        RunFolder::open(&run, &own, Existing::Resume).expect("goes on");
+        let refused = RunFolder::open(&run, &other, Existing::Resume).expect_err("other plans");
+        assert!(refused.to_string().contains("other plans"), "{refused}");
+        RunFolder::open(&run, &other, Existing::Replace).expect("begun anew");
+        RunFolder::open(&run, &other, Existing::Resume).expect("goes on");
+    }
+
+    #[test]
+    fn runs_of_a_scene_are_numbered() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let scene = scene(folder.path(), 1);
+        let numbered = |existing| RunFolder::numbered(folder.path(), &scene.scene.name, existing);
+        for number in 1..3 {
+            let path = numbered(Existing::Refuse);
+            assert!(
+                path.ends_with(format!("my-gel--twice-{number}")),
+                "{path:?}"
+            );
+            RunFolder::open(&path, &scene, Existing::Refuse).expect("made");
+            assert_eq!(numbered(Existing::Resume), path);
+        }
+    }
 }
