@@ -37,6 +37,11 @@ pub(crate) fn acquire(
         Err(DatasetError::NoDataset { .. }) => {}
         closed_before => {
             let dataset = closed_before?;
+            // A power cut may have spared the journal of what was closed; asking to go on removes it.
+            match Recorder::resume(path) {
+                Err(DatasetError::TargetExists { .. }) => {}
+                other => drop(other?),
+            }
             workshop.progress.advance(plan.presses.len() as u64);
             return Ok(dataset);
         }

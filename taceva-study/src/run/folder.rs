@@ -61,6 +61,7 @@ impl RunFolder {
                             .to_owned(),
                     ));
                 }
+                remove_partial(&folder.reports()).map_err(failed)?;
                 return Ok(folder);
             }
             Existing::Resume if !is_there => {
@@ -146,6 +147,8 @@ fn make(path: &Path, scene: &str, plans: &str) -> io::Result<()> {
         file.write_all(text.as_bytes())?;
         file.sync_all()?;
     }
+    // A name that outlives a power cut must not stand for a folder without names.
+    sync_folder(&beside)?;
     if path.exists() {
         // It is empty, or the move is refused.
         fs::remove_dir(path)?;
@@ -154,8 +157,30 @@ fn make(path: &Path, scene: &str, plans: &str) -> io::Result<()> {
     if moved.is_err() {
         // The error that counts is that of the move.
         drop(fs::remove_dir_all(&beside));
+        return moved;
     }
-    moved
+    sync_folder(match path.parent() {
+        Some(parent) if parent != Path::new("") => parent,
+        _ => Path::new("."),
+    })
+}
+
+/// Makes the names in a folder durable.
+fn sync_folder(path: &Path) -> io::Result<()> {
+    File::open(path)?.sync_all()
+}
+
+/// Removes what an interruption left of files that were being written beside their places.
+fn remove_partial(folder: &Path) -> io::Result<()> {
+    for entry in fs::read_dir(folder)? {
+        let entry = entry?;
+        let name = entry.file_name();
+        let name = name.to_string_lossy();
+        if name.starts_with('.') && name.ends_with(".partial") {
+            fs::remove_file(entry.path())?;
+        }
+    }
+    Ok(())
 }
 
 #[cfg(test)]
