@@ -29,8 +29,16 @@ pub struct Limits {
 
 /// How far the tip goes on after a limit was passed.
 ///
-/// The tip moves in segments, each followed by a look at force and pose, so that what is passed in a segment is seen at its end. A
-/// signal that froze is believed for [`FROZEN_READINGS`](crate::FROZEN_READINGS) segments.
+/// A tip that moves at v while force is read every t_sample, sent in t_link and answered in t_react goes on by
+/// v·(t_sample + t_link + t_react) + v²/2a. Here it moves in segments of length s = v·15 ms and rests after each until it has seen a force
+/// and a pose that were true no earlier, so that no latency is in the way that it makes: a link may take until the force counts as silent,
+/// and the tip goes no further.
+///
+/// - With healthy signals the look before a segment showed no limit passed, and the look after it does: s + v²/2a.
+/// - A force that froze was true before the first segment that it hides, and
+///   [`FROZEN_READINGS`](crate::FROZEN_READINGS) = n equal readings later it halts: n·s + v²/2a.
+///
+/// In force it is that length times the stiffness of the gel, and what the noise of the transducer hides.
 ///
 /// # Units
 /// mm.
@@ -52,15 +60,14 @@ pub const FROZEN_READINGS: u32 = 8;
 const DECELERATION_MM_S2: f64 = 1_000.0;
 
 impl Overshoot {
-    /// The overshoot at the speed of contact (hardware: v·(t_sample + t_link + t_react) + v²/2a, with the times in the segment).
+    /// The overshoot at the speed of contact.
     pub(crate) fn at(speed_mm_s: f64) -> Overshoot {
         let segment_mm = speed_mm_s * SEGMENT_S;
         let braking_mm = speed_mm_s * speed_mm_s / (2.0 * DECELERATION_MM_S2);
-        let healthy_mm = segment_mm + braking_mm;
         Overshoot {
             segment_mm,
-            healthy_mm,
-            frozen_mm: f64::from(FROZEN_READINGS) * segment_mm + healthy_mm,
+            healthy_mm: segment_mm + braking_mm,
+            frozen_mm: f64::from(FROZEN_READINGS) * segment_mm + braking_mm,
         }
     }
 }

@@ -18,8 +18,10 @@ use crate::plan::Plan;
 
 /// A transducer that says nothing for so long is asked again, until the supervisor calls it silent.
 const READ_DEADLINE: Duration = Duration::from_millis(20);
+/// Before a transducer that said what was true too early is asked again.
+const LATE_REST: Duration = Duration::from_millis(1);
 /// Questions in a row that remain without answer, should the clock stand still.
-const READ_TRIES: u32 = 16;
+const READ_TRIES: u32 = 64;
 /// For everything that is no motion.
 pub(super) const DEADLINE: Deadline = Deadline::after(Duration::from_secs(2));
 /// Segments that a motion may take beyond twice those of its way, before the robot counts as stuck.
@@ -272,12 +274,20 @@ impl<'a> Tip<'a> {
         })
     }
 
+    /// The force as it was when it was asked for, or later.
+    ///
+    /// The tip rests meanwhile, so that links and filters that deliver late cost time and no way: what they still hold of before the end
+    /// of the last motion is shown to the supervisor, and the next reading awaited.
     fn read_force(&mut self) -> Step<(taceva_core::Wrench, f64)> {
+        let asked_s = self.clock.now_s();
         for _ in 0..READ_TRIES {
             match self.force.read(Deadline::after(READ_DEADLINE)) {
                 Ok((wrench, stamp)) => {
                     self.show(&Observation::Force(wrench, stamp))?;
-                    return Ok((wrench, stamp.valid_s));
+                    if stamp.valid_s >= asked_s {
+                        return Ok((wrench, stamp.valid_s));
+                    }
+                    self.clock.rest(LATE_REST);
                 }
                 Err(error) if error.kind() == ErrorKind::Timeout => {
                     self.show(&Observation::Silence)?
@@ -293,7 +303,7 @@ impl<'a> Tip<'a> {
                 }
             }
         }
-        let age_s = READ_DEADLINE.as_secs_f64() * f64::from(READ_TRIES);
+        let age_s = self.clock.now_s() - asked_s;
         let trip = self.supervisor.trip(Trip::StaleForce { age_s });
         Err(StopCause::Tripped(trip))
     }

@@ -19,7 +19,7 @@ pub enum FaultKind {
     StaleStamps,
     /// The camera loses frames, or hands out old ones.
     DroppedFrames,
-    /// Every call takes longer.
+    /// Every call takes longer, and readings of force wait in buffers.
     SlowLink,
     /// The robot says it moved, and did not.
     StuckRobot,

@@ -99,6 +99,8 @@ impl Checks {
 
 /// The hazard of a transducer that says nothing.
 pub(super) const SILENCE: &str = "a silent transducer";
+/// The hazard of a gel that is pressed too hard.
+pub(super) const TOO_HARD: &str = "a force beyond the limit";
 
 /// What the judge must know of the rig to say what was stated.
 #[derive(Clone, Copy, Debug)]
@@ -136,11 +138,26 @@ impl Stated {
 /// Noise is uniform within its span, so that none of it is beyond.
 const NOISE_SPAN: f64 = 1.0;
 
+/// Where a motion ended.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Ended {
+    /// True indentation.
+    pub(super) depth_mm: f64,
+    /// True force.
+    pub(super) force_n: f64,
+    /// Whether it ended deeper than it began.
+    pub(super) is_inward: bool,
+    /// Whether the last reading before it showed an old force.
+    pub(super) is_frozen: bool,
+}
+
 /// Watches the world.
 #[derive(Clone, Debug)]
 pub(super) struct Judge {
     stated: Stated,
     hazard: Option<(&'static str, f64)>,
+    /// Whether the limit of force was passed while the transducer did not show it.
+    overlooked: bool,
     pub(super) violations: Vec<Violation>,
     pub(super) checks: Checks,
 }
@@ -150,15 +167,22 @@ impl Judge {
         Judge {
             stated,
             hazard: None,
+            overlooked: false,
             violations: Vec::new(),
             checks: Checks::default(),
         }
     }
 
-    /// The tip came to rest with this true indentation and force; `frozen` if the transducer showed an old force meanwhile.
-    pub(super) fn moved(&mut self, depth_mm: f64, force_n: f64, frozen: bool) {
+    /// A motion ended.
+    ///
+    /// What is stated is how far the tip goes on beyond a limit, so that it is at the end of a motion inward that it can be passed. From
+    /// there the tip comes out step by step, still beyond the limit for a while: that is no second trespass.
+    pub(super) fn moved(&mut self, ended: Ended) {
+        let Ended {
+            depth_mm, force_n, ..
+        } = ended;
         let stated = &self.stated;
-        let overshoot_mm = if frozen {
+        let overshoot_mm = if ended.is_frozen {
             stated.frozen_mm
         } else {
             stated.healthy_mm
@@ -167,6 +191,9 @@ impl Judge {
         let bound_n = stated.normal_max_n
             + NOISE_SPAN * stated.noise_n
             + stated.stiffness_n_mm * overshoot_mm;
+        if !ended.is_inward {
+            return;
+        }
         self.checks.motions += 1;
         self.checks.greatest_force = self.checks.greatest_force.max(force_n / bound_n);
         if depth_mm > bound_mm {
@@ -184,9 +211,16 @@ impl Judge {
         self.hazard.get_or_insert((hazard, since_s));
     }
 
-    /// The transducer fell silent: whatever its next reading would have shown, the silence is what there is to answer.
-    pub(super) fn hushed(&mut self) {
-        self.hazard.take_if(|(hazard, _)| *hazard != SILENCE);
+    /// The limit of force was passed while the transducer showed an old force.
+    pub(super) fn overlooked(&mut self) {
+        self.overlooked = true;
+    }
+
+    /// The transducer does not show what is, by silence or by an old force: nobody can answer a force that it does not show. How far the
+    /// tip may go meanwhile is bounded all the same, and the silence is a hazard of its own.
+    pub(super) fn blinded(&mut self) {
+        let unseen = self.hazard.take_if(|(hazard, _)| *hazard == TOO_HARD);
+        self.overlooked |= unseen.is_some();
     }
 
     /// The transducer speaks again: a silence that was shorter than a stale reading was none.
@@ -194,8 +228,14 @@ impl Judge {
         self.hazard.take_if(|(hazard, _)| *hazard == SILENCE);
     }
 
+    /// The transducer shows the true force of the resting tip. Whether the limit was passed unseen, which must be answered from now on.
+    pub(super) fn sighted(&mut self) -> bool {
+        std::mem::take(&mut self.overlooked)
+    }
+
     /// A halt reached the robot.
     pub(super) fn halted(&mut self, now_s: f64) {
+        self.overlooked = false;
         if let Some((hazard, since_s)) = self.hazard.take() {
             let after_s = now_s - since_s;
             self.checks.halts += 1;
@@ -226,5 +266,6 @@ impl Judge {
     /// The process is gone: nobody is left to answer, and the tip rests at the end of its segment.
     pub(super) fn killed(&mut self) {
         self.hazard = None;
+        self.overlooked = false;
     }
 }

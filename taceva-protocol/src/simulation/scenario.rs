@@ -200,7 +200,7 @@ fn repair(shared: &Shared, left: Left) {
     world.pass(REPAIR_S);
     world.halted = false;
     if left == Left::InPlace {
-        world.tip[2] = -2.0;
+        world.lift();
     }
 }
 

@@ -195,6 +195,23 @@ fn a_press_that_reaches_the_limit_of_force_ends_there_and_the_run_goes_on() {
 }
 
 #[test]
+fn a_force_that_comes_late_costs_time_and_no_way() {
+    let mut bench = Bench::new(Gel {
+        noise_n: 0.000_1,
+        ..HARD
+    });
+    bench.shared.world().faults = Faults::always(FaultKind::SlowLink);
+    let mut log = Memory::default();
+    let report = bench
+        .run(Mode::Acquire, &mut log)
+        .expect("slow is no fault");
+    assert!(report.limited > 0);
+    assert_eq!(bench.shared.world().judge.violations, []);
+    let checks = bench.shared.world().judge.checks;
+    assert!(checks.greatest_force > 0.97, "{checks:?}");
+}
+
+#[test]
 fn a_wish_to_stop_leaves_the_tip_above_the_gel() {
     let mut bench = Bench::new(SOFT);
     bench.cancel.cancel();

@@ -3,7 +3,7 @@
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use super::fault::{FaultKind, Faults, fraction};
-use super::judge::{Judge, SILENCE};
+use super::judge::{Ended, Judge, SILENCE, TOO_HARD};
 use crate::draw::Draws;
 use crate::run::{Cancel, Timekeeper};
 
@@ -21,6 +21,8 @@ pub(super) struct Gel {
 /// How a call to a device travels, in s each way.
 const LINK_S: f64 = 0.000_5;
 const SLOW_LINK_S: f64 = 0.004;
+/// How long readings of force wait in the buffers of a slow link, in s; their stamps are true.
+const LAG_S: f64 = 0.015;
 /// From one reading of the transducer to the next, in s.
 const READING_S: f64 = 0.005;
 /// From one frame to the next, in s.
@@ -28,10 +30,31 @@ const FRAME_S: f64 = 0.02;
 /// How old readings are while their stamps are stale, in s.
 const STALE_S: f64 = 0.12;
 
+/// The last motion of the tip.
+#[derive(Clone, Copy, Debug)]
+struct Motion {
+    from: [f64; 3],
+    to: [f64; 3],
+    start_s: f64,
+    end_s: f64,
+}
+
+impl Motion {
+    /// Where the tip was; before this motion, where it began.
+    fn tip_at(&self, at_s: f64) -> [f64; 3] {
+        if at_s >= self.end_s {
+            return self.to;
+        }
+        let part = ((at_s - self.start_s) / (self.end_s - self.start_s)).max(0.0);
+        [0, 1, 2].map(|axis| self.from[axis] + (self.to[axis] - self.from[axis]) * part)
+    }
+}
+
 /// Everything there is.
 pub(super) struct World {
     pub(super) now_s: f64,
     pub(super) tip: [f64; 3],
+    motion: Motion,
     pub(super) halted: bool,
     pub(super) gel: Gel,
     pub(super) judge: Judge,
@@ -74,10 +97,17 @@ pub(super) struct Killed;
 
 impl Shared {
     pub(super) fn new(gel: Gel, judge: Judge, faults: Faults, draws: Draws) -> Shared {
+        // Parked beside the gel and above it.
+        let parked = [30.0, 5.0, -8.0];
         Shared(Arc::new(Mutex::new(World {
             now_s: 0.0,
-            // Parked beside the gel and above it.
-            tip: [30.0, 5.0, -8.0],
+            tip: parked,
+            motion: Motion {
+                from: parked,
+                to: parked,
+                start_s: 0.0,
+                end_s: 0.0,
+            },
             halted: false,
             gel,
             judge,
@@ -139,6 +169,18 @@ impl World {
         self.listening_s = None;
     }
 
+    /// A person brings the tip above the gel.
+    pub(super) fn lift(&mut self) {
+        self.tip[2] = -2.0;
+        let (tip, now_s) = (self.tip, self.now_s);
+        self.motion = Motion {
+            from: tip,
+            to: tip,
+            start_s: now_s,
+            end_s: now_s,
+        };
+    }
+
     /// From `since_s` on the robot must be halted; one that is halted already needs no halt.
     fn hazard(&mut self, hazard: &'static str, since_s: f64) {
         if !self.halted {
@@ -176,21 +218,35 @@ impl World {
             .sqrt();
         let seconds = way / speed_mm_s;
         let start_s = self.now_s;
+        let depth_before_mm = self.depth(from);
         let stuck = self.faults.strike(FaultKind::StuckRobot, start_s);
         if !stuck {
             let (before, after) = (self.force(from), self.force(target));
             // Beyond the noise the next reading cannot but show it.
             let bound = self.gel.normal_max_n + self.gel.noise_n;
-            let inward = after > before;
-            if inward && after > bound && !self.frozen {
+            let passes = after > before && after > bound;
+            if passes && self.frozen {
+                self.judge.overlooked();
+            } else if passes {
                 let part = ((bound - before) / (after - before)).max(0.0);
-                self.hazard("a force beyond the limit", start_s + part * seconds);
+                self.hazard(TOO_HARD, start_s + part * seconds);
             }
             self.tip = target;
         }
         self.pass(seconds);
-        let (depth, force) = (self.depth(self.tip), self.force(self.tip));
-        self.judge.moved(depth, force, self.frozen);
+        self.motion = Motion {
+            from,
+            to: self.tip,
+            start_s,
+            end_s: self.now_s,
+        };
+        let (depth_mm, force_n) = (self.depth(self.tip), self.force(self.tip));
+        self.judge.moved(Ended {
+            depth_mm,
+            force_n,
+            is_inward: depth_mm > depth_before_mm,
+            is_frozen: self.frozen,
+        });
     }
 
     /// Waits for the next reading of force; `None` if none comes within `deadline_s`.
@@ -198,7 +254,7 @@ impl World {
         if self.faults.strike(FaultKind::Silence, self.now_s) {
             let listening_s = *self.listening_s.get_or_insert(self.now_s);
             // What the force is, nobody can know until it speaks; the tip rests meanwhile.
-            self.judge.hushed();
+            self.judge.blinded();
             self.hazard(SILENCE, listening_s + STALE_AFTER_S);
             self.pass(deadline_s);
             return None;
@@ -212,12 +268,18 @@ impl World {
             let part = fraction(self.draws, [self.readings, axis]);
             self.gel.noise_n * (2.0 * part - 1.0)
         };
-        let normal = self.force(self.tip) - self.zero_n;
+        let is_slow = self.faults.strike(FaultKind::SlowLink, self.now_s);
+        let mut valid_s = self.now_s - if is_slow { LAG_S } else { 0.0 };
+        let normal = self.force(self.motion.tip_at(valid_s)) - self.zero_n;
         let mut force = [noise(0), noise(1), normal + noise(2)];
-        let mut valid_s = self.now_s;
         self.frozen = self.faults.strike(FaultKind::Freeze, self.now_s);
         if let (true, Some(last)) = (self.frozen, self.last_force) {
             force = last;
+        }
+        if self.frozen {
+            self.judge.blinded();
+        } else if valid_s >= self.motion.end_s && self.judge.sighted() {
+            self.hazard(TOO_HARD, self.now_s);
         }
         self.last_force = Some(force);
         if self.faults.strike(FaultKind::NotANumber, self.now_s) {

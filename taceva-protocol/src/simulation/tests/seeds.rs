@@ -33,6 +33,17 @@ fn five_hundred_seeds_pass_without_a_violation_and_strike_with_every_fault() {
     assert!(checks.slowest_halt_s <= HALT_WITHIN_S);
 }
 
+/// Seeds in which the limit of force was passed under a signal that froze: they tell a tip that comes out from one that goes in, and a
+/// force that nobody could see from one that nobody answered.
+#[test]
+fn the_limit_is_passed_under_a_frozen_signal_by_no_more_than_is_stated() {
+    for seed in [3074, 4881, 8150, 8592, 9366] {
+        let report = simulate(seed);
+        assert_eq!(report.violations, [], "seed {seed}");
+        assert!(report.struck.of(FaultKind::Freeze) > 0, "seed {seed}");
+    }
+}
+
 #[test]
 fn a_seed_is_the_same_run_every_time() {
     for seed in [3, 17, 42] {
