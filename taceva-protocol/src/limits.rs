@@ -1,6 +1,6 @@
 //! The limits of a rig: the tightest that anybody states. Nothing switches them off, nothing loosens them.
 
-use taceva_core::{DriverSource, Millimetre, Newton};
+use taceva_core::{DriverSource, Millimetre, Newton, Wrench};
 
 use crate::scene::{LimitSpec, Scene, SceneError, SceneProblem, Setting, Study};
 use crate::source::RigInfo;
@@ -69,6 +69,16 @@ impl Overshoot {
             healthy_mm: segment_mm + braking_mm,
             frozen_mm: f64::from(FROZEN_READINGS) * segment_mm + braking_mm,
         }
+    }
+}
+
+impl Limits {
+    /// Whether a tip may rest at this depth under this force.
+    pub(crate) fn hold(&self, depth_mm: f64, wrench: &Wrench) -> bool {
+        let [x, y, z] = wrench.force.map(|force| force.0);
+        depth_mm <= self.depth_max.0 + self.overshoot.healthy_mm
+            && z.abs() <= self.normal_max.0
+            && x.hypot(y) <= self.shear_max.0
     }
 }
 

@@ -1,7 +1,7 @@
 //! Runs a plan on borrowed devices: safely, resumably, and without a clock or a file of its own.
 //!
 //! A press is an approach, a search for contact, its stations and a retreat. In contact the tip moves in segments of 15 ms; after each,
-//! force and pose are read and shown to the [`Supervisor`]. A limit of the gel ends the press and the run goes on; anything else stops it,
+//! force and pose are read and shown to the [`Supervisor`]. A limit of the gel ends the way in and the run goes on; anything else stops it,
 //! the tip leaves the gel if its signals can be trusted, and the same call resumes the run.
 
 mod align;
@@ -9,6 +9,7 @@ mod bounds;
 mod devices;
 mod error;
 mod event;
+mod indent;
 mod log;
 mod retreat;
 mod station;
@@ -28,7 +29,7 @@ pub use trip::Trip;
 #[cfg(feature = "simulation")]
 pub(crate) use supervisor::STALE_S;
 
-use taceva_core::{Degree, Lighting, Millimetre, Nanometre, Sample, Sensor};
+use taceva_core::{Degree, Lighting, Millimetre, Nanometre, Sensor};
 
 use crate::digest::Digest;
 use crate::plan::{Plan, PlannedPress};
@@ -36,7 +37,7 @@ use crate::press::Motion;
 use crate::specimen::Specimen;
 use align::Look;
 use bounds::Bounds;
-use station::Camera;
+use station::{Camera, Gathered, Spot};
 use tip::{DEADLINE, Pace, Step, Tip};
 
 /// What is run.
@@ -246,8 +247,8 @@ impl<'a> Run<'a> {
     /// One press, from the height of travel and back to it.
     fn acquire(&mut self, planned: &PlannedPress) -> Step<PressRecord> {
         self.prepare(planned)?;
-        let mut samples = Vec::with_capacity(planned.press.samples());
-        let outcome = match self.press(planned, &mut samples) {
+        let mut gathered = Gathered::default();
+        let outcome = match self.press(planned, &mut gathered) {
             Ok(outcome) => outcome,
             Err(StopCause::Tripped(trip)) if trip.is_limit() => {
                 (self.events)(&Event::Halted(trip));
@@ -262,7 +263,8 @@ impl<'a> Run<'a> {
         Ok(PressRecord {
             press: planned.id,
             outcome,
-            samples,
+            samples: gathered.samples,
+            limited: gathered.limited,
         })
     }
 
@@ -325,12 +327,12 @@ impl<'a> Run<'a> {
     }
 
     /// What happens between the approach and the retreat.
-    fn press(&mut self, planned: &PlannedPress, samples: &mut Vec<Sample>) -> Step<Outcome> {
+    fn press(&mut self, planned: &PlannedPress, gathered: &mut Gathered) -> Step<Outcome> {
         let press = &planned.press;
         if let Motion::Rest { frames } = press.motion {
             let mut before = self.tip.settle()?;
             for number in 0..frames {
-                self.sample(planned, (number, 0.0), before, samples)?;
+                self.sample(planned, Spot::reached(number, 0.0), before, gathered)?;
                 // No rest between: the pictures come as fast as the sensor gives them.
                 before = self.tip.look()?;
             }
@@ -343,40 +345,31 @@ impl<'a> Run<'a> {
         let height = Millimetre(height_mm);
         (self.events)(&Event::Contact { height });
         match &press.motion {
-            Motion::Indent(stations) => {
-                for (number, station) in (0..).zip(stations) {
-                    let target = Tip::station(press.place, station.shear, height_mm, station.depth);
-                    self.tip.approach(target)?;
-                    let rested = self.tip.settle()?;
-                    self.sample(planned, (number, height_mm), rested, samples)?;
-                }
-            }
+            Motion::Indent(_) => self.indent(planned, height_mm, gathered),
             Motion::Touch | Motion::Rest { .. } => {
                 let rested = self.tip.settle()?;
-                self.sample(planned, (0, 0.0), rested, samples)?;
+                self.sample(planned, Spot::reached(0, 0.0), rested, gathered)?;
+                Ok(Outcome::Complete)
             }
         }
-        Ok(Outcome::Complete)
     }
 
     fn sample(
         &mut self,
         planned: &PlannedPress,
-        (number, zero_mm): (u32, f64),
+        spot: Spot,
         before: Look,
-        samples: &mut Vec<Sample>,
+        gathered: &mut Gathered,
     ) -> Step<()> {
         let camera = self.camera.as_mut().filter(|_| planned.frames);
         let observed = station::observe(before, &mut self.tip, camera, self.events)?;
-        samples.push(station::sample(
-            planned,
-            number,
-            zero_mm,
-            observed,
-            &self.plan.channels,
-        ));
+        let sample = station::sample(planned, spot, observed, &self.plan.channels);
+        if spot.is_limited {
+            gathered.limited.push(spot.number);
+        }
+        gathered.samples.push(sample);
         (self.events)(&Event::Sampled {
-            number: samples.len() - 1,
+            number: gathered.samples.len() - 1,
         });
         Ok(())
     }

@@ -23,11 +23,15 @@ pub struct PressRecord {
     pub press: Digest,
     /// How it ended.
     pub outcome: Outcome,
-    /// Its samples in order, called `<press>/<number>`.
+    /// Its samples in order, called `<press>/<number>`, where the number is that of the station or picture in the press: those that a
+    /// limited press left out are not there.
     ///
     /// Truth is in the channels of the plan, in its order. `Pz` is the depth from the first contact, `surface_z` the height in the
     /// sensor's frame at which a surface was felt, positive into the gel; each is absent where the other is meant.
     pub samples: Vec<Sample>,
+    /// The numbers of the samples that were taken where a limit of the gel stopped the tip on its way to the station: their labels and
+    /// pictures are of the place that was reached, and they have no `depth_step`.
+    pub limited: Vec<u32>,
 }
 
 /// How a press ended.
@@ -36,7 +40,8 @@ pub struct PressRecord {
 pub enum Outcome {
     /// Every station was visited.
     Complete,
-    /// A limit of depth or force ended it; the samples are those before.
+    /// A limit of depth or force ended the way in. The station that was not reached has its sample where the tip rests within the limits;
+    /// stations beyond are left out, and those of the way out are visited.
     Limited,
     /// Nothing was touched as far down as the search goes.
     NoContact,

@@ -16,18 +16,7 @@ const RECOVERY_REST: Duration = Duration::from_millis(20);
 impl Tip<'_> {
     /// Leaves the gel along the way it came, under watch, up to the height of travel.
     pub(super) fn retreat(&mut self) -> Step<()> {
-        self.clear_halt()?;
-        self.find_pose()?;
-        let now_s = self.clock.now_s();
-        self.supervisor.watch(
-            Stage::Retreat {
-                force_n: f64::INFINITY,
-            },
-            now_s,
-        );
-        let force_n = self.look()?.wrench.force[2].0;
-        let now_s = self.clock.now_s();
-        self.supervisor.watch(Stage::Retreat { force_n }, now_s);
+        self.turn_back()?;
         let Point { x, y, z } = self.target.position;
         let height = -self.pace.clearance_mm;
         let air = self
@@ -43,6 +32,42 @@ impl Tip<'_> {
         };
         self.go(up, self.pace.travel)?;
         self.contact_mm = None;
+        Ok(())
+    }
+
+    /// After a halt at a limit: goes straight up, segment by segment, until a limit no longer keeps it from resting; at most to the height
+    /// of the first contact. From there the press is watched again.
+    pub(super) fn draw_back(&mut self, height_mm: f64) -> Step<()> {
+        self.turn_back()?;
+        loop {
+            let Point { x, y, z } = self.at.position;
+            let up = (z.0 - self.pace.segment_mm).max(height_mm);
+            self.approach([x.0, y.0, up])?;
+            let wrench = self.look()?.wrench;
+            let depth_mm = self.at.position.z.0 - height_mm;
+            if up <= height_mm || self.supervisor.lets_rest(depth_mm, &wrench) {
+                break;
+            }
+        }
+        let now_s = self.clock.now_s();
+        self.supervisor.watch(Stage::Press { height_mm }, now_s);
+        Ok(())
+    }
+
+    /// Ends a halt, and begins to watch that the force does not rise above what it is now.
+    fn turn_back(&mut self) -> Step<()> {
+        self.clear_halt()?;
+        self.find_pose()?;
+        let now_s = self.clock.now_s();
+        self.supervisor.watch(
+            Stage::Retreat {
+                force_n: f64::INFINITY,
+            },
+            now_s,
+        );
+        let force_n = self.look()?.wrench.force[2].0;
+        let now_s = self.clock.now_s();
+        self.supervisor.watch(Stage::Retreat { force_n }, now_s);
         Ok(())
     }
 

@@ -109,11 +109,40 @@ pub(super) fn observe(
     })
 }
 
-/// The sample number `number` of a press whose depths count from `zero_mm`; channels that nobody measures are absent.
+/// Which sample of a press is taken.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Spot {
+    /// Its number: that of its station, or of its picture.
+    pub(super) number: u32,
+    /// The height from which depths count, in mm.
+    pub(super) zero_mm: f64,
+    /// Whether a limit of the gel kept the tip from the station.
+    pub(super) is_limited: bool,
+}
+
+impl Spot {
+    /// A sample of a place that was reached.
+    pub(super) fn reached(number: u32, zero_mm: f64) -> Spot {
+        Spot {
+            number,
+            zero_mm,
+            is_limited: false,
+        }
+    }
+}
+
+/// What a press has given so far.
+#[derive(Debug, Default)]
+pub(super) struct Gathered {
+    pub(super) samples: Vec<Sample>,
+    /// The numbers of those that a limit of the gel kept from their station.
+    pub(super) limited: Vec<u32>,
+}
+
+/// The sample of `spot`; channels that nobody measures are absent.
 pub(super) fn sample(
     planned: &PlannedPress,
-    number: u32,
-    zero_mm: f64,
+    spot: Spot,
     observed: Observed,
     channels: &[String],
 ) -> Sample {
@@ -125,7 +154,7 @@ pub(super) fn sample(
     let truth = channels.iter().map(|name| match name.as_str() {
         "Px" => Some(position.x.0),
         "Py" => Some(position.y.0),
-        "Pz" => is_press.then_some(position.z.0 - zero_mm),
+        "Pz" => is_press.then_some(position.z.0 - spot.zero_mm),
         "Fx" => Some(fx),
         "Fy" => Some(fy),
         "Fz" => Some(fz),
@@ -136,15 +165,16 @@ pub(super) fn sample(
         Specimen::Sphere { .. } => (None, None),
         Specimen::Grating { kind, spacing } => (Some(kind), Some(spacing)),
     };
-    let station = usize::try_from(number)
+    let station = usize::try_from(spot.number)
         .ok()
         .and_then(|number| press.stations().get(number));
     Sample {
-        id: format!("{}/{number}", planned.id),
+        id: format!("{}/{}", planned.id, spot.number),
         unit_id: Some(press.unit.clone()),
         scene_id: press.light.clone(),
         point_id: Some(press.point_id()),
-        depth_step: station.map(|_| number),
+        // A depth at which a limit stopped the tip is no level that repeats share.
+        depth_step: station.filter(|_| !spot.is_limited).map(|_| spot.number),
         repeat: press.repeat,
         phase: station.map(|station| station.phase),
         stamp: Some(observed.stamp),

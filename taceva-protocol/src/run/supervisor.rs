@@ -102,6 +102,11 @@ impl Supervisor {
         }
     }
 
+    /// Whether the tip may rest at this depth under this force.
+    pub(super) fn lets_rest(&self, depth_mm: f64, wrench: &Wrench) -> bool {
+        self.limits.hold(depth_mm, wrench)
+    }
+
     /// What it halted for, if it did.
     pub fn tripped(&self) -> Option<Trip> {
         self.tripped

@@ -56,7 +56,7 @@ pub(super) struct Tip<'a> {
 pub(super) struct Pace {
     contact: Speed,
     pub(super) travel: Speed,
-    segment_mm: f64,
+    pub(super) segment_mm: f64,
     step_mm: f64,
     search_mm: f64,
     settle: Duration,

@@ -123,7 +123,12 @@ impl Faults {
             let part = |place| fraction(draws, [number, place]);
             let from_s = part(1) * span_s;
             // From a glitch of one reading to two seconds, short ones as likely as long ones.
-            let until_s = from_s + 0.005 * 400_f64.powf(part(2));
+            let rarely_s = match kind {
+                // A frame is taken now and then; whatever shorter falls between two strikes nothing.
+                FaultKind::DroppedFrames => 2.0,
+                _ => 0.0,
+            };
+            let until_s = from_s + rarely_s + 0.005 * 400_f64.powf(part(2));
             Fault {
                 kind,
                 from_s,

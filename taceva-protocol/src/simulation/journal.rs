@@ -25,6 +25,8 @@ pub(super) struct EntrySample {
     pub(super) force_n: f64,
     /// Time, height and force as the frame shows them.
     pub(super) frame: Option<[f64; 3]>,
+    /// Whether a limit kept the tip from the station.
+    pub(super) is_limited: bool,
 }
 
 /// The log.
@@ -78,7 +80,7 @@ pub(super) fn entries(bytes: &[u8]) -> (Vec<Entry>, usize) {
 }
 
 const HEAD: usize = 12;
-const SAMPLE: usize = 52;
+const SAMPLE: usize = 53;
 
 fn first_entry(bytes: &[u8]) -> Option<(Entry, usize)> {
     let length = u32::from_le_bytes(bytes.get(..4)?.try_into().ok()?);
@@ -101,7 +103,8 @@ fn encode(record: &PressRecord) -> Result<Vec<u8>, SinkError> {
             .id
             .split_once('/')
             .ok_or("a sample without a number")?;
-        payload.extend(number.parse::<u32>()?.to_le_bytes());
+        let number = number.parse::<u32>()?;
+        payload.extend(number.to_le_bytes());
         let truth = |place| sample.truth.get(place).unwrap_or(f64::NAN);
         let stamp_s = sample.stamp.map_or(f64::NAN, |stamp| stamp.valid_s);
         for value in [stamp_s, truth(2), truth(5)] {
@@ -111,6 +114,7 @@ fn encode(record: &PressRecord) -> Result<Vec<u8>, SinkError> {
             Some(frame) => payload.extend(frame.bytes()),
             None => payload.extend([0xff; 24]),
         }
+        payload.push(u8::from(record.limited.contains(&number)));
     }
     Ok(payload)
 }
@@ -131,6 +135,7 @@ fn decode(payload: &[u8]) -> Option<Entry> {
             depth_mm: value(12)?,
             force_n: value(20)?,
             frame: frame[0].is_finite().then_some(frame),
+            is_limited: *sample.get(52)? == 1,
         })
     });
     Some(Entry {

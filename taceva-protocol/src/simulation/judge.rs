@@ -13,7 +13,7 @@ pub const HALT_WITHIN_S: f64 = 0.05;
 pub enum Violation {
     /// Deeper than the limit and the stated overshoot.
     TooDeep {
-        /// How deep, in mm of true indentation.
+        /// How deep, in mm below the true first contact.
         depth_mm: f64,
         /// The most that is allowed.
         bound_mm: f64,
@@ -141,11 +141,11 @@ const NOISE_SPAN: f64 = 1.0;
 /// Where a motion ended.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Ended {
-    /// True indentation.
+    /// How far below the surface where it was touched.
     pub(super) depth_mm: f64,
     /// True force.
     pub(super) force_n: f64,
-    /// Whether it ended deeper than it began.
+    /// Whether the gel was more indented at its end.
     pub(super) is_inward: bool,
     /// Whether the last reading before it showed an old force.
     pub(super) is_frozen: bool,

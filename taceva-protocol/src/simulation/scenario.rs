@@ -5,17 +5,17 @@ use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 
 use taceva_core::{
     Axes, Descriptor, DescriptorSpec, DriverKey, DriverSource, Facts, Field, FieldSet, Footprint,
-    ForceFacts, Hertz, Newton, RobotFacts, SensorFacts,
+    ForceFacts, Hertz, Newton, Phase, RobotFacts, SensorFacts,
 };
 
 use super::devices::{FRAME, SimulatedForce, SimulatedRobot, SimulatedSensor};
 use super::disk::Disk;
 use super::fault::{FaultCounts, Faults, fraction};
-use super::journal::{Entry, Journal, entries};
+use super::journal::{Entry, EntrySample, Journal, entries};
 use super::judge::{Checks, Judge, Stated, Violation};
 use super::world::{Gel, Killed, Sabotage, Shared};
 use crate::draw::Draws;
-use crate::plan::{MetricNeeds, Plan, plan_study};
+use crate::plan::{MetricNeeds, Plan, PlannedPress, plan_study};
 use crate::press::Motion;
 use crate::run::{Cancel, Controls, Devices, Left, Mode, Outcome, RunError, RunSpec, run};
 use crate::scene::{Scene, SceneError};
@@ -235,6 +235,29 @@ fn judge_log(plan: &Plan, kept: &[Entry], acknowledged: &[crate::Digest], gel: &
     found
 }
 
+/// A press whose way out has not the stations of its way in, although it was planned so. One may lack: a limit just below a station leaves
+/// its way in with two samples nearly as deep.
+fn one_sided(planned: &PlannedPress, entry: &Entry) -> Option<Violation> {
+    let stations = planned.press.stations();
+    let on_way_out = |sample: &&EntrySample| {
+        let station = usize::try_from(sample.number).ok();
+        let station = station.and_then(|number| stations.get(number));
+        station.is_some_and(|station| station.phase == Phase::Unload)
+    };
+    let comes_out = stations
+        .iter()
+        .any(|station| station.phase == Phase::Unload);
+    let samples = entry.samples.len();
+    let out = entry.samples.iter().filter(on_way_out).count();
+    (comes_out && !(2 * out..=2 * out + 1).contains(&samples)).then(|| {
+        let what = format!(
+            "{} has {out} samples of {samples} on its way out",
+            entry.press
+        );
+        Violation::Untrue(what)
+    })
+}
+
 /// What was acknowledged and is not in the file any more: a press that is made again was lost all the same.
 fn missing(file: &[u8], acknowledged: &[crate::Digest]) -> Vec<Violation> {
     let (kept, _) = entries(file);
@@ -259,31 +282,47 @@ impl Found {
         };
         let samples = entry.samples.len();
         let whole = samples == planned.press.samples();
+        let limited = entry.samples.iter().filter(|sample| sample.is_limited);
         let fits = match entry.outcome {
-            Outcome::Complete => whole,
-            Outcome::Limited => !whole,
+            Outcome::Complete => whole && limited.count() == 0,
+            // Without a sample the limit was reached in the search.
+            Outcome::Limited => samples == 0 || limited.count() > 0,
             Outcome::NoContact => false,
         };
-        let in_order = (0..)
-            .zip(&entry.samples)
-            .all(|(number, sample)| sample.number == number);
+        let numbers = entry.samples.iter().map(|sample| sample.number);
+        let in_order = match entry.outcome {
+            Outcome::Complete => numbers.eq(0..u32::try_from(samples).unwrap_or(u32::MAX)),
+            _ => numbers.is_sorted_by(|one, next| one < next),
+        };
         if !fits || !in_order {
             let what = format!("{name} ended as {:?} with {samples} samples", entry.outcome);
             self.violations.push(Violation::Invented(what));
         }
+        self.violations.extend(one_sided(planned, entry));
         let stations = planned.press.stations();
         let mut height = None;
-        for (place, sample) in entry.samples.iter().enumerate() {
+        for sample in &entry.samples {
+            let place = sample.number;
             self.samples += 1;
             let mut untrue = |what: String| self.violations.push(Violation::Untrue(what));
-            if let Some(station) = stations.get(place) {
+            let station = usize::try_from(place)
+                .ok()
+                .and_then(|place| stations.get(place));
+            if let Some(station) = station {
                 let depth_mm = station.depth.to_millimetres();
-                if (sample.depth_mm - depth_mm).abs() > LAG_MM {
+                let off_mm = sample.depth_mm - depth_mm;
+                if off_mm > LAG_MM || (off_mm < -LAG_MM && !sample.is_limited) {
                     untrue(format!(
                         "{name}/{place} is {} mm deep, not {depth_mm}",
                         sample.depth_mm
                     ));
                 }
+            }
+            if sample.is_limited && sample.force_n > gel.normal_max_n + gel.noise_n {
+                untrue(format!(
+                    "{name}/{place} rests at {} N, beyond the limit",
+                    sample.force_n
+                ));
             }
             if sample.frame.is_some() != planned.frames {
                 untrue(format!("{name}/{place} has a frame or lacks one"));

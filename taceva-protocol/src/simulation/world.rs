@@ -55,6 +55,8 @@ pub(super) struct World {
     pub(super) now_s: f64,
     pub(super) tip: [f64; 3],
     motion: Motion,
+    /// Where the gel was touched, while it is: the surface is uneven, and depth counts from there.
+    touched: Option<[f64; 2]>,
     pub(super) halted: bool,
     pub(super) gel: Gel,
     pub(super) judge: Judge,
@@ -108,6 +110,7 @@ impl Shared {
                 start_s: 0.0,
                 end_s: 0.0,
             },
+            touched: None,
             halted: false,
             gel,
             judge,
@@ -172,6 +175,7 @@ impl World {
     /// A person brings the tip above the gel.
     pub(super) fn lift(&mut self) {
         self.tip[2] = -2.0;
+        self.touched = None;
         let (tip, now_s) = (self.tip, self.now_s);
         self.motion = Motion {
             from: tip,
@@ -218,7 +222,7 @@ impl World {
             .sqrt();
         let seconds = way / speed_mm_s;
         let start_s = self.now_s;
-        let depth_before_mm = self.depth(from);
+        let indented_mm = self.depth(from);
         let stuck = self.faults.strike(FaultKind::StuckRobot, start_s);
         if !stuck {
             let (before, after) = (self.force(from), self.force(target));
@@ -240,11 +244,14 @@ impl World {
             start_s,
             end_s: self.now_s,
         };
-        let (depth_mm, force_n) = (self.depth(self.tip), self.force(self.tip));
+        let [x, y, z] = self.tip;
+        let is_inward = self.depth(self.tip) > indented_mm;
+        self.touched = (self.depth(self.tip) > 0.0).then_some(self.touched.unwrap_or([x, y]));
+        let depth_mm = self.touched.map_or(0.0, |place| z - self.surface(place));
         self.judge.moved(Ended {
             depth_mm,
-            force_n,
-            is_inward: depth_mm > depth_before_mm,
+            force_n: self.force(self.tip),
+            is_inward,
             is_frozen: self.frozen,
         });
     }

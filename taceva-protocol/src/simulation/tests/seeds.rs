@@ -45,6 +45,11 @@ fn the_limit_is_passed_under_a_frozen_signal_by_no_more_than_is_stated() {
 }
 
 #[test]
+fn a_tip_that_goes_sideways_over_an_uneven_gel_is_no_deeper_than_where_it_touched() {
+    assert_eq!(simulate(16921).violations, []);
+}
+
+#[test]
 fn a_seed_is_the_same_run_every_time() {
     for seed in [3, 17, 42] {
         assert_eq!(simulate(seed), simulate(seed));

@@ -1,0 +1,147 @@
+//! The stations of a press, and what is left of them once a limit of the gel was reached.
+
+use taceva_core::{Nanometre, Phase};
+
+use super::error::StopCause;
+use super::event::Event;
+use super::log::Outcome;
+use super::station::{Gathered, Spot};
+use super::tip::{Step, Tip};
+use super::{PlannedPress, Run};
+use crate::press::Station;
+
+/// Times that the tip draws back at one station, each a segment at least: noise at the limit takes one or two.
+const DRAW_BACKS: u32 = 32;
+
+impl Run<'_> {
+    /// Visits the stations below a first contact at `height_mm`.
+    ///
+    /// Where a limit of the gel stops the tip, it draws back to where it may rest, and the sample of that station is taken there. What lies
+    /// deeper is left out; a press that comes out by stations does so from there.
+    pub(super) fn indent(
+        &mut self,
+        planned: &PlannedPress,
+        height_mm: f64,
+        gathered: &mut Gathered,
+    ) -> Step<Outcome> {
+        let stations = planned.press.stations();
+        let mut reached_mm = None;
+        for (place, number) in (0..stations.len()).zip(0..) {
+            let spot = match reached_mm {
+                Some(reached_mm) => match after_limit(stations, place, reached_mm) {
+                    Visit::Not => continue,
+                    Visit::WhereItIs => Spot {
+                        is_limited: true,
+                        ..Spot::reached(number, height_mm)
+                    },
+                    Visit::Station => Spot::reached(number, height_mm),
+                },
+                None => Spot::reached(number, height_mm),
+            };
+            match self.visit(planned, spot, gathered) {
+                Ok(()) => {}
+                Err(StopCause::Tripped(trip)) if trip.is_limit() => {
+                    (self.events)(&Event::Halted(trip));
+                    reached_mm = Some(self.visit_at_limit(planned, spot, gathered)?);
+                }
+                Err(cause) => return Err(cause),
+            }
+        }
+        Ok(match reached_mm {
+            Some(_) => Outcome::Limited,
+            None => Outcome::Complete,
+        })
+    }
+
+    /// Goes to a station, unless the tip is to be seen where it is, and takes its sample.
+    fn visit(&mut self, planned: &PlannedPress, spot: Spot, gathered: &mut Gathered) -> Step<()> {
+        let press = &planned.press;
+        let station = usize::try_from(spot.number)
+            .ok()
+            .and_then(|number| press.stations().get(number))
+            .filter(|_| !spot.is_limited);
+        if let Some(Station { depth, shear, .. }) = station {
+            let target = Tip::station(press.place, *shear, spot.zero_mm, *depth);
+            self.tip.approach(target)?;
+        }
+        let rested = self.tip.settle()?;
+        self.sample(planned, spot, rested, gathered)
+    }
+
+    /// Takes the sample of a station that a limit keeps out of reach as near to it as the tip may rest; the depth there, in mm.
+    fn visit_at_limit(
+        &mut self,
+        planned: &PlannedPress,
+        spot: Spot,
+        gathered: &mut Gathered,
+    ) -> Step<f64> {
+        let spot = Spot {
+            is_limited: true,
+            ..spot
+        };
+        let mut draw_backs = 0;
+        loop {
+            self.tip.draw_back(spot.zero_mm)?;
+            draw_backs += 1;
+            match self.visit(planned, spot, gathered) {
+                Ok(()) => return Ok(self.tip.at.position.z.0 - spot.zero_mm),
+                Err(StopCause::Tripped(trip)) if trip.is_limit() && draw_backs < DRAW_BACKS => {
+                    (self.events)(&Event::Halted(trip));
+                }
+                Err(cause) => return Err(cause),
+            }
+        }
+    }
+}
+
+/// What becomes of a station after a limit.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Visit {
+    /// It is left out.
+    Not,
+    /// It is the turning point: its sample is taken at the depth that was reached.
+    WhereItIs,
+    /// It is visited.
+    Station,
+}
+
+/// What becomes of the station at `place` after a limit stopped the tip at `reached_mm`.
+fn after_limit(stations: &[Station], place: usize, reached_mm: f64) -> Visit {
+    let is_on_way_out = |station: &Station| station.phase == Phase::Unload;
+    let is_deeper = |depth: Nanometre| depth.to_millimetres() > reached_mm;
+    let station = &stations[place];
+    let next = stations.get(place + 1);
+    let next_is_deeper = next.is_some_and(|next| is_on_way_out(next) && is_deeper(next.depth));
+    match (is_on_way_out(station), is_deeper(station.depth)) {
+        (false, _) => Visit::Not,
+        (true, true) if next_is_deeper => Visit::Not,
+        (true, true) => Visit::WhereItIs,
+        (true, false) => Visit::Station,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn after_a_limit_the_way_out_begins_where_the_way_in_ended() {
+        let station = |depth: i64, phase| Station {
+            depth: Nanometre(depth * 100_000),
+            shear: [Nanometre(0); 2],
+            phase,
+        };
+        let load = (1..=4).map(|depth| station(depth, Phase::Load));
+        let unload = (1..=4).rev().map(|depth| station(depth, Phase::Unload));
+        let stations: Vec<Station> = load.chain(unload).collect();
+        let visits = |reached_mm| {
+            let visits = (3..8).map(|place| after_limit(&stations, place, reached_mm));
+            visits.collect::<Vec<_>>()
+        };
+        use Visit::{Not, Station as Visited, WhereItIs};
+        assert_eq!(visits(0.25), [Not, Not, WhereItIs, Visited, Visited]);
+        assert_eq!(visits(0.05), [Not, Not, Not, Not, WhereItIs]);
+        // On the way out itself: the gel pushes harder than it did a moment before.
+        assert_eq!(visits(0.39), [Not, WhereItIs, Visited, Visited, Visited]);
+    }
+}
