@@ -17,7 +17,7 @@ robot = { driver = "sim/robot" }
 force = { driver = "sim/force-transducer" }
 lighting = { driver = "sim/lighting" }
 model = { name = "ridge", set = { size = "8x8" } }
-sensor = { driver = "sim/vitactip:reduction=16", units = ["1", "2"] }
+sensor = { driver = "sim/vitactip:reduction=16", units = ["0", "1"] }
 protocol = { calibration = { points = 16, indentations = 2 }, spatial = { points = 5 }, gratings = { step_mm = 0.75, presses = 2 }, lighting = { points = 2 }, repeatability = { points = 2, trials = 3, depth_step_mm = 0.5 }, hysteresis = { points = 2, depth_step_mm = 0.5 }, surface = { points = 6 }, idle = { frames = 6 } }
 "#;
 
@@ -125,10 +125,10 @@ fn the_reports_of_several_sensors_do_not_depend_on_the_number_of_jobs() {
         .expect("one");
     let studies = r#"[[study]]
 name = "one"
-sensor = { driver = "sim/gelsight:reduction=16", units = ["1", "2"] }
+sensor = { driver = "sim/gelsight:reduction=16", units = ["0", "1"] }
 [[study]]
 name = "other"
-sensor = { driver = "sim/magictac:reduction=16", units = ["1", "2"] }
+sensor = { driver = "sim/magictac:reduction=16", units = ["0", "1"] }
 "#;
     let scene = SMALL.replace(sensor, "");
     bench.write("two.toml", &format!("{scene}{studies}"));
