@@ -335,20 +335,38 @@ fn a_depth_beyond_the_limit_is_refused_with_line_and_limit() {
         error,
         "s.toml, line 10: `depth_min_mm` is 1.2, beyond the limit `Pz_max_mm` = 1 (study `my gel`)"
     );
-    let error = planned("[protocol.contact]\nthreshold_N = 1.9", rig());
-    assert!(
-        error.contains("beyond the limit `Fz_max_N` = 1.83"),
-        "{error}"
-    );
-    let error = planned("[protocol.contact]\ntravel_mm_s = 200.0", rig());
-    assert!(
-        error.contains("beyond the limit `speed_max_mm_s` = 100"),
-        "{error}"
+    let error = planned("[protocol.hysteresis]\ndepth_step_mm = 1.2", rig());
+    assert_eq!(
+        error,
+        "s.toml, line 10: `depth_step_mm` is 1.2, beyond the limit `Pz_max_mm` = 1 (study `my gel`)"
     );
 }
 
 #[test]
-fn facts_that_contradict_the_sensor_are_refused() {
+fn a_force_beyond_the_limit_is_refused_with_line_and_limit() {
+    let error = planned("[protocol.contact]\nthreshold_N = 1.9", rig());
+    assert_eq!(
+        error,
+        "s.toml, line 10: `threshold_N` is 1.9, beyond the limit `Fz_max_N` = 1.83 (study `my gel`)"
+    );
+    let error = planned("[limits]\nFxy_max_N = 6.0", rig());
+    assert_eq!(
+        error,
+        "s.toml, line 10: `Fxy_max_N` is 6, but the force transducer `sim/force-transducer` allows at most 5: limits may only be tightened"
+    );
+}
+
+#[test]
+fn a_speed_beyond_the_limit_is_refused_with_line_and_limit() {
+    let error = planned("[protocol.contact]\ntravel_mm_s = 200.0", rig());
+    assert_eq!(
+        error,
+        "s.toml, line 10: `travel_mm_s` is 200, beyond the limit `speed_max_mm_s` = 100 (the robot `sim/robot`)"
+    );
+}
+
+#[test]
+fn a_gel_that_is_opaque_and_said_to_be_transparent_is_refused() {
     let text = GOOD.replace("[robot]", "opaque = false\n[robot]");
     let scene = Scene::parse("s.toml", &text).expect("reads");
     let error = plan(&scene, |_| SourceInfo::Rig(Box::new(rig()))).expect_err("contradiction");
@@ -356,12 +374,16 @@ fn facts_that_contradict_the_sensor_are_refused() {
         error.to_string(),
         "s.toml, line 5: `opaque` is false, but the sensor says true: one of them is wrong"
     );
+}
+
+#[test]
+fn a_footprint_beyond_that_of_the_sensor_is_refused_with_line_and_limit() {
     let wide = "footprint = { shape = \"rect\", half_x_mm = 9.0, half_y_mm = 10.0 }\n[robot]";
     let scene = Scene::parse("s.toml", &GOOD.replace("[robot]", wide)).expect("reads");
     let error = plan(&scene, |_| SourceInfo::Rig(Box::new(rig()))).expect_err("too wide");
-    assert!(
-        error.to_string().contains("may only be tightened"),
-        "{error}"
+    assert_eq!(
+        error.to_string(),
+        "s.toml, line 5: the footprint reaches 9 mm by 10 mm from its centre, but the sensor allows at most 8 mm by 10 mm: it may only be tightened"
     );
 }
 
@@ -418,6 +440,14 @@ fn a_metric_that_can_never_apply_is_refused_by_its_line_if_it_was_named_by_itsel
     assert_eq!(
         error,
         "s.toml, line 10: `mae` can never apply: needs `prediction` ← needs a model: none chosen"
+    );
+    let error = planned(
+        "[model]\nname = \"ridge\"\n[metrics]\nwant = [\"r_light\"]",
+        rig(),
+    );
+    assert_eq!(
+        error,
+        "s.toml, line 12: `r_light` can never apply: the gel is opaque: ambient light cannot reach the camera"
     );
     // A group is taken as far as it goes.
     let explained = planned("[metrics]\nwant = [\"accuracy\"]", rig());

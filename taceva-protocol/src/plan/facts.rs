@@ -226,15 +226,23 @@ impl<'a> Gather<'a> {
             .value
             .footprint(depth.map(Nanometre::to_millimetres))
             .map_err(|problem| self.refusal(written.at(), SceneProblem::Contradiction(problem)))?;
-        let reaches_out = |stated: &Footprint| {
-            let [outer_x, outer_y] = stated.half_extent();
-            let [half_x, half_y] = footprint.half_extent();
+        let extent = footprint.half_extent();
+        let reaches_out = |[outer_x, outer_y]: &[Nanometre; 2]| {
+            let [half_x, half_y] = &extent;
             half_x > outer_x || half_y > outer_y
         };
-        if stated.as_ref().is_some_and(reaches_out) {
-            let problem =
-                "the footprint reaches beyond that of the sensor: it may only be tightened";
-            let problem = SceneProblem::Contradiction(problem.to_owned());
+        let stated = stated.as_ref().map(Footprint::half_extent);
+        if let Some(limit) = stated.filter(reaches_out) {
+            let by = |extent: [Nanometre; 2]| {
+                let [x, y] = extent.map(|half| Millimetre(half.to_millimetres()));
+                format!("{x} by {y}")
+            };
+            let problem = format!(
+                "the footprint reaches {} from its centre, but the sensor allows at most {}: it may only be tightened",
+                by(extent),
+                by(limit)
+            );
+            let problem = SceneProblem::Contradiction(problem);
             return Err(self.refusal(written.at(), problem));
         }
         Ok(Some(footprint))

@@ -48,6 +48,29 @@ fn a_whole_rig_runs_everything() {
 }
 
 #[test]
+fn every_reason_has_its_golden_line_in_the_text_of_a_plan() {
+    let mut plan = planned(SMALL, rig_of(sensor(), Axes::FORCE));
+    let explained = |reason: PlanReason, plan: &mut Plan| {
+        let subject = match reason {
+            PlanReason::VisitedBy { .. } => Subject::Phase(PhaseKind::LightSweep),
+            _ => Subject::Metric("r_light".to_owned()),
+        };
+        plan.skipped = vec![PlanSkip { subject, reason }];
+        let text = plan.to_string();
+        let last = text.lines().last().expect("a plan has lines").to_owned();
+        let is_told = last.starts_with("skip  ") || last.starts_with("join  ");
+        is_told.then_some(last).unwrap_or_default()
+    };
+    let lines: Vec<String> = PlanReason::all()
+        .into_iter()
+        .map(|reason| explained(reason, &mut plan))
+        .collect();
+    // What nobody asked for is no news: its line is empty.
+    let golden = include_str!("../../tests/golden/reasons.txt");
+    assert_eq!(lines, golden.lines().collect::<Vec<_>>());
+}
+
+#[test]
 fn planning_twice_changes_nothing() {
     let opaque = SensorFacts {
         opaque: Some(true),
