@@ -16,6 +16,7 @@ mod disk;
 mod fault;
 mod journal;
 mod judge;
+mod record;
 mod scenario;
 #[cfg(test)]
 mod tests;

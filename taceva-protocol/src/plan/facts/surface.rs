@@ -1,0 +1,82 @@
+//! The surface that is pressed: within that of the sensor, and within reach of the robot.
+
+use taceva_core::{Footprint, Millimetre, Nanometre, Point};
+
+use super::Gather;
+use crate::scene::{SceneError, SceneProblem};
+use crate::source::RigInfo;
+
+impl Gather<'_> {
+    /// The smaller of the surfaces that the scene and the sensor state.
+    pub(super) fn footprint(
+        &self,
+        stated: Option<Footprint>,
+    ) -> Result<Option<Footprint>, SceneError> {
+        let Some(written) = self.study.sensor.footprint else {
+            return Ok(stated);
+        };
+        let depth = stated.and_then(|stated| stated.depth_max());
+        let footprint = written
+            .value
+            .footprint(depth.map(Nanometre::to_millimetres))
+            .map_err(|problem| self.refusal(written.at(), SceneProblem::Contradiction(problem)))?;
+        let extent = footprint.half_extent();
+        let reaches_out = |[outer_x, outer_y]: &[Nanometre; 2]| {
+            let [half_x, half_y] = &extent;
+            half_x > outer_x || half_y > outer_y
+        };
+        let stated = stated.as_ref().map(Footprint::half_extent);
+        if let Some(limit) = stated.filter(reaches_out) {
+            let by = |extent: [Nanometre; 2]| {
+                let [x, y] = extent.map(|half| Millimetre(half.to_millimetres()));
+                format!("{x} by {y}")
+            };
+            let problem = format!(
+                "the footprint reaches {} from its centre, but the sensor allows at most {}: it may only be tightened",
+                by(extent),
+                by(limit)
+            );
+            let problem = SceneProblem::Contradiction(problem);
+            return Err(self.refusal(written.at(), problem));
+        }
+        Ok(Some(footprint))
+    }
+
+    /// Refuses a surface that the robot does not reach from the height of travel down to the end of the search.
+    pub(super) fn workspace(&self, rig: &RigInfo, footprint: &Footprint) -> Result<(), SceneError> {
+        let robot = rig.robot.as_ref();
+        let workspace = robot.and_then(|robot| robot.robot()?.workspace);
+        let (Some(robot), Some(workspace)) = (robot, workspace) else {
+            return Ok(());
+        };
+        let contact = &self.scene.protocol.contact;
+        let [half_x, half_y] = footprint.half_extent().map(Nanometre::to_millimetres);
+        let heights = [-contact.clearance_mm.value, contact.search_mm.value];
+        let corner = |x: f64, y: f64, z: f64| {
+            let [x, y, z] = [x, y, z].map(Millimetre);
+            Point { x, y, z }
+        };
+        let corners = heights.into_iter().flat_map(|z| {
+            [
+                (-half_x, -half_y),
+                (-half_x, half_y),
+                (half_x, -half_y),
+                (half_x, half_y),
+            ]
+            .map(|(x, y)| corner(x, y, z))
+        });
+        match corners
+            .into_iter()
+            .find(|corner| !workspace.contains(corner))
+        {
+            None => Ok(()),
+            Some(Point { x, y, z }) => {
+                let problem = format!(
+                    "the robot `{}` does not reach ({x}, {y}, {z}): shorten `search_mm` or `clearance_mm`, or state a smaller footprint",
+                    robot.key()
+                );
+                Err(self.refusal(contact.search_mm.at(), SceneProblem::Contradiction(problem)))
+            }
+        }
+    }
+}

@@ -1,0 +1,165 @@
+//! What the disk holds in the end, compared with what was planned, acknowledged and true.
+
+use std::collections::BTreeSet;
+
+use taceva_core::Phase;
+
+use super::journal::{Entry, EntrySample, entries};
+use super::judge::Violation;
+use super::world::Gel;
+use crate::digest::Digest;
+use crate::plan::{Plan, PlannedPress};
+use crate::press::Motion;
+use crate::run::Outcome;
+
+/// A robot that sticks in the last segment of a way leaves its sample so far from the station; the label says where it really was.
+const LAG_MM: f64 = 0.015 + 1e-6;
+
+/// What was found in a record.
+pub(super) struct Found {
+    pub(super) violations: Vec<Violation>,
+    /// Samples that were compared.
+    pub(super) samples: u64,
+}
+
+/// Compares what is on the disk with what was planned, acknowledged and true.
+pub(super) fn judge_log(plan: &Plan, kept: &[Entry], acknowledged: &[Digest], gel: &Gel) -> Found {
+    let mut found = Found {
+        violations: Vec::new(),
+        samples: 0,
+    };
+    let mut seen = BTreeSet::new();
+    for entry in kept {
+        if !seen.insert(entry.press) {
+            found
+                .violations
+                .push(Violation::Doubled(entry.press.to_string()));
+        }
+        found.compare(plan, entry, gel);
+    }
+    found.violations.extend(lost(&seen, acknowledged));
+    for planned in &plan.presses {
+        if !seen.contains(&planned.id) {
+            found
+                .violations
+                .push(Violation::Lost(format!("{} was planned", planned.id)));
+        }
+    }
+    found
+}
+
+/// A press whose way out has not the stations of its way in, although it was planned so. One may lack: a limit just below a station leaves
+/// its way in with two samples nearly as deep.
+fn one_sided(planned: &PlannedPress, entry: &Entry) -> Option<Violation> {
+    let stations = planned.press.stations();
+    let on_way_out = |sample: &&EntrySample| {
+        let station = usize::try_from(sample.number).ok();
+        let station = station.and_then(|number| stations.get(number));
+        station.is_some_and(|station| station.phase == Phase::Unload)
+    };
+    let comes_out = stations
+        .iter()
+        .any(|station| station.phase == Phase::Unload);
+    let samples = entry.samples.len();
+    let out = entry.samples.iter().filter(on_way_out).count();
+    (comes_out && !(2 * out..=2 * out + 1).contains(&samples)).then(|| {
+        let what = format!(
+            "{} has {out} samples of {samples} on its way out",
+            entry.press
+        );
+        Violation::Untrue(what)
+    })
+}
+
+/// What was acknowledged and is not in the file any more: a press that is made again was lost all the same.
+pub(super) fn missing(file: &[u8], acknowledged: &[Digest]) -> Vec<Violation> {
+    let (kept, _) = entries(file);
+    let seen = kept.iter().map(|entry| entry.press).collect();
+    lost(&seen, acknowledged).collect()
+}
+
+fn lost<'a>(
+    seen: &'a BTreeSet<Digest>,
+    acknowledged: &'a [Digest],
+) -> impl Iterator<Item = Violation> + 'a {
+    let gone = acknowledged.iter().filter(|press| !seen.contains(press));
+    gone.map(|press| Violation::Lost(press.to_string()))
+}
+
+impl Found {
+    fn compare(&mut self, plan: &Plan, entry: &Entry, gel: &Gel) {
+        let name = entry.press;
+        let Some(planned) = plan.presses.iter().find(|planned| planned.id == name) else {
+            self.violations.push(Violation::Invented(name.to_string()));
+            return;
+        };
+        let samples = entry.samples.len();
+        let whole = samples == planned.press.samples();
+        let limited = entry.samples.iter().filter(|sample| sample.is_limited);
+        let fits = match entry.outcome {
+            Outcome::Complete => whole && limited.count() == 0,
+            // Without a sample the limit was reached in the search.
+            Outcome::Limited => samples == 0 || limited.count() > 0,
+            Outcome::NoContact => false,
+        };
+        let numbers = entry.samples.iter().map(|sample| sample.number);
+        let in_order = match entry.outcome {
+            Outcome::Complete => numbers.eq(0..u32::try_from(samples).unwrap_or(u32::MAX)),
+            _ => numbers.is_sorted_by(|one, next| one < next),
+        };
+        if !fits || !in_order {
+            let what = format!("{name} ended as {:?} with {samples} samples", entry.outcome);
+            self.violations.push(Violation::Invented(what));
+        }
+        self.violations.extend(one_sided(planned, entry));
+        let stations = planned.press.stations();
+        let mut height = None;
+        for sample in &entry.samples {
+            let place = sample.number;
+            self.samples += 1;
+            let mut untrue = |what: String| self.violations.push(Violation::Untrue(what));
+            let station = usize::try_from(place)
+                .ok()
+                .and_then(|place| stations.get(place));
+            if let Some(station) = station {
+                let depth_mm = station.depth.to_millimetres();
+                let off_mm = sample.depth_mm - depth_mm;
+                if off_mm > LAG_MM || (off_mm < -LAG_MM && !sample.is_limited) {
+                    untrue(format!(
+                        "{name}/{place} is {} mm deep, not {depth_mm}",
+                        sample.depth_mm
+                    ));
+                }
+            }
+            if sample.is_limited && sample.force_n > gel.normal_max_n + gel.noise_n {
+                untrue(format!(
+                    "{name}/{place} rests at {} N, beyond the limit",
+                    sample.force_n
+                ));
+            }
+            if sample.frame.is_some() != planned.frames {
+                untrue(format!("{name}/{place} has a frame or lacks one"));
+            }
+            let Some([exposed_s, height_mm, force_n]) = sample.frame else {
+                continue;
+            };
+            if (sample.stamp_s - exposed_s).abs() > 1e-9 {
+                untrue(format!("{name}/{place} shows a frame of another time"));
+            }
+            if (sample.force_n - force_n).abs() > gel.noise_n + 1e-9 {
+                untrue(format!(
+                    "{name}/{place} has {} N, its frame {force_n} N",
+                    sample.force_n
+                ));
+            }
+            if let Motion::Indent(_) = planned.press.motion {
+                // The contact is at one height for all samples of a press.
+                let contact_mm = height_mm - sample.depth_mm;
+                let first: f64 = *height.get_or_insert(contact_mm);
+                if (contact_mm - first).abs() > 1e-6 {
+                    untrue(format!("{name}/{place} shows a frame of another height"));
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,76 @@
+//! Scenes as people write them, and every way to write one wrong.
+
+mod planning;
+mod reading;
+
+use taceva_core::{
+    Axes, Descriptor, DescriptorSpec, DriverKey, DriverSource, Facts, Footprint, ForceFacts,
+    Newton, RobotFacts, SensorFacts, Speed,
+};
+use taceva_protocol::{RigInfo, Scene, SourceInfo, plan};
+
+const GOOD: &str = r#"scene_version = 1
+name = "my gel"
+[sensor]
+driver = "sim/gelsight"
+[robot]
+driver = "sim/robot"
+[force]
+driver = "sim/force-transducer"
+"#;
+
+fn message(text: &str) -> String {
+    Scene::parse("s.toml", text).expect_err("wrong").to_string()
+}
+
+/// The good scene with `line` added as line 9.
+fn with(line: &str) -> String {
+    message(&format!("{GOOD}{line}\n"))
+}
+
+fn descriptor(key: &'static str, facts: Facts) -> Descriptor {
+    DescriptorSpec::new(DriverKey::fixed(key), key, DriverSource::Simulated, facts)
+        .check()
+        .expect("no contradiction")
+}
+
+fn rig() -> RigInfo {
+    RigInfo {
+        sensor: Some(descriptor(
+            "sim/gelsight",
+            Facts::Sensor(Box::new(SensorFacts {
+                opaque: Some(true),
+                markers: Some(true),
+                footprint: Some(Footprint::rectangle(8.0, 10.0, Some(1.0)).expect("lengths")),
+                force_max: Some(Newton(1.83)),
+                ..SensorFacts::default()
+            })),
+        )),
+        robot: Some(descriptor(
+            "sim/robot",
+            Facts::Robot(RobotFacts {
+                speed_max: Some(Speed::try_new(100.0).expect("a speed")),
+                ..RobotFacts::default()
+            }),
+        )),
+        force: Some(descriptor(
+            "sim/force-transducer",
+            Facts::Force(ForceFacts {
+                axes: Axes::FORCE,
+                force_max: Some(Newton(5.0)),
+                ..ForceFacts::default()
+            }),
+        )),
+        lighting: None,
+    }
+}
+
+/// What the planner says of the good scene with `lines` added.
+fn planned(lines: &str, rig: RigInfo) -> String {
+    let scene = Scene::parse("s.toml", &format!("{GOOD}{lines}\n")).expect("reads");
+    let source = SourceInfo::Rig(Box::new(rig));
+    match plan(&scene, |_| source.clone()) {
+        Ok(plans) => plans.iter().map(ToString::to_string).collect(),
+        Err(error) => error.to_string(),
+    }
+}

@@ -1,0 +1,159 @@
+//! Scenes that contradict the devices that they name.
+
+use taceva_core::{Facts, LightingFacts};
+use taceva_protocol::{Scene, SceneProblem, SourceInfo, plan};
+
+use super::{GOOD, descriptor, planned, rig, with};
+
+#[test]
+fn a_scene_may_not_loosen_the_limits_of_a_device() {
+    assert_eq!(
+        planned("[limits]\nFz_max_N = 2.0", rig()),
+        "s.toml, line 10: `Fz_max_N` is 2, but the sensor `sim/gelsight` allows at most 1.83: limits may only be tightened"
+    );
+    assert_eq!(
+        planned("[limits]\nPz_max_mm = 1.5", rig()),
+        "s.toml, line 10: `Pz_max_mm` is 1.5, but the sensor `sim/gelsight` allows at most 1: limits may only be tightened"
+    );
+    assert!(
+        planned("[limits]\nspeed_max_mm_s = 500.0", rig())
+            .contains("the robot `sim/robot` allows at most 100")
+    );
+}
+
+#[test]
+fn limits_that_tighten_are_taken() {
+    let plan = planned("[limits]\nFz_max_N = 1.5\nPz_max_mm = 0.8", rig());
+    assert!(plan.contains("limit motion  0.8 mm, 1.5 N"), "{plan}");
+}
+
+#[test]
+fn a_robot_is_not_moved_without_limits() {
+    let mut bare = rig();
+    bare.sensor = Some(descriptor("sim/gelsight", Facts::Sensor(Box::default())));
+    assert_eq!(
+        planned("", bare),
+        "s.toml: nobody declares `Pz_max_mm`: write it under [limits], no robot is moved without it"
+    );
+}
+
+#[test]
+fn a_depth_beyond_the_limit_is_refused_with_line_and_limit() {
+    let error = planned("[protocol.calibration]\ndepth_min_mm = 1.2", rig());
+    assert_eq!(
+        error,
+        "s.toml, line 10: `depth_min_mm` is 1.2, beyond the limit `Pz_max_mm` = 1 (study `my gel`)"
+    );
+    let error = planned("[protocol.hysteresis]\ndepth_step_mm = 1.2", rig());
+    assert_eq!(
+        error,
+        "s.toml, line 10: `depth_step_mm` is 1.2, beyond the limit `Pz_max_mm` = 1 (study `my gel`)"
+    );
+}
+
+#[test]
+fn a_force_beyond_the_limit_is_refused_with_line_and_limit() {
+    let error = planned("[protocol.contact]\nthreshold_N = 1.9", rig());
+    assert_eq!(
+        error,
+        "s.toml, line 10: `threshold_N` is 1.9, beyond the limit `Fz_max_N` = 1.83 (study `my gel`)"
+    );
+    let error = planned("[limits]\nFxy_max_N = 6.0", rig());
+    assert_eq!(
+        error,
+        "s.toml, line 10: `Fxy_max_N` is 6, but the force transducer `sim/force-transducer` allows at most 5: limits may only be tightened"
+    );
+}
+
+#[test]
+fn a_speed_beyond_the_limit_is_refused_with_line_and_limit() {
+    let error = planned("[protocol.contact]\ntravel_mm_s = 200.0", rig());
+    assert_eq!(
+        error,
+        "s.toml, line 10: `travel_mm_s` is 200, beyond the limit `speed_max_mm_s` = 100 (the robot `sim/robot`)"
+    );
+}
+
+#[test]
+fn a_gel_that_is_opaque_and_said_to_be_transparent_is_refused() {
+    let text = GOOD.replace("[robot]", "opaque = false\n[robot]");
+    let scene = Scene::parse("s.toml", &text).expect("reads");
+    let error = plan(&scene, |_| SourceInfo::Rig(Box::new(rig()))).expect_err("contradiction");
+    assert_eq!(
+        error.to_string(),
+        "s.toml, line 5: `opaque` is false, but the sensor says true: one of them is wrong"
+    );
+}
+
+#[test]
+fn a_footprint_beyond_that_of_the_sensor_is_refused_with_line_and_limit() {
+    let wide = "footprint = { shape = \"rect\", half_x_mm = 9.0, half_y_mm = 10.0 }\n[robot]";
+    let scene = Scene::parse("s.toml", &GOOD.replace("[robot]", wide)).expect("reads");
+    let error = plan(&scene, |_| SourceInfo::Rig(Box::new(rig()))).expect_err("too wide");
+    assert_eq!(
+        error.to_string(),
+        "s.toml, line 5: the footprint reaches 9 mm by 10 mm from its centre, but the sensor allows at most 8 mm by 10 mm: it may only be tightened"
+    );
+}
+
+#[test]
+fn a_light_that_nobody_can_set_is_refused() {
+    let mut lit = rig();
+    lit.lighting = Some(descriptor(
+        "sim/lighting",
+        Facts::Lighting(LightingFacts {
+            scenes: vec!["normal".into(), "ring".into()],
+        }),
+    ));
+    let lines = "[lighting]\ndriver = \"sim/lighting\"\nscenes = [\"normal\", \"rnig\"]";
+    let error = planned(lines, lit);
+    assert!(
+        error.starts_with("s.toml, line 11: `rnig`: unknown scene of light, did you mean `ring`?"),
+        "{error}"
+    );
+    let twice = with("[lighting]\ndriver = \"sim/lighting\"\nscenes = [\"a\", \"a\"]");
+    assert!(
+        twice.contains("`a` is the name of two scenes of light"),
+        "{twice}"
+    );
+}
+
+#[test]
+fn a_metric_that_can_never_apply_is_refused_by_its_line_if_it_was_named_by_itself() {
+    let error = planned("[metrics]\nwant = [\"mae\"]", rig());
+    assert_eq!(
+        error,
+        "s.toml, line 10: `mae` can never apply: needs `prediction` ← needs a model: none chosen"
+    );
+    let error = planned(
+        "[model]\nname = \"ridge\"\n[metrics]\nwant = [\"r_light\"]",
+        rig(),
+    );
+    assert_eq!(
+        error,
+        "s.toml, line 12: `r_light` can never apply: the gel is opaque: ambient light cannot reach the camera"
+    );
+    // A group is taken as far as it goes.
+    let explained = planned("[metrics]\nwant = [\"accuracy\"]", rig());
+    assert!(
+        explained.contains("skip  metric  mae, r2, smape"),
+        "{explained}"
+    );
+}
+
+#[test]
+fn more_presses_than_any_gel_survives_are_refused() {
+    let scene = format!(
+        "{GOOD}[model]\nname = \"ridge\"\n[protocol.calibration]\npoints = 1000000\n[protocol.spatial]\npoints = 1000000\n"
+    );
+    let scene = Scene::parse("s.toml", &scene).expect("reads");
+    let source = SourceInfo::Rig(Box::new(rig()));
+    // The presses are counted before they are drawn, and never printed.
+    match plan(&scene, |_| source.clone())
+        .err()
+        .map(|error| *error.problem)
+    {
+        Some(SceneProblem::TooManyPresses { found, .. }) => assert!(found > 1_000_000),
+        other => panic!("{}", other.is_none()),
+    }
+}
