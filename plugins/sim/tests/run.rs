@@ -3,7 +3,7 @@
 #[path = "run/trial.rs"]
 mod trial;
 
-use taceva_core::{Nanometre, Sample};
+use taceva_core::{Nanometre, Phase, Sample};
 use taceva_protocol::{Outcome, PhaseKind, PlannedPress, PressRecord, Specimen};
 use taceva_sim::Model;
 
@@ -164,7 +164,37 @@ fn check_forces(trial: &Trial, planned: &PlannedPress, record: &PressRecord) {
 
 #[test]
 fn a_run_that_was_interrupted_records_what_an_uninterrupted_one_does() {
-    let trial = Trial::new(Model::ViTacTip, &scene(Model::ViTacTip));
+    let scene = scene(Model::ViTacTip);
+    let log = interrupted_and_whole(&Trial::new(Model::ViTacTip, &scene));
+    assert!(!log.records.is_empty());
+}
+
+#[test]
+fn presses_that_a_limit_ends_come_out_of_the_gel_by_their_stations_and_are_resumed_like_others() {
+    let limits = "[limits]\nFz_max_N = 0.6\n[[study]]";
+    let scene = scene(Model::GelSight).replace("[[study]]", limits);
+    let trial = Trial::new(Model::GelSight, &scene);
+    let log = interrupted_and_whole(&trial);
+    let is_limited = |record: &&PressRecord| record.outcome == Outcome::Limited;
+    assert!(log.records.iter().filter(is_limited).count() > 5);
+    for planned in trial.plan.presses_of(PhaseKind::LoadUnload) {
+        let mut records = log.records.iter().filter(is_limited);
+        let record = records.find(|record| record.press == planned.id);
+        let record = record.expect("no place of the gel bears the deepest station");
+        let out = record.samples.iter();
+        let out = out.filter(|sample| sample.phase == Some(Phase::Unload));
+        assert_eq!(2 * out.count(), record.samples.len());
+        assert_eq!(
+            record.limited.len(),
+            2,
+            "the way in ends where the way out begins"
+        );
+        check(&trial, planned, &log);
+    }
+}
+
+/// The log of a run of unit 1 without interruption, after it was compared with one in pieces.
+fn interrupted_and_whole(trial: &Trial) -> Log {
     let (mut whole, mut pieces) = (Log::default(), Log::default());
     trial.run("1", &mut whole, usize::MAX);
     for most in [3, 8, 10, usize::MAX] {
@@ -172,11 +202,14 @@ fn a_run_that_was_interrupted_records_what_an_uninterrupted_one_does() {
     }
     assert_eq!(whole.records.len(), pieces.records.len());
     for (one, other) in whole.records.iter().zip(&pieces.records) {
-        assert_eq!(one.press, other.press);
+        assert_eq!((one.press, one.outcome), (other.press, other.outcome));
+        assert_eq!(one.samples.len(), other.samples.len());
+        assert_eq!(one.limited, other.limited);
         for (one, other) in one.samples.iter().zip(&other.samples) {
             // The time of day differs, and nothing else.
             assert_eq!(one.truth, other.truth, "{}", one.id);
             assert_eq!(one.frame, other.frame, "{}", one.id);
         }
     }
+    whole
 }
