@@ -12,7 +12,7 @@ use super::number::narrow;
 use super::raster::Raster;
 use super::readout::Readout;
 use super::simd;
-use super::spec::{CameraSpec, OpticsSpec};
+use super::spec::{CameraSpec, GelSpec, OpticsSpec};
 use super::stimulus::Stimulus;
 use crate::random::{Purpose, Random};
 
@@ -54,7 +54,9 @@ pub struct Camera {
     binning: f64,
     random: Random,
     is_transparent: bool,
-    gel: Gel,
+    /// What the gel is made from, and the gel once a picture was asked for: who takes none need not wait for its tables.
+    unmade: (GelSpec, Raster, u32),
+    gel: Option<Gel>,
     /// Rows painted at a time, and the room for them.
     band_rows: usize,
     light: Vec<f32>,
@@ -77,7 +79,6 @@ impl Camera {
         let info = spec.frame_info(size)?;
         let [width, height] = size.map(|pixels| usize::try_from(pixels).unwrap_or(usize::MAX));
         let raster = Raster::new([width, height], spec.field);
-        let gel = Gel::new(&spec.gel, raster, unit);
         let row = width * info.format.samples();
         let band_rows = (BAND / row).clamp(1, height);
         Ok(Camera {
@@ -85,8 +86,9 @@ impl Camera {
             noise: spec.camera,
             binning: spec.binning(size),
             random: Random::new(seed),
-            is_transparent: spec.is_transparent && gel.has_outside_light(),
-            gel,
+            is_transparent: spec.is_transparent && spec.gel.has_outside_light(),
+            unmade: (spec.gel.clone(), raster, unit),
+            gel: None,
             band_rows,
             light: vec![0.0; band_rows * row],
         })
@@ -118,7 +120,11 @@ impl Camera {
         if view.light != AmbientLight::Normal && !self.is_transparent {
             return Err(OpticsError::Opaque { scene: view.light });
         }
-        self.gel.pose(view, &self.random)?;
+        let (spec, raster, unit) = &self.unmade;
+        let gel = self
+            .gel
+            .get_or_insert_with(|| Gel::new(spec, *raster, *unit));
+        gel.pose(view, &self.random)?;
         Ok(simd::expose(self, view, into.bytes_mut()))
     }
 
@@ -136,12 +142,15 @@ impl Camera {
         for rows in bytes.chunks_mut(self.band_rows * row_length * sample_bytes) {
             let length = rows.len() / sample_bytes;
             let light = &mut self.light[..length];
-            self.gel.paint(&mut Band {
-                first_row,
-                width,
-                channels,
-                light,
-            });
+            // It was made to take in the view.
+            if let Some(gel) = &self.gel {
+                gel.paint(&mut Band {
+                    first_row,
+                    width,
+                    channels,
+                    light,
+                });
+            }
             for (light, into) in light
                 .chunks_exact(row_length)
                 .zip(rows.chunks_exact_mut(row_length * sample_bytes))

@@ -27,11 +27,6 @@ impl Gel {
         }
     }
 
-    /// Whether it is known how light from outside looks in it.
-    pub(super) fn has_outside_light(&self) -> bool {
-        !matches!(self, Gel::Gelsight(_))
-    }
-
     /// Takes in what is touched, once a frame; `random` gives what happens to the gel by chance.
     pub(super) fn pose(&mut self, view: &View, random: &Random) -> Result<(), OpticsError> {
         match self {

@@ -86,6 +86,13 @@ pub enum GelSpec {
     Magictac(MagictacSpec),
 }
 
+impl GelSpec {
+    /// Whether it is known how light from outside looks in it.
+    pub(super) fn has_outside_light(&self) -> bool {
+        !matches!(self, GelSpec::Gelsight(_))
+    }
+}
+
 impl OpticsSpec {
     /// The look of the sensor that `parameters` describe: a dome is a ViTacTip, a layer with a lattice a MagicTac, and any other
     /// layer a GelSight, with markers if it has them.
