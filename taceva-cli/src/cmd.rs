@@ -59,6 +59,13 @@ impl Context {
         }
     }
 
+    /// With `-v`, says what was done.
+    pub(crate) fn say_more(&self, words: std::fmt::Arguments<'_>) {
+        if self.verbose {
+            self.say(words);
+        }
+    }
+
     /// With `-v`, says what is going to be done.
     #[expect(
         clippy::print_stderr,

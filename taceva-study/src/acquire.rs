@@ -1,6 +1,7 @@
 //! From a plan to a recording: every press that is not in it yet, unit after unit, each durable before the next begins.
 
 mod devices;
+mod key;
 mod log;
 mod schedule;
 mod workshop;
@@ -17,6 +18,7 @@ use taceva_protocol::{Cancel, Controls, Event, Mode, Plan, RunSpec, run};
 use crate::error::StudyError;
 use crate::scene::{PlannedStudy, RigSpec};
 use devices::OpenRig;
+pub(crate) use key::key;
 use log::RecordedPresses;
 use schedule::Schedule;
 pub use workshop::{Surroundings, SurroundingsOf, Upcoming, Workshop};

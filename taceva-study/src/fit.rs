@@ -134,6 +134,15 @@ impl<'a> FitPlan<'a> {
         self.info.reads_features
     }
 
+    /// How many frames [`run`](FitPlan::run) decodes.
+    pub(crate) fn frames_to_decode(&self) -> u64 {
+        if self.reads_frames() {
+            (self.train.len() + self.validation.len()) as u64
+        } else {
+            0
+        }
+    }
+
     /// Says what [`run`](FitPlan::run) would do.
     pub(crate) fn explain(&self, plan: &mut Plan) {
         let rows = self.train.len() + self.validation.len();
@@ -197,11 +206,7 @@ impl<'a> FitPlan<'a> {
             },
             work.progress,
         )?;
-        let frames_decoded = if self.reads_frames() {
-            rows.len() as u64
-        } else {
-            0
-        };
+        let frames_decoded = self.frames_to_decode();
         let manifest = self.divided.manifest(self.dataset.table())?;
         Ok(Fitted {
             model,

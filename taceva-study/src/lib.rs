@@ -2,6 +2,7 @@
 
 mod acquire;
 pub mod bench;
+mod cache;
 pub mod check;
 mod error;
 mod evaluate;
@@ -22,6 +23,7 @@ mod subject;
 mod tally;
 
 pub use acquire::{Surroundings, SurroundingsOf, Upcoming, Workshop};
+pub use cache::{Cache, Stage, StageRecord};
 pub use check::{CheckReport, CheckRequest, Finding, Severity, check, check_plan};
 pub use error::StudyError;
 pub use evaluate::{EvaluateRequest, Evaluated, ModelChoice, evaluate, evaluate_plan};

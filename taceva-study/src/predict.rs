@@ -195,19 +195,43 @@ pub(crate) fn run(
     target: &Target,
     work: Work<'_>,
 ) -> Result<Predicted, StudyError> {
+    let numbers = numbers(dataset, model, target, work)?;
+    table(dataset, model, target, &numbers)
+}
+
+/// What `model` says of the rows of `target`.
+///
+/// # Shapes
+/// `[rows, channels]`, row after row.
+pub(crate) fn numbers(
+    dataset: &Dataset,
+    model: &Model,
+    target: &Target,
+    work: Work<'_>,
+) -> Result<Column, StudyError> {
     let rows = &target.rows;
-    let reads_frames = reads_frames(model);
-    let features = if reads_frames {
+    let features = if reads_frames(model) {
         extract(dataset, &extractor(dataset, model)?, rows, work)?
     } else {
         blank(model.card().features.shape(), rows.len())?
     };
-    let predictions = model.predict(&features)?;
+    Ok(Column::full(model.predict(&features)?))
+}
+
+/// `numbers` beside what the table of `dataset` says of the same rows.
+pub(crate) fn table(
+    dataset: &Dataset,
+    model: &Model,
+    target: &Target,
+    numbers: &Column,
+) -> Result<Predicted, StudyError> {
+    let rows = &target.rows;
     let channels = model.channels().clone();
     let width = channels.len();
     let column = |position: usize| {
         Column::full(
-            predictions
+            numbers
+                .values()
                 .iter()
                 .skip(position)
                 .step_by(width)
@@ -232,7 +256,11 @@ pub(crate) fn run(
             .map(|channel| truth(dataset, channel, rows))
             .collect::<Result<_, _>>()?,
         prediction: (0..width).map(column).collect(),
-        frames_decoded: if reads_frames { rows.len() as u64 } else { 0 },
+        frames_decoded: if reads_frames(model) {
+            rows.len() as u64
+        } else {
+            0
+        },
         left_out: target.left_out,
         channels,
     })

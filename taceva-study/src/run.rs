@@ -9,7 +9,8 @@ use std::sync::{Mutex, PoisonError};
 use taceva_dataset::Dataset;
 use taceva_protocol::{Cancel, StopCause};
 
-use crate::acquire::{Workshop, acquire};
+use crate::acquire::{Workshop, acquire, key};
+use crate::cache::StudyCache;
 use crate::error::StudyError;
 use crate::features::Work;
 use crate::report::EvaluationReport;
@@ -19,7 +20,7 @@ pub use folder::{Existing, RunFolder};
 
 /// The reports of the studies of `scene`, in order; what is acquired is recorded in `folder`, several studies at a time.
 ///
-/// Reports do not depend on `jobs`, nor on how often the run was interrupted and gone on with.
+/// Reports do not depend on `jobs`, nor on how often the run was interrupted and gone on with, nor on what was found in a cache.
 ///
 /// # Errors
 /// [`StudyError::Open`] and [`StudyError::Acquisition`] if a device failed or somebody wished to stop: the same call with the same folder
@@ -37,9 +38,11 @@ pub fn run_scene(
         progress: workshop.progress,
     };
     let studies = scene.studies.iter().zip(&datasets);
-    studies
-        .map(|(study, dataset)| assess(scene, study, dataset, work))
-        .collect()
+    let assessed = studies.enumerate().map(|(number, (study, dataset))| {
+        let cache = workshop.cache_of(study, number);
+        assess(scene, study, dataset, (work, cache))
+    });
+    assessed.collect()
 }
 
 /// The recordings of all studies; each worker takes the next study that nobody has taken.
@@ -93,9 +96,32 @@ fn obtain(
     match &study.source {
         StudySource::Rig(rig) => {
             let path = folder.recording(number, &study.plan.name);
-            acquire(study, rig, &path, (workshop, cancel))
+            let press = || acquire(study, rig, &path, (workshop, cancel));
+            // A real rig is never replayed, and has no key.
+            let key = workshop.cache.and_then(|_| key(study, rig, workshop));
+            let Some(key) = key else {
+                return press();
+            };
+            let cache = workshop.cache_of(study, number);
+            let (dataset, is_found) = cache.recording(&key, &path, press)?;
+            if is_found {
+                let presses = study.plan.presses.len();
+                workshop.progress.advance(presses as u64);
+            }
+            Ok(dataset)
         }
         StudySource::Recording(path) => Ok(Dataset::open(path)?),
+    }
+}
+
+impl<'a> Workshop<'a> {
+    /// The cache as study `number`, counted from 0, uses it.
+    fn cache_of(self, study: &'a PlannedStudy, number: usize) -> StudyCache<'a> {
+        StudyCache {
+            cache: self.cache,
+            number,
+            study: &study.plan.name,
+        }
     }
 }
 

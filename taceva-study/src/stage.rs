@@ -8,9 +8,10 @@ use taceva_dataset::Dataset;
 use taceva_models::Model;
 use taceva_protocol::PhaseKind;
 
+use crate::cache::{Key, Stage, StudyCache};
 use crate::error::StudyError;
 use crate::features::Work;
-use crate::fit::{FitPlan, FitRequest, Fitted, Recipe};
+use crate::fit::{FitPlan, FitRequest, Recipe};
 use crate::predict::{self, Predicted, Target, reads_frames};
 use crate::provenance::{ModelProvenance, Provenance};
 use crate::report::EvaluationReport;
@@ -22,22 +23,25 @@ use deal::{Deal, seen};
 use gratings::ToldSpacings;
 use score::{Scores, score};
 
+/// How the stages of a study are carried out, and where their results are found and kept.
+type Means<'a> = (Work<'a>, StudyCache<'a>);
+
 /// The report of `study`, whose recording is `dataset`.
 pub(crate) fn assess(
     scene: &PlannedScene,
     study: &PlannedStudy,
     dataset: &Dataset,
-    work: Work<'_>,
+    means: Means<'_>,
 ) -> Result<EvaluationReport, StudyError> {
     let deal = Deal::new(study, dataset);
-    let learnt = Learnt::new(scene, study, dataset, &deal, work)?;
+    let learnt = Learnt::new(scene, study, dataset, &deal, means)?;
     let predicted = learnt
         .as_ref()
-        .map(|learnt| learnt.predict(study, dataset, &deal, work))
+        .map(|learnt| learnt.predict(study, dataset, &deal, means))
         .transpose()?;
     let told = deal
         .reads_spacings()
-        .then(|| ToldSpacings::of(dataset, deal.rows(PhaseKind::Gratings), work))
+        .then(|| ToldSpacings::of(dataset, deal.rows(PhaseKind::Gratings), means))
         .transpose()?;
     let input = Scores {
         scene,
@@ -46,7 +50,7 @@ pub(crate) fn assess(
         deal: &deal,
         predicted: predicted.as_ref(),
         told: told.as_ref(),
-        jobs: work.jobs,
+        jobs: means.0.jobs,
     };
     let (evaluation, mut notes) = score(&input)?;
     notes.extend(told.as_ref().map(|_| ToldSpacings::NOTE.to_owned()));
@@ -94,7 +98,7 @@ impl Learnt {
         study: &PlannedStudy,
         dataset: &Dataset,
         deal: &Deal<'_>,
-        work: Work<'_>,
+        (work, cache): Means<'_>,
     ) -> Result<Option<Learnt>, StudyError> {
         if !deal.reads_predictions() {
             return Ok(None);
@@ -117,11 +121,18 @@ impl Learnt {
         };
         let recipe = Recipe::of(&request)?;
         let divided = deal.divided(&request)?;
-        let fitted: Fitted = FitPlan::on(dataset, &request, recipe, divided)?.run(work)?;
+        let plan = FitPlan::on(dataset, &request, recipe, divided.clone())?;
+        let key = Key::of(Stage::Fit)
+            .part("dataset", &dataset.digest().to_string())
+            .whole("request", &request)
+            .whole("divided", &divided)
+            .finish();
+        let frames_decoded = plan.frames_to_decode();
+        let model = cache.value(&key, || Ok(plan.run(work)?.model))?;
         Ok(Some(Learnt {
-            model: fitted.model,
-            divided: Some(fitted.divided),
-            frames_decoded: fitted.frames_decoded,
+            model,
+            divided: Some(divided),
+            frames_decoded,
         }))
     }
 
@@ -131,7 +142,7 @@ impl Learnt {
         study: &PlannedStudy,
         dataset: &Dataset,
         deal: &Deal<'_>,
-        work: Work<'_>,
+        (work, cache): Means<'_>,
     ) -> Result<(Predicted, Vec<usize>), StudyError> {
         let seen = self.divided.as_ref().map_or_else(Vec::new, seen);
         let phases = deal.predicted_phases();
@@ -159,7 +170,15 @@ impl Learnt {
             rows: usable,
             divided: None,
         };
-        let predicted = predict::run(dataset, &self.model, &target, work)?;
+        let key = Key::of(Stage::Predict)
+            .part("dataset", &dataset.digest().to_string())
+            .part("model", &self.model.digest()?)
+            .whole("rows", &target.rows)
+            .finish();
+        let numbers = cache.value(&key, || {
+            predict::numbers(dataset, &self.model, &target, work)
+        })?;
+        let predicted = predict::table(dataset, &self.model, &target, &numbers)?;
         Ok((predicted, target.rows))
     }
 }

@@ -41,7 +41,7 @@ fn study(folder: &Path) -> Command {
     let mut command = Command::new(taceva());
     command
         .current_dir(folder)
-        .args(["run", "study.toml", "--out", "run", "--quiet"])
+        .args(["run", "study.toml", "--out", "run", "--no-cache", "--quiet"])
         .stdout(Stdio::null());
     if folder.join("run").exists() {
         command.arg("--resume");

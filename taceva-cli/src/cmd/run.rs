@@ -1,6 +1,7 @@
 //! `taceva run`.
 
 mod bench;
+mod cache;
 
 use std::path::{Path, PathBuf};
 
@@ -36,9 +37,11 @@ pub(crate) fn run(args: &Run, context: &Context) -> anyhow::Result<u8> {
         .unwrap_or_else(|| RunFolder::numbered(Path::new(RUNS), &planned.scene.name, existing));
     let folder = RunFolder::open(&path, &planned, existing)?;
     context.say(format_args!("run in {}", path.display()));
+    let cache = cache::of(args);
     let workshop = Workshop {
         drivers: &drivers,
         surroundings: &bench::surroundings,
+        cache: cache.as_ref(),
         progress: &context.progress,
     };
     let reports = run_scene(&planned, &folder, workshop, context.jobs);
@@ -50,6 +53,9 @@ pub(crate) fn run(args: &Run, context: &Context) -> anyhow::Result<u8> {
         ),
         false => format!("run in {}", path.display()),
     })?;
+    if let Some(cache) = &cache {
+        cache::tell(cache, &folder, context)?;
+    }
     write_files(&planned, &folder, &reports, &formats)?;
     output::write(None, |out| report::profiles(&reports, args.format, out))?;
     context.say(format_args!(

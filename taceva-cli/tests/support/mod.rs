@@ -21,6 +21,8 @@ pub(crate) const SAMPLES: u32 = 60;
 /// A temporary folder to work in.
 pub(crate) struct Bench {
     folder: TempDir,
+    /// Whether runs find what others have kept.
+    has_cache: bool,
 }
 
 /// What the program did.
@@ -34,6 +36,15 @@ impl Bench {
     pub(crate) fn new() -> Bench {
         Bench {
             folder: tempfile::tempdir().expect("a temporary folder"),
+            has_cache: false,
+        }
+    }
+
+    /// The same, in which runs find what others have kept. Elsewhere every run carries out all it says it does.
+    pub(crate) fn with_cache() -> Bench {
+        Bench {
+            has_cache: true,
+            ..Bench::new()
         }
     }
 
@@ -52,7 +63,11 @@ impl Bench {
         let mut command = Command::new(env!("CARGO_BIN_EXE_taceva"));
         command
             .current_dir(self.folder.path())
+            .env("XDG_CACHE_HOME", self.path("user-cache"))
             .args(words.split_whitespace());
+        if words.starts_with("run") && !self.has_cache {
+            command.arg("--no-cache");
+        }
         command
     }
 

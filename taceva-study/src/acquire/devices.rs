@@ -116,6 +116,18 @@ impl Opener<'_> {
 impl RigSpec {
     /// Whether a device of it is a model of one: then nothing that comes of it was measured.
     pub(super) fn is_simulated(&self, drivers: &Drivers) -> bool {
+        self.sources(drivers)
+            .any(|source| source == DriverSource::Simulated)
+    }
+
+    /// Whether every device of it is a model of one: then it may be opened for no other reason than to be asked.
+    pub(super) fn is_only_simulated(&self, drivers: &Drivers) -> bool {
+        self.sources(drivers)
+            .all(|source| source == DriverSource::Simulated)
+    }
+
+    /// What each of its devices is.
+    fn sources(&self, drivers: &Drivers) -> impl Iterator<Item = DriverSource> + use<> {
         fn of<D: Device + ?Sized>(
             registry: &Registry<D>,
             device: Option<&Setting<String>>,
@@ -130,7 +142,8 @@ impl RigSpec {
             of(&drivers.forces, self.force.as_ref()),
             of(&drivers.lightings, self.lighting.as_ref()),
         ]
-        .contains(&Some(DriverSource::Simulated))
+        .into_iter()
+        .flatten()
     }
 }
 

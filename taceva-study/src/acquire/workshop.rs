@@ -6,6 +6,8 @@ use taceva_core::{Progress, Rig};
 use taceva_drivers::{Drivers, Selector};
 use taceva_protocol::{Digest, SpecimenChanger, Timekeeper};
 
+use crate::cache::Cache;
+
 /// What a rig has beside its devices.
 pub struct Surroundings {
     /// The clock that the stamps of its devices are of.
@@ -43,6 +45,8 @@ pub struct Workshop<'a> {
     pub drivers: &'a Drivers,
     /// What rigs have beside their devices.
     pub surroundings: SurroundingsOf<'a>,
+    /// Where finished stages are found and kept, if anywhere.
+    pub cache: Option<&'a Cache>,
     /// Whoever listens, and may wish to stop.
     pub progress: &'a dyn Progress,
 }

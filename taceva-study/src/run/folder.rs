@@ -5,6 +5,7 @@ use std::fs::{self, File};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
+use crate::cache::remove;
 use crate::error::StudyError;
 use crate::scene::PlannedScene;
 
@@ -31,6 +32,7 @@ const PLANS: &str = "plans.json";
 const SCENE: &str = "scene.toml";
 const RECORDINGS: &str = "recordings";
 const REPORTS: &str = "reports";
+const STAGES: &str = "stages.json";
 
 impl RunFolder {
     /// Makes the folder at `path` ready for `scene`.
@@ -61,7 +63,9 @@ impl RunFolder {
                             .to_owned(),
                     ));
                 }
-                remove_partial(&folder.reports()).map_err(failed)?;
+                for written in [path.to_owned(), folder.reports(), path.join(RECORDINGS)] {
+                    remove_partial(&written).map_err(failed)?;
+                }
                 return Ok(folder);
             }
             Existing::Resume if !is_there => {
@@ -90,6 +94,11 @@ impl RunFolder {
     /// Where its reports are.
     pub fn reports(&self) -> PathBuf {
         self.path.join(REPORTS)
+    }
+
+    /// Where it is written which stages were found rather than carried out.
+    pub fn stages(&self) -> PathBuf {
+        self.path.join(STAGES)
     }
 
     /// Where study `number`, counted from 0, is recorded.
@@ -170,14 +179,14 @@ fn sync_folder(path: &Path) -> io::Result<()> {
     File::open(path)?.sync_all()
 }
 
-/// Removes what an interruption left of files that were being written beside their places.
+/// Removes what an interruption left of files and recordings that were being written beside their places.
 fn remove_partial(folder: &Path) -> io::Result<()> {
     for entry in fs::read_dir(folder)? {
         let entry = entry?;
         let name = entry.file_name();
         let name = name.to_string_lossy();
         if name.starts_with('.') && name.ends_with(".partial") {
-            fs::remove_file(entry.path())?;
+            remove(&entry.path())?;
         }
     }
     Ok(())

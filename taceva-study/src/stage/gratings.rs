@@ -6,6 +6,8 @@ use taceva_core::{Column, GratingKind, Nanometre};
 use taceva_dataset::{Dataset, Pass};
 use taceva_models::{Discriminant, FourierPlane, RadialSpectrum};
 
+use super::Means;
+use crate::cache::{Key, Stage};
 use crate::error::StudyError;
 use crate::features::Work;
 use crate::rows::{Need, usable};
@@ -40,22 +42,30 @@ impl ToldSpacings {
     pub(super) fn of(
         dataset: &Dataset,
         rows: Vec<usize>,
-        work: Work<'_>,
+        (work, cache): Means<'_>,
     ) -> Result<ToldSpacings, StudyError> {
-        let mut told: BTreeMap<usize, Nanometre> = BTreeMap::new();
-        let mut frames_decoded = 0;
-        for presses in boards(dataset, &rows).into_values() {
-            let seen = Pictures::new(dataset, &presses, work)?.seen()?;
-            // Once for the mean picture, once for each picture itself.
-            frames_decoded += 2 * seen.len() as u64;
-            for fold in 0..FOLDS {
-                tell(&seen, fold, &mut told)?;
+        let boards = boards(dataset, &rows);
+        let key = Key::of(Stage::Tell)
+            .part("dataset", &dataset.digest().to_string())
+            .whole("rows", &rows)
+            .finish();
+        let spacings = cache.value(&key, || {
+            let mut told: BTreeMap<usize, Nanometre> = BTreeMap::new();
+            for presses in boards.values() {
+                let seen = Pictures::new(dataset, presses, work)?.seen()?;
+                for fold in 0..FOLDS {
+                    tell(&seen, fold, &mut told)?;
+                }
             }
-        }
-        let mut spacings = Column::default();
-        for row in &rows {
-            spacings.push(told.get(row).map(|spacing| spacing.to_f64()));
-        }
+            let mut spacings = Column::default();
+            for row in &rows {
+                spacings.push(told.get(row).map(|spacing| spacing.to_f64()));
+            }
+            Ok(spacings)
+        })?;
+        let presses: usize = boards.values().map(Vec::len).sum();
+        // Once for the mean picture, once for each picture itself.
+        let frames_decoded = 2 * presses as u64;
         Ok(ToldSpacings {
             rows,
             spacings,

@@ -1,0 +1,131 @@
+//! Finished stages of runs, each kept under the digest of everything that it was made from.
+//!
+//! ```text
+//! FOLDER/1/acquire/<key>/     a closed recording, its files linked with those of the run that made it
+//!         /fit/<key>          a model; first its digest on a line, then its bytes
+//!         /predict/<key>      numbers, in the same way
+//!         /partial/           what is being written; it is renamed when it is whole
+//! ```
+//!
+//! Scores are no stage: they are formed from kept numbers in less time than it takes to look them up safely.
+
+mod key;
+mod recording;
+mod study;
+mod tree;
+mod value;
+
+use std::collections::BTreeSet;
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::{Mutex, PoisonError};
+
+pub(crate) use key::Key;
+pub use key::Stage;
+pub use study::StageRecord;
+pub(crate) use study::StudyCache;
+pub(crate) use tree::remove;
+
+/// How entries are laid out; another layout is another folder, so that no version reads what it cannot know.
+const LAYOUT: &str = "1";
+/// Where entries are written before they are whole.
+const PARTIAL: &str = "partial";
+
+/// A folder in which runs find what others have finished, and what was found there by one run.
+///
+/// It never stops a run: where it cannot be read or written, stages are made anew and [`notes`](Cache::notes) say why. Any number of
+/// runs may share one, because an entry appears whole and under a name that only equal entries have.
+#[derive(Debug)]
+pub struct Cache {
+    folder: PathBuf,
+    written: AtomicU64,
+    notes: Mutex<BTreeSet<String>>,
+    records: Mutex<Vec<(usize, StageRecord)>>,
+}
+
+impl Cache {
+    /// The cache in `folder`, which is made when the first stage is kept.
+    pub fn new(folder: PathBuf) -> Cache {
+        Cache {
+            folder,
+            written: AtomicU64::new(0),
+            notes: Mutex::default(),
+            records: Mutex::default(),
+        }
+    }
+
+    /// What the user should know: a folder that cannot be written, entries that were damaged.
+    pub fn notes(&self) -> Vec<String> {
+        let notes = self.notes.lock().unwrap_or_else(PoisonError::into_inner);
+        notes.iter().cloned().collect()
+    }
+
+    /// The stages of the run so far, study by study, and which of them were found.
+    pub fn stages(&self) -> Vec<StageRecord> {
+        let records = self.records.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut records = records.clone();
+        records.sort_by_key(|(study, record)| (*study, record.stage));
+        records.into_iter().map(|(_, record)| record).collect()
+    }
+
+    fn note(&self, note: String) {
+        let mut notes = self.notes.lock().unwrap_or_else(PoisonError::into_inner);
+        notes.insert(note);
+    }
+
+    fn record(&self, study: usize, record: StageRecord) {
+        let mut records = self.records.lock().unwrap_or_else(PoisonError::into_inner);
+        records.push((study, record));
+    }
+
+    /// Where the entry of `key` is.
+    fn entry(&self, key: &Key) -> PathBuf {
+        let folder = self.folder.join(LAYOUT).join(key.stage().name());
+        folder.join(key.digits())
+    }
+
+    /// Has `write` write an entry beside its place and moves it there, unless another run was faster.
+    fn put(&self, key: &Key, write: impl FnOnce(&Path) -> io::Result<()>) {
+        let entry = self.entry(key);
+        let number = self.written.fetch_add(1, Ordering::Relaxed);
+        let partial = self.folder.join(LAYOUT).join(PARTIAL);
+        let beside = partial.join(format!("{}-{number}", std::process::id()));
+        let made = self
+            .make_folders(&entry, &partial)
+            // A process of the same number may have been stopped here.
+            .and_then(|()| remove(&beside))
+            .and_then(|()| write(&beside))
+            .and_then(|()| fs::rename(&beside, &entry));
+        if let Err(error) = made {
+            // The error that counts is the one that is noted.
+            drop(remove(&beside));
+            if !entry.exists() {
+                self.note(format!(
+                    "the cache {} cannot be written, so this run is not kept there: {error}",
+                    self.folder.display()
+                ));
+            }
+        }
+    }
+
+    fn make_folders(&self, entry: &Path, partial: &Path) -> io::Result<()> {
+        fs::create_dir_all(partial)?;
+        entry.parent().map_or(Ok(()), fs::create_dir_all)
+    }
+
+    /// Removes an entry that is not what was written; what it was is made again.
+    fn discard(&self, key: &Key, problem: &str) {
+        let entry = self.entry(key);
+        let removed = remove(&entry);
+        self.note(format!(
+            "{}: {problem}; it is {} and made anew",
+            entry.display(),
+            match removed {
+                Ok(()) => "removed".to_owned(),
+                Err(error) => format!("left, because it cannot be removed ({error}),"),
+            }
+        ));
+    }
+}

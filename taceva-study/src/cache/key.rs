@@ -1,0 +1,125 @@
+//! The name of a stage's result: the digest of everything that it was made from.
+
+use std::fmt::{self, Debug};
+
+use taceva_dataset::Digest;
+
+/// A part of a run whose result is kept.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, serde::Serialize)]
+#[serde(rename_all = "lowercase")]
+#[non_exhaustive]
+pub enum Stage {
+    /// The presses of a study: a recording.
+    Acquire,
+    /// What is learnt of them: a model.
+    Fit,
+    /// What the model says of the presses that it has not seen.
+    Predict,
+    /// Which spacings the presses of gratings are taken for.
+    Tell,
+}
+
+impl Stage {
+    /// The word used in files and folders.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Stage::Acquire => "acquire",
+            Stage::Fit => "fit",
+            Stage::Predict => "predict",
+            Stage::Tell => "tell",
+        }
+    }
+
+    /// Counted on when the result of the same parts becomes another one within a version of this program.
+    const fn version(self) -> u32 {
+        match self {
+            Stage::Acquire | Stage::Fit | Stage::Predict | Stage::Tell => 1,
+        }
+    }
+}
+
+/// The name of a stage's result.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Key {
+    stage: Stage,
+    digest: Digest,
+}
+
+impl Key {
+    /// The key of a result of `stage`, of which parts are to be named.
+    pub(crate) fn of(stage: Stage) -> KeyBuilder {
+        let builder = KeyBuilder {
+            stage,
+            parts: Vec::new(),
+        };
+        builder
+            .part("stage", stage.name())
+            .part("version", &stage.version().to_string())
+            .part("taceva", env!("CARGO_PKG_VERSION"))
+    }
+
+    pub(crate) fn stage(&self) -> Stage {
+        self.stage
+    }
+
+    /// The 64 digits by which its entry is called.
+    pub(crate) fn digits(&self) -> String {
+        let bytes = self.digest.as_bytes().iter();
+        bytes.map(|byte| format!("{byte:02x}")).collect()
+    }
+}
+
+impl fmt::Display for Key {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        fmt::Display::fmt(&self.digest, f)
+    }
+}
+
+/// Parts of a key, each with its name and its length, so that no two sequences of parts run together.
+pub(crate) struct KeyBuilder {
+    stage: Stage,
+    parts: Vec<u8>,
+}
+
+impl KeyBuilder {
+    pub(crate) fn part(mut self, name: &str, part: &str) -> KeyBuilder {
+        for text in [name, part] {
+            self.parts.extend((text.len() as u64).to_le_bytes());
+            self.parts.extend(text.as_bytes());
+        }
+        self
+    }
+
+    /// A part by the form in which it is debugged, which names every field: one that is added later enters the key by itself.
+    pub(crate) fn whole(self, name: &str, part: &impl Debug) -> KeyBuilder {
+        self.part(name, &format!("{part:?}"))
+    }
+
+    pub(crate) fn finish(self) -> Key {
+        Key {
+            stage: self.stage,
+            digest: Digest::of(&self.parts),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn keys_differ_in_stage_name_and_part_and_parts_do_not_run_together() {
+        let keys = [
+            Key::of(Stage::Fit).finish(),
+            Key::of(Stage::Tell).finish(),
+            Key::of(Stage::Fit).part("ab", "c").finish(),
+            Key::of(Stage::Fit).part("a", "bc").finish(),
+            Key::of(Stage::Fit).part("a", "b").part("c", "").finish(),
+        ];
+        for (position, key) in keys.iter().enumerate() {
+            assert!(keys[..position].iter().all(|other| other != key), "{key}");
+        }
+        let again = Key::of(Stage::Fit).part("ab", "c").finish();
+        assert_eq!(again.digits(), keys[2].digits());
+    }
+}

@@ -1,0 +1,194 @@
+//! Small results that are kept: one file each, whose first line is the digest of the rest.
+
+use std::fs::{self, File};
+use std::io::{self, Write};
+
+use taceva_core::Column;
+use taceva_dataset::Digest;
+use taceva_models::Model;
+
+use super::{Cache, Key};
+
+/// A result that is kept in a file.
+pub(crate) trait Kept: Sized {
+    /// What is kept; `None` where it cannot be written down.
+    fn to_kept(&self) -> Option<Vec<u8>>;
+
+    /// What was kept; `None` if these are not the bytes of such a result.
+    fn from_kept(bytes: &[u8]) -> Option<Self>;
+}
+
+impl Kept for Model {
+    fn to_kept(&self) -> Option<Vec<u8>> {
+        self.to_bytes().ok()
+    }
+
+    fn from_kept(bytes: &[u8]) -> Option<Model> {
+        Model::from_bytes(bytes).ok()
+    }
+}
+
+/// A byte that says whether there is a value, and the bits of the value, a row.
+impl Kept for Column {
+    fn to_kept(&self) -> Option<Vec<u8>> {
+        let rows = (0..self.len()).map(|row| self.get(row));
+        let bytes = rows.flat_map(|value| {
+            let mut bytes = [0; 9];
+            bytes[0] = u8::from(value.is_some());
+            bytes[1..].copy_from_slice(&value.unwrap_or(0.0).to_le_bytes());
+            bytes
+        });
+        Some(bytes.collect())
+    }
+
+    fn from_kept(bytes: &[u8]) -> Option<Column> {
+        let (rows, []) = bytes.as_chunks::<9>() else {
+            return None;
+        };
+        let mut column = Column::default();
+        for [is_there, bits @ ..] in rows {
+            column.push((*is_there == 1).then_some(f64::from_le_bytes(*bits)));
+        }
+        Some(column)
+    }
+}
+
+impl Cache {
+    /// The result kept under `key`; `None` if there is none or it is not what was written.
+    pub(super) fn take_value<T: Kept>(&self, key: &Key) -> Option<T> {
+        let problem = match fs::read(self.entry(key)) {
+            Ok(bytes) => match content(&bytes).and_then(T::from_kept) {
+                Some(value) => return Some(value),
+                None => "it is not what was written there".to_owned(),
+            },
+            Err(error) if is_absent(&error) => return None,
+            Err(error) => error.to_string(),
+        };
+        self.discard(key, &problem);
+        None
+    }
+
+    /// Keeps `value` under `key`.
+    pub(super) fn keep_value(&self, key: &Key, value: &impl Kept) {
+        let Some(content) = value.to_kept() else {
+            return;
+        };
+        self.put(key, |beside| {
+            let mut file = File::create_new(beside)?;
+            writeln!(file, "{}", Digest::of(&content))?;
+            file.write_all(&content)?;
+            // A name that outlives a power cut must not stand for an empty file.
+            file.sync_all()
+        });
+    }
+}
+
+/// What follows the first line of a file, if it has the digest that stands there.
+fn content(bytes: &[u8]) -> Option<&[u8]> {
+    let end = bytes.iter().position(|byte| *byte == b'\n')?;
+    let (line, content) = (str::from_utf8(&bytes[..end]).ok()?, &bytes[end + 1..]);
+    let digest: Digest = line.parse().ok()?;
+    (Digest::of(content) == digest).then_some(content)
+}
+
+/// Whether nothing is there, or nothing can be because no folder is.
+fn is_absent(error: &io::Error) -> bool {
+    matches!(
+        error.kind(),
+        io::ErrorKind::NotFound | io::ErrorKind::NotADirectory
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::Stage;
+    use super::*;
+
+    /// Numbers with one that is absent.
+    fn numbers() -> Column {
+        let mut column = Column::default();
+        for value in [Some(0.1), None, Some(-0.0), Some(1e300)] {
+            column.push(value);
+        }
+        column
+    }
+
+    #[test]
+    fn what_is_kept_is_found_with_the_same_bits() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let cache = Cache::new(folder.path().join("deep/cache"));
+        let key = Key::of(Stage::Predict).finish();
+        assert_eq!(cache.take_value::<Column>(&key), None);
+        cache.keep_value(&key, &numbers());
+        let found: Column = cache.take_value(&key).expect("kept");
+        let bits = |column: &Column| -> Vec<_> {
+            let rows = (0..column.len()).map(|row| column.get(row).map(f64::to_bits));
+            rows.collect()
+        };
+        assert_eq!(bits(&found), bits(&numbers()));
+        assert_eq!(cache.notes(), Vec::<String>::new());
+        let other = Key::of(Stage::Predict).part("seed", "2").finish();
+        assert_eq!(cache.take_value::<Column>(&other), None);
+    }
+
+    #[test]
+    fn nothing_half_written_and_nothing_altered_is_ever_read() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let key = Key::of(Stage::Tell).finish();
+        let cache = Cache::new(folder.path().to_owned());
+        cache.keep_value(&key, &numbers());
+        let entry = cache.entry(&key);
+        let whole = fs::read(&entry).expect("kept");
+        for length in 0..whole.len() {
+            fs::write(&entry, &whole[..length]).expect("cut");
+            assert_eq!(cache.take_value::<Column>(&key), None, "{length} bytes");
+            assert!(!entry.exists(), "{length} bytes are removed");
+        }
+        for position in 0..whole.len() {
+            let mut altered = whole.clone();
+            altered[position] ^= 1;
+            fs::write(&entry, altered).expect("altered");
+            assert_eq!(cache.take_value::<Column>(&key), None, "byte {position}");
+        }
+        assert!(cache.notes()[0].contains("not what was written"));
+        cache.keep_value(&key, &numbers());
+        assert_eq!(cache.take_value(&key), Some(numbers()));
+    }
+
+    #[test]
+    fn a_folder_that_cannot_be_written_is_noted_once_and_stops_nothing() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let file = folder.path().join("file");
+        fs::write(&file, "mine").expect("written");
+        let cache = Cache::new(file.clone());
+        for stage in [Stage::Fit, Stage::Predict] {
+            let key = Key::of(stage).finish();
+            assert_eq!(cache.take_value::<Column>(&key), None);
+            cache.keep_value(&key, &numbers());
+        }
+        let notes = cache.notes();
+        assert!(
+            matches!(&notes[..], [note] if note.contains("cannot be written")),
+            "{notes:?}"
+        );
+        assert_eq!(fs::read(&file).expect("there"), b"mine");
+    }
+
+    #[test]
+    fn of_two_that_keep_one_thing_at_once_either_is_found_whole() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let key = Key::of(Stage::Tell).finish();
+        let cache = Cache::new(folder.path().to_owned());
+        std::thread::scope(|scope| {
+            for _ in 0..4 {
+                scope.spawn(|| {
+                    for _ in 0..20 {
+                        cache.keep_value(&key, &numbers());
+                        assert_eq!(cache.take_value(&key), Some(numbers()));
+                    }
+                });
+            }
+        });
+        assert_eq!(cache.notes(), Vec::<String>::new());
+    }
+}
