@@ -40,6 +40,7 @@ const PARTIAL: &str = "partial";
 #[derive(Debug)]
 pub struct Cache {
     folder: PathBuf,
+    models: String,
     written: AtomicU64,
     notes: Mutex<BTreeSet<String>>,
     records: Mutex<Vec<(usize, StageRecord)>>,
@@ -47,9 +48,13 @@ pub struct Cache {
 
 impl Cache {
     /// The cache in `folder`, which is made when the first stage is kept.
-    pub fn new(folder: PathBuf) -> Cache {
+    ///
+    /// `models` says what the simulated drivers of the program are models of, with version and parameters: what other models recorded is
+    /// not found.
+    pub fn new(folder: PathBuf, models: String) -> Cache {
         Cache {
             folder,
+            models,
             written: AtomicU64::new(0),
             notes: Mutex::default(),
             records: Mutex::default(),
@@ -68,6 +73,10 @@ impl Cache {
         let mut records = records.clone();
         records.sort_by_key(|(study, record)| (*study, record.stage));
         records.into_iter().map(|(_, record)| record).collect()
+    }
+
+    pub(crate) fn models(&self) -> &str {
+        &self.models
     }
 
     fn note(&self, note: String) {

@@ -98,7 +98,9 @@ fn obtain(
             let path = folder.recording(number, &study.plan.name);
             let press = || acquire(study, rig, &path, (workshop, cancel));
             // A real rig is never replayed, and has no key.
-            let key = workshop.cache.and_then(|_| key(study, rig, workshop));
+            let key = workshop
+                .cache
+                .and_then(|cache| key(study, rig, (workshop.drivers, cache)));
             let Some(key) = key else {
                 return press();
             };

@@ -116,7 +116,7 @@ mod tests {
     #[test]
     fn what_is_kept_is_found_with_the_same_bits() {
         let folder = tempfile::tempdir().expect("a folder");
-        let cache = Cache::new(folder.path().join("deep/cache"));
+        let cache = Cache::new(folder.path().join("deep/cache"), String::new());
         let key = Key::of(Stage::Predict).finish();
         assert_eq!(cache.take_value::<Column>(&key), None);
         cache.keep_value(&key, &numbers());
@@ -135,7 +135,7 @@ mod tests {
     fn nothing_half_written_and_nothing_altered_is_ever_read() {
         let folder = tempfile::tempdir().expect("a folder");
         let key = Key::of(Stage::Tell).finish();
-        let cache = Cache::new(folder.path().to_owned());
+        let cache = Cache::new(folder.path().to_owned(), String::new());
         cache.keep_value(&key, &numbers());
         let entry = cache.entry(&key);
         let whole = fs::read(&entry).expect("kept");
@@ -160,7 +160,7 @@ mod tests {
         let folder = tempfile::tempdir().expect("a folder");
         let file = folder.path().join("file");
         fs::write(&file, "mine").expect("written");
-        let cache = Cache::new(file.clone());
+        let cache = Cache::new(file.clone(), String::new());
         for stage in [Stage::Fit, Stage::Predict] {
             let key = Key::of(stage).finish();
             assert_eq!(cache.take_value::<Column>(&key), None);
@@ -178,7 +178,7 @@ mod tests {
     fn of_two_that_keep_one_thing_at_once_either_is_found_whole() {
         let folder = tempfile::tempdir().expect("a folder");
         let key = Key::of(Stage::Tell).finish();
-        let cache = Cache::new(folder.path().to_owned());
+        let cache = Cache::new(folder.path().to_owned(), String::new());
         std::thread::scope(|scope| {
             for _ in 0..4 {
                 scope.spawn(|| {

@@ -5,7 +5,7 @@ use std::time::Duration;
 use taceva_core::{Deadline, DriverError, DriverKey, ErrorKind, Rig};
 use taceva_drivers::Selector;
 use taceva_protocol::{Digest, Specimen, SpecimenChanger, Timekeeper};
-use taceva_sim::{MODEL_VERSION, Mounted, SimulatedRig};
+use taceva_sim::{MODEL_VERSION, Model, Mounted, SimulatedRig};
 use taceva_study::{Surroundings, Upcoming};
 
 const ROBOT: DriverKey = DriverKey::fixed("sim/robot");
@@ -35,6 +35,12 @@ pub(super) fn surroundings(robot: &Selector, rig: &mut Rig) -> Option<Surroundin
         gel,
         begins_anew: true,
     })
+}
+
+/// What the bench is a model of: its version and the parameters that are built in.
+pub(super) fn models() -> String {
+    let digests = Model::ALL.map(|model| model.parameters().digest().to_string());
+    format!("bench {MODEL_VERSION}: {}", digests.join(" "))
 }
 
 /// The first 64 bits of the name of a press.

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use serde::Serialize;
 use taceva_study::{Cache, RunFolder, StageRecord};
 
-use super::Context;
+use super::{Context, bench};
 use crate::args::Run;
 use crate::output;
 
@@ -14,7 +14,8 @@ pub(super) fn of(args: &Run) -> Option<Cache> {
     if args.no_cache {
         return None;
     }
-    args.cache.clone().or_else(of_user).map(Cache::new)
+    let folder = args.cache.clone().or_else(of_user)?;
+    Some(Cache::new(folder, bench::models()))
 }
 
 /// The folder `taceva` in the user's cache folder; a relative one is not to be followed.
