@@ -84,6 +84,11 @@ fn a_scene_gives_scores_of_every_part_and_says_that_nothing_was_measured() {
     let rate = &metrics["intrinsic"]["frame_rate"];
     let rate_hz = rate["value"].as_f64().expect("a rate");
     assert!((rate_hz - 30.0).abs() < 0.1, "{rate}");
+    assert_eq!(rate["n"], 6, "times count at rest alone: {rate}");
+    // Presses reach over the round field of view of 1257 mm² and not beyond.
+    let view = &metrics["intrinsic"]["field_of_view"];
+    let area_mm2 = view["value"].as_f64().expect("an area");
+    assert!(area_mm2 > 100.0 && area_mm2 < 1257.0, "{view}");
     // Three boards of each relief, pressed twice.
     for kind in ["line", "dot"] {
         assert_eq!(metrics["sr"][kind]["n"], 6, "{}", metrics["sr"]);

@@ -35,7 +35,13 @@ struct Ground {
     phase: PhaseKind,
     channels: Vec<String>,
     of_predictions: bool,
+    /// Whether times count in the phase alone and everything else wherever it was recorded.
+    of_sensor: bool,
 }
+
+/// The metric that says how fast a sensor looks and how far: pictures come as fast as they can at rest, where nothing is touched, so that
+/// its places of contact are those of every other part of the protocol.
+const OF_SENSOR: &str = "intrinsic";
 
 /// The scores, and what a reader must know of what was left out beyond what a skip can say.
 pub(super) fn score(scores: &Scores<'_>) -> Result<(Evaluation, Vec<String>), StudyError> {
@@ -45,6 +51,7 @@ pub(super) fn score(scores: &Scores<'_>) -> Result<(Evaluation, Vec<String>), St
             phase: planned.phase,
             channels: planned.channels.clone(),
             of_predictions: reads_prediction(metric),
+            of_sensor: metric.id == OF_SENSOR,
         };
         grounds.entry(ground).or_default().push(metric);
     }
@@ -86,6 +93,7 @@ impl Scores<'_> {
         let told = self.told.filter(|told| told.rows == rows);
         let samples = Samples {
             columns,
+            timed: ground.of_sensor.then(|| self.deal.rows(ground.phase)),
             spacings: told.map(|told| &told.spacings),
         };
         Ok(tally(&samples, &plan, self.jobs)?.finish()?)
@@ -104,7 +112,10 @@ impl Scores<'_> {
 
     /// The rows of `ground` and what is predicted of them; where a metric reads predictions, rows without one take no part.
     fn rows(&self, ground: &Ground, channels: &Channels) -> (Vec<usize>, Vec<Column>) {
-        let rows = self.deal.rows(ground.phase);
+        let rows = match ground.of_sensor {
+            true => self.dataset.all_rows(),
+            false => self.deal.rows(ground.phase),
+        };
         let (true, Some((predicted, of_rows))) = (ground.of_predictions, self.predicted) else {
             let mut nothing = Column::default();
             rows.iter().for_each(|_| nothing.push(None));
@@ -130,6 +141,8 @@ impl Scores<'_> {
 /// Rows with the spacings that were told of them, if any were.
 struct Samples<'a> {
     columns: Columns<'a>,
+    /// The rows whose times count, ascending; those of all rows if absent.
+    timed: Option<Vec<usize>>,
     spacings: Option<&'a Column>,
 }
 
@@ -139,7 +152,15 @@ impl Rows for Samples<'_> {
     }
 
     fn batch(&self, plan: &MetricPlan, rows: Range<usize>) -> Result<Batch, StudyError> {
-        let batch = self.columns.batch(plan, rows.clone())?;
+        let mut batch = self.columns.batch(plan, rows.clone())?;
+        if let (Some(timed), Some(times)) = (&self.timed, batch.numbers(Field::Stamp)) {
+            let mut counted = Column::default();
+            for (position, row) in self.columns.rows[rows.clone()].iter().enumerate() {
+                let counts = timed.binary_search(row).is_ok();
+                counted.push(times.get(position).filter(|_| counts));
+            }
+            batch = batch.with_numbers(Field::Stamp, counted);
+        }
         Ok(match self.spacings {
             Some(spacings) => batch.with_numbers(Field::PredictedSpacing, spacings.slice(rows)),
             None => batch,
