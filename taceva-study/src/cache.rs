@@ -4,7 +4,7 @@
 //! FOLDER/1/acquire/<key>/     a closed recording, its files linked with those of the run that made it
 //!         /fit/<key>          a model; first its digest on a line, then its bytes
 //!         /predict/<key>      numbers, in the same way
-//!         /partial/           what is being written; it is renamed when it is whole
+//!         /partial/           what is being written; it is renamed when it is whole, and left if the run is stopped
 //! ```
 //!
 //! Scores are no stage: they are formed from kept numbers in less time than it takes to look them up safely.
@@ -96,32 +96,43 @@ impl Cache {
     }
 
     /// Has `write` write an entry beside its place and moves it there, unless another run was faster.
-    fn put(&self, key: &Key, write: impl FnOnce(&Path) -> io::Result<()>) {
+    ///
+    /// `write` makes a file or a folder and refuses one that is there.
+    fn put(&self, key: &Key, write: impl Fn(&Path) -> io::Result<()>) {
         let entry = self.entry(key);
-        let number = self.written.fetch_add(1, Ordering::Relaxed);
-        let partial = self.folder.join(LAYOUT).join(PARTIAL);
-        let beside = partial.join(format!("{}-{number}", std::process::id()));
-        let made = self
-            .make_folders(&entry, &partial)
-            // A process of the same number may have been stopped here.
-            .and_then(|()| remove(&beside))
-            .and_then(|()| write(&beside))
-            .and_then(|()| fs::rename(&beside, &entry));
-        if let Err(error) = made {
-            // The error that counts is the one that is noted.
-            drop(remove(&beside));
-            if !entry.exists() {
-                self.note(format!(
-                    "the cache {} cannot be written, so this run is not kept there: {error}",
-                    self.folder.display()
-                ));
-            }
+        if let Err(error) = self.try_put(&entry, write)
+            && !entry.exists()
+        {
+            self.note(format!(
+                "the cache {} cannot be written, so this run is not kept there: {error}",
+                self.folder.display()
+            ));
         }
     }
 
-    fn make_folders(&self, entry: &Path, partial: &Path) -> io::Result<()> {
-        fs::create_dir_all(partial)?;
-        entry.parent().map_or(Ok(()), fs::create_dir_all)
+    fn try_put(&self, entry: &Path, write: impl Fn(&Path) -> io::Result<()>) -> io::Result<()> {
+        let partial = self.folder.join(LAYOUT).join(PARTIAL);
+        for folder in entry.parent().into_iter().chain([partial.as_path()]) {
+            fs::create_dir_all(folder)?;
+        }
+        loop {
+            let number = self.written.fetch_add(1, Ordering::Relaxed);
+            let beside = partial.join(format!("{}-{number}", std::process::id()));
+            let written = match write(&beside) {
+                // Of a process with the same number that was stopped, or that runs on another machine.
+                Err(error) if error.kind() == io::ErrorKind::AlreadyExists => continue,
+                written => written.and_then(|()| fs::rename(&beside, entry)),
+            };
+            if written.is_err() {
+                // The error that counts is the one that is returned.
+                drop(remove(&beside));
+            }
+            return written;
+        }
+    }
+
+    fn note_unreadable(&self, entry: &Path, error: &io::Error) {
+        self.note(format!("{} cannot be used: {error}", entry.display()));
     }
 
     /// Removes an entry that is not what was written; what it was is made again.

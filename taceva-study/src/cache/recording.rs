@@ -15,19 +15,17 @@ impl Cache {
         let entry = self.entry(key);
         let beside = beside(place)?;
         let linked = remove(&beside).and_then(|()| link(&entry, &beside));
-        let problem = match linked {
-            Err(error) if error.kind() == io::ErrorKind::NotFound && !entry.exists() => None,
-            Err(error) => Some(error.to_string()),
+        match linked {
+            Err(error) if error.kind() == io::ErrorKind::NotFound && !entry.exists() => {}
+            // Nothing is wrong with the entry where there is no room for links.
+            Err(error) => self.note_unreadable(&entry, &error),
             Ok(()) => match check(&beside) {
                 Ok(()) => return moved(&beside, place),
-                Err(problem) => Some(problem),
+                Err(problem) => self.discard(key, &problem),
             },
-        };
+        }
         // Nobody reads a name that begins with a dot, should it stay.
         drop(remove(&beside));
-        if let Some(problem) = problem {
-            self.discard(key, &problem);
-        }
         None
     }
 

@@ -56,16 +56,21 @@ impl Kept for Column {
 impl Cache {
     /// The result kept under `key`; `None` if there is none or it is not what was written.
     pub(super) fn take_value<T: Kept>(&self, key: &Key) -> Option<T> {
-        let problem = match fs::read(self.entry(key)) {
-            Ok(bytes) => match content(&bytes).and_then(T::from_kept) {
-                Some(value) => return Some(value),
-                None => "it is not what was written there".to_owned(),
-            },
-            Err(error) if is_absent(&error) => return None,
-            Err(error) => error.to_string(),
+        let entry = self.entry(key);
+        let bytes = match fs::read(&entry) {
+            Ok(bytes) => bytes,
+            Err(error) => {
+                if !is_absent(&error) {
+                    self.note_unreadable(&entry, &error);
+                }
+                return None;
+            }
         };
-        self.discard(key, &problem);
-        None
+        let value = content(&bytes).and_then(T::from_kept);
+        if value.is_none() {
+            self.discard(key, "it is not what was written there");
+        }
+        value
     }
 
     /// Keeps `value` under `key`.
