@@ -1,8 +1,18 @@
 //! What was typed. Meaning is given to it in `cmd/`; nothing here has a side effect.
 
+mod bench;
+mod shared;
+mod study;
+
 use std::path::PathBuf;
 
-use clap::{ArgGroup, Args, Parser, Subcommand, ValueEnum};
+use clap::{ArgGroup, Args, Parser, Subcommand};
+
+pub(crate) use self::bench::{Bench, BenchKernels, BenchSubject};
+pub(crate) use self::shared::{
+    Format, ModelArgs, OptionalModelArgs, Output, PartArg, SettingArgs, SplitArgs,
+};
+pub(crate) use self::study::{ListFormat, Listing, PlanArgs, Run, SceneArgs};
 
 const AFTER_HELP: &str = "\
 Start here:
@@ -239,190 +249,9 @@ pub(crate) struct Merge {
 }
 
 #[derive(Debug, Args)]
-pub(crate) struct Bench {
-    #[command(subcommand)]
-    pub(crate) subject: BenchSubject,
-}
-
-/// What to benchmark.
-#[derive(Debug, Subcommand)]
-pub(crate) enum BenchSubject {
-    /// The ways to sum: nanoseconds for each pair of values against digits that are right
-    Kernels(BenchKernels),
-}
-
-/// Naive, two-pass, pairwise, Kahan, Neumaier and Welford sums and ours on every instruction set, over inputs that tell them
-/// apart; beside them what reading the columns takes. TACEVA_ISA=avx512|avx2|portable forces the path of every other command.
-#[derive(Debug, Args)]
-pub(crate) struct BenchKernels {
-    /// Rows of each of the six channels
-    #[arg(long, value_name = "N", default_value_t = 1_000_000)]
-    pub(crate) rows: usize,
-    /// How often each candidate is timed
-    #[arg(long, value_name = "N", default_value_t = 15)]
-    pub(crate) rounds: usize,
-    /// The seed of columns and shuffles
-    #[arg(long, value_name = "N", default_value_t = 0)]
-    pub(crate) seed: u64,
-    /// Draw time against digits as SVG
-    #[arg(long, value_name = "FILE.svg")]
-    pub(crate) svg: Option<PathBuf>,
-    #[command(flatten)]
-    pub(crate) output: Output,
-}
-
-/// A scene, and what may be said otherwise than it is written there.
-#[derive(Debug, Args)]
-pub(crate) struct SceneArgs {
-    /// A file, or the name of a scene that is built in: quick, paper
-    #[arg(value_name = "SCENE", default_value = "quick")]
-    pub(crate) scene: String,
-    /// The seed of every draw, in the place of the scene's
-    #[arg(long, value_name = "N")]
-    pub(crate) seed: Option<u64>,
-}
-
-#[derive(Debug, Args)]
-pub(crate) struct Run {
-    #[command(flatten)]
-    pub(crate) scene: SceneArgs,
-    /// The folder of the run [default: runs/SCENE-NUMBER, a new one]
-    #[arg(long = "out", value_name = "FOLDER")]
-    pub(crate) folder: Option<PathBuf>,
-    /// Go on with the run in that folder, or with the last one
-    #[arg(long, conflicts_with = "force")]
-    pub(crate) resume: bool,
-    /// Remove the run in that folder, or the last one, and begin anew
-    #[arg(long)]
-    pub(crate) force: bool,
-    /// Where finished stages of simulated studies, fits and predictions are found and kept [default: taceva in the user's cache folder]
-    #[arg(long, value_name = "DIR", conflicts_with = "no_cache")]
-    pub(crate) cache: Option<PathBuf>,
-    /// Carry out every stage, and keep none
-    #[arg(long)]
-    pub(crate) no_cache: bool,
-    /// The form of the reports on standard output
-    #[arg(long, value_enum, default_value_t = Format::Text)]
-    pub(crate) format: Format,
-}
-
-#[derive(Debug, Args)]
-pub(crate) struct PlanArgs {
-    #[command(flatten)]
-    pub(crate) scene: SceneArgs,
-    #[command(flatten)]
-    pub(crate) listing: Listing,
-}
-
-/// A list, for people or for programs.
-#[derive(Debug, Args)]
-pub(crate) struct Listing {
-    /// The form of the list
-    #[arg(long, value_enum, default_value_t = ListFormat::Text)]
-    pub(crate) format: ListFormat,
-    /// Write the list to a file instead of standard output
-    #[arg(long = "out", value_name = "PATH")]
-    pub(crate) path: Option<PathBuf>,
-    /// Replace a file that stands there already
-    #[arg(long)]
-    pub(crate) force: bool,
-}
-
-/// The form of a list or a plan.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(crate) enum ListFormat {
-    /// For people
-    Text,
-    /// For programs; the key `schema` says which form it has
-    Json,
-}
-
-#[derive(Debug, Args)]
 pub(crate) struct Completions {
     /// The shell
     pub(crate) shell: clap_complete::Shell,
-}
-
-/// A model to fit, and its settings.
-#[derive(Debug, Args)]
-pub(crate) struct ModelArgs {
-    /// The model: baseline, ridge, pls
-    #[arg(long = "model", value_name = "NAME")]
-    pub(crate) name: String,
-    #[command(flatten)]
-    pub(crate) settings: SettingArgs,
-}
-
-/// As [`ModelArgs`], where a fitted model may stand instead.
-#[derive(Debug, Args)]
-pub(crate) struct OptionalModelArgs {
-    /// The model to fit: baseline, ridge, pls
-    #[arg(long = "model", value_name = "NAME")]
-    pub(crate) name: Option<String>,
-    #[command(flatten)]
-    pub(crate) settings: SettingArgs,
-}
-
-#[derive(Debug, Args)]
-pub(crate) struct SettingArgs {
-    /// A setting of the features or of the model, such as size=32x32, color=gray, strength=0.1; may be repeated
-    #[arg(long = "set", value_name = "KEY=VALUE")]
-    pub(crate) set: Vec<String>,
-    /// Channels to predict, separated by commas [default: all]
-    #[arg(long, value_name = "CHANNELS", value_delimiter = ',')]
-    pub(crate) channels: Vec<String>,
-}
-
-#[derive(Debug, Args)]
-pub(crate) struct SplitArgs {
-    /// How samples are divided: random, chronological, by-point, declared, or
-    /// by-column:NAME[=train:1,2;val:3;test:4] [default: by-point where points have repeats, else random]
-    #[arg(long, value_name = "SPLIT")]
-    pub(crate) split: Option<String>,
-    /// The seed of everything that is drawn
-    #[arg(long, value_name = "N", default_value_t = 0)]
-    pub(crate) seed: u64,
-}
-
-#[derive(Debug, Args)]
-pub(crate) struct Output {
-    /// The form of the result
-    #[arg(long, value_enum, default_value_t = Format::Text)]
-    pub(crate) format: Format,
-    /// Write the result to a file instead of standard output
-    #[arg(long = "out", value_name = "PATH")]
-    pub(crate) path: Option<PathBuf>,
-    /// Replace a file that stands there already
-    #[arg(long)]
-    pub(crate) force: bool,
-}
-
-/// The form of a result.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(crate) enum Format {
-    /// For people
-    Text,
-    /// For programs; the key `schema` says which form it has
-    Json,
-    /// One row a score or finding
-    Csv,
-    /// A Markdown table
-    Md,
-    /// A LaTeX table (booktabs)
-    Tex,
-}
-
-/// The part of a dataset.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(crate) enum PartArg {
-    /// What the model was fitted on
-    Train,
-    /// What its settings were chosen on
-    Validation,
-    /// What it has not seen
-    Test,
-    /// Every sample
-    All,
 }
 
 #[cfg(test)]

@@ -82,12 +82,10 @@ impl Family for Crosstalk {
     fn deposit(&mut self, sums: &mut [JointSums], batch: &Batch, rows: Option<&[u32]>) {
         let [sums] = sums else { return };
         each_row(batch, rows, |row| {
-            let pairs = self.positions.iter().map(|&position| {
-                Some(Paired {
-                    estimate: batch.prediction(position).get(row)?,
-                    reference: batch.truth(position).get(row)?,
-                })
-            });
+            let pairs = self
+                .positions
+                .iter()
+                .map(|&position| Paired::at(batch, position, row));
             if let Some(pairs) = pairs.collect::<Option<Vec<_>>>() {
                 sums.add(&pairs);
             }

@@ -64,14 +64,7 @@ impl Family for Lighting {
                 return;
             };
             for (channel, sums) in sums.iter_mut().enumerate() {
-                let truth = batch.truth(channel).get(row);
-                if let (Some(reference), Some(estimate)) =
-                    (truth, batch.prediction(channel).get(row))
-                {
-                    let pair = Paired {
-                        estimate,
-                        reference,
-                    };
+                if let Some(pair) = Paired::at(batch, channel, row) {
                     sums.add(scene, pair, intensity);
                 }
             }

@@ -1,5 +1,7 @@
 //! What was predicted beside what is true, by role: swapped arguments would pass every check of shapes.
 
+use taceva_core::Batch;
+
 use crate::accuracy::EPSILON;
 use crate::error::MetricError;
 
@@ -16,6 +18,14 @@ pub struct Paired<T> {
 }
 
 impl Paired<f64> {
+    /// Prediction and truth of one channel at a row of `batch`, both by position; `None` if either is absent.
+    pub(crate) fn at(batch: &Batch, channel: usize, row: usize) -> Option<Paired<f64>> {
+        Some(Paired {
+            estimate: batch.prediction(channel).get(row)?,
+            reference: batch.truth(channel).get(row)?,
+        })
+    }
+
     /// d = RN(y − ŷ).
     #[inline]
     pub fn residual(self) -> f64 {

@@ -95,14 +95,7 @@ impl Family for Spatial {
                 return;
             };
             for (channel, sums) in sums.iter_mut().enumerate() {
-                let truth = batch.truth(channel).get(row);
-                if let (Some(reference), Some(estimate)) =
-                    (truth, batch.prediction(channel).get(row))
-                {
-                    let pair = Paired {
-                        estimate,
-                        reference,
-                    };
+                if let Some(pair) = Paired::at(batch, channel, row) {
                     sums.add(pair, [x, y, z], self.reach);
                 }
             }

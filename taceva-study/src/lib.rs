@@ -4,6 +4,7 @@ mod acquire;
 pub mod bench;
 mod cache;
 pub mod check;
+mod durable;
 mod error;
 mod evaluate;
 mod facts;

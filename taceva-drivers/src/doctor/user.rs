@@ -120,7 +120,7 @@ mod tests {
 
     #[test]
     fn a_user_is_read_from_the_tables_of_the_system() {
-        let passwords = "root:x:0:0::/root:/bin/sh\nann:x:1000:1000::/home/ann:/bin/sh";
+        let passwords = "root:x:0:0::/:/bin/sh\nann:x:1000:1000::/:/bin/sh";
         let groups = "video:x:44:\ndialout:x:20:bob,ann\nodd line\n";
         let user = User::parse(STATUS, passwords, groups).expect("complete");
         assert_eq!(user.id, 1000);

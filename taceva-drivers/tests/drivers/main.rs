@@ -5,5 +5,6 @@ mod devices;
 mod doctor;
 mod fault;
 mod replay;
+mod replay_refusals;
 mod support;
 mod toy;

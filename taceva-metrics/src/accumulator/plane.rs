@@ -107,12 +107,7 @@ impl Family for Plane {
     fn deposit(&mut self, sums: &mut [PlaneSums], batch: &Batch, rows: Option<&[u32]>) {
         for (plane, sums) in self.planes.iter().zip(sums) {
             each_row(batch, rows, |row| {
-                let pair = |axis: usize| {
-                    Some(Paired {
-                        estimate: batch.prediction(axis).get(row)?,
-                        reference: batch.truth(axis).get(row)?,
-                    })
-                };
+                let pair = |axis: usize| Paired::at(batch, axis, row);
                 if let (Some(x), Some(y)) = (pair(plane.axes[0]), pair(plane.axes[1])) {
                     sums.add(x, y);
                 }

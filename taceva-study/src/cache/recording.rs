@@ -6,8 +6,9 @@ use std::path::{Path, PathBuf};
 
 use taceva_dataset::{Dataset, Digest};
 
-use super::tree::{link, sync_folder};
+use super::tree::link;
 use super::{Cache, Key, remove};
+use crate::durable::sync_folder;
 
 impl Cache {
     /// The recording kept under `key`, put at `place`, where nothing is; `None` if there is none or it is not what was written.

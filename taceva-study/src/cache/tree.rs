@@ -4,6 +4,8 @@ use std::fs::{self, File};
 use std::io;
 use std::path::Path;
 
+use crate::durable::sync_folder;
+
 /// Makes the folder `to` with all files of `from`: linked, or copied where the file system refuses links.
 ///
 /// Names in it are durable when this returns; files are as durable as those of `from`.
@@ -20,11 +22,6 @@ pub(super) fn link(from: &Path, to: &Path) -> io::Result<()> {
         }
     }
     sync_folder(to)
-}
-
-/// Makes the names in a folder durable.
-pub(super) fn sync_folder(path: &Path) -> io::Result<()> {
-    File::open(path)?.sync_all()
 }
 
 /// Removes the file or the folder at `path`, if there is one.

@@ -6,6 +6,7 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 use crate::cache::remove;
+use crate::durable::sync_folder;
 use crate::error::StudyError;
 use crate::scene::PlannedScene;
 
@@ -172,11 +173,6 @@ fn make(path: &Path, scene: &str, plans: &str) -> io::Result<()> {
         Some(parent) if parent != Path::new("") => parent,
         _ => Path::new("."),
     })
-}
-
-/// Makes the names in a folder durable.
-fn sync_folder(path: &Path) -> io::Result<()> {
-    File::open(path)?.sync_all()
 }
 
 /// Removes what an interruption left of files and recordings that were being written beside their places.

@@ -1,6 +1,9 @@
 //! Scores by place, scene and grating: values by hand, reasons where there is none, and states that are refused.
 
-#[path = "support/press.rs"]
+mod lighting;
+mod states;
+
+#[path = "../support/press.rs"]
 mod press;
 
 use press::{METRICS, evaluate, evaluator, facts, plan, press as pressed};
@@ -37,11 +40,6 @@ fn lit(point: usize, scene: &str, intensity: f64, error: f64) -> Sample {
         intensity: Some(intensity),
         ..pressed(point, [0.0, 0.0, 0.5], 1.0, error)
     }
-}
-
-fn close(found: f64, expected: f64) {
-    // Half of the last printed decimal of the quantile.
-    assert!((found - expected).abs() < 1e-9, "{found} is not {expected}");
 }
 
 #[test]
@@ -143,83 +141,6 @@ fn presses_below_the_gate_or_off_the_surface_are_counted_apart() {
         deep.score("r_spatial", "Fz")
             .and_then(|score| score.count("outside")),
         Some(1)
-    );
-}
-
-#[test]
-fn scenes_without_a_reference_or_without_another_have_no_robustness() {
-    let reference = [lit(0, "normal", 100.0, 0.1)];
-    assert_eq!(
-        score_said(&evaluate(&["r_light"], &reference), "r_light", "Fz"),
-        "no scene but the reference scene"
-    );
-    let other = [lit(0, "S1", 100.0, 0.1)];
-    assert_eq!(
-        score_said(&evaluate(&["r_light"], &other), "r_light", "Fz"),
-        "no sample of the reference scene"
-    );
-    let same = [lit(0, "normal", 100.0, 0.5), lit(0, "S1", 100.0, 0.5)];
-    assert_eq!(
-        score_said(&evaluate(&["r_light"], &same), "r_light", "Fz"),
-        "neither light nor error changed"
-    );
-}
-
-#[test]
-fn robustness_to_lighting_by_hand() {
-    // Errors 1…5 and 2…10 over five places: means 3 and 6, both with a relative variance of 0.5 / 9. Light 100 → 300:
-    // a = 2, b = 1, R = 2/3; slope 2 × 2 / 9; variance (4/9)² × 2 × 0.5 / 9, standard error 4/27; t(4) = 2.776445105.
-    let samples: Vec<Sample> = (1_u32..=5)
-        .flat_map(|place| {
-            let point = place as usize;
-            let error = f64::from(place);
-            [
-                lit(point, "normal", 100.0, error),
-                lit(point, "S1", 300.0, 2.0 * error),
-            ]
-        })
-        .collect();
-    let evaluation = evaluate(&["r_light"], &samples);
-    let score = evaluation.score("r_light", "Fz").expect("a score");
-    assert_eq!(score.value, Value::Scalar(2.0 / 3.0));
-    assert_eq!(
-        score.interval.method().as_deref(),
-        Some("delta method by point_id, G=5")
-    );
-    let [low, high] = score.interval.ends().expect("five places are enough");
-    let half = 2.776_445_105 * 4.0 / 27.0;
-    close(low, 2.0 / 3.0 - half);
-    close(high, 2.0 / 3.0 + half);
-    let scene = score.variant("scene:S1").expect("a scene");
-    assert_eq!(
-        (&scene.value, scene.interval),
-        (&score.value, Some(score.interval))
-    );
-    assert_eq!(
-        (
-            score.count("scenes"),
-            score.count("scenes_defined"),
-            score.flags.len()
-        ),
-        (Some(1), Some(1), 0)
-    );
-    let plane = evaluation
-        .score("r_light", "Fxy")
-        .expect("a score of the plane");
-    assert_eq!(plane.value, score.value);
-    let of_mean_error = plane.variant("of_mean_error").expect("a variant");
-    assert_eq!(of_mean_error.value, score.value);
-}
-
-#[test]
-fn little_light_and_smaller_errors_are_flagged() {
-    let samples = [lit(0, "normal", 100.0, 0.5), lit(0, "S1", 102.0, 0.25)];
-    let evaluation = evaluate(&["r_light"], &samples);
-    let score = evaluation.score("r_light", "Fz").expect("a score");
-    assert_eq!(score.flags, [Flag::LowStimulus, Flag::ImprovedError]);
-    assert_eq!(
-        score.variant("plus").map(|plus| &plus.value),
-        Some(&Value::Scalar(1.0))
     );
 }
 
@@ -336,115 +257,4 @@ fn a_spacing_between_two_nanometres_is_invalid() {
     let evaluation = evaluator.finish().expect("the plan's channels");
     let score = evaluation.score("sr", "line").expect("a score");
     assert_eq!((score.n, score.n_invalid), (1, 1));
-}
-
-#[test]
-fn states_of_another_surface_or_other_constants_are_refused() {
-    let samples = [pressed(0, [1.0, 1.0, 0.5], 2.0, 0.25)];
-    let states = evaluator(&plan(&["uniformity"]), &samples)
-        .states()
-        .expect("one channel list");
-    let other_surface = plan(&["uniformity"]).with_facts(SensorFacts {
-        footprint: Some(Footprint::disc(10.0, Some(1.0)).expect("lengths")),
-        ..facts()
-    });
-    let fewer_bins = plan(&["uniformity"]).with_settings(Settings {
-        bins: 10,
-        ..Settings::default()
-    });
-    for plan in [other_surface, fewer_bins.expect("ten bins")] {
-        let error = Evaluator::new(&plan)
-            .merge_states(&states)
-            .expect_err("other parameters");
-        assert!(
-            error.to_string().starts_with("state with parameters"),
-            "{error}"
-        );
-    }
-    let refused = plan(&["uniformity"]).with_settings(Settings {
-        bins: 0,
-        ..Settings::default()
-    });
-    assert_eq!(
-        refused.expect_err("no bin").to_string(),
-        "setting `bins` is 0, expected 1 to 1000"
-    );
-}
-
-#[test]
-fn a_state_with_impossible_content_is_refused_and_changes_nothing() {
-    let sample = Sample {
-        kind: Some(GratingKind::Line),
-        spacing: Some(Nanometre(350_000)),
-        predicted_spacing: Some(Nanometre(350_000)),
-        ..lit(0, "S1", 100.0, 0.5)
-    };
-    let whole = evaluator(&plan(&METRICS), &[sample])
-        .states()
-        .expect("the plan's channels");
-    let whole = serde_json::to_string(&whole).expect("a state");
-    let edits = [
-        (r#""counts":[0,0,1]"#, r#""counts":[0,0,0]"#),
-        (r#""cells":{"10 10":"#, r#""cells":{"10 20":"#),
-        (r#""cells":{"10 10":"#, r#""cells":{"1010":"#),
-        (
-            r#""cells":{"10 10":{"counts":[1,1]"#,
-            r#""cells":{"10 10":{"counts":[0,0]"#,
-        ),
-        (r#""distance 00":"#, r#""distance 100":"#),
-        (r#""distance 00":"#, r#""height 00":"#),
-        (r#""S1":{"counts":[1]"#, r#""S1":{"counts":[0]"#),
-        (r#""S1":{"counts":[1]"#, r#""S1":{"counts":[1,1]"#),
-    ];
-    for (from, to) in edits {
-        let broken = whole.replacen(from, to, 1);
-        assert_ne!(broken, whole, "{from} is in the state {whole}");
-        let read: Vec<State> = serde_json::from_str(&broken).expect("JSON of a state");
-        let refusals = read.iter().filter(|state| {
-            let mut fresh = Evaluator::new(&plan(&METRICS));
-            fresh.merge_states(std::slice::from_ref(state)).is_err()
-        });
-        assert_eq!(refusals.count(), 1, "{to} was taken");
-    }
-}
-
-#[test]
-fn a_report_has_maps_curves_and_variants_as_fields_of_their_metric() {
-    let samples: Vec<Sample> = (0..5)
-        .map(|point| pressed(point, [1.0, 1.0, 0.5], 2.0, 0.25))
-        .collect();
-    let two_bins = plan(&METRICS).with_settings(Settings {
-        bins: 2,
-        ..Settings::default()
-    });
-    let evaluator = evaluator(&two_bins.expect("two bins"), &samples);
-    let evaluation = evaluator.finish().expect("the plan's channels");
-    let report = serde_json::to_value(&evaluation).expect("a report");
-    let sensitivity = &report["metrics"]["sensitivity"]["Fz"];
-    assert_eq!(sensitivity["unit"], "mm/N");
-    assert_eq!(sensitivity["slope"]["value"], 0.25);
-    assert_eq!(sensitivity["slope"]["ci95"], json!([0.25, 0.25]));
-    assert_eq!(
-        sensitivity["counts"],
-        json!({"gated": 0, "outside": 0, "bins_used": 1})
-    );
-    assert_eq!(
-        sensitivity["map"],
-        json!({
-            "x_mm": [-12.5, 0.0, 12.5], "y_mm": [-12.5, 0.0, 12.5],
-            "values": [[null, null], [null, 0.25]], "counts": [[0, 0], [0, 5]], "unit": "mm/N"
-        })
-    );
-    assert_eq!(
-        report["metrics"]["uniformity"]["Fz"]["flags"],
-        json!(["one bin"])
-    );
-    let distance = &report["metrics"]["r_spatial"]["Fz"]["distance"];
-    assert_eq!(
-        (&distance["x_unit"], &distance["unit"]),
-        (&json!("mm"), &json!("N"))
-    );
-    assert_eq!(distance["values"].as_array().map(Vec::len), Some(100));
-    let table = evaluation.to_string();
-    assert!(table.contains("sensitivity.slope"), "{table}");
 }

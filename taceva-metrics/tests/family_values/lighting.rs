@@ -1,0 +1,85 @@
+//! Robustness to light from outside.
+
+use super::*;
+
+fn close(found: f64, expected: f64) {
+    // Half of the last printed decimal of the quantile.
+    assert!((found - expected).abs() < 1e-9, "{found} is not {expected}");
+}
+
+#[test]
+fn scenes_without_a_reference_or_without_another_have_no_robustness() {
+    let reference = [lit(0, "normal", 100.0, 0.1)];
+    assert_eq!(
+        score_said(&evaluate(&["r_light"], &reference), "r_light", "Fz"),
+        "no scene but the reference scene"
+    );
+    let other = [lit(0, "S1", 100.0, 0.1)];
+    assert_eq!(
+        score_said(&evaluate(&["r_light"], &other), "r_light", "Fz"),
+        "no sample of the reference scene"
+    );
+    let same = [lit(0, "normal", 100.0, 0.5), lit(0, "S1", 100.0, 0.5)];
+    assert_eq!(
+        score_said(&evaluate(&["r_light"], &same), "r_light", "Fz"),
+        "neither light nor error changed"
+    );
+}
+
+#[test]
+fn robustness_to_lighting_by_hand() {
+    // Errors 1…5 and 2…10 over five places: means 3 and 6, both with a relative variance of 0.5 / 9. Light 100 → 300:
+    // a = 2, b = 1, R = 2/3; slope 2 × 2 / 9; variance (4/9)² × 2 × 0.5 / 9, standard error 4/27; t(4) = 2.776445105.
+    let samples: Vec<Sample> = (1_u32..=5)
+        .flat_map(|place| {
+            let point = place as usize;
+            let error = f64::from(place);
+            [
+                lit(point, "normal", 100.0, error),
+                lit(point, "S1", 300.0, 2.0 * error),
+            ]
+        })
+        .collect();
+    let evaluation = evaluate(&["r_light"], &samples);
+    let score = evaluation.score("r_light", "Fz").expect("a score");
+    assert_eq!(score.value, Value::Scalar(2.0 / 3.0));
+    assert_eq!(
+        score.interval.method().as_deref(),
+        Some("delta method by point_id, G=5")
+    );
+    let [low, high] = score.interval.ends().expect("five places are enough");
+    let half = 2.776_445_105 * 4.0 / 27.0;
+    close(low, 2.0 / 3.0 - half);
+    close(high, 2.0 / 3.0 + half);
+    let scene = score.variant("scene:S1").expect("a scene");
+    assert_eq!(
+        (&scene.value, scene.interval),
+        (&score.value, Some(score.interval))
+    );
+    assert_eq!(
+        (
+            score.count("scenes"),
+            score.count("scenes_defined"),
+            score.flags.len()
+        ),
+        (Some(1), Some(1), 0)
+    );
+    let plane = evaluation
+        .score("r_light", "Fxy")
+        .expect("a score of the plane");
+    assert_eq!(plane.value, score.value);
+    let of_mean_error = plane.variant("of_mean_error").expect("a variant");
+    assert_eq!(of_mean_error.value, score.value);
+}
+
+#[test]
+fn little_light_and_smaller_errors_are_flagged() {
+    let samples = [lit(0, "normal", 100.0, 0.5), lit(0, "S1", 102.0, 0.25)];
+    let evaluation = evaluate(&["r_light"], &samples);
+    let score = evaluation.score("r_light", "Fz").expect("a score");
+    assert_eq!(score.flags, [Flag::LowStimulus, Flag::ImprovedError]);
+    assert_eq!(
+        score.variant("plus").map(|plus| &plus.value),
+        Some(&Value::Scalar(1.0))
+    );
+}
