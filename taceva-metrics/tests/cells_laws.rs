@@ -1,5 +1,9 @@
 //! Splitting, ordering and merging change nothing of what is kept by press, unit, time or level, and states survive a file.
 
+#[path = "support/laws.rs"]
+mod laws;
+
+use laws::states;
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 use taceva_core::{
@@ -102,29 +106,12 @@ fn evaluator<'a>(samples: impl IntoIterator<Item = &'a Sample>) -> Evaluator {
     evaluator
 }
 
-fn states(mut evaluator: Evaluator) -> Vec<State> {
-    evaluator.states().expect("the plan's channels")
-}
-
-fn report(evaluator: Evaluator) -> String {
-    let evaluation = evaluator.finish().expect("the plan's channels");
-    serde_json::to_string(&evaluation).expect("a report")
-}
-
-fn merged(mut left: Evaluator, right: Evaluator) -> Evaluator {
-    left.merge(right).expect("one plan");
-    left
-}
-
 proptest! {
     #![proptest_config(config())]
 
     #[test]
     fn a_whole_equals_its_merged_parts(samples in samples(), cut in any::<prop::sample::Index>()) {
-        let (left, right) = samples.split_at(cut.index(samples.len() + 1));
-        let parts = || merged(evaluator(left), evaluator(right));
-        prop_assert_eq!(states(parts()), states(evaluator(&samples)));
-        prop_assert_eq!(report(parts()), report(evaluator(&samples)));
+        laws::a_whole_equals_its_merged_parts(&samples, cut.index(samples.len() + 1), |samples| evaluator(samples));
     }
 
     #[test]
@@ -141,25 +128,12 @@ proptest! {
     fn merging_is_commutative_and_associative_and_nothing_is_its_identity(
         a in samples(), b in samples(), c in samples(),
     ) {
-        let [a, b, c] = [a, b, c].map(|samples| move || evaluator(&samples));
-        prop_assert_eq!(states(merged(a(), b())), states(merged(b(), a())));
-        let left = merged(merged(a(), b()), c());
-        let right = merged(a(), merged(b(), c()));
-        prop_assert_eq!(states(left), states(right));
-        let nothing = || Evaluator::new(&plan());
-        prop_assert_eq!(states(merged(a(), nothing())), states(a()));
-        prop_assert_eq!(states(merged(nothing(), a())), states(a()));
+        laws::merging_is_commutative_and_associative_and_nothing_is_its_identity([&a, &b, &c], |samples| evaluator(samples));
     }
 
     #[test]
     fn a_state_that_was_written_and_read_is_the_same(samples in samples()) {
-        let written = states(evaluator(&samples));
-        let text = serde_json::to_string(&written).expect("a state");
-        let read: Vec<State> = serde_json::from_str(&text).expect("its own text");
-        prop_assert_eq!(&read, &written);
-        let mut again = Evaluator::new(&plan());
-        again.merge_states(&read).expect("one plan");
-        prop_assert_eq!(report(again), report(evaluator(&samples)));
+        laws::a_state_that_was_written_and_read_is_the_same(&samples, |samples| evaluator(samples));
     }
 }
 

@@ -1,13 +1,16 @@
 //! What must hold of scores by place, scene and grating whatever the samples.
 
+#[path = "support/laws.rs"]
+mod laws;
 #[path = "support/press.rs"]
 mod press;
 
+use laws::states;
 use press::{METRICS, evaluate, evaluator, plan, press as pressed};
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 use taceva_core::{GratingKind, Nanometre, Readings, Sample};
-use taceva_metrics::{Evaluator, State, Value};
+use taceva_metrics::{Evaluator, Value};
 
 fn config(cases: u32) -> ProptestConfig {
     ProptestConfig {
@@ -18,23 +21,8 @@ fn config(cases: u32) -> ProptestConfig {
     }
 }
 
-fn states(mut evaluator: Evaluator) -> Vec<State> {
-    evaluator.states().expect("the plan's channels")
-}
-
-fn report(evaluator: Evaluator) -> String {
-    let evaluation = evaluator.finish().expect("the plan's channels");
-    let json = serde_json::to_string(&evaluation).expect("a report");
-    format!("{json}\n{evaluation}")
-}
-
 fn seen<'a>(samples: impl IntoIterator<Item = &'a Sample>) -> Evaluator {
     evaluator(&plan(&METRICS), samples)
-}
-
-fn merged(mut left: Evaluator, right: Evaluator) -> Evaluator {
-    left.merge(right).expect("one plan");
-    left
 }
 
 fn reading(low: f64, high: f64) -> impl Strategy<Value = Option<f64>> {
@@ -103,35 +91,20 @@ proptest! {
     fn a_whole_equals_its_merged_parts_in_any_order(
         samples in samples(), cut in any::<prop::sample::Index>(),
     ) {
-        let (left, right) = samples.split_at(cut.index(samples.len() + 1));
-        let whole = states(seen(&samples));
-        prop_assert_eq!(&states(merged(seen(left), seen(right))), &whole);
-        prop_assert_eq!(&states(merged(seen(right), seen(left))), &whole);
-        prop_assert_eq!(&states(seen(samples.iter().rev())), &whole);
-        prop_assert_eq!(report(merged(seen(right), seen(left))), report(seen(&samples)));
+        laws::a_whole_equals_its_merged_parts(&samples, cut.index(samples.len() + 1), |samples| seen(samples));
+        prop_assert_eq!(states(seen(samples.iter().rev())), states(seen(&samples)));
     }
 
     #[test]
     fn merging_is_associative_and_nothing_is_its_identity(
         a in samples(), b in samples(), c in samples(),
     ) {
-        let [a, b, c] = [&a, &b, &c].map(|samples| move || seen(samples));
-        let left = merged(merged(a(), b()), c());
-        let right = merged(a(), merged(b(), c()));
-        prop_assert_eq!(states(left), states(right));
-        prop_assert_eq!(states(merged(a(), seen(&[]))), states(a()));
-        prop_assert_eq!(states(merged(seen(&[]), a())), states(a()));
+        laws::merging_is_commutative_and_associative_and_nothing_is_its_identity([&a, &b, &c], |samples| seen(samples));
     }
 
     #[test]
     fn a_state_that_was_written_and_read_is_the_same(samples in samples()) {
-        let written = states(seen(&samples));
-        let text = serde_json::to_string(&written).expect("a state");
-        let read: Vec<State> = serde_json::from_str(&text).expect("its own text");
-        prop_assert_eq!(&read, &written);
-        let mut again = seen(&[]);
-        again.merge_states(&read).expect("one plan");
-        prop_assert_eq!(report(again), report(seen(&samples)));
+        laws::a_state_that_was_written_and_read_is_the_same(&samples, |samples| seen(samples));
     }
 }
 

@@ -1,7 +1,10 @@
 //! Splitting, ordering and merging change nothing: states are equal, reports are equal byte by byte.
 
+#[path = "support/laws.rs"]
+mod laws;
 mod support;
 
+use laws::states;
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 use support::{Row, evaluator, plan};
@@ -41,30 +44,12 @@ fn rows() -> impl Strategy<Value = Vec<Row>> {
     })
 }
 
-fn states(mut evaluator: Evaluator) -> Vec<State> {
-    evaluator.states().expect("the plan's channels")
-}
-
-fn report(evaluator: Evaluator) -> String {
-    let evaluation = evaluator.finish().expect("the plan's channels");
-    let json = serde_json::to_string(&evaluation).expect("a report");
-    format!("{json}\n{evaluation}")
-}
-
-fn merged(mut left: Evaluator, right: Evaluator) -> Evaluator {
-    left.merge(right).expect("one plan");
-    left
-}
-
 proptest! {
     #![proptest_config(config())]
 
     #[test]
     fn a_whole_equals_its_merged_parts(rows in rows(), cut in any::<prop::sample::Index>()) {
-        let (left, right) = rows.split_at(cut.index(rows.len() + 1));
-        let parts = || merged(evaluator(left), evaluator(right));
-        prop_assert_eq!(states(parts()), states(evaluator(&rows)));
-        prop_assert_eq!(report(parts()), report(evaluator(&rows)));
+        laws::a_whole_equals_its_merged_parts(&rows, cut.index(rows.len() + 1), evaluator);
     }
 
     #[test]
@@ -80,25 +65,12 @@ proptest! {
     fn merging_is_commutative_and_associative_and_nothing_is_its_identity(
         a in rows(), b in rows(), c in rows(),
     ) {
-        let [a, b, c] = [a, b, c].map(|rows| move || evaluator(&rows));
-        prop_assert_eq!(states(merged(a(), b())), states(merged(b(), a())));
-        let left = merged(merged(a(), b()), c());
-        let right = merged(a(), merged(b(), c()));
-        prop_assert_eq!(states(left), states(right));
-        let nothing = || Evaluator::new(&plan());
-        prop_assert_eq!(states(merged(a(), nothing())), states(a()));
-        prop_assert_eq!(states(merged(nothing(), a())), states(a()));
+        laws::merging_is_commutative_and_associative_and_nothing_is_its_identity([&a, &b, &c], evaluator);
     }
 
     #[test]
     fn a_state_that_was_written_and_read_is_the_same(rows in rows()) {
-        let written = states(evaluator(&rows));
-        let text = serde_json::to_string(&written).expect("a state");
-        let read: Vec<State> = serde_json::from_str(&text).expect("its own text");
-        prop_assert_eq!(&read, &written);
-        let mut again = Evaluator::new(&plan());
-        again.merge_states(&read).expect("one plan");
-        prop_assert_eq!(report(again), report(evaluator(&rows)));
+        laws::a_state_that_was_written_and_read_is_the_same(&rows, evaluator);
     }
 
     #[test]
