@@ -11,31 +11,35 @@
 //! [`ErrorKind::Timeout`](crate::ErrorKind::Timeout) and leaves the device usable.
 //!
 //! # Threads
-//! One call at a time a device. The one exception is [`Halt`]: it may be called from any thread beside any other call.
+//! One call at a time a device. The exceptions are [`Halt`] and [`Interrupt`]: they may be called from any thread beside any other call.
 //!
 //! # Values
 //! mm, degrees, N and N·mm in the sensor's frame. A value that is not finite is refused on the way in
 //! ([`InvalidArgument`](crate::ErrorKind::InvalidArgument)) and is a fault of the device on the way out
 //! ([`DeviceFault`](crate::ErrorKind::DeviceFault)): [`check_pose`] and [`check_wrench`] do both.
 
+mod bench;
 mod deadline;
 mod error;
 mod finite;
 mod force;
 mod guarded_motion;
 mod halt;
+mod interrupt;
 mod kind;
 mod lighting;
 mod robot;
 mod sensor;
 mod speed;
 
+pub use bench::SimulatedBench;
 pub use deadline::Deadline;
 pub use error::DriverError;
 pub use finite::{NotFinite, check_pose, check_wrench};
 pub use force::{Axes, Axis, ForceTransducer, Tare};
 pub use guarded_motion::{Guard, GuardedMotion, GuardedStop};
 pub use halt::Halt;
+pub use interrupt::Interrupt;
 pub use kind::{Device, DriverKind};
 pub use lighting::Lighting;
 pub use robot::Robot;

@@ -32,3 +32,70 @@ pub struct Pose {
     /// How it is turned.
     pub rotation: Rotation,
 }
+
+impl Pose {
+    /// The nearest pose on the grid of whole nanometres and whole 10⁻⁹ degrees.
+    ///
+    /// Poses cross the plugin boundary in metres and quaternions; on this grid, finer than any robot, the way there and back loses nothing,
+    /// so a driver that answers on it gives the same numbers however it is delivered.
+    ///
+    /// ```
+    /// use taceva_core::{Millimetre, Pose};
+    /// let mut pose = Pose::default();
+    /// pose.position.x = Millimetre(0.1 + 0.2);
+    /// assert_eq!(pose.on_grid().position.x, Millimetre(0.3));
+    /// ```
+    #[must_use]
+    pub fn on_grid(self) -> Pose {
+        let Pose { position, rotation } = self;
+        let length = |length: Millimetre| Millimetre(nearest(length.0, 1e6));
+        let angle = |angle: Degree| Degree(nearest(angle.0, 1e9));
+        Pose {
+            position: Point {
+                x: length(position.x),
+                y: length(position.y),
+                z: length(position.z),
+            },
+            rotation: Rotation {
+                x: angle(rotation.x),
+                y: angle(rotation.y),
+                z: angle(rotation.z),
+            },
+        }
+    }
+}
+
+/// The nearest of the numbers of which there are `per_unit` a unit; one too large to have neighbours so close stays, as does no number.
+pub(crate) fn nearest(value: f64, per_unit: f64) -> f64 {
+    let steps = value * per_unit;
+    if steps.abs() < 2_f64.powi(52) {
+        // Adding 0 makes −0 the 0 that a metre or a quaternion would give back.
+        steps.round() / per_unit + 0.0
+    } else {
+        value
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn poses_on_the_grid_survive_the_way_through_metres() {
+        for steps in [0, 1, -1, 300_001, 12_345_678, -40_000_000_001_i64] {
+            #[expect(clippy::cast_precision_loss, reason = "small")]
+            let mm = steps as f64 / 1e6;
+            let there = mm / 1e3;
+            assert_eq!(nearest(there * 1e3, 1e6).to_bits(), mm.to_bits());
+        }
+    }
+
+    #[test]
+    fn what_has_no_place_on_the_grid_stays_as_it_is() {
+        assert!(nearest(f64::NAN, 1e6).is_nan());
+        for value in [f64::INFINITY, 1e300, -1e12] {
+            assert_eq!(nearest(value, 1e6).to_bits(), value.to_bits());
+        }
+        assert_eq!(nearest(-1e-9, 1e6).to_bits(), 0.0_f64.to_bits());
+    }
+}

@@ -20,6 +20,7 @@ mod quantity;
 mod registry;
 mod sample;
 mod skip;
+mod specimen;
 mod stamp;
 mod stream;
 mod unit;
@@ -30,8 +31,8 @@ pub use batch::{Batch, BatchBuilder, Column, Labels};
 pub use channel::{Channel, ChannelError, Channels};
 pub use driver::{
     Axes, Axis, Deadline, Device, DriverError, DriverKind, ForceTransducer, Guard, GuardedMotion,
-    GuardedStop, Halt, Lighting, NotFinite, Robot, Sensor, Speed, SpeedError, Tare, check_pose,
-    check_wrench,
+    GuardedStop, Halt, Interrupt, Lighting, NotFinite, Robot, Sensor, SimulatedBench, Speed,
+    SpeedError, Tare, check_pose, check_wrench,
 };
 pub use error::ErrorKind;
 pub use field::{Field, FieldSet};
@@ -53,6 +54,7 @@ pub use registry::{
 };
 pub use sample::{Readings, Sample};
 pub use skip::{SkipReason, Skipped};
+pub use specimen::Specimen;
 pub use stamp::{Clock, Stamp};
 pub use stream::{SampleSink, Select, SinkError, Tee};
 pub use unit::{SourceUnit, Unit, UnitError};

@@ -1,6 +1,7 @@
 //! When something was true, and when we heard of it.
 
 use std::fmt;
+use std::time::Duration;
 
 /// Which clock a time was read from.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -33,4 +34,90 @@ pub struct Stamp {
     pub valid_s: f64,
     /// When it reached us; the difference is the latency.
     pub received_s: Option<f64>,
+}
+
+/// Nanoseconds a second.
+const NANOSECONDS: f64 = 1e9;
+
+impl Stamp {
+    /// The stamp of times that a clock counts in nanoseconds, as all do that cross the plugin boundary.
+    ///
+    /// ```
+    /// use std::time::Duration;
+    /// use taceva_core::Stamp;
+    /// let stamp = Stamp::new(Duration::from_millis(1_500), None);
+    /// assert_eq!(stamp.valid_s, 1.5);
+    /// assert_eq!(stamp.valid(), Duration::from_millis(1_500));
+    /// ```
+    pub fn new(valid: Duration, received: Option<Duration>) -> Stamp {
+        Stamp {
+            valid_s: seconds(valid),
+            received_s: received.map(seconds),
+        }
+    }
+
+    /// The stamp of something that was true when it was heard of.
+    pub fn at(now: Duration) -> Stamp {
+        Stamp::new(now, Some(now))
+    }
+
+    /// When the observation was true, to the nanosecond; a time before the clock's start is its start.
+    pub fn valid(&self) -> Duration {
+        nanoseconds(self.valid_s)
+    }
+
+    /// When it reached us, to the nanosecond.
+    pub fn received(&self) -> Option<Duration> {
+        self.received_s.map(nanoseconds)
+    }
+}
+
+fn seconds(time: Duration) -> f64 {
+    #[expect(
+        clippy::cast_precision_loss,
+        reason = "exact for a hundred days, to the microsecond for ever"
+    )]
+    let count = time.as_nanos() as f64;
+    count / NANOSECONDS
+}
+
+fn nanoseconds(time_s: f64) -> Duration {
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "a cast saturates, and NaN becomes 0"
+    )]
+    let count = (time_s * NANOSECONDS).round() as u64;
+    Duration::from_nanos(count)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn whole_nanoseconds_survive_the_way_through_seconds() {
+        for count in [
+            0,
+            1,
+            999_999_999,
+            123_456_789_012_345,
+            8_000_000_000_000_001,
+        ] {
+            let time = Duration::from_nanos(count);
+            assert_eq!(Stamp::at(time).valid(), time);
+            assert_eq!(Stamp::at(time).received(), Some(time));
+        }
+    }
+
+    #[test]
+    fn a_time_that_is_no_time_is_the_start_of_the_clock() {
+        for valid_s in [-1.0, f64::NAN] {
+            let stamp = Stamp {
+                valid_s,
+                received_s: None,
+            };
+            assert_eq!(stamp.valid(), Duration::ZERO);
+        }
+    }
 }

@@ -1,5 +1,6 @@
 //! What the force transducer says.
 
+use crate::geometry::nearest;
 use crate::quantity::{Newton, NewtonMillimetre};
 
 /// Force and torque on the gel, in the sensor's frame; a compressing force has a positive z.
@@ -9,4 +10,17 @@ pub struct Wrench {
     pub force: [Newton; 3],
     /// Torque about x, y, z.
     pub torque: [NewtonMillimetre; 3],
+}
+
+impl Wrench {
+    /// The nearest wrench whose torque is a whole number of 10⁻⁶ N·mm, as on [`Pose::on_grid`](crate::Pose::on_grid); forces stay.
+    #[must_use]
+    pub fn on_grid(self) -> Wrench {
+        Wrench {
+            force: self.force,
+            torque: self
+                .torque
+                .map(|torque| NewtonMillimetre(nearest(torque.0, 1e6))),
+        }
+    }
 }

@@ -1,36 +1,8 @@
 //! What touches the gel, and the catalogue of boards there are.
 
-use std::fmt;
-
 use taceva_core::{GratingKind, Nanometre};
 
 use crate::scene::{Gratings, SceneProblem};
-
-/// What the robot carries.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub enum Specimen {
-    /// A sphere.
-    Sphere {
-        /// Its radius.
-        radius: Nanometre,
-    },
-    /// A board with a grating.
-    Grating {
-        /// Its relief.
-        kind: GratingKind,
-        /// From one ridge or bump to the next.
-        spacing: Nanometre,
-    },
-}
-
-impl fmt::Display for Specimen {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Specimen::Sphere { radius } => write!(f, "sphere of radius {radius}"),
-            Specimen::Grating { kind, spacing } => write!(f, "{kind} grating of {spacing}"),
-        }
-    }
-}
 
 /// The finest board of the catalogue (TacEva 2025, spatial resolution).
 const FINEST: Nanometre = Nanometre(250_000);

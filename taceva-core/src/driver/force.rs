@@ -2,8 +2,9 @@
 
 use std::fmt;
 use std::ops::BitOr;
+use std::sync::Arc;
 
-use super::{Deadline, DriverError};
+use super::{Deadline, DriverError, Interrupt};
 use crate::stamp::Stamp;
 use crate::wrench::Wrench;
 
@@ -37,6 +38,11 @@ pub trait ForceTransducer: Send {
     /// [`DriverError`] if the device does not confirm.
     fn stop(&mut self) -> Result<(), DriverError> {
         Ok(())
+    }
+
+    /// What ends a pending call from another thread; without it a call lasts until its deadline.
+    fn interrupt_handle(&self) -> Option<Arc<dyn Interrupt>> {
+        None
     }
 
     /// Its ability to call the present load zero, where it has one.

@@ -1,6 +1,8 @@
 //! A tactile sensor with a camera behind its gel.
 
-use super::{Deadline, DriverError, Lighting};
+use std::sync::Arc;
+
+use super::{Deadline, DriverError, Interrupt, Lighting};
 use crate::frame::{FrameInfo, FrameMut};
 use crate::stamp::Stamp;
 
@@ -37,6 +39,11 @@ pub trait Sensor: Send {
     /// [`DriverError`] if the device does not confirm.
     fn stop(&mut self) -> Result<(), DriverError> {
         Ok(())
+    }
+
+    /// What ends a pending call from another thread; without it a call lasts until its deadline.
+    fn interrupt_handle(&self) -> Option<Arc<dyn Interrupt>> {
+        None
     }
 
     /// The light around this sensor, where it can be set.

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use std::fmt;
 use std::sync::Arc;
 
-use crate::driver::DriverError;
+use crate::driver::{DriverError, SimulatedBench};
 
 /// The devices that are opened together: where two of them find the one connection, bus or simulated bench they both need.
 ///
@@ -21,6 +21,7 @@ use crate::driver::DriverError;
 #[derive(Default)]
 pub struct Rig {
     shared: BTreeMap<String, Arc<dyn Any + Send + Sync>>,
+    benches: BTreeMap<String, Arc<dyn SimulatedBench>>,
 }
 
 impl Rig {
@@ -54,6 +55,18 @@ impl Rig {
             Ok(shared) => Ok(shared),
             Err(_) => panic!("two drivers keep different things under the name `{name}`"),
         }
+    }
+
+    /// Makes a simulated bench known; it replaces one of that name.
+    ///
+    /// The name is what its drivers' keys have before their last `/`, a space, and what they are opened with as `rig`: `sim bench`.
+    pub fn offer_bench(&mut self, name: &str, bench: Arc<dyn SimulatedBench>) {
+        self.benches.insert(name.to_owned(), bench);
+    }
+
+    /// The simulated bench called `name`, if a device of it was opened.
+    pub fn bench(&self, name: &str) -> Option<Arc<dyn SimulatedBench>> {
+        self.benches.get(name).map(Arc::clone)
     }
 }
 

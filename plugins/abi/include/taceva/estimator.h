@@ -1,0 +1,58 @@
+/* A model that is fitted on features and predicts channels. All arrays are the caller's, contiguous, sample by sample. */
+#ifndef TACEVA_ESTIMATOR_H
+#define TACEVA_ESTIMATOR_H
+
+#include "plugin.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Samples to learn from. Every number is finite. */
+typedef struct taceva_training_set {
+  uint32_t size;
+  uint32_t channels;
+  uint64_t samples;
+  uint32_t height, width, depth, reserved; /* of one sample's features; a flat list is 1 x length x 1 */
+  const float *features;                   /* [samples, height, width, depth] */
+  const double *targets;                   /* [samples, channels] */
+  const uint32_t *groups;                  /* [samples]: which belong together; NULL: unknown */
+  const taceva_text *channel_names;        /* [channels]: "Px", "Fz" ... */
+} taceva_training_set;
+
+/* Told how far a fit is, from 0 to 1; a return that is not 0 asks it to end with INTERRUPTED. */
+typedef int32_t (*taceva_progress)(void *context, double done);
+
+typedef struct taceva_regressor_calls {
+  uint32_t size;
+  uint32_t reserved;
+  void (*close)(void *handle); /* [owner & open] */
+  /* [any & open] `into`: [samples, channels], all of it written. */
+  taceva_status (*predict)(const void *handle, const float *features, uint64_t samples, double *into, taceva_error *error);
+  /* [any & open] The model as bytes that `load` takes on every machine: `*length` in: of `into`, out: of the model.
+   * Where `into` is NULL or too short nothing is written and the status is OUT_OF_RANGE. */
+  taceva_status (*save)(const void *handle, uint8_t *into, uint64_t *length, taceva_error *error);
+} taceva_regressor_calls;
+
+typedef struct taceva_regressor {
+  void *handle;
+  const taceva_regressor_calls *calls;
+} taceva_regressor;
+
+typedef struct taceva_estimator_factory {
+  uint32_t size;
+  uint32_t estimators; /* how many */
+  /* [any] As `describe` of a `taceva_factory`. */
+  taceva_status (*describe)(uint32_t estimator, taceva_take_text take, void *context, taceva_error *error);
+  /* [any] `validation` may be NULL. */
+  taceva_status (*fit)(uint32_t estimator, const taceva_args *settings, const taceva_training_set *training,
+                       const taceva_training_set *validation, taceva_progress progress, void *context,
+                       taceva_regressor *regressor, taceva_error *error);
+  /* [any] From the bytes of `save`; hostile bytes are refused with PROTOCOL. */
+  taceva_status (*load)(uint32_t estimator, const uint8_t *bytes, uint64_t length, taceva_regressor *regressor, taceva_error *error);
+} taceva_estimator_factory;
+
+#ifdef __cplusplus
+}
+#endif
+#endif

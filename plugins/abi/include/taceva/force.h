@@ -1,0 +1,28 @@
+/* A transducer of force, and perhaps torque. */
+#ifndef TACEVA_FORCE_H
+#define TACEVA_FORCE_H
+
+#include "plugin.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* What presses on the gel. Components that the manifest does not list as `axes` are 0. */
+typedef struct taceva_wrench {
+  double force_n[3];
+  double torque_nm[3];
+} taceva_wrench;
+
+/* `read` waits for the next reading. A clipped force is no force: OUT_OF_RANGE. */
+typedef struct taceva_force_calls {
+  taceva_device_calls device;
+  taceva_status (*start)(void *handle, uint64_t timeout_ns, taceva_error *error); /* [owner & open] idempotent */
+  taceva_status (*read)(void *handle, taceva_wrench *wrench, taceva_stamp *stamp, uint64_t timeout_ns, taceva_error *error); /* [owner & started] */
+  taceva_status (*stop)(void *handle, taceva_error *error);                       /* [owner & open] idempotent */
+} taceva_force_calls;
+
+#ifdef __cplusplus
+}
+#endif
+#endif

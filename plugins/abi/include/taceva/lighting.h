@@ -1,0 +1,19 @@
+/* Light around a sensor, in scenes that have a name; the manifest lists them. */
+#ifndef TACEVA_LIGHTING_H
+#define TACEVA_LIGHTING_H
+
+#include "plugin.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct taceva_lighting_calls {
+  taceva_device_calls device;
+  taceva_status (*set)(void *handle, taceva_text scene, uint64_t timeout_ns, taceva_error *error); /* [owner & open] returns once it holds */
+} taceva_lighting_calls;
+
+#ifdef __cplusplus
+}
+#endif
+#endif

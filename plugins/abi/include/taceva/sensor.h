@@ -1,0 +1,52 @@
+/* A sensor: a camera that looks at a gel. */
+#ifndef TACEVA_SENSOR_H
+#define TACEVA_SENSOR_H
+
+#include "plugin.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#define TACEVA_GRAY8 1u  /* one byte a pixel */
+#define TACEVA_GRAY16 2u /* two, little-endian */
+#define TACEVA_RGB8 3u   /* three bytes */
+#define TACEVA_RGB16 4u  /* three numbers of two bytes, little-endian */
+
+#define TACEVA_FRAME_DROPPED 1u /* flag: frames were lost since the last one */
+
+/* A picture, row by row from the top, without padding.
+ *
+ * A plugin either writes into `buffer` and sets `data` to it, or lends memory of its own: `data` elsewhere, `release` set. */
+typedef struct taceva_frame {
+  uint32_t size;
+  uint32_t format; /* TACEVA_GRAY8 ... */
+  uint32_t width;
+  uint32_t height;
+  uint32_t flags;
+  uint32_t reserved;
+  uint64_t sequence; /* the device's count of frames; a gap is a loss */
+  taceva_stamp stamp; /* valid: mid of the exposure, where it is known */
+
+  uint8_t *buffer;         /* in: the caller's, or NULL */
+  uint64_t buffer_length;  /* in */
+  const uint8_t *data;     /* out */
+  uint64_t length;         /* out: height * width * bytes a pixel */
+
+  void (*release)(struct taceva_frame *frame); /* out: [any] gives lent memory back and sets itself to NULL; NULL: nothing was lent */
+  void *private_data;                          /* the lender's */
+} taceva_frame;
+
+typedef struct taceva_sensor_calls {
+  taceva_device_calls device;
+  uint32_t max_lent; /* frames that may be out at once; 0: it never lends */
+  uint32_t reserved;
+  taceva_status (*start)(void *handle, uint64_t timeout_ns, taceva_error *error);                        /* [owner & open] idempotent */
+  taceva_status (*capture)(void *handle, taceva_frame *frame, uint64_t timeout_ns, taceva_error *error); /* [owner & started] the next frame */
+  taceva_status (*stop)(void *handle, taceva_error *error);                                              /* [owner & open] idempotent */
+} taceva_sensor_calls;
+
+#ifdef __cplusplus
+}
+#endif
+#endif

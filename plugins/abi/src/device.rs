@@ -1,0 +1,70 @@
+//! What every kind of device shares.
+
+use core::ffi::c_void;
+use core::marker::{PhantomData, PhantomPinned};
+
+use crate::args::Args;
+use crate::error::Error;
+use crate::status::Status;
+use crate::text::{TakeText, Text};
+
+/// `taceva_stamp`: when something was true, and when it was heard of.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[repr(C)]
+pub struct Stamp {
+    /// When it was true, ns.
+    pub valid_ns: u64,
+    /// When it was heard of, ns; 0: not known.
+    pub received_ns: u64,
+}
+
+/// `taceva_rig`: the devices that are opened together, opaque.
+#[repr(C)]
+pub struct Rig {
+    opaque: [u8; 0],
+    not_movable: PhantomData<(*mut u8, PhantomPinned)>,
+}
+
+/// `taceva_device_calls`: the calls that every device has. Frozen: it never grows.
+#[derive(Clone, Copy, Debug)]
+#[repr(C)]
+pub struct DeviceCalls {
+    /// Of the whole table of the kind.
+    pub size: u32,
+    /// 0.
+    pub reserved: u32,
+    /// `[owner & open]` Stops the device and frees it; the last call.
+    pub close: Option<unsafe extern "C" fn(handle: *mut c_void)>,
+    /// `[any & open]` A blocked call returns `INTERRUPTED` within 50 ms.
+    pub interrupt: Option<unsafe extern "C" fn(handle: *mut c_void)>,
+    /// `[owner & open]` A table of calls on the device, or NULL.
+    pub extension: Option<unsafe extern "C" fn(handle: *mut c_void, id: Text) -> *const c_void>,
+}
+
+/// `taceva_device`: an open device, filled in by `open`.
+#[derive(Clone, Copy, Debug)]
+#[repr(C)]
+pub struct Device {
+    /// The plugin's.
+    pub handle: *mut c_void,
+    /// The table of its kind; lives as long as the library.
+    pub calls: *const DeviceCalls,
+}
+
+/// `taceva_factory`: the drivers of one kind, numbered from 0.
+#[derive(Clone, Copy, Debug)]
+#[repr(C)]
+pub struct Factory {
+    /// Of this struct.
+    pub size: u32,
+    /// How many.
+    pub drivers: u32,
+    /// `[any]` Writes the `[[provides]]` table of the manifest as it holds for the arguments; no device is touched.
+    pub describe:
+        Option<unsafe extern "C" fn(u32, *const Args, TakeText, *mut c_void, *mut Error) -> Status>,
+    /// `[any]` Names each device that is present by the arguments that choose it.
+    pub discover: Option<unsafe extern "C" fn(u32, TakeText, *mut c_void, *mut Error) -> Status>,
+    /// `[any]` Opens a device; nothing moves and no light changes.
+    pub open:
+        Option<unsafe extern "C" fn(u32, *const Args, *mut Rig, *mut Device, *mut Error) -> Status>,
+}

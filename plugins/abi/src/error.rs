@@ -1,0 +1,58 @@
+//! The message of a failure, in the caller's memory.
+
+use core::ffi::c_char;
+use core::mem::size_of;
+
+/// Bytes of a message, its NUL included.
+pub const MESSAGE_SIZE: usize = 504;
+
+/// `taceva_error`.
+#[derive(Clone, Copy, Debug)]
+#[repr(C)]
+pub struct Error {
+    /// In: of this struct.
+    pub size: u32,
+    /// Out: the device's own number, 0 for none.
+    pub vendor_code: i32,
+    /// Out: UTF-8, ends with a NUL, cut where it does not fit.
+    pub message: [c_char; MESSAGE_SIZE],
+}
+
+impl Error {
+    /// One without a message.
+    pub const fn new() -> Error {
+        #[expect(clippy::cast_possible_truncation, reason = "512")]
+        let size = size_of::<Error>() as u32;
+        Error {
+            size,
+            vendor_code: 0,
+            message: [0; MESSAGE_SIZE],
+        }
+    }
+
+    /// Writes a message, cut between two characters where it does not fit.
+    pub fn write(&mut self, message: &str) {
+        let mut end = message.len().min(MESSAGE_SIZE - 1);
+        while !message.is_char_boundary(end) {
+            end -= 1;
+        }
+        for (place, byte) in self.message.iter_mut().zip(&message.as_bytes()[..end]) {
+            *place = c_char::from_ne_bytes([*byte]);
+        }
+        self.message[end] = 0;
+    }
+
+    /// The bytes of the message, up to its NUL; all of them where there is none.
+    pub fn bytes(&self) -> impl Iterator<Item = u8> + '_ {
+        self.message
+            .iter()
+            .map(|byte| byte.to_ne_bytes()[0])
+            .take_while(|byte| *byte != 0)
+    }
+}
+
+impl Default for Error {
+    fn default() -> Error {
+        Error::new()
+    }
+}

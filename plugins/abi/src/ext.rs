@@ -1,0 +1,11 @@
+//! Abilities that a device may have: asked for by id, absent by default.
+
+mod bench;
+mod guarded_motion;
+mod sensor_lighting;
+mod tare;
+
+pub use bench::{BENCH, BenchCalls, Specimen};
+pub use guarded_motion::{GUARDED_MOTION, GuardedMotionCalls, GuardedStop};
+pub use sensor_lighting::{SENSOR_LIGHTING, SensorLightingCalls};
+pub use tare::{TARE, TareCalls};

@@ -1,0 +1,60 @@
+//! A draft: a rig that is a simulated bench.
+
+use core::ffi::c_void;
+
+use crate::device::Rig;
+use crate::error::Error;
+use crate::status::Status;
+use crate::text::{TakeText, Text};
+
+/// The id of the extension.
+pub const BENCH: &str = "taceva.rig.bench/draft-1";
+
+/// `taceva_specimen`: what a robot carries.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[repr(C)]
+pub struct Specimen {
+    /// Of this struct.
+    pub size: u32,
+    /// [`Specimen::SPHERE`], [`Specimen::LINE`] or [`Specimen::DOT`].
+    pub kind: u32,
+    /// The radius of a sphere, the spacing of a grating.
+    pub size_nm: i64,
+}
+
+impl Specimen {
+    /// A sphere.
+    pub const SPHERE: u32 = 1;
+    /// A grating of lines.
+    pub const LINE: u32 = 2;
+    /// A grating of dots.
+    pub const DOT: u32 = 3;
+}
+
+/// `taceva_bench_calls`; `bench` is the name that the devices were opened with as `rig=`.
+#[derive(Clone, Copy, Debug)]
+#[repr(C)]
+pub struct BenchCalls {
+    /// Of this struct.
+    pub size: u32,
+    /// 0.
+    pub reserved: u32,
+    /// `[any]` The time of the bench's clock.
+    pub now_ns: Option<unsafe extern "C" fn(*mut Rig, bench: Text) -> u64>,
+    /// `[any]` Lets time pass.
+    pub rest:
+        Option<unsafe extern "C" fn(*mut Rig, bench: Text, rest_ns: u64, *mut Error) -> Status>,
+    /// `[any]` In the air only.
+    pub mount:
+        Option<unsafe extern "C" fn(*mut Rig, bench: Text, *const Specimen, *mut Error) -> Status>,
+    /// `[any]` What is random in the next press is a function of the name.
+    pub name_press:
+        Option<unsafe extern "C" fn(*mut Rig, bench: Text, name: u64, *mut Error) -> Status>,
+    /// `[any]` The next tare waits until then.
+    pub schedule:
+        Option<unsafe extern "C" fn(*mut Rig, bench: Text, at_ns: u64, *mut Error) -> Status>,
+    /// `[any]` What the bench says of itself.
+    pub provenance: Option<
+        unsafe extern "C" fn(*mut Rig, bench: Text, TakeText, *mut c_void, *mut Error) -> Status,
+    >,
+}

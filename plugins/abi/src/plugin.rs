@@ -1,0 +1,59 @@
+//! The one exported symbol.
+
+use core::ffi::{CStr, c_void};
+
+use crate::device::Rig;
+use crate::error::Error;
+use crate::host::Host;
+use crate::status::Status;
+use crate::text::Text;
+
+/// "TAE1", little-endian: a wrong file is noticed before any call.
+pub const MAGIC: u32 = 0x3145_4154;
+/// Equal on both sides, or the library is refused.
+pub const ABI_MAJOR: u32 = 1;
+/// May differ either way.
+pub const ABI_MINOR: u32 = 0;
+/// The name of the one exported symbol.
+pub const ENTRY_SYMBOL: &CStr = c"taceva_plugin_v1";
+
+/// The id of the [`Factory`](crate::Factory) of sensors.
+pub const SENSOR_FACTORY: &str = "taceva.sensor/1";
+/// The id of the [`Factory`](crate::Factory) of robots.
+pub const ROBOT_FACTORY: &str = "taceva.robot/1";
+/// The id of the [`Factory`](crate::Factory) of force transducers.
+pub const FORCE_FACTORY: &str = "taceva.force/1";
+/// The id of the [`Factory`](crate::Factory) of lightings.
+pub const LIGHTING_FACTORY: &str = "taceva.lighting/1";
+/// The id of the [`EstimatorFactory`](crate::EstimatorFactory).
+pub const ESTIMATOR_FACTORY: &str = "taceva.estimator/1";
+
+/// `taceva_plugin`: what a plugin exports, as data.
+#[derive(Clone, Copy, Debug)]
+#[repr(C)]
+pub struct Plugin {
+    /// [`MAGIC`].
+    pub magic: u32,
+    /// Of this struct.
+    pub size: u32,
+    /// [`ABI_MAJOR`].
+    pub abi_major: u32,
+    /// [`ABI_MINOR`].
+    pub abi_minor: u32,
+    /// Reverse DNS, as in the manifest.
+    pub id: Text,
+    /// As in the manifest.
+    pub version: Text,
+    /// `[once, first]`
+    pub init: Option<unsafe extern "C" fn(*const Host, *mut Error) -> Status>,
+    /// `[once, last; not after a failed init]`
+    pub deinit: Option<unsafe extern "C" fn()>,
+    /// `[any]` The factory of a kind, or NULL.
+    pub factory: Option<unsafe extern "C" fn(id: Text) -> *const c_void>,
+    /// `[any]` What the devices of a rig share.
+    pub open_rig: Option<unsafe extern "C" fn(*mut *mut Rig, *mut Error) -> Status>,
+    /// `[owner]` After the last device of the rig.
+    pub close_rig: Option<unsafe extern "C" fn(*mut Rig)>,
+    /// `[owner]` A table of calls on the rig, or NULL.
+    pub rig_extension: Option<unsafe extern "C" fn(*mut Rig, id: Text) -> *const c_void>,
+}

@@ -1,0 +1,40 @@
+//! What a simulated bench has beside its devices: a clock that turns as fast as it is worked out, and hands that change specimens.
+
+use std::time::Duration;
+
+use super::DriverError;
+use crate::specimen::Specimen;
+
+/// A simulated bench, for whoever conducts a run on it; found in a [`Rig`](crate::Rig) under the name that its devices were opened with.
+pub trait SimulatedBench: Send + Sync {
+    /// The time of its clock: that of every stamp of its devices.
+    fn now(&self) -> Duration;
+
+    /// Lets time pass.
+    ///
+    /// # Errors
+    /// [`DriverError`] of kind `Disconnected` if the bench is gone.
+    fn rest(&self, rest: Duration) -> Result<(), DriverError>;
+
+    /// Exchanges what the robot carries.
+    ///
+    /// # Errors
+    /// [`DriverError`] of kind `InvalidArgument` for a specimen that it does not have, or while the tip is in the gel.
+    fn mount(&self, specimen: Specimen) -> Result<(), DriverError>;
+
+    /// Calls the press that begins now by `name`: all that is random in it is a function of the name and the place, so that a run which
+    /// was interrupted and resumed meets the errors it would have met anyway.
+    ///
+    /// # Errors
+    /// As [`rest`](SimulatedBench::rest).
+    fn name_press(&self, name: u64) -> Result<(), DriverError>;
+
+    /// Lets the next tare in the air wait until `at` on the bench's clock, unless it is later already.
+    ///
+    /// # Errors
+    /// As [`rest`](SimulatedBench::rest).
+    fn schedule(&self, at: Duration) -> Result<(), DriverError>;
+
+    /// What it is a model of: version, parameters and seed; `None` before a sensor was opened in it.
+    fn provenance(&self) -> Option<String>;
+}

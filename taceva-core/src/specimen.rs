@@ -1,0 +1,32 @@
+//! What touches the gel.
+
+use std::fmt;
+
+use crate::grating::GratingKind;
+use crate::nanometre::Nanometre;
+
+/// What the robot carries.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Specimen {
+    /// A sphere.
+    Sphere {
+        /// Its radius.
+        radius: Nanometre,
+    },
+    /// A board with a grating.
+    Grating {
+        /// Its relief.
+        kind: GratingKind,
+        /// From one ridge or bump to the next.
+        spacing: Nanometre,
+    },
+}
+
+impl fmt::Display for Specimen {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Specimen::Sphere { radius } => write!(f, "sphere of radius {radius}"),
+            Specimen::Grating { kind, spacing } => write!(f, "{kind} grating of {spacing}"),
+        }
+    }
+}
