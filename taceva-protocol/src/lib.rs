@@ -32,4 +32,4 @@ pub use scene::{
     Shape, Spatial, Study, SurfaceMap,
 };
 pub use source::{RecordingInfo, RigInfo, SourceInfo};
-pub use specimen::Specimen;
+pub use taceva_core::Specimen;

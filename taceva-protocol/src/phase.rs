@@ -11,12 +11,12 @@ mod surface_map;
 
 use std::fmt;
 
-use taceva_core::{Footprint, Nanometre, Phase};
+use taceva_core::{Footprint, Nanometre, Phase, Specimen};
 
 use crate::draw::Draws;
 use crate::press::{Motion, Press, Station};
 use crate::scene::Protocol;
-use crate::specimen::{Specimen, spacings};
+use crate::specimen::spacings;
 
 /// A part of a protocol.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]

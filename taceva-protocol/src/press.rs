@@ -1,9 +1,8 @@
 //! One visit of the tip: where, with what, how deep; a value with a name derived from its content.
 
-use taceva_core::{Nanometre, Phase};
+use taceva_core::{Nanometre, Phase, Specimen};
 
 use crate::digest::{Digest, Hasher};
-use crate::specimen::Specimen;
 
 /// One approach, what is done in contact, and the retreat.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -29,12 +29,11 @@ pub use trip::Trip;
 #[cfg(feature = "simulation")]
 pub(crate) use supervisor::STALE_S;
 
-use taceva_core::{Degree, Lighting, Millimetre, Nanometre, Sensor};
+use taceva_core::{Degree, Lighting, Millimetre, Nanometre, Sensor, Specimen};
 
 use crate::digest::Digest;
 use crate::plan::{Plan, PlannedPress};
 use crate::press::Motion;
-use crate::specimen::Specimen;
 use align::Look;
 use bounds::Bounds;
 use station::{Camera, Gathered, Spot};

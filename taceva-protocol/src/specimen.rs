@@ -1,6 +1,6 @@
-//! What touches the gel, and the catalogue of boards there are.
+//! The catalogue of boards there are.
 
-use taceva_core::{GratingKind, Nanometre};
+use taceva_core::Nanometre;
 
 use crate::scene::{Gratings, SceneProblem};
 

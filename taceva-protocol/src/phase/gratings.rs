@@ -1,10 +1,10 @@
 //! Boards of every spacing, each pressed many times at the centre and turned by an angle of its own.
 
-use taceva_core::Nanometre;
+use taceva_core::{Nanometre, Specimen};
 
 use super::{Ground, PhaseKind, straight};
 use crate::press::{Motion, Press};
-use crate::specimen::{Specimen, spacings};
+use crate::specimen::spacings;
 
 /// Thousandths of a degree in half a turn: lines and dots look the same after it.
 const HALF_TURN: i64 = 180_000;

@@ -7,7 +7,7 @@ use super::facts::StudyFacts;
 use super::reason::{PlanReason, Subject};
 use crate::digest::Digest;
 use crate::phase::PhaseKind;
-use crate::specimen::Specimen;
+use taceva_core::Specimen;
 
 /// Joins equal presses and sorts the rest.
 pub(super) fn pass(mut draft: Draft, facts: &StudyFacts<'_>) -> Draft {

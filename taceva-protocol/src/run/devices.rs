@@ -1,8 +1,6 @@
 //! The devices of a run, borrowed.
 
-use taceva_core::{Deadline, DriverError, ForceTransducer, Lighting, Robot, Sensor};
-
-use crate::specimen::Specimen;
+use taceva_core::{Deadline, DriverError, ForceTransducer, Lighting, Robot, Sensor, Specimen};
 
 /// What a run works with; it starts and stops them, and owns none.
 pub struct Devices<'a> {

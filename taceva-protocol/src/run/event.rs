@@ -1,11 +1,10 @@
 //! What happens in a run, as it happens, for whoever shows it.
 
-use taceva_core::Millimetre;
+use taceva_core::{Millimetre, Specimen};
 
 use super::log::Outcome;
 use super::trip::Trip;
 use crate::digest::Digest;
-use crate::specimen::Specimen;
 
 /// Something that happened.
 #[derive(Clone, Debug, PartialEq)]

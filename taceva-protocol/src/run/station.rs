@@ -3,7 +3,8 @@
 use std::time::Duration;
 
 use taceva_core::{
-    Deadline, ErrorKind, Frame, FrameMut, Nanometre, Pose, Readings, Sample, Sensor, Stamp, Wrench,
+    Deadline, ErrorKind, Frame, FrameMut, Nanometre, Pose, Readings, Sample, Sensor, Specimen,
+    Stamp, Wrench,
 };
 
 use super::align::{Look, between};
@@ -12,7 +13,6 @@ use super::event::Event;
 use super::tip::{Step, Tip};
 use crate::plan::{PlannedPress, SURFACE};
 use crate::press::Motion;
-use crate::specimen::Specimen;
 
 /// Frames that are lost, damaged or older than the rest of the tip before the run gives up.
 const FRAME_TRIES: u32 = 10;

@@ -4,7 +4,9 @@ mod seeds;
 
 use std::collections::BTreeSet;
 
-use taceva_core::{Deadline, DriverError, ErrorKind, Millimetre, Phase, Sample, SinkError};
+use taceva_core::{
+    Deadline, DriverError, ErrorKind, Millimetre, Phase, Sample, SinkError, Specimen,
+};
 
 use super::devices::{SimulatedForce, SimulatedRobot, SimulatedSensor};
 use super::fault::{FaultKind, Faults};
@@ -19,7 +21,6 @@ use crate::run::{
     Cancel, Controls, Devices, Event, Left, Mode, Outcome, PressLog, PressRecord, RunError,
     RunReport, RunSpec, SpecimenChanger, StopCause, Timekeeper, run,
 };
-use crate::specimen::Specimen;
 
 const SOFT: Gel = Gel {
     stiffness_n_mm: 0.5,
