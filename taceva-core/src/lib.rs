@@ -19,6 +19,7 @@ mod progress;
 mod quantity;
 mod registry;
 mod sample;
+mod si;
 mod skip;
 mod specimen;
 mod stamp;
@@ -53,6 +54,7 @@ pub use registry::{
     Workspace,
 };
 pub use sample::{Readings, Sample};
+pub use si::SiPose;
 pub use skip::{SkipReason, Skipped};
 pub use specimen::Specimen;
 pub use stamp::{Clock, Stamp};

@@ -1,0 +1,174 @@
+//! The way to SI units and back, as poses, wrenches and speeds cross the plugin boundary.
+
+use crate::driver::{Speed, SpeedError};
+use crate::geometry::{Point, Pose, Rotation, nearest};
+use crate::quantity::{Degree, Millimetre, Newton, NewtonMillimetre};
+use crate::wrench::Wrench;
+
+/// Millimetres in a metre.
+const PER_METRE: f64 = 1e3;
+/// How far the length of a unit quaternion may be from 1: what single precision keeps.
+const LENGTH_TOLERANCE: f64 = 1e-6;
+
+/// A pose in metres and as a unit quaternion.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SiPose {
+    /// x, y and z.
+    pub position_m: [f64; 3],
+    /// The real part, then those about x, y and z.
+    pub quaternion: [f64; 4],
+}
+
+impl From<Pose> for SiPose {
+    fn from(pose: Pose) -> SiPose {
+        let Pose { position, rotation } = pose;
+        let half = |angle: Degree| (angle.0.to_radians() / 2.0).sin_cos();
+        let ((sx, cx), (sy, cy), (sz, cz)) = (half(rotation.x), half(rotation.y), half(rotation.z));
+        SiPose {
+            position_m: [position.x, position.y, position.z].map(|length| length.0 / PER_METRE),
+            quaternion: [
+                cx * cy * cz + sx * sy * sz,
+                sx * cy * cz - cx * sy * sz,
+                cx * sy * cz + sx * cy * sz,
+                cx * cy * sz - sx * sy * cz,
+            ],
+        }
+    }
+}
+
+impl SiPose {
+    /// The pose on its grid ([`Pose::on_grid`]); `None` where a number is not finite or the quaternion is none of length 1.
+    ///
+    /// A pose on the grid comes back as it was, turned by at most 180° about x and z and 90° about y.
+    ///
+    /// ```
+    /// use taceva_core::{Degree, Millimetre, Pose, SiPose};
+    /// let mut pose = Pose::default();
+    /// (pose.position.z, pose.rotation.x) = (Millimetre(0.35), Degree(-12.5));
+    /// assert_eq!(SiPose::from(pose).to_pose(), Some(pose));
+    /// ```
+    pub fn to_pose(self) -> Option<Pose> {
+        let [w, x, y, z] = self.quaternion;
+        let length = (w * w + x * x + y * y + z * z).sqrt();
+        let is_place = self.position_m.iter().all(|length| length.is_finite());
+        let is_turn = (length - 1.0).abs() <= LENGTH_TOLERANCE;
+        if !(is_place && is_turn) {
+            return None;
+        }
+        let [px, py, pz] = self.position_m.map(|length| Millimetre(length * PER_METRE));
+        // The first column and the last row of the matrix of the rotation.
+        let (xx, yx, zx) = (
+            w * w + x * x - y * y - z * z,
+            2.0 * (x * y + w * z),
+            2.0 * (x * z - w * y),
+        );
+        let (zy, zz) = (2.0 * (y * z + w * x), w * w - x * x - y * y + z * z);
+        let angle = |sine: f64, cosine: f64| Degree(sine.atan2(cosine).to_degrees());
+        let pose = Pose {
+            position: Point {
+                x: px,
+                y: py,
+                z: pz,
+            },
+            rotation: Rotation {
+                x: angle(zy, zz),
+                y: angle(-zx, xx.hypot(yx)),
+                z: angle(yx, xx),
+            },
+        };
+        Some(pose.on_grid())
+    }
+}
+
+impl Wrench {
+    /// Its torque in N·m; its force is in N already.
+    pub fn torque_nm(&self) -> [f64; 3] {
+        self.torque.map(|torque| torque.0 / PER_METRE)
+    }
+
+    /// The wrench of a force in N and a torque in N·m, on the grid of [`on_grid`](Wrench::on_grid).
+    pub fn from_si(force_n: [f64; 3], torque_nm: [f64; 3]) -> Wrench {
+        let wrench = Wrench {
+            force: force_n.map(Newton),
+            torque: torque_nm.map(|torque| NewtonMillimetre(torque * PER_METRE)),
+        };
+        wrench.on_grid()
+    }
+}
+
+impl Speed {
+    /// In m/s.
+    pub fn metres_per_second(self) -> f64 {
+        self.mm_per_s() / PER_METRE
+    }
+
+    /// The speed of a number of m/s, on the grid of 1 nm/s.
+    ///
+    /// # Errors
+    /// As [`try_new`](Speed::try_new).
+    pub fn from_metres_per_second(metres: f64) -> Result<Speed, SpeedError> {
+        Speed::try_new(nearest(metres * PER_METRE, 1e6))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_pose_on_the_grid_comes_back_by_bits() {
+        for step in 0..5_000_i32 {
+            let number = f64::from(step * 7_919 % 10_007 - 5_003);
+            let pose = Pose {
+                position: Point {
+                    x: Millimetre(number * 0.001_237),
+                    y: Millimetre(-number * 0.1),
+                    z: Millimetre(number / 3.0),
+                },
+                rotation: Rotation {
+                    x: Degree(number * 0.035_9),
+                    y: Degree(number * 0.017_9),
+                    z: Degree(-number * 0.035_7),
+                },
+            }
+            .on_grid();
+            assert_eq!(SiPose::from(pose).to_pose(), Some(pose), "step {step}");
+        }
+    }
+
+    #[test]
+    fn rotations_are_applied_about_x_then_y_then_z() {
+        let mut quarter = Pose::default();
+        (quarter.rotation.x, quarter.rotation.z) = (Degree(90.0), Degree(90.0));
+        let [w, x, y, z] = SiPose::from(quarter).quaternion;
+        // By hand: q_z q_x = (1 + k)(1 + i) / 2 = (1 + i + j + k) / 2.
+        for part in [w, x, y, z] {
+            assert!((part - 0.5).abs() < 1e-15, "{w} {x} {y} {z}");
+        }
+    }
+
+    #[test]
+    fn what_is_no_pose_is_none() {
+        let good = SiPose::from(Pose::default());
+        for quaternion in [[0.0; 4], [2.0, 0.0, 0.0, 0.0], [f64::NAN; 4]] {
+            assert_eq!(SiPose { quaternion, ..good }.to_pose(), None);
+        }
+        let position_m = [0.0, f64::INFINITY, 0.0];
+        assert_eq!(SiPose { position_m, ..good }.to_pose(), None);
+    }
+
+    #[test]
+    fn torques_and_speeds_come_back_by_bits() {
+        let mut wrench = Wrench::default();
+        wrench.torque[1] = NewtonMillimetre(0.1 + 0.2);
+        let wrench = wrench.on_grid();
+        let force = wrench.force.map(|force| force.0);
+        assert_eq!(Wrench::from_si(force, wrench.torque_nm()), wrench);
+        for step in 1..10_000_u32 {
+            let speed = Speed::try_new(f64::from(step) / 1e3).expect("above 0");
+            let back = Speed::from_metres_per_second(speed.metres_per_second());
+            assert_eq!(back, Ok(speed));
+        }
+        assert!(Speed::from_metres_per_second(f64::NAN).is_err());
+    }
+}
