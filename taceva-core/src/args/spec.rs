@@ -213,7 +213,7 @@ impl ArgSpec {
     }
 
     /// What is wrong with the declaration itself, if anything is.
-    pub(crate) fn fault(&self) -> Option<String> {
+    pub fn fault(&self) -> Option<String> {
         let key_is_plain = self
             .key
             .starts_with(|first: char| first.is_ascii_lowercase())

@@ -1,0 +1,315 @@
+//! The manifest of a plugin: everything that listing and planning need, as data. No code of the plugin runs for it.
+
+mod argument;
+mod error;
+mod library;
+mod need;
+mod provides;
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::ops::Range;
+
+use serde::Deserialize;
+use taceva_core::{Descriptor, DriverKey};
+use toml::Spanned;
+
+pub use self::error::ManifestError;
+pub use self::library::{LibraryFile, Sha256Digest, platform};
+use self::library::{PLATFORMS, path_fault};
+pub use self::need::{Need, NeedError};
+use self::provides::WrittenProvides;
+pub use self::provides::{EstimatorInfo, Provided, UsbId};
+use crate::id::PluginId;
+use crate::shown::{shown, suggestion};
+
+/// The version of the format that is read here.
+const VERSION: u32 = 1;
+/// A manifest is at most this long, in bytes.
+pub(crate) const BYTES_MAX: usize = 1 << 20;
+/// No plugin provides more.
+const PROVIDES_MAX: usize = 256;
+
+/// What a `plugin.toml` says.
+///
+/// ```
+/// use taceva_host::Manifest;
+/// let manifest = Manifest::parse(r#"
+///     manifest_version = 1
+///     id = "org.example.digit"
+///     name = "DIGIT"
+///     version = "0.3.1"
+///     license = "MIT"
+///     abi = { major = 1, minor = 0 }
+///     needs = ["usb"]
+///
+///     [library]
+///     linux-x86_64 = { path = "libdigit.so" }
+///
+///     [[provides]]
+///     kind = "sensor"
+///     key = "digit"
+///     title = "DIGIT"
+///     source = "real"
+///     frame = { width = 240, height = 320, format = "rgb8" }
+///     rate_hz = 60
+///     gel = { opaque = true, markers = false, thickness_mm = 4.0 }
+///     footprint = { shape = "rect", half_x_mm = 8.0, half_y_mm = 10.0 }
+///     limits = { Pz_max_mm = 1.0, Fz_max_N = 2.0 }
+///
+///     [[provides.args]]
+///     key = "exposure"
+///     type = "number"
+///     unit = "ms"
+///     range = [0.1, 33.0]
+///     default = 8.0
+///     help = "of one frame"
+/// "#)?;
+/// let driver = manifest.drivers().next().expect("one");
+/// assert_eq!(driver.key().as_str(), "org.example.digit/digit");
+/// # Ok::<(), taceva_host::ManifestError>(())
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct Manifest {
+    /// The name of the plugin.
+    pub id: PluginId,
+    /// What people call it.
+    pub name: String,
+    /// Its version, as its library says it too.
+    pub version: String,
+    /// Its licence.
+    pub license: String,
+    /// The interface it was written for.
+    pub abi: AbiVersion,
+    /// What it must reach outside itself.
+    pub needs: BTreeSet<Need>,
+    /// Its drivers and estimators, in the order of the manifest.
+    pub provides: Vec<Provided>,
+    libraries: BTreeMap<String, LibraryFile>,
+}
+
+/// A version of the C interface.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct AbiVersion {
+    /// Equal on both sides, or the plugin cannot be used.
+    pub major: u32,
+    /// May differ either way.
+    pub minor: u32,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Written {
+    /// Checked before the rest, as [`Versioned`].
+    #[serde(rename = "manifest_version")]
+    _version: u32,
+    id: Spanned<String>,
+    name: Spanned<String>,
+    version: Spanned<String>,
+    license: Spanned<String>,
+    abi: AbiVersion,
+    library: Spanned<BTreeMap<String, Spanned<WrittenLibrary>>>,
+    #[serde(default)]
+    needs: Vec<Spanned<String>>,
+    provides: Spanned<Vec<WrittenProvides>>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct WrittenLibrary {
+    path: Spanned<String>,
+    sha256: Option<Spanned<String>>,
+}
+
+/// What every version of the format says first.
+#[derive(Deserialize)]
+struct Versioned {
+    manifest_version: Spanned<u32>,
+}
+
+/// A value that cannot be meant, at these bytes.
+#[derive(Debug)]
+struct Refused {
+    span: Range<usize>,
+    problem: String,
+}
+
+impl Refused {
+    fn at<T>(written: &Spanned<T>, problem: impl Into<String>) -> Refused {
+        Refused {
+            span: written.span(),
+            problem: problem.into(),
+        }
+    }
+}
+
+impl Manifest {
+    /// The manifest written as `text`; every key is known, or it is refused.
+    ///
+    /// # Errors
+    /// [`ManifestError`], for the first thing that is wrong, with its line.
+    pub fn parse(text: &str) -> Result<Manifest, ManifestError> {
+        if text.len() > BYTES_MAX {
+            let problem = format!("{} bytes, expected at most {BYTES_MAX}", text.len());
+            return Err(ManifestError::whole(problem));
+        }
+        // The version first: what a newer one may say is not known here.
+        if let Ok(Versioned { manifest_version }) = toml::from_str(text) {
+            let version = *manifest_version.get_ref();
+            if version != VERSION {
+                let problem = format!("`manifest_version`: {version}, this TacEva reads {VERSION}");
+                return Err(ManifestError::at(text, &manifest_version.span(), problem));
+            }
+        }
+        let written: Written =
+            toml::from_str(text).map_err(|error| ManifestError::of_parser(text, &error))?;
+        meant(written).map_err(|refused| ManifestError::at(text, &refused.span, refused.problem))
+    }
+
+    /// The library for `platform`, as [`platform`] writes it.
+    pub fn library(&self, platform: &str) -> Option<&LibraryFile> {
+        self.libraries.get(platform)
+    }
+
+    /// The platforms it has a library for.
+    pub fn platforms(&self) -> impl Iterator<Item = &str> {
+        self.libraries.keys().map(String::as_str)
+    }
+
+    /// Its drivers.
+    pub fn drivers(&self) -> impl Iterator<Item = &Descriptor> {
+        self.provides.iter().filter_map(|provided| match provided {
+            Provided::Driver { descriptor, .. } => Some(&**descriptor),
+            Provided::Estimator(_) => None,
+        })
+    }
+
+    /// Its estimators.
+    pub fn estimators(&self) -> impl Iterator<Item = &EstimatorInfo> {
+        self.provides.iter().filter_map(|provided| match provided {
+            Provided::Driver { .. } => None,
+            Provided::Estimator(estimator) => Some(estimator),
+        })
+    }
+}
+
+impl Provided {
+    /// What a library says of one of its drivers or estimators: a `[[provides]]` table without that header.
+    ///
+    /// # Errors
+    /// As [`Manifest::parse`].
+    pub fn parse(text: &str, id: &PluginId) -> Result<Provided, ManifestError> {
+        if text.len() > BYTES_MAX {
+            let problem = format!("{} bytes, expected at most {BYTES_MAX}", text.len());
+            return Err(ManifestError::whole(problem));
+        }
+        let written: WrittenProvides =
+            toml::from_str(text).map_err(|error| ManifestError::of_parser(text, &error))?;
+        written
+            .provided(id)
+            .map_err(|refused| ManifestError::at(text, &refused.span, refused.problem))
+    }
+
+    /// The key by which people choose it.
+    pub fn key(&self) -> &DriverKey {
+        match self {
+            Provided::Driver { descriptor, .. } => descriptor.key(),
+            Provided::Estimator(estimator) => &estimator.key,
+        }
+    }
+}
+
+fn meant(written: Written) -> Result<Manifest, Refused> {
+    let id: PluginId = (written.id.get_ref().parse())
+        .map_err(|error| Refused::at(&written.id, format!("`id`: {error}")))?;
+    let libraries = libraries(&written.library)?;
+    let mut needs = BTreeSet::new();
+    for need in &written.needs {
+        let read = (need.get_ref().parse())
+            .map_err(|error| Refused::at(need, format!("`needs`: {error}")))?;
+        if !needs.insert(read) {
+            return Err(Refused::at(need, "`needs`: named twice"));
+        }
+    }
+    let name = plain_text("name", &written.name)?;
+    let version = plain_text("version", &written.version)?;
+    let license = plain_text("license", &written.license)?;
+    let count = written.provides.get_ref().len();
+    if count == 0 || count > PROVIDES_MAX {
+        let problem = format!("`provides`: {count} tables, expected 1 to {PROVIDES_MAX}");
+        return Err(Refused::at(&written.provides, problem));
+    }
+    let mut keys = BTreeSet::new();
+    let mut provides = Vec::with_capacity(count);
+    for table in written.provides.into_inner() {
+        let key = table.key.clone();
+        provides.push(table.provided(&id)?);
+        if !keys.insert(key.get_ref().clone()) {
+            let problem = format!("`key`: two tables are called `{}`", key.get_ref());
+            return Err(Refused::at(&key, problem));
+        }
+    }
+    Ok(Manifest {
+        id,
+        name,
+        version,
+        license,
+        abi: written.abi,
+        needs,
+        provides,
+        libraries,
+    })
+}
+
+fn libraries(
+    written: &Spanned<BTreeMap<String, Spanned<WrittenLibrary>>>,
+) -> Result<BTreeMap<String, LibraryFile>, Refused> {
+    if written.get_ref().is_empty() {
+        let problem = format!(
+            "`library`: no platform, expected `{} = {{ path = … }}`",
+            platform()
+        );
+        return Err(Refused::at(written, problem));
+    }
+    let mut libraries = BTreeMap::new();
+    for (platform, library) in written.get_ref() {
+        if !PLATFORMS.contains(&platform.as_str()) {
+            let help = suggestion(platform, &PLATFORMS);
+            let problem = format!("`{}`: unknown platform, {help}", shown(platform));
+            return Err(Refused::at(library, problem));
+        }
+        let WrittenLibrary { path, sha256 } = library.get_ref();
+        if let Some(fault) = path_fault(path.get_ref()) {
+            let problem = format!("`path`: {:?}, {fault}", shown(path.get_ref()));
+            return Err(Refused::at(path, problem));
+        }
+        let sha256 = sha256.as_ref().map(|digest| {
+            Sha256Digest::from_hex(digest.get_ref())
+                .ok_or_else(|| Refused::at(digest, "`sha256`: expected 64 hexadecimal digits"))
+        });
+        let file = LibraryFile {
+            path: path.get_ref().clone(),
+            sha256: sha256.transpose()?,
+        };
+        libraries.insert(platform.clone(), file);
+    }
+    Ok(libraries)
+}
+
+/// Text for people: one line, not empty, not endless.
+fn plain_text(key: &str, written: &Spanned<String>) -> Result<String, Refused> {
+    let text = written.get_ref();
+    let is_plain = !text.trim().is_empty() && text.len() <= 200 && !text.contains(char::is_control);
+    if is_plain {
+        Ok(text.clone())
+    } else {
+        let problem = format!(
+            "`{key}`: {:?}, expected one line of 1 to 200 bytes",
+            shown(text)
+        );
+        Err(Refused::at(written, problem))
+    }
+}
+
+#[cfg(test)]
+mod tests;

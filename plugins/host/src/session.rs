@@ -1,0 +1,108 @@
+//! A plugin that was delivered, in process or in a child: the one place where the two ways meet.
+
+use std::sync::Arc;
+
+use taceva_core::{
+    Args, Channels, Descriptor, DriverError, DriverKey, FeatureShape, ForceTransducer, Found,
+    Lighting, ModelError, Progress, Regressor, Robot, Sensor, SimulatedBench, TrainingSet,
+};
+
+/// A loaded plugin and the devices that are opened in it together: one session a plugin and rig.
+///
+/// Drivers and estimators are named by their whole keys. Devices keep what they need alive: a session may be dropped before them.
+pub trait Session: Send + Sync {
+    /// What the library says of `driver` when it is opened with `args`; no device is touched.
+    ///
+    /// # Errors
+    /// [`DriverError`] of kind `NotFound` for a driver that it does not have, `InvalidArgument` for arguments that contradict each other.
+    fn describe(&self, driver: &DriverKey, args: &Args) -> Result<Descriptor, DriverError>;
+
+    /// The devices of `driver` that are present.
+    ///
+    /// # Errors
+    /// [`DriverError`] if looking itself fails.
+    fn discover(&self, driver: &DriverKey) -> Result<Vec<Found>, DriverError>;
+
+    /// Opens a sensor.
+    ///
+    /// # Errors
+    /// As [`Factory::open`](taceva_core::Factory::open).
+    fn sensor(&self, driver: &DriverKey, args: &Args) -> Result<Box<dyn Sensor>, DriverError>;
+
+    /// Opens a robot.
+    ///
+    /// # Errors
+    /// As [`Factory::open`](taceva_core::Factory::open).
+    fn robot(&self, driver: &DriverKey, args: &Args) -> Result<Box<dyn Robot>, DriverError>;
+
+    /// Opens a force transducer.
+    ///
+    /// # Errors
+    /// As [`Factory::open`](taceva_core::Factory::open).
+    fn force(
+        &self,
+        driver: &DriverKey,
+        args: &Args,
+    ) -> Result<Box<dyn ForceTransducer>, DriverError>;
+
+    /// Opens a lighting.
+    ///
+    /// # Errors
+    /// As [`Factory::open`](taceva_core::Factory::open).
+    fn lighting(&self, driver: &DriverKey, args: &Args) -> Result<Box<dyn Lighting>, DriverError>;
+
+    /// The simulated bench that devices were opened in with `rig=name`, where the plugin is one.
+    fn bench(&self, name: &str) -> Option<Arc<dyn SimulatedBench>>;
+
+    /// Fits `estimator`.
+    ///
+    /// # Errors
+    /// As [`Estimator::fit`](taceva_core::Estimator::fit); `NotFound` for an estimator that it does not have.
+    fn fit(
+        &self,
+        estimator: &DriverKey,
+        request: &FitRequest<'_>,
+    ) -> Result<Box<dyn SavedRegressor>, ModelError>;
+
+    /// Loads what [`SavedRegressor::save`] gave.
+    ///
+    /// # Errors
+    /// [`ModelError`] of kind `Protocol` for bytes that are no model of `estimator`.
+    fn load(
+        &self,
+        estimator: &DriverKey,
+        saved: &Saved<'_>,
+    ) -> Result<Box<dyn SavedRegressor>, ModelError>;
+}
+
+/// What a fit is made from.
+pub struct FitRequest<'a> {
+    /// What was set, checked against what the estimator declares.
+    pub settings: &'a Args,
+    /// Samples to learn from.
+    pub training: &'a TrainingSet<'a>,
+    /// Samples to choose settings by.
+    pub validation: Option<&'a TrainingSet<'a>>,
+    /// Who listens, and may cancel.
+    pub progress: &'a dyn Progress,
+}
+
+/// A model as it was kept: its bytes are the plugin's own, what it takes and gives is ours.
+#[derive(Clone, Copy, Debug)]
+pub struct Saved<'a> {
+    /// What [`SavedRegressor::save`] gave.
+    pub bytes: &'a [u8],
+    /// What it predicts.
+    pub channels: &'a Channels,
+    /// The shape of features it takes.
+    pub shape: FeatureShape,
+}
+
+/// A fitted model that can be kept.
+pub trait SavedRegressor: Regressor {
+    /// The model as bytes that [`Session::load`] takes on every machine.
+    ///
+    /// # Errors
+    /// [`ModelError`] if the plugin cannot.
+    fn save(&self) -> Result<Vec<u8>, ModelError>;
+}
