@@ -42,7 +42,10 @@ pub use frame::{Frame, FrameError, FrameInfo, FrameMut, PixelFormat};
 pub use geometry::{Point, Pose, Rotation};
 pub use grating::GratingKind;
 pub use id::{DriverKey, DriverKeyError};
-pub use model::{Estimator, FeatureShape, Features, ModelError, Regressor, Targets, TrainingSet};
+pub use model::{
+    Estimator, EstimatorFactory, FeatureShape, Features, ModelError, Regressor, SavedModel,
+    Targets, TrainingSet,
+};
 pub use nanometre::{Nanometre, NanometreError};
 pub use needs::Needs;
 pub use phase::Phase;

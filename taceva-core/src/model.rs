@@ -1,5 +1,9 @@
 //! What a model promises: an [`Estimator`] is fitted and gives a [`Regressor`]; the unfitted one cannot predict.
 
+mod factory;
+
+pub use factory::{EstimatorFactory, SavedModel};
+
 use std::error::Error;
 use std::fmt;
 
@@ -133,8 +137,8 @@ pub struct TrainingSet<'a> {
 
 /// A model with its settings, not fitted yet.
 pub trait Estimator: Send + Sync {
-    /// The name by which people choose it: `ridge`.
-    fn name(&self) -> &'static str;
+    /// The name by which people choose it: `ridge`, or the key of a plugin's.
+    fn name(&self) -> &str;
 
     /// Learns from `training`; settings left open are chosen on `validation`, where there is one.
     ///
@@ -163,6 +167,17 @@ pub trait Regressor: Send + Sync {
     /// # Errors
     /// [`ModelError`] if a shape differs, or a prediction is not finite.
     fn predict(&self, features: &Features, into: &mut [f64]) -> Result<(), ModelError>;
+
+    /// The model as bytes that [`EstimatorFactory::load`] takes on every machine.
+    ///
+    /// # Errors
+    /// [`ModelError`] of kind `Unsupported` for a model that is kept in another way, or not at all.
+    fn to_bytes(&self) -> Result<Vec<u8>, ModelError> {
+        Err(ModelError::new(
+            ErrorKind::Unsupported,
+            "cannot write the model: it has no bytes of its own",
+        ))
+    }
 }
 
 /// Why a model could not be fitted or used.

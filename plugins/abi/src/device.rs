@@ -59,7 +59,8 @@ pub struct Factory {
     pub size: u32,
     /// How many.
     pub drivers: u32,
-    /// `[any]` Writes the `[[provides]]` table of the manifest as it holds for the arguments; no device is touched.
+    /// `[any]` Writes the `[[provides]]` table of the manifest as it holds for the arguments, NULL for whatever they are; no device is
+    /// touched.
     pub describe:
         Option<unsafe extern "C" fn(u32, *const Args, TakeText, *mut c_void, *mut Error) -> Status>,
     /// `[any]` Names each device that is present by the arguments that choose it.

@@ -146,7 +146,8 @@ typedef struct taceva_factory {
   uint32_t size;
   uint32_t drivers; /* how many */
 
-  /* [any] Writes the `[[provides]]` table of the manifest, as TOML without that header, as it holds for `args`; no device is touched. */
+  /* [any] Writes the `[[provides]]` table of the manifest as TOML, without that header and with `[[args]]` for `[[provides.args]]`, as it
+   * holds for `args`: NULL for whatever they are, else every argument that is given or has a default. No device is touched. */
   taceva_status (*describe)(uint32_t driver, const taceva_args *args, taceva_take_text take, void *context, taceva_error *error);
 
   /* [any] Names each device that is present, one text a device, "key=value;key=value": the arguments that choose it. May be NULL. */
