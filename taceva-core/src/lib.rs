@@ -43,8 +43,8 @@ pub use geometry::{Point, Pose, Rotation};
 pub use grating::GratingKind;
 pub use id::{DriverKey, DriverKeyError};
 pub use model::{
-    Estimator, EstimatorFactory, FeatureShape, Features, ModelError, Regressor, SavedModel,
-    Targets, TrainingSet,
+    Estimator, FeatureShape, Features, ModelError, Regressor, Saved, SavedRegressor, Targets,
+    TrainingSet,
 };
 pub use nanometre::{Nanometre, NanometreError};
 pub use needs::Needs;

@@ -1,9 +1,5 @@
 //! What a model promises: an [`Estimator`] is fitted and gives a [`Regressor`]; the unfitted one cannot predict.
 
-mod factory;
-
-pub use factory::{EstimatorFactory, SavedModel};
-
 use std::error::Error;
 use std::fmt;
 
@@ -167,17 +163,26 @@ pub trait Regressor: Send + Sync {
     /// # Errors
     /// [`ModelError`] if a shape differs, or a prediction is not finite.
     fn predict(&self, features: &Features, into: &mut [f64]) -> Result<(), ModelError>;
+}
 
-    /// The model as bytes that [`EstimatorFactory::load`] takes on every machine.
+/// A fitted model that can be kept as bytes of its own: that of a plugin.
+pub trait SavedRegressor: Regressor {
+    /// The model as bytes from which its maker loads it again, on every machine.
     ///
     /// # Errors
-    /// [`ModelError`] of kind `Unsupported` for a model that is kept in another way, or not at all.
-    fn to_bytes(&self) -> Result<Vec<u8>, ModelError> {
-        Err(ModelError::new(
-            ErrorKind::Unsupported,
-            "cannot write the model: it has no bytes of its own",
-        ))
-    }
+    /// [`ModelError`] if it cannot be written.
+    fn save(&self) -> Result<Vec<u8>, ModelError>;
+}
+
+/// A model as it was kept: its bytes are its maker's, what it takes and gives is ours.
+#[derive(Clone, Copy, Debug)]
+pub struct Saved<'a> {
+    /// What [`SavedRegressor::save`] gave.
+    pub bytes: &'a [u8],
+    /// What it predicts.
+    pub channels: &'a Channels,
+    /// The shape of features it takes.
+    pub shape: FeatureShape,
 }
 
 /// Why a model could not be fitted or used.

@@ -3,9 +3,10 @@
 use std::sync::Arc;
 
 use taceva_core::{
-    Args, Channels, Descriptor, DriverError, DriverKey, FeatureShape, ForceTransducer, Found,
-    Lighting, ModelError, Progress, Regressor, Robot, Sensor, SimulatedBench, TrainingSet,
+    Args, Descriptor, DriverError, DriverKey, ForceTransducer, Found, Lighting, ModelError,
+    Progress, Robot, Sensor, SimulatedBench, TrainingSet,
 };
+pub use taceva_core::{Saved, SavedRegressor};
 
 /// A loaded plugin and the devices that are opened in it together: one session a plugin and rig.
 ///
@@ -85,24 +86,4 @@ pub struct FitRequest<'a> {
     pub validation: Option<&'a TrainingSet<'a>>,
     /// Who listens, and may cancel.
     pub progress: &'a dyn Progress,
-}
-
-/// A model as it was kept: its bytes are the plugin's own, what it takes and gives is ours.
-#[derive(Clone, Copy, Debug)]
-pub struct Saved<'a> {
-    /// What [`SavedRegressor::save`] gave.
-    pub bytes: &'a [u8],
-    /// What it predicts.
-    pub channels: &'a Channels,
-    /// The shape of features it takes.
-    pub shape: FeatureShape,
-}
-
-/// A fitted model that can be kept.
-pub trait SavedRegressor: Regressor {
-    /// The model as bytes that [`Session::load`] takes on every machine.
-    ///
-    /// # Errors
-    /// [`ModelError`] if the plugin cannot.
-    fn save(&self) -> Result<Vec<u8>, ModelError>;
 }
