@@ -1,11 +1,21 @@
 #![doc = include_str!("../README.md")]
 
+mod call;
+mod descriptor;
+mod device;
+mod estimator;
 mod id;
+mod in_process;
+mod library;
 mod manifest;
 mod session;
 mod shown;
 
+pub use call::Failure;
+pub use device::{LentFrame, PluginSensor};
 pub use id::{PluginId, PluginIdError};
+pub use in_process::InProcess;
+pub use library::{Image, Level, Library, LoadError, LoadProblem, Log, libraries_loaded};
 pub use manifest::{
     AbiVersion, EstimatorInfo, LibraryFile, Manifest, ManifestError, Need, NeedError, Provided,
     Sha256Digest, UsbId, platform,

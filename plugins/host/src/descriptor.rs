@@ -1,0 +1,80 @@
+//! In what two descriptions of one driver differ.
+
+use std::fmt::Debug;
+
+use taceva_core::{Descriptor, Facts};
+
+/// The first thing that `manifest` and `library` disagree about: its name and what either says.
+pub(crate) fn difference(manifest: &Descriptor, library: &Descriptor) -> Option<[String; 3]> {
+    let title = [manifest, library].map(Descriptor::title);
+    let source = [manifest, library].map(Descriptor::source);
+    let arguments = [manifest, library].map(Descriptor::arguments);
+    differ("title", title)
+        .or_else(|| differ("source", source))
+        .or_else(|| facts(manifest.facts(), library.facts()))
+        .or_else(|| differ("the number of arguments", arguments.map(<[_]>::len)))
+        .or_else(|| {
+            let [promised, said] = arguments;
+            promised.iter().zip(said).find_map(|(promised, said)| {
+                differ(&format!("argument `{}`", promised.key), [promised, said])
+            })
+        })
+}
+
+fn differ<T: PartialEq + Debug>(name: &str, [manifest, library]: [T; 2]) -> Option<[String; 3]> {
+    let shown = |value: T| format!("{value:?}");
+    (manifest != library).then(|| [name.to_owned(), shown(manifest), shown(library)])
+}
+
+fn facts(manifest: &Facts, library: &Facts) -> Option<[String; 3]> {
+    match (manifest, library) {
+        (Facts::Sensor(one), Facts::Sensor(other)) => differ("frame", [one.frame, other.frame])
+            .or_else(|| differ("rate_hz", [one.rate, other.rate]))
+            .or_else(|| differ("gel.opaque", [one.opaque, other.opaque]))
+            .or_else(|| differ("gel.markers", [one.markers, other.markers]))
+            .or_else(|| {
+                let thickness = [one.gel_thickness, other.gel_thickness];
+                differ("gel.thickness_mm", thickness)
+            })
+            .or_else(|| differ("scenes", [&one.scenes, &other.scenes]))
+            .or_else(|| differ("footprint", [one.footprint, other.footprint]))
+            .or_else(|| differ("limits.Pz_max_mm", [one.depth_max, other.depth_max]))
+            .or_else(|| differ("limits.Fz_max_N", [one.force_max, other.force_max]))
+            .or_else(|| differ("facts", [one, other])),
+        (one, other) => differ("facts", [one, other]),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use taceva_core::{DescriptorSpec, DriverKey, DriverSource, Hertz, SensorFacts};
+
+    fn sensor(rate_hz: f64, title: &str) -> Descriptor {
+        let facts = SensorFacts {
+            rate: Some(Hertz(rate_hz)),
+            ..SensorFacts::default()
+        };
+        let spec = DescriptorSpec::new(
+            DriverKey::fixed("org.example/eye"),
+            title,
+            DriverSource::Real,
+            Facts::Sensor(Box::new(facts)),
+        );
+        spec.check().expect("consistent")
+    }
+
+    #[test]
+    fn the_first_difference_is_named_with_what_either_says() {
+        assert_eq!(difference(&sensor(30.0, "eye"), &sensor(30.0, "eye")), None);
+        let [what, ..] = difference(&sensor(30.0, "eye"), &sensor(30.0, "I")).expect("title");
+        assert_eq!(what, "title");
+        let [what, promised, said] =
+            difference(&sensor(30.0, "eye"), &sensor(60.0, "eye")).expect("rate");
+        assert_eq!(what, "rate_hz");
+        assert!(
+            promised.contains("30") && said.contains("60"),
+            "{promised} {said}"
+        );
+    }
+}

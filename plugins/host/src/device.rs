@@ -1,0 +1,17 @@
+//! Devices of a library that runs in this process, as the device traits of core.
+
+mod bench;
+mod force;
+mod handle;
+mod lighting;
+mod rig;
+mod robot;
+mod sensor;
+
+pub(crate) use self::bench::PluginBench;
+pub(crate) use self::force::PluginForce;
+pub(crate) use self::handle::open;
+pub(crate) use self::lighting::PluginLighting;
+pub(crate) use self::rig::RigHandle;
+pub(crate) use self::robot::PluginRobot;
+pub use self::sensor::{LentFrame, PluginSensor};

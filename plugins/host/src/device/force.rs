@@ -1,0 +1,146 @@
+//! A force transducer of a plugin.
+
+#![expect(unsafe_code, reason = "readings come through the plugin's functions")]
+
+use std::ffi::c_void;
+use std::sync::Arc;
+
+use taceva_abi as abi;
+use taceva_abi::ext::{TARE, TareCalls};
+use taceva_core::{
+    Axes, Axis, Deadline, DriverError, ErrorKind, ForceFacts, ForceTransducer, Interrupt, Stamp,
+    Tare, Wrench, check_wrench,
+};
+
+use super::handle::{Handle, Opened, Owned};
+use super::sensor::stamp;
+use crate::call::timeout;
+
+/// A force transducer whose plugin runs in this process.
+pub(crate) struct PluginForce {
+    handle: Owned,
+    calls: abi::ForceCalls,
+    read: Read,
+    axes: Axes,
+    tare: Option<TareAbility>,
+}
+
+type Read = unsafe extern "C" fn(
+    *mut c_void,
+    *mut abi::Wrench,
+    *mut abi::Stamp,
+    u64,
+    *mut abi::Error,
+) -> abi::Status;
+
+const OPENING: &str = "open the force transducer";
+
+impl PluginForce {
+    pub(crate) fn new(
+        opened: Opened<abi::ForceCalls>,
+        facts: &ForceFacts,
+    ) -> Result<PluginForce, DriverError> {
+        let Opened { handle, calls } = opened;
+        let read = handle.needs(calls.read, "read")?;
+        let tare = if facts.tare {
+            let table = handle.extension::<TareCalls>(TARE, OPENING)?;
+            let zero = table.and_then(|table| table.zero).ok_or_else(|| {
+                let why = format!("it says it can tare, yet has no `{TARE}`");
+                handle.failed(ErrorKind::Abi, OPENING, why)
+            })?;
+            let handle = handle.share();
+            Some(TareAbility { handle, zero })
+        } else {
+            None
+        };
+        Ok(PluginForce {
+            handle,
+            calls,
+            read,
+            axes: facts.axes,
+            tare,
+        })
+    }
+}
+
+impl ForceTransducer for PluginForce {
+    fn axes(&self) -> Axes {
+        self.axes
+    }
+
+    fn start(&mut self, deadline: Deadline) -> Result<(), DriverError> {
+        let Some(start) = self.calls.start else {
+            return Ok(());
+        };
+        self.handle
+            .call("start the force transducer", |raw, error| {
+                // SAFETY: [owner & open] by `&mut self`, with an error that outlives the call.
+                unsafe { start(raw, timeout(deadline), error) }
+            })
+    }
+
+    fn read(&mut self, deadline: Deadline) -> Result<(Wrench, Stamp), DriverError> {
+        const DOING: &str = "read the force";
+        let mut wrench = abi::Wrench::default();
+        let mut when = abi::Stamp::default();
+        self.handle.call(DOING, |raw, error| {
+            let (wrench, when) = (&raw mut wrench, &raw mut when);
+            // SAFETY: [owner & started] by `&mut self`, with places for the reading and an error that outlive the call.
+            unsafe { (self.read)(raw, wrench, when, timeout(deadline), error) }
+        })?;
+        let wrench = Wrench::from_si(wrench.force_n, wrench.torque_nm);
+        check_wrench(&wrench).map_err(|error| {
+            let why = error.to_string();
+            self.handle.failed(ErrorKind::DeviceFault, DOING, why)
+        })?;
+        Ok((measured(wrench, self.axes), stamp(when)))
+    }
+
+    fn stop(&mut self) -> Result<(), DriverError> {
+        let Some(stop) = self.calls.stop else {
+            return Ok(());
+        };
+        self.handle.call("stop the force transducer", |raw, error| {
+            // SAFETY: [owner & open] by `&mut self`, with an error that outlives the call.
+            unsafe { stop(raw, error) }
+        })
+    }
+
+    fn interrupt_handle(&self) -> Option<Arc<dyn Interrupt>> {
+        self.handle.interrupt()
+    }
+
+    fn tare(&mut self) -> Option<&mut dyn Tare> {
+        let tare = self.tare.as_mut()?;
+        Some(tare)
+    }
+}
+
+/// The wrench with 0 where nothing is measured, whatever stands there.
+fn measured(mut wrench: Wrench, axes: Axes) -> Wrench {
+    for (place, axis) in [Axis::Fx, Axis::Fy, Axis::Fz].into_iter().enumerate() {
+        if !axes.contains(axis) {
+            wrench.force[place].0 = 0.0;
+        }
+    }
+    for (place, axis) in [Axis::Tx, Axis::Ty, Axis::Tz].into_iter().enumerate() {
+        if !axes.contains(axis) {
+            wrench.torque[place].0 = 0.0;
+        }
+    }
+    wrench
+}
+
+struct TareAbility {
+    handle: Arc<Handle>,
+    zero: unsafe extern "C" fn(*mut c_void, u64, *mut abi::Error) -> abi::Status,
+}
+
+impl Tare for TareAbility {
+    fn zero(&mut self, deadline: Deadline) -> Result<(), DriverError> {
+        self.handle.call("tare", |raw, error| {
+            // SAFETY: [owner & started] by `&mut self`, which is borrowed from the transducer, with an error that outlives the call.
+            unsafe { (self.zero)(raw, timeout(deadline), error) }
+        })
+    }
+}

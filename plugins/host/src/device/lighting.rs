@@ -1,0 +1,86 @@
+//! The light around a sensor, set by a plugin: a device of its own, or an ability of the sensor.
+
+#![expect(
+    unsafe_code,
+    reason = "the light is set through the plugin's functions"
+)]
+
+use std::ffi::c_void;
+use std::sync::Arc;
+
+use taceva_abi as abi;
+use taceva_core::{Deadline, DriverError, ErrorKind, Lighting};
+
+use super::handle::{Handle, Opened, Owned};
+use crate::call::{Failure, timeout};
+
+type Set = unsafe extern "C" fn(*mut c_void, abi::Text, u64, *mut abi::Error) -> abi::Status;
+
+/// What sets the light on an open device.
+pub(super) struct LightingAbility {
+    handle: Arc<Handle>,
+    set: Set,
+    scenes: Vec<String>,
+}
+
+impl LightingAbility {
+    /// The ability of the device `handle`, whose owner keeps it and makes no other call meanwhile.
+    pub(super) fn new(handle: Arc<Handle>, set: Set, scenes: Vec<String>) -> LightingAbility {
+        LightingAbility {
+            handle,
+            set,
+            scenes,
+        }
+    }
+}
+
+impl Lighting for LightingAbility {
+    fn scenes(&self) -> &[String] {
+        &self.scenes
+    }
+
+    fn set(&mut self, scene: &str, deadline: Deadline) -> Result<(), DriverError> {
+        const DOING: &str = "set the light";
+        if !self.scenes.iter().any(|known| known == scene) {
+            let known = self.scenes.join("`, `");
+            let why = format!("{scene:?}, expected one of `{known}`");
+            let refused = Failure::new(ErrorKind::InvalidArgument, why);
+            return Err(refused.of(self.handle.driver(), DOING));
+        }
+        self.handle.call(DOING, |raw, error| {
+            // SAFETY: [owner & open] by `&mut self`, with a text and an error that outlive the call.
+            unsafe { (self.set)(raw, abi::Text::from(scene), timeout(deadline), error) }
+        })
+    }
+}
+
+/// A lighting whose plugin runs in this process.
+pub(crate) struct PluginLighting {
+    ability: LightingAbility,
+    /// After the ability, which calls on it.
+    _handle: Owned,
+}
+
+impl PluginLighting {
+    pub(crate) fn new(
+        opened: Opened<abi::LightingCalls>,
+        scenes: Vec<String>,
+    ) -> Result<PluginLighting, DriverError> {
+        let Opened { handle, calls } = opened;
+        let set = handle.needs(calls.set, "set")?;
+        Ok(PluginLighting {
+            ability: LightingAbility::new(handle.share(), set, scenes),
+            _handle: handle,
+        })
+    }
+}
+
+impl Lighting for PluginLighting {
+    fn scenes(&self) -> &[String] {
+        self.ability.scenes()
+    }
+
+    fn set(&mut self, scene: &str, deadline: Deadline) -> Result<(), DriverError> {
+        self.ability.set(scene, deadline)
+    }
+}

@@ -1,0 +1,63 @@
+//! What the devices of one rig share within a plugin.
+
+#![expect(
+    unsafe_code,
+    reason = "a rig is opened and closed through the plugin's functions"
+)]
+
+use std::sync::Arc;
+
+use taceva_abi as abi;
+use taceva_core::DriverError;
+
+use crate::call::call;
+use crate::library::Library;
+
+/// An open rig of a plugin, or nothing where the plugin knows none; closed once its last device is.
+pub(crate) struct RigHandle {
+    rig: *mut abi::Rig,
+    /// After the rig: its functions live there.
+    library: Arc<Library>,
+}
+
+// SAFETY: the pointer is only handed to functions that the interface allows from any thread, and closed once, by its last owner.
+unsafe impl Send for RigHandle {}
+// SAFETY: as above.
+unsafe impl Sync for RigHandle {}
+
+impl RigHandle {
+    pub(crate) fn open(library: &Arc<Library>) -> Result<Arc<RigHandle>, DriverError> {
+        let mut rig = std::ptr::null_mut();
+        if let Some(open) = library.plugin().open_rig {
+            // SAFETY: [any], with a place for the rig and an error that outlive the call.
+            call(|error| unsafe { open(&raw mut rig, error) })
+                .map_err(|failure| failure.of(&library.id().as_driver(), "open a rig"))?;
+        }
+        Ok(Arc::new(RigHandle {
+            rig,
+            library: Arc::clone(library),
+        }))
+    }
+
+    pub(crate) fn raw(&self) -> *mut abi::Rig {
+        self.rig
+    }
+
+    pub(crate) fn library(&self) -> &Arc<Library> {
+        &self.library
+    }
+}
+
+impl Drop for RigHandle {
+    fn drop(&mut self) {
+        if let Some(close) = self
+            .library
+            .plugin()
+            .close_rig
+            .filter(|_| !self.rig.is_null())
+        {
+            // SAFETY: [owner], once: every device of the rig holds it, so none is open any more.
+            unsafe { close(self.rig) };
+        }
+    }
+}

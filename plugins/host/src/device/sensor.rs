@@ -1,0 +1,278 @@
+//! A sensor of a plugin: every frame is checked before anybody sees it.
+
+#![expect(
+    unsafe_code,
+    reason = "frames are taken and given back through the plugin's functions"
+)]
+
+use std::sync::Arc;
+use std::time::Duration;
+
+use taceva_abi as abi;
+use taceva_abi::ext::{SENSOR_LIGHTING, SensorLightingCalls};
+use taceva_core::{
+    Deadline, DriverError, ErrorKind, FrameInfo, FrameMut, Interrupt, Lighting, PixelFormat,
+    Sensor, SensorFacts, Stamp,
+};
+
+use super::handle::{Opened, Owned};
+use super::lighting::LightingAbility;
+use crate::call::timeout;
+
+/// A sensor whose plugin runs in this process.
+pub struct PluginSensor {
+    handle: Owned,
+    calls: abi::SensorCalls,
+    capture: Capture,
+    info: FrameInfo,
+    length: usize,
+    lighting: Option<LightingAbility>,
+}
+
+type Capture = unsafe extern "C" fn(
+    *mut std::ffi::c_void,
+    *mut abi::Frame,
+    u64,
+    *mut abi::Error,
+) -> abi::Status;
+
+/// A frame in the plugin's own memory, for as long as it is looked at.
+#[derive(Clone, Copy, Debug)]
+pub struct LentFrame<'a> {
+    /// Size and format.
+    pub info: FrameInfo,
+    /// The pixels, row by row from the top, without padding.
+    pub bytes: &'a [u8],
+    /// When it was true.
+    pub stamp: Stamp,
+    /// The device's count of frames; a gap is a loss.
+    pub sequence: u64,
+    /// Whether frames were lost since the last one.
+    pub dropped: bool,
+}
+
+const OPENING: &str = "open the sensor";
+const CAPTURING: &str = "capture a frame";
+
+impl PluginSensor {
+    /// A sensor that was opened, whose library says `facts` of it.
+    pub(crate) fn new(
+        opened: Opened<abi::SensorCalls>,
+        facts: &SensorFacts,
+    ) -> Result<PluginSensor, DriverError> {
+        let Opened { handle, calls } = opened;
+        let capture = handle.needs(calls.capture, "capture")?;
+        let info = facts.frame.ok_or_else(|| {
+            let why = "the plugin does not say how large its frames are with these arguments";
+            handle.failed(ErrorKind::Abi, OPENING, why)
+        })?;
+        let length = info.byte_len().ok_or_else(|| {
+            let why = format!("frames of {info}, which no buffer can hold");
+            handle.failed(ErrorKind::Abi, OPENING, why)
+        })?;
+        let lighting = if facts.scenes.is_empty() {
+            None
+        } else {
+            let table = handle.extension::<SensorLightingCalls>(SENSOR_LIGHTING, OPENING)?;
+            let set = table.and_then(|table| table.set).ok_or_else(|| {
+                let why = format!("it names scenes, yet has no `{SENSOR_LIGHTING}`");
+                handle.failed(ErrorKind::Abi, OPENING, why)
+            })?;
+            Some(LightingAbility::new(
+                handle.share(),
+                set,
+                facts.scenes.clone(),
+            ))
+        };
+        Ok(PluginSensor {
+            handle,
+            calls,
+            capture,
+            info,
+            length,
+            lighting,
+        })
+    }
+
+    /// Waits for the next frame and shows it where it lies in the plugin's memory: nothing is copied.
+    ///
+    /// # Errors
+    /// As [`Sensor::capture`]; `Unsupported` if the plugin never lends.
+    pub fn lend<R>(
+        &mut self,
+        deadline: Deadline,
+        look: impl FnOnce(LentFrame<'_>) -> R,
+    ) -> Result<R, DriverError> {
+        if self.calls.max_lent == 0 {
+            let why = "it never lends its frames";
+            return Err(self.handle.failed(ErrorKind::Unsupported, CAPTURING, why));
+        }
+        let taken = self.take(std::ptr::null_mut(), deadline)?;
+        let bytes = self.checked(&taken, None)?;
+        Ok(look(LentFrame {
+            info: self.info,
+            bytes,
+            stamp: stamp(taken.frame.stamp),
+            sequence: taken.frame.sequence,
+            dropped: taken.frame.flags & abi::FRAME_DROPPED != 0,
+        }))
+    }
+
+    /// Asks for the next frame, in `buffer` of the length of a frame unless it is NULL.
+    fn take(&self, buffer: *mut u8, deadline: Deadline) -> Result<Taken, DriverError> {
+        let mut taken = Taken {
+            frame: abi::Frame {
+                size: u32::try_from(size_of::<abi::Frame>()).expect("a small struct"),
+                format: abi::PixelFormat(0),
+                width: 0,
+                height: 0,
+                flags: 0,
+                reserved: 0,
+                sequence: 0,
+                stamp: abi::Stamp::default(),
+                buffer,
+                buffer_length: if buffer.is_null() {
+                    0
+                } else {
+                    self.length as u64
+                },
+                data: std::ptr::null(),
+                length: 0,
+                release: None,
+                private_data: std::ptr::null_mut(),
+            },
+        };
+        self.handle.call(CAPTURING, |raw, error| {
+            // SAFETY: [owner & started] by `&mut self` of whoever calls, with a frame, its buffer and an error that outlive the call.
+            unsafe { (self.capture)(raw, &raw mut taken.frame, timeout(deadline), error) }
+        })?;
+        Ok(taken)
+    }
+
+    /// The pixels of a frame that is as large as was promised; `buffer` is where it may lie without being lent.
+    fn checked<'t>(
+        &self,
+        taken: &'t Taken,
+        buffer: Option<*const u8>,
+    ) -> Result<&'t [u8], DriverError> {
+        let frame = &taken.frame;
+        let refused = |kind, why: String| Err(self.handle.failed(kind, CAPTURING, why));
+        let Some(format) = pixel_format(frame.format) else {
+            let why = format!("pixel format {}, which is not known here", frame.format.0);
+            return refused(ErrorKind::Unsupported, why);
+        };
+        let found = FrameInfo {
+            width: frame.width,
+            height: frame.height,
+            format,
+        };
+        if found != self.info {
+            let why = format!("a frame of {found}, expected {}", self.info);
+            return refused(ErrorKind::Protocol, why);
+        }
+        if frame.length != self.length as u64 {
+            let why = format!(
+                "a frame of {found} in {} bytes, expected {}",
+                frame.length, self.length
+            );
+            return refused(ErrorKind::Protocol, why);
+        }
+        if frame.data.is_null() {
+            return refused(ErrorKind::Protocol, "a frame without pixels".to_owned());
+        }
+        let is_in_buffer = buffer.is_some_and(|buffer| std::ptr::eq(buffer, frame.data));
+        if !is_in_buffer && frame.release.is_none() {
+            let why = "a frame outside the buffer that is not lent: it has no `release`";
+            return refused(ErrorKind::Abi, why.to_owned());
+        }
+        // SAFETY: not NULL, of the length that was promised, and lent until `release`, which `taken` calls when it is dropped.
+        Ok(unsafe { std::slice::from_raw_parts(frame.data, self.length) })
+    }
+}
+
+/// A frame as it came; dropping it gives lent memory back.
+struct Taken {
+    frame: abi::Frame,
+}
+
+impl Drop for Taken {
+    fn drop(&mut self) {
+        if let Some(release) = self.frame.release {
+            // SAFETY: [any], once: `release` is set by whoever lent, and nobody looks at the pixels any more.
+            unsafe { release(&raw mut self.frame) };
+        }
+    }
+}
+
+impl Sensor for PluginSensor {
+    fn frame_info(&self) -> FrameInfo {
+        self.info
+    }
+
+    fn start(&mut self, deadline: Deadline) -> Result<(), DriverError> {
+        let Some(start) = self.calls.start else {
+            return Ok(());
+        };
+        self.handle.call("start the sensor", |raw, error| {
+            // SAFETY: [owner & open] by `&mut self`, with an error that outlives the call.
+            unsafe { start(raw, timeout(deadline), error) }
+        })
+    }
+
+    fn capture(
+        &mut self,
+        mut into: FrameMut<'_>,
+        deadline: Deadline,
+    ) -> Result<Stamp, DriverError> {
+        if into.info() != self.info {
+            let why = format!("a buffer for {}, expected {}", into.info(), self.info);
+            let kind = ErrorKind::InvalidArgument;
+            return Err(self.handle.failed(kind, CAPTURING, why));
+        }
+        let buffer = into.bytes_mut().as_mut_ptr();
+        let taken = self.take(buffer, deadline)?;
+        let stamp = stamp(taken.frame.stamp);
+        let pixels = self.checked(&taken, Some(buffer))?.as_ptr();
+        if !std::ptr::eq(pixels, buffer) {
+            // SAFETY: `length` bytes can be read there and written here; `copy` and not `copy_nonoverlapping`, since a plugin may have
+            // lent a part of the very buffer that it was given.
+            unsafe { std::ptr::copy(pixels, buffer, self.length) };
+        }
+        Ok(stamp)
+    }
+
+    fn stop(&mut self) -> Result<(), DriverError> {
+        let Some(stop) = self.calls.stop else {
+            return Ok(());
+        };
+        self.handle.call("stop the sensor", |raw, error| {
+            // SAFETY: [owner & open] by `&mut self`, with an error that outlives the call.
+            unsafe { stop(raw, error) }
+        })
+    }
+
+    fn interrupt_handle(&self) -> Option<Arc<dyn Interrupt>> {
+        self.handle.interrupt()
+    }
+
+    fn lighting(&mut self) -> Option<&mut dyn Lighting> {
+        let lighting = self.lighting.as_mut()?;
+        Some(lighting)
+    }
+}
+
+fn pixel_format(format: abi::PixelFormat) -> Option<PixelFormat> {
+    match format {
+        abi::PixelFormat::GRAY8 => Some(PixelFormat::Gray8),
+        abi::PixelFormat::GRAY16 => Some(PixelFormat::Gray16),
+        abi::PixelFormat::RGB8 => Some(PixelFormat::Rgb8),
+        abi::PixelFormat::RGB16 => Some(PixelFormat::Rgb16),
+        _ => None,
+    }
+}
+
+/// The stamp in core's units.
+pub(super) fn stamp(stamp: abi::Stamp) -> Stamp {
+    let received = (stamp.received_ns != 0).then(|| Duration::from_nanos(stamp.received_ns));
+    Stamp::new(Duration::from_nanos(stamp.valid_ns), received)
+}

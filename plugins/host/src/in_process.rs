@@ -1,0 +1,175 @@
+//! A plugin that runs in this process: for those that the user trusts, and within a confined child for all others.
+
+use std::sync::Arc;
+
+use taceva_core::{
+    Access, Args, Descriptor, DriverError, DriverKey, DriverKind, ErrorKind, Facts,
+    ForceTransducer, Found, Lighting, ModelError, Robot, Sensor, SimulatedBench,
+};
+
+use crate::call::{ArgList, Failure};
+use crate::device::{
+    PluginBench, PluginForce, PluginLighting, PluginRobot, PluginSensor, RigHandle, open,
+};
+use crate::estimator;
+use crate::library::{Entry, Library, Place};
+use crate::session::{FitRequest, Saved, SavedRegressor, Session};
+
+/// A session in this process: one rig of a loaded library.
+pub struct InProcess {
+    rig: Arc<RigHandle>,
+}
+
+impl InProcess {
+    /// A session of `library`, with a rig of its own.
+    ///
+    /// # Errors
+    /// [`DriverError`] if the plugin cannot open a rig.
+    pub fn open(library: &Arc<Library>) -> Result<InProcess, DriverError> {
+        let rig = RigHandle::open(library)?;
+        Ok(InProcess { rig })
+    }
+
+    /// Opens a sensor, as a type that can also lend its frames.
+    ///
+    /// # Errors
+    /// As [`Session::sensor`].
+    pub fn open_sensor(
+        &self,
+        driver: &DriverKey,
+        args: &Args,
+    ) -> Result<PluginSensor, DriverError> {
+        let (entry, list, said) = self.prepare(driver, (DriverKind::Sensor, args))?;
+        let Facts::Sensor(facts) = said.facts() else {
+            return Err(other_kind(&said));
+        };
+        PluginSensor::new(open(&self.rig, entry, &list)?, facts)
+    }
+
+    /// What every opening begins with: the entry, the arguments as they cross, and what the library says of them.
+    fn prepare(
+        &self,
+        driver: &DriverKey,
+        (kind, args): (DriverKind, &Args),
+    ) -> Result<(&Entry, ArgList, Descriptor), DriverError> {
+        let library = self.rig.library();
+        let entry = library.entry(driver, Place::Driver(kind), OPENING)?;
+        let list = ArgList::new(args, entry.arguments());
+        let said = entry
+            .describe(library.id(), &list.args())
+            .map_err(|failure| failure.of(driver, OPENING))?;
+        Ok((entry, list, said))
+    }
+}
+
+const OPENING: &str = "open the device";
+
+fn other_kind(said: &Descriptor) -> DriverError {
+    let why = format!(
+        "with these arguments it says it is a {} driver",
+        said.kind()
+    );
+    Failure::new(ErrorKind::Abi, why).of(said.key(), OPENING)
+}
+
+impl Session for InProcess {
+    fn describe(&self, driver: &DriverKey, args: &Args) -> Result<Descriptor, DriverError> {
+        const DOING: &str = "describe the device";
+        let library = self.rig.library();
+        let entry = library.driver(driver, DOING)?;
+        let list = ArgList::new(args, entry.arguments());
+        entry
+            .describe(library.id(), &list.args())
+            .map_err(|failure| failure.of(driver, DOING))
+    }
+
+    fn discover(&self, driver: &DriverKey) -> Result<Vec<Found>, DriverError> {
+        const DOING: &str = "look for devices";
+        let entry = self.rig.library().driver(driver, DOING)?;
+        let Some(texts) = entry.discover().transpose() else {
+            return Ok(Vec::new());
+        };
+        let texts = texts.map_err(|failure| failure.of(driver, DOING))?;
+        if let Some(text) = texts.iter().find(|text| text.contains(char::is_control)) {
+            let why = format!(
+                "{:?} is no arguments of a device",
+                crate::shown::shown(text)
+            );
+            return Err(Failure::new(ErrorKind::Protocol, why).of(driver, DOING));
+        }
+        let title = match &entry.provided {
+            crate::Provided::Driver { descriptor, .. } => descriptor.title(),
+            crate::Provided::Estimator(estimator) => &estimator.title,
+        };
+        let found = texts.into_iter().map(|arguments| Found {
+            driver: driver.clone(),
+            title: title.to_owned(),
+            arguments,
+            access: Access::Ready,
+        });
+        Ok(found.collect())
+    }
+
+    fn sensor(&self, driver: &DriverKey, args: &Args) -> Result<Box<dyn Sensor>, DriverError> {
+        Ok(Box::new(self.open_sensor(driver, args)?))
+    }
+
+    fn robot(&self, driver: &DriverKey, args: &Args) -> Result<Box<dyn Robot>, DriverError> {
+        let (entry, list, said) = self.prepare(driver, (DriverKind::Robot, args))?;
+        let Facts::Robot(facts) = said.facts() else {
+            return Err(other_kind(&said));
+        };
+        let robot = PluginRobot::new(open(&self.rig, entry, &list)?, facts)?;
+        Ok(Box::new(robot))
+    }
+
+    fn force(
+        &self,
+        driver: &DriverKey,
+        args: &Args,
+    ) -> Result<Box<dyn ForceTransducer>, DriverError> {
+        let (entry, list, said) = self.prepare(driver, (DriverKind::Force, args))?;
+        let Facts::Force(facts) = said.facts() else {
+            return Err(other_kind(&said));
+        };
+        let force = PluginForce::new(open(&self.rig, entry, &list)?, facts)?;
+        Ok(Box::new(force))
+    }
+
+    fn lighting(&self, driver: &DriverKey, args: &Args) -> Result<Box<dyn Lighting>, DriverError> {
+        let (entry, list, said) = self.prepare(driver, (DriverKind::Lighting, args))?;
+        let Facts::Lighting(facts) = said.facts() else {
+            return Err(other_kind(&said));
+        };
+        let opened = open(&self.rig, entry, &list)?;
+        let lighting = PluginLighting::new(opened, facts.scenes.clone())?;
+        Ok(Box::new(lighting))
+    }
+
+    fn bench(&self, name: &str) -> Option<Arc<dyn SimulatedBench>> {
+        let bench = PluginBench::of(&self.rig, name)?;
+        Some(Arc::new(bench))
+    }
+
+    fn fit(
+        &self,
+        estimator: &DriverKey,
+        request: &FitRequest<'_>,
+    ) -> Result<Box<dyn SavedRegressor>, ModelError> {
+        let library = self.rig.library();
+        let entry = library.entry(estimator, Place::Estimator, "fit");
+        let entry = entry.map_err(|_| estimator::not_there(estimator, library, "fit"))?;
+        estimator::fit(library, entry, request)
+    }
+
+    fn load(
+        &self,
+        estimator: &DriverKey,
+        saved: &Saved<'_>,
+    ) -> Result<Box<dyn SavedRegressor>, ModelError> {
+        let library = self.rig.library();
+        let entry = library.entry(estimator, Place::Estimator, "load");
+        let entry = entry.map_err(|_| estimator::not_there(estimator, library, "load"))?;
+        estimator::load(library, entry, saved)
+    }
+}

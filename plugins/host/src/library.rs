@@ -1,0 +1,267 @@
+//! A library that is loaded: looked at as data first, then initialised, then compared with its manifest. It stays for good.
+
+#![expect(
+    unsafe_code,
+    reason = "a library is loaded, its symbol read and its functions called"
+)]
+
+mod elf;
+mod entry;
+mod error;
+mod host;
+mod image;
+mod mapped;
+
+use std::collections::BTreeMap;
+use std::ffi::c_void;
+use std::mem::{MaybeUninit, offset_of};
+use std::os::fd::{AsRawFd, IntoRawFd};
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
+
+use libloading::os::unix::{Library as Loaded, RTLD_LOCAL, RTLD_NOW};
+use taceva_abi as abi;
+use taceva_core::{DriverError, DriverKey, ErrorKind};
+
+pub(crate) use self::entry::{Entry, Place};
+pub use self::error::{LoadError, LoadProblem};
+pub use self::host::{Level, Log};
+pub use self::image::Image;
+use self::mapped::Mapped;
+use crate::call::{call, table};
+use crate::id::PluginId;
+use crate::manifest::Manifest;
+
+/// Its code stays mapped for good: threads and thread-locals of a plugin outlive our knowledge.
+const RTLD_NODELETE: i32 = if cfg!(target_os = "linux") {
+    0x1000
+} else {
+    0x80
+};
+
+static LOADED: AtomicU64 = AtomicU64::new(0);
+
+/// How many libraries this process has handed to the system's loader so far.
+pub fn libraries_loaded() -> u64 {
+    LOADED.load(Ordering::Relaxed)
+}
+
+/// A plugin's library, loaded and initialised, that says what its manifest says.
+pub struct Library {
+    id: PluginId,
+    path: PathBuf,
+    plugin: abi::Plugin,
+    entries: BTreeMap<DriverKey, Entry>,
+}
+
+// SAFETY: what is kept is constant data of the library and functions that the interface allows from any thread ([any]).
+unsafe impl Send for Library {}
+// SAFETY: as above.
+unsafe impl Sync for Library {}
+
+impl Library {
+    /// Loads `image`, compares it with `manifest` and initialises it. What the plugin logs goes to `log`.
+    ///
+    /// Its constructors run before anything can be checked: only what is trusted is loaded here, anything else in a confined child.
+    ///
+    /// # Errors
+    /// [`LoadError`]: not loadable, no plugin, of another version, or another plugin than the manifest says.
+    pub fn load(image: &Image, manifest: &Manifest, log: Log) -> Result<Arc<Library>, LoadError> {
+        let failed = |problem: LoadProblem| problem.of(image.path());
+        let symbol = open(image).map_err(failed)?;
+        let mapped = Mapped::now().ok();
+        let plugin = read(symbol, mapped.as_ref()).map_err(failed)?;
+        compare(&plugin, manifest, mapped.as_ref()).map_err(failed)?;
+        if let Some(init) = plugin.init {
+            let host = host::table(log);
+            // SAFETY: [once, first], with a host and an error that outlive the call.
+            call(|error| unsafe { init(host, error) })
+                .map_err(|failure| failed(LoadProblem::Init(failure)))?;
+        }
+        let mut library = Library {
+            id: manifest.id.clone(),
+            path: image.path().to_owned(),
+            plugin,
+            entries: BTreeMap::new(),
+        };
+        // From here on a failure drops `library`, which takes back what `init` did.
+        library.entries = entry::entries(&library, manifest).map_err(failed)?;
+        Ok(Arc::new(library))
+    }
+
+    /// The plugin it is.
+    pub fn id(&self) -> &PluginId {
+        &self.id
+    }
+
+    /// The entry of `key`, if it is of `place`.
+    pub(crate) fn entry(
+        &self,
+        key: &DriverKey,
+        place: Place,
+        doing: &'static str,
+    ) -> Result<&Entry, DriverError> {
+        let entry = self.entries.get(key);
+        entry.filter(|entry| entry.place == place).ok_or_else(|| {
+            let why = format!("the plugin `{}` has no {place} of that name", self.id);
+            DriverError::new(ErrorKind::NotFound, key, doing).because(why)
+        })
+    }
+
+    /// The entry of the driver `key`, whatever its kind.
+    pub(crate) fn driver(
+        &self,
+        key: &DriverKey,
+        doing: &'static str,
+    ) -> Result<&Entry, DriverError> {
+        let entry = self.entries.get(key);
+        let is_driver = |entry: &&Entry| entry.place != Place::Estimator;
+        entry.filter(is_driver).ok_or_else(|| {
+            let why = format!("the plugin `{}` has no driver of that name", self.id);
+            DriverError::new(ErrorKind::NotFound, key, doing).because(why)
+        })
+    }
+
+    pub(crate) fn plugin(&self) -> &abi::Plugin {
+        &self.plugin
+    }
+
+    /// The factory of a kind, NULL where the plugin has none.
+    fn factory(&self, id: &str) -> Result<*const c_void, LoadProblem> {
+        let factory = self
+            .plugin
+            .factory
+            .ok_or(LoadProblem::Lacks { what: "factory" })?;
+        // SAFETY: [any], after `init`, with a text that outlives the call.
+        Ok(unsafe { factory(abi::Text::from(id)) })
+    }
+
+    fn device_factory(&self, id: &str) -> Result<Option<abi::Factory>, LoadProblem> {
+        let factory = self.factory(id)?;
+        if factory.is_null() {
+            return Ok(None);
+        }
+        // SAFETY: for these ids the interface promises a `taceva_factory`.
+        let read = unsafe { table::<abi::Factory>(factory) };
+        read.map(Some)
+            .map_err(|failure| LoadProblem::Table(failure.message()))
+    }
+
+    fn estimator_factory(&self) -> Result<Option<abi::EstimatorFactory>, LoadProblem> {
+        let factory = self.factory(abi::ESTIMATOR_FACTORY)?;
+        if factory.is_null() {
+            return Ok(None);
+        }
+        // SAFETY: for this id the interface promises a `taceva_estimator_factory`.
+        let read = unsafe { table::<abi::EstimatorFactory>(factory) };
+        read.map(Some)
+            .map_err(|failure| LoadProblem::Table(failure.message()))
+    }
+}
+
+impl Drop for Library {
+    fn drop(&mut self) {
+        if let Some(deinit) = self.plugin.deinit {
+            // SAFETY: [once, last], after a successful `init`: every device and every rig holds the library, so none is open any more.
+            unsafe { deinit() };
+        }
+    }
+}
+
+impl std::fmt::Debug for Library {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "Library({}, {})", self.id, self.path.display())
+    }
+}
+
+/// Hands the image to the system's loader and finds the one symbol.
+fn open(image: &Image) -> Result<*const abi::Plugin, LoadProblem> {
+    let memory = image.try_clone().map_err(LoadProblem::File)?;
+    let name = format!("/proc/self/fd/{}", memory.as_raw_fd());
+    let told = |error: libloading::Error| {
+        // The loader names the file by its number, which tells nobody anything.
+        crate::shown::shown(&error.to_string().replace(&name, "the library"))
+    };
+    LOADED.fetch_add(1, Ordering::Relaxed);
+    // SAFETY: its constructors are foreign code; whoever calls has decided that they may run in this process.
+    let loaded = unsafe { Loaded::open(Some(&name), RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE) };
+    let loaded = loaded.map_err(|error| LoadProblem::Loader(told(error)))?;
+    // The loader knows the library by the name of this descriptor, which therefore is never used for another.
+    let _ = memory.into_raw_fd();
+    let name_of_symbol = abi::ENTRY_SYMBOL.to_bytes_with_nul();
+    // SAFETY: only the address is taken; what lies there is looked at before it is believed.
+    let symbol = unsafe { loaded.get::<*const abi::Plugin>(name_of_symbol) };
+    let symbol = symbol.map_err(|error| LoadProblem::Symbol(told(error)))?;
+    let address = *symbol;
+    // Never unloaded, whatever becomes of this handle.
+    std::mem::forget(loaded);
+    Ok(address)
+}
+
+/// The exported symbol, read as data: no code of the plugin runs.
+fn read(symbol: *const abi::Plugin, mapped: Option<&Mapped>) -> Result<abi::Plugin, LoadProblem> {
+    let what = "`taceva_plugin_v1`";
+    // A confined child may not look at its own map; there a bad address costs the child alone.
+    let is_readable = |length: usize| {
+        !symbol.is_null()
+            && symbol.is_aligned()
+            && mapped.is_none_or(|mapped| mapped.holds(symbol.addr(), length))
+    };
+    let begin = offset_of!(abi::Plugin, id);
+    if !is_readable(begin) {
+        return Err(LoadProblem::Address { what });
+    }
+    // SAFETY: aligned, and mapped up to the end of the four numbers.
+    let [magic, size, major, _] = unsafe { symbol.cast::<[u32; 4]>().read() };
+    if magic != abi::MAGIC {
+        return Err(LoadProblem::Magic { found: magic });
+    }
+    if major != abi::ABI_MAJOR {
+        return Err(LoadProblem::Major { found: major });
+    }
+    let size = usize::try_from(size).unwrap_or(usize::MAX);
+    let least = offset_of!(abi::Plugin, factory) + size_of::<usize>();
+    if size < least {
+        return Err(LoadProblem::Size { found: size, least });
+    }
+    let known = size.min(size_of::<abi::Plugin>());
+    if !is_readable(known) {
+        return Err(LoadProblem::Address { what });
+    }
+    let mut copy = MaybeUninit::<abi::Plugin>::zeroed();
+    // SAFETY: `known` bytes are mapped there and exist here.
+    unsafe {
+        std::ptr::copy_nonoverlapping(symbol.cast::<u8>(), copy.as_mut_ptr().cast::<u8>(), known);
+    }
+    // SAFETY: it holds numbers, texts without bytes and optional functions where it is 0.
+    Ok(unsafe { copy.assume_init() })
+}
+
+/// Whether the library says it is the plugin that the manifest is of.
+fn compare(
+    plugin: &abi::Plugin,
+    manifest: &Manifest,
+    mapped: Option<&Mapped>,
+) -> Result<(), LoadProblem> {
+    for (what, said, expected) in [
+        ("`id`", plugin.id, manifest.id.as_str()),
+        ("`version`", plugin.version, manifest.version.as_str()),
+    ] {
+        let is_readable = mapped.is_none_or(|mapped| mapped.holds(said.data.addr(), said.length));
+        if said.length > 0 && (said.data.is_null() || !is_readable) {
+            return Err(LoadProblem::Address { what });
+        }
+        // SAFETY: mapped as far as it says, in constants of a library that is never unloaded.
+        let said = unsafe { said.to_str() };
+        let said = said.map_err(|_| LoadProblem::Text { what })?;
+        if said != expected {
+            return Err(LoadProblem::Differs {
+                what: what.to_owned(),
+                manifest: format!("`{expected}`"),
+                library: format!("`{}`", crate::shown::shown(said)),
+            });
+        }
+    }
+    Ok(())
+}

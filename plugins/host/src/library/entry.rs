@@ -1,0 +1,247 @@
+//! The drivers and estimators of a library, each compared with what the manifest says of it.
+
+#![expect(unsafe_code, reason = "a plugin describes itself through its tables")]
+
+use std::collections::BTreeMap;
+use std::fmt;
+
+use taceva_abi as abi;
+use taceva_core::{ArgSpec, Descriptor, DriverKey, DriverKind};
+
+use super::Library;
+use super::error::LoadProblem;
+use crate::call::{Failure, Taken, call, take};
+use crate::descriptor::difference;
+use crate::id::PluginId;
+use crate::manifest::{Manifest, Provided};
+
+/// A driver or an estimator that can be opened.
+#[derive(Debug)]
+pub(crate) struct Entry {
+    pub(crate) place: Place,
+    /// Its number in the factory.
+    pub(crate) number: u32,
+    /// The factory of its kind; that of estimators is asked for anew.
+    pub(crate) factory: Option<abi::Factory>,
+    pub(crate) estimators: Option<abi::EstimatorFactory>,
+    pub(crate) provided: Provided,
+}
+
+/// Which factory an entry is of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Place {
+    Driver(DriverKind),
+    Estimator,
+}
+
+impl fmt::Display for Place {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Place::Driver(kind) => write!(f, "{kind} driver"),
+            Place::Estimator => f.write_str("estimator"),
+        }
+    }
+}
+
+impl Entry {
+    /// What it may be told.
+    pub(crate) fn arguments(&self) -> &[ArgSpec] {
+        match &self.provided {
+            Provided::Driver { descriptor, .. } => descriptor.arguments(),
+            Provided::Estimator(estimator) => &estimator.settings,
+        }
+    }
+
+    /// What the library says of the driver with these arguments.
+    pub(crate) fn describe(&self, id: &PluginId, args: &abi::Args) -> Result<Descriptor, Failure> {
+        let abi_fault = |why: String| Failure::new(taceva_core::ErrorKind::Abi, why);
+        let Some(describe) = self.factory.and_then(|factory| factory.describe) else {
+            return Err(abi_fault("its `describe` is NULL".to_owned()));
+        };
+        let mut taken = Taken::default();
+        let context = taken.context();
+        // SAFETY: [any], with arguments, a context and an error that outlive the call.
+        call(|error| unsafe { describe(self.number, args, Some(take), context, error) })?;
+        match Provided::parse(&taken.whole()?, id) {
+            Ok(Provided::Driver { descriptor, .. }) => Ok(*descriptor),
+            Ok(Provided::Estimator(_)) => Err(abi_fault("it describes an estimator".to_owned())),
+            Err(error) => Err(abi_fault(format!("what it says of itself, {error}"))),
+        }
+    }
+
+    /// The arguments that choose each device that is present; `None` where the plugin cannot look.
+    pub(crate) fn discover(&self) -> Result<Option<Vec<String>>, Failure> {
+        let Some(discover) = self.factory.and_then(|factory| factory.discover) else {
+            return Ok(None);
+        };
+        let mut taken = Taken::default();
+        let context = taken.context();
+        // SAFETY: [any], with a context and an error that outlive the call.
+        call(|error| unsafe { discover(self.number, Some(take), context, error) })?;
+        taken.texts().map(Some)
+    }
+}
+
+const FACTORIES: [(DriverKind, &str); 4] = [
+    (DriverKind::Sensor, abi::SENSOR_FACTORY),
+    (DriverKind::Robot, abi::ROBOT_FACTORY),
+    (DriverKind::Force, abi::FORCE_FACTORY),
+    (DriverKind::Lighting, abi::LIGHTING_FACTORY),
+];
+
+/// No factory has more drivers.
+const DRIVERS_MAX: u32 = 256;
+
+/// Everything that `library` has, which is everything that `manifest` says and nothing else.
+pub(super) fn entries(
+    library: &Library,
+    manifest: &Manifest,
+) -> Result<BTreeMap<DriverKey, Entry>, LoadProblem> {
+    let mut said = BTreeMap::new();
+    for (kind, id) in FACTORIES {
+        let Some(factory) = library.device_factory(id)? else {
+            continue;
+        };
+        let (Some(describe), Some(_)) = (factory.describe, factory.open) else {
+            let what = factory.describe.map_or("describe", |_| "open");
+            return Err(LoadProblem::Lacks { what });
+        };
+        for number in 0..count(factory.drivers)? {
+            let place = Place::Driver(kind);
+            let args = abi::Args {
+                items: std::ptr::null(),
+                count: 0,
+            };
+            let provided = described(library, (place, number), |taken, error| {
+                // SAFETY: [any], with arguments, a context and an error that outlive the call.
+                unsafe { describe(number, &raw const args, Some(take), taken, error) }
+            })?;
+            let entry = Entry {
+                place,
+                number,
+                factory: Some(factory),
+                estimators: None,
+                provided,
+            };
+            insert(&mut said, entry)?;
+        }
+    }
+    if let Some(factory) = library.estimator_factory()? {
+        let (Some(describe), Some(_)) = (factory.describe, factory.fit) else {
+            let what = factory.describe.map_or("describe", |_| "fit");
+            return Err(LoadProblem::Lacks { what });
+        };
+        for number in 0..count(factory.estimators)? {
+            let place = Place::Estimator;
+            let provided = described(library, (place, number), |taken, error| {
+                // SAFETY: [any], with a context and an error that outlive the call.
+                unsafe { describe(number, Some(take), taken, error) }
+            })?;
+            let entry = Entry {
+                place,
+                number,
+                factory: None,
+                estimators: Some(factory),
+                provided,
+            };
+            insert(&mut said, entry)?;
+        }
+    }
+    agree(&said, manifest)?;
+    Ok(said)
+}
+
+fn count(drivers: u32) -> Result<u32, LoadProblem> {
+    if drivers > DRIVERS_MAX {
+        let problem = format!("a factory of {drivers} drivers, expected at most {DRIVERS_MAX}");
+        return Err(LoadProblem::Table(problem));
+    }
+    Ok(drivers)
+}
+
+fn described(
+    library: &Library,
+    (place, number): (Place, u32),
+    describe: impl FnOnce(*mut std::ffi::c_void, &mut abi::Error) -> abi::Status,
+) -> Result<Provided, LoadProblem> {
+    let mut taken = Taken::default();
+    let context = taken.context();
+    call(|error| describe(context, error)).map_err(LoadProblem::Describe)?;
+    let text = taken.whole().map_err(LoadProblem::Describe)?;
+    let driver = || format!("{place} {number}");
+    let provided =
+        Provided::parse(&text, &library.id).map_err(|source| LoadProblem::Describes {
+            driver: driver(),
+            source,
+        })?;
+    let said = place_of(&provided);
+    if said != place {
+        return Err(LoadProblem::Differs {
+            what: driver(),
+            manifest: format!("{place}, by its factory"),
+            library: said.to_string(),
+        });
+    }
+    Ok(provided)
+}
+
+fn place_of(provided: &Provided) -> Place {
+    match provided {
+        Provided::Driver { descriptor, .. } => Place::Driver(descriptor.kind()),
+        Provided::Estimator(_) => Place::Estimator,
+    }
+}
+
+fn insert(said: &mut BTreeMap<DriverKey, Entry>, entry: Entry) -> Result<(), LoadProblem> {
+    let key = entry.provided.key().clone();
+    if said.contains_key(&key) {
+        let problem = format!("two of its drivers are called `{key}`");
+        return Err(LoadProblem::Table(problem));
+    }
+    said.insert(key, entry);
+    Ok(())
+}
+
+/// Refuses a library that says anything else than its manifest.
+fn agree(said: &BTreeMap<DriverKey, Entry>, manifest: &Manifest) -> Result<(), LoadProblem> {
+    let differs = |what: String, manifest: &str, library: &str| LoadProblem::Differs {
+        what,
+        manifest: manifest.to_owned(),
+        library: library.to_owned(),
+    };
+    for promised in &manifest.provides {
+        let key = promised.key();
+        let Some(entry) = said.get(key) else {
+            return Err(differs(format!("`{key}`"), "it is there", "it is not"));
+        };
+        match (promised, &entry.provided) {
+            (
+                Provided::Driver { descriptor, .. },
+                Provided::Driver {
+                    descriptor: found, ..
+                },
+            ) => {
+                if let Some([what, manifest, library]) = difference(descriptor, found) {
+                    let what = format!("`{key}`, {what}");
+                    return Err(differs(what, &manifest, &library));
+                }
+            }
+            (Provided::Estimator(promised), Provided::Estimator(found)) => {
+                if promised != found {
+                    let what = format!("`{key}`");
+                    let [promised, found] = [promised, found].map(|info| format!("{info:?}"));
+                    return Err(differs(what, &promised, &found));
+                }
+            }
+            (promised, found) => {
+                let [promised, found] = [promised, found].map(|one| place_of(one).to_string());
+                return Err(differs(format!("`{key}`"), &promised, &found));
+            }
+        }
+    }
+    let is_promised = |key: &&DriverKey| manifest.provides.iter().any(|one| one.key() == *key);
+    match said.keys().find(|key| !is_promised(key)) {
+        Some(key) => Err(differs(format!("`{key}`"), "nothing of it", "it is there")),
+        None => Ok(()),
+    }
+}
