@@ -39,7 +39,8 @@ impl From<Pose> for SiPose {
 impl SiPose {
     /// The pose on its grid ([`Pose::on_grid`]); `None` where a number is not finite or the quaternion is none of length 1.
     ///
-    /// A pose on the grid comes back as it was, turned by at most 180° about x and z and 90° about y.
+    /// A pose on the grid comes back as it was, if it is turned by more than −180° and at most 180° about x and z, and by less than 90°
+    /// about y.
     ///
     /// ```
     /// use taceva_core::{Degree, Millimetre, Pose, SiPose};
@@ -63,7 +64,12 @@ impl SiPose {
             2.0 * (x * z - w * y),
         );
         let (zy, zz) = (2.0 * (y * z + w * x), w * w - x * x - y * y + z * z);
-        let angle = |sine: f64, cosine: f64| Degree(sine.atan2(cosine).to_degrees());
+        let angle = |sine: f64, cosine: f64| {
+            let angle = sine.atan2(cosine).to_degrees();
+            // A half turn either way is one turn, told apart by nothing but rounding.
+            let is_half_turn = angle < -180.0 + 1e-10;
+            Degree(if is_half_turn { 180.0 } else { angle })
+        };
         let pose = Pose {
             position: Point {
                 x: px,
@@ -133,6 +139,19 @@ mod tests {
             }
             .on_grid();
             assert_eq!(SiPose::from(pose).to_pose(), Some(pose), "step {step}");
+        }
+    }
+
+    #[test]
+    fn half_turns_come_back_one_way_whichever_way_they_went() {
+        for x in [-180.0, 180.0] {
+            for z in [-180.0, 0.0, 180.0] {
+                let mut pose = Pose::default();
+                (pose.rotation.x, pose.rotation.y, pose.rotation.z) =
+                    (Degree(x), Degree(30.0), Degree(z));
+                let back = SiPose::from(pose).to_pose().expect("a pose").rotation;
+                assert_eq!((back.x, back.z), (Degree(180.0), Degree(z.abs())));
+            }
         }
     }
 

@@ -1,0 +1,193 @@
+//! The calls on a robot.
+
+#![expect(unsafe_code, reason = "functions that a host calls")]
+
+use std::ffi::c_void;
+
+use taceva_abi::ext::{GUARDED_MOTION, GuardedMotionCalls, GuardedStop as AbiGuardedStop};
+use taceva_abi::{Error, Motion, Pose as AbiPose, RobotCalls, Stamp, Status, Text};
+use taceva_core::{ErrorKind, Guard, GuardedStop, Newton, Pose, Robot, Speed};
+
+use super::{Kind, call, device_calls, extended};
+use crate::convert::{self, deadline};
+use crate::entry::Loaded;
+use crate::failure::Failure;
+use crate::guard::guard;
+use crate::open::{self, Handle};
+use crate::{factory, memory};
+
+/// A robot, and the motion that was accepted and not begun.
+pub(crate) struct Opened {
+    robot: Box<dyn Robot>,
+    accepted: Option<(u64, Pose, Speed)>,
+    motions: u64,
+}
+
+impl Kind for dyn Robot {
+    type Opened = Opened;
+    type Calls = RobotCalls;
+    const CALLS: &'static RobotCalls = &CALLS;
+
+    fn drivers(loaded: &Loaded) -> &factory::Drivers<dyn Robot> {
+        &loaded.robots
+    }
+
+    fn handle(robot: Box<dyn Robot>) -> Handle<Opened> {
+        let halt = robot.halt_handle();
+        let opened = Opened {
+            robot,
+            accepted: None,
+            motions: 0,
+        };
+        Handle::new(opened).halted_by(halt)
+    }
+}
+
+static CALLS: RobotCalls = RobotCalls {
+    device: device_calls::<RobotCalls, Opened>(extension),
+    pose: Some(pose),
+    move_to: Some(move_to),
+    wait: Some(wait),
+    halt: Some(halt),
+    clear_halt: Some(clear_halt),
+};
+
+static GUARDED: GuardedMotionCalls = GuardedMotionCalls {
+    #[expect(clippy::cast_possible_truncation, reason = "sixteen bytes")]
+    size: size_of::<GuardedMotionCalls>() as u32,
+    reserved: 0,
+    move_guarded: Some(move_guarded),
+};
+
+unsafe extern "C" fn extension(handle: *mut c_void, id: Text) -> *const c_void {
+    let has = |opened: &mut Opened| opened.robot.guarded_motion().is_some();
+    // SAFETY: the host lends the text for the call.
+    unsafe { extended(handle, id, (GUARDED_MOTION, &GUARDED), has) }
+}
+
+unsafe extern "C" fn pose(
+    handle: *mut c_void,
+    pose: *mut AbiPose,
+    stamp: *mut Stamp,
+    timeout_ns: u64,
+    error: *mut Error,
+) -> Status {
+    let work = |opened: &mut Opened| {
+        // SAFETY: the host's places for the two.
+        let (pose, stamp) =
+            unsafe { (memory::place("pose", pose)?, memory::place("stamp", stamp)?) };
+        let (stands, at) = opened.robot.pose(deadline(timeout_ns))?;
+        (*pose, *stamp) = (convert::pose(&stands)?, convert::stamp(&at)?);
+        Ok(())
+    };
+    // SAFETY: the host's own promise for `error`.
+    unsafe { call(handle, error, work) }
+}
+
+/// Accepts a motion; `wait` makes it, as a robot of core moves while it is waited for.
+unsafe extern "C" fn move_to(
+    handle: *mut c_void,
+    target: *const Motion,
+    token: *mut u64,
+    error: *mut Error,
+) -> Status {
+    let work = |opened: &mut Opened| {
+        // SAFETY: the host lends the motion for the call, and the place is its own.
+        let (target, token) = unsafe {
+            (
+                memory::sized("motion", target)?,
+                memory::place("token", token)?,
+            )
+        };
+        let (target, speed) = convert::motion(target)?;
+        opened.motions += 1;
+        opened.accepted = Some((opened.motions, target, speed));
+        *token = opened.motions;
+        Ok(())
+    };
+    // SAFETY: the host's own promise for `error`.
+    unsafe { call(handle, error, work) }
+}
+
+unsafe extern "C" fn wait(
+    handle: *mut c_void,
+    token: u64,
+    stamp: *mut Stamp,
+    timeout_ns: u64,
+    error: *mut Error,
+) -> Status {
+    let work = |opened: &mut Opened| {
+        // SAFETY: the host's place for the stamp.
+        let stamp = unsafe { memory::place("stamp", stamp) }?;
+        let accepted = opened.accepted.take_if(|(accepted, ..)| *accepted == token);
+        let (_, target, speed) = accepted.ok_or_else(|| {
+            Failure::argument(format!(
+                "no motion {token} was accepted, or it was waited for"
+            ))
+        })?;
+        let arrived = opened.robot.move_to(target, speed, deadline(timeout_ns))?;
+        *stamp = convert::stamp(&arrived)?;
+        Ok(())
+    };
+    // SAFETY: the host's own promise for `error`.
+    unsafe { call(handle, error, work) }
+}
+
+/// Round the queue: whatever call the robot is in.
+unsafe extern "C" fn halt(handle: *mut c_void, error: *mut Error) -> Status {
+    let work = || {
+        let handle = open::find::<Handle<Opened>>(handle)?;
+        match &handle.halt {
+            Some(halt) => Ok(halt.halt()?),
+            None => Err(Failure::new(ErrorKind::Internal, "a robot without a halt")),
+        }
+    };
+    // SAFETY: the host's own promise for `error`.
+    unsafe { guard(error, work) }
+}
+
+unsafe extern "C" fn clear_halt(handle: *mut c_void, timeout_ns: u64, error: *mut Error) -> Status {
+    let work = |opened: &mut Opened| Ok(opened.robot.clear_halt(deadline(timeout_ns))?);
+    // SAFETY: the host's own promise for `error`.
+    unsafe { call(handle, error, work) }
+}
+
+unsafe extern "C" fn move_guarded(
+    handle: *mut c_void,
+    target: *const Motion,
+    guard_n: f64,
+    stop: *mut AbiGuardedStop,
+    timeout_ns: u64,
+    error: *mut Error,
+) -> Status {
+    let work = |opened: &mut Opened| {
+        // SAFETY: the host lends the motion for the call, and the place is its own and begins with its size.
+        let (target, stop) = unsafe {
+            (
+                memory::sized("motion", target)?,
+                memory::sized_place("stop", stop)?,
+            )
+        };
+        let (target, speed) = convert::motion(target)?;
+        if !(guard_n > 0.0 && guard_n.is_finite()) {
+            let message = format!("a guard of {guard_n} N, expected a number above 0");
+            return Err(Failure::argument(message));
+        }
+        let guard = Guard {
+            force: Newton(guard_n),
+        };
+        let robot = opened.robot.guarded_motion().ok_or_else(|| {
+            Failure::new(ErrorKind::Unsupported, "the robot does not watch the force")
+        })?;
+        let (is_guarded, pose, at) =
+            match robot.move_guarded(target, speed, guard, deadline(timeout_ns))? {
+                GuardedStop::Arrived { stamp } => (0, target, stamp),
+                GuardedStop::Guarded { pose, stamp } => (1, pose, stamp),
+            };
+        stop.is_guarded = is_guarded;
+        (stop.pose, stop.stamp) = (convert::pose(&pose)?, convert::stamp(&at)?);
+        Ok(())
+    };
+    // SAFETY: the host's own promise for `error`.
+    unsafe { call(handle, error, work) }
+}

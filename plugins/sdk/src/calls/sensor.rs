@@ -1,0 +1,141 @@
+//! The calls on a sensor.
+
+#![expect(unsafe_code, reason = "functions that a host calls")]
+
+use std::ffi::c_void;
+
+use taceva_abi::ext::{SENSOR_LIGHTING, SensorLightingCalls};
+use taceva_abi::{Error, Frame, PixelFormat as AbiFormat, SensorCalls, Status, Text};
+use taceva_core::{ErrorKind, FrameMut, PixelFormat, Sensor};
+
+use super::{Kind, call, device_calls, extended};
+use crate::convert::{self, deadline};
+use crate::entry::Loaded;
+use crate::failure::Failure;
+use crate::open::Handle;
+use crate::{factory, memory};
+
+type Opened = Box<dyn Sensor>;
+
+impl Kind for dyn Sensor {
+    type Opened = Opened;
+    type Calls = SensorCalls;
+    const CALLS: &'static SensorCalls = &CALLS;
+
+    fn drivers(loaded: &Loaded) -> &factory::Drivers<dyn Sensor> {
+        &loaded.sensors
+    }
+
+    fn handle(device: Box<dyn Sensor>) -> Handle<Opened> {
+        let interrupt = device.interrupt_handle();
+        Handle::new(device).interrupted_by(interrupt)
+    }
+}
+
+static CALLS: SensorCalls = SensorCalls {
+    device: device_calls::<SensorCalls, Opened>(extension),
+    // Frames are written into the buffer of the host.
+    max_lent: 0,
+    reserved: 0,
+    start: Some(start),
+    capture: Some(capture),
+    stop: Some(stop),
+};
+
+static LIGHTING: SensorLightingCalls = SensorLightingCalls {
+    #[expect(clippy::cast_possible_truncation, reason = "sixteen bytes")]
+    size: size_of::<SensorLightingCalls>() as u32,
+    reserved: 0,
+    set: Some(set_light),
+};
+
+unsafe extern "C" fn extension(handle: *mut c_void, id: Text) -> *const c_void {
+    let has = |sensor: &mut Opened| sensor.lighting().is_some();
+    // SAFETY: the host lends the text for the call.
+    unsafe { extended(handle, id, (SENSOR_LIGHTING, &LIGHTING), has) }
+}
+
+unsafe extern "C" fn start(handle: *mut c_void, timeout_ns: u64, error: *mut Error) -> Status {
+    let work = |sensor: &mut Opened| Ok(sensor.start(deadline(timeout_ns))?);
+    // SAFETY: the host's own promise for `error`.
+    unsafe { call(handle, error, work) }
+}
+
+unsafe extern "C" fn stop(handle: *mut c_void, error: *mut Error) -> Status {
+    // SAFETY: the host's own promise for `error`.
+    unsafe { call(handle, error, |sensor: &mut Opened| Ok(sensor.stop()?)) }
+}
+
+unsafe extern "C" fn capture(
+    handle: *mut c_void,
+    frame: *mut Frame,
+    timeout_ns: u64,
+    error: *mut Error,
+) -> Status {
+    let work = |sensor: &mut Opened| {
+        // SAFETY: the host's place for the frame, which begins with its size.
+        let frame = unsafe { memory::sized_place("frame", frame) }?;
+        let info = sensor.frame_info();
+        let length = info.byte_len().ok_or_else(|| {
+            Failure::new(
+                ErrorKind::Internal,
+                format!("frames of {info}, which no buffer can hold"),
+            )
+        })?;
+        let room = usize::try_from(frame.buffer_length).unwrap_or(usize::MAX);
+        if room < length {
+            let message =
+                format!("a buffer of {room} bytes, expected {length} for a frame of {info}");
+            return Err(Failure::argument(message));
+        }
+        // SAFETY: the host says that the buffer is so long, and ours for the call.
+        let buffer = unsafe { memory::list_place("buffer", frame.buffer, length) }?;
+        let into = FrameMut::new(info, buffer)
+            .map_err(|error| Failure::new(ErrorKind::Internal, error.to_string()))?;
+        frame.stamp = convert::stamp(&sensor.capture(into, deadline(timeout_ns))?)?;
+        (frame.width, frame.height) = (info.width, info.height);
+        frame.format = format(info.format)?;
+        (frame.data, frame.release) = (frame.buffer.cast_const(), None);
+        frame.length = length as u64;
+        // Which frames were lost, drivers of core do not say.
+        frame.flags = 0;
+        frame.sequence = 0;
+        Ok(())
+    };
+    // SAFETY: the host's own promise for `error`.
+    unsafe { call(handle, error, work) }
+}
+
+fn format(format: PixelFormat) -> Result<AbiFormat, Failure> {
+    match format {
+        PixelFormat::Gray8 => Ok(AbiFormat::GRAY8),
+        PixelFormat::Gray16 => Ok(AbiFormat::GRAY16),
+        PixelFormat::Rgb8 => Ok(AbiFormat::RGB8),
+        PixelFormat::Rgb16 => Ok(AbiFormat::RGB16),
+        newer => {
+            let message = format!("frames of {} cannot cross the boundary", newer.name());
+            Err(Failure::new(ErrorKind::Unsupported, message))
+        }
+    }
+}
+
+unsafe extern "C" fn set_light(
+    handle: *mut c_void,
+    scene: Text,
+    timeout_ns: u64,
+    error: *mut Error,
+) -> Status {
+    let work = |sensor: &mut Opened| {
+        // SAFETY: the host lends the text for the call.
+        let scene = unsafe { memory::text("scene", scene) }?;
+        let lighting = sensor.lighting().ok_or_else(|| {
+            Failure::new(
+                ErrorKind::Unsupported,
+                "the sensor does not set the light around it",
+            )
+        })?;
+        Ok(lighting.set(scene, deadline(timeout_ns))?)
+    };
+    // SAFETY: the host's own promise for `error`.
+    unsafe { call(handle, error, work) }
+}

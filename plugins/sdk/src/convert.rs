@@ -1,0 +1,163 @@
+//! Between the numbers of the boundary, SI, and those of core, mm and degrees; what is not finite goes neither way.
+
+use std::time::Duration;
+
+use taceva_abi::{Motion, Pose as AbiPose, Stamp as AbiStamp, Wrench as AbiWrench};
+use taceva_core::{
+    Deadline, NotFinite, Pose, SiPose, Speed, Stamp, Wrench, check_pose, check_wrench,
+};
+
+use crate::failure::Failure;
+
+pub(crate) fn deadline(timeout_ns: u64) -> Deadline {
+    Deadline::after(Duration::from_nanos(timeout_ns))
+}
+
+/// Nanoseconds, saturating after 584 years.
+pub(crate) fn nanoseconds(time: Duration) -> u64 {
+    u64::try_from(time.as_nanos()).unwrap_or(u64::MAX)
+}
+
+/// The pose and the speed that a motion asks for.
+pub(crate) fn motion(motion: &Motion) -> Result<(Pose, Speed), Failure> {
+    let AbiPose {
+        x,
+        y,
+        z,
+        qw,
+        qx,
+        qy,
+        qz,
+    } = motion.target;
+    let target = SiPose {
+        position_m: [x, y, z],
+        quaternion: [qw, qx, qy, qz],
+    };
+    let target = target.to_pose().ok_or_else(|| {
+        let message =
+            format!("the target {target:?}, expected finite numbers and a unit quaternion");
+        Failure::argument(message)
+    })?;
+    let speed = Speed::from_metres_per_second(motion.speed_m_per_s)
+        .map_err(|error| Failure::argument(error.to_string()))?;
+    Ok((target, speed))
+}
+
+/// A pose of the device.
+pub(crate) fn pose(pose: &Pose) -> Result<AbiPose, Failure> {
+    check_pose(pose).map_err(fault)?;
+    let SiPose {
+        position_m: [x, y, z],
+        quaternion: [qw, qx, qy, qz],
+    } = pose.on_grid().into();
+    Ok(AbiPose {
+        x,
+        y,
+        z,
+        qw,
+        qx,
+        qy,
+        qz,
+    })
+}
+
+/// A wrench of the device.
+pub(crate) fn wrench(wrench: &Wrench) -> Result<AbiWrench, Failure> {
+    check_wrench(wrench).map_err(fault)?;
+    Ok(AbiWrench {
+        force_n: wrench.force.map(|force| force.0),
+        torque_nm: wrench.on_grid().torque_nm(),
+    })
+}
+
+/// A stamp of the device.
+pub(crate) fn stamp(stamp: &Stamp) -> Result<AbiStamp, Failure> {
+    let is_time = |time_s: f64| time_s.is_finite() && time_s >= 0.0;
+    if !is_time(stamp.valid_s) || !stamp.received_s.is_none_or(is_time) {
+        let message =
+            format!("the stamp {stamp:?} is no time of a clock that counts from its start");
+        return Err(Failure::device(message));
+    }
+    Ok(AbiStamp {
+        valid_ns: nanoseconds(stamp.valid()),
+        received_ns: stamp.received().map_or(0, nanoseconds),
+    })
+}
+
+fn fault(error: NotFinite) -> Failure {
+    Failure::device(error.to_string())
+}
+
+#[cfg(test)]
+mod tests {
+    use taceva_abi::Status;
+
+    use super::*;
+
+    fn asked(spoil: impl FnOnce(&mut Motion)) -> Motion {
+        let target = AbiPose {
+            x: 0.001,
+            y: -0.002,
+            z: 0.0105,
+            qw: 1.0,
+            qx: 0.0,
+            qy: 0.0,
+            qz: 0.0,
+        };
+        let mut motion = Motion {
+            size: 72,
+            reserved: 0,
+            target,
+            speed_m_per_s: 0.002,
+        };
+        spoil(&mut motion);
+        motion
+    }
+
+    #[test]
+    fn what_is_asked_in_metres_arrives_in_millimetres_on_the_grid() {
+        let (target, speed) = motion(&asked(|_| ())).expect("a motion");
+        assert_eq!(target.position.z.0.to_bits(), 10.5_f64.to_bits());
+        assert_eq!(speed, Speed::try_new(2.0).expect("above 0"));
+        let back = pose(&target).expect("finite");
+        assert_eq!(back, asked(|_| ()).target);
+    }
+
+    #[test]
+    fn numbers_that_are_not_finite_are_the_caller_s_fault_on_the_way_in() {
+        let spoils: [fn(&mut Motion); 6] = [
+            |motion| motion.target.x = f64::NAN,
+            |motion| motion.target.qx = f64::INFINITY,
+            |motion| motion.target.qw = 0.0,
+            |motion| motion.speed_m_per_s = 0.0,
+            |motion| motion.speed_m_per_s = -1.0,
+            |motion| motion.speed_m_per_s = f64::NAN,
+        ];
+        for spoil in spoils {
+            let asked = asked(spoil);
+            let refused = motion(&asked).expect_err("refused");
+            assert_eq!(refused.status, Status::INVALID_ARGUMENT, "{asked:?}");
+        }
+    }
+
+    #[test]
+    fn numbers_that_are_not_finite_are_a_fault_of_the_device_on_the_way_out() {
+        let mut force = Wrench::default();
+        force.force[1].0 = f64::NAN;
+        let mut crooked = Pose::default();
+        crooked.rotation.z.0 = f64::INFINITY;
+        let at = |valid_s| Stamp {
+            valid_s,
+            received_s: None,
+        };
+        let refused = [
+            wrench(&force).map(drop),
+            pose(&crooked).map(drop),
+            stamp(&at(f64::NAN)).map(drop),
+            stamp(&at(-1.0)).map(drop),
+        ];
+        for refused in refused {
+            assert_eq!(refused.expect_err("refused").status, Status::DEVICE_FAULT);
+        }
+    }
+}

@@ -1,0 +1,149 @@
+//! The beginning and the end of a plugin, and the way to its drivers.
+
+#![expect(unsafe_code, reason = "functions that a host calls")]
+
+use std::collections::BTreeSet;
+use std::ffi::c_void;
+use std::ptr::null;
+use std::sync::OnceLock;
+
+use taceva_abi::{
+    ESTIMATOR_FACTORY, Error, EstimatorFactory, FORCE_FACTORY, Factory, Host, LIGHTING_FACTORY,
+    ROBOT_FACTORY, SENSOR_FACTORY, Status, Text,
+};
+use taceva_core::{
+    DescriptorError, ErrorKind, Factory as CoreFactory, ForceTransducer, Lighting, Robot, Sensor,
+};
+
+use crate::calls::Kind;
+use crate::driver::Driver;
+use crate::export::Export;
+use crate::failure::Failure;
+use crate::guard::{caught, guard};
+use crate::{estimator, factory, host, memory};
+
+/// The drivers by kind, and the tables by which a host reaches them.
+pub(crate) struct Loaded {
+    pub(crate) sensors: factory::Drivers<dyn Sensor>,
+    pub(crate) robots: factory::Drivers<dyn Robot>,
+    pub(crate) forces: factory::Drivers<dyn ForceTransducer>,
+    pub(crate) lightings: factory::Drivers<dyn Lighting>,
+    pub(crate) estimators: Vec<Box<dyn crate::EstimatorFactory>>,
+    /// What the keys of the drivers have before their last `/`.
+    pub(crate) prefixes: BTreeSet<String>,
+    tables: Tables,
+}
+
+struct Tables {
+    sensor: Option<Factory>,
+    robot: Option<Factory>,
+    force: Option<Factory>,
+    lighting: Option<Factory>,
+    estimator: Option<EstimatorFactory>,
+}
+
+/// A library holds one plugin, and loads it once.
+static LOADED: OnceLock<Loaded> = OnceLock::new();
+
+/// The drivers, once the plugin is initialised.
+pub(crate) fn loaded() -> Result<&'static Loaded, Failure> {
+    LOADED
+        .get()
+        .ok_or_else(|| Failure::argument("the plugin is not initialised"))
+}
+
+pub(crate) unsafe extern "C" fn init<E: Export>(host: *const Host, error: *mut Error) -> Status {
+    let work = || {
+        // SAFETY: a host gives its table, which begins with its size, for the life of the plugin.
+        unsafe { memory::sized("host", host) }?;
+        if LOADED.get().is_none() {
+            let loaded = load(E::drivers())
+                .map_err(|error| Failure::new(ErrorKind::Internal, error.to_string()))?;
+            // Whoever came first loaded the same drivers.
+            let _ = LOADED.set(loaded);
+        }
+        host::remember(host);
+        Ok(())
+    };
+    // SAFETY: the host's own promise for `error`.
+    unsafe { guard(error, work) }
+}
+
+fn load(drivers: Vec<Driver>) -> Result<Loaded, DescriptorError> {
+    let (mut sensors, mut robots, mut forces) = (Vec::new(), Vec::new(), Vec::new());
+    let (mut lightings, mut estimators) = (Vec::new(), Vec::new());
+    for driver in drivers {
+        match driver {
+            Driver::Sensor(driver) => sensors.push(driver.factory()?),
+            Driver::Robot(driver) => robots.push(driver.factory()?),
+            Driver::Force(driver) => forces.push(driver.factory()?),
+            Driver::Lighting(driver) => lightings.push(driver.factory()?),
+            Driver::Estimator(make) => estimators.push(make()),
+        }
+    }
+    let mut prefixes = BTreeSet::new();
+    prefixes.extend(sensors.iter().map(|driver| prefix(&**driver)));
+    prefixes.extend(robots.iter().map(|driver| prefix(&**driver)));
+    prefixes.extend(forces.iter().map(|driver| prefix(&**driver)));
+    prefixes.extend(lightings.iter().map(|driver| prefix(&**driver)));
+    Ok(Loaded {
+        prefixes,
+        tables: Tables {
+            sensor: table::<dyn Sensor>(sensors.len()),
+            robot: table::<dyn Robot>(robots.len()),
+            force: table::<dyn ForceTransducer>(forces.len()),
+            lighting: table::<dyn Lighting>(lightings.len()),
+            estimator: count(estimators.len()).map(estimator::table),
+        },
+        sensors,
+        robots,
+        forces,
+        lightings,
+        estimators,
+    })
+}
+
+fn prefix<D: ?Sized>(factory: &dyn CoreFactory<D>) -> String {
+    let key = factory.descriptor().key().as_str();
+    key.rsplit_once('/')
+        .map_or("", |(prefix, _)| prefix)
+        .to_owned()
+}
+
+fn table<D: Kind + ?Sized>(drivers: usize) -> Option<Factory> {
+    count(drivers).map(factory::table::<D>)
+}
+
+/// How many, or nothing where a plugin has none.
+fn count(drivers: usize) -> Option<u32> {
+    u32::try_from(drivers).ok().filter(|count| *count > 0)
+}
+
+pub(crate) unsafe extern "C" fn deinit() {
+    host::forget();
+}
+
+pub(crate) unsafe extern "C" fn factory(id: Text) -> *const c_void {
+    // SAFETY: the host lends the text for the call.
+    let found = caught(|| unsafe { memory::text("id", id) }.map(find));
+    found.unwrap_or_else(Err).unwrap_or(null())
+}
+
+fn find(id: &str) -> *const c_void {
+    fn address<T>(table: &Option<T>) -> *const c_void {
+        table
+            .as_ref()
+            .map_or(null(), |table| std::ptr::from_ref(table).cast())
+    }
+    let Some(Loaded { tables, .. }) = LOADED.get() else {
+        return null();
+    };
+    match id {
+        SENSOR_FACTORY => address(&tables.sensor),
+        ROBOT_FACTORY => address(&tables.robot),
+        FORCE_FACTORY => address(&tables.force),
+        LIGHTING_FACTORY => address(&tables.lighting),
+        ESTIMATOR_FACTORY => address(&tables.estimator),
+        _ => null(),
+    }
+}

@@ -1,0 +1,109 @@
+//! A fitted model as it crosses the boundary: what it takes and gives, then the author's own bytes.
+
+use taceva_core::{Channel, Channels, ErrorKind, FeatureShape, Saved, SavedRegressor, Unit};
+
+use crate::failure::Failure;
+
+/// What the bytes begin with.
+const MAGIC: &[u8; 8] = b"TACEREG1";
+
+/// The bytes of `regressor`.
+pub(super) fn write(regressor: &dyn SavedRegressor) -> Result<Vec<u8>, Failure> {
+    let mut bytes = MAGIC.to_vec();
+    let FeatureShape {
+        height,
+        width,
+        depth,
+    } = regressor.shape();
+    for count in [height, width, depth, regressor.channels().len()] {
+        let count = u32::try_from(count).map_err(|_| {
+            Failure::new(ErrorKind::OutOfRange, format!("{count} numbers a sample"))
+        })?;
+        bytes.extend(count.to_le_bytes());
+    }
+    for channel in regressor.channels() {
+        // Names have at most 32 bytes.
+        bytes.push(u8::try_from(channel.name().len()).unwrap_or(u8::MAX));
+        bytes.extend(channel.name().bytes());
+    }
+    bytes.extend(regressor.save()?);
+    Ok(bytes)
+}
+
+/// What [`write`] wrote, given to `load`.
+pub(super) fn read<R>(
+    bytes: &[u8],
+    load: impl FnOnce(&Saved<'_>) -> Result<R, Failure>,
+) -> Result<R, Failure> {
+    let foreign = || {
+        Failure::new(
+            ErrorKind::Protocol,
+            "these are not the bytes of a fitted model",
+        )
+    };
+    let mut rest = Rest(bytes);
+    if rest.take(MAGIC.len()) != Some(MAGIC) {
+        return Err(foreign());
+    }
+    let [height, width, depth, count] = [rest.count(), rest.count(), rest.count(), rest.count()]
+        .map(|count| count.ok_or_else(foreign));
+    let shape = FeatureShape {
+        height: height?,
+        width: width?,
+        depth: depth?,
+    };
+    let is_countable = shape
+        .height
+        .checked_mul(shape.width)
+        .and_then(|places| places.checked_mul(shape.depth))
+        .is_some();
+    let mut names = Vec::new();
+    for _ in 0..count? {
+        let name = rest.name().ok_or_else(foreign)?;
+        names.push(channel(name)?);
+    }
+    let channels = Channels::new(names)
+        .map_err(|error| Failure::new(ErrorKind::Protocol, error.to_string()))?;
+    if !is_countable {
+        return Err(foreign());
+    }
+    load(&Saved {
+        bytes: rest.0,
+        channels: &channels,
+        shape,
+    })
+}
+
+/// The channel of that name: what its unit is, only those that are known everywhere say.
+pub(super) fn channel(name: &str) -> Result<Channel, Failure> {
+    let known = Channel::SIX
+        .into_iter()
+        .find(|channel| channel.name() == name);
+    match known {
+        Some(channel) => Ok(channel),
+        None => {
+            Channel::named(name, Unit::One).map_err(|error| Failure::argument(error.to_string()))
+        }
+    }
+}
+
+/// Bytes that are not read yet.
+struct Rest<'a>(&'a [u8]);
+
+impl<'a> Rest<'a> {
+    fn take(&mut self, length: usize) -> Option<&'a [u8]> {
+        let (taken, rest) = self.0.split_at_checked(length)?;
+        self.0 = rest;
+        Some(taken)
+    }
+
+    fn count(&mut self) -> Option<usize> {
+        let bytes = self.take(4)?.try_into().ok()?;
+        usize::try_from(u32::from_le_bytes(bytes)).ok()
+    }
+
+    fn name(&mut self) -> Option<&'a str> {
+        let length = usize::from(*self.take(1)?.first()?);
+        std::str::from_utf8(self.take(length)?).ok()
+    }
+}

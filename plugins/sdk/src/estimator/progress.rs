@@ -1,0 +1,73 @@
+//! How far a fit is, told to the host.
+
+use std::ffi::c_void;
+use std::sync::atomic::{AtomicBool, AtomicPtr, AtomicU64, Ordering};
+use std::thread::{self, ThreadId};
+
+use taceva_abi::Progress as Told;
+use taceva_core::Progress;
+
+/// Tells the host, from the thread on which it asked for the fit; other threads learn what it last answered.
+pub(super) struct ToldProgress {
+    told: Told,
+    context: AtomicPtr<c_void>,
+    thread: ThreadId,
+    done: AtomicU64,
+    steps: AtomicU64,
+    is_cancelled: AtomicBool,
+}
+
+impl ToldProgress {
+    pub(super) fn new(told: Told, context: *mut c_void) -> ToldProgress {
+        ToldProgress {
+            told,
+            context: AtomicPtr::new(context),
+            thread: thread::current().id(),
+            done: AtomicU64::new(0),
+            steps: AtomicU64::new(0),
+            is_cancelled: AtomicBool::new(false),
+        }
+    }
+
+    #[expect(clippy::cast_precision_loss, reason = "a share for people")]
+    fn share(&self) -> f64 {
+        match self.steps.load(Ordering::Relaxed) {
+            0 => 0.0,
+            steps => (self.done.load(Ordering::Relaxed) as f64 / steps as f64).min(1.0),
+        }
+    }
+
+    #[expect(unsafe_code, reason = "a function of the host is called")]
+    fn tell(&self) {
+        let Some(told) = self.told.filter(|_| thread::current().id() == self.thread) else {
+            return;
+        };
+        // SAFETY: the host's own function with its own context, on the thread on which it waits for the fit.
+        let answer = unsafe { told(self.context.load(Ordering::Relaxed), self.share()) };
+        if answer != 0 {
+            self.is_cancelled.store(true, Ordering::Release);
+        }
+    }
+}
+
+impl Progress for ToldProgress {
+    fn begin(&self, _: &str, steps: Option<u64>) {
+        self.done.store(0, Ordering::Relaxed);
+        self.steps.store(steps.unwrap_or(0), Ordering::Relaxed);
+        self.tell();
+    }
+
+    fn advance(&self, steps: u64) {
+        self.done.fetch_add(steps, Ordering::Relaxed);
+        self.tell();
+    }
+
+    fn end(&self) {
+        self.tell();
+    }
+
+    fn is_cancelled(&self) -> bool {
+        self.tell();
+        self.is_cancelled.load(Ordering::Acquire)
+    }
+}

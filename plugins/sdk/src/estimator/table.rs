@@ -1,0 +1,294 @@
+//! The calls on estimators and on what they fitted.
+
+#![expect(unsafe_code, reason = "functions that a host calls")]
+
+use std::ffi::c_void;
+use std::sync::Arc;
+
+use taceva_abi::{
+    Args as AbiArgs, Error, EstimatorFactory as Table, Progress as Told, Regressor as AbiRegressor,
+    RegressorCalls, Status, TakeText, TrainingSet as AbiSet,
+};
+use taceva_core::{
+    Channels, ErrorKind, FeatureShape, Features, SavedRegressor, Targets, TrainingSet,
+};
+
+use super::progress::ToldProgress;
+use super::{EstimatorFactory, FitRequest, kept};
+use crate::failure::Failure;
+use crate::guard::guard;
+use crate::open;
+use crate::table::estimator_table;
+use crate::{entry, factory, memory};
+
+/// The calls on `estimators` estimators.
+pub(crate) fn table(estimators: u32) -> Table {
+    #[expect(clippy::cast_possible_truncation, reason = "thirty-two bytes")]
+    let size = size_of::<Table>() as u32;
+    Table {
+        size,
+        estimators,
+        describe: Some(describe),
+        fit: Some(fit),
+        load: Some(load),
+    }
+}
+
+static CALLS: RegressorCalls = RegressorCalls {
+    #[expect(clippy::cast_possible_truncation, reason = "thirty-two bytes")]
+    size: size_of::<RegressorCalls>() as u32,
+    reserved: 0,
+    close: Some(close),
+    predict: Some(predict),
+    save: Some(save),
+};
+
+type Kept = Box<dyn SavedRegressor>;
+
+fn estimator(number: u32) -> Result<&'static dyn EstimatorFactory, Failure> {
+    let estimators = &entry::loaded()?.estimators;
+    let found = usize::try_from(number)
+        .ok()
+        .and_then(|number| estimators.get(number));
+    let found = found.ok_or_else(|| {
+        let count = estimators.len();
+        Failure::argument(format!("no estimator {number}, expected less than {count}"))
+    })?;
+    Ok(&**found)
+}
+
+unsafe extern "C" fn describe(
+    number: u32,
+    take: TakeText,
+    context: *mut c_void,
+    error: *mut Error,
+) -> Status {
+    let work = || {
+        let estimator = estimator(number)?;
+        let table = estimator_table(
+            estimator.key().as_str(),
+            estimator.title(),
+            estimator.settings(),
+        );
+        // SAFETY: the host's own function with its own context.
+        unsafe { memory::hand(take, context, &table) }
+    };
+    // SAFETY: the host's own promise for `error`.
+    unsafe { guard(error, work) }
+}
+
+unsafe extern "C" fn fit(
+    number: u32,
+    settings: *const AbiArgs,
+    training: *const AbiSet,
+    validation: *const AbiSet,
+    told: Told,
+    context: *mut c_void,
+    regressor: *mut AbiRegressor,
+    error: *mut Error,
+) -> Status {
+    let work = || {
+        // SAFETY: the host's place for the model.
+        let place = unsafe { memory::place("regressor", regressor) }?;
+        let estimator = estimator(number)?;
+        // SAFETY: the host lends its settings and both sets for the call.
+        let (settings, training) = unsafe {
+            (
+                factory::args(settings, estimator.settings())?,
+                Set::read(training)?,
+            )
+        };
+        let validation = match validation.is_null() {
+            true => None,
+            // SAFETY: as above.
+            false => Some(unsafe { Set::read(validation) }?),
+        };
+        let fitted = estimator.fit(&FitRequest {
+            settings: &settings,
+            training: &training.borrowed(),
+            validation: validation.as_ref().map(Set::borrowed).as_ref(),
+            progress: &ToldProgress::new(told, context),
+        })?;
+        *place = opened(fitted);
+        Ok(())
+    };
+    // SAFETY: the host's own promise for `error`.
+    unsafe { guard(error, work) }
+}
+
+unsafe extern "C" fn load(
+    number: u32,
+    bytes: *const u8,
+    length: u64,
+    regressor: *mut AbiRegressor,
+    error: *mut Error,
+) -> Status {
+    let work = || {
+        // SAFETY: the host's place for the model, and its bytes, lent for the call.
+        let (place, bytes) = unsafe {
+            let place = memory::place("regressor", regressor)?;
+            (place, memory::list("bytes", bytes, whole(length)?)?)
+        };
+        let estimator = estimator(number)?;
+        *place = opened(kept::read(bytes, |saved| Ok(estimator.load(saved)?))?);
+        Ok(())
+    };
+    // SAFETY: the host's own promise for `error`.
+    unsafe { guard(error, work) }
+}
+
+fn opened(regressor: Kept) -> AbiRegressor {
+    AbiRegressor {
+        handle: open::keep(regressor),
+        calls: &raw const CALLS,
+    }
+}
+
+unsafe extern "C" fn close(handle: *mut c_void) {
+    open::close(handle);
+}
+
+unsafe extern "C" fn predict(
+    handle: *const c_void,
+    features: *const f32,
+    samples: u64,
+    into: *mut f64,
+    error: *mut Error,
+) -> Status {
+    let work = || {
+        let regressor: Arc<Kept> = open::find(handle)?;
+        let (samples, shape) = (whole(samples)?, regressor.shape());
+        let channels = regressor.channels().len();
+        // SAFETY: the host lends as many features and gives as much room as its number of samples says.
+        let (features, into) = unsafe {
+            let features = memory::list("features", features, times(samples, shape.len())?)?;
+            (
+                features,
+                memory::list_place("into", into, times(samples, channels)?)?,
+            )
+        };
+        let features = Features::new(shape, features.to_vec())?;
+        regressor.predict(&features, into)?;
+        match into.iter().find(|value| !value.is_finite()) {
+            Some(value) => Err(Failure::device(format!("a prediction of {value}"))),
+            None => Ok(()),
+        }
+    };
+    // SAFETY: the host's own promise for `error`.
+    unsafe { guard(error, work) }
+}
+
+unsafe extern "C" fn save(
+    handle: *const c_void,
+    into: *mut u8,
+    length: *mut u64,
+    error: *mut Error,
+) -> Status {
+    let work = || {
+        let regressor: Arc<Kept> = open::find(handle)?;
+        // SAFETY: the host's place for the length.
+        let length = unsafe { memory::place("length", length) }?;
+        let room = if into.is_null() { 0 } else { whole(*length)? };
+        let bytes = kept::write(&**regressor)?;
+        *length = bytes.len() as u64;
+        if room < bytes.len() {
+            let message = format!("{room} bytes of room, expected {}", bytes.len());
+            return Err(Failure::new(ErrorKind::OutOfRange, message));
+        }
+        // SAFETY: the host says that there is so much room.
+        unsafe { memory::list_place("into", into, bytes.len()) }?.copy_from_slice(&bytes);
+        Ok(())
+    };
+    // SAFETY: the host's own promise for `error`.
+    unsafe { guard(error, work) }
+}
+
+/// Samples of the host, copied and checked.
+struct Set {
+    features: Features,
+    channels: Channels,
+    targets: Vec<f64>,
+    groups: Option<Vec<u32>>,
+}
+
+impl Set {
+    /// # Safety
+    /// Unless it is NULL, the set and its arrays are as long as they say and nobody changes them during the call.
+    unsafe fn read(set: *const AbiSet) -> Result<Set, Failure> {
+        // SAFETY: promised by the caller.
+        let set = unsafe { memory::sized("training set", set) }?;
+        let [height, width, depth, columns] =
+            [set.height, set.width, set.depth, set.channels].map(|count| whole(count.into()));
+        let (height, width, depth) = (height?, width?, depth?);
+        let (samples, columns) = (whole(set.samples)?, columns?);
+        let numbers = times(times(samples, height)?, times(width, depth)?)?;
+        // SAFETY: promised by the caller, for all four.
+        let (features, targets, names) = unsafe {
+            (
+                memory::list("features", set.features, numbers)?,
+                memory::list("targets", set.targets, times(samples, columns)?)?,
+                memory::list("channel_names", set.channel_names, columns)?,
+            )
+        };
+        let groups = match set.groups.is_null() {
+            true => None,
+            // SAFETY: as above.
+            false => Some(unsafe { memory::list("groups", set.groups, samples) }?.to_vec()),
+        };
+        if features.iter().any(|number| !number.is_finite())
+            || targets.iter().any(|number| !number.is_finite())
+        {
+            return Err(Failure::argument(
+                "a number of the training set is not finite",
+            ));
+        }
+        let mut list = Vec::with_capacity(columns);
+        for name in names {
+            // SAFETY: as above.
+            list.push(kept::channel(unsafe {
+                memory::text("channel_names", *name)
+            }?)?);
+        }
+        let channels =
+            Channels::new(list.clone()).map_err(|error| Failure::argument(error.to_string()))?;
+        if channels.as_slice() != list {
+            let message =
+                "the channels stand in another order than `Px Py Pz Fx Fy Fz`, then by name";
+            return Err(Failure::argument(message));
+        }
+        let shape = FeatureShape {
+            height,
+            width,
+            depth,
+        };
+        Ok(Set {
+            features: Features::new(shape, features.to_vec())?,
+            channels,
+            targets: targets.to_vec(),
+            groups,
+        })
+    }
+
+    fn borrowed(&self) -> TrainingSet<'_> {
+        TrainingSet {
+            features: &self.features,
+            targets: Targets {
+                channels: &self.channels,
+                values: &self.targets,
+            },
+            groups: self.groups.as_deref(),
+        }
+    }
+}
+
+fn whole(count: u64) -> Result<usize, Failure> {
+    usize::try_from(count).map_err(|_| too_many(count))
+}
+
+fn times(count: usize, each: usize) -> Result<usize, Failure> {
+    count.checked_mul(each).ok_or_else(|| too_many(count))
+}
+
+fn too_many(count: impl std::fmt::Display) -> Failure {
+    Failure::argument(format!("{count} do not fit the address space"))
+}

@@ -1,0 +1,138 @@
+//! Drivers of one kind: described, looked for and opened.
+
+#![expect(unsafe_code, reason = "functions that a host calls")]
+
+use std::ffi::c_void;
+
+use taceva_abi::{
+    Args as AbiArgs, Device, Error, Factory as Table, Rig as AbiRig, Status, TakeText,
+};
+use taceva_core::{ArgSpec, Args, Factory, Rig};
+
+use crate::calls::Kind;
+use crate::failure::Failure;
+use crate::guard::guard;
+use crate::open;
+use crate::rig::with_rig;
+use crate::table::provides_table;
+use crate::{entry, memory};
+
+/// The drivers of one kind, by their number.
+pub(crate) type Drivers<D> = Vec<Box<dyn Factory<D>>>;
+
+/// The calls on `drivers` drivers.
+pub(crate) fn table<D: Kind + ?Sized>(drivers: u32) -> Table {
+    #[expect(clippy::cast_possible_truncation, reason = "forty bytes")]
+    let size = size_of::<Table>() as u32;
+    Table {
+        size,
+        drivers,
+        describe: Some(describe::<D>),
+        discover: Some(discover::<D>),
+        open: Some(open::<D>),
+    }
+}
+
+fn driver<D: Kind + ?Sized>(number: u32) -> Result<&'static dyn Factory<D>, Failure> {
+    let drivers = D::drivers(entry::loaded()?);
+    let found = usize::try_from(number)
+        .ok()
+        .and_then(|number| drivers.get(number));
+    let found = found.ok_or_else(|| {
+        Failure::argument(format!(
+            "no driver {number}, expected less than {}",
+            drivers.len()
+        ))
+    })?;
+    Ok(&**found)
+}
+
+unsafe extern "C" fn describe<D: Kind + ?Sized>(
+    number: u32,
+    given: *const AbiArgs,
+    take: TakeText,
+    context: *mut c_void,
+    error: *mut Error,
+) -> Status {
+    let work = || {
+        let factory = driver::<D>(number)?;
+        let descriptor = if given.is_null() {
+            factory.descriptor().clone()
+        } else {
+            // SAFETY: the host lends its arguments for the call.
+            let args = unsafe { args(given, factory.descriptor().arguments()) }?;
+            let described = factory.describe(&args);
+            described.map_err(|error| Failure::argument(error.to_string()))?
+        };
+        // SAFETY: the host's own function with its own context.
+        unsafe { memory::hand(take, context, &provides_table(&descriptor)) }
+    };
+    // SAFETY: the host's own promise for `error`.
+    unsafe { guard(error, work) }
+}
+
+unsafe extern "C" fn discover<D: Kind + ?Sized>(
+    number: u32,
+    take: TakeText,
+    context: *mut c_void,
+    error: *mut Error,
+) -> Status {
+    let work = || {
+        for found in driver::<D>(number)?.discover()? {
+            // SAFETY: the host's own function with its own context.
+            unsafe { memory::hand(take, context, &found.arguments) }?;
+        }
+        Ok(())
+    };
+    // SAFETY: the host's own promise for `error`.
+    unsafe { guard(error, work) }
+}
+
+unsafe extern "C" fn open<D: Kind + ?Sized>(
+    number: u32,
+    given: *const AbiArgs,
+    rig: *mut AbiRig,
+    device: *mut Device,
+    error: *mut Error,
+) -> Status {
+    let work = || {
+        // SAFETY: the host's place for the device.
+        let place = unsafe { memory::place("device", device) }?;
+        let factory = driver::<D>(number)?;
+        // SAFETY: the host lends its arguments for the call.
+        let args = unsafe { args(given, factory.descriptor().arguments()) }?;
+        let opened = if rig.is_null() {
+            factory.open(&args, &mut Rig::new())
+        } else {
+            with_rig(rig, |rig| factory.open(&args, rig))?
+        };
+        *place = Device {
+            handle: open::keep(D::handle(opened?)),
+            calls: std::ptr::from_ref(D::CALLS).cast(),
+        };
+        Ok(())
+    };
+    // SAFETY: the host's own promise for `error`.
+    unsafe { guard(error, work) }
+}
+
+/// The arguments that are given, checked once more against what the driver declares; NULL is none.
+///
+/// # Safety
+/// Unless it is NULL, `given` points to arguments that nobody changes during the call.
+pub(crate) unsafe fn args(given: *const AbiArgs, specs: &[ArgSpec]) -> Result<Args, Failure> {
+    let mut pairs = Vec::new();
+    if !given.is_null() {
+        // SAFETY: promised by the caller, for the list and for each text in it.
+        unsafe {
+            let given = memory::given("args", given)?;
+            for arg in memory::list("args", given.items, given.count)? {
+                pairs.push((
+                    memory::text("args", arg.key)?,
+                    memory::text("args", arg.text)?,
+                ));
+            }
+        }
+    }
+    Args::from_pairs(specs, pairs).map_err(|error| Failure::argument(error.to_string()))
+}

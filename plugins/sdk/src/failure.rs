@@ -1,0 +1,48 @@
+//! Why a call across the boundary did not do what it was asked.
+
+use taceva_abi::Status;
+use taceva_core::{DriverError, ErrorKind, ModelError};
+
+/// A failure on its way to the host: a status, and a message that needs no context but the call.
+#[derive(Debug)]
+pub(crate) struct Failure {
+    pub(crate) status: Status,
+    pub(crate) message: String,
+}
+
+impl Failure {
+    pub(crate) fn new(kind: ErrorKind, message: impl Into<String>) -> Failure {
+        Failure {
+            // The numbers of the kinds are those of the statuses, negated: a test of core holds them to it.
+            status: Status(-(kind as i32)),
+            message: message.into(),
+        }
+    }
+
+    /// The caller's fault.
+    pub(crate) fn argument(message: impl Into<String>) -> Failure {
+        Failure::new(ErrorKind::InvalidArgument, message)
+    }
+
+    /// A bug of the device.
+    pub(crate) fn device(message: impl Into<String>) -> Failure {
+        Failure::new(ErrorKind::DeviceFault, message)
+    }
+}
+
+impl From<DriverError> for Failure {
+    /// The reason alone: which driver it was and what it did, the host knows.
+    fn from(error: DriverError) -> Failure {
+        let message = match std::error::Error::source(&error) {
+            Some(reason) => reason.to_string(),
+            None => error.kind().to_string(),
+        };
+        Failure::new(error.kind(), message)
+    }
+}
+
+impl From<ModelError> for Failure {
+    fn from(error: ModelError) -> Failure {
+        Failure::new(error.kind(), error.to_string())
+    }
+}

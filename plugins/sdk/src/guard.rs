@@ -1,0 +1,135 @@
+//! The one line through which every call of the host goes.
+
+#![expect(unsafe_code, reason = "the caller's memory for the message is written")]
+
+use std::any::Any;
+use std::mem::offset_of;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+
+use taceva_abi::{Error, Status};
+use taceva_core::ErrorKind;
+
+use crate::failure::Failure;
+
+/// Does `work` and says how it ended: nothing unwinds into the host, and a failure leaves its message in `error`.
+///
+/// # Safety
+/// `error` is NULL, or points to an error that is the caller's for the time of the call and as long as its `size` says.
+pub(crate) unsafe fn guard(
+    error: *mut Error,
+    work: impl FnOnce() -> Result<(), Failure>,
+) -> Status {
+    let failure = match caught(work) {
+        Ok(Ok(())) => return Status::OK,
+        Ok(Err(failure)) => failure,
+        Err(panicked) => panicked,
+    };
+    // SAFETY: promised by the caller.
+    unsafe { tell(error, &failure.message) };
+    failure.status
+}
+
+/// What `work` gives, or its panic as a failure.
+pub(crate) fn caught<T>(work: impl FnOnce() -> T) -> Result<T, Failure> {
+    // What a panic leaves half done is a handle's, and the handle is dead from then on.
+    catch_unwind(AssertUnwindSafe(work)).map_err(|payload| {
+        let message = format!("the plugin panicked: {}", words(&*payload));
+        // Dropping a payload could panic again.
+        std::mem::forget(payload);
+        Failure::new(ErrorKind::Panicked, message)
+    })
+}
+
+fn words(payload: &(dyn Any + Send)) -> &str {
+    match (
+        payload.downcast_ref::<&str>(),
+        payload.downcast_ref::<String>(),
+    ) {
+        (Some(words), _) => words,
+        (_, Some(words)) => words,
+        _ => "without words",
+    }
+}
+
+/// Leaves `message` in the caller's error, cut between two characters where it does not fit.
+unsafe fn tell(error: *mut Error, message: &str) {
+    const HEAD: usize = offset_of!(Error, message);
+    if error.is_null() || !error.is_aligned() {
+        return;
+    }
+    // SAFETY: promised by the caller of `guard`; every error begins with its size.
+    let size = unsafe { (&raw const (*error).size).read() };
+    let room = usize::try_from(size).unwrap_or(0).min(size_of::<Error>());
+    if room <= HEAD {
+        return;
+    }
+    let mut end = message.len().min(room - HEAD - 1);
+    while !message.is_char_boundary(end) {
+        end -= 1;
+    }
+    // SAFETY: `end` and the NUL behind it lie within the size that the error states.
+    unsafe {
+        let place = (&raw mut (*error).message).cast::<u8>();
+        place.copy_from_nonoverlapping(message.as_ptr(), end);
+        place.add(end).write(0);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn told(error: &Error) -> String {
+        String::from_utf8(error.bytes().collect()).expect("UTF-8")
+    }
+
+    #[test]
+    fn a_panic_ends_in_a_status_and_its_words() {
+        let mut error = Error::new();
+        let panics: [(fn(), &str); 3] = [
+            (|| panic!("plain"), "plain"),
+            (|| panic!("{} of {}", 1, 2), "1 of 2"),
+            (|| std::panic::panic_any(7), "without words"),
+        ];
+        for (panics, expected) in panics {
+            // SAFETY: the error is ours.
+            let status = unsafe {
+                guard(&raw mut error, || {
+                    panics();
+                    Ok(())
+                })
+            };
+            assert_eq!(status, Status::PANICKED);
+            assert_eq!(told(&error), format!("the plugin panicked: {expected}"));
+        }
+    }
+
+    #[test]
+    fn a_payload_that_panics_when_dropped_is_never_dropped() {
+        struct Bomb;
+        impl Drop for Bomb {
+            fn drop(&mut self) {
+                panic!("dropped");
+            }
+        }
+        // SAFETY: no error is given.
+        let status = unsafe { guard(std::ptr::null_mut(), || std::panic::panic_any(Bomb)) };
+        assert_eq!(status, Status::PANICKED);
+    }
+
+    #[test]
+    fn no_message_is_written_further_than_the_size_says() {
+        for size in [0_u32, 4, 8, 9, 10, 12, 511, 512, 4096] {
+            let mut error = Error::new();
+            error.message.fill(1);
+            error.size = size;
+            let long = "é".repeat(400);
+            // SAFETY: the error is ours, and its size is never stated above the truth but for the last, which is cut.
+            unsafe { guard(&raw mut error, || Err(Failure::argument(long))) };
+            let written = error.message.iter().take_while(|byte| **byte != 1).count();
+            let room = usize::try_from(size).expect("small").clamp(8, 512) - 8;
+            assert!(written <= room, "{size}: {written}");
+            assert!(room < 3 || written + 1 >= room, "{size}: {written}");
+        }
+    }
+}

@@ -1,0 +1,51 @@
+//! What the host offers: its log and its clock.
+
+#![expect(unsafe_code, reason = "functions of the host are called")]
+
+use std::ptr::null_mut;
+use std::sync::OnceLock;
+use std::sync::atomic::{AtomicPtr, Ordering};
+use std::time::{Duration, Instant};
+
+use taceva_abi::{Host, Level, Text};
+
+/// The host, between `init` and `deinit`.
+static HOST: AtomicPtr<Host> = AtomicPtr::new(null_mut());
+
+/// Remembers the host.
+pub(crate) fn remember(host: *const Host) {
+    HOST.store(host.cast_mut(), Ordering::Release);
+}
+
+/// Forgets the host: nothing of it is called any more.
+pub(crate) fn forget() {
+    HOST.store(null_mut(), Ordering::Release);
+}
+
+fn host() -> Option<&'static Host> {
+    let host = HOST.load(Ordering::Acquire);
+    // SAFETY: `init` checked it, and a host outlives everything that a plugin makes until `deinit`, which forgets it.
+    unsafe { host.as_ref() }
+}
+
+/// Writes a line to the log of the host. Nobody listens where the driver is linked in.
+pub fn log(level: Level, message: &str) {
+    let Some((host, log)) = host().and_then(|host| Some((host, host.log?))) else {
+        return;
+    };
+    let target = Text::from(env!("CARGO_PKG_NAME"));
+    // SAFETY: the host takes lines from any thread; both texts live for the call.
+    unsafe { log(host.context, level as i32, target, Text::from(message)) };
+}
+
+/// The time of the host's monotonic clock, in which stamps of real devices count.
+///
+/// Linked in, or before the plugin is initialised, it counts from the first time that it is asked.
+pub fn now() -> Duration {
+    static FIRST: OnceLock<Instant> = OnceLock::new();
+    match host().and_then(|host| Some((host, host.now_ns?))) {
+        // SAFETY: the host tells the time to any thread.
+        Some((host, now_ns)) => Duration::from_nanos(unsafe { now_ns(host.context) }),
+        None => FIRST.get_or_init(Instant::now).elapsed(),
+    }
+}

@@ -1,0 +1,25 @@
+#![doc = include_str!("../README.md")]
+
+mod calls;
+mod convert;
+mod driver;
+mod entry;
+mod estimator;
+mod export;
+mod factory;
+mod failure;
+mod guard;
+mod host;
+mod interruption;
+mod memory;
+mod open;
+mod rig;
+mod table;
+
+pub use driver::{Driver, MakeEstimator, MakeFactory, Provide};
+pub use estimator::{EstimatorFactory, FitRequest};
+pub use export::{Export, plugin};
+pub use host::{log, now};
+pub use interruption::{HaltLatch, Interrupted, InterruptibleCall, Interruption};
+pub use table::provides_table;
+pub use taceva_abi::{self as abi, Level};

@@ -1,0 +1,213 @@
+//! The host's memory, checked before it is followed.
+
+#![expect(unsafe_code, reason = "pointers of the host are followed")]
+
+use std::ffi::c_void;
+
+use taceva_abi::{TakeText, Text};
+
+use crate::failure::Failure;
+
+/// What `pointer` points to; NULL and a crooked address are refused.
+///
+/// # Safety
+/// Otherwise it points to a `T` that nobody changes during `'a`.
+pub(crate) unsafe fn given<'a, T>(name: &str, pointer: *const T) -> Result<&'a T, Failure> {
+    straight(name, pointer)?;
+    // SAFETY: promised by the caller; NULL and misalignment were refused.
+    Ok(unsafe { &*pointer })
+}
+
+/// The place that `pointer` names, to be written.
+///
+/// # Safety
+/// Unless it is NULL or crooked, it points to a `T` that is the callee's during `'a`.
+pub(crate) unsafe fn place<'a, T>(name: &str, pointer: *mut T) -> Result<&'a mut T, Failure> {
+    straight(name, pointer)?;
+    // SAFETY: promised by the caller; NULL and misalignment were refused.
+    Ok(unsafe { &mut *pointer })
+}
+
+/// A struct that begins with its own size, read only if it is as long as it is known here.
+///
+/// # Safety
+/// Unless it is NULL or crooked, `pointer` points to as many bytes as the `u32` that it begins with says.
+pub(crate) unsafe fn sized<'a, T>(name: &str, pointer: *const T) -> Result<&'a T, Failure> {
+    straight(name, pointer)?;
+    // SAFETY: promised by the caller.
+    let size = unsafe { pointer.cast::<u32>().read() };
+    long_enough::<T>(name, size)?;
+    // SAFETY: as above, and it is as long as a `T`.
+    Ok(unsafe { &*pointer })
+}
+
+/// As [`sized`], to be written.
+///
+/// # Safety
+/// As [`sized`], and the bytes are the callee's during `'a`.
+pub(crate) unsafe fn sized_place<'a, T>(name: &str, pointer: *mut T) -> Result<&'a mut T, Failure> {
+    straight(name, pointer)?;
+    // SAFETY: promised by the caller.
+    let size = unsafe { pointer.cast::<u32>().read() };
+    long_enough::<T>(name, size)?;
+    // SAFETY: as above, and it is as long as a `T`.
+    Ok(unsafe { &mut *pointer })
+}
+
+fn straight<T>(name: &str, pointer: *const T) -> Result<(), Failure> {
+    if pointer.is_null() {
+        return Err(Failure::argument(format!("`{name}` is NULL")));
+    }
+    if !pointer.is_aligned() {
+        return Err(Failure::argument(format!("`{name}` is not aligned")));
+    }
+    Ok(())
+}
+
+fn long_enough<T>(name: &str, size: u32) -> Result<(), Failure> {
+    let expected = size_of::<T>();
+    if usize::try_from(size).unwrap_or(usize::MAX) < expected {
+        return Err(Failure {
+            status: taceva_abi::Status::ABI,
+            message: format!("`{name}` has {size} bytes, expected at least {expected}"),
+        });
+    }
+    Ok(())
+}
+
+/// `length` things from `first` on.
+///
+/// # Safety
+/// Unless `first` is NULL or crooked, `length` things begin there that nobody changes during `'a`.
+pub(crate) unsafe fn list<'a, T>(
+    name: &str,
+    first: *const T,
+    length: usize,
+) -> Result<&'a [T], Failure> {
+    if length == 0 {
+        return Ok(&[]);
+    }
+    fits::<T>(name, length)?;
+    straight(name, first)?;
+    // SAFETY: promised by the caller; the length fits an allocation.
+    Ok(unsafe { std::slice::from_raw_parts(first, length) })
+}
+
+/// As [`list`], to be written.
+///
+/// # Safety
+/// As [`list`], and the things are the callee's during `'a`.
+pub(crate) unsafe fn list_place<'a, T>(
+    name: &str,
+    first: *mut T,
+    length: usize,
+) -> Result<&'a mut [T], Failure> {
+    if length == 0 {
+        return Ok(&mut []);
+    }
+    fits::<T>(name, length)?;
+    straight(name, first)?;
+    // SAFETY: promised by the caller; the length fits an allocation.
+    Ok(unsafe { std::slice::from_raw_parts_mut(first, length) })
+}
+
+fn fits<T>(name: &str, length: usize) -> Result<(), Failure> {
+    let bytes = length.checked_mul(size_of::<T>());
+    match bytes.filter(|bytes| isize::try_from(*bytes).is_ok()) {
+        Some(_) => Ok(()),
+        None => Err(Failure::argument(format!(
+            "`{name}`: {length} do not fit the address space"
+        ))),
+    }
+}
+
+/// The text that is lent.
+///
+/// # Safety
+/// Unless `data` is NULL, its bytes are not changed during `'a`.
+pub(crate) unsafe fn text<'a>(name: &str, text: Text) -> Result<&'a str, Failure> {
+    if text.data.is_null() && text.length > 0 {
+        return Err(Failure::argument(format!("`{name}` is NULL")));
+    }
+    fits::<u8>(name, text.length)?;
+    // SAFETY: promised by the caller.
+    unsafe { text.to_str() }.map_err(|error| Failure::argument(format!("`{name}`: {error}")))
+}
+
+/// Hands `text` to the host.
+///
+/// # Safety
+/// `take` may be called with `context` and any text.
+pub(crate) unsafe fn hand(take: TakeText, context: *mut c_void, text: &str) -> Result<(), Failure> {
+    let take = take.ok_or_else(|| Failure::argument("`take` is NULL"))?;
+    // SAFETY: promised by the caller.
+    unsafe { take(context, Text::from(text)) };
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn pointers_that_cannot_be_meant_are_refused_unfollowed() {
+        let crooked = std::ptr::without_provenance::<u64>(9);
+        let null = std::ptr::null::<u64>();
+        // SAFETY: neither is followed.
+        let found = unsafe { [given("x", null), given("x", crooked), sized("x", crooked)] };
+        assert!(found.iter().all(Result::is_err));
+        // SAFETY: neither is followed.
+        let lists = unsafe {
+            [
+                list("x", null, 1),
+                list("x", crooked, 1),
+                list("x", null, usize::MAX),
+            ]
+        };
+        assert!(lists.iter().all(Result::is_err));
+        // SAFETY: nothing is there, and nothing is followed.
+        assert!(unsafe { list("x", null, 0) }.expect("nothing").is_empty());
+    }
+
+    #[test]
+    fn text_is_refused_where_it_is_none() {
+        let latin = [0xe9_u8];
+        let text_of = |data: *const u8, length| Text {
+            data: data.cast(),
+            length,
+        };
+        // SAFETY: the bytes live here; the others are not followed.
+        unsafe {
+            assert!(text("t", text_of(latin.as_ptr(), 1)).is_err());
+            assert!(text("t", text_of(std::ptr::null(), 1)).is_err());
+            assert!(text("t", text_of(latin.as_ptr(), usize::MAX)).is_err());
+            assert_eq!(text("t", text_of(std::ptr::null(), 0)).expect("empty"), "");
+            assert_eq!(text("t", Text::from("gel")).expect("text"), "gel");
+        }
+    }
+
+    #[test]
+    fn a_struct_that_is_shorter_than_it_is_known_here_is_refused() {
+        let short = taceva_abi::Motion {
+            size: 8,
+            reserved: 0,
+            target: taceva_abi::Pose {
+                x: 0.0,
+                y: 0.0,
+                z: 0.0,
+                qw: 1.0,
+                qx: 0.0,
+                qy: 0.0,
+                qz: 0.0,
+            },
+            speed_m_per_s: 1.0,
+        };
+        // SAFETY: it is ours.
+        let refused = unsafe { sized("motion", &raw const short) }.expect_err("short");
+        assert_eq!(refused.status, taceva_abi::Status::ABI);
+        assert_eq!(
+            refused.message,
+            "`motion` has 8 bytes, expected at least 72"
+        );
+    }
+}

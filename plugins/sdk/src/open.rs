@@ -1,0 +1,105 @@
+//! What is open: devices, rigs and fitted models, under numbers that the host knows as handles.
+//!
+//! A handle is a number and never an address, so that one that was closed, or was never given out, is refused instead of followed.
+
+use std::any::Any;
+use std::collections::BTreeMap;
+use std::ffi::c_void;
+use std::ptr::without_provenance_mut;
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::{Arc, Mutex, PoisonError, RwLock, TryLockError};
+
+use taceva_core::{ErrorKind, Halt, Interrupt};
+
+use crate::failure::Failure;
+use crate::guard::caught;
+
+type Thing = Arc<dyn Any + Send + Sync>;
+
+static OPEN: RwLock<BTreeMap<usize, Thing>> = RwLock::new(BTreeMap::new());
+static NEXT: AtomicUsize = AtomicUsize::new(1);
+
+/// Keeps `thing` until it is closed, and gives its handle.
+pub(crate) fn keep(thing: impl Any + Send + Sync) -> *mut c_void {
+    let number = NEXT.fetch_add(1, Ordering::Relaxed);
+    let mut open = OPEN.write().unwrap_or_else(PoisonError::into_inner);
+    open.insert(number, Arc::new(thing));
+    without_provenance_mut(number)
+}
+
+/// The thing behind a handle.
+pub(crate) fn find<T: Any + Send + Sync>(handle: *const c_void) -> Result<Arc<T>, Failure> {
+    let open = OPEN.read().unwrap_or_else(PoisonError::into_inner);
+    let thing = open.get(&handle.addr()).map(Arc::clone);
+    drop(open);
+    thing
+        .and_then(|thing| thing.downcast().ok())
+        .ok_or_else(|| Failure::argument("the handle is none that is open, or of another kind"))
+}
+
+/// Forgets a handle and drops what is behind it, unless a call on another thread is still using it: then that call does.
+pub(crate) fn close(handle: *const c_void) {
+    let mut open = OPEN.write().unwrap_or_else(PoisonError::into_inner);
+    let thing = open.remove(&handle.addr());
+    drop(open);
+    // A device that panics while it is dropped is gone all the same.
+    drop(caught(|| drop(thing)));
+}
+
+/// An open device, or one that is dead because it panicked.
+pub(crate) struct Handle<T> {
+    is_dead: AtomicBool,
+    device: Mutex<T>,
+    /// What ends a pending call, and stops a motion: called without waiting for the device.
+    pub(crate) interrupt: Option<Arc<dyn Interrupt>>,
+    pub(crate) halt: Option<Arc<dyn Halt>>,
+}
+
+impl<T> Handle<T> {
+    pub(crate) fn new(device: T) -> Handle<T> {
+        Handle {
+            is_dead: AtomicBool::new(false),
+            device: Mutex::new(device),
+            interrupt: None,
+            halt: None,
+        }
+    }
+
+    /// The same handle with what ends a pending call.
+    pub(crate) fn interrupted_by(self, interrupt: Option<Arc<dyn Interrupt>>) -> Handle<T> {
+        Handle { interrupt, ..self }
+    }
+
+    /// The same handle with what stops a motion.
+    pub(crate) fn halted_by(self, halt: Arc<dyn Halt>) -> Handle<T> {
+        let halt = Some(halt);
+        Handle { halt, ..self }
+    }
+
+    /// Does `work` on the device, alone; a panic kills the handle, and nothing but that handle.
+    pub(crate) fn call<R>(
+        &self,
+        work: impl FnOnce(&mut T) -> Result<R, Failure>,
+    ) -> Result<R, Failure> {
+        if self.is_dead.load(Ordering::Acquire) {
+            return Err(Failure::new(
+                ErrorKind::Panicked,
+                "a call before this one panicked: the device must be closed",
+            ));
+        }
+        let mut device = match self.device.try_lock() {
+            Ok(device) => device,
+            Err(TryLockError::Poisoned(poisoned)) => poisoned.into_inner(),
+            Err(TryLockError::WouldBlock) => {
+                return Err(Failure::new(
+                    ErrorKind::Busy,
+                    "another call on the device is under way",
+                ));
+            }
+        };
+        caught(|| work(&mut device)).unwrap_or_else(|panicked| {
+            self.is_dead.store(true, Ordering::Release);
+            Err(panicked)
+        })
+    }
+}

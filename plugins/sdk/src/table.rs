@@ -1,0 +1,337 @@
+//! A driver's description as the `[[provides]]` table of a manifest.
+
+use std::fmt::{self, Write};
+
+use taceva_core::{
+    ArgKind, ArgSpec, ArgValue, Descriptor, Facts, Footprint, ForceFacts, Outline, Point, Presence,
+    RobotFacts, SensorFacts,
+};
+
+/// What a manifest says below `[[provides]]`: TOML, with `[[args]]` where the manifest has `[[provides.args]]`.
+///
+/// The key is the last word of the driver's: a plugin `org.example.digit` provides `org.example.digit/finger` as `finger`.
+///
+/// ```
+/// use taceva_core::{Axes, DescriptorSpec, DriverKey, DriverSource, Facts, ForceFacts};
+/// let facts = ForceFacts { axes: Axes::NORMAL, tare: true, ..ForceFacts::default() };
+/// let key = DriverKey::fixed("org.example.scale/scale");
+/// let spec = DescriptorSpec::new(key, "a kitchen scale", DriverSource::Real, Facts::Force(facts));
+/// assert_eq!(
+///     taceva_plugin::provides_table(&spec.check()?),
+///     "kind = \"force\"\nkey = \"scale\"\ntitle = \"a kitchen scale\"\nsource = \"real\"\naxes = [\"Fz\"]\ntare = true\n",
+/// );
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn provides_table(descriptor: &Descriptor) -> String {
+    let mut table = Table::new(
+        descriptor.kind().name(),
+        descriptor.key().as_str(),
+        descriptor.title(),
+    );
+    table.line("source", &Text(descriptor.source().name()));
+    match descriptor.facts() {
+        Facts::Sensor(facts) => table.sensor(facts),
+        Facts::Robot(facts) => table.robot(facts),
+        Facts::Force(facts) => table.force(facts),
+        Facts::Lighting(facts) => table.scenes(&facts.scenes),
+        // A kind that is newer than this writer is told by its name alone, which the host refuses in its own words.
+        _ => {}
+    }
+    table.arguments(descriptor.arguments());
+    table.text
+}
+
+/// The same for an estimator.
+pub(crate) fn estimator_table(key: &str, title: &str, settings: &[ArgSpec]) -> String {
+    let mut table = Table::new("estimator", key, title);
+    table.arguments(settings);
+    table.text
+}
+
+struct Table {
+    text: String,
+}
+
+impl Table {
+    fn new(kind: &str, key: &str, title: &str) -> Table {
+        let mut table = Table {
+            text: String::new(),
+        };
+        let word = key.rsplit('/').next().unwrap_or(key);
+        table.line("kind", &Text(kind));
+        table.line("key", &Text(word));
+        table.line("title", &Text(title));
+        table
+    }
+
+    fn line(&mut self, key: &str, value: &dyn fmt::Display) {
+        writeln!(self.text, "{key} = {value}").expect("a string takes everything");
+    }
+
+    fn number(&mut self, key: &str, value: Option<f64>) {
+        if let Some(value) = value {
+            self.line(key, &Number(value));
+        }
+    }
+
+    /// An inline table of what is known; nothing where nothing is.
+    fn inline(&mut self, key: &str, fields: &[(&str, Option<String>)]) {
+        let known: Vec<String> = fields
+            .iter()
+            .filter_map(|(name, value)| Some(format!("{name} = {}", value.as_ref()?)))
+            .collect();
+        if !known.is_empty() {
+            self.line(key, &format_args!("{{ {} }}", known.join(", ")));
+        }
+    }
+
+    fn sensor(&mut self, facts: &SensorFacts) {
+        if let Some(frame) = facts.frame {
+            let fields = [
+                ("width", Some(frame.width.to_string())),
+                ("height", Some(frame.height.to_string())),
+                ("format", Some(Text(frame.format.name()).to_string())),
+            ];
+            self.inline("frame", &fields);
+        }
+        self.number("rate_hz", facts.rate.map(|rate| rate.0));
+        let gel = [
+            ("opaque", facts.opaque.map(|opaque| opaque.to_string())),
+            ("markers", facts.markers.map(|markers| markers.to_string())),
+            (
+                "thickness_mm",
+                facts.gel_thickness.map(|height| written(height.0)),
+            ),
+        ];
+        self.inline("gel", &gel);
+        if let Some([width, height]) = facts.camera {
+            let fields = [
+                ("width", Some(width.to_string())),
+                ("height", Some(height.to_string())),
+            ];
+            self.inline("camera", &fields);
+        }
+        self.number("field_of_view_mm2", facts.field_of_view_mm2);
+        if let Some(footprint) = facts.footprint {
+            self.footprint(footprint);
+        }
+        let limits = [
+            ("Pz_max_mm", facts.depth_max.map(|depth| written(depth.0))),
+            ("Fz_max_N", facts.force_max.map(|force| written(force.0))),
+        ];
+        self.inline("limits", &limits);
+        self.scenes(&facts.scenes);
+    }
+
+    fn footprint(&mut self, footprint: Footprint) {
+        let (shape, [radius, half_x, half_y]) = match footprint.outline() {
+            Outline::Disc { radius } => ("disc", [Some(radius), None, None]),
+            Outline::Rectangle { half_x, half_y } => ("rect", [None, Some(half_x), Some(half_y)]),
+            // As a kind that is newer than this writer.
+            _ => return,
+        };
+        let length = |length: Option<taceva_core::Nanometre>| {
+            length.map(|length| written(length.to_millimetres()))
+        };
+        let fields = [
+            ("shape", Some(Text(shape).to_string())),
+            ("radius_mm", length(radius)),
+            ("half_x_mm", length(half_x)),
+            ("half_y_mm", length(half_y)),
+            ("depth_max_mm", length(footprint.depth_max())),
+        ];
+        self.inline("footprint", &fields);
+    }
+
+    fn robot(&mut self, facts: &RobotFacts) {
+        if let Some(workspace) = facts.workspace {
+            let corner = |Point { x, y, z }: Point| {
+                let [x, y, z] = [x, y, z].map(|side| written(side.0));
+                Some(format!("[{x}, {y}, {z}]"))
+            };
+            let fields = [
+                ("least_mm", corner(workspace.least)),
+                ("greatest_mm", corner(workspace.greatest)),
+            ];
+            self.inline("workspace", &fields);
+        }
+        let speed = facts.speed_max.map(|speed| written(speed.mm_per_s()));
+        self.inline("limits", &[("speed_max_mm_s", speed)]);
+        self.number(
+            "repeatability_mm",
+            facts.repeatability.map(|spread| spread.0),
+        );
+        self.line("guarded_motion", &facts.guarded_motion);
+    }
+
+    fn force(&mut self, facts: &ForceFacts) {
+        self.texts("axes", facts.axes.iter().map(taceva_core::Axis::name));
+        self.number("rate_hz", facts.rate.map(|rate| rate.0));
+        let force = facts.force_max.map(|force| written(force.0));
+        self.inline("limits", &[("Fz_max_N", force)]);
+        self.line("tare", &facts.tare);
+    }
+
+    fn scenes(&mut self, scenes: &[String]) {
+        if !scenes.is_empty() {
+            self.texts("scenes", scenes.iter().map(String::as_str));
+        }
+    }
+
+    fn texts<'a>(&mut self, key: &str, texts: impl Iterator<Item = &'a str>) {
+        let texts: Vec<String> = texts.map(|text| Text(text).to_string()).collect();
+        self.line(key, &format_args!("[{}]", texts.join(", ")));
+    }
+
+    fn arguments(&mut self, arguments: &[ArgSpec]) {
+        for argument in arguments {
+            self.text.push_str("\n[[args]]\n");
+            self.argument(argument);
+        }
+    }
+
+    fn argument(&mut self, argument: &ArgSpec) {
+        self.line("key", &Text(&argument.key));
+        let open = f64::NEG_INFINITY..=f64::INFINITY;
+        match &argument.kind {
+            ArgKind::Text => self.line("type", &Text("text")),
+            ArgKind::Path => self.line("type", &Text("path")),
+            ArgKind::Flag => self.line("type", &Text("flag")),
+            ArgKind::Choice { of } => {
+                self.line("type", &Text("choice"));
+                self.texts("choices", of.iter().map(String::as_str));
+            }
+            ArgKind::Whole { least, most } => {
+                self.line("type", &Text("whole"));
+                if (*least, *most) != (i64::MIN, i64::MAX) {
+                    self.line("range", &format_args!("[{least}, {most}]"));
+                }
+            }
+            ArgKind::Number { least, most } => {
+                self.line("type", &Text("number"));
+                if *least > *open.start() || *most < *open.end() {
+                    self.line(
+                        "range",
+                        &format_args!("[{}, {}]", Number(*least), Number(*most)),
+                    );
+                }
+            }
+            // As a kind of driver that is newer than this writer.
+            _ => {}
+        }
+        if let Some(unit) = &argument.unit {
+            self.line("unit", &Text(unit));
+        }
+        match &argument.presence {
+            Presence::Required => {}
+            Presence::Optional => self.line("optional", &true),
+            Presence::Default(ArgValue::Text(text)) => self.line("default", &Text(text)),
+            Presence::Default(ArgValue::Whole(value)) => self.line("default", value),
+            Presence::Default(ArgValue::Number(value)) => self.line("default", &Number(*value)),
+            Presence::Default(ArgValue::Flag(value)) => self.line("default", value),
+        }
+        if !argument.help.is_empty() {
+            self.line("help", &Text(&argument.help));
+        }
+    }
+}
+
+fn written(number: f64) -> String {
+    Number(number).to_string()
+}
+
+/// A float as TOML writes it: the shortest digits that read back, with a point or an exponent.
+struct Number(f64);
+
+impl fmt::Display for Number {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{:?}", self.0)
+    }
+}
+
+/// A basic string of TOML.
+struct Text<'a>(&'a str);
+
+impl fmt::Display for Text<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_char('"')?;
+        for character in self.0.chars() {
+            match character {
+                '"' | '\\' => write!(f, "\\{character}")?,
+                '\n' => f.write_str("\\n")?,
+                '\t' => f.write_str("\\t")?,
+                control if control.is_control() => write!(f, "\\u{:04X}", u32::from(control))?,
+                plain => f.write_char(plain)?,
+            }
+        }
+        f.write_char('"')
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn text_and_numbers_are_written_as_toml_reads_them() {
+        assert_eq!(
+            Text("a\"b\\\n\u{7f}é\u{1}").to_string(),
+            r#""a\"b\\\n\u007Fé\u0001""#
+        );
+        for (number, expected) in [
+            (60.0, "60.0"),
+            (0.1, "0.1"),
+            (1e-7, "1e-7"),
+            (1e22, "1e22"),
+            (f64::NEG_INFINITY, "-inf"),
+        ] {
+            assert_eq!(Number(number).to_string(), expected);
+        }
+    }
+
+    #[test]
+    fn an_argument_of_each_type_is_written_with_all_it_says() {
+        let settings = [
+            ArgSpec::whole("seed", 0, i64::MAX)
+                .default(ArgValue::Whole(0))
+                .help("of the noise"),
+            ArgSpec::number("exposure", 0.1, 33.0)
+                .unit("ms")
+                .default(ArgValue::Number(8.0)),
+            ArgSpec::choice("pace", ["virtual", "real"]),
+            ArgSpec::path("table").optional(),
+        ];
+        let expected = r#"kind = "estimator"
+key = "forest"
+title = "a forest"
+
+[[args]]
+key = "seed"
+type = "whole"
+range = [0, 9223372036854775807]
+default = 0
+help = "of the noise"
+
+[[args]]
+key = "exposure"
+type = "number"
+range = [0.1, 33.0]
+unit = "ms"
+default = 8.0
+
+[[args]]
+key = "pace"
+type = "choice"
+choices = ["virtual", "real"]
+
+[[args]]
+key = "table"
+type = "path"
+optional = true
+"#;
+        assert_eq!(
+            estimator_table("org.example/forest", "a forest", &settings),
+            expected
+        );
+    }
+}
