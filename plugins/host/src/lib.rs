@@ -1,6 +1,8 @@
 #![doc = include_str!("../README.md")]
 
 mod call;
+#[cfg(target_os = "linux")]
+mod child;
 mod descriptor;
 mod device;
 mod estimator;
@@ -12,6 +14,11 @@ mod session;
 mod shown;
 
 pub use call::Failure;
+#[cfg(target_os = "linux")]
+pub use child::{
+    CHILD_ARGUMENT, Child, ChildError, ChildSession, ChildSpec, Confinement, Fate, Isolation,
+    Patience, main_if_child,
+};
 pub use device::{LentFrame, PluginSensor};
 pub use id::{PluginId, PluginIdError};
 pub use in_process::InProcess;

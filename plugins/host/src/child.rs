@@ -1,0 +1,37 @@
+//! Plugins in a process of their own.
+//!
+//! [`Child::start`] runs this program again as a *host child*: a process that confines itself ([`Confinement`]), loads what it serves only
+//! then, and answers calls. What it opens comes out as the device traits of core. Whatever a plugin does to its process, the host learns
+//! as a typed error of the devices of that child ([`ChildError`]), and nothing else is harmed.
+//!
+//! | what goes | how |
+//! |---|---|
+//! | orders: open, describe, discover, end | one pair of sockets a child |
+//! | calls of a device | one pair a device, served by a thread of its own: a call blocks its device alone |
+//! | interrupt, halt | a second pair a device, served by another thread: round the queue |
+//! | frames | memory of a sealed size, written in place by the child, copied once by the host |
+//!
+//! The host believes nothing: every length and number that comes is checked ([`wire`]), every call has a time after which the child is
+//! ended ([`Patience`]), and a child that breaks a rule is ended at once.
+
+mod error;
+mod fate;
+mod keeper;
+mod main_hook;
+mod memory;
+mod patience;
+mod proxy;
+mod sandbox;
+mod serve;
+mod session;
+mod socket;
+mod start;
+mod wire;
+
+pub use error::ChildError;
+pub use fate::Fate;
+pub use main_hook::{CHILD_ARGUMENT, main_if_child};
+pub use patience::Patience;
+pub use sandbox::{Confinement, Isolation};
+pub use session::ChildSession;
+pub use start::{Child, ChildSpec};

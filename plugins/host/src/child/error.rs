@@ -1,0 +1,198 @@
+//! What goes wrong between a host and its child.
+
+use std::fmt;
+
+use taceva_core::{Access, DriverError, DriverKey, ErrorKind, Found};
+
+use super::fate::Fate;
+use super::keeper::plain;
+use super::wire::Failure;
+
+/// The longest message of a plugin that is passed on, in characters.
+const MESSAGE_MAX: usize = 2000;
+
+/// Why a child did not do what it was asked.
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum ChildError {
+    /// It could not be started.
+    Start {
+        /// The name of the plugin.
+        plugin: String,
+        /// Why not.
+        why: String,
+    },
+    /// It started, and would not serve: it could not confine itself or load its plugin.
+    Refused {
+        /// The name of the plugin.
+        plugin: String,
+        /// What kind of failure it was.
+        kind: ErrorKind,
+        /// Why, in its words.
+        why: String,
+    },
+    /// It is gone.
+    Gone {
+        /// The name of the plugin.
+        plugin: String,
+        /// How it ended.
+        fate: Fate,
+        /// The last that it printed, control characters written out; empty if nothing.
+        printed: String,
+    },
+    /// What it should be asked does not fit into a message.
+    Unsendable {
+        /// Why not.
+        why: String,
+    },
+}
+
+impl ChildError {
+    /// What kind of failure it is.
+    pub fn kind(&self) -> ErrorKind {
+        match self {
+            ChildError::Start { .. } => ErrorKind::Internal,
+            ChildError::Refused { kind, .. } => *kind,
+            ChildError::Gone { .. } => ErrorKind::Disconnected,
+            ChildError::Unsendable { .. } => ErrorKind::InvalidArgument,
+        }
+    }
+
+    /// The same as an error of `driver` while it was `doing`.
+    pub fn of(self, driver: &DriverKey, doing: &str) -> DriverError {
+        DriverError::new(self.kind(), driver, doing.to_owned()).because(self)
+    }
+}
+
+impl fmt::Display for ChildError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            ChildError::Start { plugin, why } => {
+                write!(
+                    f,
+                    "the process of the plugin `{plugin}` did not start: {why}"
+                )
+            }
+            ChildError::Refused { plugin, why, .. } => write!(f, "the plugin `{plugin}`: {why}"),
+            ChildError::Gone {
+                plugin,
+                fate,
+                printed,
+            } => {
+                write!(f, "the plugin `{plugin}` is gone: {fate}")?;
+                match printed.trim() {
+                    "" => Ok(()),
+                    printed => write!(f, "; it printed last: {}", last_lines(printed)),
+                }
+            }
+            ChildError::Unsendable { why } => f.write_str(why),
+        }
+    }
+}
+
+impl std::error::Error for ChildError {}
+
+/// The end of what was printed, short enough for a message.
+fn last_lines(printed: &str) -> String {
+    let lines: Vec<&str> = printed.lines().rev().take(3).collect();
+    let lines: Vec<&str> = lines.into_iter().rev().collect();
+    let text = lines.join(" / ");
+    let surplus = text.chars().count().saturating_sub(400);
+    text.chars().skip(surplus).collect()
+}
+
+impl Failure {
+    /// What an error of a driver says.
+    pub(crate) fn of(error: &DriverError) -> Failure {
+        Failure {
+            kind: error.kind(),
+            doing: cut(error.doing()),
+            cause: std::error::Error::source(error).map(|cause| cut(&cause.to_string())),
+        }
+    }
+
+    /// A failure in words of the child itself.
+    pub(crate) fn new(kind: ErrorKind, doing: &str, why: &str) -> Failure {
+        Failure {
+            kind,
+            doing: doing.to_owned(),
+            cause: Some(cut(why)),
+        }
+    }
+
+    /// The error that `driver` would have given without a child between; what it says is shown and never obeyed.
+    pub(crate) fn to_error(&self, driver: &DriverKey) -> DriverError {
+        let error = DriverError::new(self.kind, driver, plain(&cut(&self.doing)));
+        match &self.cause {
+            Some(cause) => error.because(plain(&cut(cause))),
+            None => error,
+        }
+    }
+}
+
+/// What a plugin says of the devices it sees, shown and never obeyed.
+pub(crate) fn plain_found(found: Found) -> Found {
+    Found {
+        title: plain(&cut(&found.title)),
+        arguments: plain(&cut(&found.arguments)),
+        access: match found.access {
+            Access::Denied { remedy } => Access::Denied {
+                remedy: plain(&cut(&remedy)),
+            },
+            access => access,
+        },
+        driver: found.driver,
+    }
+}
+
+fn cut(text: &str) -> String {
+    match text.char_indices().nth(MESSAGE_MAX) {
+        Some((end, _)) => format!("{}…", &text[..end]),
+        None => text.to_owned(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const DRIVER: DriverKey = DriverKey::fixed("org.example.x/camera");
+
+    #[test]
+    fn an_error_says_the_same_on_both_sides_of_the_boundary() {
+        let bare = DriverError::new(ErrorKind::Timeout, &DRIVER, "capture a frame");
+        assert_eq!(
+            Failure::of(&bare).to_error(&DRIVER).to_string(),
+            bare.to_string()
+        );
+        let caused = bare.because("no frame within 40ms");
+        let copy = Failure::of(&caused).to_error(&DRIVER);
+        assert_eq!(copy.to_string(), caused.to_string());
+        assert_eq!(copy.kind(), ErrorKind::Timeout);
+    }
+
+    #[test]
+    fn a_message_of_a_plugin_is_short_and_harms_no_terminal() {
+        let failure = Failure::new(
+            ErrorKind::DeviceFault,
+            "read",
+            &format!("\u{1b}]52;c;\u{7}{}", "x".repeat(10_000)),
+        );
+        let text = failure.to_error(&DRIVER).to_string();
+        assert!(text.contains("\\u{1b}]52"), "{text}");
+        assert!(text.chars().count() < 2200);
+    }
+
+    #[test]
+    fn a_child_that_is_gone_says_how_and_what_it_printed_last() {
+        let gone = ChildError::Gone {
+            plugin: "org.example.x".to_owned(),
+            fate: Fate::Exited { code: 0 },
+            printed: "one\ntwo\nthree\nfour\n".to_owned(),
+        };
+        assert_eq!(
+            gone.of(&DRIVER, "capture a frame").to_string(),
+            "org.example.x/camera: cannot capture a frame: the plugin `org.example.x` is gone: its process exited by itself with code 0; it printed last: two / three / four"
+        );
+    }
+}

@@ -1,0 +1,121 @@
+//! The first thing that `main` does: find out whether this process is a host child.
+#![expect(
+    unsafe_code,
+    reason = "a process that begins owns the files it inherited, and one that ends must not run what a plugin left to be run at its end"
+)]
+
+use std::ffi::OsStr;
+use std::fs::File;
+use std::os::fd::{AsFd, FromRawFd, OwnedFd, RawFd};
+use std::sync::Arc;
+
+use rustix::io::fcntl_dupfd_cloexec;
+use taceva_core::ErrorKind;
+
+use super::sandbox::{Isolation, confine, seal};
+use super::serve::serve;
+use super::socket::Socket;
+use super::wire::{Failure, Greeting, Hello};
+use crate::session::Session;
+
+/// The first argument of a host child. Nobody types it.
+pub const CHILD_ARGUMENT: &str = "--taceva-host-child";
+
+/// Returns at once, unless this process was started as a host child: then it confines itself, lets `load` load what it serves from the
+/// files that it was given, serves until its host is gone, and ends.
+///
+/// A program that embeds the host calls this before anything else in `main`, while there is one thread and no file is open.
+///
+/// # Errors
+/// `load` says in words, and as a kind, why there is nothing to serve; the host passes it on.
+pub fn main_if_child(
+    load: impl FnOnce(Vec<File>) -> Result<Arc<dyn Session>, (ErrorKind, String)>,
+) {
+    let mut arguments = std::env::args_os().skip(1);
+    if arguments.next().as_deref() != Some(OsStr::new(CHILD_ARGUMENT)) {
+        return;
+    }
+    let code = match orders() {
+        Some(orders) => run(orders, load),
+        None => NOT_A_CHILD,
+    };
+    // SAFETY: ends the process without running what plugins registered to be run at its end.
+    unsafe { libc::_exit(code) }
+}
+
+/// The code of a process that was given the argument of a host child, and no host.
+const NOT_A_CHILD: i32 = 64;
+
+/// The socket to the host, moved away from standard input, which is empty from now on; every other file that was inherited is closed.
+fn orders() -> Option<Socket> {
+    let orders = fcntl_dupfd_cloexec(std::io::stdin().as_fd(), 3).ok()?;
+    let nothing = File::open("/dev/null").ok()?;
+    rustix::stdio::dup2_stdin(&nothing).ok()?;
+    drop(nothing);
+    // SAFETY: this process has just begun, so that nothing in it owns a file but what this function opened.
+    unsafe { close_all_but(&orders) };
+    Some(Socket::from(orders))
+}
+
+/// Closes every file but the standard ones and `kept`.
+///
+/// # Safety
+/// Nobody else owns an open file.
+unsafe fn close_all_but(kept: &OwnedFd) {
+    use std::os::fd::AsRawFd;
+    let Ok(entries) = std::fs::read_dir("/proc/self/fd") else {
+        return;
+    };
+    // Listed first: the folder that is read is a file too, and closed by the end of the list.
+    let open: Vec<RawFd> = entries
+        .flatten()
+        .filter_map(|entry| entry.file_name().to_str()?.parse().ok())
+        .collect();
+    for file in open {
+        if file > 2 && file != kept.as_raw_fd() && is_open(file) {
+            // SAFETY: open, and owned by nobody, as the caller promises.
+            drop(unsafe { OwnedFd::from_raw_fd(file) });
+        }
+    }
+}
+
+fn is_open(file: RawFd) -> bool {
+    std::fs::symlink_metadata(format!("/proc/self/fd/{file}")).is_ok()
+}
+
+fn run(
+    mut orders: Socket,
+    load: impl FnOnce(Vec<File>) -> Result<Arc<dyn Session>, (ErrorKind, String)>,
+) -> i32 {
+    let Ok(((sequence, hello), files)) = orders.receive_with_files::<(u32, Hello)>() else {
+        return NOT_A_CHILD;
+    };
+    let files = files.into_iter().map(File::from).collect();
+    let ready = prepare(&hello, files, load);
+    let (greeting, session) = match ready {
+        Ok((isolation, session)) => (Greeting::Ready { isolation }, Some(session)),
+        Err((kind, why)) => {
+            let failure = Failure::new(kind, "serve", &why);
+            (Greeting::Refused { failure }, None)
+        }
+    };
+    if orders.send(&(sequence, greeting), &[]).is_err() {
+        return 0;
+    }
+    serve(orders, session.as_deref());
+    // What it serves is closed as it should be, while the host watches the clock.
+    drop(session);
+    0
+}
+
+fn prepare(
+    hello: &Hello,
+    files: Vec<File>,
+    load: impl FnOnce(Vec<File>) -> Result<Arc<dyn Session>, (ErrorKind, String)>,
+) -> Result<(Isolation, Arc<dyn Session>), (ErrorKind, String)> {
+    let denied = |why| (ErrorKind::PermissionDenied, why);
+    let isolation = confine(&hello.confinement, hello.parent).map_err(denied)?;
+    let session = load(files)?;
+    seal(&isolation).map_err(denied)?;
+    Ok((isolation, session))
+}

@@ -1,0 +1,15 @@
+//! What a child may do: said by the host, enforced by the child upon itself before it loads anything, and reported back.
+
+mod confinement;
+mod enforce;
+mod files;
+mod identity;
+mod isolation;
+mod system_calls;
+
+pub use confinement::Confinement;
+pub use isolation::Isolation;
+
+use crate::manifest::Need;
+
+pub(crate) use enforce::{confine, seal};

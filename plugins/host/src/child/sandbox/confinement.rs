@@ -1,0 +1,50 @@
+//! What a child confines itself to.
+
+use super::Need;
+use crate::child::wire::{Malformed, Reader, Wire, fields};
+
+/// What a child must confine itself to before it loads anything.
+///
+/// Whatever stands here, it gets no other file than the libraries of the system, no socket that it does not need, no program to start, no
+/// other process to see, and no memory that is writable and executable.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Confinement {
+    /// How much memory it may address, in bytes.
+    pub memory: u64,
+    /// How many files it may hold open.
+    pub files: u64,
+    /// What it reaches outside, as its manifest declares and its user allows.
+    pub needs: Vec<Need>,
+    /// Whether a kernel that enforces only a part will do; without, the child refuses to start.
+    pub accepts_less: bool,
+}
+
+impl Default for Confinement {
+    /// 4 GiB of addresses, 256 files, nothing outside, and nothing less.
+    fn default() -> Confinement {
+        Confinement {
+            memory: 4 << 30,
+            files: 256,
+            needs: Vec::new(),
+            accepts_less: false,
+        }
+    }
+}
+
+fields!(Confinement {
+    memory,
+    files,
+    needs,
+    accepts_less
+});
+
+impl Wire for Need {
+    fn write(&self, into: &mut Vec<u8>) {
+        self.to_string().write(into);
+    }
+
+    fn read(from: &mut Reader<'_>) -> Result<Need, Malformed> {
+        let text = String::read(from)?;
+        text.parse().map_err(|_| from.malformed("a need"))
+    }
+}

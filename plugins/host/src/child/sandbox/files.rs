@@ -1,0 +1,153 @@
+//! Files, ports and other processes, closed off by Landlock.
+
+use std::path::{Path, PathBuf};
+
+use landlock::{
+    ABI, Access, AccessFs, AccessNet, BitFlags, CompatLevel, Compatible, LandlockStatus, NetPort,
+    PathBeneath, PathFd, Ruleset, RulesetAttr, RulesetCreated, RulesetCreatedAttr, RulesetError,
+    Scope,
+};
+
+use super::Need;
+
+/// The newest version of Landlock whose rights are handled; an older kernel handles what it knows.
+const NEWEST: ABI = ABI::V7;
+
+/// What is read by the loader and by the C library: no file of a user.
+const READABLE: [&str; 11] = [
+    "/lib",
+    "/lib64",
+    "/usr/lib",
+    "/usr/lib64",
+    "/usr/local/lib",
+    "/etc/ld.so.cache",
+    "/etc/localtime",
+    "/usr/share/zoneinfo",
+    "/dev/zero",
+    "/dev/random",
+    "/dev/urandom",
+];
+
+/// Where the devices of USB and what describes them are.
+const USB: [&str; 3] = ["/dev/bus/usb", "/sys/bus/usb", "/sys/devices"];
+
+/// Closes off every file but the libraries of the system and the devices needed, every TCP port but those needed, and every other process.
+/// Says which version of Landlock does so.
+pub(super) fn close_off(needs: &[Need]) -> Result<Option<u32>, String> {
+    restrict(needs).map_err(|error| format!("cannot close off files: {error}"))
+}
+
+fn restrict(needs: &[Need]) -> Result<Option<u32>, RulesetError> {
+    let ruleset = Ruleset::default()
+        .set_compatibility(CompatLevel::BestEffort)
+        .handle_access(AccessFs::from_all(NEWEST))?
+        .handle_access(AccessNet::from_all(NEWEST))?
+        .scope(Scope::from_all(NEWEST))?
+        .create()?;
+    // Without the right to execute: a library is mapped by whoever may read it.
+    let read = AccessFs::ReadFile | AccessFs::ReadDir;
+    let write = AccessFs::ReadFile | AccessFs::WriteFile;
+    let device = read | AccessFs::WriteFile | AccessFs::IoctlDev;
+    let mut ruleset = allow(ruleset, READABLE.iter().map(Path::new), read)?;
+    ruleset = allow(ruleset, [Path::new("/dev/null")], write)?;
+    let devices = devices(needs);
+    ruleset = allow(ruleset, devices.iter().map(PathBuf::as_path), device)?;
+    if needs.contains(&Need::Usb) {
+        ruleset = allow(ruleset, USB.iter().map(Path::new), device)?;
+    }
+    for need in needs {
+        if let Need::Tcp { port, .. } = need {
+            ruleset = ruleset.add_rule(NetPort::new(*port, AccessNet::ConnectTcp))?;
+        }
+    }
+    let status = ruleset.restrict_self()?;
+    Ok(match status.landlock {
+        LandlockStatus::Available {
+            effective_abi,
+            kernel_abi,
+        } => {
+            let version = kernel_abi.unwrap_or(effective_abi as i32);
+            u32::try_from(version).ok()
+        }
+        LandlockStatus::NotEnabled | LandlockStatus::NotImplemented => None,
+    })
+}
+
+/// Allows `access` to the paths that exist; of a file only what a file can have.
+fn allow<'a>(
+    mut ruleset: RulesetCreated,
+    paths: impl IntoIterator<Item = &'a Path>,
+    access: BitFlags<AccessFs>,
+) -> Result<RulesetCreated, RulesetError> {
+    for path in paths {
+        let Ok(file) = PathFd::new(path) else {
+            continue;
+        };
+        let access = if path.is_dir() {
+            access
+        } else {
+            access & AccessFs::from_file(NEWEST)
+        };
+        ruleset = ruleset.add_rule(PathBeneath::new(file, access))?;
+    }
+    Ok(ruleset)
+}
+
+/// The serial ports among `needs` that are there now.
+pub(super) fn devices(needs: &[Need]) -> Vec<PathBuf> {
+    let mut devices = Vec::new();
+    for need in needs {
+        if let Need::Serial { path } = need {
+            devices.extend(matching(path));
+        }
+    }
+    devices.sort();
+    devices.dedup();
+    devices
+}
+
+/// The paths that are there and match `pattern`, in which `*` stands for anything but `/`.
+fn matching(pattern: &str) -> Vec<PathBuf> {
+    let mut found = vec![PathBuf::from("/")];
+    for part in pattern.split('/').filter(|part| !part.is_empty()) {
+        found = found
+            .iter()
+            .flat_map(|folder| {
+                let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
+                entries.map(|entry| entry.path())
+            })
+            .filter(|path| {
+                let name = path.file_name().and_then(|name| name.to_str());
+                name.is_some_and(|name| matches(part, name))
+            })
+            .collect();
+    }
+    found
+}
+
+fn matches(pattern: &str, name: &str) -> bool {
+    match pattern.split_once('*') {
+        None => pattern == name,
+        Some((beginning, rest)) => name.strip_prefix(beginning).is_some_and(|left| {
+            left.char_indices()
+                .map(|(at, _)| at)
+                .chain([left.len()])
+                .any(|at| matches(rest, &left[at..]))
+        }),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_star_names_the_devices_that_are_there() {
+        let need = |text: &str| [text.parse::<Need>().expect("a need")];
+        assert!(devices(&need("serial:/dev/nul*")).contains(&PathBuf::from("/dev/null")));
+        assert!(devices(&need("serial:/dev/n*l")).contains(&PathBuf::from("/dev/null")));
+        assert!(devices(&need("serial:/dev/no-such-port*")).is_empty());
+        assert!(devices(&need("serial:/dev/nul")).is_empty());
+        assert!(devices(&[Need::Usb]).is_empty());
+    }
+}

@@ -1,0 +1,79 @@
+//! Who a child is, what it inherited, and how much it may use.
+
+use std::os::unix::fs::MetadataExt;
+
+use rustix::process::{
+    DumpableBehavior, Gid, Pid, Resource, Rlimit, Signal, Uid, geteuid, getppid,
+    set_dumpable_behavior, set_parent_process_death_signal, setrlimit,
+};
+use rustix::thread::{set_no_new_privs, set_thread_groups, set_thread_res_gid, set_thread_res_uid};
+
+use super::{Confinement, Need, files};
+
+/// The user and the group that own nothing, by custom.
+const NOBODY: u32 = 65_534;
+
+/// Sets the limits of what the process may use; they cannot be raised again.
+///
+/// There is no limit of processors' time: a run may last for days. A process that is its user's own has none of threads either, since that
+/// one would count the user's other programs; new processes are refused by the filter of system calls.
+pub(super) fn limit(confinement: &Confinement) -> Result<(), String> {
+    let limits = [
+        (Resource::As, confinement.memory, "memory"),
+        (Resource::Nofile, confinement.files, "open files"),
+        // What it shares with its host was made by its host; it writes no file of its own.
+        (Resource::Fsize, 0, "the size of files"),
+        (Resource::Core, 0, "core dumps"),
+        (Resource::Msgqueue, 0, "message queues"),
+        (Resource::Memlock, 0, "locked memory"),
+    ];
+    for (resource, most, name) in limits {
+        let limit = Rlimit {
+            current: Some(most),
+            maximum: Some(most),
+        };
+        setrlimit(resource, limit).map_err(|error| format!("cannot limit {name}: {error}"))?;
+    }
+    Ok(())
+}
+
+/// Becomes nobody, if it is root; of root's groups those remain that own a serial port it needs.
+pub(super) fn give_up_root(needs: &[Need]) -> Result<Option<u32>, String> {
+    if !geteuid().is_root() {
+        return Ok(None);
+    }
+    let mut groups: Vec<u32> = files::devices(needs)
+        .iter()
+        .filter_map(|path| path.metadata().ok())
+        .map(|metadata| metadata.gid())
+        .filter(|group| *group != 0)
+        .collect();
+    groups.sort_unstable();
+    groups.dedup();
+    let groups: Vec<Gid> = groups.into_iter().map(Gid::from_raw).collect();
+    let (user, group) = (Uid::from_raw(NOBODY), Gid::from_raw(NOBODY));
+    set_thread_groups(&groups)
+        .and_then(|()| set_thread_res_gid(group, group, group))
+        .and_then(|()| set_thread_res_uid(user, user, user))
+        .map_err(|error| format!("cannot become user {NOBODY}: {error}"))?;
+    Ok(Some(NOBODY))
+}
+
+/// Ends with the process that started it, shows its memory to nobody, and gains no privilege by starting a program.
+///
+/// After the change of user, which would undo the first.
+pub(super) fn end_with(parent: u32) -> Result<(), String> {
+    let said = |what: &str, error: rustix::io::Errno| format!("cannot {what}: {error}");
+    set_parent_process_death_signal(Some(Signal::KILL))
+        .map_err(|error| said("end with the process that started it", error))?;
+    // Whoever ended before that line sends no signal any more.
+    let is_there = getppid()
+        .map(Pid::as_raw_nonzero)
+        .map(std::num::NonZero::get);
+    if is_there.and_then(|found| u32::try_from(found).ok()) != Some(parent) {
+        return Err("the process that started it is gone".to_owned());
+    }
+    set_dumpable_behavior(DumpableBehavior::NotDumpable)
+        .map_err(|error| said("hide its memory", error))?;
+    set_no_new_privs(true).map_err(|error| said("give up new privileges", error))
+}

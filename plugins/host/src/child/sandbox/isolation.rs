@@ -1,0 +1,90 @@
+//! What is enforced upon a child.
+
+use std::fmt;
+
+use super::Need;
+use crate::child::wire::fields;
+
+/// What a child says is enforced upon it; it says so before it loads anything that could lie.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Isolation {
+    /// The version of Landlock that keeps it from files, ports and other processes; `None` where the kernel has none.
+    pub landlock: Option<u32>,
+    /// How many system calls it may make; `None` where they are not filtered.
+    pub system_calls: Option<u32>,
+    /// The user it became; `None` where it stayed the user that started it.
+    pub user: Option<u32>,
+    /// How much memory it may address, in bytes.
+    pub memory: u64,
+    /// What it reaches outside.
+    pub needs: Vec<Need>,
+}
+
+impl Isolation {
+    /// Whether everything is enforced that this machine could.
+    pub fn is_whole(&self) -> bool {
+        self.landlock
+            .is_some_and(|version| version >= LANDLOCK_WHOLE)
+            && self.system_calls.is_some()
+    }
+}
+
+/// The first version of Landlock that knows files, ports and signals.
+pub(super) const LANDLOCK_WHOLE: u32 = 6;
+
+impl fmt::Display for Isolation {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("a process of its own")?;
+        match self.landlock {
+            Some(version) => write!(f, ", files and ports closed by Landlock {version}")?,
+            None => f.write_str(", files and ports open: this kernel has no Landlock")?,
+        }
+        match self.system_calls {
+            Some(count) => write!(f, ", {count} system calls allowed")?,
+            None => f.write_str(", every system call allowed")?,
+        }
+        if let Some(user) = self.user {
+            write!(f, ", user {user}")?;
+        }
+        write!(f, ", {} MiB of memory", self.memory >> 20)?;
+        if !self.needs.is_empty() {
+            f.write_str(", may reach")?;
+            for (position, need) in self.needs.iter().enumerate() {
+                write!(f, "{}{need}", if position == 0 { " " } else { ", " })?;
+            }
+        }
+        Ok(())
+    }
+}
+
+fields!(Isolation {
+    landlock,
+    system_calls,
+    user,
+    memory,
+    needs
+});
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn it_says_in_words_what_is_enforced_and_what_is_not() {
+        let whole = Isolation {
+            landlock: Some(7),
+            system_calls: Some(60),
+            user: Some(65_534),
+            memory: 4 << 30,
+            needs: vec!["usb".parse().expect("a need")],
+        };
+        assert!(whole.is_whole());
+        assert_eq!(
+            whole.to_string(),
+            "a process of its own, files and ports closed by Landlock 7, 60 system calls allowed, user 65534, 4096 MiB of memory, may reach usb"
+        );
+        let bare = Isolation::default();
+        assert!(!bare.is_whole());
+        assert!(bare.to_string().contains("this kernel has no Landlock"));
+    }
+}

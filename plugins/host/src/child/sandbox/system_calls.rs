@@ -1,0 +1,385 @@
+//! The system calls that a child may make: a list of those that harm nobody, everything else answered with "not permitted".
+//!
+//! Filters add up: the first is set before the library is loaded, the second when it is, since only loading needs to map code. No memory
+//! is ever writable and executable, at either stage.
+
+use std::collections::BTreeMap;
+
+use libc::{
+    SYS_clone, SYS_clone3, SYS_fcntl, SYS_ioctl, SYS_kill, SYS_mmap, SYS_mprotect, SYS_prctl,
+    SYS_prlimit64, SYS_seccomp, SYS_socket, SYS_tgkill,
+};
+use seccompiler::{
+    BackendError, BpfProgram, SeccompAction, SeccompCmpArgLen, SeccompCmpOp, SeccompCondition,
+    SeccompFilter, SeccompRule, TargetArch, apply_filter, apply_filter_all_threads,
+};
+
+use super::Need;
+
+/// Calls that are allowed whatever their arguments: memory, threads and time of the process itself, and files that are open or that
+/// Landlock lets it open.
+const ALWAYS: &[i64] = &[
+    // Memory.
+    libc::SYS_brk,
+    libc::SYS_madvise,
+    libc::SYS_mincore,
+    libc::SYS_mremap,
+    libc::SYS_munmap,
+    libc::SYS_membarrier,
+    // Files.
+    libc::SYS_close,
+    libc::SYS_dup,
+    libc::SYS_dup3,
+    libc::SYS_eventfd2,
+    libc::SYS_faccessat,
+    libc::SYS_faccessat2,
+    libc::SYS_fstat,
+    libc::SYS_fstatfs,
+    libc::SYS_getcwd,
+    libc::SYS_getdents64,
+    libc::SYS_lseek,
+    libc::SYS_newfstatat,
+    libc::SYS_openat,
+    libc::SYS_pipe2,
+    libc::SYS_pread64,
+    libc::SYS_pwrite64,
+    libc::SYS_read,
+    libc::SYS_readlinkat,
+    libc::SYS_readv,
+    libc::SYS_statx,
+    libc::SYS_write,
+    libc::SYS_writev,
+    // Waiting, and the sockets that it was given.
+    libc::SYS_epoll_create1,
+    libc::SYS_epoll_ctl,
+    libc::SYS_epoll_pwait,
+    libc::SYS_ppoll,
+    libc::SYS_pselect6,
+    libc::SYS_recvfrom,
+    libc::SYS_recvmsg,
+    libc::SYS_sendmsg,
+    libc::SYS_sendto,
+    libc::SYS_shutdown,
+    // Threads.
+    libc::SYS_exit,
+    libc::SYS_exit_group,
+    libc::SYS_futex,
+    libc::SYS_get_robust_list,
+    libc::SYS_getcpu,
+    libc::SYS_rseq,
+    libc::SYS_sched_getaffinity,
+    libc::SYS_sched_getparam,
+    libc::SYS_sched_getscheduler,
+    libc::SYS_sched_yield,
+    libc::SYS_set_robust_list,
+    libc::SYS_set_tid_address,
+    // Time.
+    libc::SYS_clock_getres,
+    libc::SYS_clock_gettime,
+    libc::SYS_clock_nanosleep,
+    libc::SYS_gettimeofday,
+    libc::SYS_nanosleep,
+    libc::SYS_timerfd_create,
+    libc::SYS_timerfd_gettime,
+    libc::SYS_timerfd_settime,
+    // Signals within the process.
+    libc::SYS_restart_syscall,
+    libc::SYS_rt_sigaction,
+    libc::SYS_rt_sigpending,
+    libc::SYS_rt_sigprocmask,
+    libc::SYS_rt_sigreturn,
+    libc::SYS_rt_sigsuspend,
+    libc::SYS_rt_sigtimedwait,
+    libc::SYS_sigaltstack,
+    // Who and where it is.
+    libc::SYS_getegid,
+    libc::SYS_geteuid,
+    libc::SYS_getgid,
+    libc::SYS_getpid,
+    libc::SYS_getppid,
+    libc::SYS_getrandom,
+    libc::SYS_getrusage,
+    libc::SYS_gettid,
+    libc::SYS_getuid,
+    libc::SYS_sysinfo,
+    libc::SYS_uname,
+];
+
+/// The same calls by the older numbers that one architecture still has.
+#[cfg(target_arch = "x86_64")]
+const ALWAYS_TOO: &[i64] = &[
+    libc::SYS_access,
+    libc::SYS_arch_prctl,
+    libc::SYS_dup2,
+    libc::SYS_epoll_wait,
+    libc::SYS_getdents,
+    libc::SYS_lstat,
+    libc::SYS_open,
+    libc::SYS_pause,
+    libc::SYS_pipe,
+    libc::SYS_poll,
+    libc::SYS_readlink,
+    libc::SYS_select,
+    libc::SYS_stat,
+    libc::SYS_time,
+];
+#[cfg(not(target_arch = "x86_64"))]
+const ALWAYS_TOO: &[i64] = &[];
+
+/// Calls of whoever has a socket of its own.
+const SOCKETS: &[i64] = &[
+    libc::SYS_bind,
+    libc::SYS_connect,
+    libc::SYS_getpeername,
+    libc::SYS_getsockname,
+    libc::SYS_getsockopt,
+    libc::SYS_setsockopt,
+];
+
+/// What `fcntl` may do: nothing that lets the kernel signal another process.
+const FILE_CONTROLS: &[i32] = &[
+    libc::F_DUPFD,
+    libc::F_DUPFD_CLOEXEC,
+    libc::F_GETFD,
+    libc::F_SETFD,
+    libc::F_GETFL,
+    libc::F_SETFL,
+    libc::F_GET_SEALS,
+];
+
+/// What `prctl` may do: names of threads and of memory, and questions.
+const PROCESS_CONTROLS: &[i32] = &[
+    libc::PR_SET_NAME,
+    libc::PR_GET_NAME,
+    libc::PR_SET_VMA,
+    libc::PR_GET_DUMPABLE,
+    libc::PR_GET_PDEATHSIG,
+    libc::PR_GET_NO_NEW_PRIVS,
+    // Set already, and asked for again by whoever adds a filter.
+    libc::PR_SET_NO_NEW_PRIVS,
+];
+
+type Rules = BTreeMap<i64, Vec<SeccompRule>>;
+
+/// Allows the calls of the list and those that `needs` take; says how many different ones.
+///
+/// # Errors
+/// What could not be done, in words.
+pub(super) fn filter_for_loading(needs: &[Need]) -> Result<Option<u32>, String> {
+    let rules = rules(needs).map_err(|error| said(&error))?;
+    let count = u32::try_from(rules.len()).ok();
+    // A denied call fails like one that needs a privilege; one that cannot be judged, like one that an old kernel lacks.
+    let denied = SeccompAction::Errno(libc::EPERM.unsigned_abs());
+    let allowed = program(rules, denied, SeccompAction::Allow)?;
+    let unknown = SeccompAction::Errno(libc::ENOSYS.unsigned_abs());
+    let absent = program(
+        Rules::from([(SYS_clone3, Vec::new())]),
+        SeccompAction::Allow,
+        unknown,
+    )?;
+    apply_filter(&absent).map_err(|error| said(&error))?;
+    apply_filter(&allowed).map_err(|error| said(&error))?;
+    Ok(count)
+}
+
+/// Denies mapping more code, on every thread.
+///
+/// # Errors
+/// As [`filter_for_loading`].
+pub(super) fn filter_after_loading() -> Result<(), String> {
+    let executable = || -> Result<Vec<SeccompRule>, BackendError> {
+        Ok(vec![rule(&[masked(2, libc::PROT_EXEC, libc::PROT_EXEC)?])?])
+    };
+    let rules = executable().map_err(|error| said(&error))?;
+    let denied = SeccompAction::Errno(libc::EPERM.unsigned_abs());
+    let rules = Rules::from([(SYS_mmap, rules)]);
+    let filter = program(rules, SeccompAction::Allow, denied)?;
+    apply_filter_all_threads(&filter).map_err(|error| said(&error))
+}
+
+fn said(error: &dyn std::fmt::Display) -> String {
+    format!("cannot filter system calls: {error}")
+}
+
+fn program(
+    rules: Rules,
+    otherwise: SeccompAction,
+    matching: SeccompAction,
+) -> Result<BpfProgram, String> {
+    let architecture = std::env::consts::ARCH;
+    let architecture = TargetArch::try_from(architecture).map_err(|error| said(&error))?;
+    SeccompFilter::new(rules, otherwise, matching, architecture)
+        .and_then(BpfProgram::try_from)
+        .map_err(|error| said(&error))
+}
+
+fn rules(needs: &[Need]) -> Result<Rules, BackendError> {
+    let own = u64::from(std::process::id());
+    let mut rules: Rules = ALWAYS
+        .iter()
+        .chain(ALWAYS_TOO)
+        .map(|call| (*call, Vec::new()))
+        .collect();
+    // Answered by the other filter: its arguments lie in memory, so the C library must fall back to `clone`, whose do not.
+    rules.insert(SYS_clone3, Vec::new());
+    rules.insert(
+        SYS_clone,
+        vec![rule(&[masked(0, libc::CLONE_THREAD, libc::CLONE_THREAD)?])?],
+    );
+    rules.insert(
+        SYS_mmap,
+        vec![
+            rule(&[masked(2, libc::PROT_EXEC, 0)?])?,
+            // Code comes from a file, unchanged.
+            rule(&[
+                masked(2, libc::PROT_EXEC | libc::PROT_WRITE, libc::PROT_EXEC)?,
+                masked(3, libc::MAP_ANONYMOUS | libc::MAP_SHARED, 0)?,
+            ])?,
+        ],
+    );
+    rules.insert(SYS_mprotect, vec![rule(&[masked(2, libc::PROT_EXEC, 0)?])?]);
+    for call in [SYS_kill, SYS_tgkill] {
+        rules.insert(call, vec![rule(&[equal(0, own)?])?]);
+    }
+    rules.insert(
+        SYS_prlimit64,
+        vec![rule(&[equal(0, 0)?])?, rule(&[equal(0, own)?])?],
+    );
+    // Filters only ever take more away: the second one is set by this.
+    let add_filter = u64::from(libc::SECCOMP_SET_MODE_FILTER);
+    rules.insert(SYS_seccomp, vec![rule(&[equal(0, add_filter)?])?]);
+    rules.insert(SYS_fcntl, any_of(1, FILE_CONTROLS)?);
+    rules.insert(SYS_prctl, any_of(0, PROCESS_CONTROLS)?);
+    rules.insert(SYS_ioctl, device_controls(needs)?);
+    let sockets = sockets(needs)?;
+    if !sockets.is_empty() {
+        rules.insert(SYS_socket, sockets);
+        rules.extend(SOCKETS.iter().map(|call| (*call, Vec::new())));
+    }
+    Ok(rules)
+}
+
+/// Questions about files that are open; whoever has a device may tell it anything.
+fn device_controls(needs: &[Need]) -> Result<Vec<SeccompRule>, BackendError> {
+    let has_device = needs
+        .iter()
+        .any(|need| matches!(need, Need::Usb | Need::Serial { .. }));
+    if has_device {
+        return Ok(Vec::new());
+    }
+    [libc::TCGETS, libc::FIONREAD, libc::FIONBIO, libc::FIOCLEX]
+        .into_iter()
+        .map(|request| rule(&[equal(1, request)?]))
+        .collect()
+}
+
+/// The kinds of socket that `needs` take.
+fn sockets(needs: &[Need]) -> Result<Vec<SeccompRule>, BackendError> {
+    // The flags beside the kind stand above its four bits.
+    let kind = |family: i32, kind: i32| {
+        rule(&[
+            equal(0, u64::from(family.unsigned_abs()))?,
+            masked(1, 0xF, kind)?,
+        ])
+    };
+    let mut rules = Vec::new();
+    for need in needs {
+        match need {
+            Need::Tcp { .. } => {
+                rules.push(kind(libc::AF_INET, libc::SOCK_STREAM)?);
+                rules.push(kind(libc::AF_INET6, libc::SOCK_STREAM)?);
+            }
+            Need::Udp { .. } => {
+                rules.push(kind(libc::AF_INET, libc::SOCK_DGRAM)?);
+                rules.push(kind(libc::AF_INET6, libc::SOCK_DGRAM)?);
+            }
+            // By which the kernel tells of devices that come and go.
+            Need::Usb => rules.push(rule(&[equal(
+                0,
+                u64::from(libc::AF_NETLINK.unsigned_abs()),
+            )?])?),
+            Need::Serial { .. } => {}
+        }
+    }
+    Ok(rules)
+}
+
+fn any_of(argument: u8, values: &[i32]) -> Result<Vec<SeccompRule>, BackendError> {
+    values
+        .iter()
+        .map(|value| rule(&[equal(argument, u64::from(value.unsigned_abs()))?]))
+        .collect()
+}
+
+fn rule(conditions: &[SeccompCondition]) -> Result<SeccompRule, BackendError> {
+    SeccompRule::new(conditions.to_vec())
+}
+
+/// The low half of the argument is `value`; the kernel reads no more of those that are compared here.
+fn equal(argument: u8, value: u64) -> Result<SeccompCondition, BackendError> {
+    SeccompCondition::new(argument, SeccompCmpArgLen::Dword, SeccompCmpOp::Eq, value)
+}
+
+/// The bits of the argument that `mask` has are those of `value`.
+fn masked(argument: u8, mask: i32, value: i32) -> Result<SeccompCondition, BackendError> {
+    let (mask, value) = (
+        u64::from(mask.unsigned_abs()),
+        u64::from(value.unsigned_abs()),
+    );
+    SeccompCondition::new(
+        argument,
+        SeccompCmpArgLen::Dword,
+        SeccompCmpOp::MaskedEq(mask),
+        value,
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sockets_are_allowed_to_those_who_need_them_alone() {
+        let need = |text: &str| [text.parse::<Need>().expect("a need")];
+        let count = |needs: &[Need]| rules(needs).expect("sound").len();
+        let bare = count(&[]);
+        assert_eq!(count(&need("serial:/dev/ttyUSB0")), bare);
+        assert_eq!(count(&need("tcp:10.0.0.1:502")), bare + 1 + SOCKETS.len());
+        assert!(!rules(&[]).expect("sound").contains_key(&SYS_socket));
+    }
+
+    #[test]
+    fn no_call_that_starts_a_program_or_looks_into_another_process_is_on_the_list() {
+        let rules = rules(&need_everything()).expect("sound");
+        for call in [
+            libc::SYS_execve,
+            libc::SYS_execveat,
+            libc::SYS_ptrace,
+            libc::SYS_process_vm_readv,
+            libc::SYS_process_vm_writev,
+            libc::SYS_pidfd_open,
+            libc::SYS_pidfd_getfd,
+            libc::SYS_mount,
+            libc::SYS_unshare,
+            libc::SYS_setns,
+            libc::SYS_memfd_create,
+            libc::SYS_io_uring_setup,
+            libc::SYS_bpf,
+            libc::SYS_keyctl,
+            libc::SYS_userfaultfd,
+        ] {
+            assert!(!rules.contains_key(&call), "{call}");
+        }
+    }
+
+    fn need_everything() -> Vec<Need> {
+        [
+            "usb",
+            "serial:/dev/ttyUSB*",
+            "tcp:10.0.0.1:502",
+            "udp:10.0.0.1:502",
+        ]
+        .map(|text| text.parse().expect("a need"))
+        .to_vec()
+    }
+}

@@ -1,0 +1,148 @@
+//! What a child does: it opens devices and answers calls to them, each device on threads of its own.
+
+mod answer;
+mod bench;
+mod device;
+
+use std::os::fd::OwnedFd;
+
+use taceva_core::{ArgSpec, ArgValue, Args, DriverError, DriverKey, DriverKind, ErrorKind};
+
+use super::socket::{LinkError, Socket};
+use super::wire::{Failure, Order, OrderAnswer};
+use crate::session::Session;
+use device::{Opening, guarded};
+
+/// Answers orders until the host is gone or says so. Without a session, only the last one.
+pub(super) fn serve(mut orders: Socket, session: Option<&dyn Session>) {
+    // Without a host there is nothing left to do, whatever the reason.
+    while let Ok(((sequence, order), files)) = orders.receive_with_files::<(u32, Order)>() {
+        let answer = match (order, session) {
+            (Order::Shutdown {}, _) | (_, None) => return,
+            (order, Some(session)) => obey(order, files, session),
+        };
+        let answer = answer.unwrap_or_else(|failure| OrderAnswer::Failed { failure });
+        if send_or_say_why(&mut orders, sequence, answer).is_err() {
+            return;
+        }
+    }
+}
+
+/// Sends an answer; one that is too long is replaced by a failure that says so.
+fn send_or_say_why(
+    orders: &mut Socket,
+    sequence: u32,
+    answer: OrderAnswer,
+) -> Result<(), LinkError> {
+    match orders.send(&(sequence, answer), &[]) {
+        Err(LinkError::Unsendable(why)) => {
+            let failure = Failure::new(ErrorKind::Protocol, "answer", &why);
+            let answer = OrderAnswer::Failed { failure };
+            orders.send(&(sequence, answer), &[])
+        }
+        sent => sent,
+    }
+}
+
+fn obey(order: Order, files: Vec<OwnedFd>, session: &dyn Session) -> Result<OrderAnswer, Failure> {
+    match order {
+        Order::Open { kind, driver, args } => {
+            let [calls, urgent] = <[OwnedFd; 2]>::try_from(files)
+                .map_err(|_| broken("two sockets beside an order to open"))?;
+            let opening = Opening { calls, urgent };
+            let device = open(session, kind, &driver, &arguments(&args)?, opening)?;
+            Ok(OrderAnswer::Opened { device })
+        }
+        Order::Describe { driver, args } => {
+            let args = arguments(&args)?;
+            let descriptor = called("describe itself", || session.describe(&driver, &args))?;
+            Ok(OrderAnswer::Described { descriptor })
+        }
+        Order::Discover { driver } => {
+            let found = called("look for devices", || session.discover(&driver))?;
+            Ok(OrderAnswer::Found { found })
+        }
+        Order::Bench { name } => {
+            let bench = guarded("find its bench", || session.bench(&name))?;
+            let is_there = bench.is_some();
+            if let Some((bench, calls)) = bench.zip(files.into_iter().next()) {
+                bench::serve(bench, calls)?;
+            }
+            Ok(OrderAnswer::Bench { is_there })
+        }
+        Order::Shutdown {} => Err(broken("an order that is answered")),
+    }
+}
+
+fn open(
+    session: &dyn Session,
+    kind: DriverKind,
+    driver: &DriverKey,
+    args: &Args,
+    opening: Opening,
+) -> Result<super::wire::OpenedDevice, Failure> {
+    let doing = "open the device";
+    match kind {
+        DriverKind::Sensor => opening.serve(called(doing, || session.sensor(driver, args))?),
+        DriverKind::Robot => opening.serve(called(doing, || session.robot(driver, args))?),
+        DriverKind::Force => opening.serve(called(doing, || session.force(driver, args))?),
+        DriverKind::Lighting => opening.serve(called(doing, || session.lighting(driver, args))?),
+        _ => {
+            let why = format!("devices of the kind {kind} are not known here");
+            Err(Failure::new(ErrorKind::Unsupported, doing, &why))
+        }
+    }
+}
+
+/// Calls the session; a panic is a failure like any other.
+fn called<T>(doing: &str, call: impl FnOnce() -> Result<T, DriverError>) -> Result<T, Failure> {
+    guarded(doing, call)?.map_err(|error| Failure::of(&error))
+}
+
+/// The arguments that the host has checked, as they were: declared here by what they are.
+fn arguments(pairs: &[(String, ArgValue)]) -> Result<Args, Failure> {
+    let specs: Vec<ArgSpec> = pairs
+        .iter()
+        .map(|(key, value)| match value {
+            ArgValue::Text(_) => ArgSpec::text(key),
+            ArgValue::Whole(_) => ArgSpec::whole(key, i64::MIN, i64::MAX),
+            ArgValue::Number(_) => ArgSpec::number(key, f64::NEG_INFINITY, f64::INFINITY),
+            ArgValue::Flag(_) => ArgSpec::flag(key),
+        })
+        .collect();
+    let texts = pairs.iter().map(|(key, value)| (key, value.to_string()));
+    Args::from_pairs(&specs, texts).map_err(|error| {
+        Failure::new(
+            ErrorKind::InvalidArgument,
+            "read the arguments",
+            &error.to_string(),
+        )
+    })
+}
+
+fn broken(expected: &str) -> Failure {
+    Failure::new(
+        ErrorKind::Protocol,
+        "read an order",
+        &format!("expected {expected}"),
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn arguments_arrive_as_they_were_whatever_they_are() {
+        let pairs = [
+            ("depth".to_owned(), ArgValue::Number(0.1 + 0.2)),
+            ("fast".to_owned(), ArgValue::Flag(false)),
+            ("seed".to_owned(), ArgValue::Whole(i64::MIN)),
+            ("table".to_owned(), ArgValue::Text(" a;b = 1\n".to_owned())),
+        ];
+        let args = arguments(&pairs).expect("sound");
+        for (key, value) in &pairs {
+            assert_eq!(args.get(key), Some(value));
+        }
+    }
+}

@@ -1,0 +1,182 @@
+//! A plugin in a child, as the host holds it.
+
+use std::collections::BTreeMap;
+use std::os::fd::AsFd;
+use std::sync::Arc;
+
+use taceva_core::{
+    ArgSpec, ArgValue, Args, Descriptor, DriverError, DriverKey, DriverKind, ErrorKind,
+    ForceTransducer, Found, Lighting, ModelError, Robot, Sensor, SimulatedBench,
+};
+
+use super::error::{ChildError, plain_found};
+use super::proxy::{self, BenchProxy, Link};
+use super::socket::Socket;
+use super::start::{Child, ChildSpec};
+use super::wire::{OpenedDevice, Order, OrderAnswer};
+use crate::session::{FitRequest, Saved, SavedRegressor, Session};
+
+/// The devices that one plugin has in one rig, all in one child.
+#[derive(Debug)]
+pub struct ChildSession {
+    child: Arc<Child>,
+    plugin: DriverKey,
+    arguments: BTreeMap<DriverKey, Vec<ArgSpec>>,
+}
+
+impl ChildSession {
+    /// Starts a child for `plugin`, whose drivers and estimators take the `arguments` that its manifest declares.
+    ///
+    /// # Errors
+    /// As [`Child::start`].
+    pub fn start(
+        spec: ChildSpec,
+        plugin: DriverKey,
+        arguments: BTreeMap<DriverKey, Vec<ArgSpec>>,
+    ) -> Result<ChildSession, ChildError> {
+        Ok(ChildSession {
+            child: Child::start(spec)?,
+            plugin,
+            arguments,
+        })
+    }
+
+    /// The process behind it.
+    pub fn child(&self) -> &Child {
+        &self.child
+    }
+
+    fn open(
+        &self,
+        kind: DriverKind,
+        driver: &DriverKey,
+        args: &Args,
+    ) -> Result<(Link, OpenedDevice), DriverError> {
+        let doing = format!("open the {kind}");
+        let no_socket = |error: rustix::io::Errno| {
+            DriverError::new(ErrorKind::Internal, driver, doing.clone()).because(error)
+        };
+        let (calls, their_calls) = Socket::pair().map_err(no_socket)?;
+        let (urgent, their_urgent) = Socket::pair().map_err(no_socket)?;
+        let order = Order::Open {
+            kind,
+            driver: driver.clone(),
+            args: self.pairs(driver, args),
+        };
+        let theirs = [their_calls.as_fd(), their_urgent.as_fd()];
+        let answer = self.child.order(&order, &theirs, &doing);
+        match answer.map_err(|error| error.of(driver, &doing))? {
+            OrderAnswer::Opened { device } => {
+                let link = Link::new(Arc::clone(&self.child), driver.clone(), calls, urgent);
+                Ok((link, device))
+            }
+            OrderAnswer::Failed { failure } => Err(failure.to_error(driver)),
+            _ => Err(self.other_answer(driver, &doing)),
+        }
+    }
+
+    /// The arguments by name, as the driver declares them.
+    fn pairs(&self, driver: &DriverKey, args: &Args) -> Vec<(String, ArgValue)> {
+        let specs = self.arguments.get(driver).into_iter().flatten();
+        specs
+            .filter_map(|spec| Some((spec.key.clone(), args.get(&spec.key)?.clone())))
+            .collect()
+    }
+
+    fn other_answer(&self, driver: &DriverKey, doing: &str) -> DriverError {
+        let error = self.child.life().broke("the answer to another order");
+        error.of(driver, doing)
+    }
+}
+
+impl Session for ChildSession {
+    fn describe(&self, driver: &DriverKey, args: &Args) -> Result<Descriptor, DriverError> {
+        let doing = "describe itself";
+        let order = Order::Describe {
+            driver: driver.clone(),
+            args: self.pairs(driver, args),
+        };
+        let answer = self.child.order(&order, &[], doing);
+        match answer.map_err(|error| error.of(driver, doing))? {
+            OrderAnswer::Described { descriptor } if descriptor.key() == driver => Ok(descriptor),
+            OrderAnswer::Failed { failure } => Err(failure.to_error(driver)),
+            _ => Err(self.other_answer(driver, doing)),
+        }
+    }
+
+    fn discover(&self, driver: &DriverKey) -> Result<Vec<Found>, DriverError> {
+        let doing = "look for devices";
+        let order = Order::Discover {
+            driver: driver.clone(),
+        };
+        let answer = self.child.order(&order, &[], doing);
+        match answer.map_err(|error| error.of(driver, doing))? {
+            OrderAnswer::Found { found } if found.iter().all(|found| found.driver == *driver) => {
+                Ok(found.into_iter().map(plain_found).collect())
+            }
+            OrderAnswer::Failed { failure } => Err(failure.to_error(driver)),
+            _ => Err(self.other_answer(driver, doing)),
+        }
+    }
+
+    fn sensor(&self, driver: &DriverKey, args: &Args) -> Result<Box<dyn Sensor>, DriverError> {
+        let (link, opened) = self.open(DriverKind::Sensor, driver, args)?;
+        proxy::sensor(link, opened)
+    }
+
+    fn robot(&self, driver: &DriverKey, args: &Args) -> Result<Box<dyn Robot>, DriverError> {
+        let (link, opened) = self.open(DriverKind::Robot, driver, args)?;
+        proxy::robot(link, opened)
+    }
+
+    fn force(
+        &self,
+        driver: &DriverKey,
+        args: &Args,
+    ) -> Result<Box<dyn ForceTransducer>, DriverError> {
+        let (link, opened) = self.open(DriverKind::Force, driver, args)?;
+        proxy::force(link, opened)
+    }
+
+    fn lighting(&self, driver: &DriverKey, args: &Args) -> Result<Box<dyn Lighting>, DriverError> {
+        let (link, opened) = self.open(DriverKind::Lighting, driver, args)?;
+        proxy::lighting(link, opened)
+    }
+
+    fn bench(&self, name: &str) -> Option<Arc<dyn SimulatedBench>> {
+        let (calls, theirs) = Socket::pair().ok()?;
+        let name = name.to_owned();
+        let order = Order::Bench { name };
+        match self
+            .child
+            .order(&order, &[theirs.as_fd()], "find its bench")
+        {
+            Ok(OrderAnswer::Bench { is_there: true }) => {
+                let child = Arc::clone(&self.child);
+                Some(Arc::new(BenchProxy::new(child, self.plugin.clone(), calls)))
+            }
+            _ => None,
+        }
+    }
+
+    fn fit(
+        &self,
+        estimator: &DriverKey,
+        _request: &FitRequest<'_>,
+    ) -> Result<Box<dyn SavedRegressor>, ModelError> {
+        Err(not_in_a_child(estimator))
+    }
+
+    fn load(
+        &self,
+        estimator: &DriverKey,
+        _saved: &Saved<'_>,
+    ) -> Result<Box<dyn SavedRegressor>, ModelError> {
+        Err(not_in_a_child(estimator))
+    }
+}
+
+fn not_in_a_child(estimator: &DriverKey) -> ModelError {
+    let message = format!("the estimator {estimator} cannot be reached in a child process yet");
+    ModelError::new(ErrorKind::Unsupported, message)
+}

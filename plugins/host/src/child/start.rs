@@ -1,0 +1,249 @@
+//! Starting a child, and what it is asked as a whole.
+
+use std::fmt;
+use std::os::fd::{AsFd, BorrowedFd, OwnedFd};
+use std::os::unix::process::CommandExt;
+use std::path::PathBuf;
+use std::process::{Command, Stdio};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::thread::JoinHandle;
+
+use rustix::pipe::{PipeFlags, pipe_with};
+
+use super::error::ChildError;
+use super::fate::Fate;
+use super::keeper::{Kept, Watch, keep};
+use super::main_hook::CHILD_ARGUMENT;
+use super::patience::Patience;
+use super::sandbox::{Confinement, Isolation};
+use super::socket::{Caller, LinkError, Socket};
+use super::wire::{Greeting, Hello, Order, OrderAnswer};
+
+/// The program that is running: the same file, even if another one has taken its name since.
+const THIS_PROGRAM: &str = "/proc/self/exe";
+
+/// What is called with how a child ended.
+type Ended = Box<dyn FnOnce(&Fate) + Send>;
+
+/// A child to be started.
+pub struct ChildSpec {
+    /// The name of the plugin, for messages.
+    pub plugin: String,
+    /// The program whose `main` begins with [`main_if_child`](super::main_if_child): this one, if none is named.
+    pub program: Option<PathBuf>,
+    /// What is handed to it, at most three files; it decides what they are.
+    pub files: Vec<OwnedFd>,
+    /// What it must confine itself to.
+    pub confinement: Confinement,
+    /// How long it is waited for.
+    pub patience: Patience,
+    /// Called once with how it ended, from the thread that watches it.
+    pub ended: Option<Ended>,
+}
+
+impl ChildSpec {
+    /// A child of this program that is given `files`, with the usual confinement and patience.
+    pub fn new(plugin: impl Into<String>, files: Vec<OwnedFd>) -> ChildSpec {
+        ChildSpec {
+            plugin: plugin.into(),
+            program: None,
+            files,
+            confinement: Confinement::default(),
+            patience: Patience::default(),
+            ended: None,
+        }
+    }
+}
+
+impl fmt::Debug for ChildSpec {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("ChildSpec")
+            .field("plugin", &self.plugin)
+            .field("program", &self.program)
+            .field("confinement", &self.confinement)
+            .finish_non_exhaustive()
+    }
+}
+
+/// What is known about a child for as long as anybody may ask, even after it ended.
+#[derive(Debug)]
+pub(crate) struct Life {
+    plugin: String,
+    pub(crate) watch: Arc<Watch>,
+    pub(crate) patience: Patience,
+}
+
+impl Life {
+    /// What became of a question that was not answered; waits until it is known how the child ended.
+    pub(crate) fn lost(&self, error: LinkError) -> ChildError {
+        match error {
+            LinkError::Unsendable(why) => return ChildError::Unsendable { why },
+            LinkError::Breach(what) => self.watch.condemn(Fate::Breach { what }),
+            LinkError::Closed => {}
+        }
+        let fate = self.watch.final_fate();
+        ChildError::Gone {
+            plugin: self.plugin.clone(),
+            fate,
+            printed: self.watch.printed(),
+        }
+    }
+
+    /// Ends a child that broke a rule.
+    pub(crate) fn broke(&self, what: &str) -> ChildError {
+        self.lost(LinkError::Breach(what.to_owned()))
+    }
+}
+
+/// A running child; it is asked to end when the last device of it and the last owner of this are gone.
+pub struct Child {
+    process: u32,
+    isolation: Isolation,
+    life: Arc<Life>,
+    orders: Mutex<Caller>,
+    keeper: Option<JoinHandle<()>>,
+}
+
+impl Child {
+    /// Starts a child and waits until it has confined itself and loaded what it serves.
+    ///
+    /// # Errors
+    /// [`ChildError`] if it does not start, or refuses to serve.
+    pub fn start(spec: ChildSpec) -> Result<Arc<Child>, ChildError> {
+        let ChildSpec {
+            plugin,
+            program,
+            files,
+            confinement,
+            patience,
+            ended,
+        } = spec;
+        let failed = |why: &dyn fmt::Display| ChildError::Start {
+            plugin: plugin.clone(),
+            why: why.to_string(),
+        };
+        let (orders, theirs) = Socket::pair().map_err(|error| failed(&error))?;
+        let (printed, output) = pipe_with(PipeFlags::CLOEXEC).map_err(|error| failed(&error))?;
+        let also_output = output.try_clone().map_err(|error| failed(&error))?;
+        let mut command = Command::new(program.unwrap_or_else(|| PathBuf::from(THIS_PROGRAM)));
+        command
+            .arg0("taceva-plugin")
+            .arg(CHILD_ARGUMENT)
+            .arg(&plugin)
+            .env_clear()
+            .current_dir("/")
+            // What a terminal sends to the programs in front of it, its host handles.
+            .process_group(0)
+            .stdin(Stdio::from(theirs))
+            .stdout(Stdio::from(output))
+            .stderr(Stdio::from(also_output));
+        let ended = ended.unwrap_or_else(|| Box::new(|_| {}));
+        let Kept {
+            process,
+            watch,
+            keeper,
+        } = keep(command, printed, ended).map_err(|error| failed(&error))?;
+        let mut child = Child {
+            process,
+            isolation: Isolation::default(),
+            life: Arc::new(Life {
+                plugin,
+                watch,
+                patience,
+            }),
+            orders: Mutex::new(Caller::from(orders)),
+            keeper: Some(keeper),
+        };
+        let hello = Hello {
+            parent: std::process::id(),
+            confinement,
+        };
+        child.isolation = child.greet(&hello, &files)?;
+        Ok(Arc::new(child))
+    }
+
+    fn greet(&self, hello: &Hello, files: &[OwnedFd]) -> Result<Isolation, ChildError> {
+        let files: Vec<_> = files.iter().map(AsFd::as_fd).collect();
+        let Life {
+            plugin,
+            watch,
+            patience,
+        } = &*self.life;
+        let call = watch.begin("start", patience.start);
+        let greeting = self.orders().ask(hello, &files);
+        watch.end(call);
+        match greeting.map_err(|error| self.life.lost(error))? {
+            Greeting::Ready { isolation } => Ok(isolation),
+            Greeting::Refused { failure } => Err(ChildError::Refused {
+                plugin: plugin.clone(),
+                kind: failure.kind,
+                why: super::keeper::plain(&failure.cause.unwrap_or(failure.doing)),
+            }),
+        }
+    }
+
+    /// The number of its process.
+    pub fn process(&self) -> u32 {
+        self.process
+    }
+
+    /// What is enforced upon it.
+    pub fn isolation(&self) -> &Isolation {
+        &self.isolation
+    }
+
+    /// How it ended; `None` while it lives.
+    pub fn fate(&self) -> Option<Fate> {
+        self.life.watch.fate()
+    }
+
+    /// Gives an order and waits for its answer.
+    pub(crate) fn order(
+        &self,
+        order: &Order,
+        files: &[BorrowedFd<'_>],
+        doing: &str,
+    ) -> Result<OrderAnswer, ChildError> {
+        // Before the time begins to count: another order may be under way.
+        let mut orders = self.orders();
+        let call = self.life.watch.begin(doing, self.life.patience.open);
+        let answer = orders.ask(order, files);
+        self.life.watch.end(call);
+        answer.map_err(|error| self.life.lost(error))
+    }
+
+    fn orders(&self) -> MutexGuard<'_, Caller> {
+        self.orders.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    pub(crate) fn life(&self) -> &Arc<Life> {
+        &self.life
+    }
+}
+
+impl Drop for Child {
+    fn drop(&mut self) {
+        let Life {
+            watch, patience, ..
+        } = &*self.life;
+        watch.expect_end();
+        let call = watch.begin("end", patience.end);
+        // It answers by ending. One that is gone already cannot be asked.
+        let _ = self.orders().ask::<OrderAnswer>(&Order::Shutdown {}, &[]);
+        if let Some(keeper) = self.keeper.take() {
+            // A keeper that panicked keeps nothing any more.
+            let _ = keeper.join();
+        }
+        watch.end(call);
+    }
+}
+
+impl fmt::Debug for Child {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Child")
+            .field("plugin", &self.life.plugin)
+            .field("process", &self.process)
+            .field("isolation", &self.isolation)
+            .finish_non_exhaustive()
+    }
+}

@@ -1,0 +1,322 @@
+//! How the host and its child write what they say to each other: little-endian, every length checked before it is believed.
+//!
+//! A message is one packet of at most [`MESSAGE_MAX`] bytes. Reading never panics, allocates no more than the packet is long, and refuses a
+//! message that is not read to its end.
+
+mod describe;
+mod message;
+mod value;
+
+pub(crate) use message::{
+    Answer, BenchAnswer, BenchCall, Call, Failure, Greeting, Hello, OpenedDevice, Order,
+    OrderAnswer, Urgent,
+};
+
+use std::fmt;
+use std::time::Duration;
+
+/// The longest message in bytes; pictures and arrays go through shared memory.
+pub(crate) const MESSAGE_MAX: usize = 64 * 1024;
+
+/// What can be sent.
+pub(crate) trait Wire: Sized {
+    /// Appends it to `into`.
+    fn write(&self, into: &mut Vec<u8>);
+
+    /// Takes it from the front of `from`.
+    fn read(from: &mut Reader<'_>) -> Result<Self, Malformed>;
+}
+
+/// The bytes of a message, or nothing if they are more than a packet holds.
+pub(crate) fn encode(message: &impl Wire, into: &mut Vec<u8>) -> Result<(), TooLong> {
+    into.clear();
+    message.write(into);
+    if into.len() > MESSAGE_MAX {
+        return Err(TooLong { bytes: into.len() });
+    }
+    Ok(())
+}
+
+/// The message that `bytes` are, all of them.
+pub(crate) fn decode<T: Wire>(bytes: &[u8]) -> Result<T, Malformed> {
+    let mut reader = Reader { bytes, at: 0 };
+    let message = T::read(&mut reader)?;
+    if reader.at < bytes.len() {
+        return Err(reader.malformed("the end of the message"));
+    }
+    Ok(message)
+}
+
+/// A message that no packet holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct TooLong {
+    bytes: usize,
+}
+
+impl fmt::Display for TooLong {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(
+            f,
+            "{} bytes to be sent, expected at most {MESSAGE_MAX}",
+            self.bytes
+        )
+    }
+}
+
+impl std::error::Error for TooLong {}
+
+/// Bytes that are no message.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Malformed {
+    at: usize,
+    expected: &'static str,
+}
+
+impl fmt::Display for Malformed {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(
+            f,
+            "byte {} of a message, expected {}",
+            self.at, self.expected
+        )
+    }
+}
+
+impl std::error::Error for Malformed {}
+
+/// The bytes of a message that are not read yet.
+pub(crate) struct Reader<'a> {
+    bytes: &'a [u8],
+    at: usize,
+}
+
+impl<'a> Reader<'a> {
+    /// What is wrong here.
+    pub(crate) fn malformed(&self, expected: &'static str) -> Malformed {
+        Malformed {
+            at: self.at,
+            expected,
+        }
+    }
+
+    fn take(&mut self, count: usize, expected: &'static str) -> Result<&'a [u8], Malformed> {
+        let end = self.at.checked_add(count);
+        match end.and_then(|end| self.bytes.get(self.at..end)) {
+            Some(taken) => {
+                self.at += count;
+                Ok(taken)
+            }
+            None => Err(self.malformed(expected)),
+        }
+    }
+
+    fn array<const N: usize>(&mut self, expected: &'static str) -> Result<[u8; N], Malformed> {
+        let taken = self.take(N, expected)?;
+        taken.try_into().map_err(|_| self.malformed(expected))
+    }
+
+    /// How many items follow, each of at least one byte: never more than bytes are left.
+    fn count(&mut self) -> Result<usize, Malformed> {
+        let left = self.bytes.len() - self.at;
+        let count = u32::read(self)?;
+        usize::try_from(count)
+            .ok()
+            .filter(|count| *count <= left)
+            .ok_or_else(|| self.malformed("a count of items that the message holds"))
+    }
+}
+
+fn write_count(count: usize, into: &mut Vec<u8>) {
+    // A count beyond 2³² makes a message that is far too long to be sent.
+    u32::try_from(count).unwrap_or(u32::MAX).write(into);
+}
+
+macro_rules! numbers {
+    ($($type:ty, $expected:literal;)*) => {$(
+        impl Wire for $type {
+            fn write(&self, into: &mut Vec<u8>) {
+                into.extend(self.to_le_bytes());
+            }
+            fn read(from: &mut Reader<'_>) -> Result<$type, Malformed> {
+                Ok(<$type>::from_le_bytes(from.array($expected)?))
+            }
+        }
+    )*};
+}
+
+numbers! {
+    u8, "a byte";
+    u32, "a number of 4 bytes";
+    i32, "a number of 4 bytes";
+    u64, "a number of 8 bytes";
+    i64, "a number of 8 bytes";
+    f64, "a number of 8 bytes";
+}
+
+impl Wire for bool {
+    fn write(&self, into: &mut Vec<u8>) {
+        u8::from(*self).write(into);
+    }
+
+    fn read(from: &mut Reader<'_>) -> Result<bool, Malformed> {
+        match u8::read(from)? {
+            0 => Ok(false),
+            1 => Ok(true),
+            _ => Err(from.malformed("0 or 1")),
+        }
+    }
+}
+
+impl Wire for String {
+    fn write(&self, into: &mut Vec<u8>) {
+        write_count(self.len(), into);
+        into.extend(self.as_bytes());
+    }
+
+    fn read(from: &mut Reader<'_>) -> Result<String, Malformed> {
+        let count = from.count()?;
+        let bytes = from.take(count, "the text")?;
+        std::str::from_utf8(bytes)
+            .map(str::to_owned)
+            .map_err(|_| from.malformed("UTF-8"))
+    }
+}
+
+impl<T: Wire> Wire for Option<T> {
+    fn write(&self, into: &mut Vec<u8>) {
+        self.is_some().write(into);
+        if let Some(value) = self {
+            value.write(into);
+        }
+    }
+
+    fn read(from: &mut Reader<'_>) -> Result<Option<T>, Malformed> {
+        bool::read(from)?.then(|| T::read(from)).transpose()
+    }
+}
+
+impl<T: Wire> Wire for Vec<T> {
+    fn write(&self, into: &mut Vec<u8>) {
+        write_count(self.len(), into);
+        for item in self {
+            item.write(into);
+        }
+    }
+
+    fn read(from: &mut Reader<'_>) -> Result<Vec<T>, Malformed> {
+        let count = from.count()?;
+        // Grown as it is read: a count that lies allocates nothing.
+        let mut items = Vec::new();
+        for _ in 0..count {
+            items.push(T::read(from)?);
+        }
+        Ok(items)
+    }
+}
+
+impl<A: Wire, B: Wire> Wire for (A, B) {
+    fn write(&self, into: &mut Vec<u8>) {
+        self.0.write(into);
+        self.1.write(into);
+    }
+
+    fn read(from: &mut Reader<'_>) -> Result<(A, B), Malformed> {
+        Ok((A::read(from)?, B::read(from)?))
+    }
+}
+
+impl Wire for Duration {
+    fn write(&self, into: &mut Vec<u8>) {
+        u64::try_from(self.as_nanos())
+            .unwrap_or(u64::MAX)
+            .write(into);
+    }
+
+    fn read(from: &mut Reader<'_>) -> Result<Duration, Malformed> {
+        Ok(Duration::from_nanos(u64::read(from)?))
+    }
+}
+
+/// Writes and reads a struct field by field, in the order given.
+macro_rules! fields {
+    ($type:ident { $($field:ident),* $(,)? }) => {
+        impl $crate::child::wire::Wire for $type {
+            fn write(&self, into: &mut Vec<u8>) {
+                let $type { $($field),* } = self;
+                $($crate::child::wire::Wire::write($field, into);)*
+            }
+            fn read(
+                from: &mut $crate::child::wire::Reader<'_>,
+            ) -> Result<$type, $crate::child::wire::Malformed> {
+                Ok($type { $($field: $crate::child::wire::Wire::read(from)?),* })
+            }
+        }
+    };
+}
+
+/// Writes and reads an enum: a byte that tells which variant it is, then its fields in the order given.
+macro_rules! variants {
+    ($type:ident, $expected:literal { $($tag:literal => $variant:ident { $($field:ident),* }),* $(,)? }) => {
+        impl $crate::child::wire::Wire for $type {
+            fn write(&self, into: &mut Vec<u8>) {
+                match self {
+                    $($type::$variant { $($field),* } => {
+                        into.push($tag);
+                        $($crate::child::wire::Wire::write($field, into);)*
+                    })*
+                }
+            }
+            fn read(
+                from: &mut $crate::child::wire::Reader<'_>,
+            ) -> Result<$type, $crate::child::wire::Malformed> {
+                match <u8 as $crate::child::wire::Wire>::read(from)? {
+                    $($tag => Ok($type::$variant {
+                        $($field: $crate::child::wire::Wire::read(from)?),*
+                    }),)*
+                    _ => Err(from.malformed($expected)),
+                }
+            }
+        }
+    };
+}
+
+pub(crate) use {fields, variants};
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_count_that_lies_is_refused_before_anything_is_allocated() {
+        let mut bytes = Vec::new();
+        u32::MAX.write(&mut bytes);
+        let error = decode::<Vec<u64>>(&bytes).expect_err("four billion numbers in no byte");
+        assert_eq!(
+            error.to_string(),
+            "byte 4 of a message, expected a count of items that the message holds"
+        );
+        assert!(decode::<String>(&bytes).is_err());
+    }
+
+    #[test]
+    fn a_message_is_read_to_its_end() {
+        let error = decode::<u8>(&[1, 2]).expect_err("a byte too many");
+        assert_eq!(
+            error.to_string(),
+            "byte 1 of a message, expected the end of the message"
+        );
+        assert!(decode::<u64>(&[0; 7]).is_err());
+        assert!(decode::<bool>(&[2]).is_err());
+        assert!(decode::<String>(&[1, 0, 0, 0, 0xFF]).is_err());
+    }
+
+    #[test]
+    fn what_no_packet_holds_is_refused_by_its_writer() {
+        let text = "x".repeat(MESSAGE_MAX);
+        let error = encode(&text, &mut Vec::new()).expect_err("four bytes too many");
+        assert_eq!(
+            error.to_string(),
+            "65540 bytes to be sent, expected at most 65536"
+        );
+    }
+}

@@ -1,0 +1,230 @@
+//! What is known about a driver before it is opened, as it crosses: checked again where it arrives.
+
+use taceva_core::{
+    ArgKind, ArgSpec, Descriptor, DescriptorSpec, DriverKey, DriverSource, Facts, Footprint,
+    ForceFacts, LightingFacts, Outline, Presence, RobotFacts, SensorFacts, Workspace,
+};
+
+use super::value::listed;
+use super::{Malformed, Reader, Wire, fields};
+
+listed! {
+    DriverSource, [DriverSource::Real, DriverSource::Simulated, DriverSource::Recorded], "where readings come from";
+}
+
+fields!(Workspace { least, greatest });
+fields!(RobotFacts {
+    workspace,
+    speed_max,
+    repeatability,
+    guarded_motion
+});
+fields!(ForceFacts {
+    axes,
+    rate,
+    force_max,
+    tare
+});
+fields!(LightingFacts { scenes });
+fields!(SensorFacts {
+    frame,
+    rate,
+    opaque,
+    markers,
+    scenes,
+    footprint,
+    depth_max,
+    force_max,
+    camera,
+    gel_thickness,
+    field_of_view_mm2
+});
+fields!(ArgSpec {
+    key,
+    kind,
+    unit,
+    presence,
+    help
+});
+
+impl Wire for [u32; 2] {
+    fn write(&self, into: &mut Vec<u8>) {
+        (self[0], self[1]).write(into);
+    }
+
+    fn read(from: &mut Reader<'_>) -> Result<[u32; 2], Malformed> {
+        Ok([u32::read(from)?, u32::read(from)?])
+    }
+}
+
+impl Wire for DriverKey {
+    fn write(&self, into: &mut Vec<u8>) {
+        self.as_str().to_owned().write(into);
+    }
+
+    fn read(from: &mut Reader<'_>) -> Result<DriverKey, Malformed> {
+        String::read(from)?
+            .parse()
+            .map_err(|_| from.malformed("the key of a driver"))
+    }
+}
+
+impl Wire for Footprint {
+    fn write(&self, into: &mut Vec<u8>) {
+        // An outline of a kind that is not known here is written as one that no reader takes.
+        let (tag, [x, y]) = match self.outline() {
+            Outline::Disc { .. } => (0_u8, self.half_extent()),
+            Outline::Rectangle { .. } => (1, self.half_extent()),
+            _ => (u8::MAX, self.half_extent()),
+        };
+        tag.write(into);
+        (x.to_millimetres(), y.to_millimetres()).write(into);
+        self.depth_max()
+            .map(|depth| depth.to_millimetres())
+            .write(into);
+    }
+
+    fn read(from: &mut Reader<'_>) -> Result<Footprint, Malformed> {
+        let tag = u8::read(from)?;
+        let (x, y) = <(f64, f64)>::read(from)?;
+        let depth_max = Option::<f64>::read(from)?;
+        let footprint = match tag {
+            0 => Footprint::disc(x, depth_max),
+            1 => Footprint::rectangle(x, y, depth_max),
+            _ => return Err(from.malformed("an outline")),
+        };
+        footprint.map_err(|_| from.malformed("the lengths of a footprint"))
+    }
+}
+
+impl Wire for Facts {
+    fn write(&self, into: &mut Vec<u8>) {
+        self.kind().write(into);
+        match self {
+            Facts::Sensor(facts) => facts.write(into),
+            Facts::Robot(facts) => facts.write(into),
+            Facts::Force(facts) => facts.write(into),
+            Facts::Lighting(facts) => facts.write(into),
+            // Facts of a kind that is not known here have a kind that no reader takes.
+            _ => {}
+        }
+    }
+
+    fn read(from: &mut Reader<'_>) -> Result<Facts, Malformed> {
+        use taceva_core::DriverKind;
+        Ok(match DriverKind::read(from)? {
+            DriverKind::Sensor => Facts::Sensor(Box::new(Wire::read(from)?)),
+            DriverKind::Robot => Facts::Robot(Wire::read(from)?),
+            DriverKind::Force => Facts::Force(Wire::read(from)?),
+            DriverKind::Lighting => Facts::Lighting(Wire::read(from)?),
+            _ => return Err(from.malformed("facts")),
+        })
+    }
+}
+
+impl Wire for ArgKind {
+    fn write(&self, into: &mut Vec<u8>) {
+        match self {
+            ArgKind::Text => 0_u8.write(into),
+            ArgKind::Path => 1_u8.write(into),
+            ArgKind::Whole { least, most } => (2_u8, (*least, *most)).write(into),
+            ArgKind::Number { least, most } => (3_u8, (*least, *most)).write(into),
+            ArgKind::Choice { of } => (4_u8, of.clone()).write(into),
+            ArgKind::Flag => 5_u8.write(into),
+            // A kind that is not known here is written as one that no reader takes.
+            _ => u8::MAX.write(into),
+        }
+    }
+
+    fn read(from: &mut Reader<'_>) -> Result<ArgKind, Malformed> {
+        Ok(match u8::read(from)? {
+            0 => ArgKind::Text,
+            1 => ArgKind::Path,
+            2 => ArgKind::Whole {
+                least: Wire::read(from)?,
+                most: Wire::read(from)?,
+            },
+            3 => ArgKind::Number {
+                least: Wire::read(from)?,
+                most: Wire::read(from)?,
+            },
+            4 => ArgKind::Choice {
+                of: Wire::read(from)?,
+            },
+            5 => ArgKind::Flag,
+            _ => return Err(from.malformed("a type of argument")),
+        })
+    }
+}
+
+impl Wire for Presence {
+    fn write(&self, into: &mut Vec<u8>) {
+        match self {
+            Presence::Required => 0_u8.write(into),
+            Presence::Optional => 1_u8.write(into),
+            Presence::Default(value) => (2_u8, value.clone()).write(into),
+        }
+    }
+
+    fn read(from: &mut Reader<'_>) -> Result<Presence, Malformed> {
+        Ok(match u8::read(from)? {
+            0 => Presence::Required,
+            1 => Presence::Optional,
+            2 => Presence::Default(Wire::read(from)?),
+            _ => return Err(from.malformed("whether an argument must be given")),
+        })
+    }
+}
+
+impl Wire for Descriptor {
+    fn write(&self, into: &mut Vec<u8>) {
+        self.key().write(into);
+        self.title().to_owned().write(into);
+        self.source().write(into);
+        self.facts().write(into);
+        self.arguments().to_vec().write(into);
+    }
+
+    fn read(from: &mut Reader<'_>) -> Result<Descriptor, Malformed> {
+        let spec = DescriptorSpec {
+            key: Wire::read(from)?,
+            title: Wire::read(from)?,
+            source: Wire::read(from)?,
+            facts: Wire::read(from)?,
+            arguments: Wire::read(from)?,
+        };
+        spec.check()
+            .map_err(|_| from.malformed("a description that does not contradict itself"))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::child::wire::{decode, encode};
+    use taceva_core::{Device, ForceTransducer, Lighting, Registry, Robot, Sensor};
+    use taceva_sim as _;
+
+    fn survive<D: Device + ?Sized + 'static>(registry: &Registry<D>) {
+        assert!(!registry.is_empty(), "{:?}", D::KIND);
+        for factory in registry.iter() {
+            let mut bytes = Vec::new();
+            encode(factory.descriptor(), &mut bytes).expect("short");
+            assert_eq!(
+                decode::<Descriptor>(&bytes).as_ref(),
+                Ok(factory.descriptor())
+            );
+            for cut in 0..bytes.len() {
+                assert!(decode::<Descriptor>(&bytes[..cut]).is_err());
+            }
+        }
+    }
+
+    #[test]
+    fn the_description_of_every_simulated_device_comes_back_as_it_went() {
+        survive(&Registry::<dyn Sensor>::builtin().expect("sound"));
+        survive(&Registry::<dyn Robot>::builtin().expect("sound"));
+        survive(&Registry::<dyn ForceTransducer>::builtin().expect("sound"));
+        survive(&Registry::<dyn Lighting>::builtin().expect("sound"));
+    }
+}

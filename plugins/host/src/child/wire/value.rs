@@ -1,0 +1,145 @@
+//! The values of core as they cross: every number by its bits, so that a driver says the same through a child as without one.
+
+use taceva_core::{
+    Axes, Axis, Deadline, Degree, DriverKind, ErrorKind, FrameInfo, GratingKind, Guard,
+    GuardedStop, Hertz, Millimetre, Nanometre, Newton, NewtonMillimetre, PixelFormat, Point, Pose,
+    Rotation, Specimen, Speed, Stamp, Wrench,
+};
+
+use super::{Malformed, Reader, Wire, fields, variants};
+
+macro_rules! quantities {
+    ($($type:ident),*) => {$(
+        impl Wire for $type {
+            fn write(&self, into: &mut Vec<u8>) {
+                self.0.write(into);
+            }
+            fn read(from: &mut Reader<'_>) -> Result<$type, Malformed> {
+                Ok($type(Wire::read(from)?))
+            }
+        }
+    )*};
+}
+
+quantities!(
+    Millimetre,
+    Newton,
+    NewtonMillimetre,
+    Degree,
+    Hertz,
+    Nanometre
+);
+
+fields!(Point { x, y, z });
+fields!(Rotation { x, y, z });
+fields!(Pose { position, rotation });
+fields!(Wrench { force, torque });
+fields!(Stamp {
+    valid_s,
+    received_s
+});
+fields!(FrameInfo {
+    width,
+    height,
+    format
+});
+fields!(Guard { force });
+
+variants!(GuardedStop, "how a guarded motion ended" {
+    0 => Arrived { stamp },
+    1 => Guarded { pose, stamp },
+});
+
+variants!(Specimen, "a specimen" {
+    0 => Sphere { radius },
+    1 => Grating { kind, spacing },
+});
+
+impl<T: Wire> Wire for [T; 3] {
+    fn write(&self, into: &mut Vec<u8>) {
+        for item in self {
+            item.write(into);
+        }
+    }
+
+    fn read(from: &mut Reader<'_>) -> Result<[T; 3], Malformed> {
+        Ok([T::read(from)?, T::read(from)?, T::read(from)?])
+    }
+}
+
+impl Wire for Deadline {
+    fn write(&self, into: &mut Vec<u8>) {
+        self.remaining().write(into);
+    }
+
+    fn read(from: &mut Reader<'_>) -> Result<Deadline, Malformed> {
+        Ok(Deadline::after(Wire::read(from)?))
+    }
+}
+
+impl Wire for Speed {
+    fn write(&self, into: &mut Vec<u8>) {
+        self.mm_per_s().write(into);
+    }
+
+    fn read(from: &mut Reader<'_>) -> Result<Speed, Malformed> {
+        Speed::try_new(f64::read(from)?).map_err(|_| from.malformed("a speed above 0"))
+    }
+}
+
+impl Wire for Axes {
+    fn write(&self, into: &mut Vec<u8>) {
+        for axis in Axis::ALL {
+            self.contains(axis).write(into);
+        }
+    }
+
+    fn read(from: &mut Reader<'_>) -> Result<Axes, Malformed> {
+        let mut axes = Axes::NONE;
+        for axis in Axis::ALL {
+            if bool::read(from)? {
+                axes = axes.with(axis);
+            }
+        }
+        Ok(axes)
+    }
+}
+
+impl Wire for ErrorKind {
+    fn write(&self, into: &mut Vec<u8>) {
+        (*self as i32).write(into);
+    }
+
+    fn read(from: &mut Reader<'_>) -> Result<ErrorKind, Malformed> {
+        let number = i32::read(from)?;
+        ErrorKind::ALL
+            .into_iter()
+            .find(|kind| *kind as i32 == number)
+            .ok_or_else(|| from.malformed("a kind of error"))
+    }
+}
+
+/// Writes and reads values that have no fields by their places in a list; one that is not in it has the place behind the last.
+macro_rules! listed {
+    ($($type:ty, $list:expr, $expected:literal;)*) => {$(
+        impl Wire for $type {
+            fn write(&self, into: &mut Vec<u8>) {
+                let place = $list.iter().position(|listed| listed == self);
+                super::write_count(place.unwrap_or($list.len()), into);
+            }
+            fn read(from: &mut Reader<'_>) -> Result<$type, Malformed> {
+                let place = usize::try_from(u32::read(from)?).ok();
+                place
+                    .and_then(|place| $list.into_iter().nth(place))
+                    .ok_or_else(|| from.malformed($expected))
+            }
+        }
+    )*};
+}
+pub(super) use listed;
+
+listed! {
+    PixelFormat, [PixelFormat::Gray8, PixelFormat::Gray16, PixelFormat::Rgb8, PixelFormat::Rgb16], "a pixel format";
+    DriverKind, DriverKind::ALL, "a kind of device";
+    GratingKind, GratingKind::ALL, "a kind of grating";
+}

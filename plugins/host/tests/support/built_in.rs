@@ -1,0 +1,99 @@
+//! The drivers that are linked into a program, as a session: what a child serves when no library is loaded.
+
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+
+use taceva_core::{
+    Args, Descriptor, Device, DriverError, DriverKey, ErrorKind, Factory, ForceTransducer, Found,
+    Lighting, ModelError, Registry, RegistryError, Rig, Robot, Sensor, SimulatedBench,
+};
+use taceva_host::{FitRequest, Saved, SavedRegressor, Session};
+
+/// The drivers that are linked into this program, and the one rig of this process.
+pub(crate) struct BuiltIn {
+    pub(crate) sensors: Registry<dyn Sensor>,
+    pub(crate) robots: Registry<dyn Robot>,
+    pub(crate) force_transducers: Registry<dyn ForceTransducer>,
+    pub(crate) lightings: Registry<dyn Lighting>,
+    rig: Mutex<Rig>,
+}
+
+impl BuiltIn {
+    /// The drivers that crates submitted.
+    pub(crate) fn new() -> Result<BuiltIn, RegistryError> {
+        Ok(BuiltIn {
+            sensors: Registry::builtin()?,
+            robots: Registry::builtin()?,
+            force_transducers: Registry::builtin()?,
+            lightings: Registry::builtin()?,
+            rig: Mutex::new(Rig::new()),
+        })
+    }
+
+    fn rig(&self) -> MutexGuard<'_, Rig> {
+        self.rig.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+fn find<'a, D: Device + ?Sized>(
+    registry: &'a Registry<D>,
+    driver: &DriverKey,
+) -> Result<&'a dyn Factory<D>, DriverError> {
+    registry.get(driver.as_str()).map_err(|error| {
+        DriverError::new(ErrorKind::NotFound, driver, "find the driver").because(error)
+    })
+}
+
+impl Session for BuiltIn {
+    fn describe(&self, driver: &DriverKey, args: &Args) -> Result<Descriptor, DriverError> {
+        let described = find(&self.sensors, driver)?.describe(args);
+        described.map_err(|error| {
+            DriverError::new(ErrorKind::InvalidArgument, driver, "describe itself").because(error)
+        })
+    }
+
+    fn discover(&self, driver: &DriverKey) -> Result<Vec<Found>, DriverError> {
+        find(&self.sensors, driver)?.discover()
+    }
+
+    fn sensor(&self, driver: &DriverKey, args: &Args) -> Result<Box<dyn Sensor>, DriverError> {
+        find(&self.sensors, driver)?.open(args, &mut self.rig())
+    }
+
+    fn robot(&self, driver: &DriverKey, args: &Args) -> Result<Box<dyn Robot>, DriverError> {
+        find(&self.robots, driver)?.open(args, &mut self.rig())
+    }
+
+    fn force(
+        &self,
+        driver: &DriverKey,
+        args: &Args,
+    ) -> Result<Box<dyn ForceTransducer>, DriverError> {
+        find(&self.force_transducers, driver)?.open(args, &mut self.rig())
+    }
+
+    fn lighting(&self, driver: &DriverKey, args: &Args) -> Result<Box<dyn Lighting>, DriverError> {
+        find(&self.lightings, driver)?.open(args, &mut self.rig())
+    }
+
+    fn bench(&self, name: &str) -> Option<Arc<dyn SimulatedBench>> {
+        self.rig().bench(&format!("sim {name}"))
+    }
+
+    fn fit(
+        &self,
+        _: &DriverKey,
+        _: &FitRequest<'_>,
+    ) -> Result<Box<dyn SavedRegressor>, ModelError> {
+        Err(ModelError::new(
+            ErrorKind::NotFound,
+            "a bench has no estimator",
+        ))
+    }
+
+    fn load(&self, _: &DriverKey, _: &Saved<'_>) -> Result<Box<dyn SavedRegressor>, ModelError> {
+        Err(ModelError::new(
+            ErrorKind::NotFound,
+            "a bench has no estimator",
+        ))
+    }
+}
