@@ -13,12 +13,12 @@ use std::time::Duration;
 use built_in::BuiltIn;
 
 use taceva_core::{Deadline, DriverKey, ErrorKind, FrameMut, Registry, Sensor};
-use taceva_host::{ChildSession, ChildSpec, Session, main_if_child};
+use taceva_host::{ChildSession, ChildSpec, Session, main_if_child_with};
 use taceva_sim as _;
 
 #[expect(clippy::print_stdout, reason = "a program shows what it did")]
 fn main() -> Result<(), Box<dyn Error>> {
-    main_if_child(|_| match BuiltIn::new() {
+    main_if_child_with(|_| match BuiltIn::new() {
         Ok(session) => Ok(Arc::new(session)),
         Err(error) => Err((ErrorKind::Internal, error.to_string())),
     });

@@ -17,7 +17,7 @@ pub use call::Failure;
 #[cfg(target_os = "linux")]
 pub use child::{
     CHILD_ARGUMENT, Child, ChildError, ChildSession, ChildSpec, Confinement, Fate, Isolation,
-    Patience, main_if_child,
+    Patience, Quarantine, Quarantined, main_if_child, main_if_child_with,
 };
 pub use device::{LentFrame, PluginSensor};
 pub use id::{PluginId, PluginIdError};

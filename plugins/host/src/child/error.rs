@@ -31,6 +31,13 @@ pub enum ChildError {
         /// Why, in its words.
         why: String,
     },
+    /// Its library crashed before, and its user has not released it since.
+    Quarantined {
+        /// The name of the plugin.
+        plugin: String,
+        /// What it did.
+        reason: String,
+    },
     /// It is gone.
     Gone {
         /// The name of the plugin.
@@ -53,6 +60,7 @@ impl ChildError {
         match self {
             ChildError::Start { .. } => ErrorKind::Internal,
             ChildError::Refused { kind, .. } => *kind,
+            ChildError::Quarantined { .. } => ErrorKind::PermissionDenied,
             ChildError::Gone { .. } => ErrorKind::Disconnected,
             ChildError::Unsendable { .. } => ErrorKind::InvalidArgument,
         }
@@ -74,6 +82,10 @@ impl fmt::Display for ChildError {
                 )
             }
             ChildError::Refused { plugin, why, .. } => write!(f, "the plugin `{plugin}`: {why}"),
+            ChildError::Quarantined { plugin, reason } => write!(
+                f,
+                "the plugin `{plugin}` is in quarantine: {reason}; `taceva plugin release {plugin}` lets it start again"
+            ),
             ChildError::Gone {
                 plugin,
                 fate,

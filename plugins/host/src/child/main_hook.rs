@@ -28,7 +28,7 @@ pub const CHILD_ARGUMENT: &str = "--taceva-host-child";
 ///
 /// # Errors
 /// `load` says in words, and as a kind, why there is nothing to serve; the host passes it on.
-pub fn main_if_child(
+pub fn main_if_child_with(
     load: impl FnOnce(Vec<File>) -> Result<Arc<dyn Session>, (ErrorKind, String)>,
 ) {
     let mut arguments = std::env::args_os().skip(1);

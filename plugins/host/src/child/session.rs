@@ -10,10 +10,12 @@ use taceva_core::{
 };
 
 use super::error::{ChildError, plain_found};
+use super::plugin::arguments;
 use super::proxy::{self, BenchProxy, Link};
 use super::socket::Socket;
 use super::start::{Child, ChildSpec};
 use super::wire::{OpenedDevice, Order, OrderAnswer};
+use crate::manifest::Manifest;
 use crate::session::{FitRequest, Saved, SavedRegressor, Session};
 
 /// The devices that one plugin has in one rig, all in one child.
@@ -39,6 +41,14 @@ impl ChildSession {
             plugin,
             arguments,
         })
+    }
+
+    /// Starts the child that [`ChildSpec::of_plugin`] specifies for the plugin of `manifest`.
+    ///
+    /// # Errors
+    /// As [`Child::start`].
+    pub fn of_plugin(spec: ChildSpec, manifest: &Manifest) -> Result<ChildSession, ChildError> {
+        ChildSession::start(spec, manifest.id.as_driver(), arguments(manifest))
     }
 
     /// The process behind it.

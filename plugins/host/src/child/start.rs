@@ -15,9 +15,11 @@ use super::fate::Fate;
 use super::keeper::{Kept, Watch, keep};
 use super::main_hook::CHILD_ARGUMENT;
 use super::patience::Patience;
+use super::quarantine::{Quarantine, Quarantined};
 use super::sandbox::{Confinement, Isolation};
 use super::socket::{Caller, LinkError, Socket};
 use super::wire::{Greeting, Hello, Order, OrderAnswer};
+use crate::manifest::Sha256Digest;
 
 /// The program that is running: the same file, even if another one has taken its name since.
 const THIS_PROGRAM: &str = "/proc/self/exe";
@@ -29,7 +31,7 @@ type Ended = Box<dyn FnOnce(&Fate) + Send>;
 pub struct ChildSpec {
     /// The name of the plugin, for messages.
     pub plugin: String,
-    /// The program whose `main` begins with [`main_if_child`](super::main_if_child): this one, if none is named.
+    /// The program whose `main` begins with [`main_if_child`](crate::main_if_child): this one, if none is named.
     pub program: Option<PathBuf>,
     /// What is handed to it, at most three files; it decides what they are.
     pub files: Vec<OwnedFd>,
@@ -39,6 +41,8 @@ pub struct ChildSpec {
     pub patience: Patience,
     /// Called once with how it ended, from the thread that watches it.
     pub ended: Option<Ended>,
+    /// Where its library is kept if it crashes, and where it must not be; and the digest of that library.
+    pub quarantine: Option<(Quarantine, Sha256Digest)>,
 }
 
 impl ChildSpec {
@@ -51,6 +55,7 @@ impl ChildSpec {
             confinement: Confinement::default(),
             patience: Patience::default(),
             ended: None,
+            quarantine: None,
         }
     }
 }
@@ -117,7 +122,9 @@ impl Child {
             confinement,
             patience,
             ended,
+            quarantine,
         } = spec;
+        refuse_quarantined(&plugin, quarantine.as_ref())?;
         let failed = |why: &dyn fmt::Display| ChildError::Start {
             plugin: plugin.clone(),
             why: why.to_string(),
@@ -137,7 +144,7 @@ impl Child {
             .stdin(Stdio::from(theirs))
             .stdout(Stdio::from(output))
             .stderr(Stdio::from(also_output));
-        let ended = ended.unwrap_or_else(|| Box::new(|_| {}));
+        let ended = when_ended(plugin.clone(), quarantine, ended);
         let Kept {
             process,
             watch,
@@ -218,6 +225,46 @@ impl Child {
 
     pub(crate) fn life(&self) -> &Arc<Life> {
         &self.life
+    }
+}
+
+/// Refuses a library that crashed before.
+fn refuse_quarantined(
+    plugin: &str,
+    quarantine: Option<&(Quarantine, Sha256Digest)>,
+) -> Result<(), ChildError> {
+    let Some((quarantine, digest)) = quarantine else {
+        return Ok(());
+    };
+    let plugin = plugin.to_owned();
+    match quarantine.get(*digest) {
+        Ok(None) => Ok(()),
+        Ok(Some(entry)) => Err(ChildError::Quarantined {
+            plugin,
+            reason: entry.reason,
+        }),
+        Err(error) => Err(ChildError::Start {
+            plugin,
+            why: format!("{}: {error}", quarantine.folder().display()),
+        }),
+    }
+}
+
+/// What is done when a child has ended: a library that crashed goes into quarantine, then whoever wants to know is told.
+fn when_ended(
+    plugin: String,
+    quarantine: Option<(Quarantine, Sha256Digest)>,
+    told: Option<Ended>,
+) -> impl FnOnce(&Fate) + Send + 'static {
+    move |fate| {
+        if let Some((quarantine, digest)) = quarantine.filter(|_| fate.is_its_own_fault()) {
+            let entry = Quarantined::new(digest, &plugin, &fate.to_string());
+            // Its devices have failed already, and say why; that it may be started again is the lesser evil.
+            let _ = quarantine.put(&entry);
+        }
+        if let Some(told) = told {
+            told(fate);
+        }
     }
 }
 

@@ -18,11 +18,11 @@ use std::time::Duration;
 
 use built_in::BuiltIn;
 use taceva_core::{Deadline, DriverKey, ErrorKind};
-use taceva_host::{ChildSession, ChildSpec, Patience, main_if_child};
+use taceva_host::{ChildSession, ChildSpec, Patience, main_if_child_with};
 use taceva_sim as _;
 
 fn main() -> ExitCode {
-    main_if_child(|_| match served() {
+    main_if_child_with(|_| match served() {
         Ok(session) => Ok(Arc::new(session)),
         Err(error) => Err((ErrorKind::Internal, error.to_string())),
     });
