@@ -2,23 +2,29 @@
 
 use std::fmt::Debug;
 
-use taceva_core::{Descriptor, Facts};
+use taceva_core::{ArgSpec, Descriptor, Facts};
 
-/// The first thing that `manifest` and `library` disagree about: its name and what either says.
+/// The first thing that `manifest` and `library` disagree about: its name and what either says. Words for people may differ.
 pub(crate) fn difference(manifest: &Descriptor, library: &Descriptor) -> Option<[String; 3]> {
-    let title = [manifest, library].map(Descriptor::title);
     let source = [manifest, library].map(Descriptor::source);
-    let arguments = [manifest, library].map(Descriptor::arguments);
-    differ("title", title)
-        .or_else(|| differ("source", source))
+    differ("source", source)
         .or_else(|| facts(manifest.facts(), library.facts()))
-        .or_else(|| differ("the number of arguments", arguments.map(<[_]>::len)))
-        .or_else(|| {
-            let [promised, said] = arguments;
-            promised.iter().zip(said).find_map(|(promised, said)| {
-                differ(&format!("argument `{}`", promised.key), [promised, said])
-            })
+        .or_else(|| arguments([manifest, library].map(Descriptor::arguments)))
+}
+
+/// In what the arguments of two descriptions differ, beside their words for people.
+pub(crate) fn arguments([manifest, library]: [&[ArgSpec]; 2]) -> Option<[String; 3]> {
+    let number = [manifest.len(), library.len()];
+    differ("the number of arguments", number).or_else(|| {
+        manifest.iter().zip(library).find_map(|(promised, said)| {
+            let name = format!("argument `{}`", promised.key);
+            let said = ArgSpec {
+                help: promised.help.clone(),
+                ..said.clone()
+            };
+            differ(&name, [promised, &said])
         })
+    })
 }
 
 fn differ<T: PartialEq + Debug>(name: &str, [manifest, library]: [T; 2]) -> Option<[String; 3]> {
@@ -66,9 +72,7 @@ mod tests {
 
     #[test]
     fn the_first_difference_is_named_with_what_either_says() {
-        assert_eq!(difference(&sensor(30.0, "eye"), &sensor(30.0, "eye")), None);
-        let [what, ..] = difference(&sensor(30.0, "eye"), &sensor(30.0, "I")).expect("title");
-        assert_eq!(what, "title");
+        assert_eq!(difference(&sensor(30.0, "eye"), &sensor(30.0, "I")), None);
         let [what, promised, said] =
             difference(&sensor(30.0, "eye"), &sensor(60.0, "eye")).expect("rate");
         assert_eq!(what, "rate_hz");

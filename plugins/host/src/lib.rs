@@ -3,15 +3,19 @@
 mod call;
 #[cfg(target_os = "linux")]
 mod child;
+mod config;
 mod descriptor;
 mod device;
 mod estimator;
+mod host;
 mod id;
 mod in_process;
 mod library;
 mod manifest;
+mod search;
 mod session;
 mod shown;
+mod usb;
 
 pub use call::Failure;
 #[cfg(target_os = "linux")]
@@ -19,12 +23,17 @@ pub use child::{
     CHILD_ARGUMENT, Child, ChildError, ChildSession, ChildSpec, Confinement, Fate, Isolation,
     Patience, Quarantine, Quarantined, main_if_child, main_if_child_with,
 };
+pub use config::{ConfigError, Delivery, PluginConfig};
 pub use device::{LentFrame, PluginSensor};
+pub use host::{PluginDriver, PluginHost, PluginLog};
 pub use id::{PluginId, PluginIdError};
 pub use in_process::InProcess;
 pub use library::{Image, Level, Library, LoadError, LoadProblem, Log, libraries_loaded};
 pub use manifest::{
     AbiVersion, EstimatorInfo, LibraryFile, Manifest, ManifestError, Need, NeedError, Provided,
     Sha256Digest, UsbId, platform,
+};
+pub use search::{
+    NotFound, Place, Plugin, Plugins, Reason, ReasonKind, Rejection, SearchPath, user_config_file,
 };
 pub use session::{FitRequest, Saved, SavedRegressor, Session};

@@ -11,7 +11,7 @@ use taceva_core::{ArgSpec, Descriptor, DriverKey, DriverKind};
 use super::Library;
 use super::error::LoadProblem;
 use crate::call::{Failure, Taken, call, take};
-use crate::descriptor::difference;
+use crate::descriptor::{arguments, difference};
 use crate::id::PluginId;
 use crate::manifest::{Manifest, Provided};
 
@@ -227,10 +227,10 @@ fn agree(said: &BTreeMap<DriverKey, Entry>, manifest: &Manifest) -> Result<(), L
                 }
             }
             (Provided::Estimator(promised), Provided::Estimator(found)) => {
-                if promised != found {
-                    let what = format!("`{key}`");
-                    let [promised, found] = [promised, found].map(|info| format!("{info:?}"));
-                    return Err(differs(what, &promised, &found));
+                let settings = [&promised.settings, &found.settings].map(Vec::as_slice);
+                if let Some([what, manifest, library]) = arguments(settings) {
+                    let what = format!("`{key}`, {what}");
+                    return Err(differs(what, &manifest, &library));
                 }
             }
             (promised, found) => {

@@ -1,0 +1,151 @@
+//! What the user decides about plugins: a part of the user's settings, and words on the command line.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+
+use serde::Deserialize;
+
+use crate::id::PluginId;
+use crate::manifest::{ManifestError, Need};
+use crate::search::{Place, Plugin};
+
+/// The part `[plugins]` of the user's settings.
+///
+/// ```
+/// use taceva_host::PluginConfig;
+/// let config = PluginConfig::parse(r#"
+///     [plugins]
+///     trust_in_process = ["org.example.fast"]
+///     prefer = ["/opt/taceva/digit"]
+///
+///     [plugins.allow]
+///     "org.example.digit" = ["usb"]
+/// "#)?;
+/// assert!(config.trust_in_process.contains("org.example.fast"));
+/// # Ok::<(), taceva_host::ManifestError>(())
+/// ```
+#[derive(Clone, Debug, Default, PartialEq, Eq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct PluginConfig {
+    /// Plugins whose code may run in this process.
+    #[serde(default)]
+    pub trust_in_process: BTreeSet<PluginId>,
+    /// The folders of plugins that are used where another has the same id.
+    #[serde(default)]
+    pub prefer: Vec<PathBuf>,
+    /// What plugins may reach outside their process, of what their manifests ask for.
+    #[serde(default)]
+    pub allow: BTreeMap<PluginId, BTreeSet<Need>>,
+    /// Plugins that the command line trusts.
+    #[serde(skip)]
+    pub trusted_now: BTreeSet<PluginId>,
+}
+
+#[derive(Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Written {
+    #[serde(default)]
+    plugins: PluginConfig,
+}
+
+impl PluginConfig {
+    /// The settings in the file at `path`; one that is not there decides nothing.
+    ///
+    /// # Errors
+    /// [`ConfigError`] for a file that cannot be read, or with a mistake.
+    pub fn read(path: &Path) -> Result<PluginConfig, ConfigError> {
+        let text = match fs::read_to_string(path) {
+            Ok(text) => text,
+            Err(error) if error.kind() == io::ErrorKind::NotFound => {
+                return Ok(PluginConfig::default());
+            }
+            Err(source) => {
+                return Err(ConfigError::Read {
+                    path: path.to_owned(),
+                    source,
+                });
+            }
+        };
+        PluginConfig::parse(&text).map_err(|source| ConfigError::Text {
+            path: path.to_owned(),
+            source,
+        })
+    }
+
+    /// The settings written as `text`.
+    ///
+    /// # Errors
+    /// [`ManifestError`] with the line.
+    pub fn parse(text: &str) -> Result<PluginConfig, ManifestError> {
+        let written: Result<Written, toml::de::Error> = toml::from_str(text);
+        match written {
+            Ok(written) => Ok(written.plugins),
+            Err(error) => Err(ManifestError::of_parser(text, &error)),
+        }
+    }
+
+    /// How `plugin` is delivered.
+    ///
+    /// What the settings trust is not trusted beside a scene: whoever hands over a scene may put any plugin there, under any id.
+    pub fn delivery(&self, plugin: &Plugin) -> Delivery {
+        let id = plugin.id();
+        let is_trusted = self.trust_in_process.contains(id) && plugin.place != Place::Project;
+        if is_trusted || self.trusted_now.contains(id) {
+            Delivery::InProcess
+        } else {
+            Delivery::Child
+        }
+    }
+
+    /// What `plugin` may reach: what it asks for and the user allows.
+    pub fn allowed(&self, plugin: &Plugin) -> BTreeSet<Need> {
+        let needs = &plugin.manifest.needs;
+        match self.allow.get(plugin.id()) {
+            Some(allowed) => needs.intersection(allowed).cloned().collect(),
+            None => BTreeSet::new(),
+        }
+    }
+}
+
+/// Where the code of a plugin runs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Delivery {
+    /// In this process: the user trusts it.
+    InProcess,
+    /// In a confined child process.
+    Child,
+}
+
+impl std::fmt::Display for Delivery {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.pad(match self {
+            Delivery::InProcess => "in process",
+            Delivery::Child => "child process",
+        })
+    }
+}
+
+/// Settings that cannot be used.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum ConfigError {
+    /// The file cannot be read.
+    #[error("cannot read {}: {source}", path.display())]
+    Read {
+        /// The file.
+        path: PathBuf,
+        /// What the system says.
+        source: io::Error,
+    },
+    /// The file has a mistake.
+    #[error("{}, {source}", path.display())]
+    Text {
+        /// The file.
+        path: PathBuf,
+        /// What and where.
+        source: ManifestError,
+    },
+}

@@ -1,0 +1,279 @@
+//! Finding plugins by their manifests. No library is opened, and nothing that is found is lost: what is not used is kept with its reason.
+
+mod place;
+mod rejection;
+mod writable;
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::fs::{self, File};
+use std::io::{self, Read};
+use std::path::{Path, PathBuf};
+
+use taceva_abi::ABI_MAJOR;
+
+pub use self::place::{Place, SearchPath, user_config_file};
+pub use self::rejection::{Reason, ReasonKind, Rejection};
+use self::writable::Writable;
+use crate::id::PluginId;
+use crate::manifest::{self, LibraryFile, Manifest};
+use crate::shown::suggestion;
+
+/// The name of every manifest.
+const MANIFEST: &str = "plugin.toml";
+
+/// A plugin that was found: its manifest, and where it lies.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Plugin {
+    /// What it says of itself.
+    pub manifest: Manifest,
+    /// The manifest as it was read.
+    pub text: String,
+    /// The folder of the manifest, without links.
+    pub folder: PathBuf,
+    /// Who named the folder that it was found in.
+    pub place: Place,
+    /// Its library for this platform.
+    pub library: LibraryFile,
+}
+
+impl Plugin {
+    /// Its id.
+    pub fn id(&self) -> &PluginId {
+        &self.manifest.id
+    }
+}
+
+/// What a search found.
+#[derive(Debug, Default)]
+pub struct Plugins {
+    found: BTreeMap<PluginId, Plugin>,
+    /// What is not used, in the order in which it was found.
+    pub rejections: Vec<Rejection>,
+    path: SearchPath,
+}
+
+impl Plugins {
+    /// Looks through `path`. Of plugins with one id none is used, unless the folder of one of them is in `prefer`.
+    pub fn search(path: SearchPath, prefer: &[PathBuf]) -> Plugins {
+        let mut searching = Searching::default();
+        for (place, folder) in path.folders() {
+            searching.folder(place, folder);
+        }
+        let mut plugins = Plugins {
+            found: BTreeMap::new(),
+            rejections: searching.rejections,
+            path,
+        };
+        for (id, alike) in searching.found {
+            plugins.settle(id, alike, prefer);
+        }
+        plugins
+    }
+
+    /// The plugins, by id.
+    pub fn iter(&self) -> impl Iterator<Item = &Plugin> {
+        self.found.values()
+    }
+
+    /// How many there are.
+    pub fn len(&self) -> usize {
+        self.found.len()
+    }
+
+    /// Whether there is none.
+    pub fn is_empty(&self) -> bool {
+        self.found.is_empty()
+    }
+
+    /// The plugin called `id`.
+    ///
+    /// # Errors
+    /// [`NotFound`] with the nearest id, where it was looked for and what was refused there.
+    pub fn get(&self, id: &str) -> Result<&Plugin, NotFound> {
+        self.found.get(id).ok_or_else(|| {
+            let known: Vec<&str> = self.found.keys().map(PluginId::as_str).collect();
+            let mut trail = String::new();
+            for (place, folder) in self.path.folders() {
+                trail.push_str(&format!("\n  looked in {} ({place})", folder.display()));
+            }
+            for rejection in &self.rejections {
+                trail.push_str(&format!("\n  refused {rejection}"));
+            }
+            NotFound {
+                id: id.to_owned(),
+                help: match known.as_slice() {
+                    [] => "none was found".to_owned(),
+                    known => suggestion(id, known),
+                },
+                trail,
+            }
+        })
+    }
+
+    fn settle(&mut self, id: PluginId, mut alike: Vec<Plugin>, prefer: &[PathBuf]) {
+        let preferred = |plugin: &Plugin| prefer.contains(&plugin.folder);
+        let chosen = match alike.len() {
+            1 => Some(0),
+            _ => alike.iter().position(preferred),
+        };
+        let chosen = chosen.map(|position| alike.remove(position));
+        let manifests: Vec<PathBuf> = (alike.iter())
+            .map(|plugin| plugin.folder.join(MANIFEST))
+            .collect();
+        for (position, plugin) in alike.iter().enumerate() {
+            let other = match &chosen {
+                Some(chosen) => chosen.folder.join(MANIFEST),
+                None => manifests[usize::from(position == 0)].clone(),
+            };
+            let id = id.clone();
+            let reason = Reason::Duplicate { id, other };
+            self.rejections
+                .push(reason.of(&manifests[position], plugin.place));
+        }
+        if let Some(chosen) = chosen {
+            self.found.insert(id, chosen);
+        }
+    }
+}
+
+/// A plugin that was not found.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("no plugin is called {id:?}, {help}{trail}")]
+pub struct NotFound {
+    id: String,
+    help: String,
+    trail: String,
+}
+
+#[derive(Default)]
+struct Searching {
+    found: BTreeMap<PluginId, Vec<Plugin>>,
+    rejections: Vec<Rejection>,
+    seen: BTreeSet<PathBuf>,
+    writable: Writable,
+}
+
+impl Searching {
+    fn folder(&mut self, place: Place, folder: &Path) {
+        match self.manifests(folder) {
+            Ok(manifests) => {
+                for manifest in manifests {
+                    self.manifest(place, &manifest);
+                }
+            }
+            // Only who types a folder expects it to be there.
+            Err(Reason::Unreadable(error))
+                if error.kind() == io::ErrorKind::NotFound && place != Place::Given => {}
+            Err(reason) => self.rejections.push(reason.of(folder, place)),
+        }
+    }
+
+    /// The manifest in `folder`, or those in the folders below it, by name.
+    fn manifests(&mut self, folder: &Path) -> Result<Vec<PathBuf>, Reason> {
+        if !folder.is_absolute() {
+            return Err(Reason::Relative);
+        }
+        let folder = fs::canonicalize(folder).map_err(Reason::Unreadable)?;
+        if let Some(path) = self.writable.by_all(&folder).map_err(Reason::Unreadable)? {
+            return Err(Reason::WorldWritable { path });
+        }
+        let own = folder.join(MANIFEST);
+        if own.symlink_metadata().is_ok() {
+            return Ok(vec![own]);
+        }
+        let mut manifests = Vec::new();
+        for entry in fs::read_dir(&folder).map_err(Reason::Unreadable)? {
+            let manifest = entry.map_err(Reason::Unreadable)?.path().join(MANIFEST);
+            if manifest.symlink_metadata().is_ok() {
+                manifests.push(manifest);
+            }
+        }
+        manifests.sort();
+        Ok(manifests)
+    }
+
+    fn manifest(&mut self, place: Place, manifest: &Path) {
+        let path = match fs::canonicalize(manifest) {
+            Ok(path) => path,
+            Err(error) => {
+                self.rejections
+                    .push(Reason::Unreadable(error).of(manifest, place));
+                return;
+            }
+        };
+        if !self.seen.insert(path.clone()) {
+            return;
+        }
+        match self.plugin(place, &path) {
+            Ok(plugin) => {
+                let alike = self.found.entry(plugin.id().clone()).or_default();
+                alike.push(plugin);
+            }
+            Err(reason) => self.rejections.push(reason.of(&path, place)),
+        }
+    }
+
+    fn plugin(&mut self, place: Place, path: &Path) -> Result<Plugin, Reason> {
+        let text = read(path)?;
+        if let Some(path) = self.writable.by_all(path).map_err(Reason::Unreadable)? {
+            return Err(Reason::WorldWritable { path });
+        }
+        let manifest = Manifest::parse(&text).map_err(Reason::Manifest)?;
+        if manifest.abi.major != ABI_MAJOR {
+            return Err(Reason::Abi {
+                found: manifest.abi,
+            });
+        }
+        let platform = manifest::platform();
+        let Some(library) = manifest.library(&platform).cloned() else {
+            let has = manifest.platforms().map(str::to_owned).collect();
+            return Err(Reason::Platform { platform, has });
+        };
+        let folder = path.parent().unwrap_or(path).to_owned();
+        self.library(&folder.join(&library.path))?;
+        Ok(Plugin {
+            manifest,
+            text,
+            folder,
+            place,
+            library,
+        })
+    }
+
+    /// Looks at the library from outside; it is not opened.
+    fn library(&mut self, library: &Path) -> Result<(), Reason> {
+        let refused = |problem: String| Reason::Library {
+            library: library.to_owned(),
+            problem,
+        };
+        let io = |error: io::Error| refused(error.to_string());
+        let real = fs::canonicalize(library).map_err(io)?;
+        if !fs::metadata(&real).map_err(io)?.is_file() {
+            return Err(refused("no regular file".to_owned()));
+        }
+        match self.writable.by_all(&real).map_err(io)? {
+            Some(path) => Err(Reason::WorldWritable { path }),
+            None => Ok(()),
+        }
+    }
+}
+
+fn read(path: &Path) -> Result<String, Reason> {
+    // Asked before opening: opening a pipe would wait for whoever writes into it.
+    if !fs::metadata(path).map_err(Reason::Unreadable)?.is_file() {
+        return Err(Reason::NotAFile);
+    }
+    let most = manifest::BYTES_MAX;
+    let file = File::open(path).map_err(Reason::Unreadable)?;
+    let mut bytes = Vec::new();
+    file.take(most as u64 + 1)
+        .read_to_end(&mut bytes)
+        .map_err(Reason::Unreadable)?;
+    match String::from_utf8(bytes) {
+        Ok(text) if text.len() <= most => Ok(text),
+        _ => Err(Reason::NotText),
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,180 @@
+//! What was found and is not used, and why.
+
+use std::fmt;
+use std::io;
+use std::path::{Path, PathBuf};
+
+use serde::Serialize;
+
+use super::Place;
+use crate::id::PluginId;
+use crate::manifest::{AbiVersion, ManifestError};
+
+/// A folder or a manifest that is not used.
+#[derive(Debug)]
+pub struct Rejection {
+    /// The manifest, or the folder if it is to blame.
+    pub path: PathBuf,
+    /// Who named the folder.
+    pub place: Place,
+    /// Why.
+    pub reason: Reason,
+}
+
+impl fmt::Display for Rejection {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}: {}", self.path.display(), self.reason)
+    }
+}
+
+/// Why something that was found is not used.
+#[derive(Debug)]
+#[non_exhaustive]
+pub enum Reason {
+    /// A folder that is relative, and so would depend on where the program was started.
+    Relative,
+    /// Every user of the machine may write there.
+    WorldWritable {
+        /// The file or folder that they may write.
+        path: PathBuf,
+    },
+    /// It cannot be read.
+    Unreadable(io::Error),
+    /// What should be a file is none.
+    NotAFile,
+    /// Not UTF-8, or longer than a manifest.
+    NotText,
+    /// A manifest with a mistake.
+    Manifest(ManifestError),
+    /// Written for another major version of the interface.
+    Abi {
+        /// Its version.
+        found: AbiVersion,
+    },
+    /// No library for this platform.
+    Platform {
+        /// This platform.
+        platform: String,
+        /// Those it has a library for.
+        has: Vec<String>,
+    },
+    /// Its library is not there, or is no file.
+    Library {
+        /// As the manifest names it.
+        library: PathBuf,
+        /// What is wrong with it.
+        problem: String,
+    },
+    /// Another plugin has the same id.
+    Duplicate {
+        /// The id.
+        id: PluginId,
+        /// The manifest of the other.
+        other: PathBuf,
+    },
+}
+
+/// [`Reason`] without what it is about: for lists, and for scripts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize)]
+#[serde(rename_all = "kebab-case")]
+#[non_exhaustive]
+pub enum ReasonKind {
+    /// [`Reason::Relative`]
+    Relative,
+    /// [`Reason::WorldWritable`]
+    WorldWritable,
+    /// [`Reason::Unreadable`]
+    Unreadable,
+    /// [`Reason::NotAFile`]
+    NotAFile,
+    /// [`Reason::NotText`]
+    NotText,
+    /// [`Reason::Manifest`]
+    Manifest,
+    /// [`Reason::Abi`]
+    Abi,
+    /// [`Reason::Platform`]
+    Platform,
+    /// [`Reason::Library`]
+    Library,
+    /// [`Reason::Duplicate`]
+    Duplicate,
+}
+
+impl ReasonKind {
+    /// Every kind.
+    pub const ALL: [ReasonKind; 10] = [
+        ReasonKind::Relative,
+        ReasonKind::WorldWritable,
+        ReasonKind::Unreadable,
+        ReasonKind::NotAFile,
+        ReasonKind::NotText,
+        ReasonKind::Manifest,
+        ReasonKind::Abi,
+        ReasonKind::Platform,
+        ReasonKind::Library,
+        ReasonKind::Duplicate,
+    ];
+}
+
+impl Reason {
+    /// Its kind.
+    pub fn kind(&self) -> ReasonKind {
+        match self {
+            Reason::Relative => ReasonKind::Relative,
+            Reason::WorldWritable { .. } => ReasonKind::WorldWritable,
+            Reason::Unreadable(_) => ReasonKind::Unreadable,
+            Reason::NotAFile => ReasonKind::NotAFile,
+            Reason::NotText => ReasonKind::NotText,
+            Reason::Manifest(_) => ReasonKind::Manifest,
+            Reason::Abi { .. } => ReasonKind::Abi,
+            Reason::Platform { .. } => ReasonKind::Platform,
+            Reason::Library { .. } => ReasonKind::Library,
+            Reason::Duplicate { .. } => ReasonKind::Duplicate,
+        }
+    }
+
+    pub(super) fn of(self, path: &Path, place: Place) -> Rejection {
+        Rejection {
+            path: path.to_owned(),
+            place,
+            reason: self,
+        }
+    }
+}
+
+impl fmt::Display for Reason {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Reason::Relative => f.write_str("a relative folder, expected one that begins with `/`"),
+            Reason::WorldWritable { path } => write!(
+                f,
+                "every user of this machine may write to {}, expected one that only its owner may",
+                path.display()
+            ),
+            Reason::Unreadable(error) => write!(f, "{error}"),
+            Reason::NotAFile => f.write_str("no regular file"),
+            Reason::NotText => f.write_str("not UTF-8, or longer than 1 MiB"),
+            Reason::Manifest(error) => write!(f, "{error}"),
+            Reason::Abi { found } => write!(
+                f,
+                "written for version {}.{} of the interface, this TacEva has {}.{}",
+                found.major,
+                found.minor,
+                taceva_abi::ABI_MAJOR,
+                taceva_abi::ABI_MINOR
+            ),
+            Reason::Platform { platform, has } => {
+                write!(f, "no library for {platform}, only for {}", has.join(", "))
+            }
+            Reason::Library { library, problem } => {
+                write!(f, "its library {}: {problem}", library.display())
+            }
+            Reason::Duplicate { id, other } => write!(
+                f,
+                "`{id}` is also {}; `prefer = [\"FOLDER\"]` under [plugins] in the settings chooses one",
+                other.display()
+            ),
+        }
+    }
+}
