@@ -70,6 +70,7 @@ impl PluginRobot {
         let halt = Arc::new(Halter {
             halt: handle.needs(calls.halt, "halt")?,
             handle: handle.share(),
+            facts: *facts,
             is_halted: AtomicBool::new(false),
         });
         let guarded = if facts.guarded_motion {
@@ -175,6 +176,7 @@ fn from_si(pose: abi::Pose, driver: &DriverKey, doing: &'static str) -> Result<P
 struct Halter {
     handle: Arc<Handle>,
     halt: unsafe extern "C" fn(*mut c_void, *mut abi::Error) -> abi::Status,
+    facts: RobotFacts,
     is_halted: AtomicBool,
 }
 
@@ -193,11 +195,23 @@ impl Halt for Halter {
 }
 
 impl Halter {
-    /// The motion to `target`, unless the robot is halted or the target is none.
+    /// The motion to `target`, unless the robot is halted, or the motion is none that it declares: its plugin never sees such.
     fn motion(&self, target: Pose, speed: Speed) -> Result<abi::Motion, DriverError> {
         let refused = |kind, why: String| Failure::new(kind, why).of(self.handle.driver(), MOVING);
         check_pose(&target)
             .map_err(|error| refused(ErrorKind::InvalidArgument, error.to_string()))?;
+        let workspace = self.facts.workspace;
+        if let Some(workspace) = workspace.filter(|within| !within.contains(&target.position)) {
+            let why = format!(
+                "{:?} lies outside the workspace from {:?} to {:?}",
+                target.position, workspace.least, workspace.greatest
+            );
+            return Err(refused(ErrorKind::OutOfRange, why));
+        }
+        if let Some(most) = self.facts.speed_max.filter(|most| speed > *most) {
+            let why = format!("a speed of {speed}, expected at most {most}");
+            return Err(refused(ErrorKind::OutOfRange, why));
+        }
         if self.is_halted.load(Ordering::Acquire) {
             let why = "it was halted, and moves again once the halt is cleared".to_owned();
             return Err(refused(ErrorKind::Interrupted, why));

@@ -27,6 +27,11 @@ impl LoadError {
         &self.problem
     }
 
+    /// What is wrong, alone.
+    pub fn into_problem(self) -> LoadProblem {
+        self.problem
+    }
+
     /// The same, as the failure of a driver of the plugin.
     pub fn of_driver(self, driver: &DriverKey) -> DriverError {
         DriverError::new(self.problem.kind(), driver, "load the plugin").because(self)

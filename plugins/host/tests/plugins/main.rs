@@ -1,0 +1,6 @@
+//! A plugin in C, built here in many ways: right ones give devices, wrong ones a message that says what is wrong.
+
+mod devices;
+mod estimator;
+mod fixture;
+mod rejects;
