@@ -40,6 +40,8 @@ struct Blister {
 const BLISTERS: usize = 2;
 /// Where the sag is stated.
 const SAG_STATED_MM: [f64; 2] = [7.0, 9.0];
+/// More than what binary64 makes of sums of a few lengths.
+const ROUNDING_MM: f64 = 1e-9;
 /// A free edge is felt in the outer quarter, the gel reaching this far beyond the picture.
 const EDGE_BEGINS: f64 = 0.75;
 const EDGE_MARGIN_MM: f64 = 1.5;
@@ -94,6 +96,18 @@ impl Unit {
         let sag = relief.sag_ratio * (sag_x * x * x + sag_y * y * y);
         let blisters: f64 = relief.blisters.iter().map(|one| one.at(place_mm)).sum();
         relief.gap_mm * relief.gap.at(place_mm) + blisters - sag
+    }
+
+    /// What [`height_mm`](Unit::height_mm) exceeds nowhere.
+    pub fn height_max_mm(&self) -> f64 {
+        let Some(relief) = &self.relief else {
+            return ROUNDING_MM;
+        };
+        if self.surface.sag_x_mm.min(self.surface.sag_y_mm) < 0.0 {
+            return f64::INFINITY;
+        }
+        let blisters = relief.blisters.iter().map(|one| one.height_mm.max(0.0));
+        relief.gap_mm.abs() * Waves::GREATEST + blisters.sum::<f64>() + ROUNDING_MM
     }
 
     /// 1 inside, less towards the free edge.
@@ -159,6 +173,9 @@ const STIFFNESS_WAVES: f64 = 0.5;
 const GAP_WAVES: f64 = 1.0;
 
 impl Waves {
+    /// No place has more: eight cosines of 1.
+    const GREATEST: f64 = 0.5 * WAVES as f64;
+
     fn new(stream: Stream, first: u64, wave_number_max: f64) -> Waves {
         let waves = std::array::from_fn(|wave| {
             let index = first + 3 * wave as u64;
@@ -218,6 +235,21 @@ mod tests {
             .into();
         assert_eq!(heights[0], heights[1]);
         assert_ne!(heights[0], heights[2]);
+    }
+
+    #[test]
+    fn no_place_of_any_unit_is_higher_than_its_greatest_height_and_some_come_near_it() {
+        let mut nearest: f64 = 0.0;
+        for number in 0..40 {
+            let unit = Unit::new(&Model::GelSight.parameters(), number);
+            let most = unit.height_max_mm();
+            for (x, y) in (-30..=30).flat_map(|x| (-40..=40).map(move |y| (x, y))) {
+                let height = unit.height_mm([0.25 * f64::from(x), 0.25 * f64::from(y)]);
+                assert!(height <= most, "unit {number}: {height} > {most}");
+                nearest = nearest.max(height / most);
+            }
+        }
+        assert!(nearest > 0.5, "{nearest}");
     }
 
     #[test]

@@ -186,8 +186,13 @@ impl Supervisor {
         {
             return Some(Trip::Saturated { force_n: greatest });
         }
-        let shear = x.hypot(y);
         let (normal_max, shear_max) = (self.limits.normal_max.0, self.limits.shear_max.0);
+        // A root is taken where it can matter: √2/2 of the limit is within it.
+        let shear = if x.abs().max(y.abs()) > 0.5 * shear_max {
+            x.hypot(y)
+        } else {
+            0.0
+        };
         match self.stage {
             Stage::Travel { threshold_n } if z.abs() > threshold_n => {
                 Some(Trip::UnexpectedContact { force_n: z })
@@ -231,8 +236,13 @@ impl Supervisor {
 /// How far two tips are apart, in mm.
 pub(crate) fn distance(one: &Pose, other: &Pose) -> f64 {
     let (one, other) = (&one.position, &other.position);
-    let plane = (one.x.0 - other.x.0).hypot(one.y.0 - other.y.0);
-    plane.hypot(one.z.0 - other.z.0)
+    let [x, y] = [one.x.0 - other.x.0, one.y.0 - other.y.0];
+    let z = one.z.0 - other.z.0;
+    // Most ways are straight down: then nothing is left of the roots.
+    if x == 0.0 && y == 0.0 {
+        return z.abs();
+    }
+    x.hypot(y).hypot(z)
 }
 
 #[cfg(test)]

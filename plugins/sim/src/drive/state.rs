@@ -7,7 +7,7 @@ use taceva_core::{Millimetre, Pose};
 use super::place::{VisitKey, Visits, nanometres, point_of};
 use super::rig::Mounted;
 use super::ticks::Ticks;
-use super::touch::Touch;
+use super::touch::{Touch, surface_mm};
 use crate::bench::Bench;
 use crate::contact::{BoardStand, Contact, History};
 use crate::optics::AmbientLight;
@@ -50,6 +50,25 @@ struct Visit {
     pictures: u32,
     has_touched: bool,
     touch: Option<Touch>,
+    errors: VisitErrors,
+    ground: Option<Ground>,
+}
+
+/// What robot and transducer err by throughout a visit: drawn once.
+#[derive(Clone, Copy, Debug, Default)]
+struct VisitErrors {
+    /// How far beside its targets the robot stands: it errs from visit to visit, and repeats itself within one.
+    position_mm: [f64; 3],
+    /// Where the transducer's zero has drifted to.
+    zero_n: [f64; 3],
+}
+
+/// Where the gel begins under a place: worked out once, however often the tip is still above it.
+#[derive(Clone, Copy, Debug)]
+struct Ground {
+    mounted: Mounted,
+    place_mm: [f64; 2],
+    surface_mm: f64,
 }
 
 /// How a motion ended.
@@ -85,7 +104,7 @@ impl State {
         let random = Random::new(0);
         let mut visits = Visits::default();
         let key = visits.next([HOME_MM[0], HOME_MM[1]]);
-        State {
+        let mut state = State {
             now: Ticks::default(),
             history: History::new(),
             name: None,
@@ -106,7 +125,9 @@ impl State {
                 key,
                 ..Visit::default()
             },
-        }
+        };
+        state.visit.errors = state.visit_errors();
+        state
     }
 
     /// Puts a sensor under the tip, in the place of the last one.
@@ -116,6 +137,8 @@ impl State {
         self.random = bench.random();
         self.errors = TransducerModel::new(self.transducer, self.random);
         self.visit.touch = None;
+        self.visit.ground = None;
+        self.visit.errors = self.visit_errors();
         self.bench = Some(bench);
         self.sensor_is_open = true;
     }
@@ -174,7 +197,7 @@ impl State {
     pub(super) fn travel(&mut self, motion: &Motion<'_>) -> Ended {
         let (from, sent) = (self.tip_mm, coordinates(&self.sent));
         let target = coordinates(&motion.target);
-        let error = self.positioning_error();
+        let error = self.visit.errors.position_mm;
         let to: [f64; 3] = std::array::from_fn(|axis| target[axis] + error[axis]);
         let length = distance(from, to);
         let steps = (length / STEP_MM).ceil().max(1.0);
@@ -292,24 +315,26 @@ impl State {
     }
 
     fn raw_reading(&mut self) -> [f64; 3] {
+        let visit = self.visit.key.visit;
+        let noise = self.random.stream(Purpose::ForceNoise, visit);
+        let zero_n = self.visit.errors.zero_n;
+        self.visit.readings += 1;
+        self.errors
+            .read(self.force_n(), zero_n, noise, self.visit.readings)
+    }
+
+    /// What robot and transducer err by in the visit that goes on.
+    fn visit_errors(&self) -> VisitErrors {
         let VisitKey { point, visit, .. } = self.visit.key;
+        let stream = self.random.stream(Purpose::Positioning, visit);
         let (drift, later) = (
             self.errors.point_zero_n(point),
             self.errors.press_zero_n(visit),
         );
-        let zero = std::array::from_fn(|axis| drift[axis] + later[axis]);
-        let noise = self.random.stream(Purpose::ForceNoise, visit);
-        self.visit.readings += 1;
-        self.errors
-            .read(self.force_n(), zero, noise, self.visit.readings)
-    }
-
-    /// How far beside its targets the robot stands: it errs from visit to visit, and repeats itself within one.
-    fn positioning_error(&self) -> [f64; 3] {
-        let stream = self
-            .random
-            .stream(Purpose::Positioning, self.visit.key.visit);
-        [0, 1, 2].map(|axis| self.robot.positioning_mm * stream.normal(axis))
+        VisitErrors {
+            position_mm: [0, 1, 2].map(|axis| self.robot.positioning_mm * stream.normal(axis)),
+            zero_n: std::array::from_fn(|axis| drift[axis] + later[axis]),
+        }
     }
 
     /// In the air over another place a new visit begins.
@@ -333,7 +358,8 @@ impl State {
             began: self.now,
             ..Visit::default()
         };
-        let error = self.positioning_error();
+        self.visit.errors = self.visit_errors();
+        let error = self.visit.errors.position_mm;
         self.tip_mm = std::array::from_fn(|axis| sent[axis] + error[axis]);
     }
 
@@ -343,10 +369,30 @@ impl State {
             return;
         };
         let point = self.visit.key.point;
-        let mut touch = self.visit.touch.take().unwrap_or_else(|| {
-            let wear = self.history.wear(point);
-            Touch::above(bench, self.mounted, self.tip_mm, wear)
-        });
+        let mut touch = match self.visit.touch.take() {
+            Some(touch) => touch,
+            None => {
+                let [x, y, z] = self.tip_mm;
+                // No place of the gel is so high: where it begins just here need not be worked out.
+                if z < -bench.unit().height_max_mm() {
+                    return;
+                }
+                let ground = self.visit.ground.filter(|ground| {
+                    ground.mounted == self.mounted
+                        && ground.place_mm.map(f64::to_bits) == [x, y].map(f64::to_bits)
+                });
+                let ground = ground.unwrap_or_else(|| Ground {
+                    mounted: self.mounted,
+                    place_mm: [x, y],
+                    surface_mm: surface_mm(bench, self.mounted, [x, y]),
+                });
+                self.visit.ground = Some(ground);
+                if z <= ground.surface_mm {
+                    return;
+                }
+                Touch::above(bench, [x, y], ground.surface_mm, self.history.wear(point))
+            }
+        };
         if touch.follow(bench, self.mounted, self.tip_mm, step_s) {
             self.visit.has_touched = true;
             self.visit.touch = Some(touch);

@@ -16,13 +16,12 @@ pub(super) struct Touch {
 }
 
 impl Touch {
-    /// A tip that is about to touch where the gel went through `wear`.
-    pub(super) fn above(bench: &Bench, mounted: Mounted, tip_mm: [f64; 3], wear: Wear) -> Touch {
-        let [x, y, _] = tip_mm;
+    /// A tip that is about to touch the gel, which begins at `surface_mm` there and went through `wear`.
+    pub(super) fn above(bench: &Bench, place_mm: [f64; 2], surface_mm: f64, wear: Wear) -> Touch {
         Touch {
-            place_mm: [x, y],
-            surface_mm: surface_mm(bench, mounted, [x, y]),
-            stiffness: bench.unit().stiffness([x, y]),
+            place_mm,
+            surface_mm,
+            stiffness: bench.unit().stiffness(place_mm),
             deepest_mm: 0.0,
             wear,
             memory: bench.solid().relaxation(),
@@ -105,7 +104,7 @@ impl Touch {
 }
 
 /// Where a tip begins to touch, z into the gel.
-fn surface_mm(bench: &Bench, mounted: Mounted, place_mm: [f64; 2]) -> f64 {
+pub(super) fn surface_mm(bench: &Bench, mounted: Mounted, place_mm: [f64; 2]) -> f64 {
     match mounted {
         Mounted::Ball(ball) => {
             let ideal = bench.solid().touch_height_mm(place_mm, ball.radius_mm());
