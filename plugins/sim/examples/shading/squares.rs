@@ -1,0 +1,121 @@
+//! Least squares of a few terms over many pixels: sums a press each, so that leaving one out is a difference.
+
+use std::iter::Sum;
+
+use super::law::Term;
+
+/// The normal equations of some presses: AᵀA, and Aᵀb of each colour.
+#[derive(Clone)]
+pub(crate) struct Squares {
+    own: Vec<Vec<f64>>,
+    seen: Vec<[f64; 3]>,
+}
+
+/// What a term counts in each colour.
+pub(crate) struct Coefficients(Vec<[f64; 3]>);
+
+impl Squares {
+    /// Those of one press that changed its picture by `change`.
+    pub(crate) fn of(terms: &[Term], change: &[f64]) -> Squares {
+        let dot = |one: &Term, other: &Term| one.iter().zip(other).map(|(a, b)| a * b).sum();
+        let (pixels, _) = change.as_chunks::<3>();
+        let seen = |term: &Term| {
+            let mut sums = [0.0; 3];
+            for (value, pixel) in term.iter().zip(pixels) {
+                for (sum, dn) in sums.iter_mut().zip(pixel) {
+                    *sum += value * dn;
+                }
+            }
+            sums
+        };
+        Squares {
+            own: terms
+                .iter()
+                .map(|one| terms.iter().map(|other| dot(one, other)).collect())
+                .collect(),
+            seen: terms.iter().map(seen).collect(),
+        }
+    }
+
+    pub(crate) fn terms(&self) -> usize {
+        self.seen.len()
+    }
+
+    /// Those of the other presses.
+    pub(crate) fn without(&self, press: &Squares) -> Squares {
+        self.combined(press, -1.0)
+    }
+
+    fn combined(&self, other: &Squares, sign: f64) -> Squares {
+        let rows = self.own.iter().zip(&other.own);
+        let seen = self.seen.iter().zip(&other.seen);
+        Squares {
+            own: rows
+                .map(|(one, other)| one.iter().zip(other).map(|(a, b)| a + sign * b).collect())
+                .collect(),
+            seen: seen
+                .map(|(one, other)| [0, 1, 2].map(|colour| one[colour] + sign * other[colour]))
+                .collect(),
+        }
+    }
+
+    /// Their solution, by Cholesky's factors.
+    pub(crate) fn solve(mut self) -> Result<Coefficients, &'static str> {
+        let count = self.terms();
+        for pivot in 0..count {
+            let root = self.own[pivot][pivot];
+            if root <= 0.0 {
+                return Err("the presses do not tell the terms apart");
+            }
+            let root = root.sqrt();
+            for row in pivot..count {
+                self.own[row][pivot] /= root;
+            }
+            for row in pivot + 1..count {
+                for column in pivot + 1..=row {
+                    self.own[row][column] -= self.own[row][pivot] * self.own[column][pivot];
+                }
+            }
+        }
+        let lower = &self.own;
+        let mut solution = self.seen;
+        for colour in 0..3 {
+            for row in 0..count {
+                let known: f64 = (0..row).map(|k| lower[row][k] * solution[k][colour]).sum();
+                solution[row][colour] = (solution[row][colour] - known) / lower[row][row];
+            }
+            for row in (0..count).rev() {
+                let known = (row + 1..count).map(|k| lower[k][row] * solution[k][colour]);
+                let known: f64 = known.sum();
+                solution[row][colour] = (solution[row][colour] - known) / lower[row][row];
+            }
+        }
+        Ok(Coefficients(solution))
+    }
+}
+
+impl<'a> Sum<&'a Squares> for Squares {
+    fn sum<I: Iterator<Item = &'a Squares>>(mut parts: I) -> Squares {
+        let first = parts.next().cloned().unwrap_or(Squares {
+            own: Vec::new(),
+            seen: Vec::new(),
+        });
+        parts.fold(first, |sum, part| sum.combined(part, 1.0))
+    }
+}
+
+impl Coefficients {
+    /// What they say that a press with these terms changes, three colours a pixel.
+    pub(crate) fn draw(&self, terms: &[Term]) -> Vec<f64> {
+        let pixels = terms.first().map_or(0, Vec::len);
+        let mut change = vec![[0.0; 3]; pixels];
+        for (term, weights) in terms.iter().zip(&self.0) {
+            for (pixel, value) in change.iter_mut().zip(term) {
+                for (dn, weight) in pixel.iter_mut().zip(weights) {
+                    *dn += weight * value;
+                }
+            }
+        }
+        change.into_flattened()
+    }
+}
