@@ -22,9 +22,10 @@ pub(crate) fn run(args: &Run, context: &Context) -> anyhow::Result<u8> {
     planned.check_models()?;
     let formats = formats(&planned)?;
     if args.format == Format::Csv && planned.studies.len() > 1 {
-        return Err(Usage::error(
-            "--format csv: rows of several sensors cannot be told apart; name `csv` under [report] formats for a file a sensor",
-        ));
+        return Err(Usage::error(format!(
+            "--format csv: rows of {} sensors cannot be told apart in one table; write `formats = [\"csv\"]` under [report] of the scene for a file a sensor, or print them with --format json",
+            planned.studies.len()
+        )));
     }
     let existing = match (args.resume, args.force) {
         (true, _) => Existing::Resume,

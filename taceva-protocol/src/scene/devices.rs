@@ -33,7 +33,7 @@ pub struct SensorSpec {
     pub driver: Option<Setting<String>>,
     /// The folder of a recording, instead of a driver; relative to the scene.
     pub dataset: Option<Setting<String>>,
-    /// The units of the sensor model that are measured, by name; one when absent.
+    /// The units of the sensor model that are measured, by name; one that is called `1` when absent.
     pub units: Option<Setting<Vec<String>>>,
     /// Whether ambient light cannot reach the camera.
     pub opaque: Option<Setting<bool>>,

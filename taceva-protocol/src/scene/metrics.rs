@@ -1,6 +1,10 @@
 //! What a scene wants computed and written.
 
-use serde::Deserialize;
+use std::fmt;
+
+use serde::de::value::MapAccessDeserializer;
+use serde::de::{MapAccess, Visitor};
+use serde::{Deserialize, Deserializer};
 use taceva_core::{Nanometre, Newton};
 use taceva_metrics::Settings;
 
@@ -8,12 +12,33 @@ use super::setting::Setting;
 
 /// The metrics of a scene.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize)]
-#[serde(deny_unknown_fields, default, expecting = "a table with `want`")]
+#[serde(remote = "Self", deny_unknown_fields, default)]
 pub struct MetricsSpec {
     /// Names of metrics or groups; all that apply when absent. A metric named by itself must apply to some sensor of the scene.
     pub want: Option<Vec<Setting<String>>>,
     /// How they are computed.
     pub settings: MetricSettings,
+}
+
+// What is derived would take a list for the fields in order, and then miss a list in its first element.
+impl<'de> Deserialize<'de> for MetricsSpec {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<MetricsSpec, D::Error> {
+        struct Table;
+
+        impl<'de> Visitor<'de> for Table {
+            type Value = MetricsSpec;
+
+            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                f.write_str("a table such as `metrics = { want = [\"mae\"] }`")
+            }
+
+            fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<MetricsSpec, A::Error> {
+                MetricsSpec::deserialize(MapAccessDeserializer::new(map))
+            }
+        }
+
+        deserializer.deserialize_map(Table)
+    }
 }
 
 /// How metrics are computed; absent settings are those of the metric.
