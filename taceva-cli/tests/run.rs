@@ -319,3 +319,26 @@ fn what_was_recorded_is_scored_again_without_a_press() {
             .is_none()
     );
 }
+
+#[test]
+fn presses_that_a_limit_ends_are_counted_by_their_limit_in_every_report_of_them() {
+    let bench = Bench::new();
+    for (name, greatest_n) in [("tight", 0.3), ("tiny", 0.025)] {
+        let scene = SMALL.replace("\"small\"", &format!("\"{name}\""))
+            + &format!("limits = {{ Fz_max_N = {greatest_n} }}\n");
+        bench.write("s.toml", &scene);
+        let run = bench.json(&format!("run s.toml --out {name}"));
+        let provenance = &run["studies"][0]["provenance"];
+        let dataset = provenance["dataset"].as_str().expect("a digest");
+        let presses = &provenance["presses"][dataset];
+        let count = |outcome: &str| presses[outcome].as_u64().unwrap_or(0);
+        let limited = count("normal-force-limit");
+        assert!(limited > 5, "{presses}");
+        let said = format!("{limited} ended by the limit of normal force");
+        let recording = format!("{name}/recordings/1-{name}");
+        let text = fs::read_to_string(bench.path(&format!("{name}/reports/1-{name}.txt")));
+        assert!(text.expect("reads").contains(&said), "{said}");
+        let evaluated = bench.ok(&format!("evaluate {recording} --model baseline"));
+        assert!(evaluated.contains(&said), "{evaluated}");
+    }
+}

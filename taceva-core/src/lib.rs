@@ -14,6 +14,7 @@ mod id;
 mod model;
 mod nanometre;
 mod needs;
+mod outcome;
 mod phase;
 mod progress;
 mod quantity;
@@ -48,6 +49,7 @@ pub use model::{
 };
 pub use nanometre::{Nanometre, NanometreError};
 pub use needs::Needs;
+pub use outcome::{Limit, PressOutcome};
 pub use phase::Phase;
 pub use progress::{Progress, Silent};
 pub use quantity::{Degree, Hertz, Lux, Millimetre, Newton, NewtonMillimetre};

@@ -5,6 +5,7 @@ use crate::frame::Frame;
 use crate::geometry::Pose;
 use crate::grating::GratingKind;
 use crate::nanometre::Nanometre;
+use crate::outcome::Limit;
 use crate::phase::Phase;
 use crate::stamp::Stamp;
 use crate::wrench::Wrench;
@@ -28,6 +29,8 @@ pub struct Sample {
     pub repeat: Option<u32>,
     /// Load or unload.
     pub phase: Option<Phase>,
+    /// The limit of the gel that kept the tip from where it was sent: labels and picture are of the place that was reached.
+    pub limited_by: Option<Limit>,
     /// When it was taken.
     pub stamp: Option<Stamp>,
     /// The relief of the grating that is touched.

@@ -79,6 +79,8 @@ impl<S: SampleSink> SampleSink for Select<S> {
             depth_step: sample.depth_step.filter(|_| kept(Field::DepthStep)),
             repeat: sample.repeat.filter(|_| kept(Field::Repeat)),
             phase: sample.phase.filter(|_| kept(Field::Phase)),
+            // As a name, it is no field that anybody could do without.
+            limited_by: sample.limited_by,
             stamp: sample.stamp.filter(|_| kept(Field::Stamp)),
             kind: sample.kind.filter(|_| kept(Field::Kind)),
             spacing: sample.spacing.filter(|_| kept(Field::Spacing)),

@@ -2,10 +2,11 @@
 
 mod footprint;
 
+use std::collections::BTreeMap;
 use std::path::Path;
 
 use serde::{Deserialize, Deserializer, Serialize, Serializer, de};
-use taceva_core::{Channel, Channels, Clock, FrameInfo, Unit};
+use taceva_core::{Channel, Channels, Clock, FrameInfo, PressOutcome, Unit};
 
 use crate::decode::ChannelOrder;
 use crate::digest::Digest;
@@ -156,6 +157,8 @@ pub struct Header {
     pub attributes: Vec<String>,
     /// What all frames share; `None` if there is none.
     pub frames: Option<FramesInfo>,
+    /// How many presses ended in which way, those without a sample too; empty where no protocol pressed, and before format 1.2.
+    pub presses: BTreeMap<PressOutcome, u64>,
     /// What the table must be.
     pub table: TableInfo,
     /// The digest of the dataset.
@@ -175,6 +178,8 @@ struct Written {
     footprint: Option<Footprint>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     frames: Option<FramesInfo>,
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    presses: BTreeMap<PressOutcome, u64>,
     table: TableInfo,
     channels: Vec<ChannelInfo>,
 }
@@ -212,6 +217,7 @@ impl Header {
             channels,
             attributes: written.attributes,
             frames: written.frames,
+            presses: written.presses,
             table: written.table,
             digest: written.digest,
         })
@@ -228,6 +234,7 @@ impl Header {
             sensor: self.sensor.clone(),
             footprint: self.footprint,
             frames: self.frames.clone(),
+            presses: self.presses.clone(),
             table: self.table,
             channels: self
                 .channels
@@ -245,7 +252,7 @@ impl Header {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use taceva_core::PixelFormat;
+    use taceva_core::{Limit, PixelFormat};
 
     fn header() -> Header {
         Header {
@@ -277,6 +284,10 @@ mod tests {
                 channel_order: ChannelOrder::Bgr,
                 reference: None,
             }),
+            presses: BTreeMap::from([
+                (PressOutcome::Complete, 2),
+                (PressOutcome::Limited(Limit::NormalForce), 1),
+            ]),
             table: TableInfo {
                 rows: 3,
                 digest: Digest::of(b"t"),

@@ -1,10 +1,12 @@
 //! A recording while it is made: each sample is durable before it counts.
 
-use std::collections::{BTreeSet, HashSet};
+use std::collections::{BTreeMap, HashSet};
 use std::fs::{self, File};
 use std::path::{Path, PathBuf};
 
-use taceva_core::{Channels, Field, FieldSet, Frame, FrameInfo, Sample, SampleSink, SinkError};
+use taceva_core::{
+    Channels, Field, FieldSet, Frame, FrameInfo, PressOutcome, Sample, SampleSink, SinkError,
+};
 
 use crate::error::DatasetError;
 use crate::file::{parent_of, sync_folder};
@@ -74,7 +76,7 @@ pub struct Recorder {
     facts: RecordingFacts,
     table: Table,
     finished: HashSet<String>,
-    presses: BTreeSet<String>,
+    presses: BTreeMap<String, PressOutcome>,
     frame_info: Option<FrameInfo>,
     reference: Option<ReferenceInfo>,
     cut_bytes: u64,
@@ -174,7 +176,7 @@ impl Recorder {
             facts: spec.facts,
             table: Table::new(spec.channels, Vec::new()),
             finished: HashSet::new(),
-            presses: BTreeSet::new(),
+            presses: BTreeMap::new(),
             frame_info: None,
             reference: None,
             cut_bytes: 0,
@@ -252,8 +254,8 @@ impl Recorder {
             &samples,
             &header_path,
             &self.facts,
-            &self.table,
-            self.frames_info(),
+            (&self.table, self.frames_info()),
+            self.press_counts(),
         )?;
         self.verify(&samples, &header)?;
         self.put_in_place(&samples, layout::SAMPLES)?;
@@ -304,6 +306,7 @@ impl Recorder {
             depth_step: sample.depth_step,
             repeat: sample.repeat,
             phase: sample.phase,
+            limited_by: sample.limited_by,
             part: None,
             t_s: sample.stamp.map(|stamp| stamp.valid_s),
             kind: sample.kind,

@@ -13,7 +13,7 @@ use parquet::file::properties::WriterProperties;
 use parquet::file::reader::{FileReader, SerializedFileReader};
 use parquet::file::writer::{SerializedFileWriter, SerializedRowGroupWriter};
 use parquet::schema::types::Type;
-use taceva_core::{Channels, GratingKind, Nanometre, Phase};
+use taceva_core::{Channels, GratingKind, Limit, Nanometre, Phase};
 
 use crate::digest::Digest;
 use crate::guard::guarded;
@@ -260,6 +260,8 @@ fn assemble(
             return Err(format!("no column `{channel}`"));
         }
     }
+    // Before format 1.2 a lab could give this name to a column of its own.
+    let is_own_limit = attributes.iter().any(|name| name == "limited_by");
     let mut columns = Columns(columns);
     let mut table = Table::new(channels.clone(), attributes.to_vec());
     for row in 0..rows {
@@ -278,6 +280,14 @@ fn assemble(
             phase: phase
                 .map(|name| {
                     Phase::from_name(&name).ok_or_else(|| format!("row {row}: no such phase"))
+                })
+                .transpose()?,
+            limited_by: (!is_own_limit)
+                .then(|| columns.text("limited_by", row))
+                .transpose()?
+                .flatten()
+                .map(|name| {
+                    Limit::from_name(&name).ok_or_else(|| format!("row {row}: no such limit"))
                 })
                 .transpose()?,
             part: columns.text("part", row)?,
@@ -346,6 +356,7 @@ mod tests {
                 point_id: is_even.then(|| format!("p{}", row / 4)),
                 repeat: Some(u32::MAX - u32::from(row)),
                 phase: is_even.then_some(Phase::Load),
+                limited_by: (row == 4).then_some(Limit::NormalForce),
                 t_s: Some(1.7e9 + f64::from(row)),
                 kind: is_even.then_some(GratingKind::Dot),
                 spacing: Some(Nanometre(350_000 + i64::from(row))),

@@ -1,8 +1,9 @@
 //! The last step of every dataset: the table and the header are written, and say what each other must be.
 
+use std::collections::BTreeMap;
 use std::path::Path;
 
-use taceva_core::Clock;
+use taceva_core::{Clock, PressOutcome};
 
 use crate::digest::{Digest, PartsDigest};
 use crate::error::DatasetError;
@@ -30,8 +31,8 @@ pub(crate) fn write_table_and_header(
     samples: &Path,
     header: &Path,
     facts: &RecordingFacts,
-    table: &Table,
-    frames: Option<FramesInfo>,
+    (table, frames): (&Table, Option<FramesInfo>),
+    presses: BTreeMap<PressOutcome, u64>,
 ) -> Result<Header, DatasetError> {
     let bytes = to_parquet(table).map_err(|problem| DatasetError::Damaged {
         path: samples.to_owned(),
@@ -49,6 +50,7 @@ pub(crate) fn write_table_and_header(
         attributes: table.attribute_names().to_vec(),
         digest: dataset_digest(table_digest, frames.as_ref()),
         frames,
+        presses,
         table: TableInfo {
             rows: table.rows() as u64,
             digest: table_digest,

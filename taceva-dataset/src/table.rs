@@ -5,8 +5,8 @@ mod fields;
 mod row;
 
 use taceva_core::{
-    Channels, Column, Field, FieldSet, Frame, GratingKind, Nanometre, Phase, Readings, Sample,
-    Stamp,
+    Channels, Column, Field, FieldSet, Frame, GratingKind, Limit, Nanometre, Phase, Readings,
+    Sample, Stamp,
 };
 
 use crate::digest::{Digest, PartsDigest};
@@ -26,6 +26,7 @@ pub struct Table {
     depth_step: Vec<Option<u32>>,
     repeat: Vec<Option<u32>>,
     phase: Vec<Option<Phase>>,
+    limited_by: Vec<Option<Limit>>,
     part: Vec<Option<String>>,
     t_s: Vec<Option<f64>>,
     kind: Vec<Option<GratingKind>>,
@@ -66,6 +67,7 @@ impl Table {
         self.depth_step.push(row.depth_step);
         self.repeat.push(row.repeat);
         self.phase.push(row.phase);
+        self.limited_by.push(row.limited_by);
         self.part.push(row.part);
         self.t_s.push(row.t_s);
         self.kind.push(row.kind);
@@ -128,6 +130,11 @@ impl Table {
     /// Load or unload, of each row.
     pub fn phase(&self) -> &[Option<Phase>] {
         &self.phase
+    }
+
+    /// The limit of the gel that kept the tip from where it was sent, of each row.
+    pub fn limited_by(&self) -> &[Option<Limit>] {
+        &self.limited_by
     }
 
     /// The declared part of each row.
@@ -233,6 +240,7 @@ impl Table {
             depth_step: self.depth_step[row].filter(|_| wanted(Field::DepthStep)),
             repeat: self.repeat[row].filter(|_| wanted(Field::Repeat)),
             phase: self.phase[row].filter(|_| wanted(Field::Phase)),
+            limited_by: self.limited_by[row],
             stamp: self.t_s[row]
                 .filter(|_| wanted(Field::Stamp))
                 .map(|valid_s| Stamp {
@@ -291,6 +299,7 @@ impl Table {
             named("depth_step", Cells::Count(&self.depth_step)),
             named("repeat", Cells::Count(&self.repeat)),
             named("phase", Cells::Phase(&self.phase)),
+            named("limited_by", Cells::Limit(&self.limited_by)),
             named("part", Cells::Text(&self.part)),
             named("t_s", Cells::Measured(&self.t_s)),
             named("kind", Cells::Kind(&self.kind)),

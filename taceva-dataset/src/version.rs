@@ -18,7 +18,7 @@ pub struct Version {
 
 impl Version {
     /// What this crate writes.
-    pub const CURRENT: Version = Version { major: 1, minor: 1 };
+    pub const CURRENT: Version = Version { major: 1, minor: 2 };
 
     /// Whether this crate can read it.
     pub fn is_readable(self) -> bool {

@@ -3,7 +3,10 @@
 use std::fs;
 use std::path::Path;
 
-use taceva_core::{Channel, Channels, Clock, Frame, FrameInfo, PixelFormat, Readings, Sample};
+use taceva_core::{
+    Channel, Channels, Clock, FieldSet, Frame, FrameInfo, Limit, PixelFormat, PressOutcome,
+    Readings, Sample,
+};
 use taceva_dataset::{
     Dataset, DatasetError, Known, Recorder, RecordingFacts, RecordingSpec, SensorFacts, Source,
 };
@@ -46,8 +49,12 @@ fn press(name: &str) -> Vec<Sample> {
 
 fn recorded(path: &Path) -> Recorder {
     let mut recorder = Recorder::create(path, &spec()).expect("new");
-    recorder.append_press("a", &press("a")).expect("recorded");
-    recorder.append_press("b", &[]).expect("recorded");
+    recorder
+        .append_press("a", PressOutcome::Complete, &press("a"))
+        .expect("recorded");
+    recorder
+        .append_press("b", PressOutcome::Limited(Limit::NormalForce), &[])
+        .expect("recorded");
     recorder
 }
 
@@ -57,7 +64,9 @@ fn a_torn_press_leaves_none_of_its_samples_and_can_be_made_again() {
     let whole = folder.path().join("whole");
     let mut recorder = recorded(&whole);
     let before = fs::metadata(whole.join("journal")).expect("there").len();
-    recorder.append_press("c", &press("c")).expect("recorded");
+    recorder
+        .append_press("c", PressOutcome::Complete, &press("c"))
+        .expect("recorded");
     drop(recorder);
     let bytes = fs::read(whole.join("journal")).expect("reads");
     let before = usize::try_from(before).expect("small");
@@ -66,7 +75,9 @@ fn a_torn_press_leaves_none_of_its_samples_and_can_be_made_again() {
         let mut resumed = Recorder::resume(&whole).expect("resumes");
         assert_eq!(resumed.table().rows(), 3);
         assert!(resumed.has_press("a") && resumed.has_press("b") && !resumed.has_press("c"));
-        resumed.append_press("c", &press("c")).expect("made again");
+        resumed
+            .append_press("c", PressOutcome::Complete, &press("c"))
+            .expect("made again");
     }
     let resumed = Recorder::open(&whole, &spec()).expect("of the same");
     let digest = resumed.close().expect("closes").digest;
@@ -75,7 +86,9 @@ fn a_torn_press_leaves_none_of_its_samples_and_can_be_made_again() {
     assert_eq!(dataset.table().samples()[5], "c/2");
     let uninterrupted = folder.path().join("uninterrupted");
     let mut recorder = recorded(&uninterrupted);
-    recorder.append_press("c", &press("c")).expect("recorded");
+    recorder
+        .append_press("c", PressOutcome::Complete, &press("c"))
+        .expect("recorded");
     assert_eq!(recorder.close().expect("closes").digest, digest);
 }
 
@@ -91,9 +104,64 @@ fn a_press_that_is_refused_leaves_nothing() {
         ("x", press("a")),
     ];
     for (name, samples) in refused {
-        let error = recorder.append_press(name, &samples).expect_err(name);
+        let error = recorder
+            .append_press(name, PressOutcome::Complete, &samples)
+            .expect_err(name);
         assert!(matches!(error, DatasetError::Sample { .. }), "{error}");
     }
     assert_eq!(recorder.table().rows(), 3);
     assert!(!recorder.has_press("x"));
+}
+
+#[test]
+fn a_press_that_a_limit_ended_is_counted_by_its_limit_though_it_has_no_sample() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("r");
+    let mut recorder = recorded(&path);
+    let mut samples = press("c");
+    samples[2].limited_by = Some(Limit::ShearForce);
+    let ended = PressOutcome::Limited(Limit::ShearForce);
+    recorder
+        .append_press("c", ended, &samples)
+        .expect("recorded");
+    // What an interruption leaves is the journal alone.
+    drop(recorder);
+    let header = Recorder::resume(&path).expect("resumes").close();
+    let counts = [
+        (PressOutcome::Complete, 1),
+        (PressOutcome::Limited(Limit::NormalForce), 1),
+        (ended, 1),
+    ];
+    assert_eq!(header.expect("closes").presses, counts.into());
+    let dataset = Dataset::open(&path).expect("a dataset");
+    assert_eq!(dataset.header().presses, counts.into());
+    let limited = dataset.table().limited_by();
+    assert_eq!(limited[5], Some(Limit::ShearForce));
+    assert!(limited[..5].iter().all(Option::is_none));
+    let sample = dataset.table().sample(5, FieldSet::EMPTY, None);
+    assert_eq!(sample.limited_by, Some(Limit::ShearForce));
+}
+
+#[test]
+fn a_recording_of_format_1_1_says_of_no_press_how_it_ended_and_reads_as_before() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("r");
+    let mut recorder = Recorder::create(&path, &spec()).expect("new");
+    let whole = PressOutcome::Complete;
+    recorder
+        .append_press("a", whole, &press("a"))
+        .expect("recorded");
+    let digest = recorder.close().expect("closes").digest;
+    // Such a table had no column of limits: one without a limited sample has none either.
+    let header = path.join("dataset.toml");
+    let text = fs::read_to_string(&header).expect("reads");
+    let older = text
+        .replace("format = \"1.2\"", "format = \"1.1\"")
+        .replace("[presses]\ncomplete = 1\n", "");
+    assert!(older.len() + 20 < text.len(), "{text}");
+    fs::write(&header, older).expect("written");
+    let dataset = Dataset::open(&path).expect("reads");
+    assert_eq!(dataset.digest(), digest);
+    assert!(dataset.header().presses.is_empty());
+    assert_eq!(dataset.table().limited_by(), [None; 3]);
 }

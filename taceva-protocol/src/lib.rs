@@ -21,9 +21,8 @@ pub use plan::{
 };
 pub use press::{Motion, Press, Station};
 pub use run::{
-    Cancel, Controls, Devices, Event, Left, Mode, Observation, Outcome, PressLog, PressRecord,
-    RunError, RunReport, RunSpec, SpecimenChanger, Stage, StopCause, Supervisor, Timekeeper, Trip,
-    run,
+    Cancel, Controls, Devices, Event, Left, Mode, Observation, PressLog, PressRecord, RunError,
+    RunReport, RunSpec, SpecimenChanger, Stage, StopCause, Supervisor, Timekeeper, Trip, run,
 };
 pub use scene::{
     BuiltinScene, Calibration, Contact, DeviceSpec, FootprintSpec, GREATEST_SCENE, Gratings,

@@ -21,7 +21,7 @@ mod trip;
 pub use devices::{Devices, SpecimenChanger};
 pub use error::{Left, RunError, StopCause};
 pub use event::Event;
-pub use log::{Outcome, PressLog, PressRecord};
+pub use log::{PressLog, PressRecord};
 pub use supervisor::{Observation, Stage, Supervisor};
 pub use time::{Cancel, Timekeeper};
 pub use trip::Trip;
@@ -29,7 +29,7 @@ pub use trip::Trip;
 #[cfg(feature = "simulation")]
 pub(crate) use supervisor::STALE_S;
 
-use taceva_core::{Degree, Lighting, Millimetre, Nanometre, Sensor, Specimen};
+use taceva_core::{Degree, Lighting, Millimetre, Nanometre, PressOutcome, Sensor, Specimen};
 
 use crate::digest::Digest;
 use crate::plan::{Plan, PlannedPress};
@@ -217,8 +217,9 @@ impl<'a> Run<'a> {
                     })?;
                     report.made += 1;
                     report.samples += record.samples.len();
-                    report.limited += usize::from(record.outcome == Outcome::Limited);
-                    report.without_contact += usize::from(record.outcome == Outcome::NoContact);
+                    report.limited += usize::from(record.outcome.is_limited());
+                    report.without_contact +=
+                        usize::from(record.outcome == PressOutcome::NoContact);
                     (self.events)(&Event::Finished {
                         press: planned.id,
                         outcome: record.outcome,
@@ -249,21 +250,16 @@ impl<'a> Run<'a> {
         let mut gathered = Gathered::default();
         let outcome = match self.press(planned, &mut gathered) {
             Ok(outcome) => outcome,
-            Err(StopCause::Tripped(trip)) if trip.is_limit() => {
-                (self.events)(&Event::Halted(trip));
-                Outcome::Limited
-            }
-            Err(cause) => return Err(cause),
+            Err(cause) => PressOutcome::Limited(self.limit_of(cause)?),
         };
         self.tip.retreat()?;
-        if outcome == Outcome::Limited {
+        if outcome.is_limited() {
             (self.events)(&Event::Retracted);
         }
         Ok(PressRecord {
             press: planned.id,
             outcome,
             samples: gathered.samples,
-            limited: gathered.limited,
         })
     }
 
@@ -326,7 +322,7 @@ impl<'a> Run<'a> {
     }
 
     /// What happens between the approach and the retreat.
-    fn press(&mut self, planned: &PlannedPress, gathered: &mut Gathered) -> Step<Outcome> {
+    fn press(&mut self, planned: &PlannedPress, gathered: &mut Gathered) -> Step<PressOutcome> {
         let press = &planned.press;
         if let Motion::Rest { frames } = press.motion {
             let mut before = self.tip.settle()?;
@@ -335,10 +331,10 @@ impl<'a> Run<'a> {
                 // No rest between: the pictures come as fast as the sensor gives them.
                 before = self.tip.look()?;
             }
-            return Ok(Outcome::Complete);
+            return Ok(PressOutcome::Complete);
         }
         let Some(contact) = self.tip.search()? else {
-            return Ok(Outcome::NoContact);
+            return Ok(PressOutcome::NoContact);
         };
         let height_mm = contact.pose.position.z.0;
         let height = Millimetre(height_mm);
@@ -348,7 +344,7 @@ impl<'a> Run<'a> {
             Motion::Touch | Motion::Rest { .. } => {
                 let rested = self.tip.settle()?;
                 self.sample(planned, Spot::reached(0, 0.0), rested, gathered)?;
-                Ok(Outcome::Complete)
+                Ok(PressOutcome::Complete)
             }
         }
     }
@@ -363,9 +359,6 @@ impl<'a> Run<'a> {
         let camera = self.camera.as_mut().filter(|_| planned.frames);
         let observed = station::observe(before, &mut self.tip, camera, self.events)?;
         let sample = station::sample(planned, spot, observed, &self.plan.channels);
-        if spot.is_limited {
-            gathered.limited.push(spot.number);
-        }
         gathered.samples.push(sample);
         (self.events)(&Event::Sampled {
             number: gathered.samples.len() - 1,

@@ -192,8 +192,6 @@ fn score(
     let divided = target.divided.as_ref();
     let note = divided.and_then(|divided| divided.split.note.clone());
     let provenance = Provenance {
-        taceva: env!("CARGO_PKG_VERSION").to_owned(),
-        dataset: Some(dataset.digest().to_string()),
         model: Some(ModelProvenance::of(model)?),
         split: divided.map(|divided| divided.spec.to_string()),
         seed: divided.map(|divided| divided.seed),
@@ -206,7 +204,7 @@ fn score(
             .chain(left_out_note(target.part.name(), predicted.left_out))
             .chain(passes.note(dataset))
             .collect(),
-        ..Provenance::default()
+        ..Provenance::of(dataset)
     };
     let subject = Subject::of(dataset);
     let state = StateFile::of(&mut evaluator, &subject, &provenance)?;

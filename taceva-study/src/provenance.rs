@@ -3,6 +3,8 @@
 use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
+use taceva_core::PressOutcome;
+use taceva_dataset::Dataset;
 use taceva_models::{ChosenBy, Model};
 
 use crate::error::StudyError;
@@ -36,6 +38,9 @@ pub struct Provenance {
     /// Samples a part, where there is a split.
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     pub samples: BTreeMap<String, usize>,
+    /// How the presses of each recording ended, by its digest, where a protocol pressed: all of them, scored or not.
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    pub presses: BTreeMap<String, BTreeMap<PressOutcome, u64>>,
     /// Frames decoded for it.
     pub frames_decoded: u64,
     /// Third-party code that took part.
@@ -46,6 +51,28 @@ pub struct Provenance {
 }
 
 impl Provenance {
+    /// What `dataset` itself tells.
+    pub(crate) fn of(dataset: &Dataset) -> Provenance {
+        let digest = dataset.digest().to_string();
+        let presses = &dataset.header().presses;
+        let told = (!presses.is_empty()).then(|| (digest.clone(), presses.clone()));
+        Provenance {
+            taceva: env!("CARGO_PKG_VERSION").to_owned(),
+            dataset: Some(digest),
+            presses: told.into_iter().collect(),
+            ..Provenance::default()
+        }
+    }
+
+    /// How many presses ended in which way, of all recordings together.
+    pub fn press_counts(&self) -> BTreeMap<PressOutcome, u64> {
+        let mut counts = BTreeMap::new();
+        for (outcome, count) in self.presses.values().flatten() {
+            *counts.entry(*outcome).or_default() += count;
+        }
+        counts
+    }
+
     /// The provenance of both: what they share, with everything that was read for either.
     pub(crate) fn joined(mut self, other: &Provenance) -> Provenance {
         let same = |own: Option<String>, other: &Option<String>| {
@@ -70,6 +97,10 @@ impl Provenance {
         for (part, count) in &other.samples {
             *self.samples.entry(part.clone()).or_default() += count;
         }
+        // The same recording tells the same, however often it took part.
+        let presses = other.presses.iter();
+        self.presses
+            .extend(presses.map(|(digest, counts)| (digest.clone(), counts.clone())));
         self.frames_decoded += other.frames_decoded;
         for note in &other.notes {
             if !self.notes.contains(note) {

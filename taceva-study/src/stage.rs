@@ -64,8 +64,6 @@ pub(crate) fn assess(
         told.as_ref().map(|told| told.frames_decoded),
     ];
     let provenance = Provenance {
-        taceva: env!("CARGO_PKG_VERSION").to_owned(),
-        dataset: Some(dataset.digest().to_string()),
         model: learnt
             .as_ref()
             .map(|learnt| ModelProvenance::of(&learnt.model))
@@ -75,7 +73,7 @@ pub(crate) fn assess(
         samples: divided.map(Divided::counts).unwrap_or_default(),
         frames_decoded: frames_decoded.into_iter().flatten().sum(),
         notes,
-        ..Provenance::default()
+        ..Provenance::of(dataset)
     };
     Ok(EvaluationReport::new(
         Subject::of(dataset),

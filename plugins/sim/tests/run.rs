@@ -3,8 +3,8 @@
 #[path = "run/trial.rs"]
 mod trial;
 
-use taceva_core::{Nanometre, Phase, Sample};
-use taceva_protocol::{Outcome, PhaseKind, PlannedPress, PressRecord, Specimen};
+use taceva_core::{Nanometre, Phase, PressOutcome, Sample};
+use taceva_protocol::{PhaseKind, PlannedPress, PressRecord, Specimen};
 use taceva_sim::Model;
 
 use trial::{Log, Trial};
@@ -86,13 +86,10 @@ fn check(trial: &Trial, planned: &PlannedPress, log: &Log) {
     let name = format!("{} {:?} {}", trial.model, planned.phases, planned.id);
     let (samples, wanted) = (&record.samples, planned.press.samples());
     match record.outcome {
-        Outcome::Complete => assert_eq!(samples.len(), wanted, "{name}"),
+        PressOutcome::Complete => assert_eq!(samples.len(), wanted, "{name}"),
         // Stations that a limit kept out of reach are left out; the first of them is seen where the tip stopped.
-        Outcome::Limited => {
-            assert!(
-                !record.limited.is_empty() && samples.len() <= wanted,
-                "{name}"
-            );
+        PressOutcome::Limited(_) => {
+            assert!(limited(record) > 0 && samples.len() <= wanted, "{name}");
         }
         other => panic!("{name}: {other:?}"),
     }
@@ -118,6 +115,12 @@ fn check(trial: &Trial, planned: &PlannedPress, log: &Log) {
         assert_eq!(sample.kind.is_some(), is_board, "{name}");
     }
     check_forces(trial, planned, record);
+}
+
+/// Samples that a limit kept from their station.
+fn limited(record: &PressRecord) -> usize {
+    let samples = record.samples.iter();
+    samples.filter(|sample| sample.limited_by.is_some()).count()
 }
 
 /// The number of a sample in its press.
@@ -175,7 +178,7 @@ fn presses_that_a_limit_ends_come_out_of_the_gel_by_their_stations_and_are_resum
     let scene = scene(Model::GelSight).replace("[[study]]", limits);
     let trial = Trial::new(Model::GelSight, &scene);
     let log = interrupted_and_whole(&trial);
-    let is_limited = |record: &&PressRecord| record.outcome == Outcome::Limited;
+    let is_limited = |record: &&PressRecord| record.outcome.is_limited();
     assert!(log.records.iter().filter(is_limited).count() > 5);
     for planned in trial.plan.presses_of(PhaseKind::LoadUnload) {
         let mut records = log.records.iter().filter(is_limited);
@@ -185,7 +188,7 @@ fn presses_that_a_limit_ends_come_out_of_the_gel_by_their_stations_and_are_resum
         let out = out.filter(|sample| sample.phase == Some(Phase::Unload));
         assert_eq!(2 * out.count(), record.samples.len());
         assert_eq!(
-            record.limited.len(),
+            limited(record),
             2,
             "the way in ends where the way out begins"
         );
@@ -204,11 +207,11 @@ fn interrupted_and_whole(trial: &Trial) -> Log {
     for (one, other) in whole.records.iter().zip(&pieces.records) {
         assert_eq!((one.press, one.outcome), (other.press, other.outcome));
         assert_eq!(one.samples.len(), other.samples.len());
-        assert_eq!(one.limited, other.limited);
         for (one, other) in one.samples.iter().zip(&other.samples) {
             // The time of day differs, and nothing else.
             assert_eq!(one.truth, other.truth, "{}", one.id);
             assert_eq!(one.frame, other.frame, "{}", one.id);
+            assert_eq!(one.limited_by, other.limited_by, "{}", one.id);
         }
     }
     whole

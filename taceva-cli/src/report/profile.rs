@@ -2,11 +2,13 @@
 
 use std::io::{self, Write};
 
+use taceva_core::PressOutcome;
 use taceva_metrics::catalogue;
 use taceva_study::EvaluationReport;
 
 use super::line::{Line, lines};
 use super::number::Printed;
+use super::text::presses;
 
 /// A channel and the plane that says the same of it and its neighbour.
 const IN_PLANES: [(&str, &str); 4] = [("Px", "Pxy"), ("Py", "Pxy"), ("Fx", "Fxy"), ("Fy", "Fxy")];
@@ -40,6 +42,13 @@ pub(super) fn write(reports: &[EvaluationReport], out: &mut dyn Write) -> io::Re
         table.push([vec![metric, channel], cells, vec![unit]].concat());
     }
     print(&table, out)?;
+    for report in reports {
+        let counts = report.provenance.press_counts();
+        let is_as_planned = counts.keys().all(|way| *way == PressOutcome::Complete);
+        if let Some(presses) = presses(report).filter(|_| !is_as_planned) {
+            writeln!(out, "presses    {}: {presses}", report.subject.sensor)?;
+        }
+    }
     for report in reports {
         for skipped in report.evaluation.skipped() {
             let (sensor, what) = (&report.subject.sensor, &skipped.what);

@@ -2,6 +2,7 @@
 
 use std::io::{self, Write};
 
+use taceva_core::{Limit, PressOutcome};
 use taceva_study::EvaluationReport;
 
 use super::line::{flags, lines, pictures};
@@ -117,6 +118,9 @@ fn footer(report: &EvaluationReport, out: &mut dyn Write) -> io::Result<()> {
     for note in &report.provenance.notes {
         writeln!(out, "note       {note}")?;
     }
+    if let Some(presses) = presses(report) {
+        writeln!(out, "presses    {presses}")?;
+    }
     if let Some(dataset) = &report.provenance.dataset {
         writeln!(out, "dataset    {dataset}")?;
     }
@@ -131,6 +135,27 @@ fn footer(report: &EvaluationReport, out: &mut dyn Write) -> io::Result<()> {
         "frames     {} decoded",
         report.provenance.frames_decoded
     )
+}
+
+/// How the presses ended, where a protocol pressed.
+pub(super) fn presses(report: &EvaluationReport) -> Option<String> {
+    let counts = report.provenance.press_counts();
+    let all: u64 = counts.values().sum();
+    let ways = counts.iter().map(|(outcome, count)| match outcome {
+        PressOutcome::Complete => format!("{count} complete"),
+        PressOutcome::Limited(limit) => format!("{count} ended by the limit of {}", words(*limit)),
+        PressOutcome::NoContact => format!("{count} without contact"),
+    });
+    let ways: Vec<String> = ways.collect();
+    (all > 0).then(|| format!("{all}: {}", ways.join(", ")))
+}
+
+fn words(limit: Limit) -> &'static str {
+    match limit {
+        Limit::Depth => "depth",
+        Limit::NormalForce => "normal force",
+        Limit::ShearForce => "shear",
+    }
 }
 
 fn unit(symbol: &str) -> String {

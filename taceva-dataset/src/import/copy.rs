@@ -1,5 +1,6 @@
 //! Running an import: every frame is read, verified and copied, and the dataset appears whole.
 
+use std::collections::BTreeMap;
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 
@@ -60,8 +61,8 @@ impl ImportPlan {
             &staged.path().join(layout::SAMPLES),
             &staged.path().join(layout::HEADER),
             &self.facts,
-            &table,
-            frames,
+            (&table, frames),
+            BTreeMap::new(),
         )?;
         staged.put_in_place(&folders)?;
         Ok(ImportReport {

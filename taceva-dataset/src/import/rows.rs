@@ -154,6 +154,7 @@ impl<'a> MappedTable<'a> {
             depth_step: self.count(row, self.depth_step)?,
             repeat: self.count(row, self.repeat)?,
             phase: self.phase(row)?,
+            limited_by: None,
             part: text(self.part),
             t_s: self.time(row)?,
             kind: self.kind(row)?,

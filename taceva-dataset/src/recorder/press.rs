@@ -1,8 +1,8 @@
 //! A press of a protocol: one record of the journal, so that after any interruption all of its samples are there or none.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
-use taceva_core::{Frame, Sample};
+use taceva_core::{Frame, PressOutcome, Sample};
 
 use super::Recorder;
 use super::written::{WrittenPress, WrittenSample};
@@ -12,15 +12,29 @@ use crate::journal::RecordKind;
 impl Recorder {
     /// Whether a press of this name is recorded.
     pub fn has_press(&self, press: &str) -> bool {
-        self.presses.contains(press)
+        self.presses.contains_key(press)
     }
 
-    /// Records a press with all its samples, which may be none, and returns its number in the journal once it is durable.
+    /// How many presses ended in which way.
+    pub(super) fn press_counts(&self) -> BTreeMap<PressOutcome, u64> {
+        let mut counts = BTreeMap::new();
+        for outcome in self.presses.values() {
+            *counts.entry(*outcome).or_default() += 1;
+        }
+        counts
+    }
+
+    /// Records a press, how it ended and all its samples, which may be none, and returns its number in the journal once it is durable.
     ///
     /// # Errors
     /// As [`append`](Recorder::append), for the first sample that is refused; [`DatasetError::Sample`] if the name of the press is
     /// empty or taken; [`DatasetError::Request`] for more samples than one record holds, some thousands. Nothing is recorded then.
-    pub fn append_press(&mut self, press: &str, samples: &[Sample]) -> Result<u64, DatasetError> {
+    pub fn append_press(
+        &mut self,
+        press: &str,
+        outcome: PressOutcome,
+        samples: &[Sample],
+    ) -> Result<u64, DatasetError> {
         self.check_press(press, samples)?;
         let mut rows = Vec::with_capacity(samples.len());
         for (position, sample) in samples.iter().enumerate() {
@@ -36,6 +50,7 @@ impl Recorder {
             .map(|(row, info)| WrittenSample::new(row, channels, *info));
         let written = WrittenPress {
             press: press.to_owned(),
+            outcome,
             samples: written.collect(),
         };
         let sequence = self
@@ -44,7 +59,7 @@ impl Recorder {
         for (row, info) in rows {
             self.take(row, info);
         }
-        self.presses.insert(press.to_owned());
+        self.presses.insert(press.to_owned(), outcome);
         Ok(sequence)
     }
 
@@ -53,7 +68,7 @@ impl Recorder {
             let (row, info) = sample.into_row(self.table.channels())?;
             self.take(row, info);
         }
-        self.presses.insert(written.press);
+        self.presses.insert(written.press, written.outcome);
         Ok(())
     }
 

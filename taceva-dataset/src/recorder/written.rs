@@ -4,7 +4,9 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use serde::{Deserialize, Serialize};
-use taceva_core::{Channel, Channels, Clock, FrameInfo, GratingKind, Nanometre, Phase, Unit};
+use taceva_core::{
+    Channel, Channels, Clock, FrameInfo, GratingKind, Limit, Nanometre, Phase, PressOutcome, Unit,
+};
 
 use super::RecordingSpec;
 use crate::digest::Digest;
@@ -85,6 +87,8 @@ pub(super) struct WrittenSample {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     phase: Option<Phase>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    limited_by: Option<Limit>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     t_s: Option<f64>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     kind: Option<GratingKind>,
@@ -101,6 +105,9 @@ pub(super) struct WrittenSample {
 #[derive(Serialize, Deserialize)]
 pub(super) struct WrittenPress {
     pub(super) press: String,
+    /// Before format 1.2 it was not written: then the press counts as complete.
+    #[serde(default = "complete", skip_serializing_if = "is_complete")]
+    pub(super) outcome: PressOutcome,
     pub(super) samples: Vec<WrittenSample>,
 }
 
@@ -146,6 +153,7 @@ impl WrittenSample {
             depth_step: row.depth_step,
             repeat: row.repeat,
             phase: row.phase,
+            limited_by: row.limited_by,
             t_s: row.t_s,
             kind: row.kind,
             spacing_nm: row.spacing.map(|spacing| spacing.0),
@@ -202,6 +210,7 @@ impl WrittenSample {
             depth_step: self.depth_step,
             repeat: self.repeat,
             phase: self.phase,
+            limited_by: self.limited_by,
             part: None,
             t_s: self.t_s,
             kind: self.kind,
@@ -219,6 +228,14 @@ impl WrittenSample {
         };
         Ok((row, info))
     }
+}
+
+fn complete() -> PressOutcome {
+    PressOutcome::Complete
+}
+
+fn is_complete(outcome: &PressOutcome) -> bool {
+    *outcome == PressOutcome::Complete
 }
 
 fn to_toml(value: &impl Serialize) -> String {

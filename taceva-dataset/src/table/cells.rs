@@ -1,12 +1,12 @@
 //! The columns of a table, whatever they hold, seen in one way: to be digested, stored and exported.
 
-use taceva_core::{Channel, Column, GratingKind, Nanometre, Phase, Unit};
+use taceva_core::{Channel, Column, GratingKind, Limit, Nanometre, Phase, Unit};
 
 use super::FrameEntry;
 use crate::digest::PartsDigest;
 
 /// Names that columns beside the channels have on disk; no channel and no attribute may be called so.
-pub(crate) const RESERVED: [&str; 14] = [
+pub(crate) const RESERVED: [&str; 15] = [
     "sample",
     "point_id",
     "unit_id",
@@ -14,6 +14,7 @@ pub(crate) const RESERVED: [&str; 14] = [
     "depth_step",
     "repeat",
     "phase",
+    "limited_by",
     "part",
     "t_s",
     "kind",
@@ -40,6 +41,7 @@ pub(crate) enum Cells<'a> {
     Text(&'a [Option<String>]),
     Count(&'a [Option<u32>]),
     Phase(&'a [Option<Phase>]),
+    Limit(&'a [Option<Limit>]),
     Kind(&'a [Option<GratingKind>]),
     Spacing(&'a [Option<Nanometre>]),
     Measured(&'a [Option<f64>]),
@@ -55,6 +57,7 @@ impl Cells<'_> {
             Cells::Text(cells) => cells[row].is_some(),
             Cells::Count(cells) => cells[row].is_some(),
             Cells::Phase(cells) => cells[row].is_some(),
+            Cells::Limit(cells) => cells[row].is_some(),
             Cells::Kind(cells) => cells[row].is_some(),
             Cells::Spacing(cells) => cells[row].is_some(),
             Cells::Measured(cells) => cells[row].is_some(),
@@ -80,6 +83,7 @@ impl Cells<'_> {
             Cells::Text(cells) => cells[row].clone(),
             Cells::Count(cells) => cells[row].map(|count| count.to_string()),
             Cells::Phase(cells) => cells[row].map(|phase| phase.to_string()),
+            Cells::Limit(cells) => cells[row].map(|limit| limit.to_string()),
             Cells::Kind(cells) => cells[row].map(|kind| kind.to_string()),
             Cells::Spacing(_) | Cells::Measured(_) | Cells::Number(_) => {
                 self.number(row).map(|number| format!("{number:?}"))

@@ -1,6 +1,6 @@
 //! One row of a table.
 
-use taceva_core::{GratingKind, Nanometre, Phase};
+use taceva_core::{GratingKind, Limit, Nanometre, Phase};
 
 use crate::digest::Digest;
 
@@ -30,6 +30,8 @@ pub struct Row {
     pub repeat: Option<u32>,
     /// Load or unload.
     pub phase: Option<Phase>,
+    /// The limit of the gel that kept the tip from where it was sent; none in recordings before format 1.2.
+    pub limited_by: Option<Limit>,
     /// The part of a declared split it belongs to.
     pub part: Option<String>,
     /// The time in seconds of the recording's clock.

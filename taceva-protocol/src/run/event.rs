@@ -1,8 +1,7 @@
 //! What happens in a run, as it happens, for whoever shows it.
 
-use taceva_core::{Millimetre, Specimen};
+use taceva_core::{Millimetre, PressOutcome, Specimen};
 
-use super::log::Outcome;
 use super::trip::Trip;
 use crate::digest::Digest;
 
@@ -49,7 +48,7 @@ pub enum Event {
         /// Which.
         press: Digest,
         /// How it ended.
-        outcome: Outcome,
+        outcome: PressOutcome,
     },
     /// A place was visited in the air, in a dry run.
     Rehearsed(Digest),

@@ -1,10 +1,9 @@
 //! The stations of a press, and what is left of them once a limit of the gel was reached.
 
-use taceva_core::{Nanometre, Phase};
+use taceva_core::{Limit, Nanometre, Phase, PressOutcome};
 
 use super::error::StopCause;
 use super::event::Event;
-use super::log::Outcome;
 use super::station::{Gathered, Spot};
 use super::tip::{Step, Tip};
 use super::{PlannedPress, Run};
@@ -23,15 +22,15 @@ impl Run<'_> {
         planned: &PlannedPress,
         height_mm: f64,
         gathered: &mut Gathered,
-    ) -> Step<Outcome> {
+    ) -> Step<PressOutcome> {
         let stations = planned.press.stations();
-        let mut reached_mm = None;
+        let (mut ended_by, mut reached) = (None, None);
         for (place, number) in (0..stations.len()).zip(0..) {
-            let spot = match reached_mm {
-                Some(reached_mm) => match after_limit(stations, place, reached_mm) {
+            let spot = match reached {
+                Some((limit, reached_mm)) => match after_limit(stations, place, reached_mm) {
                     Visit::Not => continue,
                     Visit::WhereItIs => Spot {
-                        is_limited: true,
+                        limited_by: Some(limit),
                         ..Spot::reached(number, height_mm)
                     },
                     Visit::Station => Spot::reached(number, height_mm),
@@ -40,17 +39,19 @@ impl Run<'_> {
             };
             match self.visit(planned, spot, gathered) {
                 Ok(()) => {}
-                Err(StopCause::Tripped(trip)) if trip.is_limit() => {
-                    (self.events)(&Event::Halted(trip));
-                    reached_mm = Some(self.visit_at_limit(planned, spot, gathered)?);
+                Err(cause) => {
+                    let limit = self.limit_of(cause)?;
+                    let spot = Spot {
+                        limited_by: Some(limit),
+                        ..spot
+                    };
+                    let reached_mm = self.visit_at_limit(planned, spot, gathered)?;
+                    ended_by = ended_by.or(Some(limit));
+                    reached = Some((limit, reached_mm));
                 }
-                Err(cause) => return Err(cause),
             }
         }
-        Ok(match reached_mm {
-            Some(_) => Outcome::Limited,
-            None => Outcome::Complete,
-        })
+        Ok(ended_by.map_or(PressOutcome::Complete, PressOutcome::Limited))
     }
 
     /// Goes to a station, unless the tip is to be seen where it is, and takes its sample.
@@ -59,13 +60,23 @@ impl Run<'_> {
         let station = usize::try_from(spot.number)
             .ok()
             .and_then(|number| press.stations().get(number))
-            .filter(|_| !spot.is_limited);
+            .filter(|_| spot.limited_by.is_none());
         if let Some(Station { depth, shear, .. }) = station {
             let target = Tip::station(press.place, *shear, spot.zero_mm, *depth);
             self.tip.approach(target)?;
         }
         let rested = self.tip.settle()?;
         self.sample(planned, spot, rested, gathered)
+    }
+
+    /// The limit of the gel that stopped the tip, which is told; any other cause stops the run.
+    pub(super) fn limit_of(&mut self, cause: StopCause) -> Step<Limit> {
+        let StopCause::Tripped(trip) = cause else {
+            return Err(cause);
+        };
+        let limit = trip.limit().ok_or(cause)?;
+        (self.events)(&Event::Halted(trip));
+        Ok(limit)
     }
 
     /// Takes the sample of a station that a limit keeps out of reach as near to it as the tip may rest; the depth there, in mm.
@@ -75,20 +86,14 @@ impl Run<'_> {
         spot: Spot,
         gathered: &mut Gathered,
     ) -> Step<f64> {
-        let spot = Spot {
-            is_limited: true,
-            ..spot
-        };
         let mut draw_backs = 0;
         loop {
             self.tip.draw_back(spot.zero_mm)?;
             draw_backs += 1;
             match self.visit(planned, spot, gathered) {
                 Ok(()) => return Ok(self.tip.at.position.z.0 - spot.zero_mm),
-                Err(StopCause::Tripped(trip)) if trip.is_limit() && draw_backs < DRAW_BACKS => {
-                    (self.events)(&Event::Halted(trip));
-                }
-                Err(cause) => return Err(cause),
+                Err(cause) if draw_backs == DRAW_BACKS => return Err(cause),
+                Err(cause) => drop(self.limit_of(cause)?),
             }
         }
     }

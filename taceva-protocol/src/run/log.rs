@@ -1,6 +1,6 @@
 //! What a run writes to: it learns what is finished, and waits until what it hands over is durable.
 
-use taceva_core::{Sample, SinkError};
+use taceva_core::{PressOutcome, Sample, SinkError};
 
 use crate::digest::Digest;
 
@@ -22,27 +22,12 @@ pub struct PressRecord {
     /// Its name.
     pub press: Digest,
     /// How it ended.
-    pub outcome: Outcome,
+    pub outcome: PressOutcome,
     /// Its samples in order, called `<press>/<number>`, where the number is that of the station or picture in the press: those that a
     /// limited press left out are not there.
     ///
     /// Truth is in the channels of the plan, in its order. `Pz` is the depth from the first contact, `surface_z` the height in the
-    /// sensor's frame at which a surface was felt, positive into the gel; each is absent where the other is meant.
+    /// sensor's frame at which a surface was felt, positive into the gel; each is absent where the other is meant. Those that a limit kept
+    /// from their station name it and have no `depth_step`.
     pub samples: Vec<Sample>,
-    /// The numbers of the samples that were taken where a limit of the gel stopped the tip on its way to the station: their labels and
-    /// pictures are of the place that was reached, and they have no `depth_step`.
-    pub limited: Vec<u32>,
-}
-
-/// How a press ended.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-#[non_exhaustive]
-pub enum Outcome {
-    /// Every station was visited.
-    Complete,
-    /// A limit of depth or force ended the way in. The station that was not reached has its sample where the tip rests within the limits;
-    /// stations beyond are left out, and those of the way out are visited.
-    Limited,
-    /// Nothing was touched as far down as the search goes.
-    NoContact,
 }

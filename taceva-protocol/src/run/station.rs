@@ -3,8 +3,8 @@
 use std::time::Duration;
 
 use taceva_core::{
-    Deadline, ErrorKind, Frame, FrameMut, Nanometre, Pose, Readings, Sample, Sensor, Specimen,
-    Stamp, Wrench,
+    Deadline, ErrorKind, Frame, FrameMut, Limit, Nanometre, Pose, Readings, Sample, Sensor,
+    Specimen, Stamp, Wrench,
 };
 
 use super::align::{Look, between};
@@ -116,8 +116,8 @@ pub(super) struct Spot {
     pub(super) number: u32,
     /// The height from which depths count, in mm.
     pub(super) zero_mm: f64,
-    /// Whether a limit of the gel kept the tip from the station.
-    pub(super) is_limited: bool,
+    /// The limit of the gel that kept the tip from the station.
+    pub(super) limited_by: Option<Limit>,
 }
 
 impl Spot {
@@ -126,7 +126,7 @@ impl Spot {
         Spot {
             number,
             zero_mm,
-            is_limited: false,
+            limited_by: None,
         }
     }
 }
@@ -135,8 +135,6 @@ impl Spot {
 #[derive(Debug, Default)]
 pub(super) struct Gathered {
     pub(super) samples: Vec<Sample>,
-    /// The numbers of those that a limit of the gel kept from their station.
-    pub(super) limited: Vec<u32>,
 }
 
 /// The sample of `spot`; channels that nobody measures are absent.
@@ -174,9 +172,12 @@ pub(super) fn sample(
         scene_id: press.light.clone(),
         point_id: Some(press.point_id()),
         // A depth at which a limit stopped the tip is no level that repeats share.
-        depth_step: station.filter(|_| !spot.is_limited).map(|_| spot.number),
+        depth_step: station
+            .filter(|_| spot.limited_by.is_none())
+            .map(|_| spot.number),
         repeat: press.repeat,
         phase: station.map(|station| station.phase),
+        limited_by: spot.limited_by,
         stamp: Some(observed.stamp),
         kind,
         spacing,

@@ -2,6 +2,8 @@
 
 use std::fmt;
 
+use taceva_core::Limit;
+
 /// What was wrong.
 ///
 /// # Units
@@ -70,12 +72,14 @@ pub enum Trip {
 }
 
 impl Trip {
-    /// Whether a limit of the gel was reached with all signals healthy: the press ends, the run goes on.
-    pub fn is_limit(self) -> bool {
-        matches!(
-            self,
-            Trip::Depth { .. } | Trip::NormalForce { .. } | Trip::ShearForce { .. }
-        )
+    /// The limit of the gel that was reached with all signals healthy: the press ends, the run goes on. `None` of everything else.
+    pub fn limit(self) -> Option<Limit> {
+        match self {
+            Trip::Depth { .. } => Some(Limit::Depth),
+            Trip::NormalForce { .. } => Some(Limit::NormalForce),
+            Trip::ShearForce { .. } => Some(Limit::ShearForce),
+            _ => None,
+        }
     }
 }
 

@@ -2,17 +2,17 @@
 
 use std::collections::BTreeSet;
 
-use taceva_core::SinkError;
+use taceva_core::{PressOutcome, SinkError};
 
 use super::disk::Disk;
 use crate::digest::{Digest, fnv_1a};
-use crate::run::{Outcome, PressLog, PressRecord};
+use crate::run::{PressLog, PressRecord};
 
 /// A press as it was recorded.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Entry {
     pub(super) press: Digest,
-    pub(super) outcome: Outcome,
+    pub(super) outcome: PressOutcome,
     pub(super) samples: Vec<EntrySample>,
 }
 
@@ -93,11 +93,10 @@ fn first_entry(bytes: &[u8]) -> Option<(Entry, usize)> {
 
 fn encode(record: &PressRecord) -> Result<Vec<u8>, SinkError> {
     let mut payload = record.press.to_string().into_bytes();
-    payload.push(match record.outcome {
-        Outcome::Complete => 0,
-        Outcome::Limited => 1,
-        Outcome::NoContact => 2,
-    });
+    let place = PressOutcome::ALL
+        .into_iter()
+        .position(|outcome| outcome == record.outcome);
+    payload.push(u8::try_from(place.ok_or("an outcome without a place")?)?);
     for sample in &record.samples {
         let (_, number) = sample
             .id
@@ -114,18 +113,14 @@ fn encode(record: &PressRecord) -> Result<Vec<u8>, SinkError> {
             Some(frame) => payload.extend(frame.bytes()),
             None => payload.extend([0xff; 24]),
         }
-        payload.push(u8::from(record.limited.contains(&number)));
+        payload.push(u8::from(sample.limited_by.is_some()));
     }
     Ok(payload)
 }
 
 fn decode(payload: &[u8]) -> Option<Entry> {
     let press = Digest::from_hex(std::str::from_utf8(payload.get(..32)?).ok()?)?;
-    let outcome = match payload.get(32)? {
-        0 => Outcome::Complete,
-        1 => Outcome::Limited,
-        _ => Outcome::NoContact,
-    };
+    let outcome = *PressOutcome::ALL.get(usize::from(*payload.get(32)?))?;
     let samples = payload.get(33..)?.chunks_exact(SAMPLE).map(|sample| {
         let value = |at: usize| Some(f64::from_le_bytes(sample.get(at..at + 8)?.try_into().ok()?));
         let frame = [value(28)?, value(36)?, value(44)?];

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use taceva_core::Phase;
+use taceva_core::{Phase, PressOutcome};
 
 use super::journal::{Entry, EntrySample, entries};
 use super::judge::Violation;
@@ -10,7 +10,6 @@ use super::world::Gel;
 use crate::digest::Digest;
 use crate::plan::{Plan, PlannedPress};
 use crate::press::Motion;
-use crate::run::Outcome;
 
 /// A robot that sticks in the last segment of a way leaves its sample so far from the station; the label says where it really was.
 const LAG_MM: f64 = 0.015 + 1e-6;
@@ -97,14 +96,14 @@ impl Found {
         let whole = samples == planned.press.samples();
         let limited = entry.samples.iter().filter(|sample| sample.is_limited);
         let fits = match entry.outcome {
-            Outcome::Complete => whole && limited.count() == 0,
+            PressOutcome::Complete => whole && limited.count() == 0,
             // Without a sample the limit was reached in the search.
-            Outcome::Limited => samples == 0 || limited.count() > 0,
-            Outcome::NoContact => false,
+            PressOutcome::Limited(_) => samples == 0 || limited.count() > 0,
+            PressOutcome::NoContact => false,
         };
         let numbers = entry.samples.iter().map(|sample| sample.number);
         let in_order = match entry.outcome {
-            Outcome::Complete => numbers.eq(0..u32::try_from(samples).unwrap_or(u32::MAX)),
+            PressOutcome::Complete => numbers.eq(0..u32::try_from(samples).unwrap_or(u32::MAX)),
             _ => numbers.is_sorted_by(|one, next| one < next),
         };
         if !fits || !in_order {

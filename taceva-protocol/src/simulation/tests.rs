@@ -5,7 +5,7 @@ mod seeds;
 use std::collections::BTreeSet;
 
 use taceva_core::{
-    Deadline, DriverError, ErrorKind, Millimetre, Phase, Sample, SinkError, Specimen,
+    Deadline, DriverError, ErrorKind, Limit, Millimetre, Phase, Sample, SinkError, Specimen,
 };
 
 use super::devices::{SimulatedForce, SimulatedRobot, SimulatedSensor};
@@ -18,8 +18,8 @@ use crate::draw::Draws;
 use crate::plan::Plan;
 use crate::press::Motion;
 use crate::run::{
-    Cancel, Controls, Devices, Event, Left, Mode, Outcome, PressLog, PressRecord, RunError,
-    RunReport, RunSpec, SpecimenChanger, StopCause, Timekeeper, run,
+    Cancel, Controls, Devices, Event, Left, Mode, PressLog, PressRecord, RunError, RunReport,
+    RunSpec, SpecimenChanger, StopCause, Timekeeper, run,
 };
 
 const SOFT: Gel = Gel {
@@ -178,7 +178,7 @@ fn a_press_that_reaches_the_limit_of_force_ends_there_and_the_run_goes_on() {
     let limited = log
         .records
         .iter()
-        .filter(|record| record.outcome == Outcome::Limited);
+        .filter(|record| record.outcome.is_limited());
     let of_plan = |record: &PressRecord| {
         let mut presses = bench.plan.presses.iter();
         presses
@@ -193,12 +193,7 @@ fn a_press_that_reaches_the_limit_of_force_ends_there_and_the_run_goes_on() {
         for (sample, next) in record.samples.iter().zip(record.samples.iter().skip(1)) {
             assert!(sample.stamp.expect("stamped").valid_s < next.stamp.expect("stamped").valid_s);
         }
-        let at_limit = |sample: &&Sample| {
-            record
-                .limited
-                .iter()
-                .any(|number| sample.id.ends_with(&format!("/{number}")))
-        };
+        let at_limit = |sample: &&Sample| sample.limited_by == Some(Limit::NormalForce);
         let stopped: Vec<&Sample> = record.samples.iter().filter(at_limit).collect();
         let comes_out = stations
             .iter()

@@ -87,7 +87,8 @@ impl PressLog for RecordedPresses {
             return self.check(&record.samples);
         }
         let name = record.press.to_string();
-        self.recorder.append_press(&name, &record.samples)?;
+        self.recorder
+            .append_press(&name, record.outcome, &record.samples)?;
         Ok(())
     }
 }

@@ -1,7 +1,7 @@
 //! The figures once more, from the calibration and the load-unload phases of the paper's scene as they are run: with a robot that moves,
 //! a gel that relaxes meanwhile, a search from the air and a supervisor that ends a press at the limit of force.
 
-use taceva_protocol::{BuiltinScene, Outcome, PhaseKind};
+use taceva_protocol::{BuiltinScene, PhaseKind};
 use taceva_sim::{Label, Model};
 
 use super::sensitivity::{PUBLISHED, TOLERANCE, sensitivity};
@@ -53,7 +53,7 @@ fn the_calibration_of_the_paper_s_scene_has_the_published_sensitivities() {
         let (trial, log) = records(model, PhaseKind::Calibration);
         let labels = labels(&trial, &log).concat();
         let limited = log.records.iter();
-        let limited = limited.filter(|record| record.outcome == Outcome::Limited);
+        let limited = limited.filter(|record| record.outcome.is_limited());
         let limited = limited.count();
         let (s, u) = sensitivity(model, &labels);
         println!(

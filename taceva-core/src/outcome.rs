@@ -1,0 +1,138 @@
+//! How a press ended, and which limit of the gel may have ended it.
+
+use std::fmt;
+
+/// A limit of the gel that a press is kept within.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
+pub enum Limit {
+    /// How deep it may be pressed.
+    Depth,
+    /// How hard it may be pressed.
+    NormalForce,
+    /// How hard it may be dragged.
+    ShearForce,
+}
+
+impl Limit {
+    /// Every one.
+    pub const ALL: [Limit; 3] = [Limit::Depth, Limit::NormalForce, Limit::ShearForce];
+
+    /// The word used in tables.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Limit::Depth => "depth",
+            Limit::NormalForce => "normal-force",
+            Limit::ShearForce => "shear-force",
+        }
+    }
+
+    /// The limit written as `name`.
+    pub fn from_name(name: &str) -> Option<Limit> {
+        Limit::ALL.into_iter().find(|limit| limit.name() == name)
+    }
+}
+
+impl fmt::Display for Limit {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+/// How a press ended.
+///
+/// ```
+/// use taceva_core::{Limit, PressOutcome};
+/// let ended = PressOutcome::Limited(Limit::NormalForce);
+/// assert_eq!(PressOutcome::from_name("normal-force-limit"), Some(ended));
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(into = "&'static str", try_from = "String"))]
+pub enum PressOutcome {
+    /// Every station was visited.
+    Complete,
+    /// A limit ended the way in. The station that was not reached has its sample where the tip rests within the limits; stations
+    /// beyond are left out, and those of the way out are visited. A limit that is met in the search for the gel leaves no sample.
+    Limited(Limit),
+    /// Nothing was touched as far down as the search goes.
+    NoContact,
+}
+
+impl PressOutcome {
+    /// Whether a limit of the gel ended it.
+    pub const fn is_limited(self) -> bool {
+        matches!(self, PressOutcome::Limited(_))
+    }
+
+    /// Every one.
+    pub const ALL: [PressOutcome; 5] = [
+        PressOutcome::Complete,
+        PressOutcome::Limited(Limit::Depth),
+        PressOutcome::Limited(Limit::NormalForce),
+        PressOutcome::Limited(Limit::ShearForce),
+        PressOutcome::NoContact,
+    ];
+
+    /// The word used in files.
+    pub const fn name(self) -> &'static str {
+        match self {
+            PressOutcome::Complete => "complete",
+            PressOutcome::Limited(Limit::Depth) => "depth-limit",
+            PressOutcome::Limited(Limit::NormalForce) => "normal-force-limit",
+            PressOutcome::Limited(Limit::ShearForce) => "shear-force-limit",
+            PressOutcome::NoContact => "no-contact",
+        }
+    }
+
+    /// The outcome written as `name`.
+    pub fn from_name(name: &str) -> Option<PressOutcome> {
+        let mut outcomes = PressOutcome::ALL.into_iter();
+        outcomes.find(|outcome| outcome.name() == name)
+    }
+}
+
+impl fmt::Display for PressOutcome {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+impl From<PressOutcome> for &'static str {
+    fn from(outcome: PressOutcome) -> &'static str {
+        outcome.name()
+    }
+}
+
+impl TryFrom<String> for PressOutcome {
+    type Error = String;
+
+    fn try_from(name: String) -> Result<PressOutcome, String> {
+        let names = || PressOutcome::ALL.map(PressOutcome::name).join(", ");
+        PressOutcome::from_name(&name).ok_or_else(|| {
+            format!(
+                "`{name}` is no way a press ends, expected one of {}",
+                names()
+            )
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_outcome_and_every_limit_is_found_by_its_own_name_alone() {
+        for outcome in PressOutcome::ALL {
+            assert_eq!(PressOutcome::from_name(outcome.name()), Some(outcome));
+        }
+        for limit in Limit::ALL {
+            assert_eq!(Limit::from_name(limit.name()), Some(limit));
+            assert!(PressOutcome::ALL.contains(&PressOutcome::Limited(limit)));
+        }
+        let error = PressOutcome::try_from("stopped".to_owned()).expect_err("no such word");
+        assert!(error.contains("`stopped`") && error.contains("no-contact"));
+    }
+}
