@@ -265,7 +265,10 @@ fn assemble(
     let mut columns = Columns(columns);
     let mut table = Table::new(channels.clone(), attributes.to_vec());
     for row in 0..rows {
-        let phase = columns.text("phase", row)?;
+        let limit = match is_own_limit {
+            true => None,
+            false => columns.text("limited_by", row)?,
+        };
         let frame = columns.text("frame", row)?;
         let digest = columns.text("frame_sha256", row)?;
         table.push(Row {
@@ -277,28 +280,14 @@ fn assemble(
             scene: columns.text("scene", row)?,
             depth_step: columns.count("depth_step", row)?,
             repeat: columns.count("repeat", row)?,
-            phase: phase
-                .map(|name| {
-                    Phase::from_name(&name).ok_or_else(|| format!("row {row}: no such phase"))
-                })
-                .transpose()?,
-            limited_by: (!is_own_limit)
-                .then(|| columns.text("limited_by", row))
-                .transpose()?
-                .flatten()
-                .map(|name| {
-                    Limit::from_name(&name).ok_or_else(|| format!("row {row}: no such limit"))
-                })
-                .transpose()?,
+            phase: known(columns.text("phase", row)?, Phase::from_name)
+                .ok_or_else(|| format!("row {row}: no such phase"))?,
+            limited_by: known(limit, Limit::from_name)
+                .ok_or_else(|| format!("row {row}: no such limit"))?,
             part: columns.text("part", row)?,
             t_s: columns.number("t_s", row)?,
-            kind: columns
-                .text("kind", row)?
-                .map(|name| {
-                    GratingKind::from_name(&name)
-                        .ok_or_else(|| format!("row {row}: no such kind of grating"))
-                })
-                .transpose()?,
+            kind: known(columns.text("kind", row)?, GratingKind::from_name)
+                .ok_or_else(|| format!("row {row}: no such kind of grating"))?,
             spacing: columns
                 .number("spacing_mm", row)?
                 .map(|length| {
@@ -319,6 +308,11 @@ fn assemble(
         });
     }
     Ok(table)
+}
+
+/// What a name in a cell says; `None` of a name that says nothing here.
+fn known<T>(name: Option<String>, of: impl Fn(&str) -> Option<T>) -> Option<Option<T>> {
+    name.map_or(Some(None), |name| of(&name).map(Some))
 }
 
 fn frame_entry(

@@ -17,6 +17,7 @@ mod sensor;
 mod state;
 mod ticks;
 mod touch;
+mod visit;
 
 pub use force::ForceTransducerFactory;
 pub use lighting::LightingFactory;

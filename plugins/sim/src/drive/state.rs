@@ -4,10 +4,11 @@ use std::time::Duration;
 
 use taceva_core::{Millimetre, Pose};
 
-use super::place::{VisitKey, Visits, nanometres, point_of};
+use super::place::{Visits, nanometres, point_of};
 use super::rig::Mounted;
 use super::ticks::Ticks;
-use super::touch::{Touch, surface_mm};
+use super::touch::Touch;
+use super::visit::{Ground, Visit, VisitErrors};
 use crate::bench::Bench;
 use crate::contact::{BoardStand, Contact, History};
 use crate::optics::AmbientLight;
@@ -39,36 +40,6 @@ pub(super) struct State {
     /// The time before which the next visit does not begin.
     appointment: Ticks,
     history: History,
-}
-
-/// The time over one place.
-#[derive(Debug, Default)]
-struct Visit {
-    key: VisitKey,
-    began: Ticks,
-    readings: u64,
-    pictures: u32,
-    has_touched: bool,
-    touch: Option<Touch>,
-    errors: VisitErrors,
-    ground: Option<Ground>,
-}
-
-/// What robot and transducer err by throughout a visit: drawn once.
-#[derive(Clone, Copy, Debug, Default)]
-struct VisitErrors {
-    /// How far beside its targets the robot stands: it errs from visit to visit, and repeats itself within one.
-    position_mm: [f64; 3],
-    /// Where the transducer's zero has drifted to.
-    zero_n: [f64; 3],
-}
-
-/// Where the gel begins under a place: worked out once, however often the tip is still above it.
-#[derive(Clone, Copy, Debug)]
-struct Ground {
-    mounted: Mounted,
-    place_mm: [f64; 2],
-    surface_mm: f64,
 }
 
 /// How a motion ended.
@@ -325,16 +296,7 @@ impl State {
 
     /// What robot and transducer err by in the visit that goes on.
     fn visit_errors(&self) -> VisitErrors {
-        let VisitKey { point, visit, .. } = self.visit.key;
-        let stream = self.random.stream(Purpose::Positioning, visit);
-        let (drift, later) = (
-            self.errors.point_zero_n(point),
-            self.errors.press_zero_n(visit),
-        );
-        VisitErrors {
-            position_mm: [0, 1, 2].map(|axis| self.robot.positioning_mm * stream.normal(axis)),
-            zero_n: std::array::from_fn(|axis| drift[axis] + later[axis]),
-        }
+        VisitErrors::of(self.visit.key, self.robot, &self.errors, self.random)
     }
 
     /// In the air over another place a new visit begins.
@@ -377,15 +339,7 @@ impl State {
                 if z < -bench.unit().height_max_mm() {
                     return;
                 }
-                let ground = self.visit.ground.filter(|ground| {
-                    ground.mounted == self.mounted
-                        && ground.place_mm.map(f64::to_bits) == [x, y].map(f64::to_bits)
-                });
-                let ground = ground.unwrap_or_else(|| Ground {
-                    mounted: self.mounted,
-                    place_mm: [x, y],
-                    surface_mm: surface_mm(bench, self.mounted, [x, y]),
-                });
+                let ground = Ground::under(bench, self.mounted, [x, y], self.visit.ground);
                 self.visit.ground = Some(ground);
                 if z <= ground.surface_mm {
                     return;
