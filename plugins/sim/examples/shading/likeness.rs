@@ -95,7 +95,7 @@ pub(crate) fn summary(presses: &[Likeness]) -> String {
         let error = (squares.sum::<f64>() / (count - 1.0) / count).sqrt();
         let [low, high] = [-1.0, 1.0].map(|side| mean + side * student(count - 1.0) * error);
         let text = format!("{mean:.digits$} ({low:.digits$} … {high:.digits$})");
-        format!("{text:<20}")
+        format!("{text:<23}")
     };
     [
         told(|press| press.l1_dn, 2),

@@ -36,7 +36,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     println!(
         "{count} presses of a ball; fitted to the others, each is scored once: mean (95 % of presses)"
     );
-    println!("                          L1 [DN]             PSNR [dB]           SSIM");
+    println!("                          L1 [DN]                PSNR [dB]              SSIM");
     let untouched = |_: &Press| Ok(presses.background.clone());
     report("no contact", &presses, untouched)?;
     for law in [Law::lamps(&presses)?, Law::polynomial()] {
