@@ -133,7 +133,9 @@ fn powers(tables: &Tables, press: &Press, presses: &Presses) -> Vec<Term> {
     let field = Field::new(&profile, &load);
     let half = presses.field_mm().map(|side| 0.5 * side);
     let [width, height] = [presses.background.width, presses.background.height()];
-    let mut terms = vec![Vec::with_capacity(width * height); 18];
+    let mut terms: Vec<Term> = (0..18)
+        .map(|_| Vec::with_capacity(width * height))
+        .collect();
     for row in 0..height {
         for column in 0..width {
             let [x, y] = presses.place_mm(column as f64, row as f64);

@@ -10,6 +10,8 @@
 //!
 //! Every press is scored by coefficients that were fitted to all other presses, so no score is of a picture that was seen.
 
+#![expect(clippy::print_stdout, reason = "an example talks to a person")]
+
 mod law;
 mod likeness;
 mod press;

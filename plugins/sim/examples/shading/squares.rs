@@ -79,16 +79,20 @@ impl Squares {
         }
         let lower = &self.own;
         let mut solution = self.seen;
-        for colour in 0..3 {
-            for row in 0..count {
-                let known: f64 = (0..row).map(|k| lower[row][k] * solution[k][colour]).sum();
-                solution[row][colour] = (solution[row][colour] - known) / lower[row][row];
-            }
-            for row in (0..count).rev() {
-                let known = (row + 1..count).map(|k| lower[k][row] * solution[k][colour]);
-                let known: f64 = known.sum();
-                solution[row][colour] = (solution[row][colour] - known) / lower[row][row];
-            }
+        let less = |value: [f64; 3], weight: f64, known: [f64; 3]| {
+            [0, 1, 2].map(|colour| value[colour] - weight * known[colour])
+        };
+        for row in 0..count {
+            let own = (0..row).fold(solution[row], |value, k| {
+                less(value, lower[row][k], solution[k])
+            });
+            solution[row] = own.map(|value| value / lower[row][row]);
+        }
+        for row in (0..count).rev() {
+            let own = (row + 1..count).fold(solution[row], |value, k| {
+                less(value, lower[k][row], solution[k])
+            });
+            solution[row] = own.map(|value| value / lower[row][row]);
         }
         Ok(Coefficients(solution))
     }
