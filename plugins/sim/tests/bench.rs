@@ -251,7 +251,7 @@ fn everything_says_that_it_is_simulated() {
     let provenance = bench(Model::GelSight).provenance();
     let text = provenance.to_string();
     assert!(text.starts_with(
-        "source = simulated, model_version = 1, sensor = GelSight, unit = 0, seed = 7"
+        "source = simulated, model_version = 2, sensor = GelSight, unit = 0, seed = 7"
     ));
     assert!(text.ends_with(&provenance.parameters.to_string()));
 }

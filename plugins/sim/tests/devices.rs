@@ -4,7 +4,7 @@ use std::time::Duration;
 
 use taceva_core::{
     Args, Deadline, ErrorKind, Factory, ForceTransducer, FrameMut, GratingKind, Guard, GuardedStop,
-    Millimetre, Nanometre, Newton, Pose, Rig, Robot, Sensor, Speed,
+    Millimetre, Nanometre, Newton, Pose, Rig, Robot, Sensor, SiPose, Specimen, Speed, Stamp,
 };
 use taceva_sim::{
     ForceTransducerFactory, LightingFactory, Model, MountError, Mounted, RobotFactory,
@@ -300,4 +300,45 @@ fn a_force_beyond_the_transducer_is_no_force() {
         .expect("arrives");
     let error = force.read(DEADLINE).expect_err("clipped");
     assert_eq!(error.kind(), ErrorKind::OutOfRange);
+}
+
+#[test]
+fn what_the_devices_say_lies_on_the_grid_of_the_plugin_boundary() {
+    let mut station = Station::new(Model::GelSight, "seed=5");
+    let speed = Speed::try_new(1.0 / 3.0).expect("positive");
+    let crooked = pose(1.0 / 3.0, -2.0 / 7.0, -1.0 / 9.0);
+    let stamp = station
+        .robot
+        .move_to(crooked, speed, DEADLINE)
+        .expect("arrives");
+    let (stands, at) = station.robot.pose(DEADLINE).expect("stands");
+    assert_eq!(stands, crooked.on_grid());
+    assert_eq!(Some(stands), SiPose::from(stands).to_pose());
+    let guard = Guard { force: Newton(0.3) };
+    let guarded = station.robot.guarded_motion().expect("can");
+    let stop = guarded.move_guarded(pose(0.1, 0.1, 3.0), speed, guard, DEADLINE);
+    let Ok(GuardedStop::Guarded { pose: stopped, .. }) = stop else {
+        panic!("no gel");
+    };
+    assert_eq!(stopped, stopped.on_grid());
+    for stamp in [stamp, at] {
+        assert_eq!(stamp, Stamp::new(stamp.valid(), stamp.received()));
+    }
+}
+
+#[test]
+fn the_bench_is_offered_in_the_rig_of_its_devices_under_their_key_and_its_name() {
+    let mut rig = Rig::new();
+    let sensors = SensorFactory::new(Model::GelSight).expect("a driver");
+    let _sensor = open(&sensors, "rig=left;seed=3", &mut rig);
+    assert!(rig.bench("sim bench").is_none());
+    let bench = rig.bench("sim left").expect("offered");
+    bench.rest(Duration::from_secs(7)).expect("rests");
+    assert_eq!(SimulatedRig::of(&mut rig, "left").now(), bench.now());
+    assert_eq!(bench.now(), Duration::from_secs(7));
+    let provenance = bench.provenance().expect("a sensor");
+    assert!(provenance.starts_with("bench 2, parameters ") && provenance.ends_with(", seed 3"));
+    let radius = Nanometre(3_000_000);
+    let error = bench.mount(Specimen::Sphere { radius }).expect_err("none");
+    assert_eq!(error.kind(), ErrorKind::InvalidArgument);
 }

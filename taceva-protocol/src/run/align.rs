@@ -32,10 +32,11 @@ pub(crate) fn between(before: &Look, after: &Look, at_s: f64) -> (Wrench, Pose) 
 struct Mix(f64);
 
 impl Mix {
+    /// In whole nanoseconds, as clocks count, so that the hour of the day does not show in the last bits.
     fn new(before_s: f64, after_s: f64, at_s: f64) -> Mix {
-        let span_s = after_s - before_s;
-        if span_s > 0.0 {
-            Mix(((at_s - before_s) / span_s).clamp(0.0, 1.0))
+        let [span_ns, part_ns] = [after_s, at_s].map(|time_s| ((time_s - before_s) * 1e9).round());
+        if span_ns > 0.0 {
+            Mix((part_ns / span_ns).clamp(0.0, 1.0))
         } else {
             Mix(1.0)
         }
@@ -97,6 +98,19 @@ mod tests {
         assert!((wrench.force[2].0 - 0.6).abs() < 1e-12);
         // The pose was read 10 ms later, so at 1.1 s it is 0.09 s of 0.2 s on its way.
         assert!((pose.position.z.0 - 0.29).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_sample_is_the_same_to_the_bit_at_every_hour() {
+        let at = |hour: f64| {
+            let begin_s = 3_600.0 * hour;
+            let (before, after) = (look(begin_s + 0.1, 0.4), look(begin_s + 0.237, 0.8));
+            let (wrench, pose) = between(&before, &after, begin_s + 0.2);
+            [wrench.force[2].0, pose.position.z.0].map(f64::to_bits)
+        };
+        for hour in [1.0, 7.0, 400.0] {
+            assert_eq!(at(hour), at(0.0), "{hour}");
+        }
     }
 
     #[test]

@@ -106,11 +106,7 @@ impl ForceTransducer for SimulatedTransducer {
             force: force_n.map(Newton),
             ..Wrench::default()
         };
-        let stamp = Stamp {
-            valid_s: state.now_s(),
-            received_s: Some(state.now_s()),
-        };
-        Ok((wrench, stamp))
+        Ok((wrench, Stamp::at(state.now())))
     }
 
     fn tare(&mut self) -> Option<&mut dyn Tare> {

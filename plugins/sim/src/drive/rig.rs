@@ -4,12 +4,14 @@ use std::fmt;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
-use taceva_core::{GratingKind, Nanometre, Rig};
+use taceva_core::{DriverError, ErrorKind, GratingKind, Nanometre, Rig, SimulatedBench, Specimen};
 use thiserror::Error;
 
+use super::error::failed;
+use super::robot::KEY as ROBOT;
 use super::state::State;
 use crate::contact::Contact;
-use crate::provenance::Provenance;
+use crate::provenance::{MODEL_VERSION, Provenance};
 use crate::specimen::{Grating, GratingError, Indenter};
 
 /// What the robot of a simulated rig carries.
@@ -72,8 +74,9 @@ pub enum MountError {
 /// use taceva_sim::{Mounted, SimulatedRig};
 /// let bench = SimulatedRig::of(&mut Rig::new(), "bench");
 /// bench.mount(Mounted::ball(Nanometre(10_000_000))?)?;
-/// bench.rest(std::time::Duration::from_secs(3600));
-/// assert_eq!(bench.now_s(), 3600.0);
+/// let hour = std::time::Duration::from_secs(3600);
+/// bench.rest(hour);
+/// assert_eq!(bench.now(), hour);
 /// # Ok::<(), taceva_sim::MountError>(())
 /// ```
 #[derive(Clone)]
@@ -82,19 +85,21 @@ pub struct SimulatedRig {
 }
 
 impl SimulatedRig {
-    /// The simulated rig called `name` among the devices of `rig`, made if there is none.
+    /// The simulated rig called `name` among the devices of `rig`, made if there is none and offered there as the bench `sim <name>`.
     pub fn of(rig: &mut Rig, name: &str) -> SimulatedRig {
         let state = rig
             .share(&format!("taceva-sim {name}"), || {
                 Ok(Mutex::new(State::new()))
             })
             .expect("making a state does not fail");
-        SimulatedRig { state }
+        let bench = SimulatedRig { state };
+        rig.offer_bench(&format!("sim {name}"), Arc::new(bench.clone()));
+        bench
     }
 
     /// The time of the rig's clock: that of every stamp of its devices.
-    pub fn now_s(&self) -> f64 {
-        self.state().now_s()
+    pub fn now(&self) -> Duration {
+        self.state().now()
     }
 
     /// Lets time pass.
@@ -152,10 +157,56 @@ impl SimulatedRig {
     }
 }
 
+impl SimulatedBench for SimulatedRig {
+    fn now(&self) -> Duration {
+        SimulatedRig::now(self)
+    }
+
+    fn rest(&self, rest: Duration) -> Result<(), DriverError> {
+        SimulatedRig::rest(self, rest);
+        Ok(())
+    }
+
+    fn mount(&self, specimen: Specimen) -> Result<(), DriverError> {
+        let mounted = match specimen {
+            Specimen::Sphere { radius } => Mounted::ball(radius),
+            Specimen::Grating { kind, spacing } => Mounted::board(kind, spacing),
+        };
+        mounted
+            .and_then(|mounted| SimulatedRig::mount(self, mounted))
+            .map_err(|error| {
+                failed(
+                    ErrorKind::InvalidArgument,
+                    &ROBOT,
+                    "mount a specimen",
+                    error,
+                )
+            })
+    }
+
+    fn name_press(&self, name: u64) -> Result<(), DriverError> {
+        SimulatedRig::name_press(self, name);
+        Ok(())
+    }
+
+    fn schedule(&self, at: Duration) -> Result<(), DriverError> {
+        SimulatedRig::schedule(self, at);
+        Ok(())
+    }
+
+    fn provenance(&self) -> Option<String> {
+        let provenance = SimulatedRig::provenance(self)?;
+        Some(format!(
+            "bench {MODEL_VERSION}, parameters {}, seed {}",
+            provenance.parameters, provenance.seed
+        ))
+    }
+}
+
 impl fmt::Debug for SimulatedRig {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("SimulatedRig")
-            .field("now_s", &self.now_s())
+            .field("now", &self.now())
             .finish_non_exhaustive()
     }
 }

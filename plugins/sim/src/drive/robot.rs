@@ -14,7 +14,7 @@ use super::rig::SimulatedRig;
 use super::state::{Ended, Motion};
 use crate::parameters::Model;
 
-const KEY: DriverKey = DriverKey::fixed("sim/robot");
+pub(super) const KEY: DriverKey = DriverKey::fixed("sim/robot");
 /// The box in which the tip may be, mm, z into the gel.
 const LEAST_MM: [f64; 3] = [-40.0, -40.0, -60.0];
 const GREATEST_MM: [f64; 3] = [40.0, 40.0, 25.0];
@@ -107,17 +107,19 @@ impl SimulatedRobot {
             let why = format!("{speed}, expected at most {SPEED_MAX_MM_PER_S} mm/s");
             return Err(failed(ErrorKind::OutOfRange, &KEY, doing, why));
         }
+        // On the grid on which motions cross the plugin boundary, so that they are the same however the bench is delivered.
+        let speed = Speed::from_metres_per_second(speed.metres_per_second()).unwrap_or(speed);
         let is_halted = || self.latch.is_halted.load(Ordering::Acquire);
         let mut state = self.rig.state();
         let ended = state.travel(&Motion {
-            target,
+            target: target.on_grid(),
             speed_mm_per_s: speed.mm_per_s(),
             patience: deadline.remaining(),
             is_halted: &is_halted,
             guard_n,
         });
         match ended {
-            Ended::Arrived | Ended::Guarded => Ok((ended, now(state.now_s()))),
+            Ended::Arrived | Ended::Guarded => Ok((ended, Stamp::at(state.now()))),
             Ended::OutOfTime => {
                 let why = format!("did not arrive within {deadline}");
                 Err(failed(ErrorKind::Timeout, &KEY, doing, why))
@@ -130,7 +132,7 @@ impl SimulatedRobot {
 impl Robot for SimulatedRobot {
     fn pose(&mut self, _: Deadline) -> Result<(Pose, Stamp), DriverError> {
         let state = self.rig.state();
-        Ok((state.sent(), now(state.now_s())))
+        Ok((state.sent(), Stamp::at(state.now())))
     }
 
     fn move_to(
@@ -189,13 +191,5 @@ fn workspace() -> Workspace {
     Workspace {
         least: corner(LEAST_MM),
         greatest: corner(GREATEST_MM),
-    }
-}
-
-/// Something that was true when it was heard of.
-fn now(now_s: f64) -> Stamp {
-    Stamp {
-        valid_s: now_s,
-        received_s: Some(now_s),
     }
 }

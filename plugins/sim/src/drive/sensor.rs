@@ -149,16 +149,13 @@ impl Sensor for SimulatedSensor {
             return Err(refused(ErrorKind::Timeout, why));
         }
         state.rest(wait);
-        let beat_s = state.now_s();
+        let beat = state.now();
         let view = view(&mut state, self.lamps.is_some());
         drop(state);
         self.camera
             .render(&view, into)
             .map_err(|error| failed(ErrorKind::Internal, &self.driver, "capture a frame", error))?;
-        Ok(Stamp {
-            valid_s: beat_s,
-            received_s: Some(beat_s),
-        })
+        Ok(Stamp::at(beat))
     }
 
     fn stop(&mut self) -> Result<(), DriverError> {

@@ -130,8 +130,8 @@ impl State {
     }
 
     /// The time.
-    pub(super) fn now_s(&self) -> f64 {
-        self.now.seconds()
+    pub(super) fn now(&self) -> Duration {
+        self.now.duration()
     }
 
     /// Lets time pass; the tip rests.
@@ -210,7 +210,7 @@ impl State {
             let [x, y, z] = mix(sent, target, done / steps).map(Millimetre);
             let mut stopped = self.sent;
             (stopped.position.x, stopped.position.y, stopped.position.z) = (x, y, z);
-            stopped
+            stopped.on_grid()
         };
         self.arrive();
         ended

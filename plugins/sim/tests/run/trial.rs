@@ -3,14 +3,13 @@
 use std::collections::BTreeSet;
 use std::time::Duration;
 
-use taceva_core::{Deadline, Device, DriverError, DriverKey, ErrorKind, Factory, Rig, SinkError};
+use taceva_core::{Deadline, Device, DriverError, Factory, Rig, SimulatedBench, SinkError, Stamp};
 use taceva_protocol::{
     Cancel, Controls, Devices, Digest, Event, Mode, Plan, PressLog, PressRecord, RigInfo, RunSpec,
     Scene, SourceInfo, Specimen, SpecimenChanger, StopCause, Timekeeper, plan, run,
 };
 use taceva_sim::{
-    ForceTransducerFactory, LightingFactory, Model, Mounted, RobotFactory, SensorFactory,
-    SimulatedRig,
+    ForceTransducerFactory, LightingFactory, Model, RobotFactory, SensorFactory, SimulatedRig,
 };
 
 /// The clock and the hands of a rig.
@@ -18,7 +17,7 @@ struct Hands(SimulatedRig);
 
 impl Timekeeper for Hands {
     fn now_s(&self) -> f64 {
-        self.0.now_s()
+        Stamp::at(self.0.now()).valid_s
     }
 
     fn rest(&mut self, rest: Duration) {
@@ -28,16 +27,7 @@ impl Timekeeper for Hands {
 
 impl SpecimenChanger for Hands {
     fn mount(&mut self, specimen: Specimen, _: Deadline) -> Result<(), DriverError> {
-        let mounted = match specimen {
-            Specimen::Sphere { radius } => Mounted::ball(radius),
-            Specimen::Grating { kind, spacing } => Mounted::board(kind, spacing),
-        };
-        let key = DriverKey::fixed("sim/robot");
-        mounted
-            .and_then(|mounted| self.0.mount(mounted))
-            .map_err(|error| {
-                DriverError::new(ErrorKind::InvalidArgument, &key, "mount").because(error)
-            })
+        SimulatedBench::mount(&self.0, specimen)
     }
 }
 

@@ -1,40 +1,37 @@
 //! What the simulated bench has beside its devices: a clock that turns as fast as it is worked out, and hands that change specimens.
 
+use std::sync::Arc;
 use std::time::Duration;
 
-use taceva_core::{Deadline, DriverError, DriverKey, ErrorKind, Rig};
+use taceva_core::{Deadline, DriverError, Rig, SimulatedBench, Specimen, Stamp};
 use taceva_drivers::Selector;
-use taceva_protocol::{Digest, Specimen, SpecimenChanger, Timekeeper};
-use taceva_sim::{MODEL_VERSION, Model, Mounted, SimulatedRig};
+use taceva_protocol::{Digest, SpecimenChanger, Timekeeper};
+use taceva_sim::{MODEL_VERSION, Model};
 use taceva_study::{Surroundings, Upcoming};
 
-const ROBOT: DriverKey = DriverKey::fixed("sim/robot");
-
-/// The surroundings of the rig whose robot was opened by `robot`; `None` for every robot but the simulated one.
+/// The surroundings of the rig whose robot was opened by `robot`; `None` where that is of no simulated bench.
 pub(super) fn surroundings(robot: &Selector, rig: &mut Rig) -> Option<Surroundings> {
-    if robot.driver() != ROBOT.as_str() {
-        return None;
-    }
+    let (makers, _) = robot.driver().rsplit_once('/')?;
     let mut arguments = robot.arguments().split(';').map(str::trim);
     let name = arguments.find_map(|argument| argument.strip_prefix("rig="));
-    let bench = SimulatedRig::of(rig, name.unwrap_or("bench").trim());
-    let gel = bench.provenance().map(|provenance| {
-        format!(
-            "bench {MODEL_VERSION}, parameters {}, seed {}",
-            provenance.parameters, provenance.seed
-        )
-    });
-    let announced = bench.clone();
+    let bench = rig.bench(&format!("{makers} {}", name.unwrap_or("bench").trim()))?;
+    let gel = bench.provenance();
+    let announced = Arc::clone(&bench);
     Some(Surroundings {
-        clock: Box::new(Hands(bench.clone())),
+        clock: Box::new(Hands(Arc::clone(&bench))),
         specimens: Some(Box::new(Hands(bench))),
         upcoming: Some(Box::new(move |upcoming: Upcoming| {
-            announced.name_press(name_of(upcoming.press));
-            announced.schedule(upcoming.begins);
+            let named = announced.name_press(name_of(upcoming.press));
+            unless_gone(named.and_then(|()| announced.schedule(upcoming.begins)));
         })),
         gel,
         begins_anew: true,
     })
+}
+
+/// Leaves a bench that is gone to the next call of one of its devices, which meets the same end and can say so.
+fn unless_gone(done: Result<(), DriverError>) {
+    drop(done);
 }
 
 /// What the bench is a model of: its version and the parameters that are built in.
@@ -53,27 +50,20 @@ fn name_of(press: Digest) -> u64 {
 }
 
 /// The clock and the hands of a bench.
-struct Hands(SimulatedRig);
+struct Hands(Arc<dyn SimulatedBench>);
 
 impl Timekeeper for Hands {
     fn now_s(&self) -> f64 {
-        self.0.now_s()
+        Stamp::at(self.0.now()).valid_s
     }
 
     fn rest(&mut self, rest: Duration) {
-        self.0.rest(rest);
+        unless_gone(self.0.rest(rest));
     }
 }
 
 impl SpecimenChanger for Hands {
     fn mount(&mut self, specimen: Specimen, _: Deadline) -> Result<(), DriverError> {
-        let mounted = match specimen {
-            Specimen::Sphere { radius } => Mounted::ball(radius),
-            Specimen::Grating { kind, spacing } => Mounted::board(kind, spacing),
-        };
-        let done = mounted.and_then(|mounted| self.0.mount(mounted));
-        done.map_err(|error| {
-            DriverError::new(ErrorKind::InvalidArgument, &ROBOT, "mount a specimen").because(error)
-        })
+        self.0.mount(specimen)
     }
 }
