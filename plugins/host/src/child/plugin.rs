@@ -76,7 +76,8 @@ fn sealed(label: &Label) -> io::Result<OwnedFd> {
     let mut bytes = Vec::new();
     label.write(&mut bytes);
     file.write_all(&bytes)?;
-    fcntl_add_seals(&file, SealFlags::all())?;
+    let all = SealFlags::WRITE | SealFlags::GROW | SealFlags::SHRINK | SealFlags::SEAL;
+    fcntl_add_seals(&file, all)?;
     Ok(file.into())
 }
 

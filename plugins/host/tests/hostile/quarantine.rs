@@ -1,0 +1,43 @@
+//! A library that crashed is not loaded again before its user says so.
+
+use taceva_core::ErrorKind;
+use taceva_host::{ChildError, Patience, Quarantine};
+
+use crate::plugin::{Plugin, capture, sensor};
+
+#[test]
+fn a_plugin_that_crashed_is_in_quarantine_until_it_is_released_or_built_anew() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let quarantine = Quarantine::of_folder(folder.path().join("quarantine"));
+    let start = |plugin: &Plugin| plugin.start(Patience::default(), Some(quarantine.clone()));
+    let plugin = Plugin::build("capture_segv", &[]);
+    for _ in 0..2 {
+        let session = start(&plugin).expect("a child");
+        let mut sensor = sensor(&session).expect("a sensor");
+        capture(&mut *sensor).expect_err("it crashes");
+        drop((sensor, session));
+        let error = start(&plugin).expect_err("in quarantine");
+        assert_eq!(error.kind(), ErrorKind::PermissionDenied);
+        assert!(matches!(error, ChildError::Quarantined { .. }), "{error}");
+        assert!(error.to_string().contains("signal 11"), "{error}");
+        let released = quarantine.release("org.example.hostile");
+        assert_eq!(released.expect("released"), 1);
+    }
+    let another = Plugin::build("good", &[]);
+    drop(start(&another).expect("another library"));
+    assert_eq!(quarantine.entries().expect("readable"), []);
+}
+
+#[test]
+fn a_plugin_that_only_refuses_or_ends_as_asked_is_not_in_quarantine() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let quarantine = Quarantine::of_folder(folder.path());
+    for way in ["init_fails", "good", "status_unknown"] {
+        let plugin = Plugin::build(way, &[]);
+        if let Ok(session) = plugin.start(Patience::default(), Some(quarantine.clone())) {
+            let mut sensor = sensor(&session).expect("a sensor");
+            let _ = capture(&mut *sensor);
+        }
+        assert_eq!(quarantine.entries().expect("readable"), [], "{way}");
+    }
+}
