@@ -109,8 +109,17 @@ impl Plugin {
         patience: Patience,
         quarantine: Option<Quarantine>,
     ) -> Result<ChildSession, ChildError> {
-        let image = self.image().expect("a library");
-        let spec = ChildSpec::of_plugin(&image, &self.manifest, &self.text, quarantine);
+        self.start_image(&self.image().expect("a library"), patience, quarantine)
+    }
+
+    /// A child in which `image` is loaded.
+    pub(crate) fn start_image(
+        &self,
+        image: &Image,
+        patience: Patience,
+        quarantine: Option<Quarantine>,
+    ) -> Result<ChildSession, ChildError> {
+        let spec = ChildSpec::of_plugin(image, &self.manifest, &self.text, quarantine);
         let mut spec = spec.expect("handed over");
         spec.program = Some(PathBuf::from(env!("CARGO_BIN_EXE_taceva-host-child")));
         spec.patience = patience;

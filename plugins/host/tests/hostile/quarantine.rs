@@ -1,4 +1,4 @@
-//! A library that crashed is not loaded again before its user says so.
+//! Which library is loaded: the one that was hashed, and none that crashed before its user says so.
 
 use taceva_core::ErrorKind;
 use taceva_host::{ChildError, Patience, Quarantine};
@@ -40,4 +40,18 @@ fn a_plugin_that_only_refuses_or_ends_as_asked_is_not_in_quarantine() {
         }
         assert_eq!(quarantine.entries().expect("readable"), [], "{way}");
     }
+}
+
+#[test]
+fn a_file_that_is_swapped_after_it_was_hashed_is_not_what_runs() {
+    let (plugin, bad) = (
+        Plugin::build("good", &[]),
+        Plugin::build("capture_segv", &[]),
+    );
+    let image = plugin.image().expect("a library");
+    std::fs::copy(bad.library(), plugin.library()).expect("written over");
+    let session = plugin.start_image(&image, Patience::default(), None);
+    let session = session.expect("a child");
+    capture(&mut *sensor(&session).expect("a sensor")).expect("the library that was hashed");
+    assert_ne!(plugin.image().expect("a library").digest(), image.digest());
 }
