@@ -1,7 +1,7 @@
 //! The plugins of a program, and the drivers that they are.
 
 use std::collections::BTreeMap;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 
 use taceva_core::{
@@ -9,6 +9,8 @@ use taceva_core::{
     ForceTransducer, Found, Lighting, Rig, Robot, Sensor,
 };
 
+#[cfg(target_os = "linux")]
+use crate::child::{ChildSession, ChildSpec, Quarantine};
 use crate::config::{Delivery, PluginConfig};
 use crate::id::PluginId;
 use crate::in_process::InProcess;
@@ -21,22 +23,59 @@ use crate::usb;
 /// Takes what plugins log: whose line it is, how much it matters, what it is about, and what it says.
 pub type PluginLog = Arc<dyn Fn(&PluginId, Level, &str, &str) + Send + Sync>;
 
+/// Where the code of plugins runs that are not trusted.
+#[derive(Clone, Debug, Default)]
+pub struct Children {
+    /// The program whose `main` begins with `main_if_child`: this one, if none is named.
+    pub program: Option<PathBuf>,
+    /// Where libraries that crashed are kept; without, they are started again.
+    #[cfg(target_os = "linux")]
+    pub quarantine: Option<Quarantine>,
+}
+
+impl Children {
+    /// This program, and the quarantine of the user whom the environment names.
+    pub fn of_user() -> Children {
+        Children {
+            program: None,
+            #[cfg(target_os = "linux")]
+            quarantine: Quarantine::of_user(|name| std::env::var_os(name).map(PathBuf::from)),
+        }
+    }
+}
+
 /// The plugins of a program: found, settled, and delivered as the user decided.
 pub struct PluginHost {
     plugins: Plugins,
     config: PluginConfig,
     log: PluginLog,
+    #[cfg_attr(
+        not(target_os = "linux"),
+        expect(dead_code, reason = "children are for Linux")
+    )]
+    children: Children,
     /// What is loaded in this process: once a plugin, however many rigs use it.
     loaded: Mutex<BTreeMap<PluginId, Arc<Library>>>,
 }
 
 impl PluginHost {
-    /// A host of `plugins`.
+    /// A host of `plugins` whose children are this program, and whose quarantine is the user's.
     pub fn new(plugins: Plugins, config: PluginConfig, log: PluginLog) -> Arc<PluginHost> {
+        PluginHost::with_children(plugins, config, log, Children::of_user())
+    }
+
+    /// A host of `plugins` with children of its own.
+    pub fn with_children(
+        plugins: Plugins,
+        config: PluginConfig,
+        log: PluginLog,
+        children: Children,
+    ) -> Arc<PluginHost> {
         Arc::new(PluginHost {
             plugins,
             config,
             log,
+            children,
             loaded: Mutex::default(),
         })
     }
@@ -105,9 +144,29 @@ impl PluginHost {
         }
     }
 
+    /// A session in a child that may reach what the plugin asks for and the user allows.
+    #[cfg(target_os = "linux")]
+    fn child(&self, plugin: &Plugin, driver: &DriverKey) -> Result<Arc<dyn Session>, DriverError> {
+        const DOING: &str = "load the plugin";
+        let image = Image::read(&plugin.folder, &plugin.library)
+            .map_err(|error| error.of_driver(driver))?;
+        let Children {
+            program,
+            quarantine,
+        } = self.children.clone();
+        let spec = ChildSpec::of_plugin(&image, &plugin.manifest, &plugin.text, quarantine);
+        let mut spec = spec
+            .map_err(|error| DriverError::new(ErrorKind::Internal, driver, DOING).because(error))?;
+        spec.program = program;
+        spec.confinement.needs = self.config.allowed(plugin).into_iter().collect();
+        let session = ChildSession::of_plugin(spec, &plugin.manifest);
+        Ok(Arc::new(session.map_err(|error| error.of(driver, DOING))?))
+    }
+
+    #[cfg(not(target_os = "linux"))]
     fn child(&self, plugin: &Plugin, driver: &DriverKey) -> Result<Arc<dyn Session>, DriverError> {
         let why = format!(
-            "this build has no child processes for plugins; `--trust {}` runs it in this one",
+            "plugins are isolated on Linux alone; `--trust {}` runs it in this process",
             plugin.id()
         );
         Err(DriverError::new(ErrorKind::Unsupported, driver, "load the plugin").because(why))

@@ -25,7 +25,7 @@ pub use child::{
 };
 pub use config::{ConfigError, Delivery, PluginConfig};
 pub use device::{LentFrame, PluginSensor};
-pub use host::{PluginDriver, PluginHost, PluginLog};
+pub use host::{Children, PluginDriver, PluginHost, PluginLog};
 pub use id::{PluginId, PluginIdError};
 pub use in_process::InProcess;
 pub use library::{Image, Level, Library, LoadError, LoadProblem, Log, libraries_loaded};

@@ -8,6 +8,7 @@ use std::ffi::OsStr;
 use std::fs::File;
 use std::os::fd::{AsFd, FromRawFd, OwnedFd, RawFd};
 use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use rustix::io::fcntl_dupfd_cloexec;
 use taceva_core::ErrorKind;
@@ -33,6 +34,7 @@ pub fn main_if_child_with(
 ) {
     let mut arguments = std::env::args_os().skip(1);
     if arguments.next().as_deref() != Some(OsStr::new(CHILD_ARGUMENT)) {
+        CAN_BE_CHILD.store(true, Ordering::Relaxed);
         return;
     }
     let code = match orders() {
@@ -41,6 +43,14 @@ pub fn main_if_child_with(
     };
     // SAFETY: ends the process without running what plugins registered to be run at its end.
     unsafe { libc::_exit(code) }
+}
+
+/// Whether this program asked whether it is a child, so that it may be started as one.
+static CAN_BE_CHILD: AtomicBool = AtomicBool::new(false);
+
+/// Whether this program can be started again as a host child: others would do then whatever they do.
+pub(super) fn can_be_child() -> bool {
+    CAN_BE_CHILD.load(Ordering::Relaxed)
 }
 
 /// The code of a process that was given the argument of a host child, and no host.

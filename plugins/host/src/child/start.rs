@@ -13,7 +13,7 @@ use rustix::pipe::{PipeFlags, pipe_with};
 use super::error::ChildError;
 use super::fate::Fate;
 use super::keeper::{Kept, Watch, keep};
-use super::main_hook::CHILD_ARGUMENT;
+use super::main_hook::{CHILD_ARGUMENT, can_be_child};
 use super::patience::Patience;
 use super::quarantine::{Quarantine, Quarantined};
 use super::sandbox::{Confinement, Isolation};
@@ -129,6 +129,10 @@ impl Child {
             plugin: plugin.clone(),
             why: why.to_string(),
         };
+        if program.is_none() && !can_be_child() {
+            let why = "the `main` of this program does not begin with `main_if_child`, and no other program was named";
+            return Err(failed(&why));
+        }
         let (orders, theirs) = Socket::pair().map_err(|error| failed(&error))?;
         let (printed, output) = pipe_with(PipeFlags::CLOEXEC).map_err(|error| failed(&error))?;
         let also_output = output.try_clone().map_err(|error| failed(&error))?;
@@ -292,5 +296,16 @@ impl fmt::Debug for Child {
             .field("process", &self.process)
             .field("isolation", &self.isolation)
             .finish_non_exhaustive()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_program_that_never_asked_whether_it_is_a_child_is_not_started_as_one() {
+        let error = Child::start(ChildSpec::new("org.example.x", Vec::new())).expect_err("refused");
+        assert!(error.to_string().contains("main_if_child"), "{error}");
     }
 }

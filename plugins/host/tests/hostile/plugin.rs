@@ -20,6 +20,9 @@ pub(crate) const ROBOT: DriverKey = DriverKey::fixed("org.example.hostile/robot"
 /// Its transducer.
 pub(crate) const FORCE: DriverKey = DriverKey::fixed("org.example.hostile/force");
 
+/// The program that is the child.
+pub(crate) const CHILD: &str = env!("CARGO_BIN_EXE_taceva-host-child");
+
 const FRAME: FrameInfo = FrameInfo {
     width: 64,
     height: 48,
@@ -84,12 +87,18 @@ impl Plugin {
             .expect("a compiler of C");
         assert!(built.success(), "the plugin `{way}` did not compile");
         let text = manifest();
+        std::fs::write(folder.path().join("plugin.toml"), &text).expect("written");
         let manifest = Manifest::parse(&text).expect("sound");
         Plugin {
             folder,
             manifest,
             text,
         }
+    }
+
+    /// Where it lies.
+    pub(crate) fn folder(&self) -> &Path {
+        self.folder.path()
     }
 
     /// Where its library lies.
@@ -121,7 +130,7 @@ impl Plugin {
     ) -> Result<ChildSession, ChildError> {
         let spec = ChildSpec::of_plugin(image, &self.manifest, &self.text, quarantine);
         let mut spec = spec.expect("handed over");
-        spec.program = Some(PathBuf::from(env!("CARGO_BIN_EXE_taceva-host-child")));
+        spec.program = Some(PathBuf::from(CHILD));
         spec.patience = patience;
         ChildSession::of_plugin(spec, &self.manifest)
     }

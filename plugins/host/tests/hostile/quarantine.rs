@@ -1,9 +1,14 @@
 //! Which library is loaded: the one that was hashed, and none that crashed before its user says so.
 
-use taceva_core::ErrorKind;
-use taceva_host::{ChildError, Patience, Quarantine};
+use std::sync::Arc;
 
-use crate::plugin::{Plugin, capture, sensor};
+use taceva_core::{Args, ErrorKind, Rig, Sensor};
+use taceva_host::{
+    ChildError, Children, Patience, PluginConfig, PluginHost, Plugins, Quarantine, SearchPath,
+    libraries_loaded,
+};
+
+use crate::plugin::{CHILD, LONG, Plugin, capture, sensor};
 
 #[test]
 fn a_plugin_that_crashed_is_in_quarantine_until_it_is_released_or_built_anew() {
@@ -54,4 +59,35 @@ fn a_file_that_is_swapped_after_it_was_hashed_is_not_what_runs() {
     let session = session.expect("a child");
     capture(&mut *sensor(&session).expect("a sensor")).expect("the library that was hashed");
     assert_ne!(plugin.image().expect("a library").digest(), image.digest());
+}
+
+#[test]
+fn a_plugin_that_nobody_trusts_is_opened_in_a_child_and_never_here() {
+    let plugin = Plugin::build("capture_segv", &[]);
+    let path = SearchPath::empty().given([plugin.folder().to_owned()]);
+    let folder = tempfile::tempdir().expect("a folder");
+    let children = Children {
+        program: Some(CHILD.into()),
+        quarantine: Some(Quarantine::of_folder(folder.path())),
+    };
+    let host = PluginHost::with_children(
+        Plugins::search(path, &[]),
+        PluginConfig::default(),
+        Arc::new(|_, _, _, _| {}),
+        children,
+    );
+    let drivers = host.drivers::<dyn Sensor>();
+    let open = || drivers[0].open(&Args::default(), &mut Rig::new());
+    let mut sensor = open().expect("a sensor");
+    sensor.start(LONG).expect("started");
+    let error = capture(&mut *sensor).expect_err("it crashes");
+    assert_eq!(error.kind(), ErrorKind::Disconnected);
+    drop(sensor);
+    let error = open().map(drop).expect_err("in quarantine");
+    assert_eq!(error.kind(), ErrorKind::PermissionDenied);
+    assert!(
+        error.to_string().contains("taceva plugin release"),
+        "{error}"
+    );
+    assert_eq!(libraries_loaded(), 0);
 }
