@@ -14,6 +14,7 @@
 //! The host believes nothing: every length and number that comes is checked ([`wire`]), every call has a time after which the child is
 //! ended ([`Patience`]), and a child that breaks a rule is ended at once.
 
+mod array;
 mod error;
 mod fate;
 mod keeper;

@@ -112,7 +112,7 @@ fn run(
     if orders.send(&(sequence, greeting), &[]).is_err() {
         return 0;
     }
-    serve(orders, session.as_deref());
+    serve(orders, session.as_ref());
     // What it serves is closed as it should be, while the host watches the clock.
     drop(session);
     0

@@ -4,11 +4,13 @@ mod bench;
 mod force;
 mod lighting;
 mod link;
+mod model;
 mod robot;
 mod sensor;
 
 pub(crate) use bench::BenchProxy;
 pub(crate) use link::Link;
+pub(crate) use model::{ModelProxy, of_failure, of_link};
 
 use taceva_core::{DriverError, ForceTransducer, Lighting, Robot, Sensor};
 

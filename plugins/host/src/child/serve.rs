@@ -3,8 +3,10 @@
 mod answer;
 mod bench;
 mod device;
+mod model;
 
 use std::os::fd::OwnedFd;
+use std::sync::Arc;
 
 use taceva_core::{ArgSpec, ArgValue, Args, DriverError, DriverKey, DriverKind, ErrorKind};
 
@@ -14,7 +16,7 @@ use crate::session::Session;
 use device::{Opening, guarded};
 
 /// Answers orders until the host is gone or says so. Without a session, only the last one.
-pub(super) fn serve(mut orders: Socket, session: Option<&dyn Session>) {
+pub(super) fn serve(mut orders: Socket, session: Option<&Arc<dyn Session>>) {
     // Without a host there is nothing left to do, whatever the reason.
     while let Ok(((sequence, order), files)) = orders.receive_with_files::<(u32, Order)>() {
         let answer = match (order, session) {
@@ -44,13 +46,17 @@ fn send_or_say_why(
     }
 }
 
-fn obey(order: Order, files: Vec<OwnedFd>, session: &dyn Session) -> Result<OrderAnswer, Failure> {
+fn obey(
+    order: Order,
+    files: Vec<OwnedFd>,
+    session: &Arc<dyn Session>,
+) -> Result<OrderAnswer, Failure> {
     match order {
         Order::Open { kind, driver, args } => {
             let [calls, urgent] = <[OwnedFd; 2]>::try_from(files)
                 .map_err(|_| broken("two sockets beside an order to open"))?;
             let opening = Opening { calls, urgent };
-            let device = open(session, kind, &driver, &arguments(&args)?, opening)?;
+            let device = open(&**session, kind, &driver, &arguments(&args)?, opening)?;
             Ok(OrderAnswer::Opened { device })
         }
         Order::Describe { driver, args } => {
@@ -69,6 +75,10 @@ fn obey(order: Order, files: Vec<OwnedFd>, session: &dyn Session) -> Result<Orde
                 bench::serve(bench, calls)?;
             }
             Ok(OrderAnswer::Bench { is_there })
+        }
+        Order::Model { order } => {
+            model::serve(Arc::clone(session), order, files)?;
+            Ok(OrderAnswer::Making {})
         }
         Order::Shutdown {} => Err(broken("an order that is answered")),
     }

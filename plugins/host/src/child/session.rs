@@ -1,20 +1,23 @@
 //! A plugin in a child, as the host holds it.
 
 use std::collections::BTreeMap;
-use std::os::fd::AsFd;
+use std::os::fd::{AsFd, BorrowedFd};
 use std::sync::Arc;
 
 use taceva_core::{
-    ArgSpec, ArgValue, Args, Descriptor, DriverError, DriverKey, DriverKind, ErrorKind,
-    ForceTransducer, Found, Lighting, ModelError, Robot, Sensor, SimulatedBench,
+    ArgSpec, ArgValue, Args, Channels, Descriptor, DriverError, DriverKey, DriverKind, ErrorKind,
+    FeatureShape, ForceTransducer, Found, Lighting, ModelError, Progress, Robot, Sensor, Silent,
+    SimulatedBench,
 };
 
+use super::array;
 use super::error::{ChildError, plain_found};
+use super::memory::SharedMemory;
 use super::plugin::arguments;
-use super::proxy::{self, BenchProxy, Link};
-use super::socket::Socket;
+use super::proxy::{self, BenchProxy, Link, ModelProxy, of_failure, of_link};
+use super::socket::{LinkError, Socket};
 use super::start::{Child, ChildSpec};
-use super::wire::{OpenedDevice, Order, OrderAnswer};
+use super::wire::{Failure, ModelOrder, OpenedDevice, Order, OrderAnswer};
 use crate::manifest::Manifest;
 use crate::session::{FitRequest, Saved, SavedRegressor, Session};
 
@@ -172,21 +175,83 @@ impl Session for ChildSession {
     fn fit(
         &self,
         estimator: &DriverKey,
-        _request: &FitRequest<'_>,
+        request: &FitRequest<'_>,
     ) -> Result<Box<dyn SavedRegressor>, ModelError> {
-        Err(not_in_a_child(estimator))
+        let failed = |failure: Failure| of_failure(estimator, &failure);
+        let (training, memory) = array::share(request.training).map_err(failed)?;
+        let validation = request.validation.map(array::share).transpose();
+        let (validation, other_memory) = validation.map_err(failed)?.unzip();
+        let order = ModelOrder::Fit {
+            estimator: estimator.clone(),
+            settings: self.pairs(estimator, request.settings),
+            training,
+            validation,
+        };
+        let memories: Vec<_> = [Some(&memory), other_memory.as_ref()]
+            .into_iter()
+            .flatten()
+            .map(SharedMemory::file)
+            .collect();
+        let kind = (
+            request.training.targets.channels.clone(),
+            request.training.features.shape(),
+        );
+        self.make(estimator, order, &memories, kind, request.progress)
     }
 
     fn load(
         &self,
         estimator: &DriverKey,
-        _saved: &Saved<'_>,
+        saved: &Saved<'_>,
     ) -> Result<Box<dyn SavedRegressor>, ModelError> {
-        Err(not_in_a_child(estimator))
+        let mut memory = array::memory(Some(saved.bytes.len()))
+            .map_err(|failure| of_failure(estimator, &failure))?;
+        memory.bytes_mut()[..saved.bytes.len()].copy_from_slice(saved.bytes);
+        let kind = (saved.channels.clone(), saved.shape);
+        let order = ModelOrder::Load {
+            estimator: estimator.clone(),
+            channels: kind.0.clone(),
+            shape: kind.1,
+            length: saved.bytes.len() as u64,
+        };
+        self.make(estimator, order, &[memory.file()], kind, &Silent)
     }
 }
 
-fn not_in_a_child(estimator: &DriverKey) -> ModelError {
-    let message = format!("the estimator {estimator} cannot be reached in a child process yet");
-    ModelError::new(ErrorKind::Unsupported, message)
+impl ChildSession {
+    /// Asks for a model, and waits until there is one.
+    fn make(
+        &self,
+        estimator: &DriverKey,
+        order: ModelOrder,
+        memories: &[BorrowedFd<'_>],
+        kind: (Channels, FeatureShape),
+        progress: &dyn Progress,
+    ) -> Result<Box<dyn SavedRegressor>, ModelError> {
+        let no_socket = |error: rustix::io::Errno| {
+            let why = format!("{estimator}: cannot reach the plugin: {error}");
+            ModelError::new(ErrorKind::Internal, why)
+        };
+        let (talk, theirs) = Socket::pair().map_err(no_socket)?;
+        let files: Vec<_> = [&[theirs.as_fd()], memories].concat();
+        let order = Order::Model { order };
+        let answer = self.child.order(&order, &files, "make a model");
+        drop(theirs);
+        match answer {
+            Ok(OrderAnswer::Making {}) => {
+                let child = Arc::clone(&self.child);
+                let made = ModelProxy::when_made(child, estimator.clone(), talk, kind, progress)?;
+                Ok(Box::new(made))
+            }
+            Ok(OrderAnswer::Failed { failure }) => Err(of_failure(estimator, &failure)),
+            Ok(_) => {
+                let error = LinkError::Breach("the answer to another order".to_owned());
+                Err(of_link(&self.child, estimator, error))
+            }
+            Err(error) => {
+                let why = format!("{estimator}: {error}");
+                Err(ModelError::new(error.kind(), why).because(error))
+            }
+        }
+    }
 }

@@ -175,6 +175,20 @@ pub(crate) fn send_now(socket: BorrowedFd<'_>, message: &impl Wire) -> Result<()
     retry(|| send(socket, &packet, flags)).map(|_| ())
 }
 
+/// The message that has come, if one has.
+pub(crate) fn try_receive<T: Wire>(socket: BorrowedFd<'_>) -> Result<Option<T>, LinkError> {
+    let mut packet = vec![0; MESSAGE_MAX];
+    let flags = RecvFlags::TRUNC | RecvFlags::DONTWAIT;
+    loop {
+        match recv(socket, &mut packet[..], flags) {
+            Ok(received) => return message(&packet, received.1).map(Some),
+            Err(Errno::AGAIN) => return Ok(None),
+            Err(Errno::INTR) => {}
+            Err(_) => return Err(LinkError::Closed),
+        }
+    }
+}
+
 fn send_packet(
     socket: BorrowedFd<'_>,
     packet: &[u8],

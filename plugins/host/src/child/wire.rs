@@ -5,12 +5,14 @@
 
 mod describe;
 mod message;
+mod model;
 mod value;
 
 pub(crate) use message::{
     Answer, BenchAnswer, BenchCall, Call, Failure, Greeting, Hello, OpenedDevice, Order,
     OrderAnswer, Urgent,
 };
+pub(crate) use model::{ModelAnswer, ModelCall, ModelEvent, ModelOrder, ModelWord, SetShape};
 
 use std::fmt;
 use std::time::Duration;

@@ -6,6 +6,7 @@
 mod built_in;
 mod delivery;
 mod failure;
+mod model;
 mod odd;
 #[path = "../support/runner.rs"]
 mod runner;
@@ -26,7 +27,7 @@ fn main() -> ExitCode {
         Ok(session) => Ok(Arc::new(session)),
         Err(error) => Err((ErrorKind::Internal, error.to_string())),
     });
-    let tests = [delivery::TESTS, failure::TESTS, urgent::TESTS].concat();
+    let tests = [delivery::TESTS, failure::TESTS, model::TESTS, urgent::TESTS].concat();
     runner::run(&tests)
 }
 
@@ -37,6 +38,8 @@ fn served() -> Result<BuiltIn, taceva_core::RegistryError> {
     served
         .robots
         .add(Box::new(odd::PatientRobotFactory::new()))?;
+    served.fit = model::fit;
+    served.load = model::load;
     Ok(served)
 }
 

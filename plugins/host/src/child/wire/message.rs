@@ -10,7 +10,7 @@ use taceva_core::{
     FrameInfo, Guard, GuardedStop, Pose, Specimen, Speed, Stamp, Wrench,
 };
 
-use super::{Malformed, Reader, Wire, fields, variants};
+use super::{Malformed, ModelOrder, Reader, Wire, fields, variants};
 use crate::child::sandbox::{Confinement, Isolation};
 
 /// The first word: what the child must do before it loads anything. The files to serve come beside it.
@@ -52,6 +52,8 @@ pub(crate) enum Order {
     Discover { driver: DriverKey },
     /// Serves a simulated bench of the rig; a socket comes beside it.
     Bench { name: String },
+    /// Makes a model; a socket comes beside it, and memory.
+    Model { order: ModelOrder },
     /// Ends the child.
     Shutdown {},
 }
@@ -59,11 +61,23 @@ pub(crate) enum Order {
 /// The answer to an [`Order`].
 #[derive(Debug, PartialEq)]
 pub(crate) enum OrderAnswer {
-    Opened { device: OpenedDevice },
-    Described { descriptor: Descriptor },
-    Found { found: Vec<Found> },
-    Bench { is_there: bool },
-    Failed { failure: Failure },
+    Opened {
+        device: OpenedDevice,
+    },
+    Described {
+        descriptor: Descriptor,
+    },
+    Found {
+        found: Vec<Found>,
+    },
+    Bench {
+        is_there: bool,
+    },
+    Failed {
+        failure: Failure,
+    },
+    /// It is being made; what comes of it is said by its own socket.
+    Making {},
 }
 
 /// What is known about a device once it is open.
@@ -198,6 +212,7 @@ variants!(Order, "an order" {
     2 => Discover { driver },
     3 => Bench { name },
     4 => Shutdown {},
+    5 => Model { order },
 });
 
 variants!(OrderAnswer, "the answer to an order" {
@@ -206,6 +221,7 @@ variants!(OrderAnswer, "the answer to an order" {
     2 => Found { found },
     3 => Bench { is_there },
     4 => Failed { failure },
+    5 => Making {},
 });
 
 variants!(OpenedDevice, "an open device" {
