@@ -1,6 +1,7 @@
 //! What was typed. Meaning is given to it in `cmd/`; nothing here has a side effect.
 
 mod bench;
+mod plugin;
 mod shared;
 mod study;
 
@@ -9,6 +10,7 @@ use std::path::PathBuf;
 use clap::{ArgGroup, Args, Parser, Subcommand};
 
 pub(crate) use self::bench::{Bench, BenchKernels, BenchSubject};
+pub(crate) use self::plugin::{Plugin, PluginArgs, PluginInfo, PluginList};
 pub(crate) use self::shared::{
     Format, ModelArgs, OptionalModelArgs, Output, PartArg, SettingArgs, SplitArgs,
 };
@@ -46,6 +48,8 @@ pub(crate) struct Everywhere {
     /// Say more on standard error
     #[arg(long, short, global = true, action = clap::ArgAction::Count)]
     pub(crate) verbose: u8,
+    #[command(flatten)]
+    pub(crate) plugins: PluginArgs,
 }
 
 #[derive(Debug, Subcommand)]
@@ -72,6 +76,9 @@ pub(crate) enum Command {
     Plan(PlanArgs),
     /// List every driver, what it can do and what it may be told, and the devices that are present
     Devices(Listing),
+    /// List plugins, or look at one closely
+    #[command(subcommand)]
+    Plugin(Plugin),
     /// Look at this machine: what a rig could use, what stands in the way, and what to do about it
     Doctor(Listing),
     /// Print a script that completes taceva's arguments in a shell

@@ -10,6 +10,8 @@ pub(crate) mod fit;
 pub(crate) mod import;
 pub(crate) mod merge;
 pub(crate) mod plan;
+pub(crate) mod plugin;
+mod plugins;
 pub(crate) mod predict;
 pub(crate) mod run;
 mod scene;
@@ -22,7 +24,7 @@ use taceva_dataset::Dataset;
 use taceva_models::Settings;
 use taceva_study::{FitRequest, Part, Plan, StudyError};
 
-use crate::args::{Everywhere, PartArg, SettingArgs, SplitArgs};
+use crate::args::{Everywhere, PartArg, PluginArgs, SettingArgs, SplitArgs};
 use crate::exit;
 use crate::progress::Terminal;
 
@@ -32,6 +34,7 @@ pub(crate) struct Context {
     pub(crate) jobs: NonZeroUsize,
     verbose: bool,
     quiet: bool,
+    plugins: PluginArgs,
 }
 
 impl Context {
@@ -45,6 +48,7 @@ impl Context {
             jobs: asked.unwrap_or_else(all_cores),
             verbose: everywhere.verbose > 0,
             quiet: everywhere.quiet,
+            plugins: everywhere.plugins.clone(),
         }
     }
 

@@ -12,6 +12,7 @@ mod line;
 mod markdown;
 mod number;
 pub(crate) mod plan;
+pub(crate) mod plugin;
 mod profile;
 mod text;
 

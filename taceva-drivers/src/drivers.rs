@@ -36,6 +36,30 @@ impl Drivers {
             lightings: Registry::builtin()?,
         })
     }
+
+    /// These drivers and those of the plugins of `host`, which open in the way that the user decided. No library is opened for it.
+    ///
+    /// # Errors
+    /// [`RegistryError`] if a plugin claims a key that is taken.
+    #[cfg(feature = "plugin")]
+    pub fn with_plugins(
+        mut self,
+        host: &std::sync::Arc<taceva_host::PluginHost>,
+    ) -> Result<Drivers, RegistryError> {
+        for driver in host.drivers() {
+            self.sensors.add(driver)?;
+        }
+        for driver in host.drivers() {
+            self.robots.add(driver)?;
+        }
+        for driver in host.drivers() {
+            self.forces.add(driver)?;
+        }
+        for driver in host.drivers() {
+            self.lightings.add(driver)?;
+        }
+        Ok(self)
+    }
 }
 
 /// Opens the device that `selector` asks for.

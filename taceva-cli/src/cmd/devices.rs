@@ -1,16 +1,16 @@
 //! `taceva devices`.
 
-use taceva_drivers::{Drivers, devices};
+use taceva_drivers::devices;
 
 use super::Context;
 use crate::args::Listing;
 use crate::{exit, output, report};
 
-pub(crate) fn run(args: &Listing, _context: &Context) -> anyhow::Result<u8> {
+pub(crate) fn run(args: &Listing, context: &Context) -> anyhow::Result<u8> {
     if let Some(path) = args.path.as_deref() {
         output::check_free(path, args.force)?;
     }
-    let listed = devices(&Drivers::builtin()?);
+    let listed = devices(&context.drivers(None)?);
     output::write(args.path.as_deref(), |out| {
         report::devices::list(&listed, args.format, out)
     })?;

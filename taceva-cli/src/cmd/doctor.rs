@@ -1,17 +1,16 @@
 //! `taceva doctor`.
 
-use taceva_drivers::Drivers;
 use taceva_drivers::doctor::{Machine, State, examine};
 
 use super::Context;
 use crate::args::Listing;
 use crate::{exit, output, report};
 
-pub(crate) fn run(args: &Listing, _context: &Context) -> anyhow::Result<u8> {
+pub(crate) fn run(args: &Listing, context: &Context) -> anyhow::Result<u8> {
     if let Some(path) = args.path.as_deref() {
         output::check_free(path, args.force)?;
     }
-    let findings = examine(&Drivers::builtin()?, &Machine::this());
+    let findings = examine(&context.drivers(None)?, &Machine::this());
     output::write(args.path.as_deref(), |out| {
         report::devices::findings(&findings, args.format, out)
     })?;

@@ -6,7 +6,6 @@ mod cache;
 use std::path::{Path, PathBuf};
 
 use anyhow::Context as _;
-use taceva_drivers::Drivers;
 use taceva_study::{EvaluationReport, Existing, PlannedScene, RunFolder, Workshop, run_scene};
 
 use super::{Context, Usage, scene};
@@ -17,7 +16,7 @@ use crate::{exit, output, progress, report};
 const RUNS: &str = "runs";
 
 pub(crate) fn run(args: &Run, context: &Context) -> anyhow::Result<u8> {
-    let drivers = Drivers::builtin()?;
+    let drivers = context.drivers(Some(Path::new(&args.scene.scene)))?;
     let planned = scene::planned(&args.scene, &drivers)?;
     planned.check_models()?;
     let formats = formats(&planned)?;

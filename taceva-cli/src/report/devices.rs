@@ -91,17 +91,8 @@ struct WrittenFindings<'a> {
 }
 
 fn text(devices: &Devices, out: &mut dyn Write) -> io::Result<()> {
-    for driver in &devices.drivers {
-        let (key, kind) = (&driver.key, driver.kind.to_string());
-        let (title, source) = (&driver.title, driver.source);
-        writeln!(out, "{key:<22} {kind:<9} {source:<10} {title}")?;
-        let facts = facts(driver);
-        if !facts.is_empty() {
-            writeln!(out, "    {}", facts.join(", "))?;
-        }
-        for argument in &driver.arguments {
-            describe(argument, out)?;
-        }
+    for listed in &devices.drivers {
+        driver(listed, out)?;
     }
     for device in &devices.found {
         let (selector, title) = (&device.selector, &device.title);
@@ -112,6 +103,21 @@ fn text(devices: &Devices, out: &mut dyn Write) -> io::Result<()> {
     }
     let (drivers, found) = (devices.drivers.len(), devices.found.len());
     writeln!(out, "{drivers} drivers, {found} devices that they see")
+}
+
+/// One driver: what it is, what is known of its device, and what it may be told.
+pub(super) fn driver(driver: &ListedDriver, out: &mut dyn Write) -> io::Result<()> {
+    let (key, kind) = (&driver.key, driver.kind.to_string());
+    let (title, source) = (&driver.title, driver.source);
+    writeln!(out, "{key:<22} {kind:<9} {source:<10} {title}")?;
+    let facts = facts(driver);
+    if !facts.is_empty() {
+        writeln!(out, "    {}", facts.join(", "))?;
+    }
+    for argument in &driver.arguments {
+        describe(argument, out)?;
+    }
+    Ok(())
 }
 
 /// What is known of a device before it is opened, in words.

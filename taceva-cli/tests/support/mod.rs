@@ -64,6 +64,10 @@ impl Bench {
         command
             .current_dir(self.folder.path())
             .env("XDG_CACHE_HOME", self.path("user-cache"))
+            .env("XDG_CONFIG_HOME", self.path("user-config"))
+            .env("XDG_DATA_HOME", self.path("user-data"))
+            .env("XDG_STATE_HOME", self.path("user-state"))
+            .env_remove("TACEVA_PLUGIN_PATH")
             .args(words.split_whitespace());
         if words.starts_with("run") && !self.has_cache {
             command.arg("--no-cache");

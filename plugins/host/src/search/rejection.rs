@@ -115,6 +115,28 @@ impl ReasonKind {
         ReasonKind::Library,
         ReasonKind::Duplicate,
     ];
+
+    /// The word for it.
+    pub const fn name(self) -> &'static str {
+        match self {
+            ReasonKind::Relative => "relative",
+            ReasonKind::WorldWritable => "world-writable",
+            ReasonKind::Unreadable => "unreadable",
+            ReasonKind::NotAFile => "not-a-file",
+            ReasonKind::NotText => "not-text",
+            ReasonKind::Manifest => "manifest",
+            ReasonKind::Abi => "abi",
+            ReasonKind::Platform => "platform",
+            ReasonKind::Library => "library",
+            ReasonKind::Duplicate => "duplicate",
+        }
+    }
+}
+
+impl fmt::Display for ReasonKind {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(self.name())
+    }
 }
 
 impl Reason {

@@ -1,0 +1,37 @@
+//! `taceva plugin`.
+
+use super::Context;
+use crate::args::{Plugin, PluginInfo, PluginList};
+use crate::{exit, output, report};
+
+pub(crate) fn run(which: &Plugin, context: &Context) -> anyhow::Result<u8> {
+    match which {
+        Plugin::List(args) => list(args, context),
+        Plugin::Info(args) => info(args, context),
+    }
+}
+
+fn list(args: &PluginList, context: &Context) -> anyhow::Result<u8> {
+    let listing = &args.listing;
+    if let Some(path) = listing.path.as_deref() {
+        output::check_free(path, listing.force)?;
+    }
+    let host = context.plugins(None)?;
+    output::write(listing.path.as_deref(), |out| {
+        report::plugin::list(&host, args.all, listing.format, out)
+    })?;
+    Ok(exit::DONE)
+}
+
+fn info(args: &PluginInfo, context: &Context) -> anyhow::Result<u8> {
+    let listing = &args.listing;
+    if let Some(path) = listing.path.as_deref() {
+        output::check_free(path, listing.force)?;
+    }
+    let host = context.plugins(None)?;
+    let plugin = host.plugins().get(&args.id)?;
+    output::write(listing.path.as_deref(), |out| {
+        report::plugin::info(&host, plugin, listing.format, out)
+    })?;
+    Ok(exit::DONE)
+}

@@ -1,0 +1,70 @@
+//! The plugins of this program, and its drivers with theirs.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use anyhow::Context as _;
+use taceva_drivers::Drivers;
+use taceva_host::{
+    Level, PluginConfig, PluginHost, PluginLog, Plugins, SearchPath, user_config_file,
+};
+
+use super::Context;
+
+impl Context {
+    /// Every driver: those linked in, and those of plugins, also beside the scene at `scene`.
+    pub(crate) fn drivers(&self, scene: Option<&Path>) -> anyhow::Result<Drivers> {
+        let host = self.plugins(scene)?;
+        Ok(Drivers::builtin()?.with_plugins(&host)?)
+    }
+
+    /// The plugins that are found, delivered as the user decided.
+    pub(crate) fn plugins(&self, scene: Option<&Path>) -> anyhow::Result<Arc<PluginHost>> {
+        let mut config = match user_config_file() {
+            Some(path) => PluginConfig::read(&path)?,
+            None => PluginConfig::default(),
+        };
+        config.trusted_now.extend(self.plugins.trusted.clone());
+        // What somebody typed is meant from where they stand; nothing else is.
+        let typed: Vec<PathBuf> = (self.plugins.folders.iter())
+            .map(|folder| std::path::absolute(folder).with_context(|| folder.display().to_string()))
+            .collect::<Result<_, _>>()?;
+        let mut path = SearchPath::of_process().given(typed);
+        if let Some(folder) = scene.and_then(folder_of) {
+            path = path.project(&folder);
+        }
+        let plugins = Plugins::search(path, &config.prefer);
+        for rejection in &plugins.rejections {
+            self.say_more(format_args!("plugin not used: {rejection}"));
+        }
+        Ok(PluginHost::new(plugins, config, self.plugin_log()))
+    }
+
+    /// What plugins log goes to standard error: what is odd always, everything with `-v`.
+    fn plugin_log(&self) -> PluginLog {
+        let least = match (self.quiet, self.verbose) {
+            (true, _) => Level::Error,
+            (false, false) => Level::Warn,
+            (false, true) => Level::Debug,
+        };
+        Arc::new(move |id, level, target, message| {
+            if level <= least {
+                say(format_args!("{id}: {target}: {message}"));
+            }
+        })
+    }
+}
+
+#[expect(
+    clippy::print_stderr,
+    reason = "what is no result is for standard error"
+)]
+fn say(line: std::fmt::Arguments<'_>) {
+    eprintln!("taceva: {line}");
+}
+
+/// The folder of a scene that is a file.
+fn folder_of(scene: &Path) -> Option<PathBuf> {
+    let file = scene.canonicalize().ok().filter(|path| path.is_file())?;
+    file.parent().map(Path::to_owned)
+}

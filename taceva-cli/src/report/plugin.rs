@@ -1,0 +1,190 @@
+//! Plugins, as lists.
+
+use std::io::{self, Write};
+
+use serde::Serialize;
+use taceva_drivers::ListedDriver;
+use taceva_host::{Delivery, Place, Plugin, PluginHost, ReasonKind, Rejection};
+
+use super::{devices, json};
+use crate::args::ListFormat;
+
+/// What was found; with `all`, also what is not used.
+pub(crate) fn list(
+    host: &PluginHost,
+    all: bool,
+    format: ListFormat,
+    out: &mut dyn Write,
+) -> io::Result<()> {
+    let plugins = host.plugins();
+    let refused: &[Rejection] = if all { &plugins.rejections } else { &[] };
+    if format == ListFormat::Json {
+        let written = Written {
+            schema: "taceva.plugins/1",
+            plugins: plugins
+                .iter()
+                .map(|plugin| Listed::of(host, plugin))
+                .collect(),
+            rejected: refused.iter().map(Refused::of).collect(),
+        };
+        return json::write(&written, out);
+    }
+    for plugin in plugins.iter() {
+        line(&Listed::of(host, plugin), out)?;
+    }
+    for rejection in refused {
+        let kind = rejection.reason.kind();
+        writeln!(out, "not used  {kind:<14} {rejection}")?;
+    }
+    let (used, not) = (plugins.len(), plugins.rejections.len());
+    let hint = if all || not == 0 {
+        ""
+    } else {
+        ": --all says why"
+    };
+    writeln!(out, "{used} plugins, {not} not used{hint}")
+}
+
+/// Everything that a manifest says.
+pub(crate) fn info(
+    host: &PluginHost,
+    plugin: &Plugin,
+    format: ListFormat,
+    out: &mut dyn Write,
+) -> io::Result<()> {
+    let listed = Listed::of(host, plugin);
+    if format == ListFormat::Json {
+        let written = Written {
+            schema: "taceva.plugins/1",
+            plugins: vec![listed],
+            rejected: Vec::new(),
+        };
+        return json::write(&written, out);
+    }
+    line(&listed, out)?;
+    writeln!(out, "    folder    {}", listed.folder)?;
+    writeln!(out, "    library   {} ({})", listed.library, listed.sha256)?;
+    writeln!(out, "    licence   {}", listed.license)?;
+    writeln!(out, "    interface {}", listed.abi)?;
+    if let Some(reason) = &listed.quarantined {
+        writeln!(out, "    kept from starting: {reason}")?;
+    }
+    for driver in &listed.drivers {
+        devices::driver(driver, out)?;
+    }
+    for estimator in &listed.estimators {
+        writeln!(out, "{:<22} estimator  {}", estimator.key, estimator.title)?;
+    }
+    Ok(())
+}
+
+fn line(plugin: &Listed, out: &mut dyn Write) -> io::Result<()> {
+    let Listed {
+        id, version, name, ..
+    } = plugin;
+    let (place, delivery) = (plugin.place, plugin.delivery);
+    writeln!(
+        out,
+        "{id:<30} {version:<10} {delivery:<14} {place:<12} {name}"
+    )?;
+    let drivers = plugin.drivers.iter().map(|driver| &driver.key);
+    let estimators = plugin.estimators.iter().map(|estimator| &estimator.key);
+    let keys: Vec<&str> = drivers.chain(estimators).map(String::as_str).collect();
+    writeln!(out, "    {}", keys.join(", "))?;
+    if !plugin.needs.is_empty() {
+        let allowed = match plugin.allowed.as_slice() {
+            [] => "none of it allowed".to_owned(),
+            allowed => format!("allowed: {}", allowed.join(", ")),
+        };
+        writeln!(out, "    needs {} ({allowed})", plugin.needs.join(", "))?;
+    }
+    Ok(())
+}
+
+#[derive(Serialize)]
+struct Written {
+    schema: &'static str,
+    plugins: Vec<Listed>,
+    rejected: Vec<Refused>,
+}
+
+#[derive(Serialize)]
+struct Listed {
+    id: String,
+    name: String,
+    version: String,
+    license: String,
+    abi: String,
+    place: Place,
+    folder: String,
+    library: String,
+    /// What the manifest demands of the library, or that it demands nothing.
+    sha256: String,
+    delivery: Delivery,
+    needs: Vec<String>,
+    allowed: Vec<String>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    quarantined: Option<String>,
+    drivers: Vec<ListedDriver>,
+    estimators: Vec<ListedEstimator>,
+}
+
+#[derive(Serialize)]
+struct ListedEstimator {
+    key: String,
+    title: String,
+}
+
+impl Listed {
+    fn of(host: &PluginHost, plugin: &Plugin) -> Listed {
+        let manifest = &plugin.manifest;
+        let words = |needs: std::collections::BTreeSet<taceva_host::Need>| {
+            needs.iter().map(ToString::to_string).collect()
+        };
+        Listed {
+            id: manifest.id.to_string(),
+            name: manifest.name.clone(),
+            version: manifest.version.clone(),
+            license: manifest.license.clone(),
+            abi: format!("{}.{}", manifest.abi.major, manifest.abi.minor),
+            place: plugin.place,
+            folder: plugin.folder.display().to_string(),
+            library: plugin.library.path.clone(),
+            sha256: match plugin.library.sha256 {
+                Some(digest) => format!("sha256 {digest}"),
+                None => "any build of it".to_owned(),
+            },
+            delivery: host.config().delivery(plugin),
+            needs: words(manifest.needs.clone()),
+            allowed: words(host.config().allowed(plugin)),
+            quarantined: None,
+            drivers: manifest.drivers().map(ListedDriver::of).collect(),
+            estimators: manifest
+                .estimators()
+                .map(|estimator| ListedEstimator {
+                    key: estimator.key.to_string(),
+                    title: estimator.title.clone(),
+                })
+                .collect(),
+        }
+    }
+}
+
+#[derive(Serialize)]
+struct Refused {
+    path: String,
+    place: Place,
+    kind: ReasonKind,
+    reason: String,
+}
+
+impl Refused {
+    fn of(rejection: &Rejection) -> Refused {
+        Refused {
+            path: rejection.path.display().to_string(),
+            place: rejection.place,
+            kind: rejection.reason.kind(),
+            reason: rejection.reason.to_string(),
+        }
+    }
+}
