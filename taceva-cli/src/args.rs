@@ -175,6 +175,12 @@ pub(crate) struct Evaluate {
     /// Write what was kept, for `taceva merge`
     #[arg(long, value_name = "STATE")]
     pub(crate) state_out: Option<PathBuf>,
+    /// Write a page to look at, to print and to send: one file that needs no network
+    #[arg(long, value_name = "FILE.html")]
+    pub(crate) html: Option<PathBuf>,
+    /// Write truth and prediction of every sample as CSV, for `taceva compare`
+    #[arg(long, value_name = "SAMPLES.csv")]
+    pub(crate) samples_out: Option<PathBuf>,
     /// Say what would be read, decoded, fitted and skipped, and stop
     #[arg(long)]
     pub(crate) explain: bool,
@@ -232,6 +238,12 @@ pub(crate) struct Score {
     /// Write what was kept, for `taceva merge`
     #[arg(long, value_name = "STATE")]
     pub(crate) state_out: Option<PathBuf>,
+    /// Write a page to look at, to print and to send: one file that needs no network
+    #[arg(long, value_name = "FILE.html")]
+    pub(crate) html: Option<PathBuf>,
+    /// Write truth and prediction of every sample as CSV, for `taceva compare`
+    #[arg(long, value_name = "SAMPLES.csv")]
+    pub(crate) samples_out: Option<PathBuf>,
     /// Count NaN and infinite cells as n_invalid instead of refusing the file
     #[arg(long)]
     pub(crate) allow_invalid: bool,

@@ -18,15 +18,16 @@ mod scene;
 pub(crate) mod score;
 
 use std::num::NonZeroUsize;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use taceva_dataset::Dataset;
 use taceva_models::Settings;
-use taceva_study::{FitRequest, Part, Plan, StudyError};
+use taceva_study::{EvaluationReport, FitRequest, Part, Plan, StudyError};
 
 use crate::args::{Everywhere, PartArg, PluginArgs, SettingArgs, SplitArgs};
 use crate::exit;
 use crate::progress::Terminal;
+use crate::{output, report};
 
 /// What every command works with.
 pub(crate) struct Context {
@@ -118,6 +119,23 @@ pub(crate) fn check_isa() -> anyhow::Result<()> {
 
 pub(crate) fn open(path: &Path) -> anyhow::Result<Dataset> {
     Ok(Dataset::open(path)?)
+}
+
+/// Writes the page and the samples of an evaluation, where they were asked for.
+fn write_page(
+    html: &Option<PathBuf>,
+    samples: &Option<PathBuf>,
+    written: &EvaluationReport,
+) -> anyhow::Result<()> {
+    if let Some(path) = html {
+        let title = format!("{}: how well it measures", written.subject.sensor);
+        let page = report::page::Page::of(&title, std::slice::from_ref(written))?;
+        output::write(Some(path), |out| page.write(out))?;
+    }
+    if let (Some(path), Some(samples)) = (samples, &written.samples) {
+        output::write(Some(path), |out| samples.write(out))?;
+    }
+    Ok(())
 }
 
 /// The fit that was asked for.

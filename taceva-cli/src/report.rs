@@ -11,10 +11,12 @@ mod latex;
 mod line;
 mod markdown;
 mod number;
+pub(crate) mod page;
 pub(crate) mod plan;
 pub(crate) mod plugin;
 mod profile;
 mod text;
+mod thumbnail;
 
 use std::io::{self, Write};
 

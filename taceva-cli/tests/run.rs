@@ -140,9 +140,12 @@ sensor = { driver = "sim/magictac:reduction=16", units = ["0", "1"] }
     bench.ok("run two.toml --out a --jobs 1 -q");
     bench.ok("run two.toml --out b --jobs 3 -q");
     let alone = reports(&bench.path("a"));
-    // JSON and text of each.
-    assert_eq!(alone.len(), 4);
+    // JSON, text and samples of each.
+    assert_eq!(alone.len(), 6);
     assert_eq!(alone, reports(&bench.path("b")));
+    let page = |run: &str| fs::read_to_string(bench.path(run).join("report.html")).expect("a page");
+    assert_eq!(page("a"), page("b"));
+    assert!(page("a").contains("Nothing here was measured"));
 }
 
 #[test]

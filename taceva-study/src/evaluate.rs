@@ -19,6 +19,7 @@ use crate::predict::{self, Predicted, Target, reads_frames};
 use crate::provenance::{ModelProvenance, Provenance};
 use crate::report::EvaluationReport;
 use crate::rows::{Divided, Part};
+use crate::samples::Samples;
 use crate::state_file::StateFile;
 use crate::subject::Subject;
 
@@ -209,8 +210,10 @@ fn score(
     let subject = Subject::of(dataset);
     let state = StateFile::of(&mut evaluator, &subject, &provenance)?;
     let evaluation = evaluator.finish()?;
+    let samples = Samples::of(dataset, &target.rows)?
+        .with_predictions(&target.rows, (predicted, &target.rows));
     Ok(Evaluated {
-        report: EvaluationReport::new(subject, evaluation, provenance),
+        report: EvaluationReport::new(subject, evaluation, provenance).with_samples(samples),
         state,
         manifest: None,
     })

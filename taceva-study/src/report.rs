@@ -6,6 +6,7 @@ use taceva_core::Skipped;
 use taceva_metrics::Evaluation;
 
 use crate::provenance::Provenance;
+use crate::samples::Samples;
 use crate::subject::Subject;
 
 /// The schema of [`EvaluationReport`] as JSON.
@@ -23,6 +24,9 @@ pub struct EvaluationReport {
     pub evaluation: Evaluation,
     /// From what, and how.
     pub provenance: Provenance,
+    /// The samples it was made of, where one call has them all; no part of the JSON.
+    #[serde(skip)]
+    pub samples: Option<Samples>,
 }
 
 impl EvaluationReport {
@@ -36,6 +40,15 @@ impl EvaluationReport {
             subject,
             evaluation,
             provenance,
+            samples: None,
+        }
+    }
+
+    /// The same with the samples it was made of.
+    pub(crate) fn with_samples(self, samples: Samples) -> EvaluationReport {
+        EvaluationReport {
+            samples: Some(samples),
+            ..self
         }
     }
 }

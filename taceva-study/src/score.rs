@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
-use taceva_core::{Channel, Progress, Unit};
+use taceva_core::{Channel, Column, Progress, Unit};
 use taceva_dataset::{CsvTable, SensorFile};
 use taceva_metrics::{MetricPlan, SensorFacts, catalogue};
 
@@ -17,9 +17,10 @@ use crate::facts;
 use crate::plan::Plan;
 use crate::provenance::Provenance;
 use crate::report::EvaluationReport;
+use crate::samples::Samples;
 use crate::state_file::StateFile;
 use crate::subject::Subject;
-use crate::tally;
+use crate::tally::{self, Rows};
 
 use fields::Place;
 use paired_rows::PairedRows;
@@ -145,6 +146,34 @@ impl Scoring {
         let scored = self.evaluate();
         progress.end();
         scored
+    }
+
+    /// The pairs of truth and prediction one by one, called by the `id` of the truth or by their number; scoring never holds them all.
+    ///
+    /// # Errors
+    /// As [`run`](Scoring::run).
+    pub fn samples(&self) -> Result<Samples, StudyError> {
+        let rows = self.truth.rows();
+        let batch = PairedRows::of(self)?.batch(&self.metrics, 0..rows)?;
+        let ids = match self.truth.has("id") {
+            true => {
+                let column = self.truth.position("id")?;
+                let id = |row| Some(self.truth.cell(row, column).to_owned());
+                (0..rows).map(id).collect()
+            }
+            false => (1..=rows).map(|number| Some(number.to_string())).collect(),
+        };
+        let points = batch.points().map(|points| {
+            let point = |row| points.get(row).map(str::to_owned);
+            (0..rows).map(point).collect()
+        });
+        let channels = self.metrics.channels().iter().enumerate();
+        let channels = channels.map(|(at, channel)| {
+            let columns = [batch.truth(at), batch.prediction(at)].map(Column::clone);
+            let [truth, prediction] = columns;
+            (channel.clone(), truth, prediction)
+        });
+        Ok(Samples::of_pairs(ids, points, channels.collect()))
     }
 
     fn evaluate(&self) -> Result<Scored, StudyError> {

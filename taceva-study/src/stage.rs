@@ -16,6 +16,7 @@ use crate::predict::{self, Predicted, Target, reads_frames};
 use crate::provenance::{ModelProvenance, Provenance};
 use crate::report::EvaluationReport;
 use crate::rows::{Divided, Need, Part, usable};
+use crate::samples::Samples;
 use crate::scene::{PlannedScene, PlannedStudy};
 use crate::subject::Subject;
 
@@ -75,11 +76,16 @@ pub(crate) fn assess(
         notes,
         ..Provenance::of(dataset)
     };
-    Ok(EvaluationReport::new(
-        Subject::of(dataset),
-        evaluation,
-        provenance,
-    ))
+    let rows = dataset.all_rows();
+    let mut samples = Samples::of(dataset, &rows)?;
+    if let Some(parts) = deal.protocol() {
+        samples = samples.with_protocol(&rows, &parts);
+    }
+    if let Some((predicted, of_rows)) = &predicted {
+        samples = samples.with_predictions(&rows, (predicted, of_rows));
+    }
+    let report = EvaluationReport::new(Subject::of(dataset), evaluation, provenance);
+    Ok(report.with_samples(samples))
 }
 
 /// The model of a study, and what it has seen.

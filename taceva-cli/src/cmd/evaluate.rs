@@ -10,6 +10,7 @@ use crate::{exit, output, report};
 
 pub(crate) fn run(args: &Evaluate, context: &Context) -> anyhow::Result<u8> {
     let files = args.output.path.iter().chain(&args.split_out);
+    let files = files.chain(&args.html).chain(&args.samples_out);
     for path in files.chain(&args.state_out) {
         output::check_free(path, args.output.force)?;
     }
@@ -55,6 +56,7 @@ pub(crate) fn run(args: &Evaluate, context: &Context) -> anyhow::Result<u8> {
     if let Some(path) = &args.state_out {
         output::write(Some(path), |out| evaluated.state.write(out))?;
     }
+    super::write_page(&args.html, &args.samples_out, &evaluated.report)?;
     if let (Some(path), Some(manifest)) = (&args.split_out, &evaluated.manifest) {
         output::write(Some(path), |out| {
             serde_json::to_writer_pretty(&mut *out, manifest)?;

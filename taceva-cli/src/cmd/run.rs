@@ -14,6 +14,8 @@ use crate::{exit, output, progress, report};
 
 /// The folder in which runs are numbered.
 const RUNS: &str = "runs";
+/// The page that shows a run.
+const PAGE: &str = "report.html";
 
 pub(crate) fn run(args: &Run, context: &Context) -> anyhow::Result<u8> {
     let drivers = context.drivers(Some(Path::new(&args.scene.scene)))?;
@@ -57,11 +59,15 @@ pub(crate) fn run(args: &Run, context: &Context) -> anyhow::Result<u8> {
         cache::tell(cache, &folder, context)?;
     }
     write_files(&planned, &folder, &reports, &formats)?;
+    let page = folder.path().join(PAGE);
+    let shown = report::page::Page::of(&planned.scene.name, &reports)?;
+    output::write(Some(&page), |out| shown.write(out))?;
     output::write(None, |out| report::profiles(&reports, args.format, out))?;
     context.say(format_args!(
         "reports are in {}",
         folder.reports().display()
     ));
+    context.say(format_args!("look at    {}", page.display()));
     Ok(exit::DONE)
 }
 
@@ -74,9 +80,11 @@ fn formats(planned: &PlannedScene) -> anyhow::Result<Vec<(Format, &'static str)>
             "csv" => (Format::Csv, "csv"),
             "md" => (Format::Md, "md"),
             "tex" => (Format::Tex, "tex"),
+            // The page is always written.
+            "html" => continue,
             other => {
                 return Err(Usage::error(format!(
-                    "[report] formats: this program writes no `{other}`, expected text, json, csv, md or tex"
+                    "[report] formats: this program writes no `{other}`, expected html, text, json, csv, md or tex"
                 )));
             }
         };
@@ -98,6 +106,10 @@ fn write_files(
         for (format, extension) in formats {
             let path: PathBuf = folder.report(number, &study.plan.name, extension);
             output::write(Some(&path), |out| report::evaluation(written, *format, out))?;
+        }
+        if let Some(samples) = &written.samples {
+            let path = folder.report(number, &study.plan.name, "samples.csv");
+            output::write(Some(&path), |out| samples.write(out))?;
         }
     }
     Ok(())

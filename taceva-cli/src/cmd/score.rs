@@ -9,7 +9,8 @@ use crate::args::Score;
 use crate::{exit, output, report};
 
 pub(crate) fn run(args: &Score, context: &Context) -> anyhow::Result<u8> {
-    for path in args.output.path.iter().chain(&args.state_out) {
+    let files = args.output.path.iter().chain(&args.state_out);
+    for path in files.chain(&args.html).chain(&args.samples_out) {
         output::check_free(path, args.output.force)?;
     }
     let request = ScoreRequest {
@@ -31,10 +32,14 @@ pub(crate) fn run(args: &Score, context: &Context) -> anyhow::Result<u8> {
         return Ok(exit::DONE);
     }
     context.tell(|| Ok(scoring.plan()))?;
-    let scored = scoring.run(&context.progress)?;
+    let mut scored = scoring.run(&context.progress)?;
+    if args.html.is_some() || args.samples_out.is_some() {
+        scored.report.samples = Some(scoring.samples()?);
+    }
     output::write(args.output.path.as_deref(), |out| {
         report::evaluation(&scored.report, args.output.format, out)
     })?;
+    super::write_page(&args.html, &args.samples_out, &scored.report)?;
     if let Some(path) = &args.state_out {
         output::write(Some(path), |out| scored.state.write(out))?;
     }

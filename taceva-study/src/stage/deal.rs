@@ -40,6 +40,15 @@ impl<'a> Deal<'a> {
         }
     }
 
+    /// The rows of every part of the protocol by its name; absent of a recording that nobody here planned.
+    pub(super) fn protocol(&self) -> Option<BTreeMap<&'static str, Vec<usize>>> {
+        let rows = self.rows.as_ref()?.iter();
+        Some(
+            rows.map(|(kind, rows)| (kind.name(), rows.clone()))
+                .collect(),
+        )
+    }
+
     /// The planned metrics with their entries in the catalogue.
     pub(super) fn metrics(&self) -> impl Iterator<Item = (&'a PlannedMetric, &'static Metric)> {
         let planned = self.plan.metrics.iter();

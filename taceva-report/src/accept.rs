@@ -1,0 +1,260 @@
+//! Whether results keep to limits, one by one.
+
+use serde::Deserialize;
+use taceva_core::Unit;
+
+use crate::results::{Interval, Study};
+
+/// The limits that a sensor is accepted by.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct LimitsFile {
+    /// 1.
+    limits_version: u32,
+    /// What they are for.
+    #[serde(default)]
+    pub name: String,
+    /// The limits, in order.
+    #[serde(default, rename = "limit")]
+    pub limits: Vec<Limit>,
+}
+
+/// A limit of one score.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Limit {
+    /// The metric, with the name of a variant if it is one: `mae`, `hysteresis.ratio`.
+    pub metric: String,
+    /// The channel or plane.
+    pub channel: String,
+    /// The unit of the limit; that of the score must be the same.
+    pub unit: String,
+    /// What the score must not exceed.
+    pub most: Option<f64>,
+    /// What the score must not fall below.
+    pub least: Option<f64>,
+    /// Whether the whole interval must keep to the limit, and not the value alone.
+    #[serde(default)]
+    pub whole_interval: bool,
+}
+
+/// Why limits cannot be read.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum LimitsError {
+    /// The file is no TOML, or has other keys than it may have.
+    #[error("{0}")]
+    Toml(#[from] toml::de::Error),
+    /// A value is none of those that are accepted.
+    #[error("limit {number}: {problem}")]
+    Limit {
+        /// Which one, counted from 1; 0 for the file.
+        number: usize,
+        /// What is wrong, and what is accepted.
+        problem: String,
+    },
+}
+
+/// What became of one limit.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Finding {
+    /// The limit.
+    pub limit: Limit,
+    /// The value that was looked at, if there is one.
+    pub value: Option<f64>,
+    /// Both ends of its interval.
+    pub ends: Option<[f64; 2]>,
+    /// Samples it is made of.
+    pub n: u64,
+    /// Whether the limit is kept.
+    pub is_kept: bool,
+    /// Why it is not kept, in words.
+    pub reason: Option<String>,
+}
+
+impl LimitsFile {
+    /// The limits in `text`.
+    ///
+    /// ```
+    /// use taceva_report::LimitsFile;
+    /// let limits = LimitsFile::read(r#"
+    ///     limits_version = 1
+    ///     [[limit]]
+    ///     metric = "mae"
+    ///     channel = "Fz"
+    ///     most = 0.05
+    ///     unit = "N"
+    /// "#)?;
+    /// assert_eq!(limits.limits[0].most, Some(0.05));
+    /// # Ok::<(), taceva_report::LimitsError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`LimitsError`] with the line or the number of the limit.
+    pub fn read(text: &str) -> Result<LimitsFile, LimitsError> {
+        let file: LimitsFile = toml::from_str(text)?;
+        let refuse = |number: usize, problem: String| Err(LimitsError::Limit { number, problem });
+        if file.limits_version != 1 {
+            return refuse(
+                0,
+                format!("limits_version {}: expected 1", file.limits_version),
+            );
+        }
+        if file.limits.is_empty() {
+            return refuse(
+                0,
+                "no [[limit]]: what keeps to nothing is not accepted by it".to_owned(),
+            );
+        }
+        for (at, limit) in file.limits.iter().enumerate() {
+            if Unit::from_symbol(&limit.unit).is_none() {
+                return refuse(
+                    at + 1,
+                    format!(
+                        "unit `{}`: expected mm, N, 1 or the like",
+                        limit.unit.escape_debug()
+                    ),
+                );
+            }
+            let ends = [limit.most, limit.least];
+            let is_number = ends.iter().flatten().all(|end| end.is_finite());
+            if !is_number || ends.iter().all(Option::is_none) {
+                return refuse(
+                    at + 1,
+                    "expected `most`, `least` or both, as numbers".to_owned(),
+                );
+            }
+        }
+        Ok(file)
+    }
+}
+
+/// Holds `study` to every limit. A score that is missing or has no value does not keep to one.
+pub fn accept(study: &Study, limits: &LimitsFile) -> Vec<Finding> {
+    limits
+        .limits
+        .iter()
+        .map(|limit| hold(study, limit))
+        .collect()
+}
+
+fn hold(study: &Study, limit: &Limit) -> Finding {
+    let mut finding = Finding {
+        limit: limit.clone(),
+        value: None,
+        ends: None,
+        n: 0,
+        is_kept: false,
+        reason: None,
+    };
+    let (metric, variant) = match limit.metric.split_once('.') {
+        Some((metric, variant)) => (metric, Some(variant)),
+        None => (limit.metric.as_str(), None),
+    };
+    let Some(score) = study.score(metric, &limit.channel) else {
+        finding.reason = Some("there is no such score".to_owned());
+        return finding;
+    };
+    finding.n = score.n;
+    let (value, unit, interval) = match variant {
+        None => (&score.value, score.unit, &score.interval),
+        Some(name) => match score.variant(name) {
+            Some(variant) => (&variant.value, variant.unit, &variant.interval),
+            None => {
+                finding.reason = Some("there is no such variant".to_owned());
+                return finding;
+            }
+        },
+    };
+    let Some(number) = value.number() else {
+        finding.reason = value
+            .reason()
+            .or_else(|| Some("not one number but many".to_owned()));
+        return finding;
+    };
+    finding.value = Some(number);
+    finding.ends = interval.as_ref().and_then(Interval::ends);
+    finding.reason = broken(limit, unit, number, finding.ends);
+    finding.is_kept = finding.reason.is_none();
+    finding
+}
+
+/// How a value breaks the limit, if it does.
+fn broken(limit: &Limit, unit: Unit, value: f64, ends: Option<[f64; 2]>) -> Option<String> {
+    if unit.symbol() != limit.unit {
+        return Some(format!(
+            "the score is in {unit}, the limit in {}",
+            limit.unit
+        ));
+    }
+    let [low, high] = match (limit.whole_interval, ends) {
+        (false, _) => [value; 2],
+        (true, Some(ends)) => ends,
+        (true, None) => return Some("there is no interval to hold to the limit".to_owned()),
+    };
+    let what = if limit.whole_interval {
+        "interval reaches"
+    } else {
+        "value is"
+    };
+    if let Some(most) = limit.most.filter(|most| high > *most) {
+        return Some(format!("{what} {high}, above {most}"));
+    }
+    let least = limit.least.filter(|least| low < *least)?;
+    Some(format!("{what} {low}, below {least}"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::catalogue;
+
+    fn limits(lines: &str) -> LimitsFile {
+        LimitsFile::read(&format!("limits_version = 1\n[[limit]]\n{lines}\n")).expect("limits")
+    }
+
+    #[test]
+    fn a_value_on_the_limit_keeps_to_it_and_one_beyond_does_not() {
+        let study = catalogue::find("GelSight").expect("there").as_study();
+        let kept = limits("metric=\"mae\"\nchannel=\"Fz\"\nunit=\"N\"\nmost=0.0361");
+        assert!(accept(&study, &kept)[0].is_kept);
+        let broken = limits("metric=\"mae\"\nchannel=\"Fz\"\nunit=\"N\"\nmost=0.0360");
+        let finding = &accept(&study, &broken)[0];
+        assert_eq!(
+            finding.reason.as_deref(),
+            Some("value is 0.0361, above 0.036")
+        );
+    }
+
+    #[test]
+    fn what_cannot_be_told_is_not_kept() {
+        let study = catalogue::find("GelSight").expect("there").as_study();
+        for (lines, expected) in [
+            (
+                "metric=\"drift\"\nchannel=\"Fz\"\nunit=\"N/h\"\nmost=1",
+                "there is no such score",
+            ),
+            (
+                "metric=\"mae\"\nchannel=\"Fz\"\nunit=\"mm\"\nmost=1",
+                "the score is in N, the limit in mm",
+            ),
+            (
+                "metric=\"mae\"\nchannel=\"Fz\"\nunit=\"N\"\nmost=1\nwhole_interval=true",
+                "there is no interval to hold to the limit",
+            ),
+        ] {
+            let finding = &accept(&study, &limits(lines))[0];
+            assert_eq!(
+                (finding.is_kept, finding.reason.as_deref()),
+                (false, Some(expected))
+            );
+        }
+        assert!(LimitsFile::read("limits_version = 1").is_err());
+        assert!(
+            LimitsFile::read(
+                "limits_version = 1\n[[limit]]\nmetric=\"mae\"\nchannel=\"Fz\"\nunit=\"N\""
+            )
+            .is_err()
+        );
+    }
+}

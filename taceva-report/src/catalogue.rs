@@ -1,0 +1,106 @@
+//! Sensors as data: what they are built of, what they stand, and what was published of them, each number with its source.
+
+mod builtin;
+mod entry;
+mod site;
+
+pub use entry::{CatalogueError, Intrinsic, Limits, Published, Sensor, Source};
+pub use site::{SitePage, site};
+
+/// The sensors and studies that come with the program, by name.
+///
+/// ```
+/// let sensors = taceva_report::catalogue::all();
+/// let gelsight = sensors.iter().find(|sensor| sensor.name == "GelSight").expect("there");
+/// assert_eq!(gelsight.result("mae", "Pz").map(|result| result.value), Some(0.0325));
+/// ```
+///
+/// # Panics
+/// Never: a test reads every file.
+pub fn all() -> Vec<Sensor> {
+    let read = |(file, text): &(&str, &str)| {
+        Sensor::read(file, text).expect("a test reads every file of the catalogue")
+    };
+    let mut sensors: Vec<Sensor> = builtin::FILES.iter().map(read).collect();
+    sensors.sort_by_key(|sensor| sensor.name.to_lowercase());
+    sensors
+}
+
+/// The sensor called `name`, whatever its case.
+pub fn find(name: &str) -> Option<Sensor> {
+    let wanted = name.to_lowercase();
+    all()
+        .into_iter()
+        .find(|sensor| sensor.name.to_lowercase() == wanted)
+}
+
+#[cfg(test)]
+mod tests {
+    use std::collections::BTreeSet;
+    use std::path::Path;
+
+    use super::*;
+
+    #[test]
+    fn every_file_of_the_folder_is_read_and_says_where_its_numbers_are_from() {
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("catalogue");
+        let files: BTreeSet<String> = std::fs::read_dir(folder)
+            .expect("the folder")
+            .map(|entry| {
+                entry
+                    .expect("readable")
+                    .file_name()
+                    .to_string_lossy()
+                    .into_owned()
+            })
+            .collect();
+        let listed: BTreeSet<String> = builtin::FILES
+            .iter()
+            .map(|(file, _)| (*file).to_owned())
+            .collect();
+        assert_eq!(files, listed);
+        for (file, text) in builtin::FILES {
+            let sensor = Sensor::read(file, text).unwrap_or_else(|error| panic!("{error}"));
+            for result in &sensor.results {
+                assert!(
+                    sensor.source(&result.source).is_some(),
+                    "{file}: {}",
+                    result.source
+                );
+                assert!(
+                    !result.conditions.is_empty() && !result.definition.is_empty(),
+                    "{file}"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn the_four_sensors_of_the_study_are_there_in_full() {
+        for name in ["ViTacTip", "MagicTac", "GelSight", "GelSightWM"] {
+            let sensor = find(name).expect("there");
+            for metric in ["mae", "r2", "smape", "r_spatial"] {
+                for channel in ["Pxy", "Pz", "Fxy", "Fz"] {
+                    assert!(
+                        sensor.result(metric, channel).is_some(),
+                        "{name} {metric} {channel}"
+                    );
+                }
+            }
+            assert!(sensor.limits.is_some() && sensor.intrinsic.is_some());
+        }
+    }
+
+    #[test]
+    fn a_key_that_nobody_knows_is_refused_by_its_line() {
+        let error = Sensor::read(
+            "x.toml",
+            "catalogue_version = 1\nname = \"x\"\nkind = \"sensor\"\nmechanism = []\ncolour = 1\n",
+        );
+        let error = error.expect_err("unknown key").to_string();
+        assert!(
+            error.contains("x.toml") && error.contains("colour"),
+            "{error}"
+        );
+    }
+}

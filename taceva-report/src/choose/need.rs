@@ -1,0 +1,215 @@
+//! Needs, as they are said and as they are meant.
+
+use std::fmt;
+
+use super::property::Property;
+use super::words::{QUANTITIES, Quantity, WORDS};
+
+/// One need of a task.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Need {
+    /// As it was said.
+    pub words: String,
+    /// What drops a sensor.
+    pub bounds: Vec<Bound>,
+    /// What ranks those that remain.
+    pub ranks: Vec<Property>,
+}
+
+/// A number that a sensor must reach or stay below.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Bound {
+    /// Of what.
+    pub property: Property,
+    /// Whether the number must be at least this, else at most.
+    pub is_least: bool,
+    /// The number, in the unit of the property.
+    pub value: f64,
+}
+
+/// A need that nobody understands.
+#[derive(Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum NeedError {
+    /// There is none.
+    #[error(
+        "no need is said: expected words such as `shear` or numbers such as `rate >= 50 Hz`, separated by commas"
+    )]
+    Empty,
+    /// The word is not known.
+    #[error("`{0}`: unknown need, expected one of {known}", known = known())]
+    Unknown(String),
+    /// The number or its unit is not what is expected.
+    #[error("`{words}`: expected a number above 0 in {unit}", unit = if unit.is_empty() { "parts of 1" } else { unit })]
+    Number {
+        /// The need.
+        words: String,
+        /// The unit that is expected.
+        unit: &'static str,
+    },
+    /// The file is no TOML of the form `needs = ["…", …]`.
+    #[error("needs: {0}")]
+    Toml(#[from] toml::de::Error),
+}
+
+impl Need {
+    /// The needs in `text`, separated by commas: words such as `accurate shear`, and numbers such as `rate >= 50 Hz`, `force <= 1 N` or
+    /// `localisation 0.3 mm`, which asks for an error of at most that.
+    ///
+    /// # Errors
+    /// [`NeedError`] with the need and what is known.
+    pub fn parse(text: &str) -> Result<Vec<Need>, NeedError> {
+        let words = text
+            .split(',')
+            .map(str::trim)
+            .filter(|word| !word.is_empty());
+        let needs: Vec<Need> = words.map(one).collect::<Result<_, _>>()?;
+        match needs.is_empty() {
+            true => Err(NeedError::Empty),
+            false => Ok(needs),
+        }
+    }
+
+    /// The needs in a file: `needs = ["shear", "rate >= 50 Hz"]`.
+    ///
+    /// # Errors
+    /// [`NeedError`] with the line or the need.
+    pub fn read(text: &str) -> Result<Vec<Need>, NeedError> {
+        #[derive(serde::Deserialize)]
+        #[serde(deny_unknown_fields)]
+        struct Written {
+            needs: Vec<String>,
+        }
+        let written: Written = toml::from_str(text)?;
+        Need::parse(&written.needs.join(","))
+    }
+
+    /// Everything that it looks at.
+    pub fn properties(&self) -> impl Iterator<Item = Property> {
+        let bounds = self.bounds.iter().map(|bound| bound.property);
+        bounds.chain(self.ranks.iter().copied())
+    }
+}
+
+fn one(words: &str) -> Result<Need, NeedError> {
+    let lower = words.to_lowercase();
+    if let Some(word) = WORDS
+        .iter()
+        .find(|word| word.names.contains(&lower.as_str()))
+    {
+        let bounds = word.bounds.iter().map(|(property, is_least, value)| Bound {
+            property: *property,
+            is_least: *is_least,
+            value: *value,
+        });
+        return Ok(Need {
+            words: words.to_owned(),
+            bounds: bounds.collect(),
+            ranks: word.ranks.to_vec(),
+        });
+    }
+    // The longest name first: `depth error` is not `depth`.
+    let named = QUANTITIES
+        .iter()
+        .filter(|quantity| lower.starts_with(quantity.name));
+    let quantity = named.max_by_key(|quantity| quantity.name.len());
+    let quantity = quantity.ok_or_else(|| NeedError::Unknown(words.escape_debug().to_string()))?;
+    let bound = bound(quantity, words, &words[quantity.name.len()..])?;
+    Ok(Need {
+        words: words.to_owned(),
+        bounds: vec![bound],
+        ranks: Vec::new(),
+    })
+}
+
+/// `<= 1 N`, `>= 50 Hz`, or a number alone, which bounds to the side where worse ones lie.
+fn bound(quantity: &Quantity, words: &str, rest: &str) -> Result<Bound, NeedError> {
+    let refuse = || NeedError::Number {
+        words: words.escape_debug().to_string(),
+        unit: quantity.unit,
+    };
+    let rest = rest.trim();
+    let sides = [("<=", false), ("≤", false), (">=", true), ("≥", true)];
+    let side = sides
+        .iter()
+        .find_map(|(sign, is_least)| Some((rest.strip_prefix(sign)?, *is_least)));
+    let natural = quantity.is_reach || !quantity.property.is_better_low();
+    let (rest, is_least) = side.unwrap_or((rest, natural));
+    let rest = rest.trim();
+    let end = rest.find(|letter: char| !(letter.is_ascii_digit() || letter == '.'));
+    let (number, unit) = rest.split_at(end.unwrap_or(rest.len()));
+    let value: f64 = number.parse().map_err(|_| refuse())?;
+    let unit = unit.trim().replace("mm2", "mm²");
+    if unit != quantity.unit || !(value.is_finite() && value > 0.0) {
+        return Err(refuse());
+    }
+    Ok(Bound {
+        property: quantity.property,
+        is_least: is_least || quantity.is_reach,
+        value,
+    })
+}
+
+impl Bound {
+    /// Whether `value` meets it.
+    pub fn holds(&self, value: f64) -> bool {
+        if self.is_least {
+            value >= self.value
+        } else {
+            value <= self.value
+        }
+    }
+}
+
+impl fmt::Display for Bound {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let sign = if self.is_least { "≥" } else { "≤" };
+        write!(
+            f,
+            "{} {sign} {}",
+            self.property,
+            self.property.shown(self.value)
+        )
+    }
+}
+
+fn known() -> String {
+    let words = WORDS.iter().map(|word| word.names[0].to_owned());
+    let quantities = QUANTITIES
+        .iter()
+        .map(|quantity| format!("{} <number> {}", quantity.name, quantity.unit));
+    words.chain(quantities).collect::<Vec<_>>().join(", ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_bound_to_the_side_that_is_meant() {
+        let bound = |text: &str| Need::parse(text).expect("a need")[0].bounds[0].to_string();
+        assert_eq!(bound("force <= 1 N"), "greatest normal force ≥ 1 N");
+        assert_eq!(bound("localisation 0.3 mm"), "MAE of Pxy ≤ 0.3 mm");
+        assert_eq!(bound("rate >= 50 Hz"), "frame rate ≥ 50 Hz");
+        assert_eq!(bound("depth error 0.05 mm"), "MAE of Pz ≤ 0.05 mm");
+    }
+
+    #[test]
+    fn what_is_not_understood_is_refused_by_name() {
+        assert_eq!(Need::parse(" , "), Err(NeedError::Empty));
+        let error = Need::parse("shear, beauty").expect_err("unknown");
+        assert!(
+            error
+                .to_string()
+                .starts_with("`beauty`: unknown need, expected one of shear, no shear")
+        );
+        for wrong in ["rate >= fast", "rate >= 50 kHz", "force -1 N", "rate"] {
+            assert!(
+                matches!(Need::parse(wrong), Err(NeedError::Number { .. })),
+                "{wrong}"
+            );
+        }
+        let needs = Need::read("needs = [\"shear\", \"rate >= 50 Hz\"]").expect("a file");
+        assert_eq!(needs.len(), 2);
+    }
+}

@@ -1,0 +1,142 @@
+//! The words that needs are said in.
+
+use super::property::Property;
+
+/// A word with what it asks for.
+pub(super) struct Word {
+    /// How it may be said.
+    pub(super) names: &'static [&'static str],
+    /// Bounds that it stands for: property, whether at least, number.
+    pub(super) bounds: &'static [(Property, bool, f64)],
+    /// What it ranks by.
+    pub(super) ranks: &'static [Property],
+}
+
+/// Words without a number.
+pub(super) const WORDS: &[Word] = &[
+    Word {
+        names: &["shear", "accurate shear", "shear force"],
+        bounds: &[],
+        ranks: &[Property::Error("Fxy")],
+    },
+    Word {
+        names: &["no shear"],
+        bounds: &[],
+        ranks: &[
+            Property::Error("Pxy"),
+            Property::Error("Pz"),
+            Property::Error("Fz"),
+        ],
+    },
+    Word {
+        names: &["normal force", "force"],
+        bounds: &[],
+        ranks: &[Property::Error("Fz")],
+    },
+    Word {
+        names: &["depth", "shallow contact", "shallow"],
+        bounds: &[],
+        ranks: &[
+            Property::Error("Pz"),
+            Property::Repeatability("Pz"),
+            Property::Spatial("Pz"),
+        ],
+    },
+    Word {
+        names: &["deep contact", "deep"],
+        bounds: &[(Property::GreatestDepth, true, 2.0)],
+        ranks: &[Property::GreatestDepth],
+    },
+    Word {
+        names: &["soft contact", "soft", "gentle"],
+        bounds: &[],
+        ranks: &[Property::Sensitivity],
+    },
+    Word {
+        names: &["firm contact", "firm"],
+        bounds: &[(Property::GreatestForce, true, 1.5)],
+        ranks: &[],
+    },
+    Word {
+        names: &["planar", "localisation", "localization"],
+        bounds: &[],
+        ranks: &[Property::Error("Pxy")],
+    },
+    Word {
+        names: &["fast"],
+        bounds: &[],
+        ranks: &[Property::FrameRate],
+    },
+    Word {
+        names: &["ambient light", "changing light", "light"],
+        bounds: &[(Property::Opaque, true, 1.0)],
+        ranks: &[],
+    },
+    Word {
+        names: &["fine detail", "texture"],
+        bounds: &[],
+        ranks: &[Property::Resolution("line"), Property::Resolution("dot")],
+    },
+    Word {
+        names: &["even surface"],
+        bounds: &[],
+        ranks: &[Property::Uniformity],
+    },
+    Word {
+        names: &["large area"],
+        bounds: &[],
+        ranks: &[Property::FieldOfView],
+    },
+    Word {
+        names: &["thin"],
+        bounds: &[],
+        ranks: &[Property::Thickness],
+    },
+    Word {
+        names: &["repeatable"],
+        bounds: &[],
+        ranks: &[Property::Repeatability("Pz"), Property::Repeatability("Fz")],
+    },
+];
+
+/// A quantity with a number.
+pub(super) struct Quantity {
+    pub(super) name: &'static str,
+    pub(super) unit: &'static str,
+    pub(super) property: Property,
+    /// Whether the sensor's number must be at least the need's, however the need is said: a sensor that is pressed with up to 1 N must stand
+    /// 1 N.
+    pub(super) is_reach: bool,
+}
+
+const fn reach(name: &'static str, unit: &'static str, property: Property) -> Quantity {
+    Quantity {
+        name,
+        unit,
+        property,
+        is_reach: true,
+    }
+}
+
+const fn quality(name: &'static str, unit: &'static str, property: Property) -> Quantity {
+    Quantity {
+        is_reach: false,
+        ..reach(name, unit, property)
+    }
+}
+
+/// Quantities that may be bounded.
+pub(super) const QUANTITIES: &[Quantity] = &[
+    reach("force", "N", Property::GreatestForce),
+    reach("depth", "mm", Property::GreatestDepth),
+    quality("rate", "Hz", Property::FrameRate),
+    quality("area", "mm²", Property::FieldOfView),
+    quality("thickness", "mm", Property::Thickness),
+    quality("localisation", "mm", Property::Error("Pxy")),
+    quality("localization", "mm", Property::Error("Pxy")),
+    quality("depth error", "mm", Property::Error("Pz")),
+    quality("force error", "N", Property::Error("Fz")),
+    quality("shear error", "N", Property::Error("Fxy")),
+    quality("sensitivity", "mm/N", Property::Sensitivity),
+    quality("uniformity", "", Property::Uniformity),
+];

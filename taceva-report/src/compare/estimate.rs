@@ -1,0 +1,77 @@
+//! Scores as they are read back, as estimates that can be tested.
+
+use taceva_metrics::{Estimate, Sides, welch};
+
+use crate::results::{Interval, Score};
+
+/// Both scores, if they have one meaning; why not, in words.
+pub(super) fn of_both(scores: Sides<&Score>) -> Result<Sides<Estimate>, String> {
+    let Sides { a, b } = scores;
+    let meaning = |score: &Score| {
+        let constants = score.parameters.iter();
+        let constants = constants.map(|(name, value)| format!(", {name} = {value}"));
+        let start = format!("{} in {}", score.definition, score.unit);
+        constants.fold(start, |all, constant| all + &constant)
+    };
+    if meaning(a) != meaning(b) {
+        return Err(format!(
+            "`{}` and `{}` are not one meaning",
+            meaning(a),
+            meaning(b)
+        ));
+    }
+    Ok(Sides {
+        a: estimate(a)?,
+        b: estimate(b)?,
+    })
+}
+
+/// A score with the standard error that its interval was made from: its half width over the quantile of Student's t.
+fn estimate(score: &Score) -> Result<Estimate, String> {
+    let Some(value) = score.value.number() else {
+        let reason = score.value.reason();
+        return Err(reason.unwrap_or_else(|| "not one number but many".to_owned()));
+    };
+    let Some(interval) = &score.interval else {
+        return Err("no interval".to_owned());
+    };
+    let (ends, method) = match interval {
+        Interval::Ends { ends, method } => (ends, method),
+        Interval::Absent(reason) => return Err(format!("no interval: {reason}")),
+    };
+    let Some(clusters) = interval.clusters() else {
+        return Err(format!(
+            "an interval by `{method}` says nothing of clusters"
+        ));
+    };
+    let quantile = quantile(clusters).ok_or("too few clusters")?;
+    let standard_error = (ends[1] - ends[0]) / 2.0 / quantile;
+    Estimate::try_new(value, standard_error, clusters).map_err(|error| error.to_string())
+}
+
+/// t of 95 % with one degree of freedom less than there are clusters, read off the interval of a score that moves by 1 beside one that
+/// does not move.
+fn quantile(clusters: usize) -> Option<f64> {
+    let moving = Estimate::try_new(0.0, 1.0, clusters).ok()?;
+    let still = Estimate::try_new(0.0, 0.0, clusters).ok()?;
+    let difference = welch(Sides {
+        a: moving,
+        b: still,
+    });
+    Some(difference.ok()?.interval[1])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_quantile_is_student_s() {
+        // Tables: t of 0.975 with 9 and with 31 degrees of freedom.
+        for (clusters, expected) in [(10, 2.262_157_163), (32, 2.039_513_446)] {
+            let quantile = quantile(clusters).expect("enough clusters");
+            assert!((quantile - expected).abs() < 1e-8, "{quantile}");
+        }
+        assert_eq!(quantile(4), None);
+    }
+}

@@ -1,0 +1,126 @@
+//! Foreign text where it cannot do harm: names of sensors, ids of samples and reasons may hold anything.
+
+/// Text that HTML and SVG print as it stands, in elements and in quoted attributes; what they cannot print is shown as `U+FFFD`.
+///
+/// ```
+/// assert_eq!(taceva_report::escape_html("<b \"x\">&'\u{0}"), "&lt;b &quot;x&quot;&gt;&amp;&#39;\u{fffd}");
+/// ```
+pub fn html(text: &str) -> String {
+    let mut escaped = String::with_capacity(text.len());
+    for letter in text.chars() {
+        match letter {
+            '&' => escaped.push_str("&amp;"),
+            '<' => escaped.push_str("&lt;"),
+            '>' => escaped.push_str("&gt;"),
+            '"' => escaped.push_str("&quot;"),
+            '\'' => escaped.push_str("&#39;"),
+            '\n' | '\t' => escaped.push(letter),
+            _ if is_unprintable(letter) => escaped.push('\u{fffd}'),
+            _ => escaped.push(letter),
+        }
+    }
+    escaped
+}
+
+/// Text that LaTeX prints as it stands.
+pub fn latex(text: &str) -> String {
+    let mut escaped = String::with_capacity(text.len());
+    for character in text.chars() {
+        match character {
+            '\\' => escaped.push_str("\\textbackslash{}"),
+            '~' => escaped.push_str("\\textasciitilde{}"),
+            '^' => escaped.push_str("\\textasciicircum{}"),
+            '<' => escaped.push_str("\\textless{}"),
+            '>' => escaped.push_str("\\textgreater{}"),
+            '|' => escaped.push_str("\\textbar{}"),
+            '"' => escaped.push_str("\\textquotedbl{}"),
+            '{' | '}' | '$' | '&' | '#' | '_' | '%' => escaped.extend(['\\', character]),
+            '²' => escaped.push_str("$^2$"),
+            '·' => escaped.push_str("$\\cdot$"),
+            '×' => escaped.push_str("$\\times$"),
+            '−' => escaped.push_str("$-$"),
+            '–' => escaped.push_str("--"),
+            '…' => escaped.push_str("\\dots{}"),
+            'ε' => escaped.push_str("$\\varepsilon$"),
+            '\n' | '\r' | '\t' => escaped.push(' '),
+            _ if is_unprintable(character) => {}
+            _ => escaped.push(character),
+        }
+    }
+    escaped
+}
+
+/// Text in a cell of a Markdown table that is printed as it stands: on one line, and no markup.
+pub fn markdown(text: &str) -> String {
+    let mut escaped = String::with_capacity(text.len());
+    for letter in text.chars() {
+        match letter {
+            '\n' | '\r' | '\t' => escaped.push(' '),
+            '&' => escaped.push_str("&amp;"),
+            '<' => escaped.push_str("&lt;"),
+            '\\' | '|' | '*' | '_' | '`' | '[' | ']' | '~' | '#' | '!' => {
+                escaped.extend(['\\', letter]);
+            }
+            _ if is_unprintable(letter) => {}
+            _ => escaped.push(letter),
+        }
+    }
+    escaped
+}
+
+/// A cell of words in a CSV table: one that begins like a formula is begun with an apostrophe, as spreadsheets want it.
+pub fn csv(text: &str) -> String {
+    match text.chars().next() {
+        Some('=' | '+' | '-' | '@' | '\t' | '\r') => format!("'{text}"),
+        _ => text.to_owned(),
+    }
+}
+
+/// Text for a terminal: control characters, and those that turn the direction of writing, are shown and not obeyed.
+pub fn terminal(text: &str) -> String {
+    let mut escaped = String::with_capacity(text.len());
+    for letter in text.chars() {
+        if is_unprintable(letter) || letter == '\n' || letter == '\t' {
+            escaped.extend(letter.escape_unicode());
+        } else {
+            escaped.push(letter);
+        }
+    }
+    escaped
+}
+
+/// Controls, what is no character in XML, and what turns the direction of all that follows.
+fn is_unprintable(letter: char) -> bool {
+    letter.is_control()
+        || matches!(letter,
+            '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}' | '\u{feff}' | '\u{fffe}' | '\u{ffff}')
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_character_that_latex_reads_specially_is_escaped() {
+        assert_eq!(
+            latex("a_b 5 % {x} \\ ~ ^ $ & #"),
+            "a\\_b 5 \\% \\{x\\} \\textbackslash{} \\textasciitilde{} \\textasciicircum{} \\$ \\& \\#"
+        );
+    }
+
+    #[test]
+    fn cells_that_begin_like_a_formula_are_words() {
+        let cells = ["=1+1", "+1", "-x", "@x", "plain"].map(csv);
+        assert_eq!(cells, ["'=1+1", "'+1", "'-x", "'@x", "plain"]);
+    }
+
+    #[test]
+    fn a_terminal_is_told_nothing_by_a_name() {
+        assert_eq!(terminal("a\u{1b}[2J\u{202e}b"), "a\\u{1b}[2J\\u{202e}b");
+    }
+
+    #[test]
+    fn a_markdown_cell_stays_a_cell() {
+        assert_eq!(markdown("a|b\n<i>*x*"), "a\\|b &lt;i>\\*x\\*");
+    }
+}

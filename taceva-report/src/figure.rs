@@ -1,0 +1,47 @@
+//! A figure: marks on a canvas, with a title, what it shows in words, and what a reader must know.
+
+mod canvas;
+mod numerals;
+mod palette;
+mod panel;
+mod scale;
+mod svg;
+
+pub(crate) use canvas::{Anchor, Canvas, Ink, Label, Points, Stroke};
+pub(crate) use numerals::{axis_label, numeral, short};
+pub use palette::{DARK, LIGHT, SERIES};
+pub(crate) use palette::{diverging, sequential};
+pub(crate) use panel::{Area, Axes, Panel};
+pub(crate) use scale::{Scale, extent};
+pub use svg::STYLE;
+
+/// A finished figure.
+#[derive(Clone, Debug)]
+pub struct Figure {
+    /// A name for files and links: `sensitivity`.
+    pub id: String,
+    /// What it is.
+    pub title: String,
+    /// What a reader must know: what is drawn, of how many samples, what was left out.
+    pub caption: String,
+    /// What is to be seen, for those who cannot see it.
+    pub description: String,
+    pub(crate) canvas: Canvas,
+}
+
+impl Figure {
+    /// As SVG for a page whose style holds [`STYLE`].
+    pub fn inline(&self) -> String {
+        svg::write(self, false)
+    }
+
+    /// As SVG that stands alone, on white.
+    pub fn svg(&self) -> String {
+        svg::write(self, true)
+    }
+
+    /// How many marks it has.
+    pub fn marks(&self) -> usize {
+        self.canvas.marks.len()
+    }
+}

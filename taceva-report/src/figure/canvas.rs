@@ -1,0 +1,209 @@
+//! What a figure is made of: marks in order, each of one ink.
+
+/// A colour by its role, so that the page decides what it looks like in the light and in the dark.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Ink {
+    /// What is read first.
+    Text,
+    /// What is read second.
+    Muted,
+    /// Lines that help the eye.
+    Grid,
+    /// One of several things that are compared.
+    Series(usize),
+    /// A colour of a scale.
+    Rgb([u8; 3]),
+}
+
+/// How a line is drawn.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Stroke {
+    pub(crate) ink: Ink,
+    pub(crate) width: f64,
+    /// Lengths of dashes and gaps; none for a whole line.
+    pub(crate) dash: &'static str,
+}
+
+impl Stroke {
+    /// A thin whole line.
+    pub(crate) const fn thin(ink: Ink) -> Stroke {
+        Stroke {
+            ink,
+            width: 1.0,
+            dash: "",
+        }
+    }
+
+    /// The line of a series: told apart by dashes too, not by colour alone.
+    pub(crate) fn series(position: usize) -> Stroke {
+        const DASHES: [&str; 4] = ["", "7 3", "2 2.5", "9 3 2 3"];
+        Stroke {
+            ink: Ink::Series(position),
+            width: 1.8,
+            dash: DASHES[position % DASHES.len()],
+        }
+    }
+}
+
+/// Which end of a text stands at its place.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Anchor {
+    Start,
+    Middle,
+    End,
+}
+
+/// A text at a place.
+#[derive(Clone, Debug)]
+pub(crate) struct Label {
+    pub(crate) at: [f64; 2],
+    pub(crate) text: String,
+    pub(crate) anchor: Anchor,
+    pub(crate) ink: Ink,
+    pub(crate) size: f64,
+    pub(crate) bold: bool,
+    /// Whether it is read from below to above.
+    pub(crate) upwards: bool,
+}
+
+impl Label {
+    /// A text of the usual size.
+    pub(crate) fn new(at: [f64; 2], text: impl Into<String>, anchor: Anchor) -> Label {
+        Label {
+            at,
+            text: text.into(),
+            anchor,
+            ink: Ink::Muted,
+            size: 11.0,
+            bold: false,
+            upwards: false,
+        }
+    }
+
+    pub(crate) fn heading(self) -> Label {
+        Label {
+            ink: Ink::Text,
+            size: 12.0,
+            bold: true,
+            ..self
+        }
+    }
+}
+
+/// Many dots of one kind.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Points {
+    pub(crate) at: Vec<[f64; 2]>,
+    /// What is said of each; empty, or as many as there are dots.
+    pub(crate) words: Vec<String>,
+}
+
+/// A mark.
+#[derive(Clone, Debug)]
+pub(crate) enum Mark {
+    Path {
+        points: Vec<[f64; 2]>,
+        stroke: Stroke,
+    },
+    Area {
+        points: Vec<[f64; 2]>,
+        ink: Ink,
+        opacity: f64,
+    },
+    Box {
+        /// Left, top, width, height.
+        place: [f64; 4],
+        ink: Ink,
+        words: String,
+    },
+    Points {
+        points: Points,
+        ink: Ink,
+        radius: f64,
+        opacity: f64,
+    },
+    Label(Label),
+}
+
+/// Marks, the later above the earlier.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Canvas {
+    pub(crate) width: f64,
+    pub(crate) height: f64,
+    pub(crate) marks: Vec<Mark>,
+}
+
+impl Canvas {
+    pub(crate) fn new(width: f64, height: f64) -> Canvas {
+        Canvas {
+            width,
+            height,
+            marks: Vec::new(),
+        }
+    }
+
+    pub(crate) fn line(&mut self, from: [f64; 2], to: [f64; 2], stroke: Stroke) {
+        self.path(vec![from, to], stroke);
+    }
+
+    pub(crate) fn path(&mut self, points: Vec<[f64; 2]>, stroke: Stroke) {
+        if points.len() > 1 {
+            self.marks.push(Mark::Path { points, stroke });
+        }
+    }
+
+    pub(crate) fn area(&mut self, points: Vec<[f64; 2]>, ink: Ink, opacity: f64) {
+        self.marks.push(Mark::Area {
+            points,
+            ink,
+            opacity,
+        });
+    }
+
+    /// A filled box; `words` are said of it, if there are any.
+    pub(crate) fn fill(&mut self, place: [f64; 4], ink: Ink, words: String) {
+        self.marks.push(Mark::Box { place, ink, words });
+    }
+
+    pub(crate) fn points(&mut self, points: Points, ink: Ink, radius: f64, opacity: f64) {
+        if !points.at.is_empty() {
+            self.marks.push(Mark::Points {
+                points,
+                ink,
+                radius,
+                opacity,
+            });
+        }
+    }
+
+    pub(crate) fn label(&mut self, label: Label) {
+        self.marks.push(Mark::Label(label));
+    }
+
+    /// A text on a coloured cell: dark, since the cell does not change with the page.
+    pub(crate) fn cell_label(&mut self, label: Label) {
+        let ink = Ink::Rgb([27, 31, 36]);
+        self.marks.push(Mark::Label(Label { ink, ..label }));
+    }
+
+    /// Names beside their lines, from `at` to the right; gives where the last one ends.
+    pub(crate) fn legend(&mut self, at: [f64; 2], names: &[String]) -> f64 {
+        let [mut x, y] = at;
+        for (position, name) in names.iter().enumerate() {
+            self.line([x, y - 4.0], [x + 22.0, y - 4.0], Stroke::series(position));
+            let mut label = Label::new([x + 27.0, y], short(name, 24), Anchor::Start);
+            label.ink = Ink::Text;
+            self.label(label);
+            x += 27.0 + width_of(&short(name, 24), 11.0) + 18.0;
+        }
+        x
+    }
+}
+
+use super::numerals::short;
+
+/// About how wide a text is.
+pub(crate) fn width_of(text: &str, size: f64) -> f64 {
+    let letters = u32::try_from(text.chars().count()).unwrap_or(u32::MAX);
+    f64::from(letters) * size * 0.56
+}

@@ -1,0 +1,157 @@
+//! A plotting area with its two axes.
+
+use super::canvas::{Anchor, Canvas, Ink, Label, Points, Stroke};
+use super::scale::Scale;
+
+/// A place on a canvas, in its own units.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Area {
+    pub(crate) left: f64,
+    pub(crate) top: f64,
+    pub(crate) width: f64,
+    pub(crate) height: f64,
+}
+
+impl Area {
+    pub(crate) fn right(&self) -> f64 {
+        self.left + self.width
+    }
+
+    pub(crate) fn bottom(&self) -> f64 {
+        self.top + self.height
+    }
+
+    /// The places from left to right.
+    pub(crate) fn across(&self) -> [f64; 2] {
+        [self.left, self.right()]
+    }
+
+    /// The places from below to above.
+    pub(crate) fn upwards(&self) -> [f64; 2] {
+        [self.bottom(), self.top]
+    }
+
+    /// Panel `position` of a grid of equal panels with room for axes between them.
+    #[expect(clippy::cast_precision_loss, reason = "a handful of rows and columns")]
+    pub(crate) fn in_grid(position: usize, columns: usize, first: Area, gaps: [f64; 2]) -> Area {
+        let (row, column) = (position / columns, position % columns);
+        Area {
+            left: first.left + column as f64 * (first.width + gaps[0]),
+            top: first.top + row as f64 * (first.height + gaps[1]),
+            ..first
+        }
+    }
+}
+
+/// What stands beside the axes of a panel.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Axes {
+    pub(crate) title: String,
+    pub(crate) x: String,
+    pub(crate) y: String,
+}
+
+/// An area with two scales.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Panel {
+    pub(crate) area: Area,
+    pub(crate) x: Scale,
+    pub(crate) y: Scale,
+}
+
+impl Panel {
+    /// Where a pair of values lies.
+    pub(crate) fn at(&self, x: f64, y: f64) -> [f64; 2] {
+        [self.x.at(x), self.y.at(y)]
+    }
+
+    /// Draws grid, ticks and names; what is measured comes above it.
+    pub(crate) fn axes(&self, axes: &Axes, canvas: &mut Canvas) {
+        let Area { left, top, .. } = self.area;
+        let (right, bottom) = (self.area.right(), self.area.bottom());
+        let room = (self.area.width / 62.0).clamp(2.0, 8.0);
+        for tick in self.x.ticks(room) {
+            let x = self.x.at(tick.value);
+            canvas.line([x, top], [x, bottom], Stroke::thin(Ink::Grid));
+            canvas.label(Label::new([x, bottom + 15.0], tick.label, Anchor::Middle));
+        }
+        for tick in self.y.ticks((self.area.height / 34.0).clamp(2.0, 8.0)) {
+            let y = self.y.at(tick.value);
+            canvas.line([left, y], [right, y], Stroke::thin(Ink::Grid));
+            canvas.label(Label::new([left - 6.0, y + 4.0], tick.label, Anchor::End));
+        }
+        canvas.line([left, bottom], [right, bottom], Stroke::thin(Ink::Muted));
+        canvas.line([left, top], [left, bottom], Stroke::thin(Ink::Muted));
+        if !axes.title.is_empty() {
+            let title = Label::new([left, top - 9.0], axes.title.clone(), Anchor::Start);
+            canvas.label(title.heading());
+        }
+        let middle = left + self.area.width / 2.0;
+        canvas.label(Label::new(
+            [middle, bottom + 32.0],
+            axes.x.clone(),
+            Anchor::Middle,
+        ));
+        let mut y = Label::new(
+            [left - 44.0, top + self.area.height / 2.0],
+            axes.y.clone(),
+            Anchor::Middle,
+        );
+        y.upwards = true;
+        canvas.label(y);
+    }
+
+    /// A line through those levels that have a value: a level without one is a gap.
+    pub(crate) fn curve(
+        &self,
+        levels: impl Iterator<Item = (f64, Option<f64>)>,
+        stroke: Stroke,
+        canvas: &mut Canvas,
+    ) {
+        let mut run: Vec<[f64; 2]> = Vec::new();
+        for (x, y) in levels {
+            match y {
+                Some(y) => run.push(self.at(x, y)),
+                None => self.end_run(&mut run, stroke, canvas),
+            }
+        }
+        self.end_run(&mut run, stroke, canvas);
+    }
+
+    /// A level between two gaps is a dot.
+    fn end_run(&self, run: &mut Vec<[f64; 2]>, stroke: Stroke, canvas: &mut Canvas) {
+        if let [alone] = run[..] {
+            let points = Points {
+                at: vec![alone],
+                words: Vec::new(),
+            };
+            canvas.points(points, stroke.ink, 1.8, 1.0);
+        }
+        canvas.path(std::mem::take(run), stroke);
+    }
+
+    /// The band between two curves, with gaps where either has one.
+    pub(crate) fn band(
+        &self,
+        levels: impl Iterator<Item = (f64, Option<[f64; 2]>)>,
+        ink: Ink,
+        canvas: &mut Canvas,
+    ) {
+        let mut run: Vec<(f64, [f64; 2])> = Vec::new();
+        let draw = |run: &mut Vec<(f64, [f64; 2])>, canvas: &mut Canvas| {
+            if run.len() > 1 {
+                let low = run.iter().map(|(x, [low, _])| self.at(*x, *low));
+                let high = run.iter().rev().map(|(x, [_, high])| self.at(*x, *high));
+                canvas.area(low.chain(high).collect(), ink, 0.18);
+            }
+            run.clear();
+        };
+        for (x, ends) in levels {
+            match ends {
+                Some(ends) => run.push((x, ends)),
+                None => draw(&mut run, canvas),
+            }
+        }
+        draw(&mut run, canvas);
+    }
+}

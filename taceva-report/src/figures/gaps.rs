@@ -1,0 +1,160 @@
+//! How far the surfaces of two units of a sensor lie apart, by place.
+
+use std::collections::BTreeMap;
+
+use crate::figure::{
+    Anchor, Area, Axes, Canvas, Figure, Ink, Label, Panel, Points, Scale, diverging, extent,
+    numeral, short,
+};
+use crate::number::with_interval;
+use crate::results::Study;
+use crate::samples::Samples;
+
+/// A point that was felt on two units.
+struct Gap {
+    at: [f64; 2],
+    height: f64,
+}
+
+pub(super) fn draw(studies: &[Study]) -> Option<Figure> {
+    let names = super::names(studies);
+    let found: Vec<(usize, Vec<Gap>, [String; 2])> = studies
+        .iter()
+        .enumerate()
+        .filter_map(|(at, study)| {
+            let (gaps, units) = gaps(study.samples.as_ref()?)?;
+            Some((at, gaps, units))
+        })
+        .collect();
+    if found.is_empty() {
+        return None;
+    }
+    let columns = found.len().min(2);
+    let first = Area {
+        left: 58.0,
+        top: 34.0,
+        width: 280.0,
+        height: 280.0,
+    };
+    let room = [142.0, 82.0];
+    let last = Area::in_grid(
+        found.len().div_ceil(columns) * columns - 1,
+        columns,
+        first,
+        room,
+    );
+    let mut canvas = Canvas::new(last.right() + 78.0, last.bottom() + 42.0);
+    let mut words = Vec::new();
+    for (position, (at, gaps, units)) in found.iter().enumerate() {
+        let area = Area::in_grid(position, columns, first, room);
+        let title = format!(
+            "{}: unit {} less {}",
+            short(&names[*at], 24),
+            short(&units[1], 8),
+            short(&units[0], 8)
+        );
+        panel(gaps, title, area, &mut canvas);
+        let score = studies[*at].of_metric("inter_sensor").next();
+        words.extend(score.map(|score| format!("{}: {}", names[*at], with_interval(score))));
+    }
+    Some(Figure {
+        id: "units".to_owned(),
+        title: "Units of one sensor".to_owned(),
+        caption: format!(
+            "Height of the surface of the second unit less that of the first at the same points, as felt and before the units are laid on each other. Mean distance of the surfaces afterwards: {}.",
+            words.join("; ")
+        ),
+        description: format!(
+            "Maps of differences in height of {}.",
+            super::listed(&names)
+        ),
+        canvas,
+    })
+}
+
+fn panel(gaps: &[Gap], title: String, area: Area, canvas: &mut Canvas) {
+    let reach = extent(gaps.iter().flat_map(|gap| gap.at)).unwrap_or([-1.0, 1.0]);
+    let panel = Panel {
+        area,
+        x: Scale::round(reach, area.across()),
+        y: Scale::round(reach, area.upwards()),
+    };
+    let axes = Axes {
+        title,
+        x: "x (mm)".to_owned(),
+        y: "y (mm)".to_owned(),
+    };
+    panel.axes(&axes, canvas);
+    let most = gaps.iter().map(|gap| gap.height.abs()).fold(0.0, f64::max);
+    let most = most.max(f64::MIN_POSITIVE);
+    for gap in gaps {
+        let points = Points {
+            at: vec![panel.at(gap.at[0], gap.at[1])],
+            words: vec![format!(
+                "at ({}, {}) mm: {} mm",
+                numeral(gap.at[0]),
+                numeral(gap.at[1]),
+                numeral(gap.height)
+            )],
+        };
+        // A rim keeps dots near zero from being lost on the paper.
+        let rim = Points {
+            words: Vec::new(),
+            ..points.clone()
+        };
+        canvas.points(rim, Ink::Muted, 5.0, 0.6);
+        canvas.points(points, Ink::Rgb(diverging(gap.height / most)), 4.4, 1.0);
+    }
+    let (left, top) = (area.right() + 12.0, area.top);
+    for step in 0..40 {
+        let share = f64::from(step) / 19.5 - 1.0;
+        let piece = area.height / 40.0;
+        let y = top + area.height - f64::from(step + 1) * piece;
+        canvas.fill(
+            [left, y, 10.0, piece + 0.4],
+            Ink::Rgb(diverging(share)),
+            String::new(),
+        );
+    }
+    let scale = Scale::linear([-most, most], area.upwards());
+    for tick in scale.ticks(4.0) {
+        let at = [left + 15.0, scale.at(tick.value) + 4.0];
+        canvas.label(Label::new(at, tick.label, Anchor::Start));
+    }
+    canvas.label(Label::new([left + 5.0, top - 9.0], "mm", Anchor::Middle));
+}
+
+/// Points that two units have in common: the first two by name.
+fn gaps(samples: &Samples) -> Option<(Vec<Gap>, [String; 2])> {
+    let channels = ["Px", "Py", "surface_z"].map(|name| samples.channel(name));
+    let [Some(x), Some(y), Some(height)] = channels else {
+        return None;
+    };
+    let mut points: BTreeMap<&str, BTreeMap<&str, [f64; 3]>> = BTreeMap::new();
+    let mut units: Vec<&str> = Vec::new();
+    for row in samples.of_protocol("surface-map") {
+        let place = [x.truth[row], y.truth[row], height.truth[row]];
+        let ([Some(x), Some(y), Some(z)], Some(unit), Some(point)) = (
+            place,
+            samples.word("unit_id", row),
+            samples.word("point_id", row),
+        ) else {
+            continue;
+        };
+        units.push(unit);
+        points.entry(point).or_default().insert(unit, [x, y, z]);
+    }
+    units.sort_unstable();
+    units.dedup();
+    let [first, second] = [*units.first()?, *units.get(1)?];
+    let gap = |found: &BTreeMap<&str, [f64; 3]>| {
+        let [x, y, low] = *found.get(first)?;
+        let [_, _, high] = *found.get(second)?;
+        Some(Gap {
+            at: [x, y],
+            height: high - low,
+        })
+    };
+    let gaps: Vec<Gap> = points.values().filter_map(gap).collect();
+    (!gaps.is_empty()).then(|| (gaps, [first, second].map(str::to_owned)))
+}

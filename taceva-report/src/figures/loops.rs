@@ -1,0 +1,152 @@
+//! Into the gel and out again: force over depth.
+
+use std::collections::BTreeMap;
+
+use crate::figure::{
+    Area, Axes, Canvas, Figure, Ink, Panel, Points, Scale, Stroke, extent, numeral, short,
+};
+use crate::number::with_interval;
+use crate::results::Study;
+use crate::samples::Samples;
+
+/// Points whose loops are drawn.
+const MOST: usize = 12;
+
+/// Depth and force on the way in and on the way out.
+#[derive(Default)]
+struct Loop {
+    load: Vec<[f64; 2]>,
+    unload: Vec<[f64; 2]>,
+}
+
+pub(super) fn draw(studies: &[Study]) -> Option<Figure> {
+    let names = super::names(studies);
+    let found: Vec<(usize, BTreeMap<String, Loop>)> = studies
+        .iter()
+        .enumerate()
+        .filter_map(|(at, study)| Some((at, loops(study.samples.as_ref()?))))
+        .filter(|(_, loops)| !loops.is_empty())
+        .collect();
+    if found.is_empty() {
+        return None;
+    }
+    let columns = found.len().min(2);
+    let first = Area {
+        left: 58.0,
+        top: 34.0,
+        width: 330.0,
+        height: 220.0,
+    };
+    let gaps = [66.0, 78.0];
+    let last = Area::in_grid(
+        found.len().div_ceil(columns) * columns - 1,
+        columns,
+        first,
+        gaps,
+    );
+    let mut canvas = Canvas::new(last.right() + 16.0, last.bottom() + 42.0);
+    let mut words = Vec::new();
+    for (position, (at, loops)) in found.iter().enumerate() {
+        let area = Area::in_grid(position, columns, first, gaps);
+        panel(loops, (*at, &names[*at]), area, &mut canvas);
+        let score = studies[*at].of_metric("hysteresis").next();
+        words.extend(score.map(|score| format!("{}: {}", names[*at], with_interval(score))));
+    }
+    Some(Figure {
+        id: "hysteresis".to_owned(),
+        title: "Into the gel and out again".to_owned(),
+        caption: format!(
+            "True normal force over true depth while loading (whole lines) and unloading (broken lines), at most {MOST} points a sensor, first by name. Area between the branches: {}.",
+            words.join("; ")
+        ),
+        description: format!(
+            "Load and unload curves of force over depth of {}.",
+            super::listed(&names)
+        ),
+        canvas,
+    })
+}
+
+fn panel(
+    loops: &BTreeMap<String, Loop>,
+    (at, name): (usize, &str),
+    area: Area,
+    canvas: &mut Canvas,
+) {
+    let all = || {
+        loops
+            .values()
+            .take(MOST)
+            .flat_map(|found| found.load.iter().chain(&found.unload))
+    };
+    let ends = |axis: usize| extent(all().map(|pair| pair[axis]).chain([0.0]));
+    let (Some(x), Some(y)) = (ends(0), ends(1)) else {
+        return;
+    };
+    let panel = Panel {
+        area,
+        x: Scale::linear(x, area.across()),
+        y: Scale::round(y, area.upwards()),
+    };
+    let axes = Axes {
+        title: short(name, 40),
+        x: "depth Pz (mm)".to_owned(),
+        y: "force Fz (N)".to_owned(),
+    };
+    panel.axes(&axes, canvas);
+    for (point, found) in loops.iter().take(MOST) {
+        let mut hovers = Points::default();
+        for (branch, dash, word) in [
+            (&found.load, "", "loading"),
+            (&found.unload, "4 3", "unloading"),
+        ] {
+            let stroke = Stroke {
+                ink: Ink::Series(at),
+                width: 1.2,
+                dash,
+            };
+            let line = branch.iter().map(|[depth, force]| panel.at(*depth, *force));
+            hovers.at.extend(line.clone());
+            canvas.path(line.collect(), stroke);
+            hovers.words.extend(branch.iter().map(|[depth, force]| {
+                format!(
+                    "point {}, {word}: {} N at {} mm",
+                    short(point, 20),
+                    numeral(*force),
+                    numeral(*depth)
+                )
+            }));
+        }
+        canvas.points(hovers, Ink::Series(at), 2.5, 0.0);
+    }
+}
+
+/// Both branches of each point that has them, by depth.
+fn loops(samples: &Samples) -> BTreeMap<String, Loop> {
+    let mut loops: BTreeMap<String, Loop> = BTreeMap::new();
+    let (Some(depth), Some(force)) = (samples.channel("Pz"), samples.channel("Fz")) else {
+        return loops;
+    };
+    for row in samples.of_protocol("load-unload") {
+        let (Some(depth), Some(force)) = (depth.truth[row], force.truth[row]) else {
+            continue;
+        };
+        let Some(point) = samples.word("point_id", row) else {
+            continue;
+        };
+        let phase = samples.word("phase", row);
+        let found = loops.entry(point.to_owned()).or_default();
+        match phase {
+            Some("load") => found.load.push([depth, force]),
+            Some("unload") => found.unload.push([depth, force]),
+            _ => {}
+        }
+    }
+    loops.retain(|_, found| found.load.len() > 1 && found.unload.len() > 1);
+    for found in loops.values_mut() {
+        for branch in [&mut found.load, &mut found.unload] {
+            branch.sort_by(|left, right| left[0].total_cmp(&right[0]));
+        }
+    }
+    loops
+}

@@ -1,0 +1,176 @@
+//! Curves of several sensors in one panel, a panel a channel.
+
+use taceva_core::Unit;
+
+use crate::figure::{
+    Area, Axes, Canvas, Figure, Ink, Panel, Points, Scale, Stroke, extent, numeral,
+};
+use crate::results::Study;
+
+/// A curve of one sensor.
+pub(super) struct Line {
+    /// The position of its study.
+    pub(super) study: usize,
+    pub(super) levels: Vec<Level>,
+}
+
+/// A level of a curve.
+#[derive(Clone)]
+pub(super) struct Level {
+    pub(super) x: f64,
+    pub(super) y: Option<f64>,
+    pub(super) n: u64,
+    pub(super) band: Option<[f64; 2]>,
+}
+
+/// A panel of curves.
+pub(super) struct Sheet {
+    pub(super) title: String,
+    pub(super) x: String,
+    pub(super) y: String,
+    pub(super) y_unit: Unit,
+    /// The least range of y; wider where the curves are.
+    pub(super) least: Option<[f64; 2]>,
+    pub(super) ways: Ways,
+    pub(super) lines: Vec<Line>,
+}
+
+/// How values become places.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Ways {
+    /// Straight both ways.
+    Straight,
+    /// By logarithm of x.
+    LogarithmicX,
+    /// By logarithm of y.
+    LogarithmicY,
+}
+
+/// What is said of a figure.
+pub(super) struct Words<'a> {
+    pub(super) id: &'a str,
+    pub(super) title: &'a str,
+    pub(super) caption: String,
+    pub(super) description: String,
+}
+
+/// Panels `columns` in a row below one legend.
+pub(super) fn draw(
+    sheets: &[Sheet],
+    studies: &[Study],
+    columns: usize,
+    words: Words<'_>,
+) -> Option<Figure> {
+    if sheets.is_empty() {
+        return None;
+    }
+    let names = super::names(studies);
+    let columns = columns.min(sheets.len()).max(1);
+    let rows = sheets.len().div_ceil(columns);
+    let (gaps, first) = ([66.0, 78.0], panel_size(columns));
+    let last = Area::in_grid(rows * columns - 1, columns, first, gaps);
+    let mut canvas = Canvas::new(last.right() + 16.0, last.bottom() + 42.0);
+    if names.len() > 1 {
+        canvas.legend([first.left, 16.0], &names);
+    }
+    for (position, sheet) in sheets.iter().enumerate() {
+        let area = Area::in_grid(position, columns, first, gaps);
+        sheet.draw(area, &names, &mut canvas);
+    }
+    Some(Figure {
+        id: words.id.to_owned(),
+        title: words.title.to_owned(),
+        caption: words.caption,
+        description: words.description,
+        canvas,
+    })
+}
+
+/// The first panel of a row of `columns`, so that a row fills the width of a page.
+fn panel_size(columns: usize) -> Area {
+    let (width, height) = match columns {
+        1 => (620.0, 260.0),
+        2 => (330.0, 220.0),
+        _ => (216.0, 168.0),
+    };
+    Area {
+        left: 58.0,
+        top: 54.0,
+        width,
+        height,
+    }
+}
+
+impl Sheet {
+    fn draw(&self, area: Area, names: &[String], canvas: &mut Canvas) {
+        let levels = || self.lines.iter().flat_map(|line| &line.levels);
+        let seen = levels().filter(|level| level.y.is_some());
+        let Some(x) = extent(seen.map(|level| level.x)) else {
+            return;
+        };
+        let bands = levels().filter_map(|level| level.band).flatten();
+        let ends = self.least.iter().flatten().copied();
+        let y = extent(
+            levels()
+                .filter_map(|level| level.y)
+                .chain(bands)
+                .chain(ends),
+        );
+        let y = y.unwrap_or([0.0, 1.0]);
+        let panel = Panel {
+            area,
+            x: match self.ways {
+                Ways::LogarithmicX => Scale::logarithmic(x, area.across()),
+                _ => Scale::linear(x, area.across()),
+            },
+            y: match self.ways {
+                Ways::LogarithmicY => Scale::logarithmic(y, area.upwards()),
+                _ => Scale::round(y, area.upwards()),
+            },
+        };
+        let axes = Axes {
+            title: self.title.clone(),
+            x: self.x.clone(),
+            y: self.y.clone(),
+        };
+        panel.axes(&axes, canvas);
+        for line in &self.lines {
+            let bands = line.levels.iter().map(|level| (level.x, level.band));
+            panel.band(bands, Ink::Series(line.study), canvas);
+        }
+        for line in &self.lines {
+            let values = line.levels.iter().map(|level| (level.x, level.y));
+            panel.curve(values, Stroke::series(line.study), canvas);
+        }
+        for line in &self.lines {
+            let hovers = self.hovers(line, names, &panel);
+            // Many dots on a line hide it.
+            let radius = if hovers.at.len() > 30 { 1.3 } else { 2.2 };
+            canvas.points(hovers, Ink::Series(line.study), radius, 1.0);
+        }
+    }
+
+    fn hovers(&self, line: &Line, names: &[String], panel: &Panel) -> Points {
+        let mut points = Points::default();
+        let unit = match self.y_unit {
+            Unit::One => String::new(),
+            unit => format!(" {unit}"),
+        };
+        for level in &line.levels {
+            let Some(y) = level.y else { continue };
+            points.at.push(panel.at(level.x, y));
+            let band = level.band.map_or_else(String::new, |[low, high]| {
+                format!(", {} … {}", numeral(low), numeral(high))
+            });
+            points.words.push(format!(
+                "{}, {} {}: {}{unit}{band}, n = {}",
+                names[line.study],
+                self.x,
+                numeral(level.x),
+                numeral(y),
+                level.n
+            ));
+        }
+        points
+    }
+}

@@ -1,0 +1,243 @@
+//! Several sensors at a glance: each axis as a share of the best of them, never joined where there is no value.
+
+use std::f64::consts::TAU;
+
+use taceva_metrics::Better;
+
+use crate::figure::{Anchor, Canvas, Figure, Ink, Label, Points, SERIES, Stroke, numeral, short};
+use crate::results::{Score, Study};
+
+/// An axis of a radar.
+struct Axis {
+    metric: &'static str,
+    channel: &'static str,
+    /// The variant that is shown, if it is not the score itself.
+    variant: &'static str,
+    name: &'static str,
+    better: Better,
+}
+
+/// The axis of a score of which small values are good.
+const fn low(metric: &'static str, channel: &'static str, name: &'static str) -> Axis {
+    Axis {
+        metric,
+        channel,
+        variant: "",
+        name,
+        better: Better::Lower,
+    }
+}
+
+/// The axis of a score of which large values are good.
+const fn high(metric: &'static str, channel: &'static str, name: &'static str) -> Axis {
+    Axis {
+        better: Better::Higher,
+        ..low(metric, channel, name)
+    }
+}
+
+const ACCURACY: [Axis; 6] = [
+    low("mae", "Pxy", "MAE Pxy"),
+    low("mae", "Pz", "MAE Pz"),
+    high("sr", "line", "SR lines"),
+    high("sr", "dot", "SR dots"),
+    low("mae", "Fz", "MAE Fz"),
+    low("mae", "Fxy", "MAE Fxy"),
+];
+const SENSOR: [Axis; 6] = [
+    high("sensitivity", "Fz", "sensitivity S"),
+    high("uniformity", "Fz", "uniformity U"),
+    high("intrinsic", "frame_rate", "frame rate"),
+    high("intrinsic", "field_of_view", "field of view"),
+    high("intrinsic", "resolution", "pixels"),
+    low("minimum_detectable_force", "Fz", "least force"),
+];
+const ROBUSTNESS: [Axis; 7] = [
+    low("r_spatial", "Pz", "spatial Pz"),
+    low("r_spatial", "Fz", "spatial Fz"),
+    high("r_light", "Pz", "lighting Pz"),
+    high("r_light", "Fz", "lighting Fz"),
+    low("repeatability", "Pz", "repeatability Pz"),
+    low("repeatability", "Fz", "repeatability Fz"),
+    Axis {
+        variant: "ratio",
+        ..low("hysteresis", "Fz", "hysteresis")
+    },
+];
+
+const RADIUS: f64 = 150.0;
+
+/// The radars of accuracy, of the sensor itself and of robustness; none of a single sensor, which has nobody to be compared with.
+pub(super) fn draw(studies: &[Study]) -> Vec<Option<Figure>> {
+    if studies.len() < 2 {
+        return Vec::new();
+    }
+    vec![
+        one(
+            studies,
+            &ACCURACY,
+            ("radar-accuracy", "Accuracy at a glance"),
+        ),
+        one(
+            studies,
+            &SENSOR,
+            ("radar-sensor", "The sensors at a glance"),
+        ),
+        one(
+            studies,
+            &ROBUSTNESS,
+            ("radar-robustness", "Robustness at a glance"),
+        ),
+    ]
+}
+
+fn one(studies: &[Study], axes: &[Axis], (id, title): (&str, &str)) -> Option<Figure> {
+    let names = super::names(studies);
+    let shares: Vec<Vec<Option<(f64, f64)>>> =
+        axes.iter().map(|axis| axis.shares(studies)).collect();
+    if shares.iter().all(|axis| axis.iter().all(Option::is_none)) {
+        return None;
+    }
+    let mut canvas = Canvas::new(640.0, 430.0);
+    let end = canvas.legend([20.0, 18.0], &names);
+    canvas.width = canvas.width.max(end);
+    let centre = [320.0, 232.0];
+    web(axes, centre, &mut canvas);
+    for (at, name) in names.iter().enumerate() {
+        let of_one: Vec<Option<(f64, f64)>> = shares.iter().map(|axis| axis[at]).collect();
+        outline(&of_one, (axes, centre), (at, name), &mut canvas);
+    }
+    let gaps = shares
+        .iter()
+        .flatten()
+        .filter(|share| share.is_none())
+        .count();
+    let gaps = match gaps {
+        0 => String::new(),
+        1 => " One value is missing and left open.".to_owned(),
+        _ => format!(" {gaps} values are missing and left open."),
+    };
+    Some(Figure {
+        id: id.to_owned(),
+        title: title.to_owned(),
+        caption: format!(
+            "Each axis shows the share of the best sensor shown: value over best where more is better (↑), best over value where less is (↓). The rim is the best.{gaps}"
+        ),
+        description: format!(
+            "A radar of {} for {}.",
+            axes.iter()
+                .map(|axis| axis.name)
+                .collect::<Vec<_>>()
+                .join(", "),
+            super::listed(&names)
+        ),
+        canvas,
+    })
+}
+
+impl Axis {
+    /// For each study the share of the best and the value itself.
+    fn shares(&self, studies: &[Study]) -> Vec<Option<(f64, f64)>> {
+        let value = |score: &Score| {
+            if self.variant.is_empty() {
+                score.value.number()
+            } else {
+                score.variant(self.variant)?.value.number()
+            }
+        };
+        let values: Vec<Option<f64>> = studies
+            .iter()
+            .map(|study| {
+                let found = study.score(self.metric, self.channel).and_then(value);
+                // A share of a negative number says nothing.
+                found.filter(|value| *value >= 0.0)
+            })
+            .collect();
+        let known = || values.iter().flatten().copied();
+        let best = match self.better {
+            Better::Higher => known().fold(0.0, f64::max),
+            _ => known().fold(f64::INFINITY, f64::min),
+        };
+        let share = |value: f64| match self.better {
+            Better::Higher if best > 0.0 => value / best,
+            Better::Higher => 1.0,
+            _ if value > best => best / value,
+            _ => 1.0,
+        };
+        values
+            .iter()
+            .map(|value| value.map(|value| (share(value), value)))
+            .collect()
+    }
+}
+
+#[expect(clippy::cast_precision_loss, reason = "a handful of axes")]
+fn place(axis: usize, count: usize, share: f64, [x, y]: [f64; 2]) -> [f64; 2] {
+    let angle = TAU * axis as f64 / count as f64 - TAU / 4.0;
+    [
+        x + RADIUS * share * angle.cos(),
+        y + RADIUS * share * angle.sin(),
+    ]
+}
+
+fn web(axes: &[Axis], centre: [f64; 2], canvas: &mut Canvas) {
+    let count = axes.len();
+    for ring in [0.25, 0.5, 0.75, 1.0] {
+        let points = (0..=count).map(|axis| place(axis % count, count, ring, centre));
+        canvas.path(points.collect(), Stroke::thin(Ink::Grid));
+    }
+    for (position, axis) in axes.iter().enumerate() {
+        let end = place(position, count, 1.0, centre);
+        canvas.line(centre, end, Stroke::thin(Ink::Grid));
+        let [x, y] = place(position, count, 1.09, centre);
+        let anchor = match x - centre[0] {
+            off if off > 10.0 => Anchor::Start,
+            off if off < -10.0 => Anchor::End,
+            _ => Anchor::Middle,
+        };
+        let arrow = match axis.better {
+            Better::Higher => "↑",
+            _ => "↓",
+        };
+        let mut label = Label::new([x, y + 4.0], format!("{} {arrow}", axis.name), anchor);
+        label.ink = Ink::Text;
+        canvas.label(label);
+    }
+}
+
+fn outline(
+    shares: &[Option<(f64, f64)>],
+    (axes, centre): (&[Axis], [f64; 2]),
+    (at, name): (usize, &str),
+    canvas: &mut Canvas,
+) {
+    let count = shares.len();
+    let corner = |axis: usize| {
+        shares[axis % count].map(|(share, _)| place(axis % count, count, share, centre))
+    };
+    let closed: Option<Vec<[f64; 2]>> = (0..=count).map(corner).collect();
+    if let Some(points) = closed {
+        canvas.area(points.clone(), Ink::Series(at), 0.06);
+        canvas.path(points, Stroke::series(at % SERIES));
+    } else {
+        for axis in 0..count {
+            if let (Some(from), Some(to)) = (corner(axis), corner(axis + 1)) {
+                canvas.line(from, to, Stroke::series(at % SERIES));
+            }
+        }
+    }
+    let mut points = Points::default();
+    for (position, axis) in axes.iter().enumerate() {
+        if let (Some(corner), Some((share, value))) = (corner(position), shares[position]) {
+            points.at.push(corner);
+            points.words.push(format!(
+                "{}, {}: {} ({} % of the best)",
+                short(name, 40),
+                axis.name,
+                numeral(value),
+                numeral(share * 100.0)
+            ));
+        }
+    }
+    canvas.points(points, Ink::Series(at), 3.4, 1.0);
+}

@@ -1,0 +1,76 @@
+//! How far the gel yields, by place.
+
+use crate::figure::{Area, Canvas, Figure, short};
+use crate::number::with_interval;
+use crate::results::{Study, Value};
+
+use super::heat::{Heat, draw as heat};
+
+pub(super) fn draw(studies: &[Study]) -> Option<Figure> {
+    let names = super::names(studies);
+    let mut maps = Vec::new();
+    for (study, name) in studies.iter().zip(&names) {
+        let Some(score) = study.of_metric("sensitivity").next() else {
+            continue;
+        };
+        let Some(Value::Map(map)) = score.variant("map").map(|variant| &variant.value) else {
+            continue;
+        };
+        let uniformity = study.of_metric("uniformity").next();
+        let uniformity = uniformity.map_or_else(String::new, |uniformity| {
+            format!(", U = {}", with_interval(uniformity))
+        });
+        maps.push((
+            Heat {
+                map,
+                title: short(name, 40),
+                what: "S",
+                unit: score.unit,
+            },
+            format!(
+                "{}: S = {}{uniformity}",
+                short(name, 40),
+                with_interval(score)
+            ),
+        ));
+    }
+    if maps.is_empty() {
+        return None;
+    }
+    let columns = maps.len().min(2);
+    let first = Area {
+        left: 58.0,
+        top: 34.0,
+        width: 280.0,
+        height: 280.0,
+    };
+    let gaps = [142.0, 82.0];
+    let last = Area::in_grid(
+        maps.len().div_ceil(columns) * columns - 1,
+        columns,
+        first,
+        gaps,
+    );
+    let mut canvas = Canvas::new(last.right() + 78.0, last.bottom() + 42.0);
+    for (position, (map, _)) in maps.iter().enumerate() {
+        heat(
+            map,
+            Area::in_grid(position, columns, first, gaps),
+            &mut canvas,
+        );
+    }
+    let words: Vec<String> = maps.into_iter().map(|(_, words)| words).collect();
+    Some(Figure {
+        id: "sensitivity".to_owned(),
+        title: "Sensitivity by place".to_owned(),
+        caption: format!(
+            "Mean of indentation over normal force in each cell of the sensing surface; cells without a press are empty. Each map has its own colours, from the 2nd to the 98th percentile of its cells. {}.",
+            words.join("; ")
+        ),
+        description: format!(
+            "Maps of sensitivity over the surface. {}.",
+            words.join("; ")
+        ),
+        canvas,
+    })
+}

@@ -1,0 +1,106 @@
+//! How errors depend on the distance from the centre and on depth.
+
+use taceva_core::Unit;
+use taceva_metrics::Curve;
+
+use crate::figure::{Figure, axis_label};
+use crate::results::{Study, Value};
+
+use super::SIX;
+use super::overlay::{Level, Line, Sheet, Ways, Words, draw as overlay};
+
+/// Bins that a rolling mean takes together: an odd number.
+const WINDOW: usize = 5;
+
+pub(super) fn draw(studies: &[Study]) -> Option<Figure> {
+    let mut sheets = Vec::new();
+    for channel in SIX {
+        for (variant, x) in [("distance", "distance"), ("depth", "depth")] {
+            let (mut lines, mut unit, mut x_unit) = (Vec::new(), Unit::One, Unit::Millimetre);
+            for (study, at) in studies.iter().zip(0..) {
+                let Some(score) = study.score("r_spatial", channel) else {
+                    continue;
+                };
+                if let Some(Value::Curve(curve)) = score.variant(variant).map(|of| &of.value) {
+                    (unit, x_unit) = (score.unit, curve.x_unit);
+                    lines.push(Line {
+                        study: at,
+                        levels: rolling(curve),
+                    });
+                }
+            }
+            if !lines.is_empty() {
+                sheets.push(Sheet {
+                    title: format!("{channel} by {variant}"),
+                    x: axis_label(x, x_unit),
+                    y: axis_label("MAE", unit),
+                    y_unit: unit,
+                    least: Some([0.0, 0.0]),
+                    ways: Ways::Straight,
+                    lines,
+                });
+            }
+        }
+    }
+    let words = Words {
+        id: "spatial",
+        title: "Error against distance and depth",
+        caption: format!(
+            "Mean absolute error of held-out presses in 100 bins of distance from the centre and of depth: rolling mean of {WINDOW} non-empty bins, with a band of one standard deviation of these bins to both sides. Scores are made of the bins themselves."
+        ),
+        description: format!(
+            "Mean absolute error over distance and depth of {}.",
+            super::listed(&super::names(studies))
+        ),
+    };
+    overlay(&sheets, studies, 2, words)
+}
+
+/// The rolling mean over non-empty bins, weighted by their samples, and how far these bins lie from it.
+fn rolling(curve: &Curve) -> Vec<Level> {
+    let bins: Vec<(f64, f64, u64)> = curve
+        .x
+        .iter()
+        .zip(&curve.values)
+        .zip(&curve.counts)
+        .filter_map(|((x, value), n)| Some((*x, (*value)?, *n)))
+        .collect();
+    let half = WINDOW / 2;
+    let level = |at: usize| {
+        // Shrinking at the ends, and even to both sides.
+        let reach = half.min(at).min(bins.len() - 1 - at);
+        let window = &bins[at - reach..=at + reach];
+        let count = window.iter().fold(0.0, |count, _| count + 1.0);
+        let mean = window.iter().map(|(_, value, _)| value).sum::<f64>() / count;
+        let squares = window.iter().map(|(_, value, _)| (value - mean).powi(2));
+        let deviation = (squares.sum::<f64>() / count).sqrt();
+        Level {
+            x: bins[at].0,
+            y: Some(mean),
+            n: window.iter().map(|(_, _, n)| n).sum(),
+            band: Some([(mean - deviation).max(0.0), mean + deviation]),
+        }
+    };
+    (0..bins.len()).map(level).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_rolling_mean_skips_empty_bins_and_shrinks_at_the_ends() {
+        let curve = Curve {
+            x: vec![0.0, 1.0, 2.0, 3.0],
+            x_unit: Unit::Millimetre,
+            values: vec![Some(1.0), None, Some(2.0), Some(6.0)],
+            counts: vec![1, 0, 2, 3],
+            band: None,
+        };
+        let levels = rolling(&curve);
+        let means: Vec<f64> = levels.iter().filter_map(|level| level.y).collect();
+        assert_eq!(means.len(), 3);
+        assert!((means[0] - 1.0).abs() < 1e-12 && (means[1] - 3.0).abs() < 1e-12);
+        assert_eq!(levels[1].n, 6);
+    }
+}

@@ -1,0 +1,41 @@
+//! What was left out, and what a reader must mind.
+
+use crate::escape::html;
+use crate::figures::names;
+use crate::results::Study;
+
+pub(super) fn section(studies: &[Study]) -> String {
+    let mut rows = String::new();
+    for (study, name) in studies.iter().zip(names(studies)) {
+        let name = html(&name);
+        let mut row = |kind: &str, what: &str, why: &str| {
+            rows += &format!(
+                "<tr><th scope=\"row\">{name}</th><td>{kind}</td><td class=\"wrap\">{}</td><td class=\"wrap\">{}</td></tr>\n",
+                html(what),
+                html(why)
+            );
+        };
+        for skip in &study.skipped {
+            row("skipped", &skip.what, &skip.reason);
+        }
+        for score in &study.scores {
+            let what = format!("{} {}", score.metric, score.channel);
+            if let Some(reason) = score.value.reason() {
+                row("no value", &what, &reason);
+            }
+            for flag in &score.flags {
+                row("mind", &what, flag);
+            }
+        }
+        for note in &study.notes {
+            row("note", "", note);
+        }
+    }
+    if rows.is_empty() {
+        return "<p>Nothing was skipped, every score has a value, and there is nothing to mind.</p>".to_owned();
+    }
+    format!(
+        "<div class=\"scroll\"><table class=\"sorts\"><thead><tr><th scope=\"col\">sensor</th><th scope=\"col\">kind</th>\
+         <th scope=\"col\">what</th><th scope=\"col\">why</th></tr></thead><tbody>\n{rows}</tbody></table></div>"
+    )
+}

@@ -1,0 +1,172 @@
+//! What the results say, in words.
+
+use taceva_metrics::Better;
+
+use crate::escape::html;
+use crate::figures::{listed, names};
+use crate::number::spaced;
+use crate::results::{Score, Study};
+use crate::table::{ScoreCell, ScoreRow, ScoreTable};
+
+/// What stands below the title.
+pub(super) fn lead(studies: &[Study]) -> String {
+    let names = names(studies);
+    let mut out = format!("<p class=\"lead\">{}</p>", html(&listed(&names)));
+    let simulated = studies.iter().filter(|study| study.is_simulated()).count();
+    if simulated == studies.len() {
+        out += "<p class=\"badge\">Nothing here was measured: the samples are simulated.</p>";
+    } else if simulated > 0 {
+        out += "<p class=\"badge\">Not everything here was measured: some of the samples are simulated.</p>";
+    }
+    out
+}
+
+/// What is asked of a report first, with how it is answered.
+const QUESTIONS: [(&str, &str, &str); 10] = [
+    ("mae", "Pz", "Depth"),
+    ("mae", "Pxy", "Position in the plane"),
+    ("mae", "Fz", "Normal force"),
+    ("mae", "Fxy", "Shear force"),
+    ("sr", "line", "Fine lines"),
+    ("sensitivity", "Fz", "Sensitivity"),
+    ("uniformity", "Fz", "Evenness of the surface"),
+    ("r_light", "Fz", "Force in changing light"),
+    ("repeatability", "Pz", "Repeated depth"),
+    ("hysteresis", "Fz", "Hysteresis"),
+];
+
+pub(super) fn section(studies: &[Study], table: &ScoreTable) -> String {
+    let mut out = String::from("<ul class=\"verdicts\">\n");
+    let mut answered = 0;
+    for (metric, channel, question) in QUESTIONS {
+        let row = table
+            .rows
+            .iter()
+            .find(|row| row.metric == metric && row.channel == channel);
+        if let Some(words) = row.and_then(|row| answer(studies, table, row)) {
+            out += &format!(
+                "<li><strong>{question}</strong> (<code>{metric}</code> {channel}): {words}</li>\n"
+            );
+            answered += 1;
+        }
+    }
+    if answered == 0 {
+        for row in table.headlines().rows.iter().take(8) {
+            if let Some(words) = answer(studies, table, row) {
+                let (metric, channel) = (html(&row.metric), html(&row.channel));
+                out += &format!("<li><code>{metric}</code> {channel}: {words}</li>\n");
+            }
+        }
+    }
+    out += "</ul>\n";
+    out + &sensors(studies)
+}
+
+fn answer(studies: &[Study], table: &ScoreTable, row: &ScoreRow) -> Option<String> {
+    let known: Vec<(usize, &ScoreCell, f64)> = row
+        .cells
+        .iter()
+        .enumerate()
+        .filter_map(|(at, cell)| cell.as_ref().and_then(|cell| Some((at, cell, cell.value?))))
+        .collect();
+    let better = studies
+        .iter()
+        .find_map(|study| study.score(&row.metric, &row.channel))
+        .map(Score::better)?;
+    let phrase = |cell: &ScoreCell| phrase(cell, row);
+    if studies.len() == 1 {
+        return Some(match known.first() {
+            Some((_, cell, _)) => format!("{}, n = {}.", phrase(cell), cell.n),
+            None => {
+                let cell = row.cells.first()?.as_ref()?;
+                format!("no value ({}).", html(cell.printed.reason.as_deref()?))
+            }
+        });
+    }
+    let best = known.iter().copied().reduce(|best, next| match better {
+        Better::Higher if next.2 > best.2 => next,
+        Better::Lower if next.2 < best.2 => next,
+        Better::NearZero if next.2.abs() < best.2.abs() => next,
+        _ => best,
+    })?;
+    let name = html(&table.names[best.0]);
+    let missing: Vec<String> = row
+        .cells
+        .iter()
+        .zip(&table.names)
+        .filter(|(cell, _)| cell.as_ref().is_none_or(|cell| cell.value.is_none()))
+        .map(|(_, name)| html(name))
+        .collect();
+    let verdict = if known.len() < 2 {
+        "alone has a value".to_owned()
+    } else if best.1.is_best {
+        "is shown to be better than every other sensor".to_owned()
+    } else {
+        let rivals = rivals(best.0, &known, (table, row));
+        format!("has the best value, but is not shown to be better than {rivals}")
+    };
+    let missing = match missing.len() {
+        0 => String::new(),
+        _ => format!(" No value: {}.", listed(&missing)),
+    };
+    Some(format!(
+        "{name} {verdict}, with {}.{missing}",
+        phrase(best.1)
+    ))
+}
+
+/// Those that the best is not shown to be better than.
+fn rivals(
+    best: usize,
+    known: &[(usize, &ScoreCell, f64)],
+    (table, row): (&ScoreTable, &ScoreRow),
+) -> String {
+    let loses = |at: usize| {
+        table.answers.iter().any(|answer| {
+            let is_of_row = answer.metric == row.metric && answer.channel == row.channel;
+            let of_both = [answer.sides.a, answer.sides.b];
+            is_of_row && of_both.contains(&at) && answer.better() == Some(best)
+        })
+    };
+    let rivals = known.iter().filter(|(at, _, _)| *at != best && !loses(*at));
+    let rivals: Vec<String> = rivals.map(|(at, _, _)| html(&table.names[*at])).collect();
+    listed(&rivals)
+}
+
+fn phrase(cell: &ScoreCell, row: &ScoreRow) -> String {
+    let unit = spaced(row.unit);
+    let value = cell.printed.value.replace('-', "−");
+    match &cell.printed.interval {
+        Some([low, high]) => {
+            let [low, high] = [low, high].map(|end| end.replace('-', "−"));
+            format!("{value}{unit} ({low} … {high})")
+        }
+        None => format!("{value}{unit}"),
+    }
+}
+
+/// The sensors in a table.
+fn sensors(studies: &[Study]) -> String {
+    let mut out = String::from(
+        "<div class=\"scroll\"><table><caption>Sensors</caption><thead><tr><th scope=\"col\">sensor</th><th scope=\"col\">serial</th>\
+         <th scope=\"col\">samples</th><th scope=\"col\">model</th><th scope=\"col\">split</th></tr></thead><tbody>\n",
+    );
+    for (study, name) in studies.iter().zip(names(studies)) {
+        let of = |key: &str| {
+            let found = study.provenance.iter().find(|(name, _)| name == key);
+            found.map_or("–", |(_, text)| text.as_str())
+        };
+        let model = of("model")
+            .strip_prefix("name ")
+            .map_or("–", |model| model.split(',').next().unwrap_or(model));
+        out += &format!(
+            "<tr><th scope=\"row\">{}</th><td class=\"wrap\">{}</td><td>{}</td><td class=\"wrap\">{}</td><td class=\"wrap\">{}</td></tr>\n",
+            html(&name),
+            html(&study.serial),
+            html(&study.source),
+            html(model),
+            html(of("split"))
+        );
+    }
+    out + "</tbody></table></div>\n"
+}

@@ -1,0 +1,32 @@
+#![doc = include_str!("../README.md")]
+
+mod accept;
+pub mod catalogue;
+mod choose;
+mod compare;
+mod escape;
+mod figure;
+mod figures;
+mod html;
+mod json;
+mod number;
+mod results;
+mod samples;
+mod table;
+
+pub use accept::{Finding, Limit, LimitsError, LimitsFile, accept};
+pub use choose::{Bound, Candidate, Choice, Dropped, Need, NeedError, Property, Step, choose};
+pub use compare::{Answer, CompareRequest, Comparison, compare};
+pub use escape::{
+    csv as escape_csv, html as escape_html, latex as escape_latex, markdown as escape_markdown,
+    terminal as escape_terminal,
+};
+pub use figure::{DARK, Figure, LIGHT, SERIES, STYLE};
+pub use figures::{figures, names};
+pub use html::{Document, Pick, Picture, Report, picks, report};
+pub use number::{Printed, spaced, with_interval};
+pub use results::{
+    EVALUATION_SCHEMA, Interval, RUN_SCHEMA, ResultsError, Score, Skip, Study, Value, Variant,
+};
+pub use samples::{SampleChannel, Samples, SamplesError};
+pub use table::{ScoreCell, ScoreRow, ScoreTable, csv, latex, markdown};

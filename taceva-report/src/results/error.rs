@@ -1,0 +1,26 @@
+//! Why results cannot be read.
+
+/// Why results cannot be read.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum ResultsError {
+    /// They are no JSON.
+    #[error("not JSON: {0}")]
+    Json(#[from] serde_json::Error),
+    /// They have no schema, or one that is not known here.
+    #[error("{found}: expected `taceva.evaluation/1` or `taceva.run/1`")]
+    Schema {
+        /// What was found.
+        found: String,
+    },
+    /// Some place holds something else than it should.
+    #[error("{place}: expected {expected}, found {found}")]
+    Place {
+        /// Where: `metrics.mae.Fz.value`.
+        place: String,
+        /// What should be there.
+        expected: &'static str,
+        /// What is there.
+        found: String,
+    },
+}

@@ -1,0 +1,135 @@
+//! A score as it is read back.
+
+use taceva_core::Unit;
+use taceva_metrics::{Better, Curve, Map, Matrix, catalogue};
+
+/// A metric of a channel or plane.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Score {
+    /// The metric: `mae`.
+    pub metric: String,
+    /// The channel or plane: `Fz`, `Pxy`.
+    pub channel: String,
+    /// The value, in `unit`.
+    pub value: Value,
+    /// The unit of value and interval.
+    pub unit: Unit,
+    /// Samples it is made of.
+    pub n: u64,
+    /// Samples left out because a value was no usable number.
+    pub n_invalid: u64,
+    /// Its 95 % interval; `None` where the question makes no sense.
+    pub interval: Option<Interval>,
+    /// Which definition was computed: `mae/1`.
+    pub definition: String,
+    /// The constants of the definition.
+    pub parameters: Vec<(String, f64)>,
+    /// What was counted on the way.
+    pub counts: Vec<(String, u64)>,
+    /// What a reader must know before trusting it.
+    pub flags: Vec<String>,
+    /// The channels it is made of, if it is not one channel's own.
+    pub of: Vec<String>,
+    /// What else the metric says there.
+    pub variants: Vec<Variant>,
+}
+
+/// Another value of the same metric and channel.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Variant {
+    /// What it is called: `slope`, `map`.
+    pub name: String,
+    /// The value, in `unit`.
+    pub value: Value,
+    /// The unit of value and interval.
+    pub unit: Unit,
+    /// Its 95 % interval; `None` where the question makes no sense.
+    pub interval: Option<Interval>,
+}
+
+/// What a score can be.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Value {
+    /// One finite number.
+    Number(f64),
+    /// A number for each place of the sensing surface.
+    Map(Map),
+    /// A number for each level of another quantity.
+    Curve(Curve),
+    /// A number for each pair of names.
+    Matrix(Matrix),
+    /// The samples determine no value: why.
+    Undefined(String),
+    /// The question does not arise: why.
+    NotApplicable(String),
+}
+
+/// A confidence interval of 95 %.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Interval {
+    /// Both ends, and how they were found.
+    Ends {
+        /// The lower and the upper end.
+        ends: [f64; 2],
+        /// How they were found: `jackknife by point_id, G=32`.
+        method: String,
+    },
+    /// There is none: why.
+    Absent(String),
+}
+
+impl Score {
+    /// The variant called `name`.
+    pub fn variant(&self, name: &str) -> Option<&Variant> {
+        self.variants.iter().find(|variant| variant.name == name)
+    }
+
+    /// Which values are good; of metrics that are not known here, none.
+    pub fn better(&self) -> Better {
+        catalogue::find(&self.metric).map_or(Better::Described, |metric| metric.better)
+    }
+}
+
+impl Value {
+    /// The number, if it is one.
+    pub fn number(&self) -> Option<f64> {
+        match self {
+            Value::Number(number) => Some(*number),
+            _ => None,
+        }
+    }
+
+    /// Why there is no value, in words.
+    pub fn reason(&self) -> Option<String> {
+        match self {
+            Value::Undefined(reason) => Some(format!("undefined: {reason}")),
+            Value::NotApplicable(reason) => Some(format!("not applicable: {reason}")),
+            _ => None,
+        }
+    }
+}
+
+impl Interval {
+    /// Both ends, if there is an interval.
+    pub fn ends(&self) -> Option<[f64; 2]> {
+        match self {
+            Interval::Ends { ends, .. } => Some(*ends),
+            Interval::Absent(_) => None,
+        }
+    }
+
+    /// How it was found.
+    pub fn method(&self) -> Option<&str> {
+        match self {
+            Interval::Ends { method, .. } => Some(method),
+            Interval::Absent(_) => None,
+        }
+    }
+
+    /// The number of clusters that it was found from, if its method says so.
+    pub fn clusters(&self) -> Option<usize> {
+        let (_, rest) = self.method()?.split_once("G=")?;
+        let digits = rest.find(|letter: char| !letter.is_ascii_digit());
+        rest[..digits.unwrap_or(rest.len())].parse().ok()
+    }
+}

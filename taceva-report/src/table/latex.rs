@@ -1,0 +1,104 @@
+//! For papers: a booktabs table, a row a score, a column a study.
+
+use super::{ScoreCell, ScoreTable};
+use crate::escape::latex as escape;
+
+/// A table as LaTeX with booktabs. A value is bold only where it is shown to be better than all others of its row: the table says so below.
+pub fn latex(table: &ScoreTable, caption: &str) -> String {
+    let columns = table.names.len();
+    let names: Vec<String> = table.names.iter().map(|name| escape(name)).collect();
+    let mut out = String::from("% needs \\usepackage{booktabs}\n\\begin{table}\n");
+    out += &format!("  \\caption{{{}}}\n", escape(caption));
+    out += &format!("  \\begin{{tabular}}{{lll{}}}\n", "r".repeat(columns));
+    out += "    \\toprule\n";
+    out += &format!(
+        "    metric & channel & unit & {} \\\\\n    \\midrule\n",
+        names.join(" & ")
+    );
+    let mut last = "";
+    for row in &table.rows {
+        let metric = if row.metric == last {
+            ""
+        } else {
+            row.metric.as_str()
+        };
+        if !last.is_empty() && !metric.is_empty() {
+            out += "    \\addlinespace\n";
+        }
+        last = &row.metric;
+        let cells: Vec<String> = row
+            .cells
+            .iter()
+            .map(|cell| self::cell(cell.as_ref()))
+            .collect();
+        let unit = match row.unit.symbol() {
+            "1" => String::new(),
+            symbol => escape(symbol),
+        };
+        out += &format!(
+            "    {} & {} & {unit} & {} \\\\\n",
+            escape(metric),
+            symbol(&row.channel),
+            cells.join(" & ")
+        );
+        let intervals: Vec<String> = row
+            .cells
+            .iter()
+            .map(|cell| interval(cell.as_ref()))
+            .collect();
+        if intervals.iter().any(|interval| !interval.is_empty()) {
+            out += &format!("     & & & {} \\\\\n", intervals.join(" & "));
+        }
+    }
+    out += "    \\bottomrule\n  \\end{tabular}\n";
+    if columns > 1 {
+        out += "\n  \\footnotesize Bold: better than every other sensor at a level of 5\\,\\% after Holm's adjustment.\n";
+    }
+    out += "\\end{table}\n";
+    out
+}
+
+fn cell(cell: Option<&ScoreCell>) -> String {
+    let Some(cell) = cell.filter(|cell| !cell.printed.value.is_empty()) else {
+        return "--".to_owned();
+    };
+    let value = cell.printed.value.replace('-', "$-$");
+    match cell.is_best {
+        true => format!("\\textbf{{{value}}}"),
+        false => value,
+    }
+}
+
+fn interval(cell: Option<&ScoreCell>) -> String {
+    match cell.and_then(|cell| cell.printed.interval.as_ref()) {
+        Some([low, high]) => format!("\\scriptsize [{low}, {high}]").replace('-', "$-$"),
+        None => String::new(),
+    }
+}
+
+/// `Fxy` as `$F_{xy}$`; other names as they are.
+fn symbol(name: &str) -> String {
+    let axes = name
+        .strip_prefix('P')
+        .map(|axes| ('P', axes))
+        .or_else(|| name.strip_prefix('F').map(|axes| ('F', axes)));
+    match axes {
+        Some((quantity, axes)) if ["x", "y", "z", "xy"].contains(&axes) => {
+            format!("${quantity}_{{{axes}}}$")
+        }
+        _ => escape(name),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn channels_are_symbols_and_other_names_words() {
+        assert_eq!(
+            [symbol("Fxy"), symbol("Pz"), symbol("shear_x")],
+            ["$F_{xy}$", "$P_{z}$", "shear\\_x"]
+        );
+    }
+}
