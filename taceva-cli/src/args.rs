@@ -2,6 +2,7 @@
 
 mod bench;
 mod plugin;
+mod results;
 mod shared;
 mod study;
 
@@ -11,6 +12,9 @@ use clap::{ArgGroup, Args, Parser, Subcommand};
 
 pub(crate) use self::bench::{Bench, BenchKernels, BenchSubject};
 pub(crate) use self::plugin::{Plugin, PluginArgs, PluginInfo, PluginList};
+pub(crate) use self::results::{
+    Accept, CatalogueArgs, CatalogueShow, CatalogueSite, CatalogueSubject, Choose, Compare,
+};
 pub(crate) use self::shared::{
     Format, ModelArgs, OptionalModelArgs, Output, PartArg, SettingArgs, SplitArgs,
 };
@@ -68,6 +72,14 @@ pub(crate) enum Command {
     Score(Score),
     /// Join what shards have kept; the scores equal those of one unsharded run, bit for bit
     Merge(Merge),
+    /// Say which of several sensors or models is better, by how much, and how sure that is
+    Compare(Compare),
+    /// Find sensors for a task, with the numbers that decided
+    Choose(Choose),
+    /// Hold a result to limits, and write its data sheet
+    Accept(Accept),
+    /// What was published of sensors, each number with its source
+    Catalogue(CatalogueArgs),
     /// Run time against error, with the Pareto front marked
     Bench(Bench),
     /// Plan, acquire, fit, evaluate and report a scene; without one, four sensors on the simulated bench

@@ -1,7 +1,11 @@
 //! One file a command: resolve what was typed, call, render.
 
+pub(crate) mod accept;
 pub(crate) mod bench;
+pub(crate) mod catalogue;
 pub(crate) mod check;
+pub(crate) mod choose;
+pub(crate) mod compare;
 pub(crate) mod completions;
 pub(crate) mod devices;
 pub(crate) mod doctor;
@@ -13,6 +17,7 @@ pub(crate) mod plan;
 pub(crate) mod plugin;
 mod plugins;
 pub(crate) mod predict;
+mod results;
 pub(crate) mod run;
 mod scene;
 pub(crate) mod score;

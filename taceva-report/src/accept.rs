@@ -1,5 +1,9 @@
 //! Whether results keep to limits, one by one.
 
+mod sheet;
+
+pub use sheet::{ACCEPTANCE_SCHEMA, Acceptance};
+
 use serde::Deserialize;
 use taceva_core::Unit;
 

@@ -2,9 +2,11 @@
 
 mod builtin;
 mod entry;
+mod list;
 mod site;
 
 pub use entry::{CatalogueError, Intrinsic, Limits, Published, Sensor, Source};
+pub use list::{details, list};
 pub use site::{SitePage, site};
 
 /// The sensors and studies that come with the program, by name.

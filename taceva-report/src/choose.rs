@@ -2,10 +2,12 @@
 
 mod need;
 mod property;
+mod render;
 mod words;
 
 pub use need::{Bound, Need, NeedError};
 pub use property::Property;
+pub use render::CHOICE_SCHEMA;
 
 use crate::catalogue::Sensor;
 

@@ -2,6 +2,9 @@
 
 mod estimate;
 mod paired;
+mod render;
+
+pub use render::COMPARISON_SCHEMA;
 
 use std::collections::BTreeMap;
 
@@ -41,6 +44,8 @@ pub struct Answer {
     pub channel: String,
     /// The unit of both scores.
     pub unit: Unit,
+    /// Both scores, where they are numbers.
+    pub scores: Sides<Option<f64>>,
     /// The positions of both studies.
     pub sides: Sides<usize>,
     /// What it says, with p values adjusted over all pairs and channels of the metric.
@@ -195,6 +200,10 @@ fn answer(pair: Pair<'_>, request: &CompareRequest) -> Answer {
         metric: metric.clone(),
         channel: channel.clone(),
         unit: question.unit,
+        scores: Sides {
+            a: pair.scores.a.value.number(),
+            b: pair.scores.b.value.number(),
+        },
         sides: pair.sides,
         verdict,
         difference: pair.difference.ok(),

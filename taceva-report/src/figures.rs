@@ -49,7 +49,10 @@ pub fn names(studies: &[Study]) -> Vec<String> {
     let name = |(at, study): (usize, &Study)| {
         let same = |other: &&Study| other.sensor == study.sensor;
         let is_alone = studies.iter().filter(same).count() == 1;
-        let sensor = short(&study.sensor, 80);
+        let sensor = match short(&study.sensor, 80) {
+            sensor if sensor.trim().is_empty() => "unnamed".to_owned(),
+            sensor => sensor,
+        };
         let before = studies[..at].iter();
         let number = before.filter(|other| other.sensor == study.sensor).count() + 1;
         let model = study.provenance.iter().find(|(name, _)| name == "model");

@@ -12,6 +12,7 @@ mod tables;
 pub use document::Document;
 pub(crate) use figures::one as figure;
 pub use pictures::{Pick, Picture, picks};
+pub(crate) use summary::lead;
 
 use crate::figures::figures as all_figures;
 use crate::results::Study;

@@ -9,14 +9,17 @@ mod figure;
 mod figures;
 mod html;
 mod json;
+mod listing;
 mod number;
 mod results;
 mod samples;
 mod table;
 
-pub use accept::{Finding, Limit, LimitsError, LimitsFile, accept};
-pub use choose::{Bound, Candidate, Choice, Dropped, Need, NeedError, Property, Step, choose};
-pub use compare::{Answer, CompareRequest, Comparison, compare};
+pub use accept::{ACCEPTANCE_SCHEMA, Acceptance, Finding, Limit, LimitsError, LimitsFile, accept};
+pub use choose::{
+    Bound, CHOICE_SCHEMA, Candidate, Choice, Dropped, Need, NeedError, Property, Step, choose,
+};
+pub use compare::{Answer, COMPARISON_SCHEMA, CompareRequest, Comparison, compare};
 pub use escape::{
     csv as escape_csv, html as escape_html, latex as escape_latex, markdown as escape_markdown,
     terminal as escape_terminal,
@@ -24,6 +27,7 @@ pub use escape::{
 pub use figure::{DARK, Figure, LIGHT, SERIES, STYLE};
 pub use figures::{figures, names};
 pub use html::{Document, Pick, Picture, Report, picks, report};
+pub use listing::Listing;
 pub use number::{Printed, spaced, with_interval};
 pub use results::{
     EVALUATION_SCHEMA, Interval, RUN_SCHEMA, ResultsError, Score, Skip, Study, Value, Variant,

@@ -227,6 +227,42 @@ impl Sensor {
         letters.collect()
     }
 
+    /// Results as a sensor that can be chosen: its numbers, and whether light is kept out as far as the results say.
+    pub fn of_study(study: &Study) -> Sensor {
+        let result = |score: &Score| {
+            Some(Published {
+                metric: score.metric.clone(),
+                channel: score.channel.clone(),
+                value: score.value.number()?,
+                unit: score.unit.symbol().to_owned(),
+                source: "result".to_owned(),
+                read_from: study.source.clone(),
+                conditions: "as its provenance says".to_owned(),
+                definition: score.definition.clone(),
+                note: None,
+            })
+        };
+        let is_opaque = |reason: &str| reason.contains("opaque");
+        let skips = study.skipped.iter().any(|skip| is_opaque(&skip.reason));
+        let has_light = study.of_metric("r_light").next().is_some();
+        Sensor {
+            catalogue_version: 1,
+            name: study.sensor.clone(),
+            kind: Kind::Sensor,
+            mechanism: Vec::new(),
+            shape: None,
+            opaque: (skips || has_light).then_some(skips),
+            markers: None,
+            intrinsic: None,
+            limits: None,
+            sources: Vec::new(),
+            results: study.scores.iter().filter_map(result).collect(),
+            missing: Vec::new(),
+            reported: BTreeMap::new(),
+            applications: BTreeMap::new(),
+        }
+    }
+
     /// Its published numbers as results that can be shown and compared beside others; their source is `published`, and none has an interval.
     pub fn as_study(&self) -> Study {
         let score = |metric: &str, channel: &str, value: f64, unit: Unit| Score {

@@ -163,6 +163,9 @@ impl Bound {
 
 impl fmt::Display for Bound {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if self.property == Property::Opaque {
+            return f.write_str("light kept out");
+        }
         let sign = if self.is_least { "≥" } else { "≤" };
         write!(
             f,

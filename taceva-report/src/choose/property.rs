@@ -45,8 +45,12 @@ impl Property {
             Property::Resolution(kind) => result("sr", kind),
             Property::Sensitivity => result("sensitivity", "Fz"),
             Property::Uniformity => result("uniformity", "Fz"),
-            Property::FrameRate => Some(intrinsic?.frame_rate_hz),
-            Property::FieldOfView => Some(intrinsic?.field_of_view_mm2),
+            Property::FrameRate => intrinsic
+                .map(|intrinsic| intrinsic.frame_rate_hz)
+                .or_else(|| result("intrinsic", "frame_rate")),
+            Property::FieldOfView => intrinsic
+                .map(|intrinsic| intrinsic.field_of_view_mm2)
+                .or_else(|| result("intrinsic", "field_of_view")),
             Property::Thickness => Some(intrinsic?.thickness_mm),
             Property::GreatestDepth => Some(limits?.pz_max_mm),
             Property::GreatestForce => Some(limits?.fz_max_n),
@@ -122,7 +126,7 @@ impl fmt::Display for Property {
             Property::Thickness => f.write_str("thickness"),
             Property::GreatestDepth => f.write_str("greatest depth"),
             Property::GreatestForce => f.write_str("greatest normal force"),
-            Property::Opaque => f.write_str("keeping light out"),
+            Property::Opaque => f.write_str("light kept out"),
         }
     }
 }

@@ -9,7 +9,7 @@ use crate::results::{Score, Study};
 use crate::table::{ScoreCell, ScoreRow, ScoreTable};
 
 /// What stands below the title.
-pub(super) fn lead(studies: &[Study]) -> String {
+pub(crate) fn lead(studies: &[Study]) -> String {
     let names = names(studies);
     let mut out = format!("<p class=\"lead\">{}</p>", html(&listed(&names)));
     let simulated = studies.iter().filter(|study| study.is_simulated()).count();

@@ -1,0 +1,105 @@
+//! What is typed of results that are there already: compared, chosen from, held to limits; and of the catalogue.
+
+use std::path::PathBuf;
+
+use clap::{ArgGroup, Args, Subcommand};
+
+use super::Output;
+
+/// Results are JSON files of `evaluate`, `score` and `run`, or names of the catalogue. Where `<name>.samples.csv` lies beside `<name>.json`
+/// and both predict the same samples, mean absolute errors are compared sample by sample; all else by Welch's test, with Holm's adjustment.
+#[derive(Debug, Args)]
+pub(crate) struct Compare {
+    /// The results to compare
+    #[arg(required = true, value_name = "RESULT", num_args = 1..)]
+    pub(crate) results: Vec<PathBuf>,
+    /// Metrics, separated by commas [default: all that are better on one side]
+    #[arg(long, value_name = "METRICS", value_delimiter = ',')]
+    pub(crate) metrics: Vec<String>,
+    /// How far apart scores may be and still count as equal, such as mae.Fz=0.01; may be repeated
+    #[arg(long = "margin", value_name = "METRIC[.CHANNEL]=NUMBER")]
+    pub(crate) margins: Vec<String>,
+    /// The seed of everything that is drawn
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    pub(crate) seed: u64,
+    /// Write a page to look at, to print and to send: one file that needs no network
+    #[arg(long, value_name = "FILE.html")]
+    pub(crate) html: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) output: Output,
+}
+
+/// Needs are words (shear, no shear, normal force, depth, deep contact, soft contact, firm contact, planar, fast, ambient light, …) and
+/// numbers (rate >= 50 Hz, force <= 1 N, localisation 0.3 mm, …), separated by commas. Hard ones drop a sensor, soft ones rank.
+#[derive(Debug, Args)]
+#[command(group = ArgGroup::new("asked").required(true).args(["need", "needs"]))]
+pub(crate) struct Choose {
+    /// The needs; may be repeated
+    #[arg(long, value_name = "NEEDS")]
+    pub(crate) need: Vec<String>,
+    /// A file with `needs = ["…", …]`
+    #[arg(long, value_name = "NEEDS.toml")]
+    pub(crate) needs: Option<PathBuf>,
+    /// Choose among these results and not from the catalogue; may be repeated
+    #[arg(long, value_name = "RESULT.json")]
+    pub(crate) from: Vec<PathBuf>,
+    /// Write a page to look at, to print and to send: one file that needs no network
+    #[arg(long, value_name = "FILE.html")]
+    pub(crate) html: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) output: Output,
+}
+
+/// Exit code 1 if a limit is not kept. A score that is missing or undefined keeps to none.
+#[derive(Debug, Args)]
+pub(crate) struct Accept {
+    /// The result of one sensor, as JSON
+    #[arg(value_name = "RESULT.json")]
+    pub(crate) result: PathBuf,
+    /// The limits: `[[limit]]` with metric, channel, unit, and most or least
+    #[arg(long, value_name = "LIMITS.toml")]
+    pub(crate) limits: PathBuf,
+    /// Write the data sheet: one page to look at, to print and to send
+    #[arg(long, value_name = "FILE.html")]
+    pub(crate) html: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) output: Output,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct CatalogueArgs {
+    #[command(subcommand)]
+    pub(crate) subject: CatalogueSubject,
+}
+
+/// What to do with the catalogue.
+#[derive(Debug, Subcommand)]
+pub(crate) enum CatalogueSubject {
+    /// List every sensor
+    List(Output),
+    /// Show what was published of one sensor, each number with its source
+    Show(CatalogueShow),
+    /// Write the catalogue as pages: a list that filters and sorts, and a page a sensor
+    Site(CatalogueSite),
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct CatalogueShow {
+    /// The name of the sensor
+    pub(crate) name: String,
+    #[command(flatten)]
+    pub(crate) output: Output,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct CatalogueSite {
+    /// The folder to write the pages into
+    #[arg(long = "out", value_name = "FOLDER")]
+    pub(crate) folder: PathBuf,
+    /// Results of this program to show apart from published ones; may be repeated
+    #[arg(long, value_name = "RESULT.json")]
+    pub(crate) with: Vec<PathBuf>,
+    /// Replace pages that stand there already
+    #[arg(long)]
+    pub(crate) force: bool,
+}

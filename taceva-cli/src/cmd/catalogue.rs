@@ -1,0 +1,58 @@
+//! `taceva catalogue`.
+
+use std::fs;
+
+use anyhow::Context as _;
+use taceva_report::catalogue;
+
+use super::{Context, Usage, results};
+use crate::args::{CatalogueArgs, CatalogueShow, CatalogueSite, CatalogueSubject, Output};
+use crate::{exit, output};
+
+pub(crate) fn run(args: &CatalogueArgs, context: &Context) -> anyhow::Result<u8> {
+    match &args.subject {
+        CatalogueSubject::List(output) => list(output),
+        CatalogueSubject::Show(args) => show(args),
+        CatalogueSubject::Site(args) => site(args, context),
+    }
+}
+
+fn list(output: &Output) -> anyhow::Result<u8> {
+    write(output, &catalogue::list(&catalogue::all()))
+}
+
+fn show(args: &CatalogueShow) -> anyhow::Result<u8> {
+    let sensor = catalogue::find(&args.name).ok_or_else(|| {
+        Usage::error(format!(
+            "`{}`: no such sensor; see taceva catalogue list",
+            taceva_report::escape_terminal(&args.name)
+        ))
+    })?;
+    write(&args.output, &catalogue::details(&sensor))
+}
+
+fn write(args: &Output, listing: &taceva_report::Listing) -> anyhow::Result<u8> {
+    if let Some(path) = &args.path {
+        output::check_free(path, args.force)?;
+    }
+    let text = results::rendered(listing, args.format, || listing.json("taceva.catalogue/1"));
+    output::write(args.path.as_deref(), |out| out.write_all(text.as_bytes()))?;
+    Ok(exit::DONE)
+}
+
+fn site(args: &CatalogueSite, context: &Context) -> anyhow::Result<u8> {
+    let ours = results::read_all(&args.with)?;
+    let pages = catalogue::site(&catalogue::all(), &ours);
+    fs::create_dir_all(&args.folder)
+        .with_context(|| format!("cannot make {}", args.folder.display()))?;
+    for page in &pages {
+        output::check_free(&args.folder.join(&page.file), args.force)?;
+    }
+    for page in &pages {
+        let path = args.folder.join(&page.file);
+        output::write(Some(&path), |out| out.write_all(page.text.as_bytes()))?;
+    }
+    let first = args.folder.join("index.html");
+    context.say(format_args!("look at    {}", first.display()));
+    Ok(exit::DONE)
+}

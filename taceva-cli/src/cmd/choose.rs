@@ -1,0 +1,46 @@
+//! `taceva choose`.
+
+use std::fs;
+
+use anyhow::Context as _;
+use taceva_report::catalogue::{self, Sensor};
+use taceva_report::{Need, choose};
+
+use super::{Context, Usage, results};
+use crate::args::Choose;
+use crate::{exit, output};
+
+pub(crate) fn run(args: &Choose, _context: &Context) -> anyhow::Result<u8> {
+    for path in args.output.path.iter().chain(&args.html) {
+        output::check_free(path, args.output.force)?;
+    }
+    let needs = match &args.needs {
+        Some(path) => {
+            let text = fs::read_to_string(path)
+                .with_context(|| format!("cannot read {}", path.display()))?;
+            Need::read(&text).with_context(|| path.display().to_string())?
+        }
+        None => {
+            let said = args.need.join(",");
+            Need::parse(&said).map_err(|error| Usage::error(error.to_string()))?
+        }
+    };
+    let sensors = match args.from.is_empty() {
+        true => catalogue::all(),
+        false => {
+            let studies = results::read_all(&args.from)?;
+            studies.iter().map(Sensor::of_study).collect()
+        }
+    };
+    let choice = choose(&sensors, &needs);
+    let text = results::rendered(&choice.listing(), args.output.format, || choice.json());
+    output::write(args.output.path.as_deref(), |out| {
+        out.write_all(text.as_bytes())
+    })?;
+    if let Some(path) = &args.html {
+        let words: Vec<&str> = needs.iter().map(|need| need.words.as_str()).collect();
+        let page = choice.page(&words.join(", "));
+        output::write(Some(path), |out| out.write_all(page.as_bytes()))?;
+    }
+    Ok(exit::DONE)
+}

@@ -1,0 +1,56 @@
+//! `taceva compare`.
+
+use std::collections::BTreeMap;
+
+use taceva_report::{CompareRequest, compare};
+
+use super::{Context, Usage, results};
+use crate::args::Compare;
+use crate::{exit, output};
+
+pub(crate) fn run(args: &Compare, _context: &Context) -> anyhow::Result<u8> {
+    for path in args.output.path.iter().chain(&args.html) {
+        output::check_free(path, args.output.force)?;
+    }
+    let studies = results::read_all(&args.results)?;
+    if studies.len() < 2 {
+        return Err(Usage::error(
+            "one result: there is nothing to compare it with",
+        ));
+    }
+    let request = CompareRequest {
+        metrics: args.metrics.clone(),
+        margins: args
+            .margins
+            .iter()
+            .map(|word| margin(word))
+            .collect::<anyhow::Result<BTreeMap<_, _>>>()?,
+        seed: args.seed,
+    };
+    let comparison = compare(&studies, &request);
+    let text = results::rendered(&comparison.listing(), args.output.format, || {
+        comparison.json()
+    });
+    output::write(args.output.path.as_deref(), |out| {
+        out.write_all(text.as_bytes())
+    })?;
+    if let Some(path) = &args.html {
+        let page = comparison.page(&studies);
+        output::write(Some(path), |out| out.write_all(page.as_bytes()))?;
+    }
+    Ok(exit::DONE)
+}
+
+/// `METRIC[.CHANNEL]=NUMBER`.
+fn margin(word: &str) -> anyhow::Result<(String, f64)> {
+    let number = |(name, number): (&str, &str)| Some((name.to_owned(), number.parse().ok()?));
+    word.split_once('=')
+        .and_then(number)
+        .filter(|(_, number): &(String, f64)| number.is_finite() && *number > 0.0)
+        .ok_or_else(|| {
+            Usage::error(format!(
+                "--margin `{}`: expected METRIC[.CHANNEL]=NUMBER with a number above 0, such as mae.Fz=0.01",
+                taceva_report::escape_terminal(word)
+            ))
+        })
+}

@@ -1,0 +1,156 @@
+//! A browser that is told what to do over two pipes (Chrome DevTools Protocol, `--remote-debugging-pipe`).
+
+use std::io::{BufRead, BufReader, Write};
+use std::path::Path;
+use std::process::{Child, ChildStdin, ChildStdout, Command, Stdio};
+
+use serde_json::{Value, json};
+
+/// Names under which it is installed.
+const NAMES: [&str; 3] = ["chromium", "chromium-browser", "google-chrome"];
+
+/// A browser with one page.
+pub(crate) struct Browser {
+    child: Child,
+    to: ChildStdin,
+    from: BufReader<ChildStdout>,
+    next: u64,
+    session: Option<String>,
+    /// What came unasked.
+    events: Vec<Value>,
+}
+
+impl Browser {
+    /// A browser that keeps its files in `folder`; none where there is no browser.
+    pub(crate) fn start(folder: &Path) -> Option<Browser> {
+        let paths = std::env::var_os("PATH")?;
+        let found = std::env::split_paths(&paths).find_map(|path| {
+            let mut names = NAMES.iter().map(|name| path.join(name));
+            names.find(|program| program.is_file())
+        })?;
+        // The protocol is spoken on the descriptors 3 and 4, which a shell can make of 0 and 1.
+        let script = "exec \"$0\" \"$@\" 3<&0 4>&1 >/dev/null 2>&1";
+        let mut child = Command::new("sh")
+            .args(["-c", script])
+            .arg(found)
+            .args([
+                "--headless=new",
+                "--no-sandbox",
+                "--disable-gpu",
+                "--remote-debugging-pipe",
+            ])
+            .arg("--window-size=1100,1000")
+            .arg(format!(
+                "--user-data-dir={}",
+                folder.join("profile").display()
+            ))
+            .stdin(Stdio::piped())
+            .stdout(Stdio::piped())
+            .spawn()
+            .expect("a shell");
+        let to = child.stdin.take().expect("piped");
+        let from = BufReader::new(child.stdout.take().expect("piped"));
+        let mut browser = Browser {
+            child,
+            to,
+            from,
+            next: 0,
+            session: None,
+            events: Vec::new(),
+        };
+        let target = browser.call("Target.createTarget", json!({"url": "about:blank"}));
+        let attach = json!({"targetId": target["targetId"], "flatten": true});
+        let attached = browser.call("Target.attachToTarget", attach);
+        browser.session = attached["sessionId"].as_str().map(str::to_owned);
+        for domain in ["Page", "Runtime", "Network", "Log"] {
+            browser.call(&format!("{domain}.enable"), json!({}));
+        }
+        browser.events.clear();
+        Some(browser)
+    }
+
+    /// Opens `address` and waits until it is there.
+    pub(crate) fn open(&mut self, address: &str) {
+        self.call("Page.navigate", json!({"url": address}));
+        while !self
+            .events
+            .iter()
+            .any(|event| event["method"] == "Page.loadEventFired")
+        {
+            let message = self.read();
+            self.events.push(message);
+        }
+    }
+
+    /// What a script gives.
+    pub(crate) fn evaluate(&mut self, script: &str) -> Value {
+        let answer = self.call(
+            "Runtime.evaluate",
+            json!({"expression": script, "returnByValue": true}),
+        );
+        assert!(answer["exceptionDetails"].is_null(), "{script}: {answer}");
+        answer["result"]["value"].clone()
+    }
+
+    /// The answer to a call; what comes in between is kept.
+    pub(crate) fn call(&mut self, method: &str, parameters: Value) -> Value {
+        self.next += 1;
+        let id = self.next;
+        let mut message = json!({"id": id, "method": method, "params": parameters});
+        if let Some(session) = &self.session {
+            message["sessionId"] = session.as_str().into();
+        }
+        let mut bytes = message.to_string().into_bytes();
+        bytes.push(0);
+        self.to.write_all(&bytes).expect("the browser listens");
+        loop {
+            let message = self.read();
+            if message["id"] == id {
+                assert!(message["error"].is_null(), "{method}: {message}");
+                return message["result"].clone();
+            }
+            self.events.push(message);
+        }
+    }
+
+    fn read(&mut self) -> Value {
+        let mut bytes = Vec::new();
+        self.from
+            .read_until(0, &mut bytes)
+            .expect("the browser answers");
+        bytes.pop();
+        serde_json::from_slice(&bytes).expect("JSON")
+    }
+
+    /// Fails if anything was said on the console, asked of anybody but the page itself, or shown as a dialog.
+    pub(crate) fn assert_quiet(&mut self) {
+        // Whatever is still on its way comes before this answer.
+        self.evaluate("1");
+        for event in &self.events {
+            let method = event["method"].as_str().unwrap_or_default();
+            let loud = [
+                "Runtime.consoleAPICalled",
+                "Runtime.exceptionThrown",
+                "Log.entryAdded",
+                "Page.javascriptDialogOpening",
+            ];
+            assert!(!loud.contains(&method), "{event}");
+            if method == "Network.requestWillBeSent" {
+                let url = event["params"]["request"]["url"]
+                    .as_str()
+                    .unwrap_or_default();
+                let is_own = url.starts_with("data:")
+                    || (url.starts_with("file:") && url.ends_with("/report.html"));
+                assert!(is_own, "{url}");
+            }
+        }
+    }
+}
+
+impl Drop for Browser {
+    fn drop(&mut self) {
+        // It may have ended by itself.
+        drop(self.child.kill());
+        drop(self.child.wait());
+    }
+}
