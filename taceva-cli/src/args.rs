@@ -190,6 +190,9 @@ pub(crate) struct Evaluate {
     /// Write a page to look at, to print and to send: one file that needs no network
     #[arg(long, value_name = "FILE.html")]
     pub(crate) html: Option<PathBuf>,
+    /// Write every figure into this folder, as SVG
+    #[arg(long, value_name = "FOLDER")]
+    pub(crate) figures: Option<PathBuf>,
     /// Write truth and prediction of every sample as CSV, for `taceva compare`
     #[arg(long, value_name = "SAMPLES.csv")]
     pub(crate) samples_out: Option<PathBuf>,
@@ -253,6 +256,9 @@ pub(crate) struct Score {
     /// Write a page to look at, to print and to send: one file that needs no network
     #[arg(long, value_name = "FILE.html")]
     pub(crate) html: Option<PathBuf>,
+    /// Write every figure into this folder, as SVG
+    #[arg(long, value_name = "FOLDER")]
+    pub(crate) figures: Option<PathBuf>,
     /// Write truth and prediction of every sample as CSV, for `taceva compare`
     #[arg(long, value_name = "SAMPLES.csv")]
     pub(crate) samples_out: Option<PathBuf>,

@@ -23,7 +23,7 @@ mod scene;
 pub(crate) mod score;
 
 use std::num::NonZeroUsize;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use taceva_dataset::Dataset;
 use taceva_models::Settings;
@@ -126,21 +126,34 @@ pub(crate) fn open(path: &Path) -> anyhow::Result<Dataset> {
     Ok(Dataset::open(path)?)
 }
 
-/// Writes the page and the samples of an evaluation, where they were asked for.
-fn write_page(
-    html: &Option<PathBuf>,
-    samples: &Option<PathBuf>,
-    written: &EvaluationReport,
-) -> anyhow::Result<()> {
-    if let Some(path) = html {
-        let title = format!("{}: how well it measures", written.subject.sensor);
-        let page = report::page::Page::of(&title, std::slice::from_ref(written))?;
-        output::write(Some(path), |out| page.write(out))?;
+/// What is written beside the scores of an evaluation, where it is asked for.
+struct Beside<'a> {
+    html: Option<&'a Path>,
+    figures: Option<&'a Path>,
+    samples: Option<&'a Path>,
+}
+
+impl Beside<'_> {
+    fn is_wanted(&self) -> bool {
+        self.html.is_some() || self.figures.is_some() || self.samples.is_some()
     }
-    if let (Some(path), Some(samples)) = (samples, &written.samples) {
-        output::write(Some(path), |out| samples.write(out))?;
+
+    fn write(&self, written: &EvaluationReport) -> anyhow::Result<()> {
+        if self.html.is_some() || self.figures.is_some() {
+            let title = format!("{}: how well it measures", written.subject.sensor);
+            let page = report::page::Page::of(&title, std::slice::from_ref(written))?;
+            if let Some(path) = self.html {
+                output::write(Some(path), |out| page.write(out))?;
+            }
+            if let Some(folder) = self.figures {
+                page.write_figures(folder)?;
+            }
+        }
+        if let (Some(path), Some(samples)) = (self.samples, &written.samples) {
+            output::write(Some(path), |out| samples.write(out))?;
+        }
+        Ok(())
     }
-    Ok(())
 }
 
 /// The fit that was asked for.

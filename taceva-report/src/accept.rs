@@ -7,6 +7,7 @@ pub use sheet::{ACCEPTANCE_SCHEMA, Acceptance};
 use serde::Deserialize;
 use taceva_core::Unit;
 
+use crate::figure::numeral;
 use crate::results::{Interval, Study};
 
 /// The limits that a sensor is accepted by.
@@ -202,10 +203,10 @@ fn broken(limit: &Limit, unit: Unit, value: f64, ends: Option<[f64; 2]>) -> Opti
         "value is"
     };
     if let Some(most) = limit.most.filter(|most| high > *most) {
-        return Some(format!("{what} {high}, above {most}"));
+        return Some(format!("{what} {}, above {most}", numeral(high)));
     }
     let least = limit.least.filter(|least| low < *least)?;
-    Some(format!("{what} {low}, below {least}"))
+    Some(format!("{what} {}, below {least}", numeral(low)))
 }
 
 #[cfg(test)]

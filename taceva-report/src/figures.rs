@@ -26,9 +26,9 @@ pub fn figures(studies: &[Study]) -> Vec<Figure> {
     let all = [
         vec![histograms::draw(studies)],
         predicted::draw(studies),
+        vec![sensitivity::draw(studies)],
+        spatial::draw(studies),
         vec![
-            sensitivity::draw(studies),
-            spatial::draw(studies),
             resolution::draw(studies),
             lighting::draw(studies),
             repeats::curves(studies),

@@ -2,6 +2,9 @@
 
 use crate::escape;
 
+/// Letters of a cell that is broken into lines on a page.
+const LONG: usize = 28;
+
 /// Rows below a head.
 ///
 /// # Shapes
@@ -147,9 +150,14 @@ impl Listing {
         let mut out = format!(
             "<div class=\"scroll\" tabindex=\"0\" role=\"group\" aria-label=\"{caption}\"><table class=\"sorts\"><caption>{caption}</caption><thead><tr>"
         );
+        let is_long = |column: usize| {
+            let mut cells = self.rows.iter().map(|row| row[column].chars().count());
+            cells.any(|letters| letters > LONG)
+        };
         let class = |column: usize| match self.is_of_numbers(column) {
             true => " class=\"r\"",
-            false => " class=\"wrap\"",
+            false if is_long(column) => " class=\"wrap\"",
+            false => "",
         };
         for (column, name) in self.head.iter().enumerate() {
             out += &format!(

@@ -56,7 +56,12 @@ pub(crate) fn run(args: &Evaluate, context: &Context) -> anyhow::Result<u8> {
     if let Some(path) = &args.state_out {
         output::write(Some(path), |out| evaluated.state.write(out))?;
     }
-    super::write_page(&args.html, &args.samples_out, &evaluated.report)?;
+    let beside = super::Beside {
+        html: args.html.as_deref(),
+        figures: args.figures.as_deref(),
+        samples: args.samples_out.as_deref(),
+    };
+    beside.write(&evaluated.report)?;
     if let (Some(path), Some(manifest)) = (&args.split_out, &evaluated.manifest) {
         output::write(Some(path), |out| {
             serde_json::to_writer_pretty(&mut *out, manifest)?;

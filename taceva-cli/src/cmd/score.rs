@@ -33,13 +33,18 @@ pub(crate) fn run(args: &Score, context: &Context) -> anyhow::Result<u8> {
     }
     context.tell(|| Ok(scoring.plan()))?;
     let mut scored = scoring.run(&context.progress)?;
-    if args.html.is_some() || args.samples_out.is_some() {
+    let beside = super::Beside {
+        html: args.html.as_deref(),
+        figures: args.figures.as_deref(),
+        samples: args.samples_out.as_deref(),
+    };
+    if beside.is_wanted() {
         scored.report.samples = Some(scoring.samples()?);
     }
     output::write(args.output.path.as_deref(), |out| {
         report::evaluation(&scored.report, args.output.format, out)
     })?;
-    super::write_page(&args.html, &args.samples_out, &scored.report)?;
+    beside.write(&scored.report)?;
     if let Some(path) = &args.state_out {
         output::write(Some(path), |out| scored.state.write(out))?;
     }

@@ -1,11 +1,15 @@
 //! One-file pages of finished evaluations.
 
+use std::fs;
 use std::io::{self, Write};
+use std::path::Path;
 
 use anyhow::Context as _;
 use taceva_dataset::Dataset;
-use taceva_report::{Picture, Report, Samples, Study, picks};
+use taceva_report::{Picture, Report, Samples, ScoreTable, Study, figures, picks};
 use taceva_study::EvaluationReport;
+
+use crate::output;
 
 use super::thumbnail::{MEDIA_TYPE, thumbnail};
 
@@ -49,6 +53,40 @@ impl Page {
                     bytes: thumbnail(&frame)?,
                 });
             }
+        }
+        Ok(())
+    }
+
+    /// Writes every figure into `folder`, as SVG that stands alone.
+    pub(crate) fn write_figures(&self, folder: &Path) -> anyhow::Result<()> {
+        fs::create_dir_all(folder).with_context(|| format!("cannot make {}", folder.display()))?;
+        for figure in figures(&self.studies) {
+            let path = folder.join(format!("{}.svg", figure.id));
+            output::write(Some(&path), |out| out.write_all(figure.svg().as_bytes()))?;
+        }
+        Ok(())
+    }
+
+    /// Writes the scores side by side into `folder`: all of them for programs, those that fit a page for pages and papers.
+    pub(crate) fn write_scores(&self, folder: &Path) -> anyhow::Result<()> {
+        let table = ScoreTable::of(&self.studies);
+        let headlines = table.headlines();
+        let simulated = self.studies.iter().filter(|study| study.is_simulated());
+        let note = match simulated.count() {
+            0 => "",
+            _ => " Nothing here was measured where samples are simulated.",
+        };
+        let caption = format!("{}: scores with 95 % intervals.{note}", self.title);
+        for (name, text) in [
+            ("scores.csv", taceva_report::csv(&table)),
+            (
+                "scores.md",
+                format!("{caption}\n\n{}", taceva_report::markdown(&headlines)),
+            ),
+            ("scores.tex", taceva_report::latex(&headlines, &caption)),
+        ] {
+            let path = folder.join(name);
+            output::write(Some(&path), |out| out.write_all(text.as_bytes()))?;
         }
         Ok(())
     }

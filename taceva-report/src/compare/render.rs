@@ -96,22 +96,19 @@ impl Comparison {
     pub fn page(&self, studies: &[Study]) -> String {
         let mut document = Document::new("Comparison");
         document.lead(&lead(studies));
-        let shown = self
-            .answers
-            .iter()
-            .filter(|answer| answer.better().is_some());
         let mut lines = String::new();
-        for answer in shown {
+        for answer in &self.answers {
+            let (Some(better), [a, b]) = (answer.better(), [answer.sides.a, answer.sides.b]) else {
+                continue;
+            };
+            let words = answer.verdict.to_string();
+            let words = words.strip_prefix("A ").unwrap_or(&words);
+            let [a, b, better] = [a, b, better].map(|at| html(&self.names[at]));
             lines += &format!(
-                "<li><code>{}</code> {}: {}</li>\n",
+                "<li><code>{}</code> {}: <strong>{better}</strong> is better; {a} is {} than {b}</li>\n",
                 html(&answer.metric),
                 html(&answer.channel),
-                html(&format!(
-                    "{} ({} against {})",
-                    answer.words(&self.names),
-                    self.names[answer.sides.a],
-                    self.names[answer.sides.b]
-                ))
+                html(words)
             );
         }
         let summary = match lines.is_empty() {

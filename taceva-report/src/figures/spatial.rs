@@ -12,48 +12,54 @@ use super::overlay::{Level, Line, Sheet, Ways, Words, draw as overlay};
 /// Bins that a rolling mean takes together: an odd number.
 const WINDOW: usize = 5;
 
-pub(super) fn draw(studies: &[Study]) -> Option<Figure> {
+/// The error over distance, and over depth.
+pub(super) fn draw(studies: &[Study]) -> Vec<Option<Figure>> {
+    vec![one(studies, "distance"), one(studies, "depth")]
+}
+
+fn one(studies: &[Study], over: &str) -> Option<Figure> {
     let mut sheets = Vec::new();
     for channel in SIX {
-        for (variant, x) in [("distance", "distance"), ("depth", "depth")] {
-            let (mut lines, mut unit, mut x_unit) = (Vec::new(), Unit::One, Unit::Millimetre);
-            for (study, at) in studies.iter().zip(0..) {
-                let Some(score) = study.score("r_spatial", channel) else {
-                    continue;
-                };
-                if let Some(Value::Curve(curve)) = score.variant(variant).map(|of| &of.value) {
-                    (unit, x_unit) = (score.unit, curve.x_unit);
-                    lines.push(Line {
-                        study: at,
-                        levels: rolling(curve),
-                    });
-                }
-            }
-            if !lines.is_empty() {
-                sheets.push(Sheet {
-                    title: format!("{channel} by {variant}"),
-                    x: axis_label(x, x_unit),
-                    y: axis_label("MAE", unit),
-                    y_unit: unit,
-                    least: Some([0.0, 0.0]),
-                    ways: Ways::Straight,
-                    lines,
+        let (mut lines, mut unit, mut x_unit) = (Vec::new(), Unit::One, Unit::Millimetre);
+        for (study, at) in studies.iter().zip(0..) {
+            let Some(score) = study.score("r_spatial", channel) else {
+                continue;
+            };
+            if let Some(Value::Curve(curve)) = score.variant(over).map(|of| &of.value) {
+                (unit, x_unit) = (score.unit, curve.x_unit);
+                lines.push(Line {
+                    study: at,
+                    levels: rolling(curve),
                 });
             }
         }
+        if !lines.is_empty() {
+            sheets.push(Sheet {
+                title: channel.to_owned(),
+                x: axis_label(over, x_unit),
+                y: axis_label("MAE", unit),
+                y_unit: unit,
+                least: Some([0.0, 0.0]),
+                ways: Ways::Straight,
+                lines,
+            });
+        }
     }
     let words = Words {
-        id: "spatial",
-        title: "Error against distance and depth",
+        id: over,
+        title: match over {
+            "depth" => "Error against depth",
+            _ => "Error against distance from the centre",
+        },
         caption: format!(
-            "Mean absolute error of held-out presses in 100 bins of distance from the centre and of depth: rolling mean of {WINDOW} non-empty bins, with a band of one standard deviation of these bins to both sides. Scores are made of the bins themselves."
+            "Mean absolute error of held-out presses in 100 bins of {over}: rolling mean of {WINDOW} non-empty bins, with a band of one standard deviation of these bins to both sides. Scores are made of the bins themselves."
         ),
         description: format!(
-            "Mean absolute error over distance and depth of {}.",
+            "Mean absolute error over {over} of {}.",
             super::listed(&super::names(studies))
         ),
     };
-    overlay(&sheets, studies, 2, words)
+    overlay(&sheets, studies, 3, words)
 }
 
 /// The rolling mean over non-empty bins, weighted by their samples, and how far these bins lie from it.

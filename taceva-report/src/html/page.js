@@ -70,6 +70,4 @@
     }
   };
   filters.forEach((filter) => filter.addEventListener("input", apply));
-
-  addEventListener("beforeprint", () => document.querySelectorAll("details").forEach((all) => { all.open = true; }));
 })();

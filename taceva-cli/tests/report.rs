@@ -1,0 +1,202 @@
+//! Pages, figures, tables, comparisons, choices and data sheets, as a person asks for them.
+
+mod schema;
+mod support;
+
+use std::fs;
+
+use serde_json::Value;
+use support::Bench;
+
+/// Two sensors, every part of the protocol, a few presses each.
+const TWO: &str = r#"scene_version = 1
+name = "two"
+seed = 7
+robot = { driver = "sim/robot" }
+force = { driver = "sim/force-transducer" }
+lighting = { driver = "sim/lighting" }
+model = { name = "ridge", set = { size = "8x8" } }
+protocol = { calibration = { points = 30, indentations = 2 }, spatial = { points = 12 }, gratings = { step_mm = 0.75, presses = 2 }, lighting = { points = 3 }, repeatability = { points = 3, trials = 3, depth_step_mm = 0.5 }, hysteresis = { points = 3, depth_step_mm = 0.25 }, surface = { points = 8 }, idle = { frames = 6 } }
+[[study]]
+name = "dome"
+sensor = { driver = "sim/vitactip:reduction=16", units = ["0", "1"] }
+[[study]]
+name = "grid"
+sensor = { driver = "sim/magictac:reduction=16", units = ["0", "1"] }
+"#;
+
+/// Commands and files of the tables of docs/figures.md.
+fn documented() -> Vec<(String, String)> {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../docs/figures.md");
+    let text = fs::read_to_string(path).expect("the page is there");
+    let rows = text
+        .lines()
+        .filter(|line| line.starts_with("| ") && line.contains("| `taceva "));
+    rows.map(|line| {
+        let words: Vec<&str> = line.split('`').collect();
+        let [.., command, _, file, _] = words.as_slice() else {
+            panic!("{line}");
+        };
+        ((*command).to_owned(), (*file).to_owned())
+    })
+    .collect()
+}
+
+#[test]
+fn every_figure_and_table_of_the_study_is_made_by_its_command() {
+    let bench = Bench::new();
+    bench.write("two.toml", TWO);
+    bench.ok("run two.toml --out study -q");
+    let documented = documented();
+    assert!(documented.len() >= 24, "{}", documented.len());
+    let mut done: Vec<&str> = vec!["taceva run --out study"];
+    for (command, file) in &documented {
+        if !done.contains(&command.as_str()) {
+            let words = command.strip_prefix("taceva ").expect("our command");
+            bench.ok(&format!("{words} -q"));
+            done.push(command);
+        }
+        let text =
+            fs::read_to_string(bench.path(file)).unwrap_or_else(|error| panic!("{file}: {error}"));
+        assert!(text.len() > 300, "{file}");
+        if file.starts_with("study/") && !file.ends_with("scores.csv") {
+            let says_so = text.contains("simulated");
+            assert!(
+                says_so || file.starts_with("study/figures/"),
+                "{file} says that nothing was measured"
+            );
+        }
+    }
+    schema::check(
+        "run",
+        &json(&fs::read_to_string(bench.path("study/results.json")).expect("there")),
+    );
+}
+
+fn json(text: &str) -> Value {
+    serde_json::from_str(text).expect("JSON")
+}
+
+#[test]
+fn predictions_of_the_same_samples_are_compared_one_by_one() {
+    let bench = Bench::new();
+    bench.record("data", 16);
+    for (model, name) in [("ridge", "a"), ("baseline", "b")] {
+        let out = format!("--format json --out {name}.json --samples-out {name}.samples.csv");
+        bench.ok(&format!("evaluate data --model {model} --split random --part all {out} --html {name}.html --figures {name} -q"));
+        schema::check(
+            "evaluation",
+            &json(&fs::read_to_string(bench.path(&format!("{name}.json"))).expect("there")),
+        );
+        assert!(bench.path(&format!("{name}/predicted-1.svg")).is_file());
+        assert!(
+            fs::read_to_string(bench.path(&format!("{name}.html")))
+                .expect("there")
+                .contains("data:image/jpeg;base64,")
+        );
+    }
+    let comparison = bench.json("compare a.json b.json --metrics mae --margin mae=1000000");
+    schema::check("comparison", &comparison);
+    let answers = comparison["answers"].as_array().expect("a list");
+    let tests: Vec<&str> = answers
+        .iter()
+        .filter_map(|answer| answer["difference"]["test"].as_str())
+        .collect();
+    assert!(
+        tests
+            .iter()
+            .any(|test| test.starts_with("paired sign flip")),
+        "{comparison:#}"
+    );
+    assert!(answers.iter().any(|answer| {
+        answer["answer"]
+            .as_str()
+            .is_some_and(|words| words.starts_with("equivalent within"))
+    }));
+}
+
+#[test]
+fn published_numbers_are_compared_and_chosen_from() {
+    let bench = Bench::new();
+    let compared = bench.json("compare ViTacTip GelSight MagicTac");
+    schema::check("comparison", &compared);
+    let answers = compared["answers"].as_array().expect("a list");
+    let of_fz = |answer: &&Value| {
+        answer["metric"] == "mae" && answer["channel"] == "Fz" && answer["b"] == "GelSight"
+    };
+    let answer = answers.iter().find(of_fz).expect("one");
+    assert_eq!(answer["scores"], serde_json::json!([0.0164, 0.0361]));
+    assert_eq!(
+        answer["answer"],
+        "no answer: no interval: published without one"
+    );
+    bench.write(
+        "needs.toml",
+        "needs = [\"accurate shear\", \"ambient light\"]\n",
+    );
+    let choice = bench.json("choose --needs needs.toml");
+    schema::check("choice", &choice);
+    assert_eq!(choice["ranked"][0]["name"], "GelSight");
+    bench.refused(
+        "choose --need beauty",
+        2,
+        "`beauty`: unknown need, expected one of shear",
+    );
+    bench.refused(
+        "compare ViTacTip Nobody",
+        2,
+        "`Nobody`: no such file, and no such name in the catalogue",
+    );
+    bench.refused(
+        "compare ViTacTip GelSight --margin mae=-1",
+        2,
+        "expected METRIC[.CHANNEL]=NUMBER",
+    );
+}
+
+#[test]
+fn a_unit_that_breaks_a_limit_is_not_accepted() {
+    let bench = Bench::new();
+    bench.write(
+        "t.csv",
+        "id,point_id,Fz\n1,a,0.1\n2,b,0.2\n3,c,0.3\n4,d,0.4\n5,e,0.5\n6,f,0.6\n",
+    );
+    bench.write(
+        "p.csv",
+        "id,Fz\n1,0.11\n2,0.21\n3,0.32\n4,0.41\n5,0.52\n6,0.61\n",
+    );
+    bench.ok("score --truth t.csv --pred p.csv --metrics mae,r2 --format json --out r.json --html r.html -q");
+    let limit = |most: f64| {
+        format!(
+            "limits_version = 1\n[[limit]]\nmetric = \"mae\"\nchannel = \"Fz\"\nunit = \"N\"\nmost = {most}\n"
+        )
+    };
+    bench.write("wide.toml", &limit(0.05));
+    bench.write("narrow.toml", &limit(0.001));
+    let accepted = bench.json("accept r.json --limits wide.toml --html sheet.html");
+    schema::check("acceptance", &accepted);
+    assert_eq!(accepted["passed"], true);
+    assert!(
+        fs::read_to_string(bench.path("sheet.html"))
+            .expect("there")
+            .contains("PASS: every limit is kept.")
+    );
+    assert_eq!(bench.run("accept r.json --limits narrow.toml").code, 1);
+    bench.write("odd.toml", "limits_version = 1\n[[limit]]\nmetric = \"mae\"\nchannel = \"Fz\"\nunit = \"stone\"\nmost = 1\n");
+    bench.refused(
+        "accept r.json --limits odd.toml",
+        3,
+        "limit 1: unit `stone`",
+    );
+    bench.write("old.json", "{\"schema\": \"taceva.evaluation/0\"}");
+    bench.refused(
+        "accept old.json --limits wide.toml",
+        3,
+        "schema `taceva.evaluation/0`: expected `taceva.evaluation/1`",
+    );
+    bench.refused(
+        "accept r.json --limits wide.toml --html r.html",
+        3,
+        "exists already",
+    );
+}
