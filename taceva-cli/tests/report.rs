@@ -80,7 +80,7 @@ fn json(text: &str) -> Value {
 #[test]
 fn predictions_of_the_same_samples_are_compared_one_by_one() {
     let bench = Bench::new();
-    bench.record("data", 16);
+    bench.record("data", 40);
     for (model, name) in [("ridge", "a"), ("baseline", "b")] {
         let out = format!("--format json --out {name}.json --samples-out {name}.samples.csv");
         bench.ok(&format!("evaluate data --model {model} --split random --part all {out} --html {name}.html --figures {name} -q"));
