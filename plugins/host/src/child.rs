@@ -40,3 +40,4 @@ pub use quarantine::{Quarantine, Quarantined};
 pub use sandbox::{Confinement, Isolation};
 pub use session::ChildSession;
 pub use start::{Child, ChildSpec};
+pub use wire::read_any_message;

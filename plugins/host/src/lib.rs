@@ -23,6 +23,10 @@ pub use child::{
     CHILD_ARGUMENT, Child, ChildError, ChildSession, ChildSpec, Confinement, Fate, Isolation,
     Patience, Quarantine, Quarantined, main_if_child, main_if_child_with,
 };
+// For the fuzzer alone.
+#[cfg(target_os = "linux")]
+#[doc(hidden)]
+pub use child::read_any_message;
 pub use config::{ConfigError, Delivery, PluginConfig};
 pub use device::{LentFrame, PluginSensor};
 pub use host::{Children, PluginDriver, PluginHost, PluginLog};

@@ -3,11 +3,13 @@
 //! A message is one packet of at most [`MESSAGE_MAX`] bytes. Reading never panics, allocates no more than the packet is long, and refuses a
 //! message that is not read to its end.
 
+mod any;
 mod describe;
 mod message;
 mod model;
 mod value;
 
+pub use any::read_any_message;
 pub(crate) use message::{
     Answer, BenchAnswer, BenchCall, Call, Failure, Greeting, Hello, OpenedDevice, Order,
     OrderAnswer, Urgent,

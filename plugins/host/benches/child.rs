@@ -1,0 +1,114 @@
+//! A frame of 640×480×3 through a child, beside the copy of as many bytes: `cargo bench -p taceva-host --bench child`.
+
+#[path = "../tests/support/built_in.rs"]
+mod built_in;
+
+use std::collections::BTreeMap;
+use std::process::ExitCode;
+use std::sync::Arc;
+use std::time::Duration;
+
+use built_in::BuiltIn;
+use divan::{Bencher, black_box};
+use taceva_core::{
+    ArgSpec, Args, Deadline, Descriptor, DescriptorSpec, DriverError, DriverKey, DriverSource,
+    ErrorKind, Factory, Facts, FrameInfo, FrameMut, PixelFormat, Rig, Sensor, SensorFacts, Stamp,
+};
+use taceva_host::{ChildSession, ChildSpec, Session, main_if_child_with};
+
+fn main() -> ExitCode {
+    main_if_child_with(|_| match served() {
+        Ok(session) => Ok(Arc::new(session)),
+        Err(error) => Err((ErrorKind::Internal, error.to_string())),
+    });
+    divan::main();
+    ExitCode::SUCCESS
+}
+
+const KEY: DriverKey = DriverKey::fixed("bench/camera");
+const FRAME: FrameInfo = FrameInfo {
+    width: 640,
+    height: 480,
+    format: PixelFormat::Rgb8,
+};
+const BYTES: usize = 640 * 480 * 3;
+const LONG: Deadline = Deadline::after(Duration::from_secs(10));
+
+fn served() -> Result<BuiltIn, taceva_core::RegistryError> {
+    let mut served = BuiltIn::new()?;
+    let facts = SensorFacts {
+        frame: Some(FRAME),
+        ..SensorFacts::default()
+    };
+    let facts = Facts::Sensor(Box::new(facts));
+    let descriptor = DescriptorSpec::new(KEY, "a camera", DriverSource::Simulated, facts)
+        .arguments(arguments())
+        .check()?;
+    served.sensors.add(Box::new(Cameras(descriptor)))?;
+    Ok(served)
+}
+
+fn arguments() -> Vec<ArgSpec> {
+    vec![ArgSpec::flag("writes")]
+}
+
+struct Cameras(Descriptor);
+
+impl Factory<dyn Sensor> for Cameras {
+    fn descriptor(&self) -> &Descriptor {
+        &self.0
+    }
+
+    fn open(&self, args: &Args, _: &mut Rig) -> Result<Box<dyn Sensor>, DriverError> {
+        Ok(Box::new(Camera {
+            picture: args.flag("writes").then(|| vec![7; BYTES]),
+        }))
+    }
+}
+
+/// Copies its one picture into every frame, or leaves the frame as it is: what is measured then is the way alone.
+struct Camera {
+    picture: Option<Vec<u8>>,
+}
+
+impl Sensor for Camera {
+    fn frame_info(&self) -> FrameInfo {
+        FRAME
+    }
+
+    fn capture(&mut self, mut into: FrameMut<'_>, _: Deadline) -> Result<Stamp, DriverError> {
+        if let Some(picture) = &self.picture {
+            into.bytes_mut().copy_from_slice(picture);
+        }
+        Ok(Stamp::at(Duration::from_secs(1)))
+    }
+}
+
+fn capture_through_a_child(bencher: Bencher<'_, '_>, writes: &str) {
+    let arguments = BTreeMap::from([(KEY, arguments())]);
+    let args = Args::parse(&arguments[&KEY], writes).expect("sound");
+    let spec = ChildSpec::new("bench", Vec::new());
+    let session = ChildSession::start(spec, DriverKey::fixed("bench"), arguments).expect("a child");
+    let mut camera = session.sensor(&KEY, &args).expect("a camera");
+    let mut bytes = vec![0; BYTES];
+    bencher.bench_local(|| {
+        let into = FrameMut::new(FRAME, &mut bytes).expect("fits");
+        camera.capture(into, LONG).expect("a frame")
+    });
+}
+
+#[divan::bench]
+fn copy(bencher: Bencher<'_, '_>) {
+    let (from, mut into) = (vec![7_u8; BYTES], vec![0_u8; BYTES]);
+    bencher.bench_local(|| black_box(&mut into).copy_from_slice(black_box(&from)));
+}
+
+#[divan::bench]
+fn child(bencher: Bencher<'_, '_>) {
+    capture_through_a_child(bencher, "writes=false");
+}
+
+#[divan::bench]
+fn child_that_writes_each_frame(bencher: Bencher<'_, '_>) {
+    capture_through_a_child(bencher, "writes=true");
+}

@@ -1,0 +1,7 @@
+//! Any bytes as what a host and its child say to each other: `cargo +nightly fuzz run message`.
+
+#![no_main]
+
+libfuzzer_sys::fuzz_target!(|bytes: &[u8]| {
+    taceva_host::read_any_message(bytes);
+});
