@@ -21,5 +21,5 @@ pub use estimator::{EstimatorFactory, FitRequest};
 pub use export::{Export, plugin};
 pub use host::{log, now};
 pub use interruption::{HaltLatch, Interrupted, InterruptibleCall, Interruption};
-pub use table::provides_table;
+pub use table::{estimator_table, provides_table};
 pub use taceva_abi::{self as abi, Level};

@@ -7,6 +7,8 @@ use taceva_core::{
     RobotFacts, SensorFacts,
 };
 
+use crate::EstimatorFactory;
+
 /// What a manifest says below `[[provides]]`: TOML, with `[[args]]` where the manifest has `[[provides.args]]`.
 ///
 /// The key is the last word of the driver's: a plugin `org.example.digit` provides `org.example.digit/finger` as `finger`.
@@ -42,9 +44,9 @@ pub fn provides_table(descriptor: &Descriptor) -> String {
 }
 
 /// The same for an estimator.
-pub(crate) fn estimator_table(key: &str, title: &str, settings: &[ArgSpec]) -> String {
-    let mut table = Table::new("estimator", key, title);
-    table.arguments(settings);
+pub fn estimator_table(estimator: &dyn EstimatorFactory) -> String {
+    let mut table = Table::new("estimator", estimator.key().as_str(), estimator.title());
+    table.arguments(estimator.settings());
     table.text
 }
 
@@ -301,10 +303,7 @@ mod tests {
             ArgSpec::choice("pace", ["virtual", "real"]),
             ArgSpec::path("table").optional(),
         ];
-        let expected = r#"kind = "estimator"
-key = "forest"
-title = "a forest"
-
+        let expected = r#"
 [[args]]
 key = "seed"
 type = "whole"
@@ -329,9 +328,10 @@ key = "table"
 type = "path"
 optional = true
 "#;
-        assert_eq!(
-            estimator_table("org.example/forest", "a forest", &settings),
-            expected
-        );
+        let mut table = Table {
+            text: String::new(),
+        };
+        table.arguments(&settings);
+        assert_eq!(table.text, expected);
     }
 }

@@ -65,11 +65,7 @@ unsafe extern "C" fn describe(
 ) -> Status {
     let work = || {
         let estimator = estimator(number)?;
-        let table = estimator_table(
-            estimator.key().as_str(),
-            estimator.title(),
-            estimator.settings(),
-        );
+        let table = estimator_table(estimator);
         // SAFETY: the host's own function with its own context.
         unsafe { memory::hand(take, context, &table) }
     };

@@ -1,0 +1,81 @@
+//! What a plugin can be begun as.
+
+use std::fmt;
+
+/// The kind of the one driver or estimator that a new plugin provides.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// Gives pictures of a gel.
+    Sensor,
+    /// Moves the indenter.
+    Robot,
+    /// Measures how hard it presses.
+    Force,
+    /// Sets the light around the sensor.
+    Lighting,
+    /// Learns to read the pictures.
+    Estimator,
+}
+
+/// The files that differ from kind to kind.
+pub(crate) struct Files {
+    pub(crate) library: &'static str,
+    pub(crate) driver: &'static str,
+    pub(crate) provides: &'static str,
+}
+
+macro_rules! files {
+    ($kind:literal) => {
+        Files {
+            library: include_str!(concat!("../project/", $kind, "/lib.rs.in")),
+            driver: include_str!(concat!("../project/", $kind, "/", $kind, ".rs.in")),
+            provides: include_str!(concat!("../project/", $kind, "/provides.toml.in")),
+        }
+    };
+}
+
+impl Kind {
+    /// Every kind.
+    pub const ALL: [Kind; 5] = [
+        Kind::Sensor,
+        Kind::Robot,
+        Kind::Force,
+        Kind::Lighting,
+        Kind::Estimator,
+    ];
+
+    /// How the kind is written in manifests.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Kind::Sensor => "sensor",
+            Kind::Robot => "robot",
+            Kind::Force => "force",
+            Kind::Lighting => "lighting",
+            Kind::Estimator => "estimator",
+        }
+    }
+
+    /// What people call it.
+    pub(crate) const fn noun(self) -> &'static str {
+        match self {
+            Kind::Force => "force transducer",
+            other => other.name(),
+        }
+    }
+
+    pub(crate) const fn files(self) -> Files {
+        match self {
+            Kind::Sensor => files!("sensor"),
+            Kind::Robot => files!("robot"),
+            Kind::Force => files!("force"),
+            Kind::Lighting => files!("lighting"),
+            Kind::Estimator => files!("estimator"),
+        }
+    }
+}
+
+impl fmt::Display for Kind {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}

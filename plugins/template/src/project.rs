@@ -1,0 +1,126 @@
+//! A new plugin as files.
+
+use crate::kind::Kind;
+use crate::name::Name;
+
+/// The sources of the crates that a plugin in Rust is built from: `taceva-core/src/lib.rs` and its text.
+const SOURCES: &[(&str, &str)] = include!(concat!(env!("OUT_DIR"), "/sources.rs"));
+
+/// Their manifests, in which nothing is left to a workspace.
+const MANIFESTS: [(&str, &str); 3] = [
+    ("taceva-core", include_str!("../vendor/taceva-core.toml.in")),
+    ("taceva-abi", include_str!("../vendor/taceva-abi.toml.in")),
+    (
+        "taceva-plugin",
+        include_str!("../vendor/taceva-plugin.toml.in"),
+    ),
+];
+
+/// The version of this program, and of the crates that it embeds.
+const VERSION: &str = env!("CARGO_PKG_VERSION");
+
+/// Where the crates come from that a plugin is built from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Sources {
+    /// From this program, under `vendor/`: it builds without a network, against what this program knows.
+    Vendored,
+    /// From the registry, by version.
+    Registry,
+}
+
+/// A file of a project.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct File {
+    /// Where, below the folder of the project, with `/` between its parts.
+    pub path: String,
+    /// What is in it.
+    pub text: String,
+}
+
+/// The files of a new plugin with one driver of `kind`.
+pub fn project(kind: Kind, name: &Name, sources: Sources) -> Vec<File> {
+    let of_kind = kind.files();
+    let fill = |text: &str| {
+        text.replace("@name@", name.as_str())
+            .replace("@crate@", &name.as_crate())
+            .replace("@kind@.rs", &format!("{}.rs", kind.name()))
+            .replace("@kind@", kind.noun())
+            .replace("@dependencies@", dependencies(sources))
+            .replace("@version@", VERSION)
+    };
+    let file = |path: &str, text: &str| File {
+        path: path.to_owned(),
+        text: fill(text),
+    };
+    let manifest = [include_str!("../project/plugin.toml.in"), of_kind.provides].concat();
+    let mut files = vec![
+        file("Cargo.toml", include_str!("../project/Cargo.toml.in")),
+        file("README.md", include_str!("../project/README.md.in")),
+        file(".gitignore", include_str!("../project/gitignore.in")),
+        file("plugin.toml", &manifest),
+        file("src/lib.rs", of_kind.library),
+        file(&format!("src/{kind}.rs"), of_kind.driver),
+    ];
+    if sources == Sources::Vendored {
+        files.extend(vendored());
+    }
+    files
+}
+
+fn dependencies(sources: Sources) -> &'static str {
+    match sources {
+        Sources::Vendored => {
+            "taceva-core = { path = \"vendor/taceva-core\" }\ntaceva-plugin = { path = \"vendor/taceva-plugin\" }\n"
+        }
+        Sources::Registry => "taceva-core = \"@version@\"\ntaceva-plugin = \"@version@\"\n",
+    }
+}
+
+fn vendored() -> impl Iterator<Item = File> {
+    let manifests = MANIFESTS.iter().map(|(name, text)| File {
+        path: format!("vendor/{name}/Cargo.toml"),
+        text: text.replace("@version@", VERSION),
+    });
+    let sources = SOURCES.iter().map(|(path, text)| File {
+        path: format!("vendor/{path}"),
+        text: (*text).to_owned(),
+    });
+    manifests.chain(sources)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn nothing_is_left_to_be_filled_in() {
+        let name: Name = "my-device".parse().expect("a name");
+        for kind in Kind::ALL {
+            for sources in [Sources::Vendored, Sources::Registry] {
+                for file in project(kind, &name, sources) {
+                    let is_foreign = file.path.starts_with("vendor/");
+                    assert!(is_foreign || !file.text.contains('@'), "{}", file.path);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn what_the_crates_are_made_of_is_embedded_whole() {
+        let files: Vec<File> = vendored().collect();
+        for path in [
+            "vendor/taceva-core/src/lib.rs",
+            "vendor/taceva-core/src/driver/robot.rs",
+            "vendor/taceva-core/README.md",
+            "vendor/taceva-abi/src/ext/bench.rs",
+            "vendor/taceva-plugin/src/guard.rs",
+            "vendor/taceva-plugin/Cargo.toml",
+        ] {
+            assert!(files.iter().any(|file| file.path == path), "{path}");
+        }
+        let manifests = files.iter().filter(|file| file.path.ends_with(".toml"));
+        for manifest in manifests {
+            assert!(!manifest.text.contains("workspace"), "{}", manifest.path);
+        }
+    }
+}
