@@ -1,4 +1,4 @@
-//! Lists the sources of the crates that a plugin in Rust is built from, so that they can be embedded.
+//! Lists the sources of the crates that a plugin in Rust is built from, and the headers for one in C, so that they can be embedded.
 
 use std::env;
 use std::fmt::Write as _;
@@ -16,28 +16,35 @@ const CRATES: [(&str, &str); 3] = [
 fn main() -> io::Result<()> {
     let here = PathBuf::from(env::var_os("CARGO_MANIFEST_DIR").ok_or(io::ErrorKind::NotFound)?);
     let out = PathBuf::from(env::var_os("OUT_DIR").ok_or(io::ErrorKind::NotFound)?);
-    let mut list = String::from("&[\n");
+    let mut sources = String::new();
     for (name, folder) in CRATES {
         let folder = here.join(folder).canonicalize()?;
         let mut files = vec![folder.join("README.md")];
         walk(&folder.join("src"), &mut files)?;
-        files.sort();
-        for file in files {
-            let below = file.strip_prefix(&folder).map_err(io::Error::other)?;
-            let below = below
-                .to_str()
-                .ok_or(io::ErrorKind::InvalidData)?
-                .replace('\\', "/");
-            let place = format!("{name}/{below}");
-            writeln!(list, "    ({place:?}, include_str!({file:?})),").map_err(io::Error::other)?;
-        }
+        list(name, &folder, files, &mut sources)?;
     }
-    list.push_str("]\n");
-    fs::write(out.join("sources.rs"), list)
+    fs::write(out.join("sources.rs"), format!("&[\n{sources}]\n"))?;
+
+    let folder = here.join("../abi/include").canonicalize()?;
+    let (mut files, mut headers) = (Vec::new(), String::new());
+    walk(&folder, &mut files)?;
+    list("include", &folder, files, &mut headers)?;
+    fs::write(out.join("headers.rs"), format!("&[\n{headers}]\n"))
+}
+
+/// Writes a line a file: where it goes, and what is in it.
+fn list(name: &str, folder: &Path, mut files: Vec<PathBuf>, into: &mut String) -> io::Result<()> {
+    files.sort();
+    for file in files {
+        let below = file.strip_prefix(folder).map_err(io::Error::other)?;
+        let below = below.to_str().ok_or(io::ErrorKind::InvalidData)?;
+        let place = format!("{name}/{}", below.replace('\\', "/"));
+        writeln!(into, "    ({place:?}, include_str!({file:?})),").map_err(io::Error::other)?;
+    }
+    Ok(())
 }
 
 /// The files below `folder`; cargo runs this again when one is added.
-#[expect(clippy::print_stdout, reason = "so a build script speaks to cargo")]
 fn walk(folder: &Path, files: &mut Vec<PathBuf>) -> io::Result<()> {
     println!("cargo::rerun-if-changed={}", folder.display());
     for entry in fs::read_dir(folder)? {

@@ -11,7 +11,9 @@ use std::path::PathBuf;
 use clap::{ArgGroup, Args, Parser, Subcommand};
 
 pub(crate) use self::bench::{Bench, BenchKernels, BenchSubject};
-pub(crate) use self::plugin::{Plugin, PluginArgs, PluginInfo, PluginList};
+pub(crate) use self::plugin::{
+    Plugin, PluginArgs, PluginHeaders, PluginInfo, PluginList, PluginNew,
+};
 pub(crate) use self::results::{
     Accept, CatalogueArgs, CatalogueShow, CatalogueSite, CatalogueSubject, Choose, Compare,
 };
@@ -88,7 +90,7 @@ pub(crate) enum Command {
     Plan(PlanArgs),
     /// List every driver, what it can do and what it may be told, and the devices that are present
     Devices(Listing),
-    /// List plugins, or look at one closely
+    /// List plugins, look at one closely, or begin one
     #[command(subcommand)]
     Plugin(Plugin),
     /// Look at this machine: what a rig could use, what stands in the way, and what to do about it

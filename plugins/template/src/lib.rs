@@ -6,4 +6,4 @@ mod project;
 
 pub use kind::Kind;
 pub use name::{Name, NameError};
-pub use project::{File, Sources, project};
+pub use project::{File, Sources, headers, project};

@@ -16,6 +16,9 @@ const MANIFESTS: [(&str, &str); 3] = [
     ),
 ];
 
+/// The headers for plugins in C and C++: `include/taceva/plugin.h` and its text.
+const HEADERS: &[(&str, &str)] = include!(concat!(env!("OUT_DIR"), "/headers.rs"));
+
 /// The version of this program, and of the crates that it embeds.
 const VERSION: &str = env!("CARGO_PKG_VERSION");
 
@@ -65,6 +68,15 @@ pub fn project(kind: Kind, name: &Name, sources: Sources) -> Vec<File> {
         files.extend(vendored());
     }
     files
+}
+
+/// The headers for plugins in C and C++, below `include/`.
+pub fn headers() -> Vec<File> {
+    let headers = HEADERS.iter().map(|(path, text)| File {
+        path: (*path).to_owned(),
+        text: (*text).to_owned(),
+    });
+    headers.collect()
 }
 
 fn dependencies(sources: Sources) -> &'static str {
@@ -118,6 +130,11 @@ mod tests {
         ] {
             assert!(files.iter().any(|file| file.path == path), "{path}");
         }
+        assert!(
+            headers()
+                .iter()
+                .any(|file| file.path == "include/taceva/ext/tare.h")
+        );
         let manifests = files.iter().filter(|file| file.path.ends_with(".toml"));
         for manifest in manifests {
             assert!(!manifest.text.contains("workspace"), "{}", manifest.path);

@@ -2,8 +2,9 @@
 
 use std::path::PathBuf;
 
-use clap::{Args, Subcommand};
+use clap::{Args, Subcommand, ValueEnum};
 use taceva_host::PluginId;
+use taceva_template::{Kind, Name};
 
 use super::Listing;
 
@@ -25,6 +26,10 @@ pub(crate) enum Plugin {
     List(PluginList),
     /// Say everything that the manifest of a plugin says; no code of it runs
     Info(PluginInfo),
+    /// Begin a plugin in Rust: a project that builds as it is, with one driver to be made one's own
+    New(PluginNew),
+    /// Write the headers for plugins in C and C++
+    Headers(PluginHeaders),
 }
 
 #[derive(Debug, Args)]
@@ -42,4 +47,44 @@ pub(crate) struct PluginInfo {
     pub(crate) id: String,
     #[command(flatten)]
     pub(crate) listing: Listing,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct PluginNew {
+    /// What the plugin provides
+    pub(crate) kind: NewKind,
+    /// What it is called: lower-case letters, digits and `-`; a folder of that name is made here
+    pub(crate) name: Name,
+    /// Take the crates that it is built from out of the registry, by version, in the place of copies under vendor/
+    #[arg(long)]
+    pub(crate) registry: bool,
+}
+
+/// What a plugin can be begun as.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub(crate) enum NewKind {
+    Sensor,
+    Robot,
+    Force,
+    Lighting,
+    Estimator,
+}
+
+impl From<NewKind> for Kind {
+    fn from(kind: NewKind) -> Kind {
+        match kind {
+            NewKind::Sensor => Kind::Sensor,
+            NewKind::Robot => Kind::Robot,
+            NewKind::Force => Kind::Force,
+            NewKind::Lighting => Kind::Lighting,
+            NewKind::Estimator => Kind::Estimator,
+        }
+    }
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct PluginHeaders {
+    /// The folder to make
+    #[arg(value_name = "DIR", default_value = "include")]
+    pub(crate) to: PathBuf,
 }

@@ -1,5 +1,7 @@
 //! `taceva plugin`.
 
+mod new;
+
 use super::Context;
 use crate::args::{Plugin, PluginInfo, PluginList};
 use crate::{exit, output, report};
@@ -8,6 +10,8 @@ pub(crate) fn run(which: &Plugin, context: &Context) -> anyhow::Result<u8> {
     match which {
         Plugin::List(args) => list(args, context),
         Plugin::Info(args) => info(args, context),
+        Plugin::New(args) => new::project(args, context),
+        Plugin::Headers(args) => new::headers(args, context),
     }
 }
 

@@ -1,0 +1,62 @@
+//! `taceva plugin new` and `taceva plugin headers`: folders that begin a plugin.
+
+use std::fs;
+use std::io;
+use std::path::Path;
+
+use anyhow::{Context as _, bail};
+use taceva_template::{File, Sources};
+
+use crate::args::{PluginHeaders, PluginNew};
+use crate::cmd::Context;
+use crate::exit;
+
+pub(super) fn project(args: &PluginNew, context: &Context) -> anyhow::Result<u8> {
+    let sources = if args.registry {
+        Sources::Registry
+    } else {
+        Sources::Vendored
+    };
+    let files = taceva_template::project(args.kind.into(), &args.name, sources);
+    let folder = Path::new(args.name.as_str());
+    write_folder(folder, "", &files)?;
+    context.say(format_args!(
+        "{}: build it with `cargo build --release`, then `taceva devices --plugin-dir {}`",
+        folder.display(),
+        folder.display()
+    ));
+    Ok(exit::DONE)
+}
+
+pub(super) fn headers(args: &PluginHeaders, context: &Context) -> anyhow::Result<u8> {
+    write_folder(&args.to, "include/", &taceva_template::headers())?;
+    context.say(format_args!("{}: for `cc -I`", args.to.display()));
+    Ok(exit::DONE)
+}
+
+/// Makes `folder` with `files`, whose paths begin with `above`: beside its place first, so that it is absent or whole.
+fn write_folder(folder: &Path, above: &str, files: &[File]) -> anyhow::Result<()> {
+    if folder.symlink_metadata().is_ok() {
+        bail!("{} exists already", folder.display());
+    }
+    let name = folder
+        .file_name()
+        .with_context(|| format!("{} names no folder", folder.display()))?;
+    let partial = format!(".{}.{}.partial", name.display(), std::process::id());
+    let beside = folder.with_file_name(partial);
+    let written = write_files(&beside, above, files).and_then(|()| fs::rename(&beside, folder));
+    if written.is_err() {
+        // The error that counts is the one reported below.
+        drop(fs::remove_dir_all(&beside));
+    }
+    written.with_context(|| format!("cannot write {}", folder.display()))
+}
+
+fn write_files(folder: &Path, above: &str, files: &[File]) -> io::Result<()> {
+    for file in files {
+        let path = folder.join(file.path.strip_prefix(above).unwrap_or(&file.path));
+        fs::create_dir_all(path.parent().unwrap_or(folder))?;
+        fs::write(path, &file.text)?;
+    }
+    Ok(())
+}
