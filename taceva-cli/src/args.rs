@@ -12,7 +12,7 @@ use clap::{ArgGroup, Args, Parser, Subcommand};
 
 pub(crate) use self::bench::{Bench, BenchKernels, BenchSubject};
 pub(crate) use self::plugin::{
-    Plugin, PluginArgs, PluginHeaders, PluginInfo, PluginList, PluginNew,
+    Plugin, PluginArgs, PluginCheck, PluginHeaders, PluginInfo, PluginList, PluginNew,
 };
 pub(crate) use self::results::{
     Accept, CatalogueArgs, CatalogueShow, CatalogueSite, CatalogueSubject, Choose, Compare,
@@ -90,7 +90,7 @@ pub(crate) enum Command {
     Plan(PlanArgs),
     /// List every driver, what it can do and what it may be told, and the devices that are present
     Devices(Listing),
-    /// List plugins, look at one closely, or begin one
+    /// List plugins, look at one closely, check whether it keeps its promises, or begin one
     #[command(subcommand)]
     Plugin(Plugin),
     /// Look at this machine: what a rig could use, what stands in the way, and what to do about it

@@ -14,6 +14,7 @@ mod number;
 pub(crate) mod page;
 pub(crate) mod plan;
 pub(crate) mod plugin;
+pub(crate) mod plugin_check;
 mod profile;
 mod text;
 mod thumbnail;

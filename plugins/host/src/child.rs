@@ -29,7 +29,7 @@ mod serve;
 mod session;
 mod socket;
 mod start;
-mod wire;
+pub(crate) mod wire;
 
 pub use error::ChildError;
 pub use fate::Fate;

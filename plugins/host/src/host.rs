@@ -90,6 +90,11 @@ impl PluginHost {
         &self.config
     }
 
+    /// Where plugins run that are not trusted.
+    pub(crate) fn children(&self) -> &Children {
+        &self.children
+    }
+
     /// The drivers of kind `D` of every plugin, by key.
     pub fn drivers<D>(self: &Arc<PluginHost>) -> Vec<Box<dyn Factory<D>>>
     where

@@ -2,6 +2,8 @@
 
 mod call;
 #[cfg(target_os = "linux")]
+mod check;
+#[cfg(target_os = "linux")]
 mod child;
 mod config;
 mod descriptor;
@@ -18,6 +20,8 @@ mod shown;
 mod usb;
 
 pub use call::Failure;
+#[cfg(target_os = "linux")]
+pub use check::{Check, CheckOutcome, CheckRequest, CheckResult, checks};
 #[cfg(target_os = "linux")]
 pub use child::{
     CHILD_ARGUMENT, Child, ChildError, ChildSession, ChildSpec, Confinement, Fate, Isolation,

@@ -123,6 +123,11 @@ impl Library {
         })
     }
 
+    /// The entry of `key`, whatever it is.
+    pub(crate) fn any(&self, key: &DriverKey) -> Option<&Entry> {
+        self.entries.get(key)
+    }
+
     pub(crate) fn plugin(&self) -> &abi::Plugin {
         &self.plugin
     }

@@ -30,6 +30,8 @@ pub(crate) enum Plugin {
     New(PluginNew),
     /// Write the headers for plugins in C and C++
     Headers(PluginHeaders),
+    /// Check whether a plugin keeps its promises, each check in a confined process with a time limit
+    Check(PluginCheck),
 }
 
 #[derive(Debug, Args)]
@@ -87,4 +89,26 @@ pub(crate) struct PluginHeaders {
     /// The folder to make
     #[arg(value_name = "DIR", default_value = "include")]
     pub(crate) to: PathBuf,
+/// Exit code 1 if a check fails.
+#[derive(Debug, Args)]
+pub(crate) struct PluginCheck {
+    /// The id of the plugin
+    pub(crate) id: String,
+    /// What everything is drawn from: the same seed makes the same checks
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    pub(crate) seed: u64,
+    /// Make the checks whose names begin so, separated by commas
+    #[arg(long, value_name = "NAMES", value_delimiter = ',')]
+    pub(crate) only: Vec<String>,
+    /// What a driver is opened with, as DRIVER:KEY=VALUE;KEY=VALUE; may be repeated
+    #[arg(long = "with", value_name = "DRIVER:ARGUMENTS")]
+    pub(crate) arguments: Vec<String>,
+    /// Let robots be moved that are no simulations: by up to 1 mm away from the gel, and back
+    #[arg(long = "move")]
+    pub(crate) moves: bool,
+    /// How long a check may take, in seconds
+    #[arg(long, value_name = "SECONDS", default_value_t = 60)]
+    pub(crate) limit: u64,
+    #[command(flatten)]
+    pub(crate) listing: Listing,
 }

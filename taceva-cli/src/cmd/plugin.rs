@@ -1,5 +1,6 @@
 //! `taceva plugin`.
 
+mod check;
 mod new;
 
 use super::Context;
@@ -12,6 +13,7 @@ pub(crate) fn run(which: &Plugin, context: &Context) -> anyhow::Result<u8> {
         Plugin::Info(args) => info(args, context),
         Plugin::New(args) => new::project(args, context),
         Plugin::Headers(args) => new::headers(args, context),
+        Plugin::Check(args) => check::run(args, context),
     }
 }
 

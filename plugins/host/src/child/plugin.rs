@@ -92,14 +92,19 @@ pub fn main_if_child() {
 /// The plugin that `files` are, loaded.
 fn load(files: Vec<File>) -> Result<Arc<dyn Session>, (ErrorKind, String)> {
     let broken = |why: &str| (ErrorKind::Abi, format!("its host gave it {why}"));
-    let [library, label] =
-        <[File; 2]>::try_from(files).map_err(|_| broken("something else than two files"))?;
+    let mut files = files.into_iter();
+    let (Some(library), Some(label), probe) = (files.next(), files.next(), files.next()) else {
+        return Err(broken("less than two files"));
+    };
     let label = read(label).map_err(|error| broken(&error.to_string()))?;
     let digest = Sha256Digest::from_hex(&label.digest).ok_or_else(|| broken("no digest"))?;
     let manifest = Manifest::parse(&label.manifest)
         .map_err(|error| (ErrorKind::Protocol, error.to_string()))?;
     let path = PathBuf::from(OsString::from_vec(label.path));
     let image = Image::from_sealed(library.into(), digest, path);
+    if let Some(probe) = probe {
+        return Ok(Arc::new(crate::check::run(probe, &image, &manifest)?));
+    }
     let library = Library::load(&image, &manifest, Box::new(log))
         .map_err(|error| (error.problem().kind(), error.to_string()))?;
     let session = InProcess::open(&library).map_err(|error| (error.kind(), error.to_string()))?;

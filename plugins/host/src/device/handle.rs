@@ -138,6 +138,15 @@ impl Handle {
         (*is_open && !self.is_dead.load(Ordering::Acquire)).then(|| run(self.raw))
     }
 
+    /// Whether the device has a table under `id`.
+    pub(crate) fn extension_is_there(&self, id: &str) -> bool {
+        self.calls.extension.is_some_and(|extension| {
+            // SAFETY: [owner & open]: only the owner asks.
+            let found = unsafe { extension(self.raw, abi::Text::from(id)) };
+            !found.is_null()
+        })
+    }
+
     /// The table of an ability, where the device has it.
     pub(crate) fn extension<T: Table>(
         &self,

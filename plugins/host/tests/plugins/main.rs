@@ -1,5 +1,7 @@
 //! A plugin in C, built here in many ways: right ones give devices, wrong ones a message that says what is wrong.
 
+#[cfg(target_os = "linux")]
+mod check;
 mod devices;
 mod estimator;
 mod fixture;

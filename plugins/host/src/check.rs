@@ -1,0 +1,250 @@
+//! Whether a plugin keeps its promises: many small checks, each in a confined process of its own with a time limit.
+//!
+//! A check runs beside the plugin, in the child, and calls the functions of its tables as a host would, and as no host should. Whatever it
+//! does to its process, the others go on.
+
+mod driver;
+mod estimator;
+mod force;
+mod library;
+mod lighting;
+mod probe;
+mod robot;
+mod sensor;
+mod subject;
+
+use std::collections::BTreeMap;
+use std::os::fd::OwnedFd;
+use std::time::{Duration, Instant};
+
+use serde::Serialize;
+use taceva_core::{DriverError, DriverKey, DriverKind, ErrorKind};
+
+use self::probe::Probe;
+pub(crate) use self::probe::run;
+use self::subject::{Ending, Subject};
+use crate::child::{Child, ChildError, ChildSpec};
+use crate::host::PluginHost;
+use crate::library::Image;
+use crate::manifest::Provided;
+use crate::search::Plugin;
+
+/// One thing that a plugin promises.
+#[derive(Clone, Copy)]
+pub struct Check {
+    /// Its name: the group, and what holds.
+    pub name: &'static str,
+    /// What it is about.
+    pub(crate) of: Of,
+    pub(crate) run: fn(&Subject) -> Result<(), Ending>,
+}
+
+/// What a check is about.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Of {
+    /// The library as a whole.
+    Plugin,
+    /// Each driver.
+    Driver,
+    /// Each driver of a kind.
+    Kind(DriverKind),
+    /// Each estimator.
+    Estimator,
+}
+
+impl std::fmt::Debug for Check {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(self.name)
+    }
+}
+
+/// Every check, group by group.
+pub fn checks() -> impl Iterator<Item = &'static Check> {
+    [
+        library::CHECKS,
+        driver::CHECKS,
+        sensor::CHECKS,
+        robot::CHECKS,
+        force::CHECKS,
+        lighting::CHECKS,
+        estimator::CHECKS,
+    ]
+    .into_iter()
+    .flatten()
+}
+
+/// How a plugin is checked.
+#[derive(Clone, Debug)]
+pub struct CheckRequest {
+    /// What everything is drawn from.
+    pub seed: u64,
+    /// The checks whose names begin with one of these; all, where there is none.
+    pub only: Vec<String>,
+    /// What drivers are opened with, by key; those that are not named by what they declare.
+    pub arguments: BTreeMap<DriverKey, String>,
+    /// Whether robots that are no simulations may be moved.
+    pub moves: bool,
+    /// How long one check may take.
+    pub limit: Duration,
+}
+
+impl Default for CheckRequest {
+    fn default() -> CheckRequest {
+        CheckRequest {
+            seed: 0,
+            only: Vec::new(),
+            arguments: BTreeMap::new(),
+            moves: false,
+            limit: Duration::from_secs(60),
+        }
+    }
+}
+
+/// How a check ended.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[serde(tag = "outcome", content = "why", rename_all = "lowercase")]
+pub enum CheckOutcome {
+    /// The promise holds.
+    Passed,
+    /// It does not, for this reason.
+    Failed(String),
+    /// It could not be looked at, for this reason.
+    Skipped(String),
+}
+
+/// A check that was made.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct CheckResult {
+    /// Its name.
+    pub check: &'static str,
+    /// The driver or estimator that was looked at; the plugin as a whole without.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub subject: Option<String>,
+    /// How it ended.
+    #[serde(flatten)]
+    pub outcome: CheckOutcome,
+    /// How long it took, in seconds.
+    pub took_s: f64,
+}
+
+impl PluginHost {
+    /// Makes the checks of `request` on `plugin`, and tells of each once it is made.
+    ///
+    /// # Errors
+    /// [`DriverError`] if its library cannot even be read.
+    pub fn check(
+        &self,
+        plugin: &Plugin,
+        request: &CheckRequest,
+        tell: &mut dyn FnMut(CheckResult),
+    ) -> Result<(), DriverError> {
+        let whole = plugin.id().as_driver();
+        let image = Image::read(&plugin.folder, &plugin.library)
+            .map_err(|error| error.of_driver(&whole))?;
+        let is_wanted = |check: &&Check| {
+            let mut only = request.only.iter();
+            request.only.is_empty() || only.any(|begin| check.name.starts_with(begin))
+        };
+        for check in checks().filter(is_wanted) {
+            for key in subjects(check, plugin) {
+                let probe = Probe {
+                    check: check.name.to_owned(),
+                    driver: key.map(ToString::to_string).unwrap_or_default(),
+                    arguments: key
+                        .and_then(|key| request.arguments.get(key))
+                        .cloned()
+                        .unwrap_or_default(),
+                    seed: request.seed,
+                    moves: request.moves,
+                };
+                let begun = Instant::now();
+                let outcome = self.made(plugin, (&image, &probe), request.limit);
+                tell(CheckResult {
+                    check: check.name,
+                    subject: key.map(ToString::to_string),
+                    outcome,
+                    took_s: begun.elapsed().as_secs_f64(),
+                });
+            }
+        }
+        Ok(())
+    }
+
+    /// One check, in a child.
+    fn made(
+        &self,
+        plugin: &Plugin,
+        (image, probe): (&Image, &Probe),
+        limit: Duration,
+    ) -> CheckOutcome {
+        let files = probe.sealed().map(|probe| -> Vec<OwnedFd> { vec![probe] });
+        let spec = ChildSpec::of_plugin(image, &plugin.manifest, &plugin.text, None);
+        let (mut spec, files) = match (spec, files) {
+            (Ok(spec), Ok(files)) => (spec, files),
+            (Err(error), _) | (_, Err(error)) => return CheckOutcome::Failed(error.to_string()),
+        };
+        spec.files.extend(files);
+        spec.program = self.children().program.clone();
+        spec.confinement.needs = self.config().allowed(plugin).into_iter().collect();
+        spec.patience.start = limit;
+        let child = match Child::start(spec) {
+            Ok(child) => child,
+            Err(error) => return ended(error),
+        };
+        let life = std::sync::Arc::clone(child.life());
+        drop(child);
+        let printed = life.watch.printed();
+        if probe.check == library::QUIET && !printed.is_empty() {
+            return CheckOutcome::Failed(format!("it printed {printed:?}"));
+        }
+        CheckOutcome::Passed
+    }
+}
+
+fn ended(error: ChildError) -> CheckOutcome {
+    match error {
+        ChildError::Refused {
+            kind: ErrorKind::Unsupported,
+            why,
+            ..
+        } if why.starts_with(probe::SKIPPED) => {
+            CheckOutcome::Skipped(why[probe::SKIPPED.len()..].to_owned())
+        }
+        ChildError::Refused { why, .. } => CheckOutcome::Failed(why),
+        ChildError::Gone { fate, printed, .. } if printed.is_empty() => {
+            CheckOutcome::Failed(format!("the process ended: {fate}"))
+        }
+        ChildError::Gone { fate, printed, .. } => {
+            CheckOutcome::Failed(format!("the process ended: {fate}; it printed {printed:?}"))
+        }
+        other => CheckOutcome::Failed(other.to_string()),
+    }
+}
+
+/// The keys that a check is made on; one nothing for the plugin as a whole.
+fn subjects<'a>(check: &Check, plugin: &'a Plugin) -> Vec<Option<&'a DriverKey>> {
+    if check.of == Of::Plugin {
+        return vec![None];
+    }
+    let provides = plugin.manifest.provides.iter();
+    let fitting = provides.filter(|provided| match (check.of, provided) {
+        (Of::Driver, Provided::Driver { .. }) => true,
+        (Of::Kind(kind), Provided::Driver { descriptor, .. }) => descriptor.kind() == kind,
+        (Of::Estimator, Provided::Estimator(_)) => true,
+        _ => false,
+    });
+    fitting.map(|provided| Some(provided.key())).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::collections::BTreeSet;
+
+    #[test]
+    fn there_are_at_least_44_checks_and_no_two_of_one_name() {
+        let names: BTreeSet<&str> = checks().map(|check| check.name).collect();
+        assert_eq!(names.len(), checks().count());
+        assert!(names.len() >= 44, "{}", names.len());
+    }
+}

@@ -1,0 +1,353 @@
+//! Checks of every driver, whatever its kind.
+
+#![expect(
+    unsafe_code,
+    reason = "the functions of the factory are called as no host does"
+)]
+
+use std::mem::offset_of;
+use std::thread;
+
+use taceva_abi as abi;
+use taceva_core::{ArgKind, ArgValue, Args, DriverKind, ErrorKind};
+
+use super::subject::{Draw, Ending, Subject, bare, ensure, expect_failure, writable_memory};
+use super::{Check, Of};
+use crate::call::{ArgList, Taken, take};
+use crate::device::Opened;
+use crate::session::Session;
+
+pub(super) const CHECKS: &[Check] = &[
+    check("driver/describes-the-same-twice", describes_twice),
+    check("driver/describes-every-argument", describes_every_argument),
+    check("driver/describe-of-no-driver", describe_of_none),
+    check("driver/open-of-no-driver", open_of_none),
+    check("driver/opens", |subject| opened(subject).map(drop)),
+    check("driver/opens-again", opens_again),
+    check("driver/opens-beside-itself", opens_beside),
+    check("driver/rubbish-arguments", rubbish_arguments),
+    check("driver/keeps-to-the-callers-error", keeps_to_error),
+    check("driver/unknown-extension", unknown_extension),
+    check("driver/interrupt-of-nothing", interrupt_of_nothing),
+    check("driver/interrupts-from-all-sides", interrupts),
+    check("driver/other-thread", other_thread),
+    check("driver/discovers", discovers),
+    check("driver/memory-of-10000-openings", memory),
+];
+
+const fn check(name: &'static str, run: fn(&Subject) -> Result<(), Ending>) -> Check {
+    Check {
+        name,
+        of: Of::Driver,
+        run,
+    }
+}
+
+/// An open device of whichever kind, to be dropped.
+enum Device {
+    Sensor(Opened<abi::SensorCalls>),
+    Robot(Opened<abi::RobotCalls>),
+    Force(Opened<abi::ForceCalls>),
+    Lighting(Opened<abi::LightingCalls>),
+}
+
+impl Device {
+    fn handle(&self) -> &crate::device::Owned {
+        match self {
+            Device::Sensor(opened) => &opened.handle,
+            Device::Robot(opened) => &opened.handle,
+            Device::Force(opened) => &opened.handle,
+            Device::Lighting(opened) => &opened.handle,
+        }
+    }
+}
+
+fn opened(subject: &Subject) -> Result<Device, Ending> {
+    match subject.descriptor()?.kind() {
+        DriverKind::Sensor => Ok(Device::Sensor(subject.open()?)),
+        DriverKind::Robot => Ok(Device::Robot(subject.open()?)),
+        DriverKind::Force => Ok(Device::Force(subject.open()?)),
+        DriverKind::Lighting => Ok(Device::Lighting(subject.open()?)),
+        kind => Err(Ending::Skipped(format!(
+            "devices of the kind {kind} are not known here"
+        ))),
+    }
+}
+
+fn factory(subject: &Subject) -> Result<abi::Factory, Ending> {
+    let factory = subject.entry()?.factory;
+    factory.ok_or_else(|| Ending::Broken("it has no factory".to_owned()))
+}
+
+fn describes_twice(subject: &Subject) -> Result<(), Ending> {
+    let [once, again] = [subject.said()?, subject.said()?];
+    ensure(once == again, || {
+        "it describes itself otherwise the second time".to_owned()
+    })
+}
+
+/// With every argument at its limits it describes itself, or says that they contradict each other.
+fn describes_every_argument(subject: &Subject) -> Result<(), Ending> {
+    let key = subject.key()?;
+    for spec in subject.entry()?.arguments() {
+        let values: Vec<ArgValue> = match &spec.kind {
+            ArgKind::Whole { least, most } => vec![ArgValue::Whole(*least), ArgValue::Whole(*most)],
+            ArgKind::Number { least, most } => [least, most]
+                .into_iter()
+                .filter(|limit| limit.is_finite())
+                .map(|limit| ArgValue::Number(*limit))
+                .collect(),
+            ArgKind::Flag => vec![ArgValue::Flag(false), ArgValue::Flag(true)],
+            ArgKind::Choice { of } => of.iter().cloned().map(ArgValue::Text).collect(),
+            _ => continue,
+        };
+        for value in values {
+            let value = value.to_string();
+            let given = subject.args()?;
+            let others = subject
+                .entry()?
+                .arguments()
+                .iter()
+                .filter(|other| other.key != spec.key);
+            let others = others
+                .filter_map(|other| Some((other.key.clone(), given.get(&other.key)?.to_string())));
+            let pairs = others.chain([(spec.key.clone(), value.clone())]);
+            let args = Args::from_pairs(subject.entry()?.arguments(), pairs)
+                .map_err(|error| Ending::Broken(error.to_string()))?;
+            match subject.session.describe(key, &args) {
+                Err(error) if error.kind() != ErrorKind::InvalidArgument => {
+                    let why = format!("with `{}={value}`: {error}", spec.key);
+                    return Err(Ending::Broken(why));
+                }
+                _ => {}
+            }
+        }
+    }
+    Ok(())
+}
+
+fn describe_of_none(subject: &Subject) -> Result<(), Ending> {
+    let factory = factory(subject)?;
+    let describe = factory
+        .describe
+        .ok_or_else(|| Ending::Broken("`describe` is NULL".to_owned()))?;
+    let list = ArgList::new(&Args::default(), &[]);
+    let args = list.args();
+    for number in [factory.drivers, factory.drivers + 1, u32::MAX] {
+        let mut taken = Taken::default();
+        let context = taken.context();
+        // SAFETY: [any], with arguments, a context and an error that outlive the call.
+        let said =
+            bare(|error| unsafe { describe(number, &raw const args, Some(take), context, error) });
+        let kinds = [
+            ErrorKind::NotFound,
+            ErrorKind::InvalidArgument,
+            ErrorKind::OutOfRange,
+        ];
+        expect_failure(&format!("describing driver {number}"), said, &kinds)?;
+    }
+    Ok(())
+}
+
+fn raw_open(
+    subject: &Subject,
+    number: u32,
+    args: &abi::Args,
+    error: *mut abi::Error,
+) -> Result<(abi::Status, abi::Device), Ending> {
+    let open = factory(subject)?.open;
+    let open = open.ok_or_else(|| Ending::Broken("`open` is NULL".to_owned()))?;
+    let rig = crate::device::RigHandle::open(&subject.library)?;
+    let mut device = abi::Device {
+        handle: std::ptr::null_mut(),
+        calls: std::ptr::null(),
+    };
+    // SAFETY: [any], with arguments, a rig, a place for the device and an error that outlive the call.
+    let status = unsafe {
+        open(
+            number,
+            std::ptr::from_ref(args),
+            rig.raw(),
+            &raw mut device,
+            error,
+        )
+    };
+    if status.is_ok() && !device.calls.is_null() {
+        // SAFETY: after a success the interface promises the table, which outlives the device.
+        if let Some(close) = unsafe { (*device.calls).close } {
+            // SAFETY: [owner & open], the last call; the rig is still open.
+            unsafe { close(device.handle) };
+        }
+    }
+    Ok((status, device))
+}
+
+fn open_of_none(subject: &Subject) -> Result<(), Ending> {
+    let list = subject.list()?;
+    let drivers = factory(subject)?.drivers;
+    for number in [drivers, drivers + 1, u32::MAX] {
+        let mut error = abi::Error::new();
+        let (status, _) = raw_open(subject, number, &list.args(), &raw mut error)?;
+        ensure(!status.is_ok(), || {
+            format!("driver {number} opened, which it does not have")
+        })?;
+    }
+    Ok(())
+}
+
+fn opens_again(subject: &Subject) -> Result<(), Ending> {
+    for _ in 0..10 {
+        drop(opened(subject)?);
+    }
+    Ok(())
+}
+
+/// A second device of the same arguments opens too, or says that the first holds it.
+fn opens_beside(subject: &Subject) -> Result<(), Ending> {
+    let first = opened(subject)?;
+    let list = subject.list()?;
+    let mut error = abi::Error::new();
+    let (status, _) = raw_open(
+        subject,
+        subject.entry()?.number,
+        &list.args(),
+        &raw mut error,
+    )?;
+    drop(first);
+    ensure(status.is_ok() || status == abi::Status::BUSY, || {
+        format!("a second one gave status {}, expected 0 or BUSY", status.0)
+    })?;
+    opened(subject).map(drop)
+}
+
+/// Arguments that nobody declared are refused or passed over, whatever they are.
+fn rubbish_arguments(subject: &Subject) -> Result<(), Ending> {
+    let mut draw = Draw::new(subject.probe.seed);
+    for round in 0..64_usize {
+        let bytes = [draw.bytes(1 + round), draw.bytes(round)];
+        let [key, text] = bytes.each_ref().map(|bytes| abi::Text {
+            data: bytes.as_ptr().cast(),
+            length: bytes.len(),
+        });
+        let number = f64::from_bits(draw.next());
+        let kind = u32::from(draw.next().to_le_bytes()[0] % 8);
+        let arg = abi::Arg {
+            key,
+            text,
+            whole: draw.next().cast_signed(),
+            number,
+            kind,
+            reserved: 0,
+        };
+        let args = abi::Args {
+            items: &raw const arg,
+            count: 1,
+        };
+        let mut error = abi::Error::new();
+        // Any answer will do, but one must come.
+        raw_open(subject, subject.entry()?.number, &args, &raw mut error)?;
+    }
+    Ok(())
+}
+
+/// An error that has less room than today's is written no further than it says.
+fn keeps_to_error(subject: &Subject) -> Result<(), Ending> {
+    const ROOM: usize = 24;
+    const CANARY: i8 = 0x5a;
+    let mut error = abi::Error::new();
+    let begin = offset_of!(abi::Error, message);
+    error.size = u32::try_from(begin + ROOM).expect("small");
+    error.message = [CANARY; abi::MESSAGE_SIZE];
+    let list = subject.list()?;
+    let drivers = factory(subject)?.drivers;
+    let (status, _) = raw_open(subject, drivers, &list.args(), &raw mut error)?;
+    ensure(!status.is_ok(), || {
+        "a driver that it does not have opened".to_owned()
+    })?;
+    let written = error.message[ROOM..].iter().any(|byte| *byte != CANARY);
+    ensure(!written, || {
+        format!("a message went beyond the {ROOM} bytes that its `taceva_error` had")
+    })
+}
+
+fn unknown_extension(subject: &Subject) -> Result<(), Ending> {
+    let device = opened(subject)?;
+    for id in ["", "taceva.nothing/1", "taceva.force.tare/99"] {
+        let found = device.handle().extension_is_there(id);
+        ensure(!found, || format!("a table for the extension {id:?}"))?;
+    }
+    Ok(())
+}
+
+fn interrupt_of_nothing(subject: &Subject) -> Result<(), Ending> {
+    let device = opened(subject)?;
+    let Some(interrupt) = device.handle().interrupt() else {
+        return Err(Ending::Skipped("it cannot be interrupted".to_owned()));
+    };
+    for _ in 0..100 {
+        interrupt.interrupt();
+    }
+    drop(device);
+    interrupt.interrupt();
+    Ok(())
+}
+
+fn interrupts(subject: &Subject) -> Result<(), Ending> {
+    let device = opened(subject)?;
+    let Some(interrupt) = device.handle().interrupt() else {
+        return Err(Ending::Skipped("it cannot be interrupted".to_owned()));
+    };
+    let interrupt = &interrupt;
+    thread::scope(|scope| {
+        for _ in 0..4 {
+            scope.spawn(move || {
+                for _ in 0..2_500 {
+                    interrupt.interrupt();
+                }
+            });
+        }
+    });
+    drop(device);
+    opened(subject).map(drop)
+}
+
+/// A handle is no thread's own: opened in one, used and closed in another.
+fn other_thread(subject: &Subject) -> Result<(), Ending> {
+    let device = opened(subject)?;
+    let closed = thread::scope(|scope| scope.spawn(move || drop(device)).join());
+    ensure(closed.is_ok(), || {
+        "closing it in another thread panicked".to_owned()
+    })
+}
+
+fn discovers(subject: &Subject) -> Result<(), Ending> {
+    let found = subject.session.discover(subject.key()?)?;
+    for device in &found {
+        let read = subject.descriptor()?.args(&device.arguments);
+        read.map_err(|error| {
+            Ending::Broken(format!(
+                "it found `{}`, which it would not open: {error}",
+                device.arguments
+            ))
+        })?;
+    }
+    Ok(())
+}
+
+/// After the first 100, ten thousand openings add less than 1 MiB to the memory that may be written.
+fn memory(subject: &Subject) -> Result<(), Ending> {
+    for _ in 0..100 {
+        drop(opened(subject)?);
+    }
+    let before = writable_memory()?;
+    for _ in 0..9_900 {
+        drop(opened(subject)?);
+    }
+    let grown = writable_memory()?.saturating_sub(before);
+    ensure(grown < 1 << 20, || {
+        format!(
+            "9900 openings left {} KiB behind, expected less than 1024",
+            grown >> 10
+        )
+    })
+}

@@ -1,0 +1,249 @@
+//! Checks of estimators.
+
+use std::thread;
+
+use taceva_core::{
+    Channel, Channels, ErrorKind, FeatureShape, Features, ModelError, Progress, Saved,
+    SavedRegressor, Silent, Targets, TrainingSet,
+};
+
+use super::subject::{Draw, Ending, Subject, ensure, expect_failure, writable_memory};
+use super::{Check, Of};
+use crate::session::{FitRequest, Session};
+
+pub(super) const CHECKS: &[Check] = &[
+    check("estimator/fits-and-predicts", fits),
+    check("estimator/fits-the-same-twice", same_twice),
+    check("estimator/keeps-a-model", keeps),
+    check("estimator/refuses-hostile-models", hostile),
+    check("estimator/ends-when-cancelled", cancels),
+    check("estimator/predicts-nothing-of-nothing", nothing),
+    check("estimator/predicts-in-threads", threads),
+    check("estimator/memory-of-1000-models", memory),
+];
+
+const fn check(name: &'static str, run: fn(&Subject) -> Result<(), Ending>) -> Check {
+    Check {
+        name,
+        of: Of::Estimator,
+        run,
+    }
+}
+
+const SAMPLES: usize = 40;
+const LENGTH: usize = 6;
+
+struct Samples {
+    features: Features,
+    channels: Channels,
+    values: Vec<f64>,
+}
+
+/// Samples whose targets are sums of their features.
+fn samples(seed: u64) -> Result<Samples, Ending> {
+    let mut draw = Draw::new(seed);
+    let mut values = Vec::new();
+    let mut features = Vec::new();
+    for _ in 0..SAMPLES {
+        let sample: Vec<f32> = draw
+            .bytes(LENGTH)
+            .iter()
+            .map(|byte| f32::from(*byte) / 255.0)
+            .collect();
+        let sum: f64 = sample.iter().copied().map(f64::from).sum();
+        values.extend([sum, 2.0 - sum]);
+        features.extend(sample);
+    }
+    Ok(Samples {
+        features: Features::new(FeatureShape::flat(LENGTH), features)?,
+        channels: Channels::new([Channel::FZ, Channel::PZ])
+            .map_err(|error| Ending::Broken(error.to_string()))?,
+        values,
+    })
+}
+
+fn fit(
+    subject: &Subject,
+    samples: &Samples,
+    progress: &dyn Progress,
+) -> Result<Box<dyn SavedRegressor>, ModelError> {
+    let settings = subject.args().map_err(|_| {
+        ModelError::new(
+            ErrorKind::InvalidArgument,
+            "it needs settings that are not given",
+        )
+    })?;
+    let training = TrainingSet {
+        features: &samples.features,
+        targets: Targets {
+            channels: &samples.channels,
+            values: &samples.values,
+        },
+        groups: None,
+    };
+    let key = subject
+        .key()
+        .map_err(|_| ModelError::new(ErrorKind::Internal, "no estimator"))?;
+    let request = FitRequest {
+        settings: &settings,
+        training: &training,
+        validation: None,
+        progress,
+    };
+    subject.session.fit(key, &request)
+}
+
+fn predicted(model: &dyn SavedRegressor, samples: &Samples) -> Result<Vec<u64>, ModelError> {
+    let mut into = vec![0.0; samples.values.len()];
+    model.predict(&samples.features, &mut into)?;
+    Ok(into.into_iter().map(f64::to_bits).collect())
+}
+
+fn fits(subject: &Subject) -> Result<(), Ending> {
+    let samples = samples(subject.probe.seed)?;
+    predicted(&*fit(subject, &samples, &Silent)?, &samples)?;
+    Ok(())
+}
+
+fn same_twice(subject: &Subject) -> Result<(), Ending> {
+    let samples = samples(subject.probe.seed)?;
+    let one = predicted(&*fit(subject, &samples, &Silent)?, &samples)?;
+    let other = predicted(&*fit(subject, &samples, &Silent)?, &samples)?;
+    ensure(one == other, || {
+        "two fits on the same samples predict otherwise".to_owned()
+    })
+}
+
+fn load(
+    subject: &Subject,
+    samples: &Samples,
+    bytes: &[u8],
+) -> Result<Box<dyn SavedRegressor>, ModelError> {
+    let key = subject
+        .key()
+        .map_err(|_| ModelError::new(ErrorKind::Internal, "no estimator"))?;
+    let saved = Saved {
+        bytes,
+        channels: &samples.channels,
+        shape: samples.features.shape(),
+    };
+    subject.session.load(key, &saved)
+}
+
+fn keeps(subject: &Subject) -> Result<(), Ending> {
+    let samples = samples(subject.probe.seed)?;
+    let model = fit(subject, &samples, &Silent)?;
+    let before = predicted(&*model, &samples)?;
+    let bytes = model.save()?;
+    ensure(bytes == model.save()?, || {
+        "it saves otherwise the second time".to_owned()
+    })?;
+    drop(model);
+    let again = load(subject, &samples, &bytes)?;
+    ensure(predicted(&*again, &samples)? == before, || {
+        "loaded again it predicts otherwise".to_owned()
+    })?;
+    ensure(again.save()? == bytes, || {
+        "loaded again it saves otherwise".to_owned()
+    })
+}
+
+/// Bytes that are no model are refused; those that differ from one in a few bits are, or predict something.
+fn hostile(subject: &Subject) -> Result<(), Ending> {
+    let samples = samples(subject.probe.seed)?;
+    let bytes = fit(subject, &samples, &Silent)?.save()?;
+    let mut draw = Draw::new(subject.probe.seed);
+    for length in [0, 1, 7, 64, 4096] {
+        let told = load(subject, &samples, &draw.bytes(length));
+        let kinds = [
+            ErrorKind::Protocol,
+            ErrorKind::InvalidArgument,
+            ErrorKind::OutOfRange,
+        ];
+        expect_failure(&format!("{length} bytes of rubbish"), told, &kinds)?;
+    }
+    for cut in 0..bytes.len().min(200) {
+        let told = load(subject, &samples, &bytes[..cut]);
+        ensure(told.is_err(), || {
+            format!("the first {cut} bytes of a model were taken for one")
+        })?;
+    }
+    for _ in 0..500 {
+        let mut damaged = bytes.clone();
+        let place = usize::try_from(draw.next()).unwrap_or(0) % damaged.len().max(1);
+        let bit = draw.next().to_le_bytes()[0] % 8;
+        if let Some(byte) = damaged.get_mut(place) {
+            *byte ^= 1 << bit;
+        }
+        if let Ok(model) = load(subject, &samples, &damaged) {
+            // Whatever it predicts, or refuses to.
+            let _ = predicted(&*model, &samples);
+        }
+    }
+    Ok(())
+}
+
+struct Cancelled;
+
+impl Progress for Cancelled {
+    fn begin(&self, _: &str, _: Option<u64>) {}
+    fn advance(&self, _: u64) {}
+    fn end(&self) {}
+    fn is_cancelled(&self) -> bool {
+        true
+    }
+}
+
+/// A fit that is cancelled ends, and says so unless it was done before it asked.
+fn cancels(subject: &Subject) -> Result<(), Ending> {
+    let samples = samples(subject.probe.seed)?;
+    match fit(subject, &samples, &Cancelled) {
+        Err(error) if error.kind() != ErrorKind::Interrupted => Err(error.into()),
+        _ => fits(subject),
+    }
+}
+
+fn nothing(subject: &Subject) -> Result<(), Ending> {
+    let samples = samples(subject.probe.seed)?;
+    let model = fit(subject, &samples, &Silent)?;
+    let none = Features::new(samples.features.shape(), Vec::new())?;
+    Ok(model.predict(&none, &mut [])?)
+}
+
+fn threads(subject: &Subject) -> Result<(), Ending> {
+    let samples = samples(subject.probe.seed)?;
+    let model = fit(subject, &samples, &Silent)?;
+    let expected = predicted(&*model, &samples)?;
+    let same = thread::scope(|scope| {
+        let asking: Vec<_> = (0..4)
+            .map(|_| {
+                scope.spawn(|| {
+                    (0..50)
+                        .all(|_| predicted(&*model, &samples).is_ok_and(|found| found == expected))
+                })
+            })
+            .collect();
+        asking
+            .into_iter()
+            .all(|thread| thread.join().unwrap_or(false))
+    });
+    ensure(same, || {
+        "four threads were told something else than one".to_owned()
+    })
+}
+
+fn memory(subject: &Subject) -> Result<(), Ending> {
+    let samples = samples(subject.probe.seed)?;
+    let bytes = fit(subject, &samples, &Silent)?.save()?;
+    let round = || load(subject, &samples, &bytes).map(drop);
+    (0..100).try_for_each(|_| round())?;
+    let before = writable_memory()?;
+    (0..900).try_for_each(|_| round())?;
+    let grown = writable_memory()?.saturating_sub(before);
+    ensure(grown < 1 << 20, || {
+        format!(
+            "900 models left {} KiB behind, expected less than 1024",
+            grown >> 10
+        )
+    })
+}

@@ -1,0 +1,181 @@
+//! Checks of the library as a whole.
+
+#![expect(
+    unsafe_code,
+    reason = "the functions of the library are called as no host does"
+)]
+
+use std::ffi::OsString;
+
+use taceva_abi as abi;
+
+use super::subject::{Ending, Subject, ensure};
+use super::{Check, Of};
+use crate::device::RigHandle;
+use crate::library::Library;
+
+/// The check whose child must have printed nothing.
+pub(super) const QUIET: &str = "library/quiet";
+
+pub(super) const CHECKS: &[Check] = &[
+    check("library/loads", |_| Ok(())),
+    check("library/loads-twice", loads_twice),
+    check("library/ends", ends),
+    check("library/unknown-factory", unknown_factory),
+    check("library/stable-factories", stable_factories),
+    check("library/rigs", rigs),
+    check("library/unknown-rig-extension", unknown_rig_extension),
+    check("library/keeps-surroundings", keeps_surroundings),
+    check("library/keeps-signals", keeps_signals),
+    check(QUIET, quiet),
+];
+
+const fn check(name: &'static str, run: fn(&Subject) -> Result<(), Ending>) -> Check {
+    Check {
+        name,
+        of: Of::Plugin,
+        run,
+    }
+}
+
+fn load(subject: &Subject) -> Result<std::sync::Arc<Library>, Ending> {
+    Library::load(&subject.image, &subject.manifest, Box::new(|_, _, _| {}))
+        .map_err(|error| Ending::Broken(error.problem().to_string()))
+}
+
+/// A second copy of the library has its own statics, and works as the first does.
+fn loads_twice(subject: &Subject) -> Result<(), Ending> {
+    let second = load(subject)?;
+    ensure(second.id() == subject.library.id(), || {
+        "another id".to_owned()
+    })
+}
+
+/// `deinit` may be called once everything is closed, and the library may be begun again.
+fn ends(subject: &Subject) -> Result<(), Ending> {
+    drop(load(subject)?);
+    drop(load(subject)?);
+    Ok(())
+}
+
+fn factory(subject: &Subject, id: abi::Text) -> Result<usize, Ending> {
+    let factory = subject.library.plugin().factory;
+    let factory = factory.ok_or_else(|| Ending::Broken("`factory` is NULL".to_owned()))?;
+    // SAFETY: [any], after `init`, with a text that outlives the call.
+    Ok(unsafe { factory(id) }.addr())
+}
+
+fn unknown_factory(subject: &Subject) -> Result<(), Ending> {
+    let long = "taceva.sensor/1".repeat(500);
+    for id in [
+        "",
+        "taceva.sensor/2",
+        "taceva.sensor/",
+        "Taceva.sensor/1",
+        &long,
+    ] {
+        let found = factory(subject, abi::Text::from(id))?;
+        ensure(found == 0, || {
+            format!("a factory for {:?}", &id[..id.len().min(40)])
+        })?;
+    }
+    let nothing = abi::Text {
+        data: std::ptr::null(),
+        length: 0,
+    };
+    ensure(factory(subject, nothing)? == 0, || {
+        "a factory for no text".to_owned()
+    })
+}
+
+fn stable_factories(subject: &Subject) -> Result<(), Ending> {
+    for id in [
+        abi::SENSOR_FACTORY,
+        abi::ROBOT_FACTORY,
+        abi::FORCE_FACTORY,
+        abi::LIGHTING_FACTORY,
+        abi::ESTIMATOR_FACTORY,
+    ] {
+        let once = factory(subject, abi::Text::from(id))?;
+        let again = factory(subject, abi::Text::from(id))?;
+        ensure(once == again, || format!("`{id}` moves from call to call"))?;
+    }
+    Ok(())
+}
+
+fn rigs(subject: &Subject) -> Result<(), Ending> {
+    let together: Vec<_> = (0..32)
+        .map(|_| RigHandle::open(&subject.library))
+        .collect::<Result<_, _>>()?;
+    drop(together);
+    for _ in 0..200 {
+        drop(RigHandle::open(&subject.library)?);
+    }
+    Ok(())
+}
+
+fn unknown_rig_extension(subject: &Subject) -> Result<(), Ending> {
+    let Some(extension) = subject.library.plugin().rig_extension else {
+        return Err(Ending::Skipped("its rigs have no extensions".to_owned()));
+    };
+    let rig = RigHandle::open(&subject.library)?;
+    // SAFETY: [owner] of an open rig, with a text that outlives the call.
+    let found = unsafe { extension(rig.raw(), abi::Text::from("taceva.nothing/1")) };
+    ensure(found.is_null(), || {
+        "a table for an extension that nobody knows".to_owned()
+    })
+}
+
+/// Loading and opening change neither the folder that the process works in nor its environment.
+fn keeps_surroundings(subject: &Subject) -> Result<(), Ending> {
+    drop(RigHandle::open(&subject.library)?);
+    let (before, now) = (&subject.before, Surroundings::now());
+    let is_kept = before.folder == now.folder && before.variables == now.variables;
+    ensure(is_kept, || {
+        "the working directory or the environment is another than before".to_owned()
+    })
+}
+
+fn keeps_signals(subject: &Subject) -> Result<(), Ending> {
+    drop(RigHandle::open(&subject.library)?);
+    let now = Surroundings::now().handlers;
+    let mut pairs = subject.before.handlers.iter().zip(&now);
+    match pairs.position(|(before, now)| before != now) {
+        None => Ok(()),
+        Some(place) => Err(Ending::Broken(format!(
+            "signal {} has another handler than before",
+            place + 1
+        ))),
+    }
+}
+
+/// What of a process a plugin must leave as it was.
+pub(super) struct Surroundings {
+    folder: Option<std::ffi::CString>,
+    variables: Vec<(OsString, OsString)>,
+    handlers: Vec<usize>,
+}
+
+impl Surroundings {
+    pub(super) fn now() -> Surroundings {
+        let handler = |signal| {
+            // SAFETY: all bytes 0 is a value of this C struct.
+            let mut action: libc::sigaction = unsafe { std::mem::zeroed() };
+            // SAFETY: nothing is set; the present action is written into ours.
+            let asked = unsafe { libc::sigaction(signal, std::ptr::null(), &raw mut action) };
+            if asked == 0 { action.sa_sigaction } else { 0 }
+        };
+        Surroundings {
+            folder: rustix::process::getcwd(Vec::new()).ok(),
+            variables: std::env::vars_os().collect(),
+            handlers: (1..32).map(handler).collect(),
+        }
+    }
+}
+
+/// What it prints would stand in the middle of a result; the host looks at what came out of the process.
+fn quiet(subject: &Subject) -> Result<(), Ending> {
+    drop(load(subject)?);
+    drop(RigHandle::open(&subject.library)?);
+    Ok(())
+}

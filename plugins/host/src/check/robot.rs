@@ -1,0 +1,342 @@
+//! Checks of robots. Those that move one are made on simulations alone, unless the user allows it.
+
+#![expect(
+    unsafe_code,
+    reason = "the functions of the device are called as no host does"
+)]
+
+use std::thread;
+use std::time::{Duration, Instant};
+
+use taceva_abi as abi;
+use taceva_core::{
+    Deadline, DriverError, DriverKind, ErrorKind, Guard, Millimetre, Newton, Pose, Robot,
+    RobotFacts, SiPose, Speed,
+};
+
+use super::subject::{AT_ONCE, Ending, PATIENT, SOON, Subject, ensure, expect_failure, timed};
+use super::{Check, Of};
+use crate::device::Opened;
+use crate::session::Session;
+
+pub(super) const CHECKS: &[Check] = &[
+    check("robot/says-its-pose", poses),
+    check("robot/moves-and-arrives", moves),
+    check("robot/refuses-targets-that-are-none", no_targets),
+    check("robot/refuses-speeds-that-are-none", no_speeds),
+    check("robot/refuses-what-lies-outside", outside),
+    check("robot/wait-without-a-motion", wait_without),
+    check("robot/halts-twice-and-latches", latches),
+    check("robot/halt-within-50-ms", halts),
+    check("robot/timeout-stops-it", timeout_stops),
+    check("robot/halt-from-all-sides", halt_from_all_sides),
+    check("robot/guards-that-are-none", no_guards),
+    check("robot/dropped-in-any-state", dropped),
+];
+
+const fn check(name: &'static str, run: fn(&Subject) -> Result<(), Ending>) -> Check {
+    Check {
+        name,
+        of: Of::Kind(DriverKind::Robot),
+        run,
+    }
+}
+
+fn open(subject: &Subject) -> Result<Box<dyn Robot>, Ending> {
+    Ok(subject.session.robot(subject.key()?, &subject.args()?)?)
+}
+
+fn facts(subject: &Subject) -> Result<RobotFacts, Ending> {
+    let said = subject.said()?;
+    let facts = said.robot().copied();
+    facts.ok_or_else(|| Ending::Broken("it says it is no robot".to_owned()))
+}
+
+/// The pose `travel_mm` above `pose`: away from the gel.
+fn above(mut pose: Pose, travel_mm: f64) -> Pose {
+    pose.position.z = Millimetre(pose.position.z.0 - travel_mm);
+    pose
+}
+
+fn speed(mm_per_s: f64) -> Result<Speed, Ending> {
+    Speed::try_new(mm_per_s).map_err(|error| Ending::Broken(error.to_string()))
+}
+
+fn here(robot: &mut dyn Robot) -> Result<Pose, Ending> {
+    Ok(robot.pose(PATIENT)?.0)
+}
+
+fn poses(subject: &Subject) -> Result<(), Ending> {
+    let mut robot = open(subject)?;
+    let mut last = f64::NEG_INFINITY;
+    for _ in 0..20 {
+        let (_, stamp) = robot.pose(PATIENT)?;
+        ensure(stamp.valid_s >= last, || {
+            "a pose older than the one before".to_owned()
+        })?;
+        last = stamp.valid_s;
+    }
+    let (_, took) = timed(|| robot.pose(Deadline::PASSED));
+    ensure(took < SOON, || {
+        format!("no time was given, and it took {took:?}")
+    })
+}
+
+fn moves(subject: &Subject) -> Result<(), Ending> {
+    subject.may_move()?;
+    let mut robot = open(subject)?;
+    let home = here(&mut *robot)?;
+    for target in [above(home, 0.5), home] {
+        robot.move_to(target, speed(5.0)?, PATIENT)?;
+        let reached = here(&mut *robot)?;
+        let off = (reached.position.z.0 - target.position.z.0).abs();
+        ensure(off < 0.1, || format!("it rests {off} mm beside its target"))?;
+    }
+    Ok(())
+}
+
+type Bare = Opened<abi::RobotCalls>;
+
+fn bare_move(robot: &Bare, target: abi::Pose, speed: f64) -> Result<u64, DriverError> {
+    let move_to = robot.handle.needs(robot.calls.move_to, "move_to")?;
+    let motion = abi::Motion {
+        size: u32::try_from(size_of::<abi::Motion>()).expect("a small struct"),
+        reserved: 0,
+        target,
+        speed_m_per_s: speed,
+    };
+    let mut token = 0;
+    robot.handle.call("move", |raw, error| {
+        // SAFETY: [owner & open], with a motion, a place for the token and an error that outlive the call.
+        unsafe { move_to(raw, &raw const motion, &raw mut token, error) }
+    })?;
+    Ok(token)
+}
+
+fn bare_pose(subject: &Subject) -> Result<abi::Pose, Ending> {
+    let mut robot = open(subject)?;
+    let SiPose {
+        position_m: [x, y, z],
+        quaternion: [qw, qx, qy, qz],
+    } = here(&mut *robot)?.into();
+    Ok(abi::Pose {
+        x,
+        y,
+        z,
+        qw,
+        qx,
+        qy,
+        qz,
+    })
+}
+
+fn no_targets(subject: &Subject) -> Result<(), Ending> {
+    let pose = bare_pose(subject)?;
+    let robot: Bare = subject.open()?;
+    let none = f64::NAN;
+    let targets = [
+        abi::Pose { x: none, ..pose },
+        abi::Pose {
+            z: f64::INFINITY,
+            ..pose
+        },
+        abi::Pose { qw: none, ..pose },
+        abi::Pose {
+            qw: 0.0,
+            qx: 0.0,
+            qy: 0.0,
+            qz: 0.0,
+            ..pose
+        },
+    ];
+    for target in targets {
+        let told = bare_move(&robot, target, 0.001);
+        expect_failure("a target that is none", told, &[ErrorKind::InvalidArgument])?;
+    }
+    Ok(())
+}
+
+fn no_speeds(subject: &Subject) -> Result<(), Ending> {
+    let pose = bare_pose(subject)?;
+    let robot: Bare = subject.open()?;
+    for speed in [0.0, -0.001, f64::NAN, f64::INFINITY] {
+        let told = bare_move(&robot, pose, speed);
+        let kinds = [ErrorKind::InvalidArgument, ErrorKind::OutOfRange];
+        expect_failure(&format!("a speed of {speed} m/s"), told, &kinds)?;
+    }
+    Ok(())
+}
+
+fn outside(subject: &Subject) -> Result<(), Ending> {
+    let Some(workspace) = facts(subject)?.workspace else {
+        return Err(Ending::Skipped("it declares no workspace".to_owned()));
+    };
+    let pose = bare_pose(subject)?;
+    let robot: Bare = subject.open()?;
+    let beyond = [workspace.least.x.0 - 1.0, workspace.greatest.x.0 + 1.0];
+    for x_mm in beyond {
+        let target = abi::Pose {
+            x: x_mm / 1e3,
+            ..pose
+        };
+        let told = bare_move(&robot, target, 0.001);
+        expect_failure(
+            &format!("a target at x = {x_mm} mm"),
+            told,
+            &[ErrorKind::OutOfRange],
+        )?;
+    }
+    Ok(())
+}
+
+fn wait_without(subject: &Subject) -> Result<(), Ending> {
+    let robot: Bare = subject.open()?;
+    let wait = robot.handle.needs(robot.calls.wait, "wait")?;
+    let mut stamp = abi::Stamp::default();
+    for token in [0, 77, u64::MAX] {
+        let (_, took) = timed(|| {
+            robot.handle.call("wait", |raw, error| {
+                // SAFETY: [owner & open], with a place for the stamp and an error that outlive the call.
+                unsafe { wait(raw, token, &raw mut stamp, 100_000_000, error) }
+            })
+        });
+        ensure(took < SOON + SOON, || {
+            format!("waiting for no motion took {took:?}")
+        })?;
+    }
+    Ok(())
+}
+
+fn latches(subject: &Subject) -> Result<(), Ending> {
+    subject.may_move()?;
+    let mut robot = open(subject)?;
+    let home = here(&mut *robot)?;
+    robot.halt()?;
+    robot.halt()?;
+    let told = robot.move_to(above(home, 0.1), speed(5.0)?, PATIENT);
+    expect_failure("a move after a halt", told, &[ErrorKind::Interrupted])?;
+    here(&mut *robot)?;
+    robot.clear_halt(PATIENT)?;
+    robot.clear_halt(PATIENT)?;
+    robot.move_to(above(home, 0.1), speed(5.0)?, PATIENT)?;
+    robot.move_to(home, speed(5.0)?, PATIENT)?;
+    Ok(())
+}
+
+fn halts(subject: &Subject) -> Result<(), Ending> {
+    subject.may_move()?;
+    let mut robot = open(subject)?;
+    let home = here(&mut *robot)?;
+    let halt = robot.halt_handle();
+    let halter = thread::spawn(move || {
+        thread::sleep(Duration::from_millis(20));
+        let now = Instant::now();
+        (
+            now,
+            halt.halt().map_err(|error| error.to_string()),
+            now.elapsed(),
+        )
+    });
+    // Slow: a simulation counts its own time, and may be there before the halt is.
+    let told = robot.move_to(
+        above(home, 1.0),
+        speed(0.01)?,
+        Deadline::after(Duration::from_secs(200)),
+    );
+    let ended = Instant::now();
+    let (at, sent, took) = halter
+        .join()
+        .map_err(|_| Ending::Broken("the check panicked".to_owned()))?;
+    sent.map_err(Ending::Broken)?;
+    ensure(took < AT_ONCE, || format!("`halt` itself took {took:?}"))?;
+    if told.is_err() {
+        expect_failure("a move that was halted", told, &[ErrorKind::Interrupted])?;
+        let late = ended.saturating_duration_since(at);
+        ensure(late < AT_ONCE, || {
+            format!("it took {late:?}, expected at most {AT_ONCE:?}")
+        })?;
+    }
+    robot.clear_halt(PATIENT)?;
+    robot.move_to(home, speed(5.0)?, PATIENT)?;
+    Ok(())
+}
+
+fn timeout_stops(subject: &Subject) -> Result<(), Ending> {
+    subject.may_move()?;
+    let mut robot = open(subject)?;
+    let home = here(&mut *robot)?;
+    let short = Deadline::after(Duration::from_millis(20));
+    let told = robot.move_to(above(home, 1.0), speed(1.0)?, short);
+    expect_failure("a move of 1 s in 20 ms", told, &[ErrorKind::Timeout])?;
+    let once = here(&mut *robot)?;
+    thread::sleep(Duration::from_millis(50));
+    let again = here(&mut *robot)?;
+    let off = (again.position.z.0 - once.position.z.0).abs();
+    ensure(off < 0.02, || {
+        format!("after the timeout it went on by {off} mm")
+    })?;
+    robot.move_to(home, speed(5.0)?, PATIENT)?;
+    Ok(())
+}
+
+fn halt_from_all_sides(subject: &Subject) -> Result<(), Ending> {
+    let mut robot = open(subject)?;
+    let halt = robot.halt_handle();
+    let failed = thread::scope(|scope| {
+        let halters: Vec<_> = (0..4)
+            .map(|_| {
+                let halt = &halt;
+                scope.spawn(move || (0..500).filter(|_| halt.halt().is_err()).count())
+            })
+            .collect();
+        halters
+            .into_iter()
+            .map(|halter| halter.join().unwrap_or(1))
+            .sum::<usize>()
+    });
+    ensure(failed == 0, || format!("{failed} of 2000 halts failed"))?;
+    robot.clear_halt(PATIENT)?;
+    drop(robot);
+    Ok(halt.halt()?)
+}
+
+fn no_guards(subject: &Subject) -> Result<(), Ending> {
+    let mut robot = open(subject)?;
+    let home = here(&mut *robot)?;
+    let Some(guarded) = robot.guarded_motion() else {
+        return Err(Ending::Skipped(
+            "it does not stop by itself at a force".to_owned(),
+        ));
+    };
+    for force in [0.0, -1.0, f64::NAN] {
+        let guard = Guard {
+            force: Newton(force),
+        };
+        let told = guarded.move_guarded(home, speed(1.0)?, guard, PATIENT);
+        expect_failure(
+            &format!("a guard of {force} N"),
+            told,
+            &[ErrorKind::InvalidArgument],
+        )?;
+    }
+    Ok(())
+}
+
+fn dropped(subject: &Subject) -> Result<(), Ending> {
+    drop(open(subject)?);
+    let mut robot = open(subject)?;
+    robot.halt()?;
+    drop(robot);
+    let pose = bare_pose(subject)?;
+    if subject.may_move().is_ok() {
+        let robot: Bare = subject.open()?;
+        let target = abi::Pose {
+            z: pose.z - 1e-4,
+            ..pose
+        };
+        bare_move(&robot, target, 0.001)?;
+        drop(robot);
+    }
+    drop(open(subject)?);
+    Ok(())
+}

@@ -1,0 +1,113 @@
+//! The checks of a plugin: all hold for a good one, and each kind of mistake is found by the check that is about it.
+
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::time::Duration;
+
+use taceva_host::{CheckOutcome, CheckRequest, CheckResult, Children, PluginConfig, PluginHost};
+
+use crate::fixture::Fixture;
+
+fn checked(fixture: &Fixture, only: &[&str]) -> Vec<CheckResult> {
+    let children = Children {
+        program: Some(PathBuf::from(env!("CARGO_BIN_EXE_taceva-host-child"))),
+        quarantine: None,
+    };
+    let log = Arc::new(|_: &_, _, _: &str, _: &str| {});
+    let host = PluginHost::with_children(fixture.found(), PluginConfig::default(), log, children);
+    let request = CheckRequest {
+        only: only.iter().map(|name| (*name).to_owned()).collect(),
+        limit: Duration::from_secs(10),
+        ..CheckRequest::default()
+    };
+    let mut results = Vec::new();
+    host.check(&fixture.plugin(), &request, &mut |result| {
+        results.push(result)
+    })
+    .expect("its library can be read");
+    results
+}
+
+#[test]
+fn a_good_plugin_passes_every_check() {
+    let Some(fixture) = Fixture::built(&["LEND"]) else {
+        return;
+    };
+    let results = checked(&fixture, &[]);
+    let failed: Vec<&CheckResult> = (results.iter())
+        .filter(|result| matches!(result.outcome, CheckOutcome::Failed(_)))
+        .collect();
+    assert!(failed.is_empty(), "{failed:#?}");
+    let skipped = |result: &&CheckResult| matches!(result.outcome, CheckOutcome::Skipped(_));
+    let skipped: Vec<&str> = results
+        .iter()
+        .filter(skipped)
+        .map(|result| result.check)
+        .collect();
+    assert_eq!(skipped, ["library/unknown-rig-extension"]);
+    assert!(results.len() > 100, "{} checks", results.len());
+}
+
+/// Expects that `check` fails on the plugin built with `macros`, for a reason in these words.
+fn finds(macros: &[&str], check: &str, words: &str) {
+    let Some(fixture) = Fixture::built(macros) else {
+        return;
+    };
+    let results = checked(&fixture, &[check]);
+    let found = results
+        .iter()
+        .any(|result| matches!(&result.outcome, CheckOutcome::Failed(why) if why.contains(words)));
+    assert!(found, "{macros:?}: {results:#?}");
+}
+
+#[test]
+fn every_kind_of_mistake_is_found_by_a_check() {
+    for (macros, check, words) in [
+        (
+            &["MAGIC=1"] as &[&str],
+            "library/loads",
+            "begins with 0x00000001",
+        ),
+        (&["RATE_HZ=\"60\""], "library/loads", "rate_hz"),
+        (&["PRINTS"], "library/quiet", "hello"),
+        (&["TAKES_SIGNALS"], "library/keeps-signals", "signal 10"),
+        (&["LEAKS"], "driver/memory", "left"),
+        (
+            &["ANY_DRIVER"],
+            "driver/open-of-no-driver",
+            "which it does not have",
+        ),
+        (
+            &["LONG_ERRORS"],
+            "driver/keeps-to-the-callers-error",
+            "went beyond",
+        ),
+        (
+            &["ANY_EXTENSION"],
+            "driver/unknown-extension",
+            "a table for",
+        ),
+        (&["TOLD_WIDTH=4"], "sensor/gives-the-frames", "expected 8×6"),
+        (&["DEAF", "BLOCK"], "sensor/interrupt", "too slow"),
+        (&["BLOCK"], "sensor/gives-the-frames", "too slow"),
+        (&["OVERRUNS"], "sensor/writes-no-further", "it wrote beyond"),
+        (
+            &["LEND", "KEEPS_RELEASE"],
+            "sensor/release-says",
+            "set itself to NULL",
+        ),
+        (&["CRASHES"], "sensor/gives-the-frames", "the process ended"),
+        (&["HANGS"], "driver/opens-again", "the process ended"),
+        (&["BAD_POSE"], "robot/says-its-pose", "NaN"),
+        (&["ANY_TARGET"], "robot/refuses-targets", "succeeded"),
+        (&["FORCE=NAN"], "force/reads", "`Fz` is NaN"),
+        (
+            &["BAD_PREDICTION"],
+            "estimator/fits-and-predicts",
+            "expected a number",
+        ),
+        (&["ANY_MODEL"], "estimator/refuses-hostile", "expected"),
+    ] {
+        finds(macros, check, words);
+    }
+}

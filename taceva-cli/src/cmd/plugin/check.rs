@@ -1,0 +1,62 @@
+//! `taceva plugin check`.
+
+use std::collections::BTreeMap;
+use std::time::Duration;
+
+use taceva_core::DriverKey;
+use taceva_drivers::Selector;
+use taceva_host::{CheckOutcome, CheckRequest};
+
+use crate::args::{ListFormat, PluginCheck};
+use crate::cmd::{Context, Usage};
+use crate::{exit, output, report};
+
+pub(super) fn run(args: &PluginCheck, context: &Context) -> anyhow::Result<u8> {
+    let listing = &args.listing;
+    if let Some(path) = listing.path.as_deref() {
+        output::check_free(path, listing.force)?;
+    }
+    let host = context.plugins(None)?;
+    let plugin = host.plugins().get(&args.id)?;
+    let mut arguments = BTreeMap::new();
+    for words in &args.arguments {
+        let selector: Selector = words
+            .parse()
+            .map_err(|error| Usage::error(format!("--with {words}: {error}")))?;
+        let key: DriverKey = (selector.driver().parse())
+            .map_err(|error| Usage::error(format!("--with {words}: {error}")))?;
+        arguments.insert(key, selector.arguments().to_owned());
+    }
+    let request = CheckRequest {
+        seed: args.seed,
+        only: args.only.clone(),
+        arguments,
+        moves: args.moves,
+        limit: Duration::from_secs(args.limit),
+    };
+    // Whoever looks on sees each check when it is made; a list for a program or a file is written at the end.
+    let is_watched = listing.format == ListFormat::Text && listing.path.is_none();
+    let mut results = Vec::new();
+    host.check(plugin, &request, &mut |result| {
+        if is_watched {
+            // A reader that has gone is told by the summary.
+            let _ = output::write(None, |out| report::plugin_check::line(&result, out));
+        }
+        results.push(result);
+    })?;
+    if results.is_empty() {
+        return Err(Usage::error(format!(
+            "--only {}: no check of this plugin begins so",
+            args.only.join(",")
+        )));
+    }
+    output::write(listing.path.as_deref(), |out| {
+        report::plugin_check::write(&args.id, args.seed, (&results, is_watched), listing.format, out)
+    })?;
+    let failed = |outcome: &CheckOutcome| matches!(outcome, CheckOutcome::Failed(_));
+    Ok(if results.iter().any(|result| failed(&result.outcome)) {
+        exit::CHECK_FAILED
+    } else {
+        exit::DONE
+    })
+}

@@ -1,0 +1,73 @@
+//! The checks of a plugin, as a runner of tests shows them.
+
+use std::io::{self, Write};
+
+use serde::Serialize;
+use taceva_host::{CheckOutcome, CheckResult};
+
+use super::json;
+use crate::args::ListFormat;
+
+/// All of them; in text without the lines where these were shown already.
+pub(crate) fn write(
+    plugin: &str,
+    seed: u64,
+    (results, are_shown): (&[CheckResult], bool),
+    format: ListFormat,
+    out: &mut dyn Write,
+) -> io::Result<()> {
+    let count = |wanted: fn(&CheckOutcome) -> bool| {
+        results.iter().filter(|result| wanted(&result.outcome)).count()
+    };
+    let (passed, failed, skipped) = (
+        count(|outcome| *outcome == CheckOutcome::Passed),
+        count(|outcome| matches!(outcome, CheckOutcome::Failed(_))),
+        count(|outcome| matches!(outcome, CheckOutcome::Skipped(_))),
+    );
+    if format == ListFormat::Json {
+        let written = Written {
+            schema: "taceva.plugin-check/1",
+            plugin,
+            seed,
+            passed,
+            failed,
+            skipped,
+            results,
+        };
+        return json::write(&written, out);
+    }
+    if !are_shown {
+        results.iter().try_for_each(|result| line(result, out))?;
+    }
+    writeln!(
+        out,
+        "{plugin}: {passed} passed, {failed} failed, {skipped} skipped (seed {seed})"
+    )
+}
+
+/// One check.
+pub(crate) fn line(result: &CheckResult, out: &mut dyn Write) -> io::Result<()> {
+    let subject = result.subject.as_deref().unwrap_or("");
+    let (word, why) = match &result.outcome {
+        CheckOutcome::Passed => ("pass", ""),
+        CheckOutcome::Failed(why) => ("FAIL", why.as_str()),
+        CheckOutcome::Skipped(why) => ("skip", why.as_str()),
+    };
+    let (check, took) = (result.check, result.took_s);
+    writeln!(out, "{word}  {took:6.2}s  {check:<42} {subject}")?;
+    if !why.is_empty() {
+        writeln!(out, "               {why}")?;
+    }
+    Ok(())
+}
+
+#[derive(Serialize)]
+struct Written<'a> {
+    schema: &'static str,
+    plugin: &'a str,
+    seed: u64,
+    passed: usize,
+    failed: usize,
+    skipped: usize,
+    results: &'a [CheckResult],
+}
