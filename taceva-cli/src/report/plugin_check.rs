@@ -17,7 +17,10 @@ pub(crate) fn write(
     out: &mut dyn Write,
 ) -> io::Result<()> {
     let count = |wanted: fn(&CheckOutcome) -> bool| {
-        results.iter().filter(|result| wanted(&result.outcome)).count()
+        results
+            .iter()
+            .filter(|result| wanted(&result.outcome))
+            .count()
     };
     let (passed, failed, skipped) = (
         count(|outcome| *outcome == CheckOutcome::Passed),

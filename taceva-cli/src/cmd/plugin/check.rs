@@ -51,7 +51,13 @@ pub(super) fn run(args: &PluginCheck, context: &Context) -> anyhow::Result<u8> {
         )));
     }
     output::write(listing.path.as_deref(), |out| {
-        report::plugin_check::write(&args.id, args.seed, (&results, is_watched), listing.format, out)
+        report::plugin_check::write(
+            &args.id,
+            args.seed,
+            (&results, is_watched),
+            listing.format,
+            out,
+        )
     })?;
     let failed = |outcome: &CheckOutcome| matches!(outcome, CheckOutcome::Failed(_));
     Ok(if results.iter().any(|result| failed(&result.outcome)) {
