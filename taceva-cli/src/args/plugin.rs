@@ -89,6 +89,8 @@ pub(crate) struct PluginHeaders {
     /// The folder to make
     #[arg(value_name = "DIR", default_value = "include")]
     pub(crate) to: PathBuf,
+}
+
 /// Exit code 1 if a check fails.
 #[derive(Debug, Args)]
 pub(crate) struct PluginCheck {
