@@ -9,12 +9,15 @@ mod lighting;
 mod loops;
 mod overlay;
 mod predicted;
+mod race;
 mod radar;
 mod repeats;
 mod resolution;
 mod sensitivity;
 mod spatial;
 mod thin;
+
+pub use race::{Contender, Race, race};
 
 use crate::figure::{Figure, short};
 use crate::results::Study;

@@ -25,7 +25,7 @@ pub use escape::{
     terminal as escape_terminal,
 };
 pub use figure::{DARK, Figure, LIGHT, SERIES, STYLE};
-pub use figures::{figures, names};
+pub use figures::{Contender, Race, figures, names, race};
 pub use html::{Document, Pick, Picture, Report, picks, report};
 pub use listing::Listing;
 pub use number::{Printed, spaced, with_interval};

@@ -2,6 +2,7 @@
 
 use std::io::{self, Write};
 
+pub(super) use taceva_report::escape_latex as escape;
 use taceva_study::EvaluationReport;
 
 use super::grid::{Grid, caption};
@@ -62,34 +63,12 @@ fn symbol(name: &str) -> String {
     }
 }
 
-/// Text that LaTeX prints as it stands.
-pub(super) fn escape(text: &str) -> String {
-    let mut escaped = String::with_capacity(text.len());
-    for character in text.chars() {
-        match character {
-            '\\' => escaped.push_str("\\textbackslash{}"),
-            '~' => escaped.push_str("\\textasciitilde{}"),
-            '^' => escaped.push_str("\\textasciicircum{}"),
-            '{' | '}' | '$' | '&' | '#' | '_' | '%' => escaped.extend(['\\', character]),
-            '²' => escaped.push_str("$^2$"),
-            '·' => escaped.push_str("$\\cdot$"),
-            '…' => escaped.push_str("\\dots{}"),
-            _ => escaped.push(character),
-        }
-    }
-    escaped
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
-    fn every_character_that_latex_reads_specially_is_escaped() {
-        assert_eq!(
-            escape("a_b 5 % {x} \\ ~ ^ $ & #"),
-            "a\\_b 5 \\% \\{x\\} \\textbackslash{} \\textasciitilde{} \\textasciicircum{} \\$ \\& \\#"
-        );
+    fn channels_are_symbols_and_other_names_words() {
         assert_eq!(
             [symbol("Fxy"), symbol("Pz"), symbol("shear_x")],
             ["$F_{xy}$", "$P_{z}$", "shear\\_x"]

@@ -4,6 +4,7 @@ use std::io::{self, Write};
 
 use taceva_core::PressOutcome;
 use taceva_metrics::catalogue;
+use taceva_report::escape_terminal;
 use taceva_study::EvaluationReport;
 
 use super::line::{Line, lines};
@@ -19,8 +20,9 @@ type Row = [String; 3];
 pub(super) fn write(reports: &[EvaluationReport], out: &mut dyn Write) -> io::Result<()> {
     for report in reports {
         let subject = &report.subject;
-        let (sensor, serial) = (&subject.sensor, &subject.serial);
-        write!(out, "{sensor}   serial {serial}   gel {}", subject.gel)?;
+        let [sensor, serial, gel] =
+            [&subject.sensor, &subject.serial, &subject.gel].map(|name| escape_terminal(name));
+        write!(out, "{sensor}   serial {serial}   gel {gel}")?;
         writeln!(out, "   {}", subject.source)?;
     }
     let is_model = |report: &EvaluationReport| report.subject.source != "recorded";
@@ -51,7 +53,8 @@ pub(super) fn write(reports: &[EvaluationReport], out: &mut dyn Write) -> io::Re
     }
     for report in reports {
         for skipped in report.evaluation.skipped() {
-            let (sensor, what) = (&report.subject.sensor, &skipped.what);
+            let sensor = escape_terminal(&report.subject.sensor);
+            let what = escape_terminal(&skipped.what);
             writeln!(out, "skipped    {sensor}: {what}: {}", skipped.reason)?;
         }
     }
@@ -59,7 +62,9 @@ pub(super) fn write(reports: &[EvaluationReport], out: &mut dyn Write) -> io::Re
 }
 
 fn head(reports: &[EvaluationReport]) -> Vec<String> {
-    let sensors = reports.iter().map(|report| report.subject.sensor.clone());
+    let sensors = reports
+        .iter()
+        .map(|report| escape_terminal(&report.subject.sensor));
     ["metric", "channel"]
         .map(str::to_owned)
         .into_iter()

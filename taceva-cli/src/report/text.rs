@@ -3,6 +3,7 @@
 use std::io::{self, Write};
 
 use taceva_core::{Limit, PressOutcome};
+use taceva_report::escape_terminal;
 use taceva_study::EvaluationReport;
 
 use super::line::{flags, lines, pictures};
@@ -58,11 +59,10 @@ fn heading(report: &EvaluationReport, out: &mut dyn Write) -> io::Result<()> {
     if subject.source == "unknown" {
         writeln!(out, "Scores of two tables")?;
     } else {
-        writeln!(
-            out,
-            "{}   serial {}   gel {}   {}",
-            subject.sensor, subject.serial, subject.gel, subject.source
-        )?;
+        let [sensor, serial, gel] =
+            [&subject.sensor, &subject.serial, &subject.gel].map(|name| escape_terminal(name));
+        let source = &subject.source;
+        writeln!(out, "{sensor}   serial {serial}   gel {gel}   {source}")?;
     }
     if subject.source == "synthetic" || subject.source == "simulated" {
         writeln!(
@@ -116,7 +116,7 @@ fn footer(report: &EvaluationReport, out: &mut dyn Write) -> io::Result<()> {
         writeln!(out, "skipped    {}: {}", skipped.what, skipped.reason)?;
     }
     for note in &report.provenance.notes {
-        writeln!(out, "note       {note}")?;
+        writeln!(out, "note       {}", escape_terminal(note))?;
     }
     if let Some(presses) = presses(report) {
         writeln!(out, "presses    {presses}")?;

@@ -9,6 +9,8 @@ pub(crate) enum Ink {
     Muted,
     /// Lines that help the eye.
     Grid,
+    /// What lies behind marks.
+    Paper,
     /// One of several things that are compared.
     Series(usize),
     /// A colour of a scale.

@@ -186,6 +186,7 @@ fn paint(ink: Ink, class: &str, attribute: &str) -> String {
         Ink::Text => format!(" class=\"{class}t\""),
         Ink::Muted => format!(" class=\"{class}m\""),
         Ink::Grid => format!(" class=\"{class}g\""),
+        Ink::Paper => format!(" class=\"{class}p\""),
         Ink::Series(position) => format!(" class=\"{class}{}\"", position % LIGHT.len()),
         Ink::Rgb([red, green, blue]) => {
             format!(" {attribute}=\"#{red:02x}{green:02x}{blue:02x}\"")

@@ -126,7 +126,7 @@ fn card(
 ) -> String {
     let kind = if pick.is_worst { "worst" } else { "best" };
     let mut out = format!(
-        "<li class=\"card\" data-tags=\"s{at} {kind}\"><h4>{}: {kind}, sample {}</h4>",
+        "<li class=\"card\" data-tags=\"s{at} {kind}\"><h3>{}: {kind}, sample {}</h3>",
         html(&short(name, 30)),
         html(&short(&pick.id, 14))
     );

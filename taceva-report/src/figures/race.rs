@@ -1,0 +1,166 @@
+//! Run time against error: who stands right and low is right and fast.
+
+use crate::figure::{Anchor, Area, Axes, Canvas, Figure, Ink, Label, Panel, Points, Scale, Stroke};
+use crate::figure::{extent, numeral, short};
+
+/// Contenders with what they cost and what they give.
+#[derive(Clone, Debug)]
+pub struct Race {
+    /// What is raced: `Ways to sum`.
+    pub title: String,
+    /// What a reader must know: machine, sizes, rounds.
+    pub caption: String,
+    /// What is gained, to the right: `right digits`.
+    pub gain: String,
+    /// What it costs, upwards and by logarithm: `ns a pair`.
+    pub cost: String,
+    /// A cost that nobody can go below, and what it is of.
+    pub floor: Option<(f64, String)>,
+    /// Those who race.
+    pub contenders: Vec<Contender>,
+}
+
+/// One that races.
+#[derive(Clone, Debug)]
+pub struct Contender {
+    /// What it is called.
+    pub name: String,
+    /// What is gained.
+    pub gain: f64,
+    /// What it costs; above 0.
+    pub cost: f64,
+    /// Whether nobody is better both ways.
+    pub is_on_front: bool,
+}
+
+/// Draws a race: filled dots are on the Pareto front.
+pub fn race(race: &Race) -> Figure {
+    let mut canvas = Canvas::new(760.0, 470.0);
+    let area = Area {
+        left: 62.0,
+        top: 30.0,
+        width: 660.0,
+        height: 380.0,
+    };
+    let costs = race.contenders.iter().map(|contender| contender.cost);
+    let floor = race.floor.iter().map(|(cost, _)| *cost);
+    let costs = extent(costs.chain(floor).filter(|cost| *cost > 0.0));
+    let gains = extent(
+        race.contenders
+            .iter()
+            .map(|contender| contender.gain)
+            .chain([0.0]),
+    );
+    if let (Some([cheap, dear]), Some(gains)) = (costs, gains) {
+        let panel = Panel {
+            area,
+            x: Scale::round(gains, area.across()),
+            y: Scale::logarithmic([cheap / 1.5, dear * 1.5], area.upwards()),
+        };
+        let axes = Axes {
+            title: String::new(),
+            x: race.gain.clone(),
+            y: race.cost.clone(),
+        };
+        panel.axes(&axes, &mut canvas);
+        if let Some((cost, name)) = &race.floor {
+            let y = panel.y.at(*cost);
+            let stroke = Stroke {
+                dash: "4 3",
+                ..Stroke::thin(Ink::Muted)
+            };
+            canvas.line([area.left, y], [area.right(), y], stroke);
+            let words = format!("floor: {} {}", short(name, 40), numeral(*cost));
+            canvas.label(Label::new([area.left + 6.0, y - 5.0], words, Anchor::Start));
+        }
+        for contender in &race.contenders {
+            dot(contender, &panel, &mut canvas);
+        }
+    }
+    let front = race
+        .contenders
+        .iter()
+        .filter(|contender| contender.is_on_front);
+    let front: Vec<String> = front.map(|contender| contender.name.clone()).collect();
+    Figure {
+        id: "race".to_owned(),
+        title: race.title.clone(),
+        caption: format!("{} Filled: on the Pareto front.", race.caption),
+        description: format!(
+            "{}. On the Pareto front: {}.",
+            race.caption,
+            super::listed(&front)
+        ),
+        canvas,
+    }
+}
+
+fn dot(contender: &Contender, panel: &Panel, canvas: &mut Canvas) {
+    let at = panel.at(contender.gain, contender.cost);
+    let words = format!(
+        "{}: {} at {}",
+        contender.name,
+        numeral(contender.gain),
+        numeral(contender.cost)
+    );
+    let one = |words: Vec<String>| Points {
+        at: vec![at],
+        words,
+    };
+    canvas.points(one(vec![words]), Ink::Series(0), 5.5, 1.0);
+    if !contender.is_on_front {
+        canvas.points(one(Vec::new()), Ink::Paper, 3.9, 1.0);
+    }
+    // Names on the right half stand to the left of their dots, where there is room.
+    let is_right = at[0] > panel.area.left + panel.area.width / 2.0;
+    let (off, anchor) = match is_right {
+        true => (-10.0, Anchor::End),
+        false => (10.0, Anchor::Start),
+    };
+    let mut label = Label::new(
+        [at[0] + off, at[1] + 4.0],
+        short(&contender.name, 40),
+        anchor,
+    );
+    label.ink = Ink::Text;
+    canvas.label(label);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_cheaper_stands_lower_and_the_better_to_the_right() {
+        let contender = |name: &str, gain, cost| Contender {
+            name: name.to_owned(),
+            gain,
+            cost,
+            is_on_front: name == "fast",
+        };
+        let drawn = race(&Race {
+            title: "drawn".to_owned(),
+            caption: "Drawn.".to_owned(),
+            gain: "digits".to_owned(),
+            cost: "ns".to_owned(),
+            floor: Some((0.5, "reading".to_owned())),
+            contenders: vec![contender("fast", 8.0, 1.0), contender("right", 17.0, 30.0)],
+        });
+        let svg = drawn.svg();
+        let place = |name: &str| {
+            let (before, _) = svg.split_once(&format!("<title>{name}:")).expect("drawn");
+            let circle = before.rsplit("<circle ").next().expect("a circle");
+            let number = |key: &str| -> f64 {
+                let (_, rest) = circle.split_once(&format!("{key}=\"")).expect("there");
+                rest.split('"')
+                    .next()
+                    .expect("quoted")
+                    .parse()
+                    .expect("a number")
+            };
+            [number("cx"), number("cy")]
+        };
+        let [fast, right] = ["fast", "right"].map(place);
+        assert!(fast[0] < right[0] && fast[1] > right[1]);
+    }
+}
