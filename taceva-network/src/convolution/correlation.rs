@@ -1,0 +1,186 @@
+//! What the forward pass and the gradient of the input have in common: sums of runs of pixels times rows of weights.
+
+use crate::panel::PANEL;
+use crate::simd::{Job, Pixels, Tile, Vector};
+
+/// Bytes of weights that stay in the second-level cache beside the pixels that they meet.
+const WEIGHTS_AT_ONCE: usize = 700 << 10;
+
+/// A run of consecutive input numbers and the rows of weights that it meets.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Tap {
+    /// From where a pixel's kernel begins to the run.
+    pub(crate) offset: usize,
+    /// The first row of weights.
+    pub(crate) row: usize,
+}
+
+/// What sums begin with.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Start<'a> {
+    /// Nothing.
+    Zero,
+    /// What the output holds.
+    Output,
+    /// A number a channel.
+    Bias(&'a [f32]),
+}
+
+/// What is done with finished sums.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Finish<'a> {
+    /// They are kept.
+    Keep,
+    /// Those below zero become zero.
+    Relu,
+    /// A tensor that lies as the output does is added, then those below zero become zero.
+    AddThenRelu(&'a [f32]),
+}
+
+/// output[pixel, channel] = finish(start + Σ over taps, run: input · weights).
+pub(crate) struct Correlation<'a> {
+    /// Where each pixel of a picture begins in the input and lies in the output.
+    pub(crate) pixels: &'a Pixels,
+    /// How many pictures.
+    pub(crate) images: usize,
+    /// The pictures, `input_image` numbers each.
+    pub(crate) input: &'a [f32],
+    pub(crate) input_image: usize,
+    pub(crate) taps: &'a [Tap],
+    /// Numbers of each tap's run.
+    pub(crate) run: usize,
+    /// `[panels, rows, PANEL]`.
+    pub(crate) weights: &'a [f32],
+    pub(crate) rows: usize,
+    /// The pictures that are written, `output_image` numbers each.
+    pub(crate) output: &'a mut [f32],
+    pub(crate) output_image: usize,
+    pub(crate) start: Start<'a>,
+    pub(crate) finish: Finish<'a>,
+}
+
+/// The part of a correlation that one round over the pixels does.
+#[derive(Clone, Copy)]
+struct Round<'a> {
+    taps: &'a [Tap],
+    panel: usize,
+    is_first: bool,
+    is_last: bool,
+}
+
+/// Whether the weights of `rows` rows are too many to be met at once by a machine with wide tiles.
+///
+/// Measured at four panels, whatever the machine, so that how work is divided depends on shapes alone.
+pub(crate) fn are_weights_many(rows: usize, panels: usize) -> bool {
+    rows * panels.min(4) * PANEL * size_of::<f32>() > WEIGHTS_AT_ONCE
+}
+
+impl Job for Correlation<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<V: Vector>(mut self, proof: V::Proof) {
+        let panels = self.weights.len() / (self.rows * PANEL);
+        let pieces = if are_weights_many(self.rows, panels) {
+            3
+        } else {
+            1
+        };
+        let piece = self.taps.len().div_ceil(pieces).max(1);
+        let taps = self.taps;
+        let mut panel = 0;
+        while panel < panels {
+            let width = (panels - panel).min(V::PANELS);
+            // One round even without taps, which writes what sums begin with.
+            for index in 0..taps.len().div_ceil(piece).max(1) {
+                let end = ((index + 1) * piece).min(taps.len());
+                let round = Round {
+                    taps: &taps[index * piece..end],
+                    panel,
+                    is_first: index == 0,
+                    is_last: end == taps.len(),
+                };
+                match width * PANEL / V::LANES {
+                    1 => self.round::<V, 1>(proof, round),
+                    2 => self.round::<V, 2>(proof, round),
+                    3 => self.round::<V, 3>(proof, round),
+                    4 => self.round::<V, 4>(proof, round),
+                    _ => unreachable!("at most four vectors a tile"),
+                }
+            }
+            panel += width;
+        }
+    }
+}
+
+impl Correlation<'_> {
+    #[inline(always)]
+    fn round<V: Vector, const VECTORS: usize>(&mut self, proof: V::Proof, round: Round<'_>) {
+        let total = self.images * self.pixels.len();
+        let mut first = 0;
+        while first < total {
+            let count = (total - first).min(V::ROWS);
+            match count {
+                1 => self.tile::<V, 1, VECTORS>(proof, round, first),
+                2 => self.tile::<V, 2, VECTORS>(proof, round, first),
+                3 => self.tile::<V, 3, VECTORS>(proof, round, first),
+                4 => self.tile::<V, 4, VECTORS>(proof, round, first),
+                5 => self.tile::<V, 5, VECTORS>(proof, round, first),
+                6 => self.tile::<V, 6, VECTORS>(proof, round, first),
+                _ => unreachable!("at most six rows a tile"),
+            }
+            first += count;
+        }
+    }
+
+    #[inline(always)]
+    fn tile<V: Vector, const ROWS: usize, const VECTORS: usize>(
+        &mut self,
+        proof: V::Proof,
+        round: Round<'_>,
+        first: usize,
+    ) {
+        let places: [(usize, usize); ROWS] = std::array::from_fn(|row| self.place(first + row));
+        let outputs = places.map(|(_, output)| output + round.panel * PANEL);
+        let mut tile: Tile<V, ROWS, VECTORS> = match self.start {
+            Start::Zero if round.is_first => Tile::zero(proof),
+            Start::Bias(bias) if round.is_first => {
+                Tile::load(proof, bias, [round.panel * PANEL; ROWS], PANEL)
+            }
+            _ => Tile::load(proof, self.output, outputs, PANEL),
+        };
+        let stride = self.rows * PANEL;
+        let panels = &self.weights[round.panel * stride..];
+        for tap in round.taps {
+            let inputs = places.map(|(input, _)| input + tap.offset);
+            tile.add_runs(
+                self.input,
+                inputs,
+                &panels[tap.row * PANEL..],
+                stride,
+                self.run,
+            );
+        }
+        if round.is_last {
+            tile = match self.finish {
+                Finish::Keep => tile,
+                Finish::Relu => tile.positive_part(),
+                Finish::AddThenRelu(other) => tile
+                    .plus(Tile::load(proof, other, outputs, PANEL))
+                    .positive_part(),
+            };
+        }
+        tile.store(self.output, outputs, PANEL);
+    }
+
+    /// Where pixel `position`, counted over all pictures, begins in the input and lies in the output.
+    #[inline(always)]
+    fn place(&self, position: usize) -> (usize, usize) {
+        let image = position / self.pixels.len();
+        let (input, output) = self.pixels.at(position % self.pixels.len());
+        (
+            image * self.input_image + input,
+            image * self.output_image + output,
+        )
+    }
+}

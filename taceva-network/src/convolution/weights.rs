@@ -1,0 +1,115 @@
+//! The weights of a convolution, as its passes read them and as others write them.
+
+use rayon::prelude::*;
+
+use super::Convolution;
+use crate::isa::Machine;
+use crate::panel::{Aligned, PANEL};
+use crate::simd::{Job, Vector};
+
+/// The weights of a convolution.
+///
+/// # Shapes
+/// `[outputs / PANEL, kernel row, kernel column, inputs, PANEL]`: the gradient has the same.
+#[derive(Clone, Debug)]
+pub(crate) struct ConvolutionWeights {
+    convolution: Convolution,
+    values: Aligned,
+}
+
+impl ConvolutionWeights {
+    /// Weights of zero.
+    pub(crate) fn zeros(convolution: Convolution) -> ConvolutionWeights {
+        let length = convolution.outputs * convolution.inputs * convolution.taps();
+        let values = Aligned::zeros(length);
+        ConvolutionWeights { convolution, values }
+    }
+
+    pub(crate) fn convolution(&self) -> Convolution {
+        self.convolution
+    }
+
+    pub(crate) fn values(&self) -> &[f32] {
+        &self.values
+    }
+
+    pub(crate) fn values_mut(&mut self) -> &mut [f32] {
+        &mut self.values
+    }
+
+    /// The weights in the order `[outputs, inputs, kernel row, kernel column]`.
+    pub(crate) fn to_plain(&self) -> Vec<f32> {
+        plain(self.convolution, &self.values)
+    }
+
+    /// Takes weights in the order `[outputs, inputs, kernel row, kernel column]`.
+    pub(crate) fn set_plain(&mut self, plain: &[f32]) {
+        for (place, at) in places(self.convolution).enumerate() {
+            self.values[at] = plain[place];
+        }
+    }
+
+    /// Writes the weights with inputs and outputs exchanged, `[inputs / PANEL, taps, outputs, PANEL]`, as the gradient of the
+    /// input reads them.
+    pub(crate) fn exchange(&self, machine: Machine, into: &mut [f32]) {
+        let Convolution { inputs, outputs, .. } = self.convolution;
+        let taps = self.convolution.taps();
+        let panels = into.par_chunks_mut(taps * outputs * PANEL);
+        panels.enumerate().for_each(|(panel, into)| {
+            machine.run(Exchange {
+                weights: &self.values,
+                taps,
+                inputs,
+                first_input: panel * PANEL,
+                into,
+            });
+        });
+    }
+}
+
+/// A gradient or weights of `convolution`, in the order `[outputs, inputs, kernel row, kernel column]`.
+pub(crate) fn plain(convolution: Convolution, values: &[f32]) -> Vec<f32> {
+    places(convolution).map(|at| values[at]).collect()
+}
+
+/// Where the weights lie, in the order `[outputs, inputs, kernel row, kernel column]`.
+fn places(convolution: Convolution) -> impl Iterator<Item = usize> {
+    let (inputs, taps) = (convolution.inputs, convolution.taps());
+    (0..convolution.outputs).flat_map(move |output| {
+        (0..inputs).flat_map(move |input| {
+            (0..taps).map(move |tap| {
+                (((output / PANEL) * taps + tap) * inputs + input) * PANEL + output % PANEL
+            })
+        })
+    })
+}
+
+/// One panel of inputs of the exchanged weights.
+struct Exchange<'a> {
+    weights: &'a [f32],
+    taps: usize,
+    inputs: usize,
+    first_input: usize,
+    /// `[taps, outputs, PANEL]`.
+    into: &'a mut [f32],
+}
+
+impl Job for Exchange<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<V: Vector>(self, _proof: V::Proof) {
+        let outputs = self.into.len() / (self.taps * PANEL);
+        let blocks = self.into.as_chunks_mut::<PANEL>().0.chunks_exact_mut(PANEL);
+        for (block, into) in blocks.enumerate() {
+            let (tap, panel) = (block / (outputs / PANEL), block % (outputs / PANEL));
+            let from = ((panel * self.taps + tap) * self.inputs + self.first_input) * PANEL;
+            let from = self.weights[from..][..PANEL * PANEL].as_chunks::<PANEL>().0;
+            for (lane, row) in into.iter_mut().enumerate() {
+                for (place, from) in row.iter_mut().zip(from) {
+                    *place = from[lane];
+                }
+            }
+        }
+    }
+}

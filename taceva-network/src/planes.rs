@@ -1,0 +1,117 @@
+//! Pictures in memory: how they lie, and a batch of them.
+
+use crate::panel::Aligned;
+
+/// The size of a picture and how many numbers a pixel has.
+///
+/// # Shapes
+/// Pictures lie as `[height, width, channels]`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, serde::Serialize, serde::Deserialize)]
+pub struct Picture {
+    /// Rows.
+    pub height: usize,
+    /// Columns.
+    pub width: usize,
+    /// Numbers a pixel.
+    pub channels: usize,
+}
+
+impl Picture {
+    /// Numbers a picture.
+    pub const fn len(&self) -> usize {
+        self.height * self.width * self.channels
+    }
+
+    /// Whether a picture has no number.
+    pub const fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// Pixels a picture.
+    pub(crate) const fn pixels(&self) -> usize {
+        self.height * self.width
+    }
+}
+
+impl std::fmt::Display for Picture {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "{}×{}×{}", self.height, self.width, self.channels)
+    }
+}
+
+/// How a picture lies in memory: with a border of zeros around it, so that no loop asks where a picture ends.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Layout {
+    pub(crate) picture: Picture,
+    pub(crate) border: usize,
+}
+
+impl Layout {
+    /// Numbers a row, border included.
+    pub(crate) const fn row(&self) -> usize {
+        (self.picture.width + 2 * self.border) * self.picture.channels
+    }
+
+    /// Numbers a picture, border included.
+    pub(crate) const fn len(&self) -> usize {
+        (self.picture.height + 2 * self.border) * self.row()
+    }
+
+    /// Where row `y` begins, without the border beside it.
+    pub(crate) const fn start_of_row(&self, y: usize) -> usize {
+        (y + self.border) * self.row() + self.border * self.picture.channels
+    }
+
+    /// Where row `y` lies, without the border beside it.
+    pub(crate) fn row_range(&self, y: usize) -> std::ops::Range<usize> {
+        let start = self.start_of_row(y);
+        start..start + self.picture.width * self.picture.channels
+    }
+}
+
+/// A batch of pictures.
+#[derive(Clone, Debug)]
+pub(crate) struct Planes {
+    layout: Layout,
+    values: Aligned,
+}
+
+impl Planes {
+    /// `batch` pictures of zeros.
+    pub(crate) fn zeros(picture: Picture, border: usize, batch: usize) -> Planes {
+        let layout = Layout { picture, border };
+        let values = Aligned::zeros(layout.len() * batch);
+        Planes { layout, values }
+    }
+
+    pub(crate) fn layout(&self) -> Layout {
+        self.layout
+    }
+
+    /// The first `count` pictures, borders included.
+    pub(crate) fn first(&self, count: usize) -> &[f32] {
+        &self.values[..count * self.layout.len()]
+    }
+
+    /// The first `count` pictures, borders included; whoever writes leaves the borders zero.
+    pub(crate) fn first_mut(&mut self, count: usize) -> &mut [f32] {
+        &mut self.values[..count * self.layout.len()]
+    }
+
+    /// Writes picture `position`.
+    pub(crate) fn set(&mut self, position: usize, values: &[f32]) {
+        let layout = self.layout;
+        let image = &mut self.values[position * layout.len()..][..layout.len()];
+        let rows = values.chunks_exact(layout.picture.width * layout.picture.channels);
+        for (y, row) in rows.enumerate() {
+            image[layout.row_range(y)].copy_from_slice(row);
+        }
+    }
+
+    /// Picture `position`, without its border.
+    pub(crate) fn get(&self, position: usize) -> Vec<f32> {
+        let image = &self.values[position * self.layout.len()..][..self.layout.len()];
+        let rows = (0..self.layout.picture.height).map(|y| &image[self.layout.row_range(y)]);
+        rows.flatten().copied().collect()
+    }
+}

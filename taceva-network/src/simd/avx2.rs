@@ -1,0 +1,86 @@
+//! AVX2 with fused multiplication: Eight numbers a vector.
+
+#![expect(unsafe_code, reason = "vector instructions, loads and stores")]
+
+use std::arch::x86_64::{__m256, _mm256_add_ps, _mm256_broadcast_ss, _mm256_fmadd_ps, _mm256_loadu_ps, _mm256_max_ps, _mm256_setzero_ps, _mm256_storeu_ps};
+
+use super::vector::{Job, Vector};
+
+/// Evidence that the machine has AVX2 with fused multiplication.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Avx2(());
+
+impl Avx2 {
+    /// The evidence, if there is any.
+    pub(crate) fn detect() -> Option<Avx2> {
+        (is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma")).then_some(Avx2(()))
+    }
+
+    /// Does `job` with these vectors.
+    pub(crate) fn run<J: Job>(self, job: J) -> J::Output {
+        #[target_feature(enable = "avx2,fma")]
+        fn with_instructions<J: Job>(proof: Avx2, job: J) -> J::Output {
+            job.run::<Eight>(proof)
+        }
+        // SAFETY: `self` is made by `detect` alone, which found the instructions.
+        unsafe { with_instructions(self, job) }
+    }
+}
+
+/// Eight numbers a vector; made from a proof or from others of its kind.
+#[derive(Clone, Copy)]
+struct Eight(__m256);
+
+/// One instruction on values whose existence proves that the machine has it.
+macro_rules! proven {
+    ($instruction:expr) => {
+        // SAFETY: a vector or its proof is at hand, which only machines with AVX2 with fused multiplication have; no memory is touched.
+        unsafe { $instruction }
+    };
+}
+
+impl Vector for Eight {
+    type Proof = Avx2;
+    const LANES: usize = 8;
+    const ROWS: usize = 6;
+    const PANELS: usize = 1;
+
+    #[inline(always)]
+    fn zero(_proof: Avx2) -> Eight {
+        Eight(proven!(_mm256_setzero_ps()))
+    }
+
+    #[inline(always)]
+    unsafe fn splat(_proof: Avx2, place: *const f32) -> Eight {
+        // SAFETY: the machine has the instruction, and the caller promises a number at `place`.
+        Eight(unsafe { _mm256_broadcast_ss(&*place) })
+    }
+
+    #[inline(always)]
+    unsafe fn load(_proof: Avx2, place: *const f32) -> Eight {
+        // SAFETY: the machine has the instruction, and the caller promises a number a lane at `place`.
+        Eight(unsafe { _mm256_loadu_ps(place) })
+    }
+
+    #[inline(always)]
+    unsafe fn store(self, place: *mut f32) {
+        // SAFETY: the machine has the instruction, and the caller promises room for a number a lane at `place`.
+        unsafe { _mm256_storeu_ps(place, self.0) }
+    }
+
+    #[inline(always)]
+    fn times_plus(self, factor: Eight, addend: Eight) -> Eight {
+        Eight(proven!(_mm256_fmadd_ps(self.0, factor.0, addend.0)))
+    }
+
+    #[inline(always)]
+    fn plus(self, other: Eight) -> Eight {
+        Eight(proven!(_mm256_add_ps(self.0, other.0)))
+    }
+
+    #[inline(always)]
+    fn positive_part(self) -> Eight {
+        // Of zero and NaN the instruction gives the second.
+        Eight(proven!(_mm256_max_ps(_mm256_setzero_ps(), self.0)))
+    }
+}

@@ -1,0 +1,86 @@
+//! AVX-512: Sixteen numbers a vector.
+
+#![expect(unsafe_code, reason = "vector instructions, loads and stores")]
+
+use std::arch::x86_64::{__m512, _mm512_add_ps, _mm512_fmadd_ps, _mm512_loadu_ps, _mm512_max_ps, _mm512_set1_ps, _mm512_setzero_ps, _mm512_storeu_ps};
+
+use super::vector::{Job, Vector};
+
+/// Evidence that the machine has AVX-512.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Avx512(());
+
+impl Avx512 {
+    /// The evidence, if there is any.
+    pub(crate) fn detect() -> Option<Avx512> {
+        (is_x86_feature_detected!("avx512f") && is_x86_feature_detected!("fma")).then_some(Avx512(()))
+    }
+
+    /// Does `job` with these vectors.
+    pub(crate) fn run<J: Job>(self, job: J) -> J::Output {
+        #[target_feature(enable = "avx512f,fma")]
+        fn with_instructions<J: Job>(proof: Avx512, job: J) -> J::Output {
+            job.run::<Sixteen>(proof)
+        }
+        // SAFETY: `self` is made by `detect` alone, which found the instructions.
+        unsafe { with_instructions(self, job) }
+    }
+}
+
+/// Sixteen numbers a vector; made from a proof or from others of its kind.
+#[derive(Clone, Copy)]
+struct Sixteen(__m512);
+
+/// One instruction on values whose existence proves that the machine has it.
+macro_rules! proven {
+    ($instruction:expr) => {
+        // SAFETY: a vector or its proof is at hand, which only machines with AVX-512 have; no memory is touched.
+        unsafe { $instruction }
+    };
+}
+
+impl Vector for Sixteen {
+    type Proof = Avx512;
+    const LANES: usize = 16;
+    const ROWS: usize = 6;
+    const PANELS: usize = 4;
+
+    #[inline(always)]
+    fn zero(_proof: Avx512) -> Sixteen {
+        Sixteen(proven!(_mm512_setzero_ps()))
+    }
+
+    #[inline(always)]
+    unsafe fn splat(_proof: Avx512, place: *const f32) -> Sixteen {
+        // SAFETY: the machine has the instruction, and the caller promises a number at `place`.
+        Sixteen(unsafe { _mm512_set1_ps(*place) })
+    }
+
+    #[inline(always)]
+    unsafe fn load(_proof: Avx512, place: *const f32) -> Sixteen {
+        // SAFETY: the machine has the instruction, and the caller promises a number a lane at `place`.
+        Sixteen(unsafe { _mm512_loadu_ps(place) })
+    }
+
+    #[inline(always)]
+    unsafe fn store(self, place: *mut f32) {
+        // SAFETY: the machine has the instruction, and the caller promises room for a number a lane at `place`.
+        unsafe { _mm512_storeu_ps(place, self.0) }
+    }
+
+    #[inline(always)]
+    fn times_plus(self, factor: Sixteen, addend: Sixteen) -> Sixteen {
+        Sixteen(proven!(_mm512_fmadd_ps(self.0, factor.0, addend.0)))
+    }
+
+    #[inline(always)]
+    fn plus(self, other: Sixteen) -> Sixteen {
+        Sixteen(proven!(_mm512_add_ps(self.0, other.0)))
+    }
+
+    #[inline(always)]
+    fn positive_part(self) -> Sixteen {
+        // Of zero and NaN the instruction gives the second.
+        Sixteen(proven!(_mm512_max_ps(_mm512_setzero_ps(), self.0)))
+    }
+}
