@@ -57,7 +57,8 @@ impl Convolution {
 
 /// An offset as tables of pixels keep it.
 fn offset(value: usize) -> u32 {
-    u32::try_from(value).expect("a picture has fewer numbers than 2^32, as the architecture was checked")
+    u32::try_from(value)
+        .expect("a picture has fewer numbers than 2^32, as the architecture was checked")
 }
 
 #[cfg(test)]

@@ -5,9 +5,9 @@ use std::sync::OnceLock;
 
 #[cfg(target_arch = "aarch64")]
 use crate::simd::Neon;
-use crate::simd::{Job, Portable};
 #[cfg(target_arch = "x86_64")]
 use crate::simd::{Avx2, Avx512};
+use crate::simd::{Job, Portable};
 
 /// The environment variable that asks for an instruction set by name.
 const VARIABLE: &str = "TACEVA_ISA";

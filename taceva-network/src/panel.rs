@@ -63,7 +63,11 @@ mod tests {
             let numbers = Aligned::of(&vec![2.0; length]).clone();
             assert_eq!(numbers.len(), length);
             assert_eq!(numbers.as_ptr().align_offset(64), 0);
-            assert!(numbers.iter().all(|number| number.to_bits() == 2.0_f32.to_bits()));
+            assert!(
+                numbers
+                    .iter()
+                    .all(|number| number.to_bits() == 2.0_f32.to_bits())
+            );
         }
     }
 }

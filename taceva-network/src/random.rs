@@ -89,14 +89,19 @@ mod tests {
         let mean = values.iter().sum::<f64>() / 20_000.0;
         let variance = values.iter().map(|value| value * value).sum::<f64>() / 20_000.0;
         // Standard errors are 0.007 and 0.01: five of them.
-        assert!(mean.abs() < 0.035 && (variance - 1.0).abs() < 0.05, "{mean} {variance}");
+        assert!(
+            mean.abs() < 0.035 && (variance - 1.0).abs() < 0.05,
+            "{mean} {variance}"
+        );
     }
 
     #[test]
     fn every_order_of_three_is_about_as_likely() {
         let mut counts = std::collections::BTreeMap::new();
         for seed in 0..6000 {
-            *counts.entry(Draws::new(3).of(seed).order(3)).or_insert(0_u32) += 1;
+            *counts
+                .entry(Draws::new(3).of(seed).order(3))
+                .or_insert(0_u32) += 1;
         }
         // 1000 expected, standard deviation 29: five of them.
         assert_eq!(counts.len(), 6);

@@ -84,39 +84,39 @@ impl Forward {
         let group = images_at_once(self.pixels.len(), count, are_many);
         let (each, see) = each;
         let inputs = source.input.first(count).par_chunks(group * input_image);
-        let outputs = output
-            .first_mut(count)
-            .par_chunks_mut(group * output_image);
+        let outputs = output.first_mut(count).par_chunks_mut(group * output_image);
         let groups = outputs.zip(inputs).zip(each.par_chunks_mut(group));
-        groups.enumerate().for_each(|(index, ((output, input), each))| {
-            let start = index * group * output_image;
-            let (start, finish) = match epilogue {
-                Epilogue::Raw => (Start::Zero, Finish::Keep),
-                Epilogue::Bias(bias) => (Start::Bias(bias), Finish::Keep),
-                Epilogue::BiasRelu(bias) => (Start::Bias(bias), Finish::Relu),
-                Epilogue::BiasAddRelu(bias, other) => {
-                    let other = &other.first(count)[start..][..output.len()];
-                    (Start::Bias(bias), Finish::AddThenRelu(other))
+        groups
+            .enumerate()
+            .for_each(|(index, ((output, input), each))| {
+                let start = index * group * output_image;
+                let (start, finish) = match epilogue {
+                    Epilogue::Raw => (Start::Zero, Finish::Keep),
+                    Epilogue::Bias(bias) => (Start::Bias(bias), Finish::Keep),
+                    Epilogue::BiasRelu(bias) => (Start::Bias(bias), Finish::Relu),
+                    Epilogue::BiasAddRelu(bias, other) => {
+                        let other = &other.first(count)[start..][..output.len()];
+                        (Start::Bias(bias), Finish::AddThenRelu(other))
+                    }
+                };
+                machine.run(Correlation {
+                    pixels: &self.pixels,
+                    images: output.len() / output_image,
+                    input,
+                    input_image,
+                    taps: &self.taps,
+                    run: self.run,
+                    weights: source.weights.values(),
+                    rows: self.rows,
+                    output: &mut *output,
+                    output_image,
+                    start,
+                    finish,
+                });
+                for (each, output) in each.iter_mut().zip(output.chunks_exact(output_image)) {
+                    see(each, output);
                 }
-            };
-            machine.run(Correlation {
-                pixels: &self.pixels,
-                images: output.len() / output_image,
-                input,
-                input_image,
-                taps: &self.taps,
-                run: self.run,
-                weights: source.weights.values(),
-                rows: self.rows,
-                output: &mut *output,
-                output_image,
-                start,
-                finish,
             });
-            for (each, output) in each.iter_mut().zip(output.chunks_exact(output_image)) {
-                see(each, output);
-            }
-        });
     }
 }
 

@@ -60,7 +60,9 @@ impl InputGradient {
         exchanged: &mut Aligned,
         into: (&mut Planes, Onto),
     ) {
-        let Convolution { inputs, outputs, .. } = self.convolution;
+        let Convolution {
+            inputs, outputs, ..
+        } = self.convolution;
         let rows = self.convolution.taps() * outputs;
         let exchanged = &mut exchanged[..rows * inputs];
         weights.exchange(machine, exchanged);

@@ -8,7 +8,10 @@ use crate::random::Draws;
 
 fn random(length: usize, seed: u64) -> Vec<f32> {
     let draws = Draws::new(seed);
-    #[expect(clippy::cast_possible_truncation, reason = "inputs of single precision")]
+    #[expect(
+        clippy::cast_possible_truncation,
+        reason = "inputs of single precision"
+    )]
     let values = (0..length as u64).map(|at| (draws.unit(at) - 0.5) as f32);
     values.collect()
 }
@@ -20,13 +23,16 @@ fn for_each_product(
     mut meet: impl FnMut(usize, usize, usize),
 ) {
     let output = convolution.output(input);
-    let Convolution { inputs, outputs, kernel, stride } = convolution;
+    let Convolution {
+        inputs,
+        outputs,
+        kernel,
+        stride,
+    } = convolution;
     for (oy, ox) in (0..output.height).flat_map(|y| (0..output.width).map(move |x| (y, x))) {
         for (ky, kx) in (0..kernel).flat_map(|y| (0..kernel).map(move |x| (y, x))) {
             let (y, x) = (oy * stride + ky, ox * stride + kx);
-            let (Some(y), Some(x)) =
-                (y.checked_sub(kernel / 2), x.checked_sub(kernel / 2))
-            else {
+            let (Some(y), Some(x)) = (y.checked_sub(kernel / 2), x.checked_sub(kernel / 2)) else {
                 continue;
             };
             if y >= input.height || x >= input.width {
@@ -53,8 +59,17 @@ struct Case {
 
 fn cases() -> Vec<Case> {
     let case = |inputs, outputs, kernel, stride, height, width, batch| Case {
-        convolution: Convolution { inputs, outputs, kernel, stride },
-        input: Picture { height, width, channels: inputs },
+        convolution: Convolution {
+            inputs,
+            outputs,
+            kernel,
+            stride,
+        },
+        input: Picture {
+            height,
+            width,
+            channels: inputs,
+        },
         batch,
     };
     vec![
@@ -98,22 +113,40 @@ fn batch_of(picture: Picture, border: usize, values: &[f32]) -> Planes {
 }
 
 fn values(planes: &Planes, batch: usize) -> Vec<f32> {
-    (0..batch).flat_map(|position| planes.get(position)).collect()
+    (0..batch)
+        .flat_map(|position| planes.get(position))
+        .collect()
 }
 
 /// Outputs, gradients of the input and gradients of the weights.
 fn passes(case: &Case, machine: Machine) -> [Vec<f32>; 3] {
-    let Case { convolution, input, batch } = *case;
+    let Case {
+        convolution,
+        input,
+        batch,
+    } = *case;
     let output = convolution.output(input);
-    let pictures = batch_of(input, convolution.padding() + 1, &random(input.len() * batch, 1));
+    let pictures = batch_of(
+        input,
+        convolution.padding() + 1,
+        &random(input.len() * batch, 1),
+    );
     let mut weights = ConvolutionWeights::zeros(convolution);
     weights.set_plain(&random(weights.values().len(), 2));
-    let gradient = batch_of(output, convolution.padding(), &random(output.len() * batch, 3));
+    let gradient = batch_of(
+        output,
+        convolution.padding(),
+        &random(output.len() * batch, 3),
+    );
 
     let mut outputs = Planes::zeros(output, 1, batch);
     Forward::new(convolution, pictures.layout(), outputs.layout()).run(
         machine,
-        Source { weights: &weights, input: &pictures, count: batch },
+        Source {
+            weights: &weights,
+            input: &pictures,
+            count: batch,
+        },
         &mut outputs,
         Epilogue::Raw,
         (&mut vec![(); batch], |(), _: &[f32]| {}),
@@ -130,8 +163,7 @@ fn passes(case: &Case, machine: Machine) -> [Vec<f32>; 3] {
 
     let mut input_gradient = Planes::zeros(input, 1, batch);
     if convolution.inputs % crate::panel::PANEL == 0 {
-        let pass =
-            InputGradient::new(convolution, gradient.layout(), input_gradient.layout());
+        let pass = InputGradient::new(convolution, gradient.layout(), input_gradient.layout());
         let mut room = Aligned::zeros(weights.values().len());
         // What lies there is overwritten, and then added to.
         input_gradient.first_mut(batch).fill(9.0);
@@ -150,9 +182,16 @@ fn passes(case: &Case, machine: Machine) -> [Vec<f32>; 3] {
 #[test]
 fn every_pass_agrees_with_its_definition() {
     for case in cases() {
-        let Case { convolution, input, batch } = case;
+        let Case {
+            convolution,
+            input,
+            batch,
+        } = case;
         let output = convolution.output(input);
-        let weights = random(convolution.inputs * convolution.outputs * convolution.taps(), 2);
+        let weights = random(
+            convolution.inputs * convolution.outputs * convolution.taps(),
+            2,
+        );
         let pictures = random(input.len() * batch, 1);
         let gradients = random(output.len() * batch, 3);
         let mut expected = vec![0.0; output.len() * batch];
@@ -161,9 +200,12 @@ fn every_pass_agrees_with_its_definition() {
         for image in 0..batch {
             let (to_image, from_image) = (image * output.len(), image * input.len());
             for_each_product(convolution, input, |to, from, weight| {
-                let [number, gradient, factor] =
-                    [pictures[from_image + from], gradients[to_image + to], weights[weight]]
-                        .map(f64::from);
+                let [number, gradient, factor] = [
+                    pictures[from_image + from],
+                    gradients[to_image + to],
+                    weights[weight],
+                ]
+                .map(f64::from);
                 expected[to_image + to] += number * factor;
                 input_gradient[from_image + from] += gradient * factor;
                 weight_gradient[weight] += number * gradient;
@@ -187,30 +229,51 @@ fn every_pass_agrees_with_its_definition() {
 
 #[test]
 fn neither_the_number_of_threads_nor_the_width_of_vectors_changes_a_bit() {
-    let bits = |values: [Vec<f32>; 3]| values.map(|values| values.iter().map(|value| value.to_bits()).collect::<Vec<_>>());
+    let bits = |values: [Vec<f32>; 3]| {
+        values.map(|values| {
+            values
+                .iter()
+                .map(|value| value.to_bits())
+                .collect::<Vec<_>>()
+        })
+    };
     for case in cases() {
         let mut fused = Vec::new();
         for (isa, machine) in machines() {
             let with = |threads: usize| {
                 let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
-                pool.build().expect("threads").install(|| bits(passes(&case, machine)))
+                pool.build()
+                    .expect("threads")
+                    .install(|| bits(passes(&case, machine)))
             };
             let alone = with(1);
             for threads in [2, 3] {
-                assert!(with(threads) == alone, "{isa} on {threads} threads: {:?}", case.convolution);
+                assert!(
+                    with(threads) == alone,
+                    "{isa} on {threads} threads: {:?}",
+                    case.convolution
+                );
             }
             if isa != Isa::Portable {
                 fused.push(alone);
             }
         }
-        assert!(fused.windows(2).all(|pair| pair[0] == pair[1]), "{:?}", case.convolution);
+        assert!(
+            fused.windows(2).all(|pair| pair[0] == pair[1]),
+            "{:?}",
+            case.convolution
+        );
     }
 }
 
 #[test]
 fn epilogues_add_bias_and_pictures_and_cut_at_zero() {
     let case = &cases()[2];
-    let Case { convolution, input, batch } = *case;
+    let Case {
+        convolution,
+        input,
+        batch,
+    } = *case;
     let output = convolution.output(input);
     let pictures = batch_of(input, 1, &random(input.len() * batch, 1));
     let mut weights = ConvolutionWeights::zeros(convolution);
@@ -224,7 +287,11 @@ fn epilogues_add_bias_and_pictures_and_cut_at_zero() {
             let mut outputs = Planes::zeros(output, 1, batch);
             Forward::new(convolution, pictures.layout(), outputs.layout()).run(
                 machine,
-                Source { weights: &weights, input: &pictures, count: batch },
+                Source {
+                    weights: &weights,
+                    input: &pictures,
+                    count: batch,
+                },
                 &mut outputs,
                 epilogue,
                 (&mut vec![(); batch], |(), _: &[f32]| {}),
@@ -237,7 +304,11 @@ fn epilogues_add_bias_and_pictures_and_cut_at_zero() {
             let biased = raw[place] + bias[place % output.channels];
             // The bias is where sums begin, so that roundings differ: as many as there are terms.
             assert!((plain[place] - biased).abs() < 2e-6, "{isa}");
-            assert_eq!(relu[place].to_bits(), plain[place].max(0.0).to_bits(), "{isa}");
+            assert_eq!(
+                relu[place].to_bits(),
+                plain[place].max(0.0).to_bits(),
+                "{isa}"
+            );
             let both = (plain[place] + other_values[place]).max(0.0);
             assert_eq!(sum[place].to_bits(), both.to_bits(), "{isa}");
         }

@@ -22,7 +22,10 @@ impl ConvolutionWeights {
     pub(crate) fn zeros(convolution: Convolution) -> ConvolutionWeights {
         let length = convolution.outputs * convolution.inputs * convolution.taps();
         let values = Aligned::zeros(length);
-        ConvolutionWeights { convolution, values }
+        ConvolutionWeights {
+            convolution,
+            values,
+        }
     }
 
     pub(crate) fn convolution(&self) -> Convolution {
@@ -52,7 +55,9 @@ impl ConvolutionWeights {
     /// Writes the weights with inputs and outputs exchanged, `[inputs / PANEL, taps, outputs, PANEL]`, as the gradient of the
     /// input reads them.
     pub(crate) fn exchange(&self, machine: Machine, into: &mut [f32]) {
-        let Convolution { inputs, outputs, .. } = self.convolution;
+        let Convolution {
+            inputs, outputs, ..
+        } = self.convolution;
         let taps = self.convolution.taps();
         let panels = into.par_chunks_mut(taps * outputs * PANEL);
         panels.enumerate().for_each(|(panel, into)| {

@@ -2,7 +2,10 @@
 
 #![expect(unsafe_code, reason = "vector instructions, loads and stores")]
 
-use std::arch::x86_64::{__m512, _mm512_add_ps, _mm512_fmadd_ps, _mm512_loadu_ps, _mm512_max_ps, _mm512_set1_ps, _mm512_setzero_ps, _mm512_storeu_ps};
+use std::arch::x86_64::{
+    __m512, _mm512_add_ps, _mm512_fmadd_ps, _mm512_loadu_ps, _mm512_max_ps, _mm512_set1_ps,
+    _mm512_setzero_ps, _mm512_storeu_ps,
+};
 
 use super::vector::{Job, Vector};
 
@@ -13,7 +16,8 @@ pub(crate) struct Avx512(());
 impl Avx512 {
     /// The evidence, if there is any.
     pub(crate) fn detect() -> Option<Avx512> {
-        (is_x86_feature_detected!("avx512f") && is_x86_feature_detected!("fma")).then_some(Avx512(()))
+        (is_x86_feature_detected!("avx512f") && is_x86_feature_detected!("fma"))
+            .then_some(Avx512(()))
     }
 
     /// Does `job` with these vectors.

@@ -2,7 +2,9 @@
 
 #![expect(unsafe_code, reason = "vector instructions, loads and stores")]
 
-use std::arch::aarch64::{float32x4_t, vaddq_f32, vdupq_n_f32, vfmaq_f32, vld1q_dup_f32, vld1q_f32, vmaxq_f32, vst1q_f32};
+use std::arch::aarch64::{
+    float32x4_t, vaddq_f32, vdupq_n_f32, vfmaq_f32, vld1q_dup_f32, vld1q_f32, vmaxq_f32, vst1q_f32,
+};
 
 use super::vector::{Job, Vector};
 

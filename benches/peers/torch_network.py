@@ -1,0 +1,90 @@
+"""Training steps and inference of ResNet-18 in PyTorch (and inference in ONNX Runtime, where it is installed), for comparison
+with `cargo bench -p taceva-network`.
+
+usage: python3 benches/peers/torch_network.py [SIDE [THREADS [REPEATS]]]
+
+Batch 32, six outputs, mean squared error, SGD with momentum, channels_last, single precision. Printed are images a second of
+processor time (of all threads) and of the wall clock, best of REPEATS. On a machine with other work pin both sides to the same
+processors (`taskset -c 0`) and run them in turn.
+"""
+import sys
+import time
+
+from common import need
+
+need("torch")
+
+import torch  # noqa: E402
+
+from torch_resnet import resnet18  # noqa: E402
+
+BATCH = 32
+
+
+def best(repeats, work):
+    """The least processor and wall seconds of `work`, after one warm-up."""
+    work()
+    busy, wall = [], []
+    for _ in range(repeats):
+        start_busy, start = time.process_time(), time.perf_counter()
+        work()
+        busy.append(time.process_time() - start_busy)
+        wall.append(time.perf_counter() - start)
+    return min(busy), min(wall)
+
+
+def tell(name, side, seconds, images=BATCH):
+    busy, wall = seconds
+    print(f"{name:<36} {side}²  {images / busy:8.1f} images a processor second  {images / wall:8.1f} images/s")
+
+
+def main():
+    side, threads, repeats = (int(word) for word in (sys.argv[1:] + ["64", "1", "10"][len(sys.argv) - 1:]))
+    torch.set_num_threads(threads)
+    torch.manual_seed(1)
+    model = resnet18(6).to(memory_format=torch.channels_last)
+    pictures = torch.rand(BATCH, 3, side, side).to(memory_format=torch.channels_last)
+    labels = torch.rand(BATCH, 6)
+    optimizer = torch.optim.SGD(model.parameters(), lr=1e-3, momentum=0.9, weight_decay=1e-4)
+
+    def step():
+        optimizer.zero_grad(set_to_none=True)
+        torch.nn.functional.mse_loss(model(pictures), labels).backward()
+        optimizer.step()
+
+    tell("PyTorch channels_last, training", side, best(repeats, step))
+    model.eval()
+    with torch.no_grad():
+        tell("PyTorch channels_last, inference", side, best(repeats, lambda: model(pictures)))
+        frozen = torch.jit.optimize_for_inference(torch.jit.trace(model, pictures))
+        frozen(pictures)
+        tell("PyTorch frozen, inference", side, best(repeats, lambda: frozen(pictures)))
+    onnx(model, pictures, side, threads, repeats)
+
+
+def onnx(model, pictures, side, threads, repeats):
+    """Inference in ONNX Runtime."""
+    try:
+        import io
+
+        import onnxruntime
+
+        file = io.BytesIO()
+        torch.onnx.export(model, pictures.contiguous(), file, dynamo=False)
+    except Exception as error:  # noqa: BLE001 - whichever part is missing, the others' numbers stand
+        print(f"skipped ONNX Runtime: {error}")
+        return
+    options = onnxruntime.SessionOptions()
+    options.intra_op_num_threads = threads
+    session = onnxruntime.InferenceSession(file.getvalue(), options, providers=["CPUExecutionProvider"])
+    name = session.get_inputs()[0].name
+    values = pictures.contiguous().numpy()
+    tell("ONNX Runtime, inference", side, best(repeats, lambda: session.run(None, {name: values})))
+    one = values[:1]
+    file = io.BytesIO()
+    torch.onnx.export(model, pictures[:1].contiguous(), file, dynamo=False)
+    session = onnxruntime.InferenceSession(file.getvalue(), options, providers=["CPUExecutionProvider"])
+    tell("ONNX Runtime, one picture", side, best(repeats, lambda: session.run(None, {name: one})), 1)
+
+
+main()

@@ -1,0 +1,309 @@
+//! What a network is made of, said as data.
+
+use serde::{Deserialize, Serialize};
+
+use crate::convolution::Convolution;
+use crate::error::NetworkError;
+use crate::max_pool;
+use crate::panel::PANEL;
+use crate::planes::{Layout, Picture};
+
+/// The make of a network.
+///
+/// ```
+/// use taceva_network::{Architecture, Depth, Picture};
+/// let input = Picture { height: 64, width: 64, channels: 3 };
+/// let architecture = Architecture::residual(Depth::Eighteen, input, 6);
+/// // As many as torchvision's resnet18 with six outputs.
+/// assert_eq!(architecture.parameters()?, 11_179_590);
+/// # Ok::<(), taceva_network::NetworkError>(())
+/// ```
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Architecture {
+    /// Pictures it takes.
+    pub input: Picture,
+    /// What lies between the pictures and the features.
+    pub body: Body,
+    /// Numbers it gives for each picture.
+    pub outputs: usize,
+}
+
+/// What turns a picture into features.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Body {
+    /// A stem of 7 × 7 and pooling, four stages of residual blocks, the mean over pixels.
+    ///
+    /// # Reference
+    /// K. He, X. Zhang, S. Ren, J. Sun, "Deep residual learning for image recognition", CVPR 2016; layers and names are those
+    /// of torchvision's `resnet`.
+    Residual(Depth),
+    /// Convolutions one behind the other, each with batch normalisation and cut at zero.
+    Plain {
+        /// The convolutions, the first reads the picture.
+        layers: Vec<PlainLayer>,
+        /// What becomes of the last pictures.
+        pooling: Pooling,
+    },
+}
+
+/// Layers of a residual network.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Depth {
+    /// One block a stage.
+    Ten,
+    /// Two blocks a stage.
+    Eighteen,
+    /// Three, four, six and three blocks.
+    ThirtyFour,
+}
+
+/// One convolution of a plain network.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct PlainLayer {
+    /// Channels it gives: a multiple of 16.
+    pub channels: usize,
+    /// Rows and columns of its kernel: odd.
+    pub kernel: usize,
+    /// Pixels from one place of the kernel to the next.
+    pub stride: usize,
+}
+
+/// How the last pictures become features.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Pooling {
+    /// The mean of each channel over the pixels.
+    Average,
+    /// Every number of every pixel, `[height, width, channels]`.
+    Flatten,
+}
+
+impl Pooling {
+    /// Features of a picture.
+    pub(crate) const fn features(self, picture: Picture) -> usize {
+        match self {
+            Pooling::Average => picture.channels,
+            Pooling::Flatten => picture.len(),
+        }
+    }
+}
+
+/// A part of a network that is passed as a whole.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum StagePlan {
+    /// A convolution of 7 × 7 with stride 2, then the greatest of 3 × 3 with stride 2.
+    Stem { channels: usize },
+    /// A convolution.
+    Plain(PlainLayer),
+    /// Two convolutions of 3 × 3 and what leads past them.
+    Block { channels: usize, stride: usize },
+}
+
+impl Depth {
+    const fn blocks(self) -> [usize; 4] {
+        match self {
+            Depth::Ten => [1, 1, 1, 1],
+            Depth::Eighteen => [2, 2, 2, 2],
+            Depth::ThirtyFour => [3, 4, 6, 3],
+        }
+    }
+}
+
+/// The greatest number of numbers of a picture anywhere in a network: offsets are kept in 32 bits.
+const PICTURE_MAX: usize = 1 << 28;
+
+impl Architecture {
+    /// A residual network.
+    pub const fn residual(depth: Depth, input: Picture, outputs: usize) -> Architecture {
+        let body = Body::Residual(depth);
+        Architecture {
+            input,
+            body,
+            outputs,
+        }
+    }
+
+    /// The small network of five convolutions: each halves the picture, and every pixel of the last is a feature, so that
+    /// where something is seen counts.
+    pub fn five_layers(input: Picture, outputs: usize) -> Architecture {
+        let layer = |channels, kernel| PlainLayer {
+            channels,
+            kernel,
+            stride: 2,
+        };
+        let layers = vec![
+            layer(16, 5),
+            layer(32, 3),
+            layer(48, 3),
+            layer(64, 3),
+            layer(96, 3),
+        ];
+        let pooling = Pooling::Flatten;
+        Architecture {
+            input,
+            body: Body::Plain { layers, pooling },
+            outputs,
+        }
+    }
+
+    /// Weights, gains and biases that are learnt.
+    ///
+    /// # Errors
+    /// [`NetworkError::Architecture`] if it cannot be built.
+    pub fn parameters(&self) -> Result<usize, NetworkError> {
+        Ok(crate::Network::new(self, 0)?.parameters())
+    }
+
+    /// Whether it can be built.
+    ///
+    /// # Errors
+    /// [`NetworkError::Architecture`], saying what cannot.
+    pub fn check(&self) -> Result<(), NetworkError> {
+        let refuse = |reason: String| Err(NetworkError::Architecture { reason });
+        if self.input.is_empty() || self.outputs == 0 {
+            return refuse(format!(
+                "pictures of {} and {} outputs: none may be zero",
+                self.input, self.outputs
+            ));
+        }
+        if let Body::Plain { layers, .. } = &self.body {
+            if layers.is_empty() {
+                return refuse("a plain network without layers".into());
+            }
+            for (position, layer) in layers.iter().enumerate() {
+                let is_odd = layer.kernel % 2 == 1 && layer.kernel <= 15;
+                if layer.channels == 0
+                    || !layer.channels.is_multiple_of(PANEL)
+                    || !is_odd
+                    || layer.stride == 0
+                {
+                    return refuse(format!(
+                        "layer {position}: {} channels, kernel {}, stride {}: channels are a multiple of {PANEL}, kernels odd and at most 15, strides at least 1",
+                        layer.channels, layer.kernel, layer.stride
+                    ));
+                }
+            }
+        }
+        let sizes = [self.input.height, self.input.width, self.input.channels];
+        if sizes.into_iter().any(|size| size > PICTURE_MAX) {
+            return refuse(format!("pictures of {}: too large", self.input));
+        }
+        let mut picture = self.input;
+        for stage in self.stages() {
+            // The largest in a stage is what its first convolution gives, or reads.
+            let Convolution {
+                outputs, stride, ..
+            } = stage.first(picture.channels);
+            let convolved = Picture {
+                height: (picture.height - 1) / stride + 1,
+                width: (picture.width - 1) / stride + 1,
+                channels: outputs,
+            };
+            for picture in [picture, convolved] {
+                let numbers = (picture.height + 16)
+                    .checked_mul(picture.width + 16)
+                    .and_then(|pixels| pixels.checked_mul(picture.channels));
+                if numbers.is_none_or(|numbers| numbers > PICTURE_MAX) {
+                    return refuse(format!(
+                        "pictures of {picture} within the network: too large"
+                    ));
+                }
+            }
+            picture = stage.output(picture);
+        }
+        Ok(())
+    }
+
+    /// Its parts in order.
+    pub(crate) fn stages(&self) -> Vec<StagePlan> {
+        match &self.body {
+            Body::Plain { layers, .. } => layers.iter().copied().map(StagePlan::Plain).collect(),
+            Body::Residual(depth) => {
+                let mut stages = vec![StagePlan::Stem { channels: 64 }];
+                for (stage, blocks) in depth.blocks().into_iter().enumerate() {
+                    stages.extend((0..blocks).map(|block| StagePlan::Block {
+                        channels: 64 << stage,
+                        stride: if stage > 0 && block == 0 { 2 } else { 1 },
+                    }));
+                }
+                stages
+            }
+        }
+    }
+
+    /// The name of each part, and what it begins the names of its tensors with.
+    pub(crate) fn stage_names(&self) -> Vec<String> {
+        match &self.body {
+            Body::Plain { layers, .. } => (0..layers.len())
+                .map(|layer| format!("features.{layer}."))
+                .collect(),
+            Body::Residual(depth) => {
+                let blocks = depth
+                    .blocks()
+                    .into_iter()
+                    .enumerate()
+                    .flat_map(|(stage, blocks)| {
+                        (0..blocks).map(move |block| format!("layer{}.{block}.", stage + 1))
+                    });
+                std::iter::once(String::new()).chain(blocks).collect()
+            }
+        }
+    }
+
+    pub(crate) fn pooling(&self) -> Pooling {
+        match self.body {
+            Body::Residual(_) => Pooling::Average,
+            Body::Plain { pooling, .. } => pooling,
+        }
+    }
+}
+
+impl StagePlan {
+    /// Its first convolution, of pictures with `inputs` channels.
+    pub(crate) const fn first(&self, inputs: usize) -> Convolution {
+        match *self {
+            StagePlan::Stem { channels } => Convolution {
+                inputs,
+                outputs: channels,
+                kernel: 7,
+                stride: 2,
+            },
+            StagePlan::Plain(PlainLayer {
+                channels,
+                kernel,
+                stride,
+            }) => Convolution {
+                inputs,
+                outputs: channels,
+                kernel,
+                stride,
+            },
+            StagePlan::Block { channels, stride } => Convolution {
+                inputs,
+                outputs: channels,
+                kernel: 3,
+                stride,
+            },
+        }
+    }
+
+    /// The picture that it makes of `input`.
+    pub(crate) const fn output(&self, input: Picture) -> Picture {
+        let convolved = self.first(input.channels).output(input);
+        match self {
+            StagePlan::Stem { .. } => max_pool::output(convolved),
+            StagePlan::Plain(_) | StagePlan::Block { .. } => convolved,
+        }
+    }
+
+    /// How pictures that it reads lie.
+    pub(crate) fn input_layout(&self, picture: Picture) -> Layout {
+        let padding = self.first(picture.channels).padding();
+        Layout {
+            picture,
+            border: padding.max(1),
+        }
+    }
+}

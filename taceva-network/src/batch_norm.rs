@@ -1,0 +1,102 @@
+//! Batch normalisation: moments of a batch, what normalising with them gives, and the gradients.
+
+mod apply;
+mod backward;
+mod sums;
+
+pub(crate) use apply::{Shortcut, apply, relu};
+pub(crate) use backward::{Gate, GradientSums, gradient_sums, input_gradient};
+pub(crate) use sums::ChannelSums;
+
+use crate::panel::Aligned;
+
+/// What is added to a variance before its root is taken, as PyTorch does.
+const EPSILON: f64 = 1e-5;
+
+/// The share of the newest batch in running moments, as PyTorch has it.
+const MOMENTUM: f64 = 0.1;
+
+/// Gain, bias and running moments of each channel.
+#[derive(Clone, Debug)]
+pub(crate) struct BatchNorm {
+    pub(crate) gain: Aligned,
+    pub(crate) bias: Aligned,
+    pub(crate) running_mean: Aligned,
+    pub(crate) running_variance: Aligned,
+}
+
+/// The moments of one batch, and normalisation by them as one factor and one addend a channel.
+#[derive(Clone, Debug)]
+pub(crate) struct Moments {
+    pub(crate) mean: Aligned,
+    /// 1 / √(variance + ε).
+    pub(crate) inverse: Aligned,
+    /// gain · inverse.
+    pub(crate) scale: Aligned,
+    /// bias − mean · scale.
+    pub(crate) shift: Aligned,
+}
+
+impl Moments {
+    /// Room for those of `channels`.
+    pub(crate) fn zeros(channels: usize) -> Moments {
+        let zeros = Aligned::zeros(channels);
+        Moments {
+            mean: zeros.clone(),
+            inverse: zeros.clone(),
+            scale: zeros.clone(),
+            shift: zeros,
+        }
+    }
+}
+
+impl BatchNorm {
+    /// Gain one, bias zero, running mean zero and variance one.
+    pub(crate) fn new(channels: usize) -> BatchNorm {
+        let ones = Aligned::of(&vec![1.0; channels]);
+        BatchNorm {
+            gain: ones.clone(),
+            bias: Aligned::zeros(channels),
+            running_mean: Aligned::zeros(channels),
+            running_variance: ones,
+        }
+    }
+
+    /// The moments of a batch from the sums of its pictures, `samples` numbers a channel; running moments follow.
+    #[expect(
+        clippy::cast_possible_truncation,
+        reason = "moments are summed in double precision and used in single"
+    )]
+    pub(crate) fn update(&mut self, sums: &[ChannelSums], samples: usize, into: &mut Moments) {
+        let samples = samples as f64;
+        for channel in 0..self.gain.len() {
+            let (mut sum, mut squares) = (0.0, 0.0);
+            for image in sums {
+                sum += image.sum(channel);
+                squares += image.squares(channel);
+            }
+            let mean = sum / samples;
+            let variance = (squares / samples - mean * mean).max(0.0);
+            let unbiased = variance * samples / (samples - 1.0);
+            let inverse = 1.0 / (variance + EPSILON).sqrt();
+            let scale = f64::from(self.gain[channel]) * inverse;
+            into.mean[channel] = mean as f32;
+            into.inverse[channel] = inverse as f32;
+            into.scale[channel] = scale as f32;
+            into.shift[channel] = (f64::from(self.bias[channel]) - mean * scale) as f32;
+            let follow = |running: &mut f32, newest: f64| {
+                *running = (f64::from(*running) * (1.0 - MOMENTUM) + MOMENTUM * newest) as f32;
+            };
+            follow(&mut self.running_mean[channel], mean);
+            follow(&mut self.running_variance[channel], unbiased);
+        }
+    }
+
+    /// Normalisation by the running moments, as a factor and an addend of `channel`.
+    pub(crate) fn frozen(&self, channel: usize) -> (f64, f64) {
+        let variance = f64::from(self.running_variance[channel]);
+        let scale = f64::from(self.gain[channel]) / (variance + EPSILON).sqrt();
+        let shift = f64::from(self.bias[channel]) - f64::from(self.running_mean[channel]) * scale;
+        (scale, shift)
+    }
+}

@@ -1,0 +1,256 @@
+//! The gradients of batch normalisation and of what cuts at zero behind it.
+
+use rayon::prelude::*;
+
+use super::Moments;
+use super::sums::{ChannelSums, PIXELS_AT_ONCE};
+use crate::isa::Machine;
+use crate::panel::{Aligned, PANEL};
+use crate::planes::{Layout, Planes};
+use crate::simd::{Job, Vector};
+
+/// Where a gradient passes: where the output was above zero.
+#[derive(Clone, Copy)]
+pub(crate) enum Gate<'a> {
+    /// Everywhere: it was cut already.
+    Open,
+    /// Where the normalised picture was above zero.
+    Normalised,
+    /// Where these pictures are above zero; the gradient is set to zero elsewhere.
+    Output(&'a Planes),
+}
+
+/// Sums over a batch that the gradients are made of, a number a channel.
+#[derive(Clone, Debug)]
+pub(crate) struct GradientSums {
+    /// Σ g, the gradient of the bias.
+    pub(crate) bias: Aligned,
+    /// Σ g · (x − mean) · inverse, the gradient of the gain.
+    pub(crate) gain: Aligned,
+    /// Σ g / n.
+    pub(crate) mean: Aligned,
+    /// inverse² · Σ g · (x − mean) / n.
+    pub(crate) slope: Aligned,
+}
+
+/// The sums over the gradients of the first `count` pictures; `sums` is room for those of each picture.
+pub(crate) fn gradient_sums(
+    machine: Machine,
+    (raw, count): (&Planes, usize),
+    moments: &Moments,
+    gate: Gate<'_>,
+    gradient: &mut Planes,
+    sums: &mut [ChannelSums],
+) -> GradientSums {
+    let length = raw.layout().len();
+    let raws = raw.first(count).par_chunks_exact(length);
+    let gradients = gradient.first_mut(count).par_chunks_exact_mut(length);
+    let images = raws.zip(gradients).zip(&mut sums[..count]).enumerate();
+    images.for_each(|(image, ((raw, gradient), sums))| {
+        let gate = match gate {
+            Gate::Open => PictureGate::Open,
+            Gate::Normalised => PictureGate::Normalised,
+            Gate::Output(output) => {
+                let length = output.layout().len();
+                let picture = &output.first(count)[image * length..][..length];
+                PictureGate::Output(picture, output.layout())
+            }
+        };
+        machine.run(Sums {
+            raw,
+            moments,
+            gate,
+            gradient,
+            sums,
+        });
+    });
+    let samples = count * raw.layout().picture.pixels();
+    GradientSums::over(&sums[..count], moments, samples)
+}
+
+impl GradientSums {
+    /// The sums over a batch of `samples` numbers a channel, from those of its pictures: Σ g and Σ g · (x − mean).
+    #[expect(
+        clippy::cast_possible_truncation,
+        reason = "summed in double precision and used in single"
+    )]
+    pub(crate) fn over(images: &[ChannelSums], moments: &Moments, samples: usize) -> GradientSums {
+        let channels = moments.mean.len();
+        let mut into = GradientSums {
+            bias: Aligned::zeros(channels),
+            gain: Aligned::zeros(channels),
+            mean: Aligned::zeros(channels),
+            slope: Aligned::zeros(channels),
+        };
+        let samples = samples as f64;
+        for channel in 0..channels {
+            let (mut sum, mut product) = (0.0, 0.0);
+            for image in images {
+                sum += image.sum(channel);
+                product += image.squares(channel);
+            }
+            let inverse = f64::from(moments.inverse[channel]);
+            into.bias[channel] = sum as f32;
+            into.gain[channel] = (product * inverse) as f32;
+            into.mean[channel] = (sum / samples) as f32;
+            into.slope[channel] = (product * inverse * inverse / samples) as f32;
+        }
+        into
+    }
+}
+
+/// Writes the gradient of what was normalised:
+/// scale · (g − Σg/n − (x − mean) · inverse² · Σ(g · (x − mean))/n), for the first `count` pictures.
+pub(crate) fn input_gradient(
+    machine: Machine,
+    (raw, count): (&Planes, usize),
+    (moments, sums): (&Moments, &GradientSums),
+    gate: Gate<'_>,
+    gradient: &Planes,
+    into: &mut Planes,
+) {
+    let length = raw.layout().len();
+    let raws = raw.first(count).par_chunks_exact(length);
+    let gradients = gradient.first(count).par_chunks_exact(length);
+    let layout = into.layout();
+    let images = into.first_mut(count).par_chunks_exact_mut(layout.len());
+    // What an output's gate keeps back is zero already.
+    let is_gated = matches!(gate, Gate::Normalised);
+    images
+        .zip(raws)
+        .zip(gradients)
+        .for_each(|((into, raw), gradient)| {
+            machine.run(Apply {
+                raw,
+                moments,
+                sums,
+                is_gated,
+                gradient,
+                into,
+                layout,
+            });
+        });
+}
+
+/// As [`Gate`], of one picture.
+#[derive(Clone, Copy)]
+enum PictureGate<'a> {
+    Open,
+    Normalised,
+    Output(&'a [f32], Layout),
+}
+
+/// The sums of one picture.
+struct Sums<'a> {
+    raw: &'a [f32],
+    moments: &'a Moments,
+    gate: PictureGate<'a>,
+    gradient: &'a mut [f32],
+    sums: &'a mut ChannelSums,
+}
+
+impl Job for Sums<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<V: Vector>(self, _proof: V::Proof) {
+        if let PictureGate::Output(output, layout) = self.gate {
+            let row = layout.picture.width * layout.picture.channels;
+            for (y, gradient) in self.gradient.chunks_exact_mut(row).enumerate() {
+                let output = &output[layout.row_range(y)];
+                for (gradient, output) in gradient.iter_mut().zip(output) {
+                    *gradient = if *output > 0.0 { *gradient } else { 0.0 };
+                }
+            }
+        }
+        let is_gated = matches!(self.gate, PictureGate::Normalised);
+        let (mean, _) = self.moments.mean.as_chunks::<PANEL>();
+        let (scale, _) = self.moments.scale.as_chunks::<PANEL>();
+        let (shift, _) = self.moments.shift.as_chunks::<PANEL>();
+        let (raw, _) = self.raw.as_chunks::<PANEL>();
+        let (gradient, _) = self.gradient.as_chunks::<PANEL>();
+        let panels = mean.len();
+        let (sums, products) = self.sums.split();
+        let (sums, _) = sums.as_chunks_mut::<PANEL>();
+        let (products, _) = products.as_chunks_mut::<PANEL>();
+        sums.iter_mut()
+            .chain(products.iter_mut())
+            .for_each(|sum| *sum = [0.0; PANEL]);
+        let blocks = raw.chunks(PIXELS_AT_ONCE * panels);
+        for (raw, gradient) in blocks.zip(gradient.chunks(PIXELS_AT_ONCE * panels)) {
+            for panel in 0..panels {
+                let (mut sum, mut product) = ([0.0_f32; PANEL], [0.0_f32; PANEL]);
+                let pixels = raw[panel..].iter().step_by(panels);
+                let gradients = gradient[panel..].iter().step_by(panels);
+                for (raw, gradient) in pixels.zip(gradients) {
+                    for lane in 0..PANEL {
+                        let value = raw[lane];
+                        let passes =
+                            !is_gated || value * scale[panel][lane] + shift[panel][lane] > 0.0;
+                        let gradient = if passes { gradient[lane] } else { 0.0 };
+                        sum[lane] += gradient;
+                        product[lane] += gradient * (value - mean[panel][lane]);
+                    }
+                }
+                for lane in 0..PANEL {
+                    sums[panel][lane] += f64::from(sum[lane]);
+                    products[panel][lane] += f64::from(product[lane]);
+                }
+            }
+        }
+    }
+}
+
+/// The gradient of one picture.
+struct Apply<'a> {
+    raw: &'a [f32],
+    moments: &'a Moments,
+    sums: &'a GradientSums,
+    is_gated: bool,
+    gradient: &'a [f32],
+    into: &'a mut [f32],
+    layout: Layout,
+}
+
+impl Job for Apply<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<V: Vector>(self, _proof: V::Proof) {
+        let row = self.layout.picture.width * self.layout.picture.channels;
+        let rows = self
+            .raw
+            .chunks_exact(row)
+            .zip(self.gradient.chunks_exact(row));
+        let panels = [
+            &self.moments.mean,
+            &self.moments.scale,
+            &self.moments.shift,
+            &self.sums.mean,
+            &self.sums.slope,
+        ];
+        let [mean, scale, shift, offset, slope] =
+            panels.map(|values| values.as_chunks::<PANEL>().0);
+        let count = mean.len();
+        for (y, (raw, gradient)) in rows.enumerate() {
+            let into = self.into[self.layout.row_range(y)]
+                .as_chunks_mut::<PANEL>()
+                .0;
+            let raw = raw.as_chunks::<PANEL>().0.chunks_exact(count);
+            let gradient = gradient.as_chunks::<PANEL>().0.chunks_exact(count);
+            for ((into, raw), gradient) in into.chunks_exact_mut(count).zip(raw).zip(gradient) {
+                for panel in 0..count {
+                    for lane in 0..PANEL {
+                        let value = raw[panel][lane];
+                        let scale = scale[panel][lane];
+                        let passes = !self.is_gated || value * scale + shift[panel][lane] > 0.0;
+                        let gradient = if passes { gradient[panel][lane] } else { 0.0 };
+                        let distance = value - mean[panel][lane];
+                        into[panel][lane] = scale
+                            * (gradient - offset[panel][lane] - distance * slope[panel][lane]);
+                    }
+                }
+            }
+        }
+    }
+}

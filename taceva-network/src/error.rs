@@ -1,0 +1,172 @@
+//! Why a network cannot be made, trained or used.
+
+use crate::planes::Picture;
+
+/// Why a network cannot be made, trained or used.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum NetworkError {
+    /// Layers that cannot be built.
+    #[error("a network cannot be built: {reason}")]
+    Architecture {
+        /// What cannot.
+        reason: String,
+    },
+    /// A tensor that the architecture has and that did not come.
+    #[error("no tensor `{name}`, which the architecture has")]
+    MissingTensor {
+        /// Its name.
+        name: String,
+    },
+    /// A tensor that the architecture does not have.
+    #[error("unexpected tensor `{name}`: the architecture has none of that name")]
+    UnexpectedTensor {
+        /// Its name.
+        name: String,
+    },
+    /// A tensor of another shape than the architecture says.
+    #[error("tensor `{name}` has the shape {found:?} and {values} numbers, expected {expected:?}")]
+    TensorShape {
+        /// Its name.
+        name: String,
+        /// The shape found.
+        found: Vec<usize>,
+        /// How many numbers came.
+        values: usize,
+        /// The shape of the architecture.
+        expected: Vec<usize>,
+    },
+    /// A tensor with a number that is not finite.
+    #[error("tensor `{name}`: number {position} is not finite")]
+    TensorNotFinite {
+        /// Its name.
+        name: String,
+        /// Which of its numbers.
+        position: usize,
+    },
+    /// Pictures that are no whole number of those that the network takes.
+    #[error("{values} numbers are no whole number of pictures of {expected}")]
+    Pictures {
+        /// How many numbers came.
+        values: usize,
+        /// The picture that the network takes.
+        expected: Picture,
+    },
+    /// A picture with a number that is not finite.
+    #[error("{part} picture {picture}: number {position} is not finite")]
+    PictureNotFinite {
+        /// Which part of the samples.
+        part: Part,
+        /// Which picture.
+        picture: usize,
+        /// Which of its numbers.
+        position: usize,
+    },
+    /// Labels that are no whole number of samples, or of another number of samples than there are pictures.
+    #[error("{part}: {labels} labels for {pictures} pictures of {outputs} outputs")]
+    Labels {
+        /// Which part of the samples.
+        part: Part,
+        /// How many labels came.
+        labels: usize,
+        /// How many pictures came.
+        pictures: usize,
+        /// Outputs of the network.
+        outputs: usize,
+    },
+    /// A label that is not finite.
+    #[error("{part} sample {sample}: label {output} is not finite")]
+    LabelNotFinite {
+        /// Which part of the samples.
+        part: Part,
+        /// Which sample.
+        sample: usize,
+        /// Which of its labels.
+        output: usize,
+    },
+    /// A class that no output stands for.
+    #[error("{part} sample {sample}: class {class}, the network tells 0 to {}", classes - 1)]
+    Class {
+        /// Which part of the samples.
+        part: Part,
+        /// Which sample.
+        sample: usize,
+        /// Its class.
+        class: u32,
+        /// Classes that there are.
+        classes: usize,
+    },
+    /// Labels that are all the same: there is nothing to scale them by, nor to learn.
+    #[error("output {output}: every training label is {value}, so there is nothing to learn")]
+    ConstantLabels {
+        /// Which output.
+        output: usize,
+        /// The label.
+        value: f64,
+    },
+    /// Fewer samples than make a batch.
+    #[error("{samples} training samples, a batch takes {batch}")]
+    FewSamples {
+        /// How many there are.
+        samples: usize,
+        /// How many a batch takes.
+        batch: usize,
+    },
+    /// A loss that does not go with the labels, or a number out of its range.
+    #[error("`{name}`: {found}, expected {expected}")]
+    Recipe {
+        /// The name of the setting.
+        name: &'static str,
+        /// What was asked for.
+        found: String,
+        /// What would be accepted.
+        expected: &'static str,
+    },
+    /// A loss that is not finite: training stopped before that step changed a weight.
+    #[error("step {step}: the loss is not finite")]
+    LossNotFinite {
+        /// The step, counted from 0.
+        step: u64,
+    },
+    /// A weight that a step made not finite.
+    #[error("step {step}: a weight is not finite")]
+    WeightNotFinite {
+        /// The step, counted from 0.
+        step: u64,
+    },
+    /// A checkpoint of another training.
+    #[error("the checkpoint is of another training: {what}")]
+    Checkpoint {
+        /// What differs.
+        what: String,
+    },
+    /// Room for results that has another length than there are results.
+    #[error("room for {found} numbers where {expected} are written")]
+    Room {
+        /// Numbers there is room for.
+        found: usize,
+        /// Numbers that are written.
+        expected: usize,
+    },
+}
+
+/// A part of the samples.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Part {
+    /// Learnt from.
+    Training,
+    /// Chosen by.
+    Validation,
+    /// Predicted.
+    Prediction,
+}
+
+impl std::fmt::Display for Part {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(match self {
+            Part::Training => "training",
+            Part::Validation => "validation",
+            Part::Prediction => "prediction",
+        })
+    }
+}

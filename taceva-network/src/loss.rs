@@ -1,0 +1,87 @@
+//! How far outputs are from labels, and which way is less.
+
+use serde::{Deserialize, Serialize};
+
+/// A measure of how far outputs are from labels, with the mean over samples and outputs.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Loss {
+    /// (output − label)².
+    SquaredError,
+    /// Half the square up to `delta`, beyond it delta · (|distance| − delta / 2).
+    ///
+    /// # Reference
+    /// P. J. Huber, "Robust estimation of a location parameter", Ann. Math. Statist. 35, 1964.
+    Huber {
+        /// Where the square ends, in the unit of the scaled labels.
+        delta: f64,
+    },
+    /// −ln of the share that the class has in the exponentials of all outputs; the mean over samples.
+    CrossEntropy,
+}
+
+/// What the outputs of some samples should be.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Truth<'a> {
+    /// `[samples, outputs]`.
+    Values(&'a [f64]),
+    /// `[samples]`.
+    Classes(&'a [u32]),
+}
+
+impl Loss {
+    /// The loss of some samples, and its gradient.
+    ///
+    /// # Shapes
+    /// `outputs`, `gradient`: `[samples, width]`.
+    pub(crate) fn measure(
+        self,
+        (outputs, width): (&[f64], usize),
+        truth: Truth<'_>,
+        gradient: &mut Vec<f64>,
+    ) -> f64 {
+        gradient.clear();
+        let count = outputs.len() as f64;
+        match (self, truth) {
+            (Loss::CrossEntropy, Truth::Classes(classes)) => {
+                let samples = classes.len() as f64;
+                let mut loss = 0.0;
+                for (outputs, class) in outputs.chunks_exact(width).zip(classes) {
+                    let most = outputs.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+                    let sum: f64 = outputs.iter().map(|output| (output - most).exp()).sum();
+                    loss += sum.ln() + most - outputs[*class as usize];
+                    gradient.extend(outputs.iter().enumerate().map(|(place, output)| {
+                        let is_class = f64::from(u8::from(place == *class as usize));
+                        ((output - most).exp() / sum - is_class) / samples
+                    }));
+                }
+                loss / samples
+            }
+            (Loss::SquaredError, Truth::Values(labels)) => {
+                let mut loss = 0.0;
+                for (output, label) in outputs.iter().zip(labels) {
+                    let distance = output - label;
+                    loss += distance * distance;
+                    gradient.push(2.0 * distance / count);
+                }
+                loss / count
+            }
+            (Loss::Huber { delta }, Truth::Values(labels)) => {
+                let mut loss = 0.0;
+                for (output, label) in outputs.iter().zip(labels) {
+                    let distance = output - label;
+                    loss += if distance.abs() <= delta {
+                        0.5 * distance * distance
+                    } else {
+                        delta * (distance.abs() - 0.5 * delta)
+                    };
+                    gradient.push(distance.clamp(-delta, delta) / count);
+                }
+                loss / count
+            }
+            (Loss::CrossEntropy, Truth::Values(_)) | (_, Truth::Classes(_)) => {
+                unreachable!("a recipe is checked against the labels")
+            }
+        }
+    }
+}

@@ -1,0 +1,229 @@
+//! The gradients: of each output's, the whole goes to the pixel that it came from.
+
+use rayon::prelude::*;
+
+use super::{KERNEL, window, windows};
+use crate::batch_norm::{ChannelSums, GradientSums, Moments};
+use crate::isa::Machine;
+use crate::panel::PANEL;
+use crate::planes::{Layout, Planes};
+use crate::simd::{Job, Vector};
+
+/// What the forward pass read and wrote.
+#[derive(Clone, Copy)]
+pub(crate) struct Pooled<'a> {
+    pub(crate) raw: &'a Planes,
+    pub(crate) output: &'a Planes,
+    pub(crate) choices: &'a [u8],
+    pub(crate) count: usize,
+}
+
+/// The sums that the gradients of normalisation are made of; `gradient`, that of the output, is set to zero where the output
+/// was cut.
+pub(crate) fn gradient_sums(
+    machine: Machine,
+    pooled: Pooled<'_>,
+    moments: &Moments,
+    gradient: &mut Planes,
+    sums: &mut [ChannelSums],
+) -> GradientSums {
+    let Pooled {
+        raw,
+        output,
+        choices,
+        count,
+    } = pooled;
+    let (from, layout) = (raw.layout(), output.layout());
+    let length = layout.picture.len();
+    let raws = raw.first(count).par_chunks_exact(from.len());
+    let outputs = output.first(count).par_chunks_exact(layout.len());
+    let gradients = gradient.first_mut(count).par_chunks_exact_mut(length);
+    let images = raws.zip(outputs).zip(choices.par_chunks_exact(length));
+    let images = images.zip(gradients).zip(&mut sums[..count]);
+    images.for_each(|((((raw, output), choices), gradient), sums)| {
+        machine.run(Sums {
+            raw,
+            from,
+            moments,
+            output,
+            layout,
+            choices,
+            gradient,
+            sums,
+        });
+    });
+    GradientSums::over(&sums[..count], moments, count * from.picture.pixels())
+}
+
+/// Writes the gradient of what was normalised; `gradient` is that of the output, cut.
+pub(crate) fn input_gradient(
+    machine: Machine,
+    pooled: Pooled<'_>,
+    (moments, sums): (&Moments, &GradientSums),
+    gradient: &Planes,
+    into: &mut Planes,
+) {
+    let Pooled {
+        raw,
+        output,
+        choices,
+        count,
+    } = pooled;
+    let (from, to, layout) = (raw.layout(), into.layout(), output.layout());
+    let length = layout.picture.len();
+    let raws = raw.first(count).par_chunks_exact(from.len());
+    let gradients = gradient.first(count).par_chunks_exact(length);
+    let images = into
+        .first_mut(count)
+        .par_chunks_exact_mut(to.len())
+        .zip(raws);
+    let images = images.zip(gradients).zip(choices.par_chunks_exact(length));
+    images.for_each(|(((into, raw), gradient), choices)| {
+        machine.run(Apply {
+            raw,
+            from,
+            moments,
+            sums,
+            layout,
+            choices,
+            gradient,
+            into,
+            to,
+        });
+    });
+}
+
+/// The sums of one picture.
+struct Sums<'a> {
+    raw: &'a [f32],
+    from: Layout,
+    moments: &'a Moments,
+    output: &'a [f32],
+    layout: Layout,
+    choices: &'a [u8],
+    gradient: &'a mut [f32],
+    sums: &'a mut ChannelSums,
+}
+
+impl Job for Sums<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<V: Vector>(self, _proof: V::Proof) {
+        let (mean, _) = self.moments.mean.as_chunks::<PANEL>();
+        let panels = mean.len();
+        let (sums, products) = self.sums.split();
+        let (sums, _) = sums.as_chunks_mut::<PANEL>();
+        let (products, _) = products.as_chunks_mut::<PANEL>();
+        sums.iter_mut()
+            .chain(products.iter_mut())
+            .for_each(|sum| *sum = [0.0; PANEL]);
+        let row = self.layout.picture.width * panels;
+        let choices = self.choices.as_chunks::<PANEL>().0.chunks_exact(row);
+        let gradients = self
+            .gradient
+            .as_chunks_mut::<PANEL>()
+            .0
+            .chunks_exact_mut(row);
+        for (y, (choices, gradients)) in choices.zip(gradients).enumerate() {
+            let output = self.output[self.layout.row_range(y)].as_chunks::<PANEL>().0;
+            for panel in 0..panels {
+                let (mut sum, mut product) = ([0.0_f32; PANEL], [0.0_f32; PANEL]);
+                for x in 0..self.layout.picture.width {
+                    let at = x * panels + panel;
+                    let gradient = &mut gradients[at];
+                    for lane in 0..PANEL {
+                        let passes = output[at][lane] > 0.0;
+                        gradient[lane] = if passes { gradient[lane] } else { 0.0 };
+                    }
+                    let chosen = choices[at].map(u32::from);
+                    let mut value = [0.0_f32; PANEL];
+                    for (row, from_y) in window(y, self.from.picture.height) {
+                        let start = self.from.start_of_row(from_y);
+                        let (line, _) = self.raw[start..].as_chunks::<PANEL>();
+                        for (column, from_x) in window(x, self.from.picture.width) {
+                            let raw = &line[from_x * panels + panel];
+                            let place = place(row, column);
+                            for lane in 0..PANEL {
+                                let is_it = chosen[lane] == place;
+                                value[lane] = if is_it { raw[lane] } else { value[lane] };
+                            }
+                        }
+                    }
+                    for lane in 0..PANEL {
+                        sum[lane] += gradient[lane];
+                        product[lane] += gradient[lane] * (value[lane] - mean[panel][lane]);
+                    }
+                }
+                for lane in 0..PANEL {
+                    sums[panel][lane] += f64::from(sum[lane]);
+                    products[panel][lane] += f64::from(product[lane]);
+                }
+            }
+        }
+    }
+}
+
+/// The gradient of one picture.
+struct Apply<'a> {
+    raw: &'a [f32],
+    from: Layout,
+    moments: &'a Moments,
+    sums: &'a GradientSums,
+    layout: Layout,
+    choices: &'a [u8],
+    gradient: &'a [f32],
+    into: &'a mut [f32],
+    to: Layout,
+}
+
+impl Job for Apply<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<V: Vector>(self, _proof: V::Proof) {
+        let values = [
+            &self.moments.mean,
+            &self.moments.scale,
+            &self.sums.mean,
+            &self.sums.slope,
+        ];
+        let [mean, scale, offset, slope] = values.map(|values| values.as_chunks::<PANEL>().0);
+        let panels = mean.len();
+        let (choices, _) = self.choices.as_chunks::<PANEL>();
+        let (gradient, _) = self.gradient.as_chunks::<PANEL>();
+        let (input, output) = (self.from.picture, self.layout.picture);
+        for y in 0..input.height {
+            let raw = self.raw[self.from.row_range(y)].as_chunks::<PANEL>().0;
+            let into = self.into[self.to.row_range(y)].as_chunks_mut::<PANEL>().0;
+            for x in 0..input.width {
+                for panel in 0..panels {
+                    let mut passed = [0.0_f32; PANEL];
+                    for (row, window_y) in windows(y, output.height) {
+                        for (column, window_x) in windows(x, output.width) {
+                            let at = (window_y * output.width + window_x) * panels + panel;
+                            let (chosen, place) = (choices[at].map(u32::from), place(row, column));
+                            for lane in 0..PANEL {
+                                let is_it = chosen[lane] == place;
+                                passed[lane] += if is_it { gradient[at][lane] } else { 0.0 };
+                            }
+                        }
+                    }
+                    let (raw, into) = (&raw[x * panels + panel], &mut into[x * panels + panel]);
+                    for lane in 0..PANEL {
+                        let distance = raw[lane] - mean[panel][lane];
+                        into[lane] = scale[panel][lane]
+                            * (passed[lane] - offset[panel][lane] - distance * slope[panel][lane]);
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// The number of a place in a window.
+#[inline(always)]
+#[expect(clippy::cast_possible_truncation, reason = "one of nine places")]
+fn place(row: usize, column: usize) -> u32 {
+    (row * KERNEL + column) as u32
+}

@@ -1,0 +1,201 @@
+//! A network: its weights, and what it makes of pictures.
+
+mod tensors;
+
+pub use tensors::NamedTensor;
+
+use crate::architecture::{Architecture, StagePlan};
+use crate::error::NetworkError;
+use crate::head::Head;
+use crate::isa::{Isa, Machine};
+use crate::normed::{Back, Normed};
+use crate::planes::Planes;
+use crate::random::Draws;
+use crate::scratch::Scratch;
+use crate::stage::{Stage, StageSpace, Standing};
+use crate::update::Update;
+
+/// The weights of an architecture, with the running moments of its normalisations.
+#[derive(Clone, Debug)]
+pub struct Network {
+    pub(crate) architecture: Architecture,
+    pub(crate) machine: Machine,
+    pub(crate) stages: Vec<Stage>,
+    pub(crate) head: Head,
+}
+
+/// What training keeps between the passes.
+#[derive(Debug)]
+pub(crate) struct TrainingSpace {
+    pub(crate) input: Planes,
+    stages: Vec<StageSpace>,
+    features: Vec<f32>,
+    outputs: Vec<f64>,
+    scratch: Scratch,
+}
+
+impl Network {
+    /// A network with random weights, drawn as torchvision draws them: each convolution's from a normal distribution of
+    /// variance 2 / (kernel² · outputs), the last layer's evenly within ±1/√features.
+    ///
+    /// # Errors
+    /// [`NetworkError::Architecture`] if the architecture cannot be built.
+    /// # Reference
+    /// K. He, X. Zhang, S. Ren, J. Sun, "Delving deep into rectifiers", ICCV 2015.
+    #[expect(
+        clippy::cast_possible_truncation,
+        reason = "drawn in double precision and kept in single"
+    )]
+    pub fn new(architecture: &Architecture, seed: u64) -> Result<Network, NetworkError> {
+        architecture.check()?;
+        let (mut stages, mut slot) = (Vec::new(), 0);
+        let mut picture = architecture.input;
+        for plan in architecture.stages() {
+            let mut stage = Stage::new(plan, picture.channels, slot);
+            for normed in stage.normed_mut() {
+                let convolution = normed.convolution();
+                let fan = (convolution.taps() * convolution.outputs) as f64;
+                let draws = Draws::new(seed).of(normed.slot as u64);
+                let mut plain = normed.weights.to_plain();
+                for (position, weight) in plain.iter_mut().enumerate() {
+                    *weight = (draws.normal(position as u64) * (2.0 / fan).sqrt()) as f32;
+                }
+                normed.weights.set_plain(&plain);
+                slot += Normed::SLOTS;
+            }
+            picture = plan.output(picture);
+            stages.push(stage);
+        }
+        let mut head = Head::new(architecture.pooling(), picture, architecture.outputs, slot);
+        let bound = 1.0 / (head.features() as f64).sqrt();
+        for (slot, values) in [(slot, &mut head.weights), (slot + 1, &mut head.bias)] {
+            let draws = Draws::new(seed).of(slot as u64);
+            for (position, value) in values.iter_mut().enumerate() {
+                *value = ((2.0 * draws.unit(position as u64) - 1.0) * bound) as f32;
+            }
+        }
+        Ok(Network {
+            architecture: architecture.clone(),
+            machine: Machine::with(Isa::detect()).expect("detected"),
+            stages,
+            head,
+        })
+    }
+
+    /// The same network on the instructions of `isa`.
+    ///
+    /// # Errors
+    /// [`NetworkError::Architecture`] if this machine does not have them.
+    pub fn on(mut self, isa: Isa) -> Result<Network, NetworkError> {
+        self.machine = Machine::with(isa).ok_or_else(|| NetworkError::Architecture {
+            reason: format!("this machine does not have {isa}"),
+        })?;
+        Ok(self)
+    }
+
+    /// The make of it.
+    pub fn architecture(&self) -> &Architecture {
+        &self.architecture
+    }
+
+    /// Weights, gains and biases that are learnt.
+    pub fn parameters(&self) -> usize {
+        let normed = self.stages.iter().flat_map(Stage::normed);
+        let parts = normed.map(|(part, _)| part.weights.values().len() + 2 * part.norm.gain.len());
+        parts.sum::<usize>() + self.head.weights.len() + self.head.bias.len()
+    }
+
+    /// Number of slots that gradients have.
+    pub(crate) fn slots(&self) -> usize {
+        self.head.slot + Head::SLOTS
+    }
+
+    /// Room to train in, with batches of `batch` pictures.
+    pub(crate) fn training_space(&self, batch: usize) -> TrainingSpace {
+        let plans = self.architecture.stages();
+        let mut picture = self.architecture.input;
+        let input = plans[0].input_layout(picture);
+        let mut stages = Vec::with_capacity(plans.len());
+        let mut border = input.border;
+        for (position, (plan, stage)) in plans.iter().zip(&self.stages).enumerate() {
+            let output = plan.output(picture);
+            let next = plans.get(position + 1);
+            let next_border = next.map_or(0, |next| next.input_layout(output).border);
+            stages.push(stage.space(Standing {
+                input: crate::planes::Layout { picture, border },
+                border: next_border,
+                batch,
+                is_first: position == 0,
+            }));
+            (picture, border) = (output, next_border);
+        }
+        let normed = self.stages.iter().flat_map(Stage::normed);
+        let largest = normed.map(|(part, _)| part.weights.values().len()).max();
+        TrainingSpace {
+            input: Planes::zeros(input.picture, input.border, batch),
+            stages,
+            features: Vec::new(),
+            outputs: Vec::new(),
+            scratch: Scratch::new(batch, largest.unwrap_or(0)),
+        }
+    }
+
+    /// Passes the first `count` pictures of the space, normalised by their own moments.
+    ///
+    /// # Shapes
+    /// The outputs: `[count, outputs]`.
+    pub(crate) fn forward<'a>(&mut self, space: &'a mut TrainingSpace, count: usize) -> &'a [f64] {
+        for position in 0..self.stages.len() {
+            let (before, rest) = space.stages.split_at_mut(position);
+            let input = before.last().map_or(&space.input, StageSpace::output);
+            self.stages[position].forward(self.machine, &mut rest[0], (input, count));
+        }
+        let last = space.stages.last().expect("an architecture has stages");
+        self.head.see((last.output(), count), &mut space.features);
+        self.head.forward(&space.features, &mut space.outputs);
+        &space.outputs
+    }
+
+    /// Passes the gradient of the outputs back, and hands on that of each parameter.
+    ///
+    /// # Shapes
+    /// `gradient`: `[count, outputs]`, of the pictures that [`forward`](Network::forward) passed last.
+    pub(crate) fn backward(
+        &mut self,
+        space: &mut TrainingSpace,
+        gradient: &[f64],
+        update: &mut dyn Update,
+    ) {
+        let TrainingSpace {
+            input,
+            stages,
+            features,
+            scratch,
+            ..
+        } = space;
+        let last = stages.last().expect("an architecture has stages");
+        let mut passed = scratch.take(last.output().layout().picture, 0);
+        self.head.backward(features, gradient, &mut passed, update);
+        let count = gradient.len() / self.head.outputs();
+        let mut back = Back {
+            machine: self.machine,
+            count,
+            scratch,
+            update,
+        };
+        for position in (0..self.stages.len()).rev() {
+            let (before, rest) = stages.split_at_mut(position);
+            let input = before.last().map_or(&*input, StageSpace::output);
+            let stage = &mut self.stages[position];
+            match stage.backward(&mut rest[0], input, passed, &mut back) {
+                Some(gradient) => passed = gradient,
+                None => break,
+            }
+        }
+    }
+
+    /// The plan of each stage and the stage.
+    pub(crate) fn planned(&self) -> impl Iterator<Item = (StagePlan, &Stage)> {
+        self.architecture.stages().into_iter().zip(&self.stages)
+    }
+}

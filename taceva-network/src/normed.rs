@@ -1,0 +1,213 @@
+//! A convolution and the batch normalisation behind it, which every part of a network is made of.
+
+use crate::batch_norm::{
+    BatchNorm, ChannelSums, Gate, GradientSums, Moments, gradient_sums, input_gradient,
+};
+use crate::convolution::{
+    Convolution, ConvolutionWeights, Epilogue, Forward, InputGradient, Onto, Source, WeightGradient,
+};
+use crate::isa::Machine;
+use crate::panel::{Aligned, PANEL};
+use crate::planes::{Layout, Picture, Planes};
+use crate::scratch::Scratch;
+use crate::update::Update;
+
+/// A convolution and its normalisation.
+#[derive(Clone, Debug)]
+pub(crate) struct Normed {
+    pub(crate) weights: ConvolutionWeights,
+    pub(crate) norm: BatchNorm,
+    /// The slot of the weights; gain and bias have the two next ones.
+    pub(crate) slot: usize,
+}
+
+/// What a backward pass goes with.
+pub(crate) struct Back<'a> {
+    pub(crate) machine: Machine,
+    /// How many pictures.
+    pub(crate) count: usize,
+    pub(crate) scratch: &'a mut Scratch,
+    pub(crate) update: &'a mut dyn Update,
+}
+
+/// What training keeps of a convolution between the passes.
+#[derive(Debug)]
+pub(crate) struct NormedSpace {
+    /// What the convolution gave.
+    pub(crate) raw: Planes,
+    pub(crate) moments: Moments,
+    pub(crate) sums: Vec<ChannelSums>,
+    forward: Forward,
+    weight_gradient: WeightGradient,
+    /// None where nobody asks for the gradient of the input.
+    input_gradient: Option<InputGradient>,
+}
+
+impl Normed {
+    /// Slots of each.
+    pub(crate) const SLOTS: usize = 3;
+
+    pub(crate) fn new(convolution: Convolution, slot: usize) -> Normed {
+        Normed {
+            weights: ConvolutionWeights::zeros(convolution),
+            norm: BatchNorm::new(convolution.outputs),
+            slot,
+        }
+    }
+
+    pub(crate) fn convolution(&self) -> Convolution {
+        self.weights.convolution()
+    }
+
+    /// Convolves the first `count` pictures and takes the moments of the result.
+    pub(crate) fn forward(
+        &mut self,
+        machine: Machine,
+        space: &mut NormedSpace,
+        (input, count): (&Planes, usize),
+    ) {
+        let source = Source {
+            weights: &self.weights,
+            input,
+            count,
+        };
+        let measure = |sums: &mut ChannelSums, raw: &[f32]| sums.measure(machine, raw);
+        let each = (&mut space.sums[..count], measure);
+        space
+            .forward
+            .run(machine, source, &mut space.raw, Epilogue::Raw, each);
+        let samples = count * space.raw.layout().picture.pixels();
+        self.norm
+            .update(&space.sums[..count], samples, &mut space.moments);
+    }
+
+    /// Hands on the gradients of gain and bias.
+    pub(crate) fn update_norm(&mut self, sums: &GradientSums, update: &mut dyn Update) {
+        update.update(self.slot + 1, &mut self.norm.gain, &sums.gain);
+        update.update(self.slot + 2, &mut self.norm.bias, &sums.bias);
+    }
+
+    /// The gradient of what the convolution gave, from that of what its normalisation gave, which becomes zero where `gate` is
+    /// shut; those of gain and bias are handed on.
+    pub(crate) fn norm_backward(
+        &mut self,
+        space: &mut NormedSpace,
+        gate: Gate<'_>,
+        gradient: &mut Planes,
+        back: &mut Back<'_>,
+    ) -> Planes {
+        let (machine, raw) = (back.machine, (&space.raw, back.count));
+        let sums = gradient_sums(
+            machine,
+            raw,
+            &space.moments,
+            gate,
+            gradient,
+            &mut space.sums,
+        );
+        let mut into = space.gradient(self.convolution(), back.scratch);
+        input_gradient(
+            machine,
+            raw,
+            (&space.moments, &sums),
+            gate,
+            gradient,
+            &mut into,
+        );
+        self.update_norm(&sums, back.update);
+        into
+    }
+
+    /// Writes the gradient of the input, where one is asked for, and hands on that of the weights.
+    pub(crate) fn backward(
+        &mut self,
+        space: &NormedSpace,
+        input: &Planes,
+        gradient: &Planes,
+        into: Option<(&mut Planes, Onto)>,
+        back: &mut Back<'_>,
+    ) {
+        let Back {
+            machine,
+            count,
+            scratch,
+            update,
+        } = back;
+        if let (Some(pass), Some(into)) = (&space.input_gradient, into) {
+            let exchanged = &mut scratch.exchanged;
+            pass.run(*machine, &self.weights, (gradient, *count), exchanged, into);
+        }
+        let length = self.weights.values().len();
+        let into = &mut scratch.weight_gradient[..length];
+        space
+            .weight_gradient
+            .run(*machine, input, gradient, *count, into);
+        update.update(self.slot, self.weights.values_mut(), into);
+    }
+
+    /// The weights with the running moments worked in, and the bias that is left.
+    #[expect(
+        clippy::cast_possible_truncation,
+        reason = "products are formed in double precision and kept in single"
+    )]
+    pub(crate) fn fold(&self) -> (ConvolutionWeights, Aligned) {
+        let mut weights = self.weights.clone();
+        let channels = self.convolution().outputs;
+        let rows = weights.values().len() / channels;
+        let mut bias = Aligned::zeros(channels);
+        for channel in 0..channels {
+            let (scale, shift) = self.norm.frozen(channel);
+            bias[channel] = shift as f32;
+            let panel = &mut weights.values_mut()[channel / PANEL * rows * PANEL..][..rows * PANEL];
+            for weight in panel[channel % PANEL..].iter_mut().step_by(PANEL) {
+                *weight = (f64::from(*weight) * scale) as f32;
+            }
+        }
+        (weights, bias)
+    }
+}
+
+impl NormedSpace {
+    /// Room for `batch` pictures of layout `input`; `gradient_border` is that of the gradients of the output.
+    pub(crate) fn new(
+        convolution: Convolution,
+        input: Layout,
+        batch: usize,
+        asks_for_input_gradient: bool,
+    ) -> NormedSpace {
+        let picture = convolution.output(input.picture);
+        let raw = Planes::zeros(picture, 0, batch);
+        let gradient = NormedSpace::gradient_layout(convolution, picture, asks_for_input_gradient);
+        let bare = Layout {
+            picture: input.picture,
+            border: 0,
+        };
+        NormedSpace {
+            forward: Forward::new(convolution, input, raw.layout()),
+            weight_gradient: WeightGradient::new(convolution, input, gradient),
+            input_gradient: asks_for_input_gradient
+                .then(|| InputGradient::new(convolution, gradient, bare)),
+            moments: Moments::zeros(picture.channels),
+            sums: vec![ChannelSums::zeros(picture.channels); batch],
+            raw,
+        }
+    }
+
+    /// How the gradient of the convolution's output lies: with a border, where the gradient of the input reads it.
+    fn gradient_layout(convolution: Convolution, picture: Picture, is_read: bool) -> Layout {
+        let border = if is_read {
+            convolution.padding().max(1)
+        } else {
+            0
+        };
+        Layout { picture, border }
+    }
+
+    /// Room for the gradient of the convolution's output.
+    pub(crate) fn gradient(&self, convolution: Convolution, scratch: &mut Scratch) -> Planes {
+        let picture = self.raw.layout().picture;
+        let is_read = self.input_gradient.is_some();
+        let layout = NormedSpace::gradient_layout(convolution, picture, is_read);
+        scratch.take(picture, layout.border)
+    }
+}

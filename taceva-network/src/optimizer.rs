@@ -1,0 +1,273 @@
+//! How weights follow their gradients.
+
+use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
+
+use crate::isa::Machine;
+use crate::panel::{Aligned, PANEL};
+use crate::simd::{Job, Vector};
+use crate::update::Update;
+
+/// A rule by which weights follow their gradients; decay acts on every parameter, as PyTorch's does unless told otherwise.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Optimizer {
+    /// v ← momentum · v + g + decay · w, w ← w − rate · v.
+    Sgd {
+        /// What is left of the last velocity, 0 to below 1.
+        momentum: f64,
+        /// The decay of weights.
+        weight_decay: f64,
+    },
+    /// Adam with decay apart from the gradient.
+    ///
+    /// # Reference
+    /// I. Loshchilov, F. Hutter, "Decoupled weight decay regularization", ICLR 2019.
+    AdamW {
+        /// What is left of the means of the gradient and of its square, each 0 to below 1.
+        betas: (f64, f64),
+        /// What is added to the root of the mean square.
+        epsilon: f64,
+        /// The decay of weights.
+        weight_decay: f64,
+    },
+}
+
+impl Optimizer {
+    /// AdamW as PyTorch sets it out of the box.
+    pub const ADAM_W: Optimizer = Optimizer::AdamW {
+        betas: (0.9, 0.999),
+        epsilon: 1e-8,
+        weight_decay: 1e-2,
+    };
+
+    /// Vectors that are kept for each parameter.
+    pub(crate) const fn moments(self) -> usize {
+        match self {
+            Optimizer::Sgd { .. } => 1,
+            Optimizer::AdamW { .. } => 2,
+        }
+    }
+}
+
+/// What an optimiser remembers of each parameter, by slot.
+#[derive(Clone, Debug)]
+pub(crate) struct Memory {
+    /// The velocity, or the means of the gradient and of its square; empty until a parameter was changed.
+    pub(crate) moments: Vec<Vec<Aligned>>,
+}
+
+impl Memory {
+    pub(crate) fn new(slots: usize) -> Memory {
+        let moments = vec![Vec::new(); slots];
+        Memory { moments }
+    }
+}
+
+/// One step of all parameters.
+pub(crate) struct Descent<'a> {
+    pub(crate) machine: Machine,
+    pub(crate) optimizer: Optimizer,
+    pub(crate) rate: f64,
+    /// Steps, this one included.
+    pub(crate) steps: u64,
+    pub(crate) memory: &'a mut Memory,
+    /// Whether a parameter became infinite or NaN.
+    pub(crate) is_broken: bool,
+}
+
+/// Numbers that a thread takes at a time.
+const CHUNK: usize = 1 << 14;
+
+impl Update for Descent<'_> {
+    fn update(&mut self, slot: usize, values: &mut [f32], gradient: &[f32]) {
+        let moments = &mut self.memory.moments[slot];
+        if moments.is_empty() {
+            *moments = vec![Aligned::zeros(values.len()); self.optimizer.moments()];
+        }
+        let (first, second) = moments.split_at_mut(1);
+        let machine = self.machine;
+        let values = values.par_chunks_mut(CHUNK);
+        let pairs = values
+            .zip(gradient.par_chunks(CHUNK))
+            .zip(first[0].par_chunks_mut(CHUNK));
+        let is_whole = match (Rule::new(self.optimizer, self.rate, self.steps), second) {
+            (Rule::Adam(rule), [second]) => pairs
+                .zip(second.par_chunks_mut(CHUNK))
+                .map(|(((values, gradient), mean), square)| {
+                    machine.run(AdamChunk {
+                        rule,
+                        values,
+                        gradient,
+                        mean,
+                        square,
+                    })
+                })
+                .reduce(|| true, |a, b| a & b),
+            (Rule::Momentum(rule), _) => pairs
+                .map(|((values, gradient), velocity)| {
+                    machine.run(MomentumChunk {
+                        rule,
+                        values,
+                        gradient,
+                        velocity,
+                    })
+                })
+                .reduce(|| true, |a, b| a & b),
+            (Rule::Adam(_), _) => unreachable!("two moments are kept"),
+        };
+        self.is_broken |= !is_whole;
+    }
+}
+
+/// The numbers of one step.
+enum Rule {
+    Momentum(Momentum),
+    Adam(Adam),
+}
+
+#[derive(Clone, Copy)]
+struct Momentum {
+    momentum: f32,
+    decay: f32,
+    rate: f32,
+}
+
+#[derive(Clone, Copy)]
+struct Adam {
+    /// What is left of weights.
+    keep: f32,
+    betas: (f32, f32),
+    /// What the means get of the newest.
+    news: (f32, f32),
+    /// 1 / √(1 − β₂ⁿ).
+    correction: f32,
+    epsilon: f32,
+    /// rate / (1 − β₁ⁿ).
+    step: f32,
+}
+
+impl Rule {
+    #[expect(
+        clippy::cast_possible_truncation,
+        reason = "factors are formed in double precision and applied in single"
+    )]
+    fn new(optimizer: Optimizer, rate: f64, steps: u64) -> Rule {
+        match optimizer {
+            Optimizer::Sgd {
+                momentum,
+                weight_decay,
+            } => Rule::Momentum(Momentum {
+                momentum: momentum as f32,
+                decay: weight_decay as f32,
+                rate: rate as f32,
+            }),
+            Optimizer::AdamW {
+                betas,
+                epsilon,
+                weight_decay,
+            } => {
+                let left = |beta: f64| 1.0 - (steps as f64 * beta.ln()).exp();
+                Rule::Adam(Adam {
+                    keep: (1.0 - rate * weight_decay) as f32,
+                    betas: (betas.0 as f32, betas.1 as f32),
+                    news: ((1.0 - betas.0) as f32, (1.0 - betas.1) as f32),
+                    correction: (1.0 / left(betas.1).sqrt()) as f32,
+                    epsilon: epsilon as f32,
+                    step: (rate / left(betas.0)) as f32,
+                })
+            }
+        }
+    }
+}
+
+impl Momentum {
+    #[inline(always)]
+    fn apply(self, value: &mut f32, gradient: f32, velocity: &mut f32) {
+        *velocity = self.momentum * *velocity + (gradient + self.decay * *value);
+        *value -= self.rate * *velocity;
+    }
+}
+
+impl Adam {
+    #[inline(always)]
+    fn apply(self, value: &mut f32, gradient: f32, mean: &mut f32, square: &mut f32) {
+        *mean = self.betas.0 * *mean + self.news.0 * gradient;
+        *square = self.betas.1 * *square + self.news.1 * (gradient * gradient);
+        let root = square.sqrt() * self.correction + self.epsilon;
+        *value = *value * self.keep - self.step * (*mean / root);
+    }
+}
+
+struct MomentumChunk<'a> {
+    rule: Momentum,
+    values: &'a mut [f32],
+    gradient: &'a [f32],
+    velocity: &'a mut [f32],
+}
+
+impl Job for MomentumChunk<'_> {
+    /// Whether every number is finite.
+    type Output = bool;
+
+    #[inline(always)]
+    fn run<V: Vector>(self, _proof: V::Proof) -> bool {
+        let mut check = [0.0_f32; PANEL];
+        let values = self
+            .values
+            .chunks_mut(PANEL)
+            .zip(self.gradient.chunks(PANEL));
+        for ((values, gradient), velocity) in values.zip(self.velocity.chunks_mut(PANEL)) {
+            let places = values
+                .iter_mut()
+                .zip(gradient)
+                .zip(velocity)
+                .zip(&mut check);
+            for (((value, gradient), velocity), check) in places {
+                self.rule.apply(value, *gradient, velocity);
+                // Zero unless the number is not finite.
+                *check += *value * 0.0;
+            }
+        }
+        check.iter().all(|check| !check.is_nan())
+    }
+}
+
+struct AdamChunk<'a> {
+    rule: Adam,
+    values: &'a mut [f32],
+    gradient: &'a [f32],
+    mean: &'a mut [f32],
+    square: &'a mut [f32],
+}
+
+impl Job for AdamChunk<'_> {
+    /// Whether every number is finite.
+    type Output = bool;
+
+    #[inline(always)]
+    fn run<V: Vector>(self, _proof: V::Proof) -> bool {
+        let mut check = [0.0_f32; PANEL];
+        let values = self
+            .values
+            .chunks_mut(PANEL)
+            .zip(self.gradient.chunks(PANEL));
+        let moments = self
+            .mean
+            .chunks_mut(PANEL)
+            .zip(self.square.chunks_mut(PANEL));
+        for ((values, gradient), (mean, square)) in values.zip(moments) {
+            let places = values
+                .iter_mut()
+                .zip(gradient)
+                .zip(mean)
+                .zip(square)
+                .zip(&mut check);
+            for ((((value, gradient), mean), square), check) in places {
+                self.rule.apply(value, *gradient, mean, square);
+                *check += *value * 0.0;
+            }
+        }
+        check.iter().all(|check| !check.is_nan())
+    }
+}

@@ -1,0 +1,80 @@
+//! The rate of each step.
+
+use serde::{Deserialize, Serialize};
+
+/// How the rate goes over a training.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Schedule {
+    /// Always the same.
+    Constant,
+    /// From the full rate to zero along half a cosine.
+    Cosine,
+    /// Multiplied by `factor` after each `every` steps.
+    Step {
+        /// Steps between two changes.
+        every: u64,
+        /// What is left of the rate at each.
+        factor: f64,
+    },
+    /// From a 25th up along half a cosine for the share `rise` of all steps, then down to a 10,000th of where it began.
+    ///
+    /// # Reference
+    /// L. N. Smith, N. Topin, "Super-convergence", 2019; ends and shape are those of PyTorch's `OneCycleLR`.
+    OneCycle {
+        /// The share of steps that the rate rises, above 0 and below 1.
+        rise: f64,
+    },
+}
+
+impl Schedule {
+    /// What of the full rate step `step` of `steps` has, counted from 0.
+    ///
+    /// ```
+    /// use taceva_network::Schedule;
+    /// assert_eq!(Schedule::Cosine.factor(0, 100), 1.0);
+    /// assert!((Schedule::Cosine.factor(50, 100) - 0.5).abs() < 1e-12);
+    /// assert_eq!(Schedule::Step { every: 10, factor: 0.1 }.factor(19, 100), 0.1);
+    /// ```
+    pub fn factor(self, step: u64, steps: u64) -> f64 {
+        let between = |from: f64, to: f64, share: f64| {
+            to + (from - to) * 0.5 * (1.0 + (std::f64::consts::PI * share).cos())
+        };
+        match self {
+            Schedule::Constant => 1.0,
+            Schedule::Cosine => between(1.0, 0.0, step as f64 / steps.max(1) as f64),
+            Schedule::Step { every, factor } => {
+                let changes = i32::try_from(step / every.max(1)).unwrap_or(i32::MAX);
+                factor.powi(changes)
+            }
+            Schedule::OneCycle { rise } => {
+                let (start, end) = (1.0 / 25.0, 1.0 / 250_000.0);
+                let peak = rise * steps as f64 - 1.0;
+                let (step, last) = (step as f64, steps as f64 - 1.0);
+                if step <= peak {
+                    between(start, 1.0, step / peak)
+                } else {
+                    between(1.0, end, (step - peak) / (last - peak))
+                }
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn one_cycle_goes_as_pytorch_s() {
+        let schedule = Schedule::OneCycle { rise: 0.3 };
+        let close = |step, expected: f64| {
+            let found = schedule.factor(step, 100);
+            assert!((found - expected).abs() < 1e-9, "{step}: {found}");
+        };
+        // torch.optim.lr_scheduler.OneCycleLR(max_lr=1, total_steps=100).
+        close(0, 0.04);
+        close(29, 1.0);
+        close(99, 4e-6);
+    }
+}

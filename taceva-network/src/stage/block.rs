@@ -1,0 +1,180 @@
+//! A residual block: two convolutions, and what leads past them.
+
+use super::Standing;
+use crate::batch_norm::{Gate, Shortcut, apply};
+use crate::convolution::{Convolution, Onto};
+use crate::isa::Machine;
+use crate::normed::{Back, Normed, NormedSpace};
+use crate::planes::{Picture, Planes};
+
+/// The weights of a block.
+#[derive(Clone, Debug)]
+pub(crate) struct Block {
+    pub(crate) first: Normed,
+    pub(crate) second: Normed,
+    /// What leads past the two; nothing where pictures keep their shape.
+    pub(crate) shortcut: Option<Normed>,
+}
+
+/// What training keeps between the passes.
+#[derive(Debug)]
+pub(crate) struct BlockSpace {
+    first: NormedSpace,
+    /// What the first convolution gave, normalised and cut.
+    middle: Planes,
+    second: NormedSpace,
+    shortcut: Option<NormedSpace>,
+    pub(crate) output: Planes,
+    input: Picture,
+}
+
+impl Block {
+    /// The block whose first convolution is `first`.
+    pub(super) fn new(first: Convolution, slot: usize) -> Block {
+        let Convolution {
+            inputs,
+            outputs,
+            stride,
+            ..
+        } = first;
+        let second = Convolution {
+            inputs: outputs,
+            outputs,
+            kernel: 3,
+            stride: 1,
+        };
+        let past = Convolution {
+            inputs,
+            outputs,
+            kernel: 1,
+            stride,
+        };
+        let changes = stride != 1 || inputs != outputs;
+        Block {
+            first: Normed::new(first, slot),
+            second: Normed::new(second, slot + Normed::SLOTS),
+            shortcut: changes.then(|| Normed::new(past, slot + 2 * Normed::SLOTS)),
+        }
+    }
+
+    pub(super) fn normed(&self) -> Vec<(&Normed, [&'static str; 2])> {
+        let mut normed = vec![
+            (&self.first, ["conv1", "bn1"]),
+            (&self.second, ["conv2", "bn2"]),
+        ];
+        let past = self.shortcut.as_ref();
+        normed.extend(past.map(|past| (past, ["downsample.0", "downsample.1"])));
+        normed
+    }
+
+    pub(super) fn normed_mut(&mut self) -> Vec<&mut Normed> {
+        let both = [&mut self.first, &mut self.second];
+        both.into_iter().chain(self.shortcut.as_mut()).collect()
+    }
+}
+
+impl BlockSpace {
+    pub(super) fn new(block: &Block, standing: Standing) -> BlockSpace {
+        let Standing {
+            input,
+            border,
+            batch,
+            ..
+        } = standing;
+        let picture = block.first.convolution().output(input.picture);
+        let middle = Planes::zeros(picture, 1, batch);
+        let past = block.shortcut.as_ref().map(Normed::convolution);
+        BlockSpace {
+            first: NormedSpace::new(block.first.convolution(), input, batch, true),
+            second: NormedSpace::new(block.second.convolution(), middle.layout(), batch, true),
+            shortcut: past.map(|past| NormedSpace::new(past, input, batch, true)),
+            output: Planes::zeros(picture, border, batch),
+            middle,
+            input: input.picture,
+        }
+    }
+
+    pub(super) fn forward(
+        &mut self,
+        block: &mut Block,
+        machine: Machine,
+        (input, count): (&Planes, usize),
+    ) {
+        let BlockSpace {
+            first,
+            middle,
+            second,
+            shortcut,
+            output,
+            ..
+        } = self;
+        block.first.forward(machine, first, (input, count));
+        apply(
+            machine,
+            (&first.raw, count),
+            &first.moments,
+            Shortcut::Nothing,
+            middle,
+        );
+        block.second.forward(machine, second, (middle, count));
+        let past = match (&mut block.shortcut, shortcut) {
+            (Some(normed), Some(space)) => {
+                normed.forward(machine, space, (input, count));
+                Shortcut::Normalised(&space.raw, &space.moments)
+            }
+            _ => Shortcut::Identity(input),
+        };
+        apply(machine, (&second.raw, count), &second.moments, past, output);
+    }
+
+    /// The gradient of the output becomes, in place, that of the sum, and then, where nothing leads past but the input itself,
+    /// that of the input.
+    pub(super) fn backward(
+        &mut self,
+        block: &mut Block,
+        input: &Planes,
+        mut gradient: Planes,
+        back: &mut Back<'_>,
+    ) -> Planes {
+        let cut = Gate::Output(&self.output);
+        let raw_gradient = block
+            .second
+            .norm_backward(&mut self.second, cut, &mut gradient, back);
+        let mut inner = back.scratch.take(self.middle.layout().picture, 0);
+        let into = Some((&mut inner, Onto::Nothing));
+        block
+            .second
+            .backward(&self.second, &self.middle, &raw_gradient, into, back);
+        back.scratch.put(raw_gradient);
+
+        let cut = Gate::Normalised;
+        let raw_gradient = block
+            .first
+            .norm_backward(&mut self.first, cut, &mut inner, back);
+        back.scratch.put(inner);
+        let passed = match (&mut block.shortcut, &mut self.shortcut) {
+            (Some(past), Some(space)) => {
+                let mut passed = back.scratch.take(self.input, 0);
+                let into = Some((&mut passed, Onto::Nothing));
+                block
+                    .first
+                    .backward(&self.first, input, &raw_gradient, into, back);
+                let past_gradient = past.norm_backward(space, Gate::Open, &mut gradient, back);
+                let into = Some((&mut passed, Onto::Sum));
+                past.backward(space, input, &past_gradient, into, back);
+                back.scratch.put(past_gradient);
+                back.scratch.put(gradient);
+                passed
+            }
+            _ => {
+                let into = Some((&mut gradient, Onto::Sum));
+                block
+                    .first
+                    .backward(&self.first, input, &raw_gradient, into, back);
+                gradient
+            }
+        };
+        back.scratch.put(raw_gradient);
+        passed
+    }
+}

@@ -1,0 +1,69 @@
+//! A convolution, its normalisation, and zero below zero.
+
+use super::Standing;
+use crate::batch_norm::{Gate, Shortcut, apply};
+use crate::convolution::Onto;
+use crate::isa::Machine;
+use crate::normed::{Back, Normed, NormedSpace};
+use crate::planes::{Picture, Planes};
+
+/// What training keeps between the passes.
+#[derive(Debug)]
+pub(crate) struct PlainSpace {
+    normed: NormedSpace,
+    pub(crate) output: Planes,
+    /// Pictures whose gradient is asked for.
+    input: Option<Picture>,
+}
+
+impl PlainSpace {
+    pub(super) fn new(normed: &Normed, standing: Standing) -> PlainSpace {
+        let Standing {
+            input,
+            border,
+            batch,
+            is_first,
+        } = standing;
+        let convolution = normed.convolution();
+        PlainSpace {
+            normed: NormedSpace::new(convolution, input, batch, !is_first),
+            output: Planes::zeros(convolution.output(input.picture), border, batch),
+            input: (!is_first).then_some(input.picture),
+        }
+    }
+
+    pub(super) fn forward(
+        &mut self,
+        normed: &mut Normed,
+        machine: Machine,
+        input: (&Planes, usize),
+    ) {
+        let space = &mut self.normed;
+        normed.forward(machine, space, input);
+        let raw = (&space.raw, input.1);
+        apply(
+            machine,
+            raw,
+            &space.moments,
+            Shortcut::Nothing,
+            &mut self.output,
+        );
+    }
+
+    pub(super) fn backward(
+        &mut self,
+        normed: &mut Normed,
+        input: &Planes,
+        mut gradient: Planes,
+        back: &mut Back<'_>,
+    ) -> Option<Planes> {
+        let space = &mut self.normed;
+        let raw_gradient = normed.norm_backward(space, Gate::Normalised, &mut gradient, back);
+        back.scratch.put(gradient);
+        let mut passed = self.input.map(|picture| back.scratch.take(picture, 0));
+        let into = passed.as_mut().map(|passed| (passed, Onto::Nothing));
+        normed.backward(space, input, &raw_gradient, into, back);
+        back.scratch.put(raw_gradient);
+        passed
+    }
+}

@@ -1,0 +1,77 @@
+//! The first part of a residual network: a convolution, its normalisation, zero below zero, and pooling.
+
+use super::Standing;
+use crate::isa::Machine;
+use crate::max_pool::{self, Pooled};
+use crate::normed::{Back, Normed, NormedSpace};
+use crate::planes::Planes;
+
+/// What training keeps between the passes.
+#[derive(Debug)]
+pub(crate) struct StemSpace {
+    normed: NormedSpace,
+    pub(crate) output: Planes,
+    /// Which place of its window each output came from.
+    choices: Vec<u8>,
+}
+
+impl StemSpace {
+    pub(super) fn new(normed: &Normed, standing: Standing) -> StemSpace {
+        let Standing {
+            input,
+            border,
+            batch,
+            ..
+        } = standing;
+        let normed = NormedSpace::new(normed.convolution(), input, batch, false);
+        let picture = max_pool::output(normed.raw.layout().picture);
+        StemSpace {
+            normed,
+            output: Planes::zeros(picture, border, batch),
+            choices: vec![0; picture.len() * batch],
+        }
+    }
+
+    pub(super) fn forward(
+        &mut self,
+        normed: &mut Normed,
+        machine: Machine,
+        input: (&Planes, usize),
+    ) {
+        let space = &mut self.normed;
+        normed.forward(machine, space, input);
+        let (raw, choices) = ((&space.raw, input.1), &mut self.choices);
+        max_pool::pool_normalised(machine, raw, &space.moments, &mut self.output, choices);
+    }
+
+    pub(super) fn backward(
+        &mut self,
+        normed: &mut Normed,
+        input: &Planes,
+        mut gradient: Planes,
+        back: &mut Back<'_>,
+    ) {
+        let space = &mut self.normed;
+        let pooled = Pooled {
+            raw: &space.raw,
+            output: &self.output,
+            choices: &self.choices,
+            count: back.count,
+        };
+        let machine = back.machine;
+        let (moments, room) = (&space.moments, &mut space.sums);
+        let sums = max_pool::gradient_sums(machine, pooled, moments, &mut gradient, room);
+        let mut raw_gradient = space.gradient(normed.convolution(), back.scratch);
+        max_pool::input_gradient(
+            machine,
+            pooled,
+            (moments, &sums),
+            &gradient,
+            &mut raw_gradient,
+        );
+        back.scratch.put(gradient);
+        normed.update_norm(&sums, back.update);
+        normed.backward(space, input, &raw_gradient, None, back);
+        back.scratch.put(raw_gradient);
+    }
+}
