@@ -19,15 +19,19 @@ mod schedule;
 mod scratch;
 mod simd;
 mod stage;
+mod training;
 mod update;
 
 pub use architecture::{Architecture, Body, Depth, PlainLayer, Pooling};
 pub use error::{NetworkError, Part};
 pub use isa::{Isa, IsaError};
 pub use loss::Loss;
-pub use network::{NamedTensor, Network};
+pub use network::{Gradients, NamedTensor, Network};
 pub use optimizer::Optimizer;
 pub use planes::Picture;
 pub use predictor::Predictor;
 pub use schedule::Schedule;
-mod timing_probe;
+pub use training::{
+    Augmentation, Checkpoint, Epoch, Jitter, LabelScale, LabelScaling, Labels, Recipe, Samples,
+    Step, Summary, Trained, Trainer, TrainingState,
+};

@@ -1,7 +1,9 @@
 //! A network: its weights, and what it makes of pictures.
 
+mod gradients;
 mod tensors;
 
+pub use gradients::Gradients;
 pub use tensors::NamedTensor;
 
 use crate::architecture::{Architecture, StagePlan};
@@ -100,14 +102,24 @@ impl Network {
 
     /// Weights, gains and biases that are learnt.
     pub fn parameters(&self) -> usize {
-        let normed = self.stages.iter().flat_map(Stage::normed);
-        let parts = normed.map(|(part, _)| part.weights.values().len() + 2 * part.norm.gain.len());
-        parts.sum::<usize>() + self.head.weights.len() + self.head.bias.len()
+        self.slot_lengths().into_iter().sum()
     }
 
     /// Number of slots that gradients have.
     pub(crate) fn slots(&self) -> usize {
         self.head.slot + Head::SLOTS
+    }
+
+    /// Numbers of the parameter at each slot.
+    pub(crate) fn slot_lengths(&self) -> Vec<usize> {
+        let normed = self.stages.iter().flat_map(Stage::normed);
+        let parts = normed.flat_map(|(part, _)| {
+            let channels = part.norm.gain.len();
+            [part.weights.values().len(), channels, channels]
+        });
+        parts
+            .chain([self.head.weights.len(), self.head.bias.len()])
+            .collect()
     }
 
     /// Room to train in, with batches of `batch` pictures.

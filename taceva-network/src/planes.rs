@@ -109,6 +109,7 @@ impl Planes {
     }
 
     /// Picture `position`, without its border.
+    #[cfg(test)]
     pub(crate) fn get(&self, position: usize) -> Vec<f32> {
         let image = &self.values[position * self.layout.len()..][..self.layout.len()];
         let rows = (0..self.layout.picture.height).map(|y| &image[self.layout.row_range(y)]);

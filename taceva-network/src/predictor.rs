@@ -40,11 +40,15 @@ struct Layer {
 enum Folded {
     Stem(Layer, Planes),
     Plain(Layer),
-    Block {
-        first: Layer,
-        second: Layer,
-        shortcut: Option<Layer>,
-    },
+    Block(Box<FoldedBlock>),
+}
+
+/// Two convolutions, and the one that leads past them where pictures change their shape.
+#[derive(Debug)]
+struct FoldedBlock {
+    first: Layer,
+    second: Layer,
+    shortcut: Option<Layer>,
 }
 
 impl Network {
@@ -61,9 +65,9 @@ impl Network {
         let mut stages = Vec::new();
         for (position, (plan, stage)) in self.planned().enumerate() {
             let output = plan.output(layout.picture);
-            let border = plans
-                .get(position + 1)
-                .map_or(0, |next| next.input_layout(output).border);
+            // At least one even behind the last, so that a block's output lies as its input does.
+            let next = plans.get(position + 1);
+            let border = next.map_or(1, |next| next.input_layout(output).border);
             stages.push(Folded::new(stage, layout, border, batch));
             layout = Layout {
                 picture: output,
@@ -161,11 +165,11 @@ impl Folded {
                 let middle = first.output.layout();
                 // What leads past lies as the output does, so that the two can be added.
                 let past = block.shortcut.as_ref();
-                Folded::Block {
+                Folded::Block(Box::new(FoldedBlock {
                     second: Layer::new(&block.second, middle, border, batch),
                     shortcut: past.map(|past| Layer::new(past, input, border, batch)),
                     first,
-                }
+                }))
             }
         }
     }
@@ -174,7 +178,7 @@ impl Folded {
         match self {
             Folded::Stem(_, output) => output,
             Folded::Plain(layer) => &layer.output,
-            Folded::Block { second, .. } => &second.output,
+            Folded::Block(block) => &block.second.output,
         }
     }
 
@@ -185,11 +189,12 @@ impl Folded {
                 max_pool::pool(machine, (&layer.output, input.1), pooled);
             }
             Folded::Plain(layer) => layer.pass(machine, input, Ending::Relu),
-            Folded::Block {
-                first,
-                second,
-                shortcut,
-            } => {
+            Folded::Block(block) => {
+                let FoldedBlock {
+                    first,
+                    second,
+                    shortcut,
+                } = &mut **block;
                 first.pass(machine, input, Ending::Relu);
                 let past = match shortcut {
                     Some(layer) => {

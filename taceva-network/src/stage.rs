@@ -18,7 +18,7 @@ use crate::planes::{Layout, Planes};
 pub(crate) enum Stage {
     Stem(Normed),
     Plain(Normed),
-    Block(Block),
+    Block(Box<Block>),
 }
 
 /// What training keeps of a part between the passes.
@@ -26,7 +26,7 @@ pub(crate) enum Stage {
 pub(crate) enum StageSpace {
     Stem(StemSpace),
     Plain(PlainSpace),
-    Block(BlockSpace),
+    Block(Box<BlockSpace>),
 }
 
 /// How a part stands in its network.
@@ -48,7 +48,7 @@ impl Stage {
         match plan {
             StagePlan::Stem { .. } => Stage::Stem(Normed::new(first, slot)),
             StagePlan::Plain(_) => Stage::Plain(Normed::new(first, slot)),
-            StagePlan::Block { .. } => Stage::Block(Block::new(first, slot)),
+            StagePlan::Block { .. } => Stage::Block(Box::new(Block::new(first, slot))),
         }
     }
 
@@ -74,7 +74,7 @@ impl Stage {
         match self {
             Stage::Stem(normed) => StageSpace::Stem(StemSpace::new(normed, standing)),
             Stage::Plain(normed) => StageSpace::Plain(PlainSpace::new(normed, standing)),
-            Stage::Block(block) => StageSpace::Block(BlockSpace::new(block, standing)),
+            Stage::Block(block) => StageSpace::Block(Box::new(BlockSpace::new(block, standing))),
         }
     }
 

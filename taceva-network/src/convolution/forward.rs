@@ -78,8 +78,9 @@ impl Forward {
         each: (&mut [E], impl Fn(&mut E, &[f32]) + Sync),
     ) {
         let count = source.count;
-        let (input_image, output_image) = (source.input.layout().len(), output.layout().len());
-        let panels = output.layout().picture.channels / PANEL;
+        let layout = output.layout();
+        let (input_image, output_image) = (source.input.layout().len(), layout.len());
+        let panels = layout.picture.channels / PANEL;
         let are_many = are_weights_many(self.rows, panels);
         let group = images_at_once(self.pixels.len(), count, are_many);
         let (each, see) = each;
@@ -95,6 +96,11 @@ impl Forward {
                     Epilogue::Bias(bias) => (Start::Bias(bias), Finish::Keep),
                     Epilogue::BiasRelu(bias) => (Start::Bias(bias), Finish::Relu),
                     Epilogue::BiasAddRelu(bias, other) => {
+                        assert_eq!(
+                            other.layout(),
+                            layout,
+                            "what is added lies as the output does"
+                        );
                         let other = &other.first(count)[start..][..output.len()];
                         (Start::Bias(bias), Finish::AddThenRelu(other))
                     }

@@ -1,0 +1,115 @@
+//! Images a second of training steps and of predictions: ResNet-18, six outputs, batches of 32 (and single pictures).
+//!
+//! `cargo bench -p taceva-network [-- SIDE [THREADS [REPEATS]]]`; without arguments 64² and 112² on one and two threads. The best
+//! of REPEATS, by processor time of all threads and by the wall clock. `benches/peers/torch_network.py` measures PyTorch alike.
+
+#![expect(
+    clippy::print_stdout,
+    reason = "a program that prints its measurements"
+)]
+
+use std::time::Instant;
+
+use rustix::time::{ClockId, clock_gettime};
+use taceva_network::{
+    Architecture, Depth, Isa, LabelScaling, Labels, Loss, Optimizer, Picture, Recipe, Samples,
+    Schedule, Trainer,
+};
+
+const BATCH: usize = 32;
+const OUTPUTS: usize = 6;
+
+fn main() {
+    // Cargo adds `--bench`.
+    let words = std::env::args()
+        .skip(1)
+        .filter(|word| !word.starts_with('-'));
+    let words: Vec<usize> = words.map(|word| word.parse().expect("a number")).collect();
+    let repeats = words.get(2).copied().unwrap_or(8);
+    println!("instructions: {}", Isa::detect());
+    for side in words.first().map_or(vec![64, 112], |side| vec![*side]) {
+        for threads in words.get(1).map_or(vec![1, 2], |threads| vec![*threads]) {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+            pool.expect("threads")
+                .install(|| measure(side, threads, repeats));
+        }
+    }
+}
+
+fn measure(side: usize, threads: usize, repeats: usize) {
+    let input = Picture {
+        height: side,
+        width: side,
+        channels: 3,
+    };
+    let architecture = Architecture::residual(Depth::Eighteen, input, OUTPUTS);
+    let pictures: Vec<f32> = (0_u16..)
+        .map(|at| f32::from(at % 251) / 251.0)
+        .take(BATCH * input.len())
+        .collect();
+    let labels: Vec<f64> = (0_u8..)
+        .take(BATCH * OUTPUTS)
+        .map(|at| f64::from(at % 17))
+        .collect();
+    let samples = Samples {
+        pictures: &pictures,
+        labels: Labels::Values(&labels),
+    };
+    let recipe = Recipe {
+        epochs: u64::MAX / 2,
+        optimizer: Optimizer::Sgd {
+            momentum: 0.9,
+            weight_decay: 1e-4,
+        },
+        rate: 1e-3,
+        schedule: Schedule::Constant,
+        loss: Loss::SquaredError,
+        scaling: LabelScaling::MinMax,
+        ..Recipe::default()
+    };
+    let mut trainer = Trainer::new(&architecture, &recipe, samples, None).expect("a training");
+    let step = || {
+        trainer.step().expect("finite").expect("a step is left");
+    };
+    tell("training", side, threads, BATCH, best(repeats, step));
+
+    let network = trainer.finish().network;
+    let mut predictor = network.predictor();
+    let mut outputs = [0.0; BATCH * OUTPUTS];
+    let all = || predictor.predict(&pictures, &mut outputs).expect("finite");
+    tell("inference", side, threads, BATCH, best(repeats, all));
+    let one = || {
+        let picture = &pictures[..input.len()];
+        predictor
+            .predict(picture, &mut outputs[..OUTPUTS])
+            .expect("finite");
+    };
+    tell("one picture", side, threads, 1, best(4 * repeats, one));
+}
+
+fn tell(what: &str, side: usize, threads: usize, images: usize, (busy, wall): (f64, f64)) {
+    let images = images as f64;
+    println!(
+        "{what:<12} {side}² {threads} threads {:9.1} images a processor second {:9.1} images/s",
+        images / busy,
+        images / wall
+    );
+}
+
+/// The least processor and wall seconds of `work`, after one warm-up.
+fn best(repeats: usize, mut work: impl FnMut()) -> (f64, f64) {
+    work();
+    let (mut busy, mut wall) = (f64::INFINITY, f64::INFINITY);
+    for _ in 0..repeats {
+        let (start, start_busy) = (Instant::now(), processor_seconds());
+        work();
+        busy = busy.min(processor_seconds() - start_busy);
+        wall = wall.min(start.elapsed().as_secs_f64());
+    }
+    (busy, wall)
+}
+
+fn processor_seconds() -> f64 {
+    let time = clock_gettime(ClockId::ProcessCPUTime);
+    time.tv_sec as f64 + time.tv_nsec as f64 * 1e-9
+}

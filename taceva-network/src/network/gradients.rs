@@ -1,0 +1,86 @@
+//! The gradients of a batch, by name.
+
+use super::{NamedTensor, Network};
+use crate::convolution::plain;
+use crate::error::{NetworkError, Part};
+use crate::loss::{Loss, Truth};
+use crate::stage::Stage;
+use crate::training::{Labels, Samples};
+use crate::update::Update;
+
+/// The loss of some samples, and how it changes with each parameter.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Gradients {
+    /// The loss.
+    pub loss: f64,
+    /// The gradient of each parameter, under its name, sorted.
+    pub tensors: Vec<NamedTensor>,
+}
+
+/// Keeps every gradient.
+struct Keep(Vec<Vec<f32>>);
+
+impl Update for Keep {
+    fn update(&mut self, slot: usize, _values: &mut [f32], gradient: &[f32]) {
+        self.0[slot] = gradient.to_vec();
+    }
+}
+
+impl Network {
+    /// The loss of `samples` as one batch, normalised by its own moments, and its gradients. Running moments follow.
+    ///
+    /// # Errors
+    /// [`NetworkError`] if the samples do not go with the network or the loss.
+    pub fn gradients(
+        &mut self,
+        samples: Samples<'_>,
+        loss: Loss,
+    ) -> Result<Gradients, NetworkError> {
+        samples.check(Part::Training, &self.architecture, loss)?;
+        let (picture, width) = (self.architecture.input, self.architecture.outputs);
+        let batch = samples.pictures.len() / picture.len();
+        let mut space = self.training_space(batch);
+        for (position, values) in samples.pictures.chunks_exact(picture.len()).enumerate() {
+            space.input.set(position, values);
+        }
+        let truth = match samples.labels {
+            Labels::Values(values) => Truth::Values(values),
+            Labels::Classes(classes) => Truth::Classes(classes),
+        };
+        let mut gradient = Vec::new();
+        let outputs = self.forward(&mut space, batch);
+        let loss = loss.measure((outputs, width), truth, &mut gradient);
+        let mut kept = Keep(vec![Vec::new(); self.slots()]);
+        self.backward(&mut space, &gradient, &mut kept);
+        let Keep(kept) = kept;
+        Ok(Gradients {
+            loss,
+            tensors: self.named(kept),
+        })
+    }
+
+    /// Gradients by slot under the names of their parameters.
+    fn named(&self, mut gradients: Vec<Vec<f32>>) -> Vec<NamedTensor> {
+        let mut values = std::collections::BTreeMap::new();
+        for (prefix, stage) in self.architecture.stage_names().iter().zip(&self.stages) {
+            for (normed, [convolution, norm]) in Stage::normed(stage) {
+                let weights = plain(normed.convolution(), &gradients[normed.slot]);
+                values.insert(format!("{prefix}{convolution}.weight"), weights);
+                let gain = std::mem::take(&mut gradients[normed.slot + 1]);
+                values.insert(format!("{prefix}{norm}.weight"), gain);
+                let bias = std::mem::take(&mut gradients[normed.slot + 2]);
+                values.insert(format!("{prefix}{norm}.bias"), bias);
+            }
+        }
+        let head = self.head.slot;
+        values.insert("fc.weight".into(), std::mem::take(&mut gradients[head]));
+        values.insert("fc.bias".into(), std::mem::take(&mut gradients[head + 1]));
+        let tensors = self.tensors().into_iter();
+        tensors
+            .filter_map(|tensor| {
+                let values = values.remove(&tensor.name)?;
+                Some(NamedTensor { values, ..tensor })
+            })
+            .collect()
+    }
+}

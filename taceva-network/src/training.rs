@@ -1,0 +1,340 @@
+//! Training: one step at a time, so that whoever trains can look, save or stop between any two.
+
+mod augmentation;
+mod checkpoint;
+mod label_scale;
+mod recipe;
+mod samples;
+
+pub use augmentation::{Augmentation, Jitter};
+pub use checkpoint::{Checkpoint, Summary};
+pub use label_scale::{LabelScale, LabelScaling};
+pub use recipe::Recipe;
+pub use samples::{Labels, Samples};
+
+use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
+
+use crate::architecture::Architecture;
+use crate::error::{NetworkError, Part};
+use crate::loss::Truth;
+use crate::network::{Network, TrainingSpace};
+use crate::optimizer::{Descent, Memory};
+use crate::random::Draws;
+
+/// A training that goes on.
+///
+/// Everything drawn is a function of the recipe's seed, the epoch and the sample, so that a training that was interrupted and
+/// resumed ends with the same bits as one that was not, on any number of threads.
+#[derive(Debug)]
+pub struct Trainer<'a> {
+    network: Network,
+    recipe: Recipe,
+    training: Samples<'a>,
+    validation: Option<Samples<'a>>,
+    scale: LabelScale,
+    space: TrainingSpace,
+    memory: Memory,
+    state: TrainingState,
+    /// The network after the epoch that did best on the validation part.
+    best: Option<Network>,
+    /// The samples of the current epoch in their order; made anew when an epoch begins.
+    order: Vec<usize>,
+}
+
+/// How far a training has come.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct TrainingState {
+    /// Steps that were made.
+    pub step: u64,
+    /// The sum of the losses of the current epoch's steps.
+    pub loss_sum: f64,
+    /// What each whole epoch came to.
+    pub epochs: Vec<Epoch>,
+    /// The epoch that did best on the validation part, counted from 0.
+    pub best: Option<u64>,
+    /// Whether the recipe's patience came to an end.
+    pub is_stopped: bool,
+}
+
+/// What an epoch came to, in the unit of the scaled labels.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Epoch {
+    /// The mean loss of its steps.
+    pub training_loss: f64,
+    /// The loss of the validation part after it, where there is one.
+    pub validation_loss: Option<f64>,
+}
+
+/// What a step came to.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Step {
+    /// Which step, counted from 0.
+    pub step: u64,
+    /// The loss of its batch, before weights followed it.
+    pub loss: f64,
+    /// What its epoch came to, where it was the last.
+    pub epoch: Option<Epoch>,
+}
+
+/// What a training gave.
+#[derive(Clone, Debug)]
+pub struct Trained {
+    /// The network after the best epoch; after the last one where nothing was there to choose by.
+    pub network: Network,
+    /// How labels were scaled: predictions are to be scaled back by it.
+    pub scale: LabelScale,
+    /// How far the training came.
+    pub state: TrainingState,
+}
+
+/// Purposes of draws.
+const ORDER: u64 = 1;
+const AUGMENTATION: u64 = 2;
+
+impl<'a> Trainer<'a> {
+    /// A training of a network of `architecture` with random weights, which begins.
+    ///
+    /// # Errors
+    /// [`NetworkError`] if the architecture cannot be built, the recipe or the samples cannot be used, or they do not go
+    /// together.
+    pub fn new(
+        architecture: &Architecture,
+        recipe: &Recipe,
+        training: Samples<'a>,
+        validation: Option<Samples<'a>>,
+    ) -> Result<Trainer<'a>, NetworkError> {
+        let network = Network::new(architecture, recipe.seed)?;
+        Trainer::of(network, recipe, training, validation)
+    }
+
+    /// A training that begins with the weights of `network`.
+    ///
+    /// # Errors
+    /// As [`new`](Trainer::new).
+    pub fn of(
+        network: Network,
+        recipe: &Recipe,
+        training: Samples<'a>,
+        validation: Option<Samples<'a>>,
+    ) -> Result<Trainer<'a>, NetworkError> {
+        recipe.check()?;
+        let architecture = network.architecture();
+        training.check(Part::Training, architecture, recipe.loss)?;
+        if let Some(validation) = &validation {
+            validation.check(Part::Validation, architecture, recipe.loss)?;
+        }
+        let samples = training.count(architecture);
+        if samples < recipe.batch {
+            return Err(NetworkError::FewSamples {
+                samples,
+                batch: recipe.batch,
+            });
+        }
+        recipe.augmentation.check(architecture)?;
+        let scale = match training.labels {
+            Labels::Classes(_) => LabelScale::identity(architecture.outputs),
+            Labels::Values(labels) => LabelScale::of(recipe.scaling, labels, architecture.outputs)?,
+        };
+        Ok(Trainer {
+            space: network.training_space(recipe.batch),
+            memory: Memory::new(network.slots()),
+            state: TrainingState::default(),
+            best: None,
+            order: Vec::new(),
+            recipe: recipe.clone(),
+            network,
+            training,
+            validation,
+            scale,
+        })
+    }
+
+    /// How far it has come.
+    pub fn state(&self) -> &TrainingState {
+        &self.state
+    }
+
+    /// Steps of an epoch: as many whole batches as there are; the samples left over are others in each epoch.
+    pub fn steps_per_epoch(&self) -> u64 {
+        (self.training.count(self.network.architecture()) / self.recipe.batch) as u64
+    }
+
+    /// Steps of the whole training, unless it stops early.
+    pub fn steps(&self) -> u64 {
+        self.steps_per_epoch() * self.recipe.epochs
+    }
+
+    /// Whether nothing is left to do.
+    pub fn is_finished(&self) -> bool {
+        self.state.is_stopped || self.state.step >= self.steps()
+    }
+
+    /// Makes the next step; nothing if the training is finished.
+    ///
+    /// # Errors
+    /// [`NetworkError::LossNotFinite`] or [`NetworkError::WeightNotFinite`], naming the step; the network of the best epoch
+    /// until then is still what [`finish`](Trainer::finish) gives.
+    pub fn step(&mut self) -> Result<Option<Step>, NetworkError> {
+        if self.is_finished() {
+            return Ok(None);
+        }
+        let (step, batch) = (self.state.step, self.recipe.batch);
+        let (epoch, position) = (step / self.steps_per_epoch(), step % self.steps_per_epoch());
+        if self.order.is_empty() || position == 0 {
+            let samples = self.training.count(self.network.architecture());
+            self.order = self.draws(ORDER).of(epoch).order(samples);
+        }
+        let first = usize::try_from(position).expect("below the number of samples") * batch;
+        let chosen = self.order[first..first + batch].to_vec();
+        let (labels, classes) = self.deal(epoch, &chosen);
+        let truth = match self.training.labels {
+            Labels::Values(_) => Truth::Values(&labels),
+            Labels::Classes(_) => Truth::Classes(&classes),
+        };
+
+        let width = self.network.architecture().outputs;
+        let outputs = self.network.forward(&mut self.space, batch);
+        let mut gradient = Vec::new();
+        let loss = self
+            .recipe
+            .loss
+            .measure((outputs, width), truth, &mut gradient);
+        if !loss.is_finite() {
+            return Err(NetworkError::LossNotFinite { step });
+        }
+        let mut descent = Descent {
+            machine: self.network.machine,
+            optimizer: self.recipe.optimizer,
+            rate: self.recipe.rate * self.recipe.schedule.factor(step, self.steps()),
+            steps: step + 1,
+            memory: &mut self.memory,
+            is_broken: false,
+        };
+        self.network
+            .backward(&mut self.space, &gradient, &mut descent);
+        if descent.is_broken {
+            return Err(NetworkError::WeightNotFinite { step });
+        }
+        self.state.step += 1;
+        self.state.loss_sum += loss;
+        let is_last = position + 1 == self.steps_per_epoch();
+        let epoch = if is_last {
+            Some(self.end_epoch()?)
+        } else {
+            None
+        };
+        Ok(Some(Step { step, loss, epoch }))
+    }
+
+    /// Makes all steps that are left.
+    ///
+    /// # Errors
+    /// As [`step`](Trainer::step).
+    pub fn run(mut self) -> Result<Trained, NetworkError> {
+        while self.step()?.is_some() {}
+        Ok(self.finish())
+    }
+
+    /// What the training gave so far.
+    pub fn finish(self) -> Trained {
+        Trained {
+            network: self.best.unwrap_or(self.network),
+            scale: self.scale,
+            state: self.state,
+        }
+    }
+
+    /// The draws of a purpose.
+    fn draws(&self, purpose: u64) -> Draws {
+        // Weights are drawn by slot from the seed itself; purposes lie beyond all slots.
+        Draws::new(self.recipe.seed).of(u64::MAX - purpose)
+    }
+
+    /// Writes the pictures of a batch, augmented; gives their scaled labels or their classes.
+    fn deal(&mut self, epoch: u64, chosen: &[usize]) -> (Vec<f64>, Vec<u32>) {
+        let architecture = self.network.architecture();
+        let (picture, outputs) = (architecture.input, architecture.outputs);
+        let draws = self.draws(AUGMENTATION).of(epoch);
+        let augmentation = &self.recipe.augmentation;
+        let pictures = self.training.pictures;
+        let changed: Vec<_> = chosen
+            .par_iter()
+            .map(|&sample| {
+                let values = &pictures[sample * picture.len()..][..picture.len()];
+                augmentation.apply(draws.of(sample as u64), picture, values)
+            })
+            .collect();
+        let (mut labels, mut classes) = (Vec::new(), Vec::new());
+        for (position, (&sample, (values, shift))) in chosen.iter().zip(&changed).enumerate() {
+            self.space.input.set(position, values);
+            match self.training.labels {
+                Labels::Classes(all) => classes.push(all[sample]),
+                Labels::Values(all) => {
+                    let own = &all[sample * outputs..][..outputs];
+                    labels.extend(own.iter().enumerate().map(|(output, label)| {
+                        let moved = label + augmentation.moved(*shift, output);
+                        self.scale.scaled(output, moved)
+                    }));
+                }
+            }
+        }
+        (labels, classes)
+    }
+
+    /// Closes an epoch: measures, remembers the best, and stops when patience ends.
+    fn end_epoch(&mut self) -> Result<Epoch, NetworkError> {
+        let epoch = Epoch {
+            training_loss: self.state.loss_sum / self.steps_per_epoch() as f64,
+            validation_loss: self.validation_loss()?,
+        };
+        self.state.loss_sum = 0.0;
+        let number = self.state.epochs.len() as u64;
+        self.state.epochs.push(epoch);
+        if let Some(loss) = epoch.validation_loss {
+            let least = self.state.best.and_then(|best| {
+                let best = usize::try_from(best).ok()?;
+                self.state.epochs[best].validation_loss
+            });
+            if least.is_none_or(|least| loss < least) {
+                self.state.best = Some(number);
+                self.best = Some(self.network.clone());
+            }
+            let since = number - self.state.best.unwrap_or(number);
+            self.state.is_stopped = self.recipe.patience.is_some_and(|most| since >= most);
+        }
+        Ok(epoch)
+    }
+
+    /// The loss of the validation part, normalised by running moments.
+    fn validation_loss(&self) -> Result<Option<f64>, NetworkError> {
+        let Some(validation) = &self.validation else {
+            return Ok(None);
+        };
+        let width = self.network.architecture().outputs;
+        let samples = validation.count(self.network.architecture());
+        let mut outputs = vec![0.0; samples * width];
+        self.network
+            .predictor()
+            .predict(validation.pictures, &mut outputs)?;
+        let labels = match validation.labels {
+            Labels::Classes(_) => Vec::new(),
+            Labels::Values(labels) => self.scale.all_scaled(labels),
+        };
+        let truth = match validation.labels {
+            Labels::Classes(classes) => Truth::Classes(classes),
+            Labels::Values(_) => Truth::Values(&labels),
+        };
+        let loss = self
+            .recipe
+            .loss
+            .measure((&outputs, width), truth, &mut Vec::new());
+        if loss.is_finite() {
+            Ok(Some(loss))
+        } else {
+            Err(NetworkError::LossNotFinite {
+                step: self.state.step,
+            })
+        }
+    }
+}

@@ -1,0 +1,219 @@
+//! Pictures changed in ways that their labels survive, or follow.
+
+use serde::{Deserialize, Serialize};
+
+use crate::architecture::Architecture;
+use crate::error::NetworkError;
+use crate::planes::Picture;
+use crate::random::Draws;
+
+/// How pictures are changed before each step; the default changes nothing.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Augmentation {
+    /// Pictures are multiplied by 1 ± this, drawn evenly: light that varies.
+    pub brightness: f64,
+    /// The standard deviation of what is added to each number, in the unit of the pictures.
+    pub noise: f64,
+    /// How pictures are shifted.
+    pub jitter: Jitter,
+}
+
+/// Shifts by whole pixels; the pixels at the edge are repeated.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Jitter {
+    /// The most pixels, in each direction.
+    pub pixels: usize,
+    /// How much the label of each output grows for a shift by one pixel down and to the right, in the unit of the label;
+    /// empty where no label depends on where in the picture something is.
+    pub label_per_pixel: Vec<[f64; 2]>,
+}
+
+/// Pixels down and to the right.
+pub(super) type Shift = [i32; 2];
+
+impl Augmentation {
+    pub(super) fn check(&self, architecture: &Architecture) -> Result<(), NetworkError> {
+        let refuse = |name, found: String, expected| {
+            Err(NetworkError::Recipe {
+                name,
+                found,
+                expected,
+            })
+        };
+        if !(0.0..=1.0).contains(&self.brightness) {
+            return refuse("brightness", self.brightness.to_string(), "0 to 1");
+        }
+        if !(self.noise.is_finite() && self.noise >= 0.0) {
+            return refuse("noise", self.noise.to_string(), "a number not below 0");
+        }
+        let side = architecture.input.height.min(architecture.input.width);
+        if self.jitter.pixels >= side || self.jitter.pixels > 1 << 20 {
+            return refuse(
+                "jitter",
+                self.jitter.pixels.to_string(),
+                "fewer pixels than a side has",
+            );
+        }
+        let moves = &self.jitter.label_per_pixel;
+        let is_finite = moves.iter().flatten().all(|number| number.is_finite());
+        if !(moves.is_empty() || moves.len() == architecture.outputs) || !is_finite {
+            let found = format!("{moves:?}");
+            return refuse(
+                "label_per_pixel",
+                found,
+                "two finite numbers for each output, or none",
+            );
+        }
+        Ok(())
+    }
+
+    /// The picture as this sample's draws change it, and by how much it was shifted.
+    #[expect(
+        clippy::cast_possible_truncation,
+        reason = "drawn in double precision and kept in single"
+    )]
+    pub(super) fn apply(
+        &self,
+        draws: Draws,
+        picture: Picture,
+        values: &[f32],
+    ) -> (Vec<f32>, Shift) {
+        let shift = [0, 1].map(|axis| self.jitter.draw(draws.unit(axis)));
+        let mut changed = self.jitter.shifted(shift, picture, values);
+        if self.brightness > 0.0 {
+            let gain = 1.0 + self.brightness * (2.0 * draws.unit(2) - 1.0);
+            changed.iter_mut().for_each(|value| *value *= gain as f32);
+        }
+        if self.noise > 0.0 {
+            // A sum of four even draws of 16 bits has this standard deviation.
+            let unit = (4.0_f64 / 12.0).sqrt() * 65536.0;
+            let (factor, draws) = ((self.noise / unit) as f32, draws.of(3));
+            for (position, value) in changed.iter_mut().enumerate() {
+                let bits = draws.bits(position as u64);
+                let sum: u32 = (0..4)
+                    .map(|part| (bits >> (16 * part)) as u32 & 0xffff)
+                    .sum();
+                // 4 · 65,535 / 2 is their mean.
+                *value += (sum as f32 - 131_070.0) * factor;
+            }
+        }
+        (changed, shift)
+    }
+
+    /// How much the label of `output` changes by a shift.
+    pub(super) fn moved(&self, shift: Shift, output: usize) -> f64 {
+        self.jitter
+            .label_per_pixel
+            .get(output)
+            .map_or(0.0, |per_pixel| {
+                per_pixel[0] * f64::from(shift[0]) + per_pixel[1] * f64::from(shift[1])
+            })
+    }
+}
+
+impl Jitter {
+    /// A shift along one axis from an even draw in 0..1.
+    #[expect(
+        clippy::cast_possible_truncation,
+        reason = "checked to be at most 2^20 pixels"
+    )]
+    fn draw(&self, unit: f64) -> i32 {
+        let pixels = self.pixels as i32;
+        (unit * f64::from(2 * pixels + 1)) as i32 - pixels
+    }
+
+    fn shifted(&self, [down, right]: Shift, picture: Picture, values: &[f32]) -> Vec<f32> {
+        if down == 0 && right == 0 {
+            return values.to_vec();
+        }
+        let from = |at: usize, shift: i32, length: usize| {
+            let shift = isize::try_from(shift).expect("a shift fits");
+            at.saturating_add_signed(-shift).min(length - 1)
+        };
+        let mut shifted = Vec::with_capacity(values.len());
+        for y in 0..picture.height {
+            let row = &values[from(y, down, picture.height) * picture.width * picture.channels..];
+            for x in 0..picture.width {
+                let at = from(x, right, picture.width) * picture.channels;
+                shifted.extend_from_slice(&row[at..at + picture.channels]);
+            }
+        }
+        shifted
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const PICTURE: Picture = Picture {
+        height: 2,
+        width: 3,
+        channels: 1,
+    };
+    const VALUES: [f32; 6] = [1.0, 2.0, 3.0, 4.0, 5.0, 6.0];
+
+    #[test]
+    fn a_shift_repeats_the_edge() {
+        let jitter = Jitter::default();
+        let found = jitter.shifted([1, -1], PICTURE, &VALUES);
+        assert_eq!(found, [2.0, 3.0, 3.0, 2.0, 3.0, 3.0]);
+    }
+
+    #[test]
+    fn labels_follow_shifts_and_shifts_are_drawn_evenly() {
+        let jitter = Jitter {
+            pixels: 1,
+            label_per_pixel: vec![[0.5, 0.0], [0.0, -2.0]],
+        };
+        let augmentation = Augmentation {
+            jitter,
+            ..Augmentation::default()
+        };
+        let moved = [0, 1].map(|output| augmentation.moved([3, 2], output));
+        assert!((moved[0] - 1.5).abs() < 1e-12 && (moved[1] + 4.0).abs() < 1e-12);
+        let mut counts = std::collections::BTreeMap::new();
+        for sample in 0..900 {
+            let draws = Draws::new(1).of(sample);
+            let (_, shift) = augmentation.apply(draws, PICTURE, &VALUES);
+            *counts.entry(shift).or_insert(0_u32) += 1;
+        }
+        // 100 expected, standard deviation 9.4: five of them.
+        assert_eq!(counts.len(), 9);
+        assert!(
+            counts.values().all(|count| count.abs_diff(100) < 47),
+            "{counts:?}"
+        );
+    }
+
+    #[test]
+    fn noise_and_brightness_have_the_size_asked_for() {
+        let picture = Picture {
+            height: 100,
+            width: 100,
+            channels: 1,
+        };
+        let noise = Augmentation {
+            noise: 0.1,
+            ..Augmentation::default()
+        };
+        let (found, _) = noise.apply(Draws::new(5), picture, &[0.5; 10_000]);
+        let mean = found.iter().sum::<f32>() / 10_000.0;
+        let square = found
+            .iter()
+            .map(|value| (value - mean).powi(2))
+            .sum::<f32>()
+            / 10_000.0;
+        // Standard errors are 0.001 and 0.0007: five of them.
+        assert!((mean - 0.5).abs() < 0.005 && (square.sqrt() - 0.1).abs() < 0.0035);
+        let light = Augmentation {
+            brightness: 0.2,
+            ..Augmentation::default()
+        };
+        let gains: Vec<f32> = (0..500)
+            .map(|seed| light.apply(Draws::new(seed), PICTURE, &VALUES).0[0])
+            .collect();
+        assert!(gains.iter().all(|gain| (0.8..=1.2).contains(gain)));
+        assert!(gains.iter().any(|gain| *gain < 0.82) && gains.iter().any(|gain| *gain > 1.18));
+    }
+}

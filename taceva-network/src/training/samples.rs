@@ -1,0 +1,102 @@
+//! Pictures and what is true of them.
+
+use crate::architecture::Architecture;
+use crate::error::{NetworkError, Part};
+use crate::loss::Loss;
+
+/// Pictures and what is true of them.
+#[derive(Clone, Copy, Debug)]
+pub struct Samples<'a> {
+    /// `[samples, height, width, channels]`.
+    pub pictures: &'a [f32],
+    /// What is true of each.
+    pub labels: Labels<'a>,
+}
+
+/// What is true of pictures.
+#[derive(Clone, Copy, Debug)]
+pub enum Labels<'a> {
+    /// `[samples, outputs]`, in any unit.
+    Values(&'a [f64]),
+    /// The class of each sample, below the number of outputs.
+    Classes(&'a [u32]),
+}
+
+impl Samples<'_> {
+    /// How many there are.
+    pub(super) fn count(&self, architecture: &Architecture) -> usize {
+        self.pictures.len() / architecture.input.len()
+    }
+
+    /// Whether they go with the architecture and the loss, and are finite.
+    pub(crate) fn check(
+        &self,
+        part: Part,
+        architecture: &Architecture,
+        loss: Loss,
+    ) -> Result<(), NetworkError> {
+        let (picture, outputs) = (architecture.input, architecture.outputs);
+        if !self.pictures.len().is_multiple_of(picture.len()) {
+            let values = self.pictures.len();
+            return Err(NetworkError::Pictures {
+                values,
+                expected: picture,
+            });
+        }
+        let samples = self.count(architecture);
+        let (labels, expected) = match self.labels {
+            Labels::Values(values) => (values.len(), samples.checked_mul(outputs)),
+            Labels::Classes(classes) => (classes.len(), Some(samples)),
+        };
+        if Some(labels) != expected || samples == 0 {
+            return Err(NetworkError::Labels {
+                part,
+                labels,
+                pictures: samples,
+                outputs,
+            });
+        }
+        if let Some(at) = self.pictures.iter().position(|value| !value.is_finite()) {
+            return Err(NetworkError::PictureNotFinite {
+                part,
+                picture: at / picture.len(),
+                position: at % picture.len(),
+            });
+        }
+        match (self.labels, loss) {
+            (Labels::Values(_), Loss::CrossEntropy) => Err(NetworkError::Recipe {
+                name: "loss",
+                found: "cross entropy of numbers".into(),
+                expected: "squared error or Huber's loss; classes have cross entropy",
+            }),
+            (Labels::Classes(_), Loss::SquaredError | Loss::Huber { .. }) => {
+                Err(NetworkError::Recipe {
+                    name: "loss",
+                    found: "a distance of classes".into(),
+                    expected: "cross entropy",
+                })
+            }
+            (Labels::Values(values), _) => {
+                match values.iter().position(|value| !value.is_finite()) {
+                    None => Ok(()),
+                    Some(at) => Err(NetworkError::LabelNotFinite {
+                        part,
+                        sample: at / outputs,
+                        output: at % outputs,
+                    }),
+                }
+            }
+            (Labels::Classes(classes), _) => {
+                match classes.iter().position(|class| *class as usize >= outputs) {
+                    None => Ok(()),
+                    Some(sample) => Err(NetworkError::Class {
+                        part,
+                        sample,
+                        class: classes[sample],
+                        classes: outputs,
+                    }),
+                }
+            }
+        }
+    }
+}

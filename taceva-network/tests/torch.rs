@@ -1,0 +1,195 @@
+//! Against PyTorch, with the same weights and pictures: `benches/peers/torch_golden.py` made the numbers.
+
+mod common;
+
+use std::collections::BTreeMap;
+
+use common::{doubles, filled, singles, unit};
+use serde::Deserialize;
+use taceva_network::{
+    Architecture, Augmentation, Depth, LabelScaling, Labels, Loss, Optimizer, Picture, Recipe,
+    Samples, Schedule, Trainer,
+};
+
+#[derive(Deserialize)]
+struct Golden {
+    outputs: BTreeMap<String, Vec<f64>>,
+    gradients: BTreeMap<String, Batch>,
+    training: BTreeMap<String, Course>,
+}
+
+#[derive(Deserialize)]
+struct Batch {
+    loss: f64,
+    /// The norm, and the product with draws less a half.
+    gradients: BTreeMap<String, [f64; 2]>,
+}
+
+#[derive(Deserialize)]
+struct Course {
+    losses: Vec<f64>,
+    /// How far PyTorch's single precision strays from its double at most, over the first loss.
+    stray: f64,
+}
+
+fn golden() -> Golden {
+    serde_json::from_str(include_str!("golden/torch.json")).expect("the golden numbers")
+}
+
+fn architecture(name: &str, input: Picture) -> Architecture {
+    match name {
+        "resnet10" => Architecture::residual(Depth::Ten, input, 6),
+        "resnet18" => Architecture::residual(Depth::Eighteen, input, 6),
+        "resnet34" => Architecture::residual(Depth::ThirtyFour, input, 6),
+        "plain" => Architecture::five_layers(input, 6),
+        _ => panic!("{name} is no network of the golden numbers"),
+    }
+}
+
+const PICTURE: Picture = Picture {
+    height: 45,
+    width: 38,
+    channels: 3,
+};
+
+#[test]
+fn predictions_are_pytorch_s() {
+    for (name, seed) in [
+        ("resnet10", 1),
+        ("resnet18", 2),
+        ("resnet34", 3),
+        ("plain", 4),
+    ] {
+        let network = filled(&architecture(name, PICTURE), seed);
+        let mut found = vec![0.0; 12];
+        let pictures = singles(seed + 1000, 2 * PICTURE.len());
+        network
+            .predictor()
+            .predict(&pictures, &mut found)
+            .expect("finite");
+        let expected = &golden().outputs[name];
+        let size = expected
+            .iter()
+            .fold(0.0_f64, |most, value| most.max(value.abs()));
+        for (found, expected) in found.iter().zip(expected) {
+            // Single precision through up to 36 layers, running moments folded into weights.
+            let error = (found - expected).abs() / size;
+            assert!(error < 2e-5, "{name}: {found}, PyTorch {expected}");
+        }
+    }
+}
+
+#[test]
+fn losses_and_gradients_are_pytorch_s() {
+    let cases = [
+        ("resnet18", Loss::SquaredError, 10_000),
+        ("resnet34", Loss::Huber { delta: 1.0 }, 20_000),
+        ("resnet10", Loss::CrossEntropy, 30_000),
+        ("plain", Loss::SquaredError, 40_000),
+    ];
+    for (name, loss, seed) in cases {
+        let mut network = filled(&architecture(name, PICTURE), seed);
+        let values = doubles(seed + 2000, 4 * 6);
+        let labels = match loss {
+            Loss::CrossEntropy => Labels::Classes(&[0, 5, 3, 3]),
+            _ => Labels::Values(&values),
+        };
+        let pictures = singles(seed + 1000, 4 * PICTURE.len());
+        let samples = Samples {
+            pictures: &pictures,
+            labels,
+        };
+        let found = network.gradients(samples, loss).expect("finite");
+        let expected = &golden().gradients[name];
+        assert!(
+            (found.loss / expected.loss - 1.0).abs() < 1e-5,
+            "{name}: {}",
+            found.loss
+        );
+        assert_eq!(found.tensors.len(), expected.gradients.len());
+        for ((seed, tensor), (expected_name, digest)) in
+            (seed + 3000..).zip(&found.tensors).zip(&expected.gradients)
+        {
+            assert_eq!(&tensor.name, expected_name);
+            let values = || tensor.values.iter().copied().map(f64::from);
+            let norm = values().map(|value| value * value).sum::<f64>().sqrt();
+            let draws = (0_u64..).map(|at| unit(seed, at) - 0.5);
+            let product: f64 = values().zip(draws).map(|(value, draw)| value * draw).sum();
+            let size = digest[0];
+            // The last stage has moments of eight numbers, which magnify roundings.
+            assert!(
+                (norm - size).abs() < 1e-3 * size,
+                "{name} {expected_name}: norm {norm}, PyTorch {size}"
+            );
+            let width = (tensor.values.len() as f64 / 12.0).sqrt();
+            let bound = 1e-3 * size * width.max(1.0) / (tensor.values.len() as f64).sqrt() * 6.0;
+            assert!(
+                (product - digest[1]).abs() < bound,
+                "{name} {expected_name}: product {product}, PyTorch {}",
+                digest[1]
+            );
+        }
+    }
+}
+
+#[test]
+fn two_hundred_steps_go_as_pytorch_s() {
+    let side = Picture {
+        height: 48,
+        width: 48,
+        channels: 3,
+    };
+    let momentum = Optimizer::Sgd {
+        momentum: 0.9,
+        weight_decay: 1e-4,
+    };
+    let cases = [
+        ("resnet18", Loss::SquaredError, momentum, 50_000),
+        (
+            "plain",
+            Loss::Huber { delta: 1.0 },
+            Optimizer::ADAM_W,
+            60_000,
+        ),
+    ];
+    for (name, loss, optimizer, seed) in cases {
+        let course = &golden().training[name];
+        let network = filled(&architecture(name, side), seed);
+        let (pictures, labels) = (
+            singles(seed + 1000, 8 * side.len()),
+            doubles(seed + 2000, 8 * 6),
+        );
+        let recipe = Recipe {
+            epochs: 200,
+            batch: 8,
+            optimizer,
+            rate: 3e-4,
+            schedule: Schedule::Constant,
+            loss,
+            scaling: LabelScaling::None,
+            augmentation: Augmentation::default(),
+            patience: None,
+            seed: 0,
+        };
+        let samples = Samples {
+            pictures: &pictures,
+            labels: Labels::Values(&labels),
+        };
+        let mut trainer = Trainer::of(network, &recipe, samples, None).expect("a training");
+        for (step, expected) in course.losses.iter().enumerate() {
+            let found = trainer
+                .step()
+                .expect("finite")
+                .expect("a step is left")
+                .loss;
+            // Some times as far as PyTorch's own single precision strays, as roundings are others.
+            let error = (found - expected).abs() / course.losses[0];
+            assert!(
+                error < 4.0 * course.stray + 1e-6,
+                "{name}, step {step}: {found}, PyTorch {expected}, its single precision strays by {}",
+                course.stray
+            );
+        }
+        assert!(trainer.is_finished());
+    }
+}
