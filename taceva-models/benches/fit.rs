@@ -4,7 +4,7 @@ use divan::Bencher;
 use taceva_core::{
     Channel, Channels, FeatureShape, Features, Regressor, Silent, Targets, TrainingSet,
 };
-use taceva_models::{Settings, find};
+use taceva_models::{LinearEstimator, Ridge, Settings, find};
 
 fn main() {
     divan::main();
@@ -101,7 +101,7 @@ fn fit(bencher: Bencher, name: &str, shape: (usize, usize)) {
         .expect("valid");
     bencher.bench_local(|| {
         estimator
-            .fit_linear(&training.set(), Some(&validation.set()), &Silent)
+            .fit_model(&training.set(), Some(&validation.set()), &Silent)
             .expect("learnable")
     });
 }
@@ -109,10 +109,7 @@ fn fit(bencher: Bencher, name: &str, shape: (usize, usize)) {
 #[divan::bench(args = [1024, 3072])]
 fn predict_one_sample(bencher: Bencher, width: usize) {
     let recording = recording((100, width));
-    let estimator = find("ridge")
-        .expect("registered")
-        .estimator(&Settings::default())
-        .expect("valid");
+    let estimator = Ridge::from_settings(&Settings::default()).expect("defaults");
     let fit = estimator
         .fit_linear(&recording.set(), None, &Silent)
         .expect("learnable");

@@ -3,11 +3,13 @@
 mod baseline;
 mod choice;
 mod features;
+mod fit;
 mod gratings;
 mod label_scaling;
 mod linalg;
 mod linear;
 mod model;
+mod network;
 mod pls;
 mod problem;
 mod progress;
@@ -20,6 +22,7 @@ mod split;
 pub use baseline::Baseline;
 pub use choice::{ChannelChoice, Choice, ChosenBy};
 pub use features::{Color, Extractor, FeatureError, FeatureSpec, Pca};
+pub use fit::{ModelEstimator, ModelFit, ModelRegressor};
 pub use gratings::{Discriminant, FourierPlane, RadialSpectrum};
 pub use label_scaling::LabelScaling;
 pub use linear::{LinearEstimator, LinearFit, LinearRegressor};
@@ -27,6 +30,7 @@ pub use model::{
     ChannelCard, FitInput, FormatError, Model, ModelCard, ModelFileError, Provenance, SampleCounts,
     Source, SplitCard,
 };
+pub use network::{NetworkCard, NetworkEstimator, NetworkRegressor, Preprocessing};
 pub use pls::Pls;
 pub use registry::{ALL, ModelInfo, UnknownModel, find};
 pub use ridge::Ridge;

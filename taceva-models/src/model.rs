@@ -13,14 +13,14 @@ pub use self::bytes::FormatError;
 pub use self::card::{ChannelCard, ModelCard, Provenance, SampleCounts, Source, SplitCard};
 pub use self::disk::ModelFileError;
 use crate::features::{Extractor, FeatureError, FeatureSpec, Pca};
-use crate::linear::{LinearEstimator, LinearRegressor};
+use crate::fit::{ModelEstimator, ModelRegressor};
 use crate::problem::invalid;
 use crate::settings::Settings;
 
 /// All that a model is fitted from.
 pub struct FitInput<'a> {
     /// The model, not fitted yet.
-    pub estimator: &'a dyn LinearEstimator,
+    pub estimator: &'a dyn ModelEstimator,
     /// The settings it was made with, as typed.
     pub settings: &'a Settings,
     /// What it sees of a frame.
@@ -37,11 +37,12 @@ pub struct FitInput<'a> {
 
 /// A fitted model: from pixels to the channels, in their units.
 ///
-/// Every step after the extraction is linear, so scaling, principal components and weights are kept as one set of weights.
+/// Where every step after the extraction is linear, scaling, principal components and weights are kept as one set of weights;
+/// a network keeps what it does to pictures beside its own.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Model {
     card: ModelCard,
-    regressor: LinearRegressor,
+    regressor: ModelRegressor,
 }
 
 impl Model {
@@ -63,7 +64,7 @@ impl Model {
                 let validation = input.validation.as_ref();
                 let fit = input
                     .estimator
-                    .fit_linear(&input.training, validation, progress)?;
+                    .fit_model(&input.training, validation, progress)?;
                 let regressor = fit.regressor.clone();
                 (fit, None, regressor)
             }
@@ -82,7 +83,7 @@ impl Model {
                 };
                 let fit = input
                     .estimator
-                    .fit_linear(&training, validation.as_ref(), progress)?;
+                    .fit_model(&training, validation.as_ref(), progress)?;
                 let regressor = fit.regressor.through(&pca)?;
                 (fit, Some(pca.variance_ratio().iter().sum()), regressor)
             }
@@ -101,9 +102,14 @@ impl Model {
         self.regressor.channels()
     }
 
-    /// The weights of the pixels.
-    pub fn regressor(&self) -> &LinearRegressor {
+    /// What predicts the channels from the features of pixels.
+    pub fn regressor(&self) -> &ModelRegressor {
         &self.regressor
+    }
+
+    /// Whether its predictions depend on what is seen; if not, no frame need be decoded for it.
+    pub fn reads_features(&self) -> bool {
+        self.regressor.reads_features()
     }
 
     /// Takes the features that this model was fitted on from frames of `info`.

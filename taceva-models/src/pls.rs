@@ -7,6 +7,7 @@ use taceva_core::{Estimator, ModelError, Progress, Regressor, TrainingSet};
 
 use self::simpls::Directions;
 use crate::choice::{ChannelChoice, Choice, ChosenBy, Errors, least, rmse};
+use crate::features::FeatureSpec;
 use crate::linalg::{Design, FeatureScale};
 use crate::linear::{LinearEstimator, LinearFit, LinearRegressor};
 use crate::problem::{Problem, Validation, centred, joined, stacked};
@@ -70,6 +71,7 @@ impl Pls {
         about: "partial least squares: few directions, each the one that goes best with the labels",
         settings: &[SCALE, COMPONENTS, MOST, REFIT],
         reads_features: true,
+        features: FeatureSpec::DEFAULT,
         make: |settings| Ok(Box::new(Pls::from_settings(settings)?)),
     };
 

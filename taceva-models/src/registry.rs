@@ -1,7 +1,9 @@
 //! The models by name.
 
 use crate::baseline::Baseline;
-use crate::linear::LinearEstimator;
+use crate::features::FeatureSpec;
+use crate::fit::ModelEstimator;
+use crate::network::NetworkEstimator;
 use crate::pls::Pls;
 use crate::ridge::Ridge;
 use crate::settings::{SettingError, SettingInfo, Settings, Suggestion};
@@ -17,7 +19,9 @@ pub struct ModelInfo {
     pub settings: &'static [SettingInfo],
     /// Whether its predictions depend on what is seen; if not, no frame need be decoded for it.
     pub reads_features: bool,
-    pub(crate) make: fn(&Settings) -> Result<Box<dyn LinearEstimator>, SettingError>,
+    /// What it sees of a frame where nothing else is asked for.
+    pub features: FeatureSpec,
+    pub(crate) make: fn(&Settings) -> Result<Box<dyn ModelEstimator>, SettingError>,
 }
 
 impl ModelInfo {
@@ -25,13 +29,21 @@ impl ModelInfo {
     ///
     /// # Errors
     /// [`SettingError`] for an unknown key or a value out of range.
-    pub fn estimator(&self, settings: &Settings) -> Result<Box<dyn LinearEstimator>, SettingError> {
+    pub fn estimator(&self, settings: &Settings) -> Result<Box<dyn ModelEstimator>, SettingError> {
         (self.make)(settings)
     }
 }
 
 /// Every model, the plainest first.
-pub const ALL: &[ModelInfo] = &[Baseline::INFO, Ridge::INFO, Pls::INFO];
+pub const ALL: &[ModelInfo] = &[
+    Baseline::INFO,
+    Ridge::INFO,
+    Pls::INFO,
+    NetworkEstimator::CNN,
+    NetworkEstimator::RESNET_10,
+    NetworkEstimator::RESNET_18,
+    NetworkEstimator::RESNET_34,
+];
 
 /// The model called `name`.
 ///

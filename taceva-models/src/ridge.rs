@@ -8,6 +8,7 @@ use taceva_core::{Estimator, Features, ModelError, Progress, Regressor, Training
 
 use self::leave_out::LeaveOut;
 use crate::choice::{ChannelChoice, Choice, ChosenBy, Errors, least, rmse};
+use crate::features::FeatureSpec;
 use crate::linalg::{Design, FeatureScale, Spectrum};
 use crate::linear::{LinearEstimator, LinearFit, LinearRegressor};
 use crate::problem::{Problem, Validation, centred, joined, stacked};
@@ -62,6 +63,7 @@ impl Ridge {
         about: "least squares with a penalty on large weights; fast, and hard to beat on few recordings",
         settings: &[SCALE, STRENGTH, REFIT],
         reads_features: true,
+        features: FeatureSpec::DEFAULT,
         make: |settings| Ok(Box::new(Ridge::from_settings(settings)?)),
     };
 

@@ -7,8 +7,8 @@ use taceva_core::{
     TrainingSet, Unit,
 };
 use taceva_models::{
-    Color, FeatureError, FeatureSpec, FitInput, FormatError, Model, ModelFileError, Provenance,
-    Settings, Source, SplitCard, find,
+    Color, FeatureError, FeatureSpec, FitInput, FormatError, Model, ModelFileError, ModelRegressor,
+    Provenance, Settings, Source, SplitCard, find,
 };
 
 const FRAME: FrameInfo = FrameInfo {
@@ -322,7 +322,10 @@ fn damaged_files_never_panic_and_truncated_ones_are_never_models() {
         }
         // What still opens has finite numbers of the shape its card names.
         if let Ok(model) = Model::from_bytes(&damaged) {
-            let weights = model.regressor().weights();
+            let ModelRegressor::Linear(linear) = model.regressor() else {
+                panic!("a linear model became another")
+            };
+            let weights = linear.weights();
             assert_eq!(
                 weights.len(),
                 model.channels().len() * model.card().features.shape().len(),

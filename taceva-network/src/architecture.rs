@@ -153,7 +153,18 @@ impl Architecture {
     /// # Errors
     /// [`NetworkError::Architecture`] if it cannot be built.
     pub fn parameters(&self) -> Result<usize, NetworkError> {
-        Ok(crate::Network::new(self, 0)?.parameters())
+        self.check()?;
+        let mut picture = self.input;
+        let mut count = 0;
+        for stage in self.stages() {
+            count += stage.parameters(picture.channels);
+            picture = stage.output(picture);
+        }
+        let features = self.pooling().features(picture) as u128;
+        count += (features + 1) * self.outputs as u128;
+        usize::try_from(count).map_err(|_| NetworkError::Architecture {
+            reason: format!("{count} parameters: too many"),
+        })
     }
 
     /// Whether it can be built.
@@ -287,6 +298,22 @@ impl StagePlan {
                 stride,
             },
         }
+    }
+
+    /// Weights, gains and biases that it learns, of pictures with `inputs` channels.
+    fn parameters(&self, inputs: usize) -> u128 {
+        let first = self.first(inputs);
+        let normed = |inputs: usize, taps: usize| {
+            (inputs as u128 * taps as u128 + 2) * first.outputs as u128
+        };
+        let past = match *self {
+            StagePlan::Stem { .. } | StagePlan::Plain(_) => 0,
+            StagePlan::Block { channels, stride } => {
+                let changes = stride != 1 || inputs != channels;
+                normed(channels, 9) + if changes { normed(inputs, 1) } else { 0 }
+            }
+        };
+        normed(inputs, first.taps()) + past
     }
 
     /// The picture that it makes of `input`.

@@ -49,33 +49,44 @@ impl Network {
         reason = "drawn in double precision and kept in single"
     )]
     pub fn new(architecture: &Architecture, seed: u64) -> Result<Network, NetworkError> {
-        architecture.check()?;
-        let (mut stages, mut slot) = (Vec::new(), 0);
-        let mut picture = architecture.input;
-        for plan in architecture.stages() {
-            let mut stage = Stage::new(plan, picture.channels, slot);
-            for normed in stage.normed_mut() {
-                let convolution = normed.convolution();
-                let fan = (convolution.taps() * convolution.outputs) as f64;
-                let draws = Draws::new(seed).of(normed.slot as u64);
-                let mut plain = normed.weights.to_plain();
-                for (position, weight) in plain.iter_mut().enumerate() {
-                    *weight = (draws.normal(position as u64) * (2.0 / fan).sqrt()) as f32;
-                }
-                normed.weights.set_plain(&plain);
-                slot += Normed::SLOTS;
+        let mut network = Network::zeros(architecture)?;
+        let stages = network.stages.iter_mut();
+        for normed in stages.flat_map(Stage::normed_mut) {
+            let convolution = normed.convolution();
+            let fan = (convolution.taps() * convolution.outputs) as f64;
+            let draws = Draws::new(seed).of(normed.slot as u64);
+            let mut plain = normed.weights.to_plain();
+            for (position, weight) in plain.iter_mut().enumerate() {
+                *weight = (draws.normal(position as u64) * (2.0 / fan).sqrt()) as f32;
             }
-            picture = plan.output(picture);
-            stages.push(stage);
+            normed.weights.set_plain(&plain);
         }
-        let mut head = Head::new(architecture.pooling(), picture, architecture.outputs, slot);
+        let head = &mut network.head;
         let bound = 1.0 / (head.features() as f64).sqrt();
-        for (slot, values) in [(slot, &mut head.weights), (slot + 1, &mut head.bias)] {
+        for (slot, values) in [
+            (head.slot, &mut head.weights),
+            (head.slot + 1, &mut head.bias),
+        ] {
             let draws = Draws::new(seed).of(slot as u64);
             for (position, value) in values.iter_mut().enumerate() {
                 *value = ((2.0 * draws.unit(position as u64) - 1.0) * bound) as f32;
             }
         }
+        Ok(network)
+    }
+
+    /// A network with weights of zero.
+    fn zeros(architecture: &Architecture) -> Result<Network, NetworkError> {
+        architecture.check()?;
+        let (mut stages, mut slot) = (Vec::new(), 0);
+        let mut picture = architecture.input;
+        for plan in architecture.stages() {
+            let stage = Stage::new(plan, picture.channels, slot);
+            slot += Normed::SLOTS * stage.normed().len();
+            picture = plan.output(picture);
+            stages.push(stage);
+        }
+        let head = Head::new(architecture.pooling(), picture, architecture.outputs, slot);
         Ok(Network {
             architecture: architecture.clone(),
             machine: Machine::with(Isa::detect()).expect("detected"),

@@ -612,6 +612,20 @@ fn a_checkpoint_of_another_training_is_refused() {
 }
 
 #[test]
+fn parameters_are_counted_as_they_are() {
+    for architecture in [
+        architecture(),
+        Architecture::residual(Depth::ThirtyFour, PICTURE, 3),
+    ] {
+        let network = Network::new(&architecture, 1).expect("a network");
+        assert_eq!(
+            architecture.parameters().expect("checked"),
+            network.parameters()
+        );
+    }
+}
+
+#[test]
 fn networks_that_cannot_be_built_are_refused() {
     let refused = |architecture: Architecture| {
         Network::new(&architecture, 1)

@@ -15,7 +15,7 @@ use crate::facts;
 use crate::features::Work;
 use crate::fit::{FitPlan, FitRequest};
 use crate::plan::Plan;
-use crate::predict::{self, Predicted, Target, reads_frames};
+use crate::predict::{self, Predicted, Target};
 use crate::provenance::{ModelProvenance, Provenance};
 use crate::report::EvaluationReport;
 use crate::rows::{Divided, Part};
@@ -91,7 +91,7 @@ pub fn evaluate_plan(dataset: &Dataset, request: &EvaluateRequest) -> Result<Pla
             (
                 Target::new(dataset, model, request.part)?,
                 model.channels().clone(),
-                reads_frames(model),
+                model.reads_features(),
             )
         }
     };
@@ -138,7 +138,7 @@ pub fn evaluate(
                 dataset,
                 Some(fitted.divided),
                 request.part,
-                reads_frames(model),
+                model.reads_features(),
             )?;
             let predicted = predict::run(dataset, model, &target, work)?;
             let mut scored = score(dataset, request, model, &target, &predicted)?;

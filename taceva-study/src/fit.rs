@@ -6,7 +6,7 @@ use std::num::NonZeroUsize;
 use taceva_core::{Channels, FrameInfo, PixelFormat, Progress, Targets, TrainingSet};
 use taceva_dataset::{Dataset, Source};
 use taceva_models::{
-    FeatureSpec, FitInput, LinearEstimator, Model, ModelInfo, Provenance, Settings, SplitCard,
+    FeatureSpec, FitInput, Model, ModelEstimator, ModelInfo, Provenance, Settings, SplitCard,
     SplitManifest,
 };
 
@@ -48,7 +48,7 @@ pub struct Fitted {
 /// What a request asks for, before any data is looked at.
 pub(crate) struct Recipe {
     info: &'static ModelInfo,
-    estimator: Box<dyn LinearEstimator>,
+    estimator: Box<dyn ModelEstimator>,
     features: FeatureSpec,
 }
 
@@ -67,7 +67,7 @@ impl Recipe {
         Ok(Recipe {
             info,
             estimator: info.estimator(&of_model)?,
-            features: FeatureSpec::from_settings(&of_features)?,
+            features: info.features.changed_by(&of_features)?,
         })
     }
 }
@@ -76,7 +76,7 @@ impl Recipe {
 pub(crate) struct FitPlan<'a> {
     dataset: &'a Dataset,
     info: &'static ModelInfo,
-    estimator: Box<dyn LinearEstimator>,
+    estimator: Box<dyn ModelEstimator>,
     settings: Settings,
     features: FeatureSpec,
     pub(crate) channels: Channels,

@@ -133,7 +133,7 @@ impl Target {
             }
             _ => None,
         };
-        Target::of(dataset, divided, part, reads_frames(model))
+        Target::of(dataset, divided, part, model.reads_features())
     }
 
     pub(crate) fn of(
@@ -180,15 +180,6 @@ impl Target {
     }
 }
 
-/// Whether a prediction depends on what is seen at all: a model without weights needs no frame.
-pub(crate) fn reads_frames(model: &Model) -> bool {
-    model
-        .regressor()
-        .weights()
-        .iter()
-        .any(|weight| weight.abs() > 0.0)
-}
-
 pub(crate) fn run(
     dataset: &Dataset,
     model: &Model,
@@ -210,7 +201,7 @@ pub(crate) fn numbers(
     work: Work<'_>,
 ) -> Result<Column, StudyError> {
     let rows = &target.rows;
-    let features = if reads_frames(model) {
+    let features = if model.reads_features() {
         extract(dataset, &extractor(dataset, model)?, rows, work)?
     } else {
         blank(model.card().features.shape(), rows.len())?
@@ -256,7 +247,7 @@ pub(crate) fn table(
             .map(|channel| truth(dataset, channel, rows))
             .collect::<Result<_, _>>()?,
         prediction: (0..width).map(column).collect(),
-        frames_decoded: if reads_frames(model) {
+        frames_decoded: if model.reads_features() {
             rows.len() as u64
         } else {
             0

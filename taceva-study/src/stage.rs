@@ -12,7 +12,7 @@ use crate::cache::{Key, Stage, StudyCache};
 use crate::error::StudyError;
 use crate::features::Work;
 use crate::fit::{FitPlan, FitRequest, Recipe};
-use crate::predict::{self, Predicted, Target, reads_frames};
+use crate::predict::{self, Predicted, Target};
 use crate::provenance::{ModelProvenance, Provenance};
 use crate::report::EvaluationReport;
 use crate::rows::{Divided, Need, Part, usable};
@@ -158,7 +158,7 @@ impl Learnt {
         rows.dedup();
         rows.retain(|row| seen.binary_search(row).is_err());
         let need = Need {
-            frame: reads_frames(&self.model),
+            frame: self.model.reads_features(),
             labels: None,
         };
         let usable = usable(dataset, &rows, need);

@@ -53,20 +53,14 @@ pub struct FeatureSpec {
 
 impl Default for FeatureSpec {
     fn default() -> FeatureSpec {
-        FeatureSpec {
-            width: 32,
-            height: 32,
-            color: Color::Gray,
-            difference: false,
-            pca: None,
-        }
+        FeatureSpec::DEFAULT
     }
 }
 
 const SIZE: SettingInfo = SettingInfo {
     key: "size",
     accepts: "WIDTHxHEIGHT or one number for both, from 1 to 1024",
-    default: "32x32",
+    default: "32x32, 128x96 for networks",
     about: "the size every frame is reduced to by averaging areas",
 };
 const COLOR: SettingInfo = SettingInfo {
@@ -95,6 +89,15 @@ impl FeatureSpec {
     /// Largest number of principal components.
     pub const PCA_MAX: u32 = 65_536;
 
+    /// What linear models see where nothing else is asked for.
+    pub const DEFAULT: FeatureSpec = FeatureSpec {
+        width: 32,
+        height: 32,
+        color: Color::Gray,
+        difference: false,
+        pca: None,
+    };
+
     /// What can be set.
     pub const SETTINGS: &'static [SettingInfo] = &[SIZE, COLOR, DIFFERENCE, PCA];
 
@@ -110,8 +113,16 @@ impl FeatureSpec {
     /// # Errors
     /// [`SettingError`] for an unknown key or a value out of range.
     pub fn from_settings(settings: &Settings) -> Result<FeatureSpec, SettingError> {
+        FeatureSpec::DEFAULT.changed_by(settings)
+    }
+
+    /// These features, but for what `settings` ask for.
+    ///
+    /// # Errors
+    /// [`SettingError`] for an unknown key or a value out of range.
+    pub fn changed_by(self, settings: &Settings) -> Result<FeatureSpec, SettingError> {
         settings.check_keys(FeatureSpec::SETTINGS)?;
-        let default = FeatureSpec::default();
+        let default = self;
         let (width, height) = settings.value(&SIZE, (default.width, default.height), |text| {
             let side = |text| number(text, 1..=FeatureSpec::SIDE_MAX);
             match text.split_once('x') {

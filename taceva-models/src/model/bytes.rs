@@ -7,8 +7,11 @@ use serde::Deserialize;
 
 use super::card::ModelCard;
 use super::{Model, channels_of};
+use crate::fit::ModelRegressor;
 use crate::linear::LinearRegressor;
-use taceva_core::ModelError;
+use crate::network::{NetworkCard, NetworkRegressor};
+use taceva_core::{Channels, FeatureShape, ModelError};
+use taceva_network::{NamedTensor, Network, NetworkError, Picture};
 
 /// The key of the card in the metadata.
 const CARD: &str = "taceva.model";
@@ -35,26 +38,23 @@ impl Model {
     /// # Errors
     /// [`FormatError`] if the card or the weights are larger than a file may be.
     pub fn to_bytes(&self) -> Result<Vec<u8>, FormatError> {
-        let little_endian = |values: &[f64]| -> Vec<u8> {
-            values
-                .iter()
-                .flat_map(|value| value.to_le_bytes())
-                .collect()
-        };
-        let weights = little_endian(self.regressor.weights());
-        let bias = little_endian(self.regressor.bias());
-        let channels = self.regressor.bias().len();
-        let features = self.card.features.shape().len();
-        let view =
-            |name, shape, data| TensorView::new(Dtype::F64, shape, data).map(|view| (name, view));
-        let tensors = [
-            view(BIAS, vec![channels], &bias)?,
-            view(WEIGHTS, vec![channels, features], &weights)?,
-        ];
         let card = serde_json::to_string(&self.card)?;
         // One key only: the order of several would not be defined.
         let metadata = HashMap::from([(CARD.to_owned(), card)]);
-        let bytes = safetensors::serialize(tensors, Some(metadata))?;
+        let tensors = match &self.regressor {
+            ModelRegressor::Linear(linear) => {
+                linear_tensors(linear, self.card.features.shape().len())
+            }
+            ModelRegressor::Network(network) => network_tensors(network),
+        };
+        let views: Result<Vec<_>, _> = tensors
+            .iter()
+            .map(|tensor| {
+                let view = TensorView::new(tensor.kind, tensor.shape.clone(), &tensor.bytes);
+                view.map(|view| (tensor.name.as_str(), view))
+            })
+            .collect();
+        let bytes = safetensors::serialize(views?, Some(metadata))?;
         check_sizes(&bytes)?;
         Ok(bytes)
     }
@@ -78,22 +78,128 @@ impl Model {
             return Err(FormatError::Card);
         }
         let tensors = SafeTensors::deserialize(bytes)?;
-        let known = [BIAS, WEIGHTS];
-        if let Some(name) = tensors
-            .names()
-            .into_iter()
-            .find(|name| !known.contains(name))
-        {
-            return Err(FormatError::Unexpected {
-                name: name.to_owned(),
-            });
-        }
-        let shape = card.features.shape();
-        let bias = numbers(&tensors, BIAS, &[channels.len()])?;
-        let weights = numbers(&tensors, WEIGHTS, &[channels.len(), shape.len()])?;
-        let regressor = LinearRegressor::new(channels, shape, weights, bias)?;
+        let regressor = match &card.network {
+            None => ModelRegressor::Linear(linear_from(&tensors, channels, card.features.shape())?),
+            Some(network) => {
+                let ready = network_from(&tensors, channels, &card, network)?;
+                ModelRegressor::Network(Box::new(ready))
+            }
+        };
         Ok(Model { card, regressor })
     }
+}
+
+/// A tensor as a file keeps it.
+struct Raw {
+    name: String,
+    kind: Dtype,
+    shape: Vec<usize>,
+    bytes: Vec<u8>,
+}
+
+/// The tensors of a linear model, in the order of their names.
+fn linear_tensors(linear: &LinearRegressor, features: usize) -> Vec<Raw> {
+    let raw = |name: &str, shape, values: &[f64]| Raw {
+        name: name.to_owned(),
+        kind: Dtype::F64,
+        shape,
+        bytes: values
+            .iter()
+            .flat_map(|value| value.to_le_bytes())
+            .collect(),
+    };
+    let channels = linear.bias().len();
+    vec![
+        raw(BIAS, vec![channels], linear.bias()),
+        raw(WEIGHTS, vec![channels, features], linear.weights()),
+    ]
+}
+
+/// The tensors of a network, in the order of their names.
+fn network_tensors(network: &NetworkRegressor) -> Vec<Raw> {
+    let tensors = network.tensors().into_iter();
+    tensors
+        .map(|tensor| Raw {
+            name: tensor.name,
+            kind: Dtype::F32,
+            shape: tensor.shape,
+            bytes: tensor
+                .values
+                .iter()
+                .flat_map(|value| value.to_le_bytes())
+                .collect(),
+        })
+        .collect()
+}
+
+/// The linear model that tensors hold.
+fn linear_from(
+    tensors: &SafeTensors<'_>,
+    channels: Channels,
+    shape: FeatureShape,
+) -> Result<LinearRegressor, FormatError> {
+    let known = [BIAS, WEIGHTS];
+    if let Some(name) = tensors
+        .names()
+        .into_iter()
+        .find(|name| !known.contains(name))
+    {
+        return Err(FormatError::Unexpected {
+            name: name.to_owned(),
+        });
+    }
+    let bias = numbers(tensors, BIAS, &[channels.len()])?;
+    let weights = numbers(tensors, WEIGHTS, &[channels.len(), shape.len()])?;
+    Ok(LinearRegressor::new(channels, shape, weights, bias)?)
+}
+
+/// The network that tensors hold.
+fn network_from(
+    tensors: &SafeTensors<'_>,
+    channels: Channels,
+    card: &ModelCard,
+    network: &NetworkCard,
+) -> Result<NetworkRegressor, FormatError> {
+    let shape = card.features.shape();
+    let Picture {
+        height,
+        width,
+        channels: depth,
+    } = network.architecture.input;
+    if (FeatureShape {
+        height,
+        width,
+        depth,
+    }) != shape
+        || card.features.pca.is_some()
+    {
+        return Err(FormatError::Card);
+    }
+    // A card may lie: nothing is made that the file could not fill.
+    let parameters = network.architecture.parameters()?;
+    if parameters as u64 > FILE_MAX / size_of::<f32>() as u64 {
+        return Err(FormatError::Card);
+    }
+    let found = tensors.tensors().into_iter().map(|(name, tensor)| {
+        if tensor.dtype() != Dtype::F32 {
+            return Err(FormatError::Type {
+                name,
+                found: format!("{:?}", tensor.dtype()),
+            });
+        }
+        let (numbers, _) = tensor.data().as_chunks::<4>();
+        Ok(NamedTensor {
+            name,
+            shape: tensor.shape().to_vec(),
+            values: numbers
+                .iter()
+                .map(|bytes| f32::from_le_bytes(*bytes))
+                .collect(),
+        })
+    });
+    let found: Vec<NamedTensor> = found.collect::<Result<_, FormatError>>()?;
+    let ready = Network::from_tensors(&network.architecture, found)?;
+    Ok(NetworkRegressor::new(channels, network.clone(), ready)?)
 }
 
 fn check_sizes(bytes: &[u8]) -> Result<(), FormatError> {
@@ -211,6 +317,17 @@ pub enum FormatError {
         /// Type and shape expected.
         expected: String,
     },
+    /// A tensor of a network of another type than all have.
+    #[error("tensor `{name}` is {found}, those of a network are F32")]
+    Type {
+        /// Its name.
+        name: String,
+        /// The type found.
+        found: String,
+    },
+    /// Tensors that are not those of the network that the card names.
+    #[error("the network: {0}")]
+    Network(#[from] NetworkError),
     /// Channels or numbers that no model has.
     #[error("{0}")]
     Content(#[from] ModelError),

@@ -6,7 +6,8 @@ use taceva_core::{FrameInfo, Unit};
 use super::FitInput;
 use crate::choice::Choice;
 use crate::features::FeatureSpec;
-use crate::linear::LinearFit;
+use crate::fit::{ModelFit, ModelRegressor};
+use crate::network::NetworkCard;
 
 /// The description kept in a model file.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -35,6 +36,9 @@ pub struct ModelCard {
     pub samples: SampleCounts,
     /// Where the samples come from.
     pub provenance: Provenance,
+    /// The network, where the model is one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub network: Option<NetworkCard>,
 }
 
 /// A channel, and the labels it was learnt from.
@@ -104,7 +108,7 @@ impl ModelCard {
 
     pub(super) fn new(
         input: &FitInput<'_>,
-        fit: &LinearFit,
+        fit: &ModelFit,
         pca_variance: Option<f64>,
     ) -> ModelCard {
         let channels = input.training.targets.channels.iter().enumerate();
@@ -132,6 +136,10 @@ impl ModelCard {
                 validation: input.validation.map_or(0, |set| set.features.samples()),
             },
             provenance: input.provenance.clone(),
+            network: match &fit.regressor {
+                ModelRegressor::Linear(_) => None,
+                ModelRegressor::Network(network) => Some(network.card().clone()),
+            },
         }
     }
 }

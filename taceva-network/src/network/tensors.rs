@@ -70,7 +70,7 @@ impl Network {
         architecture: &Architecture,
         tensors: impl IntoIterator<Item = NamedTensor>,
     ) -> Result<Network, NetworkError> {
-        let mut network = Network::new(architecture, 0)?;
+        let mut network = Network::zeros(architecture)?;
         let mut found: BTreeMap<String, NamedTensor> = tensors
             .into_iter()
             .filter(|tensor| !tensor.name.ends_with(COUNTER))

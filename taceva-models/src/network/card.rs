@@ -1,0 +1,23 @@
+//! What a model file says of a network, beside its tensors.
+
+use serde::{Deserialize, Serialize};
+use taceva_network::{Architecture, LabelScale};
+
+use super::Preprocessing;
+
+/// What a model file says of a network.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct NetworkCard {
+    /// The make of it.
+    pub architecture: Architecture,
+    /// What is done to pictures before.
+    pub preprocessing: Preprocessing,
+    /// How outputs become labels.
+    pub scale: LabelScale,
+    /// The label of each channel that never changed in the training part, and is predicted as that; nothing for those
+    /// that the outputs stand for, one after the other.
+    pub constant: Vec<Option<f64>>,
+    /// The instructions that it was trained on: on the same ones predictions have the same bits.
+    pub instructions: String,
+}

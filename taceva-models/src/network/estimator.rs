@@ -1,0 +1,376 @@
+//! Networks that are fitted: what can be set, and the training.
+
+use taceva_core::{
+    ErrorKind, Estimator, FeatureShape, ModelError, Progress, Regressor, TrainingSet,
+};
+use taceva_network::{
+    Architecture, Augmentation, Depth, Isa, Jitter, LabelScale, Labels, Loss, Network,
+    NetworkError, Optimizer, Recipe, Samples, Trained, Trainer,
+};
+
+use super::regressor::picture;
+use super::{NetworkCard, NetworkRegressor, Preprocessing};
+use crate::choice::{ChannelChoice, Choice, ChosenBy, rmse};
+use crate::features::{Color, FeatureSpec};
+use crate::fit::{ModelEstimator, ModelFit, ModelRegressor};
+use crate::problem::Problem;
+use crate::progress::{Stage, interrupted};
+use crate::registry::ModelInfo;
+use crate::settings::{SettingError, SettingInfo, Settings, number};
+
+/// A network to be fitted: AdamW, one cycle of the rate, Huber's loss on standardised labels, the epoch that does best on the
+/// validation part.
+#[derive(Clone, Debug, PartialEq)]
+pub struct NetworkEstimator {
+    kind: Kind,
+    recipe: Recipe,
+    preprocessing: Preprocessing,
+}
+
+/// Which network.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Kind {
+    FiveLayers,
+    Residual(Depth),
+}
+
+const EPOCHS: SettingInfo = SettingInfo {
+    key: "epochs",
+    accepts: "a number from 1 to 100000",
+    default: "200 for cnn, 60 for the residual ones",
+    about: "how often each training sample is seen",
+};
+const BATCH: SettingInfo = SettingInfo {
+    key: "batch",
+    accepts: "a number from 2 to 4096",
+    default: "32",
+    about: "samples of a step",
+};
+const RATE: SettingInfo = SettingInfo {
+    key: "rate",
+    accepts: "a number above 0 and at most 10",
+    default: "0.003 for cnn, 0.001 for the residual ones",
+    about: "the highest rate of the cycle",
+};
+const DECAY: SettingInfo = SettingInfo {
+    key: "weight_decay",
+    accepts: "a number from 0 to 10",
+    default: "0.01",
+    about: "the decay of weights",
+};
+const SEED: SettingInfo = SettingInfo {
+    key: "seed",
+    accepts: "a whole number",
+    default: "1",
+    about: "what first weights, order and augmentation are drawn from",
+};
+const PATIENCE: SettingInfo = SettingInfo {
+    key: "patience",
+    accepts: "a number of epochs from 1 on",
+    default: "all epochs are made",
+    about: "epochs without a better one on the validation part after which training stops",
+};
+const JITTER: SettingInfo = SettingInfo {
+    key: "jitter",
+    accepts: "a number of pixels from 0 to 100",
+    default: "2",
+    about: "how far training pictures are shifted",
+};
+const NOISE: SettingInfo = SettingInfo {
+    key: "noise",
+    accepts: "a number from 0 to 10",
+    default: "0.05",
+    about: "the standard deviation of what is added to training pictures, after preprocessing",
+};
+const BRIGHTNESS: SettingInfo = SettingInfo {
+    key: "brightness",
+    accepts: "a number from 0 to 1",
+    default: "0.1",
+    about: "by which share training pictures are made brighter or darker at most, after preprocessing",
+};
+const LOCAL_MEAN: SettingInfo = SettingInfo {
+    key: "local_mean",
+    accepts: "a number of pixels from 0 to 100",
+    default: "6",
+    about: "the standard deviation of the Gaussian whose mean is subtracted around each pixel; 0 subtracts nothing",
+};
+const CONTRAST: SettingInfo = SettingInfo {
+    key: "contrast",
+    accepts: "true or false",
+    default: "true",
+    about: "whether each picture is divided by its standard deviation",
+};
+
+const SETTINGS: &[SettingInfo] = &[
+    EPOCHS, BATCH, RATE, DECAY, SEED, PATIENCE, JITTER, NOISE, BRIGHTNESS, LOCAL_MEAN, CONTRAST,
+];
+
+/// What networks see where nothing else is asked for.
+const FEATURES: FeatureSpec = FeatureSpec {
+    width: 128,
+    height: 96,
+    color: Color::Gray,
+    difference: false,
+    pca: None,
+};
+
+/// A [`ModelInfo`] of a network.
+macro_rules! info {
+    ($name:literal, $about:literal, $kind:expr) => {
+        ModelInfo {
+            name: $name,
+            about: $about,
+            settings: SETTINGS,
+            reads_features: true,
+            features: FEATURES,
+            make: |settings| Ok(Box::new(NetworkEstimator::from_settings($kind, settings)?)),
+        }
+    };
+}
+
+impl NetworkEstimator {
+    /// The small network in the list of models.
+    pub const CNN: ModelInfo = info!(
+        "cnn",
+        "five convolutions: sees where markers move, fitted in a minute",
+        Kind::FiveLayers
+    );
+    /// The residual network of ten layers in the list of models.
+    pub const RESNET_10: ModelInfo = info!(
+        "resnet10",
+        "a residual network of ten layers",
+        Kind::Residual(Depth::Ten)
+    );
+    /// The residual network of eighteen layers in the list of models.
+    pub const RESNET_18: ModelInfo = info!(
+        "resnet18",
+        "a residual network of eighteen layers",
+        Kind::Residual(Depth::Eighteen)
+    );
+    /// The residual network of thirty-four layers in the list of models.
+    pub const RESNET_34: ModelInfo = info!(
+        "resnet34",
+        "a residual network of thirty-four layers",
+        Kind::Residual(Depth::ThirtyFour)
+    );
+
+    fn from_settings(kind: Kind, settings: &Settings) -> Result<NetworkEstimator, SettingError> {
+        settings.check_keys(SETTINGS)?;
+        let (epochs, rate) = match kind {
+            Kind::FiveLayers => (200, 3e-3),
+            Kind::Residual(_) => (60, 1e-3),
+        };
+        let weight_decay = settings.value(&DECAY, 1e-2, |text| number(text, 0.0..=10.0))?;
+        let pixels = settings.value(&JITTER, 2, |text| number(text, 0..=100))?;
+        Ok(NetworkEstimator {
+            kind,
+            recipe: Recipe {
+                epochs: settings.value(&EPOCHS, epochs, |text| number(text, 1..=100_000))?,
+                batch: settings.value(&BATCH, 32, |text| number(text, 2..=4096))?,
+                rate: settings.value(&RATE, rate, |text| {
+                    number(text, 0.0..=10.0).filter(|rate| *rate > 0.0)
+                })?,
+                optimizer: Optimizer::AdamW {
+                    betas: (0.9, 0.999),
+                    epsilon: 1e-8,
+                    weight_decay,
+                },
+                loss: Loss::Huber { delta: 1.0 },
+                seed: settings.value(&SEED, 1, |text| text.parse().ok())?,
+                patience: settings.value(&PATIENCE, None, |text| number(text, 1..).map(Some))?,
+                augmentation: Augmentation {
+                    brightness: settings.value(&BRIGHTNESS, 0.1, |text| number(text, 0.0..=1.0))?,
+                    noise: settings.value(&NOISE, 0.05, |text| number(text, 0.0..=10.0))?,
+                    jitter: Jitter {
+                        pixels,
+                        label_per_pixel: Vec::new(),
+                    },
+                },
+                ..Recipe::default()
+            },
+            preprocessing: Preprocessing {
+                local_mean_px: settings.value(&LOCAL_MEAN, 6.0, |text| {
+                    number(text, 0.0..=Preprocessing::LOCAL_MEAN_MAX)
+                })?,
+                contrast: settings.value(&CONTRAST, true, |text| text.parse().ok())?,
+            },
+        })
+    }
+
+    fn info(&self) -> ModelInfo {
+        match self.kind {
+            Kind::FiveLayers => NetworkEstimator::CNN,
+            Kind::Residual(Depth::Ten) => NetworkEstimator::RESNET_10,
+            Kind::Residual(Depth::Eighteen) => NetworkEstimator::RESNET_18,
+            Kind::Residual(Depth::ThirtyFour) => NetworkEstimator::RESNET_34,
+        }
+    }
+
+    fn architecture(&self, shape: FeatureShape, outputs: usize) -> Architecture {
+        match self.kind {
+            Kind::FiveLayers => Architecture::five_layers(picture(shape), outputs),
+            Kind::Residual(depth) => Architecture::residual(depth, picture(shape), outputs),
+        }
+    }
+
+    /// The training, with a word to whoever listens after each step.
+    fn train(
+        &self,
+        architecture: &Architecture,
+        training: Samples<'_>,
+        validation: Option<Samples<'_>>,
+        progress: &dyn Progress,
+    ) -> Result<Trained, ModelError> {
+        let trainer = Trainer::new(architecture, &self.recipe, training, validation);
+        let mut trainer = trainer.map_err(refused)?;
+        let steps = usize::try_from(trainer.steps()).unwrap_or(usize::MAX);
+        let stage = Stage::begin(progress, "training", steps);
+        loop {
+            interrupted(progress)?;
+            if trainer.step().map_err(refused)?.is_none() {
+                return Ok(trainer.finish());
+            }
+            stage.advance();
+        }
+    }
+}
+
+/// What a network refused, as models say it.
+fn refused(error: NetworkError) -> ModelError {
+    let kind = match error {
+        NetworkError::LossNotFinite { .. } | NetworkError::WeightNotFinite { .. } => {
+            ErrorKind::OutOfRange
+        }
+        _ => ErrorKind::InvalidArgument,
+    };
+    ModelError::new(kind, error.to_string()).because(error)
+}
+
+/// The labels of a part whose channel is among `varying`.
+fn labels_of(set: &TrainingSet<'_>, varying: &[usize]) -> Vec<f64> {
+    let rows = set.targets.values.chunks_exact(set.targets.channels.len());
+    rows.flat_map(|row| varying.iter().map(|&channel| row[channel]))
+        .collect()
+}
+
+impl ModelEstimator for NetworkEstimator {
+    fn fit_model(
+        &self,
+        training: &TrainingSet<'_>,
+        validation: Option<&TrainingSet<'_>>,
+        progress: &dyn Progress,
+    ) -> Result<ModelFit, ModelError> {
+        let problem = Problem::new(*training)?;
+        let held = problem.validation(validation)?;
+        let validation = validation.filter(|_| held.is_some());
+        let shape = training.features.shape();
+        let channels = training.targets.channels;
+        let is_constant = |channel: &usize| problem.scaling.is_constant(*channel);
+        let varying: Vec<usize> = (0..channels.len())
+            .filter(|channel| !is_constant(channel))
+            .collect();
+        let architecture = self.architecture(shape, varying.len().max(1));
+
+        let prepare = |set: &TrainingSet<'_>| {
+            let pictures = self.preprocessing.apply(shape, set.features.values());
+            (pictures, labels_of(set, &varying))
+        };
+        let learnt = prepare(training);
+        let kept = validation.map(prepare);
+        let trained = if varying.is_empty() {
+            None
+        } else {
+            let of = |pictures, labels| Samples {
+                pictures,
+                labels: Labels::Values(labels),
+            };
+            let kept = kept.as_ref().map(|(pictures, labels)| of(pictures, labels));
+            Some(self.train(&architecture, of(&learnt.0, &learnt.1), kept, progress)?)
+        };
+        let constant = (0..channels.len()).map(|channel| {
+            let label = problem.scaling.minimum()[channel];
+            problem.scaling.is_constant(channel).then_some(label)
+        });
+        let (network, scale, best) = match trained {
+            Some(Trained {
+                network,
+                scale,
+                state,
+            }) => (network, scale, state.best),
+            // Nothing varies, so that nothing is to be learnt.
+            None => {
+                let network = Network::new(&architecture, self.recipe.seed).map_err(refused)?;
+                (network, LabelScale::identity(1), None)
+            }
+        };
+        let card = NetworkCard {
+            architecture,
+            preprocessing: self.preprocessing,
+            scale,
+            constant: constant.collect(),
+            instructions: Isa::detect().name().to_owned(),
+        };
+        let regressor = NetworkRegressor::new(channels.clone(), card, network)?;
+        let errors = match validation {
+            Some(set) => errors(&regressor, set)?,
+            None => vec![None; channels.len()],
+        };
+        let by = if best.is_some() {
+            ChosenBy::Validation
+        } else {
+            ChosenBy::Nobody
+        };
+        let choices = errors.into_iter().map(|rmse| ChannelChoice {
+            value: best.map(|epoch| epoch as f64),
+            rmse,
+            at_edge: false,
+        });
+        Ok(ModelFit {
+            choice: Choice {
+                by,
+                setting: best.map(|_| "epoch".to_owned()),
+                channels: choices.collect(),
+            },
+            regressor: ModelRegressor::Network(Box::new(regressor)),
+            scaling: problem.scaling,
+            refitted: false,
+        })
+    }
+}
+
+/// The error of each channel on the validation part.
+fn errors(
+    regressor: &NetworkRegressor,
+    set: &TrainingSet<'_>,
+) -> Result<Vec<Option<f64>>, ModelError> {
+    let channels = set.targets.channels.len();
+    let mut found = vec![0.0; set.targets.values.len()];
+    regressor.predict(set.features, &mut found)?;
+    let samples = set.features.samples() as f64;
+    let of = |channel: usize| {
+        let pairs = found
+            .iter()
+            .zip(set.targets.values)
+            .skip(channel)
+            .step_by(channels);
+        let squares: f64 = pairs.map(|(found, label)| (found - label).powi(2)).sum();
+        rmse(squares / samples, 1.0)
+    };
+    Ok((0..channels).map(of).collect())
+}
+
+impl Estimator for NetworkEstimator {
+    fn name(&self) -> &'static str {
+        self.info().name
+    }
+
+    fn fit(
+        &self,
+        training: &TrainingSet<'_>,
+        validation: Option<&TrainingSet<'_>>,
+        progress: &dyn Progress,
+    ) -> Result<Box<dyn Regressor>, ModelError> {
+        let fit = self.fit_model(training, validation, progress)?;
+        Ok(Box::new(fit.regressor))
+    }
+}
