@@ -4,10 +4,13 @@ mod common;
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use common::{LINEAR, Recording, both_shapes, distance, fit, model, predict, recording};
+use common::{Recording, both_shapes, distance, fit, model, predict, recording};
 use taceva_core::TrainingSet;
 use taceva_core::{ErrorKind, FeatureShape, Features, ModelError, Progress, Regressor, Silent};
 use taceva_models::{LinearEstimator, LinearFit};
+
+/// The names of the linear models.
+const LINEAR: [&str; 3] = ["baseline", "ridge", "pls"];
 
 fn every_model() -> impl Iterator<Item = Box<dyn LinearEstimator>> {
     LINEAR.into_iter().map(|name| model(name, &[]))

@@ -92,9 +92,6 @@ impl Recording {
     }
 }
 
-/// The names of the linear models.
-pub(crate) const LINEAR: [&str; 3] = ["baseline", "ridge", "pls"];
-
 /// The linear model called `name`, with settings.
 pub(crate) fn model(name: &str, words: &[&str]) -> Box<dyn LinearEstimator> {
     let settings = Settings::parse(words.iter().copied()).expect("well formed");
