@@ -11,6 +11,9 @@ use crate::linear::{LinearEstimator, LinearRegressor};
 use crate::network::NetworkRegressor;
 use crate::problem::invalid;
 
+/// What a network says to features that are a list.
+pub(crate) const NO_PICTURE: &str = "a network reads pictures, and principal components are none";
+
 /// An estimator whose regressor a model file can keep, and that can say what it chose.
 pub trait ModelEstimator: Estimator {
     /// Learns as [`Estimator::fit`] does.
@@ -73,9 +76,7 @@ impl ModelRegressor {
     pub(crate) fn through(&self, pca: &Pca) -> Result<ModelRegressor, ModelError> {
         match self {
             ModelRegressor::Linear(linear) => linear.through(pca).map(ModelRegressor::Linear),
-            ModelRegressor::Network(_) => Err(invalid(
-                "a network reads pictures, and principal components are none",
-            )),
+            ModelRegressor::Network(_) => Err(invalid(NO_PICTURE)),
         }
     }
 

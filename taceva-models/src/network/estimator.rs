@@ -12,8 +12,8 @@ use super::regressor::picture;
 use super::{NetworkCard, NetworkRegressor, Preprocessing};
 use crate::choice::{ChannelChoice, Choice, ChosenBy, rmse};
 use crate::features::{Color, FeatureSpec};
-use crate::fit::{ModelEstimator, ModelFit, ModelRegressor};
-use crate::problem::Problem;
+use crate::fit::{ModelEstimator, ModelFit, ModelRegressor, NO_PICTURE};
+use crate::problem::{Problem, invalid};
 use crate::progress::{Stage, interrupted};
 use crate::registry::ModelInfo;
 use crate::settings::{SettingError, SettingInfo, Settings, number};
@@ -264,6 +264,9 @@ impl ModelEstimator for NetworkEstimator {
         let held = problem.validation(validation)?;
         let validation = validation.filter(|_| held.is_some());
         let shape = training.features.shape();
+        if shape.height == 1 && shape.depth == 1 {
+            return Err(invalid(NO_PICTURE));
+        }
         let channels = training.targets.channels;
         let is_constant = |channel: &usize| problem.scaling.is_constant(*channel);
         let varying: Vec<usize> = (0..channels.len())
