@@ -1,5 +1,7 @@
 //! Draws that other programs can make too, and networks that are filled with them.
 
+#![allow(dead_code, reason = "each suite that shares this file uses a part of it")]
+
 use taceva_network::{Architecture, NamedTensor, Network};
 
 /// Draw `position` of `seed`, evenly distributed in 0..1: that of SplitMix64 at step position + 1.
