@@ -1,0 +1,122 @@
+//! Reports of real recordings: compared, chosen from and drawn as far as their labels allow. Skipped, with a printed reason, where a set is absent.
+
+use std::num::NonZeroUsize;
+
+use taceva_core::Silent;
+use taceva_dataset::{Dataset, ImportMap, ImportPlan};
+use taceva_models::Settings;
+use taceva_report::catalogue::Sensor;
+use taceva_report::{
+    CompareRequest, Need, Report, Samples, Study, choose, compare, figures, report,
+};
+use taceva_study::{EvaluateRequest, FitRequest, ModelChoice, evaluate};
+use taceva_tests::{recording, root};
+
+const JOBS: NonZeroUsize = NonZeroUsize::new(2).expect("two");
+
+/// What `model` makes of the set `name`, with its samples.
+fn study(name: &str, model: &str, split: &str) -> Option<Study> {
+    let source = recording(name)?;
+    let map = root()
+        .join("tests/fixtures/maps")
+        .join(name)
+        .with_extension("toml");
+    let map = ImportMap::read(&map).expect("the map is ours");
+    let target = tempfile::tempdir().expect("a temporary folder");
+    let path = target.path().join("data");
+    let plan = ImportPlan::new(&source, &map).expect("the map fits the set");
+    plan.run(&path, JOBS, &Silent).expect("imported");
+    let dataset = Dataset::open(&path).expect("a dataset");
+    let request = EvaluateRequest {
+        model: ModelChoice::Fit(FitRequest {
+            model: model.to_owned(),
+            settings: Settings::default(),
+            channels: Vec::new(),
+            split: Some(split.to_owned()),
+            seed: 0,
+        }),
+        metrics: vec!["all".to_owned()],
+        part: None,
+        sensor: None,
+        jobs: JOBS,
+    };
+    let written = evaluate(&dataset, &request, &Silent)
+        .expect("evaluated")
+        .report;
+    let text = serde_json::to_string(&written).expect("JSON");
+    let mut study = Study::read(&text).expect("what we write we read").remove(0);
+    let mut table = Vec::new();
+    written
+        .samples
+        .expect("the samples of one call")
+        .write(&mut table)
+        .expect("memory");
+    let table = String::from_utf8(table).expect("a text");
+    study.samples = Some(Samples::read(&table).expect("what we write we read"));
+    Some(study)
+}
+
+#[test]
+fn two_models_on_one_recording_are_compared_sample_by_sample() {
+    let [Some(ridge), Some(baseline)] =
+        ["ridge", "baseline"].map(|model| study("tactip-force", model, "random"))
+    else {
+        return;
+    };
+    let comparison = compare(&[ridge, baseline], &CompareRequest::default());
+    let answer = comparison
+        .answers
+        .iter()
+        .find(|answer| answer.metric == "mae" && answer.channel == "Fz")
+        .expect("both have it");
+    let difference = answer.difference.expect("tested");
+    assert!(difference.test.to_string().starts_with("paired sign flip"));
+    assert_eq!(
+        answer.better(),
+        Some(0),
+        "{}",
+        answer.words(&comparison.names)
+    );
+}
+
+#[test]
+fn two_sensors_of_two_labs_are_shown_compared_and_chosen_from() {
+    let split = "by-column:repeat=train:1;test:2";
+    let studies = [
+        study("tactip-force", "ridge", "random"),
+        study("gelsight-wedge-grasp", "ridge", split),
+    ];
+    let Some(studies) = studies.into_iter().collect::<Option<Vec<Study>>>() else {
+        return;
+    };
+    let comparison = compare(&studies, &CompareRequest::default());
+    let answer = comparison
+        .answers
+        .iter()
+        .find(|answer| answer.metric == "mae" && answer.channel == "Fz")
+        .expect("both have it");
+    let is_answered = answer.difference.is_some() || answer.reason.is_some();
+    assert!(is_answered, "{answer:?}");
+    let drawn: Vec<String> = figures(&studies)
+        .into_iter()
+        .map(|figure| figure.id)
+        .collect();
+    for id in ["labels", "predicted-1", "predicted-2"] {
+        assert!(drawn.iter().any(|drawn| drawn == id), "{id}: {drawn:?}");
+    }
+    let page = report(&Report {
+        title: "two labs",
+        studies: &studies,
+        pictures: &[],
+    });
+    assert!(page.contains("recorded") && !page.contains("Nothing here was measured"));
+    let sensors: Vec<Sensor> = studies.iter().map(Sensor::of_study).collect();
+    let choice = choose(&sensors, &Need::parse("normal force").expect("a need"));
+    assert_eq!(choice.ranked.len(), 2);
+    let errors = sensors
+        .iter()
+        .map(|sensor| sensor.result("mae", "Fz").expect("scored").value);
+    let least = errors.fold(f64::INFINITY, f64::min);
+    let first = choice.ranked[0].steps[0].value.expect("known");
+    assert_eq!(first.to_bits(), least.to_bits());
+}
