@@ -48,13 +48,15 @@ pub struct RegressorCalls {
     pub reserved: u32,
     /// `[owner & open]`
     pub close: Option<unsafe extern "C" fn(*mut c_void)>,
-    /// `[any & open]` Writes `[samples, channels]`.
+    /// `[any & open]` Writes `[samples, channels]`; a model of another shape than the lengths say touches neither array.
     pub predict: Option<
         unsafe extern "C" fn(
             *const c_void,
             features: *const f32,
+            features_length: u64,
             samples: u64,
             into: *mut f64,
+            into_length: u64,
             *mut Error,
         ) -> Status,
     >,

@@ -301,9 +301,19 @@ impl Regressor for Model {
         // What a plugin leaves out is no prediction.
         into.fill(f64::NAN);
         call(|error| {
-            let (values, count) = (features.values().as_ptr(), samples as u64);
-            // SAFETY: [any & open], with features, a place for `samples` times `channels` numbers and an error that outlive the call.
-            unsafe { predict(self.handle, values, count, into.as_mut_ptr(), error) }
+            let values = features.values();
+            // SAFETY: [any & open], with features and a place of the lengths that are said, and an error that outlive the call.
+            unsafe {
+                predict(
+                    self.handle,
+                    values.as_ptr(),
+                    values.len() as u64,
+                    samples as u64,
+                    into.as_mut_ptr(),
+                    into.len() as u64,
+                    error,
+                )
+            }
         })
         .map_err(|failure| self.failed(DOING, failure))?;
         match into.iter().position(|value| !value.is_finite()) {

@@ -27,8 +27,11 @@ typedef struct taceva_regressor_calls {
   uint32_t size;
   uint32_t reserved;
   void (*close)(void *handle); /* [owner & open] */
-  /* [any & open] `into`: [samples, channels], all of it written. */
-  taceva_status (*predict)(const void *handle, const float *features, uint64_t samples, double *into, taceva_error *error);
+  /* [any & open] `features`: [samples, height, width, depth], `features_length` numbers; `into`: [samples, channels], `into_length` numbers,
+   * all of them written. A model of another shape, which bytes of a stranger may be, refuses lengths that are not its own with
+   * INVALID_ARGUMENT and touches neither array. */
+  taceva_status (*predict)(const void *handle, const float *features, uint64_t features_length, uint64_t samples, double *into,
+                           uint64_t into_length, taceva_error *error);
   /* [any & open] The model as bytes that `load` takes on every machine: `*length` in: of `into`, out: of the model.
    * Where `into` is NULL or too short nothing is written and the status is OUT_OF_RANGE. */
   taceva_status (*save)(const void *handle, uint8_t *into, uint64_t *length, taceva_error *error);

@@ -258,3 +258,28 @@ fn whatever_cannot_be_meant_is_refused_where_it_stands() {
     assert!(refused(&format!("{HEAD}provides = []\n{LIBRARY}")).contains("expected 1 to 256"));
     assert!(refused(&" ".repeat(BYTES_MAX + 1)).contains("at most 1048576"));
 }
+
+#[test]
+fn text_that_is_cut_or_changed_anywhere_is_read_or_refused_and_never_more() {
+    let whole = whole();
+    for end in (0..whole.len()).step_by(7) {
+        let _ = Manifest::parse(&whole[..end]);
+    }
+    let bytes = whole.as_bytes();
+    let mut state = 1_u64;
+    let mut accepted = 0;
+    for _ in 0..3_000 {
+        state = state
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1);
+        let place = usize::try_from(state >> 33).expect("31 bits") % bytes.len();
+        let mut changed = bytes.to_vec();
+        changed[place] = (state >> 25).to_le_bytes()[0] & 0x7f;
+        let text = String::from_utf8(changed).expect("ASCII");
+        match Manifest::parse(&text) {
+            Ok(_) => accepted += 1,
+            Err(error) => assert!(!error.to_string().contains(char::is_control), "{error}"),
+        }
+    }
+    assert!(accepted > 100, "titles and numbers may change: {accepted}");
+}

@@ -18,7 +18,7 @@ pub(crate) const WRIST: DriverKey = DriverKey::fixed("org.example.fixture/wrist"
 pub(crate) const LAMP: DriverKey = DriverKey::fixed("org.example.fixture/lamp");
 pub(crate) const MEAN: DriverKey = DriverKey::fixed("org.example.fixture/mean");
 
-const MANIFEST: &str = r#"
+pub(crate) const MANIFEST: &str = r#"
 manifest_version = 1
 id = "org.example.fixture"
 name = "one of each"

@@ -147,21 +147,28 @@ unsafe extern "C" fn close(handle: *mut c_void) {
 unsafe extern "C" fn predict(
     handle: *const c_void,
     features: *const f32,
+    features_length: u64,
     samples: u64,
     into: *mut f64,
+    into_length: u64,
     error: *mut Error,
 ) -> Status {
     let work = || {
         let regressor: Arc<Kept> = open::find(handle)?;
         let (samples, shape) = (whole(samples)?, regressor.shape());
         let channels = regressor.channels().len();
-        // SAFETY: the host lends as many features and gives as much room as its number of samples says.
+        // What the model says of itself may come from a stranger's file; the lengths are the host's.
+        let taken = times(samples, shape.len())?;
+        let given = times(samples, channels)?;
+        if whole(features_length)? != taken || whole(into_length)? != given {
+            return Err(Failure::argument(format!(
+                "{features_length} features and room for {into_length} numbers, expected {taken} and {given}"
+            )));
+        }
+        // SAFETY: the host lends as many features and gives as much room as its lengths say.
         let (features, into) = unsafe {
-            let features = memory::list("features", features, times(samples, shape.len())?)?;
-            (
-                features,
-                memory::list_place("into", into, times(samples, channels)?)?,
-            )
+            let features = memory::list("features", features, taken)?;
+            (features, memory::list_place("into", into, given)?)
         };
         let features = Features::new(shape, features.to_vec())?;
         regressor.predict(&features, into)?;

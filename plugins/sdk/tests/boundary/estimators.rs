@@ -25,8 +25,10 @@ impl Fitted {
             predict(
                 self.0.handle,
                 features.as_ptr(),
+                features.len() as u64,
                 samples,
                 into.as_mut_ptr(),
+                into.len() as u64,
                 error,
             )
         })
@@ -153,10 +155,19 @@ fn a_model_is_fitted_kept_loaded_and_predicts_the_same() {
             assert!((found - expected).abs() < 1e-12, "{into:?}");
         }
     }
-    assert_eq!(
-        loaded.predict(&[], u64::MAX, &mut []).0,
-        Status::INVALID_ARGUMENT
-    );
+    for (features, samples, room) in [(0, u64::MAX, 0), (3, 2, 4), (4, 2, 3), (4, 1, 4)] {
+        let mut into = vec![7.0; room];
+        let ended = loaded.predict(&vec![0.0; features], samples, &mut into);
+        assert_eq!(
+            ended.0,
+            Status::INVALID_ARGUMENT,
+            "{features} {samples} {room}"
+        );
+        assert!(
+            into.iter()
+                .all(|value| value.to_bits() == 7.0_f64.to_bits())
+        );
+    }
 }
 
 #[test]

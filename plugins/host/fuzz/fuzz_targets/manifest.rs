@@ -1,0 +1,20 @@
+//! Manifests, and what libraries say of themselves, out of any bytes: `cargo +nightly fuzz run manifest`.
+
+#![no_main]
+
+use taceva_host::{Manifest, PluginConfig, PluginId, Provided};
+
+libfuzzer_sys::fuzz_target!(|bytes: &[u8]| {
+    let Ok(text) = std::str::from_utf8(bytes) else {
+        return;
+    };
+    if let Ok(manifest) = Manifest::parse(text) {
+        // What is accepted can be used: each key is the plugin's, and each error of another has a line.
+        for provided in &manifest.provides {
+            assert!(provided.key().as_str().starts_with(manifest.id.as_str()));
+        }
+    }
+    let id: PluginId = "org.example.fuzz".parse().expect("an id");
+    let _ = Provided::parse(text, &id);
+    let _ = PluginConfig::parse(text);
+});
