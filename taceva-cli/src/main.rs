@@ -25,6 +25,9 @@ use args::{Cli, Command};
 use cmd::Context;
 
 fn main() -> ExitCode {
+    // Before anything else: the program runs itself again to keep a plugin in a process of its own.
+    #[cfg(target_os = "linux")]
+    taceva_host::main_if_child();
     let cli = Cli::parse();
     progress::listen_for_signals();
     let context = Context::new(&cli.everywhere);

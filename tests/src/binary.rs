@@ -25,6 +25,14 @@ pub fn example(package: &str, name: &str) -> PathBuf {
     built(&["--package", package, "--example", name])
 }
 
+/// The built shared library of the crate `package`.
+///
+/// # Panics
+/// If it does not build, which ends the test.
+pub fn library(package: &str) -> PathBuf {
+    built(&["--package", package, "--lib"])
+}
+
 fn built(what: &[&str]) -> PathBuf {
     static BUILT: OnceLock<Mutex<BTreeMap<String, PathBuf>>> = OnceLock::new();
     let built = BUILT.get_or_init(Mutex::default);
@@ -53,7 +61,13 @@ fn build(what: &[&str]) -> PathBuf {
     Message::parse_stream(output.stdout.as_slice())
         .filter_map(Result::ok)
         .filter_map(|message| match message {
-            Message::CompilerArtifact(artifact) => artifact.executable,
+            Message::CompilerArtifact(artifact) => artifact.executable.or_else(|| {
+                let is_library = artifact.target.is_cdylib();
+                let mut files = artifact.filenames.into_iter();
+                is_library.then(|| {
+                    files.find(|file| file.extension() == Some(std::env::consts::DLL_EXTENSION))
+                })?
+            }),
             _ => None,
         })
         .last()

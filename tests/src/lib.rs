@@ -11,7 +11,7 @@ pub mod power_cut;
 pub mod recorded;
 pub mod toy;
 
-pub use binary::{example, taceva};
+pub use binary::{example, library, taceva};
 pub use drawn::{Form, Lab, picture, scratch};
 pub use random::Random;
 pub use recordings::recording;

@@ -1,6 +1,7 @@
 //! The plugins of a program, and the drivers that they are.
 
 use std::collections::BTreeMap;
+use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -147,6 +148,41 @@ impl PluginHost {
             }
             Delivery::Child => self.child(plugin, driver),
         }
+    }
+
+    /// Why the library of `plugin` is not started any more, if it crashed and nobody released it since. Only the libraries of plugins that
+    /// crashed are read for this.
+    pub fn quarantined(&self, plugin: &Plugin) -> Option<String> {
+        #[cfg(target_os = "linux")]
+        {
+            let entries = self.children.quarantine.as_ref()?.entries().ok()?;
+            let mut of_plugin = entries
+                .into_iter()
+                .filter(|entry| entry.plugin == plugin.id().as_str())
+                .peekable();
+            of_plugin.peek()?;
+            let image = Image::read(&plugin.folder, &plugin.library).ok()?;
+            let entry = of_plugin.find(|entry| entry.sha256 == image.digest())?;
+            Some(entry.reason)
+        }
+        #[cfg(not(target_os = "linux"))]
+        {
+            let _ = plugin;
+            None
+        }
+    }
+
+    /// Lets the libraries of the plugin called `id`, or the one with that digest, start again; says how many were in quarantine.
+    ///
+    /// # Errors
+    /// If the quarantine cannot be read or changed.
+    pub fn release(&self, id: &str) -> io::Result<usize> {
+        #[cfg(target_os = "linux")]
+        if let Some(quarantine) = &self.children.quarantine {
+            return quarantine.release(id);
+        }
+        let _ = id;
+        Ok(0)
     }
 
     /// A session in a child that may reach what the plugin asks for and the user allows.

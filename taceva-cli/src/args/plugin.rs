@@ -32,6 +32,8 @@ pub(crate) enum Plugin {
     Headers(PluginHeaders),
     /// Check whether a plugin keeps its promises, each check in a confined process with a time limit
     Check(PluginCheck),
+    /// Let a plugin that crashed start again
+    Release(PluginRelease),
 }
 
 #[derive(Debug, Args)]
@@ -113,4 +115,10 @@ pub(crate) struct PluginCheck {
     pub(crate) limit: u64,
     #[command(flatten)]
     pub(crate) listing: Listing,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct PluginRelease {
+    /// The id of the plugin, or the digest of its library
+    pub(crate) id: String,
 }

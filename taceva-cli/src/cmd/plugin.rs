@@ -4,7 +4,7 @@ mod check;
 mod new;
 
 use super::Context;
-use crate::args::{Plugin, PluginInfo, PluginList};
+use crate::args::{Plugin, PluginInfo, PluginList, PluginRelease};
 use crate::{exit, output, report};
 
 pub(crate) fn run(which: &Plugin, context: &Context) -> anyhow::Result<u8> {
@@ -14,6 +14,7 @@ pub(crate) fn run(which: &Plugin, context: &Context) -> anyhow::Result<u8> {
         Plugin::New(args) => new::project(args, context),
         Plugin::Headers(args) => new::headers(args, context),
         Plugin::Check(args) => check::run(args, context),
+        Plugin::Release(args) => release(args, context),
     }
 }
 
@@ -38,6 +39,15 @@ fn info(args: &PluginInfo, context: &Context) -> anyhow::Result<u8> {
     let plugin = host.plugins().get(&args.id)?;
     output::write(listing.path.as_deref(), |out| {
         report::plugin::info(&host, plugin, listing.format, out)
+    })?;
+    Ok(exit::DONE)
+}
+
+fn release(args: &PluginRelease, context: &Context) -> anyhow::Result<u8> {
+    let released = context.plugins(None)?.release(&args.id)?;
+    output::write(None, |out| match released {
+        0 => writeln!(out, "nothing of `{}` is in quarantine", args.id),
+        _ => writeln!(out, "`{}` may start again", args.id),
     })?;
     Ok(exit::DONE)
 }

@@ -66,9 +66,6 @@ pub(crate) fn info(
     writeln!(out, "    library   {} ({})", listed.library, listed.sha256)?;
     writeln!(out, "    licence   {}", listed.license)?;
     writeln!(out, "    interface {}", listed.abi)?;
-    if let Some(reason) = &listed.quarantined {
-        writeln!(out, "    kept from starting: {reason}")?;
-    }
     for driver in &listed.drivers {
         devices::driver(driver, out)?;
     }
@@ -87,6 +84,12 @@ fn line(plugin: &Listed, out: &mut dyn Write) -> io::Result<()> {
         out,
         "{id:<30} {version:<10} {delivery:<14} {place:<12} {name}"
     )?;
+    if let Some(reason) = &plugin.quarantined {
+        writeln!(
+            out,
+            "    in quarantine: {reason}; `taceva plugin release {id}` lets it start again"
+        )?;
+    }
     let drivers = plugin.drivers.iter().map(|driver| &driver.key);
     let estimators = plugin.estimators.iter().map(|estimator| &estimator.key);
     let keys: Vec<&str> = drivers.chain(estimators).map(String::as_str).collect();
@@ -157,7 +160,7 @@ impl Listed {
             delivery: host.config().delivery(plugin),
             needs: words(manifest.needs.clone()),
             allowed: words(host.config().allowed(plugin)),
-            quarantined: None,
+            quarantined: host.quarantined(plugin),
             drivers: manifest.drivers().map(ListedDriver::of).collect(),
             estimators: manifest
                 .estimators()
