@@ -12,7 +12,8 @@ use clap::{ArgGroup, Args, Parser, Subcommand};
 
 pub(crate) use self::bench::{Bench, BenchKernels, BenchSubject};
 pub(crate) use self::plugin::{
-    Plugin, PluginArgs, PluginCheck, PluginHeaders, PluginInfo, PluginList, PluginNew, PluginRelease,
+    Plugin, PluginArgs, PluginCheck, PluginHeaders, PluginInfo, PluginList, PluginNew,
+    PluginRelease,
 };
 pub(crate) use self::results::{
     Accept, CatalogueArgs, CatalogueShow, CatalogueSite, CatalogueSubject, Choose, Compare,
