@@ -76,7 +76,8 @@ static const taceva_force_calls calls = {
 };
 
 taceva_status open_force(uint32_t driver, const taceva_args *args, taceva_rig *rig, taceva_device *device, taceva_error *error) {
-  (void)driver, (void)rig;
+  (void)rig;
+  if (driver != 0) return failed(error, TACEVA_NOT_FOUND, "there is one force transducer");
   transducer *it = calloc(1, sizeof *it);
   if (!it) return failed(error, TACEVA_INTERNAL, "no memory");
   waiting_open(&it->waiting);

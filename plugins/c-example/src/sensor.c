@@ -98,7 +98,8 @@ static const taceva_sensor_calls calls = {
 };
 
 taceva_status open_sensor(uint32_t driver, const taceva_args *args, taceva_rig *rig, taceva_device *device, taceva_error *error) {
-  (void)driver, (void)args, (void)rig;
+  (void)args, (void)rig;
+  if (driver != 0) return failed(error, TACEVA_NOT_FOUND, "there is one sensor");
   sensor *it = calloc(1, sizeof *it);
   if (!it) return failed(error, TACEVA_INTERNAL, "no memory");
   waiting_open(&it->waiting);

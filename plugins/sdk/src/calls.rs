@@ -11,6 +11,7 @@ use std::any::Any;
 use std::ffi::c_void;
 
 use taceva_abi::{DeviceCalls, Error, Status, Text};
+use taceva_core::Facts;
 
 use crate::entry::Loaded;
 use crate::failure::Failure;
@@ -29,8 +30,8 @@ pub(crate) trait Kind: 'static {
     /// Its drivers.
     fn drivers(loaded: &Loaded) -> &factory::Drivers<Self>;
 
-    /// What is put behind a handle.
-    fn handle(device: Box<Self>) -> Handle<Self::Opened>;
+    /// What is put behind a handle: a device of which `facts` are known.
+    fn handle(device: Box<Self>, facts: &Facts) -> Handle<Self::Opened>;
 }
 
 /// The calls that every device has, for a table of type `T` and what is behind its handles.

@@ -107,7 +107,7 @@ unsafe extern "C" fn open<D: Kind + ?Sized>(
             with_rig(rig, |rig| factory.open(&args, rig))?
         };
         *place = Device {
-            handle: open::keep(D::handle(opened?)),
+            handle: open::keep(D::handle(opened?, factory.descriptor().facts())),
             calls: std::ptr::from_ref(D::CALLS).cast(),
         };
         Ok(())

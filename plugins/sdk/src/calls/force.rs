@@ -6,7 +6,7 @@ use std::ffi::c_void;
 
 use taceva_abi::ext::{TARE, TareCalls};
 use taceva_abi::{Error, ForceCalls, Stamp, Status, Text, Wrench};
-use taceva_core::{ErrorKind, ForceTransducer};
+use taceva_core::{ErrorKind, Facts, ForceTransducer};
 
 use super::{Kind, call, device_calls, extended};
 use crate::convert::{self, deadline};
@@ -26,7 +26,7 @@ impl Kind for dyn ForceTransducer {
         &loaded.forces
     }
 
-    fn handle(device: Box<dyn ForceTransducer>) -> Handle<Opened> {
+    fn handle(device: Box<dyn ForceTransducer>, _: &Facts) -> Handle<Opened> {
         let interrupt = device.interrupt_handle();
         Handle::new(device).interrupted_by(interrupt)
     }

@@ -6,7 +6,7 @@ use std::ffi::c_void;
 use std::ptr::null;
 
 use taceva_abi::{Error, LightingCalls, Status, Text};
-use taceva_core::Lighting;
+use taceva_core::{Facts, Lighting};
 
 use super::{Kind, call, device_calls};
 use crate::convert::deadline;
@@ -25,7 +25,7 @@ impl Kind for dyn Lighting {
         &loaded.lightings
     }
 
-    fn handle(device: Box<dyn Lighting>) -> Handle<Opened> {
+    fn handle(device: Box<dyn Lighting>, _: &Facts) -> Handle<Opened> {
         Handle::new(device)
     }
 }

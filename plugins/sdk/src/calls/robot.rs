@@ -6,7 +6,9 @@ use std::ffi::c_void;
 
 use taceva_abi::ext::{GUARDED_MOTION, GuardedMotionCalls, GuardedStop as AbiGuardedStop};
 use taceva_abi::{Error, Motion, Pose as AbiPose, RobotCalls, Stamp, Status, Text};
-use taceva_core::{ErrorKind, Guard, GuardedStop, Newton, Pose, Robot, Speed};
+use taceva_core::{
+    ErrorKind, Facts, Guard, GuardedStop, Newton, Point, Pose, Robot, RobotFacts, Speed,
+};
 
 use super::{Kind, call, device_calls, extended};
 use crate::convert::{self, deadline};
@@ -19,6 +21,7 @@ use crate::{factory, memory};
 /// A robot, and the motion that was accepted and not begun.
 pub(crate) struct Opened {
     robot: Box<dyn Robot>,
+    limits: RobotFacts,
     accepted: Option<(u64, Pose, Speed)>,
     motions: u64,
 }
@@ -32,14 +35,34 @@ impl Kind for dyn Robot {
         &loaded.robots
     }
 
-    fn handle(robot: Box<dyn Robot>) -> Handle<Opened> {
+    fn handle(robot: Box<dyn Robot>, facts: &Facts) -> Handle<Opened> {
         let halt = robot.halt_handle();
         let opened = Opened {
             robot,
+            limits: match facts {
+                Facts::Robot(facts) => *facts,
+                _ => RobotFacts::default(),
+            },
             accepted: None,
             motions: 0,
         };
         Handle::new(opened).halted_by(halt)
+    }
+}
+
+impl Opened {
+    /// The motion that is asked for, if it keeps to what the robot says of itself.
+    fn asked(&self, asked: &Motion) -> Result<(Pose, Speed), Failure> {
+        let (target, speed) = convert::motion(asked)?;
+        let refused = |message| Err(Failure::new(ErrorKind::OutOfRange, message));
+        let Point { x, y, z } = target.position;
+        match (self.limits.workspace, self.limits.speed_max) {
+            (Some(workspace), _) if !workspace.contains(&target.position) => {
+                refused(format!("{x}, {y}, {z} lies outside the workspace"))
+            }
+            (_, Some(most)) if speed > most => refused(format!("{speed}, expected at most {most}")),
+            _ => Ok((target, speed)),
+        }
     }
 }
 
@@ -99,7 +122,7 @@ unsafe extern "C" fn move_to(
                 memory::place("token", token)?,
             )
         };
-        let (target, speed) = convert::motion(target)?;
+        let (target, speed) = opened.asked(target)?;
         opened.motions += 1;
         opened.accepted = Some((opened.motions, target, speed));
         *token = opened.motions;
@@ -168,7 +191,7 @@ unsafe extern "C" fn move_guarded(
                 memory::sized_place("stop", stop)?,
             )
         };
-        let (target, speed) = convert::motion(target)?;
+        let (target, speed) = opened.asked(target)?;
         if !(guard_n > 0.0 && guard_n.is_finite()) {
             let message = format!("a guard of {guard_n} N, expected a number above 0");
             return Err(Failure::argument(message));

@@ -6,7 +6,7 @@ use std::ffi::c_void;
 
 use taceva_abi::ext::{SENSOR_LIGHTING, SensorLightingCalls};
 use taceva_abi::{Error, Frame, PixelFormat as AbiFormat, SensorCalls, Status, Text};
-use taceva_core::{ErrorKind, FrameMut, PixelFormat, Sensor};
+use taceva_core::{ErrorKind, Facts, FrameMut, PixelFormat, Sensor};
 
 use super::{Kind, call, device_calls, extended};
 use crate::convert::{self, deadline};
@@ -15,7 +15,11 @@ use crate::failure::Failure;
 use crate::open::Handle;
 use crate::{factory, memory};
 
-type Opened = Box<dyn Sensor>;
+/// A sensor, and how many frames it gave.
+pub(crate) struct Opened {
+    sensor: Box<dyn Sensor>,
+    frames: u64,
+}
 
 impl Kind for dyn Sensor {
     type Opened = Opened;
@@ -26,9 +30,9 @@ impl Kind for dyn Sensor {
         &loaded.sensors
     }
 
-    fn handle(device: Box<dyn Sensor>) -> Handle<Opened> {
-        let interrupt = device.interrupt_handle();
-        Handle::new(device).interrupted_by(interrupt)
+    fn handle(sensor: Box<dyn Sensor>, _: &Facts) -> Handle<Opened> {
+        let interrupt = sensor.interrupt_handle();
+        Handle::new(Opened { sensor, frames: 0 }).interrupted_by(interrupt)
     }
 }
 
@@ -50,20 +54,24 @@ static LIGHTING: SensorLightingCalls = SensorLightingCalls {
 };
 
 unsafe extern "C" fn extension(handle: *mut c_void, id: Text) -> *const c_void {
-    let has = |sensor: &mut Opened| sensor.lighting().is_some();
+    let has = |opened: &mut Opened| opened.sensor.lighting().is_some();
     // SAFETY: the host lends the text for the call.
     unsafe { extended(handle, id, (SENSOR_LIGHTING, &LIGHTING), has) }
 }
 
 unsafe extern "C" fn start(handle: *mut c_void, timeout_ns: u64, error: *mut Error) -> Status {
-    let work = |sensor: &mut Opened| Ok(sensor.start(deadline(timeout_ns))?);
+    let work = |opened: &mut Opened| Ok(opened.sensor.start(deadline(timeout_ns))?);
     // SAFETY: the host's own promise for `error`.
     unsafe { call(handle, error, work) }
 }
 
 unsafe extern "C" fn stop(handle: *mut c_void, error: *mut Error) -> Status {
     // SAFETY: the host's own promise for `error`.
-    unsafe { call(handle, error, |sensor: &mut Opened| Ok(sensor.stop()?)) }
+    unsafe {
+        call(handle, error, |opened: &mut Opened| {
+            Ok(opened.sensor.stop()?)
+        })
+    }
 }
 
 unsafe extern "C" fn capture(
@@ -72,10 +80,10 @@ unsafe extern "C" fn capture(
     timeout_ns: u64,
     error: *mut Error,
 ) -> Status {
-    let work = |sensor: &mut Opened| {
+    let work = |opened: &mut Opened| {
         // SAFETY: the host's place for the frame, which begins with its size.
         let frame = unsafe { memory::sized_place("frame", frame) }?;
-        let info = sensor.frame_info();
+        let info = opened.sensor.frame_info();
         let length = info.byte_len().ok_or_else(|| {
             Failure::new(
                 ErrorKind::Internal,
@@ -92,14 +100,14 @@ unsafe extern "C" fn capture(
         let buffer = unsafe { memory::list_place("buffer", frame.buffer, length) }?;
         let into = FrameMut::new(info, buffer)
             .map_err(|error| Failure::new(ErrorKind::Internal, error.to_string()))?;
-        frame.stamp = convert::stamp(&sensor.capture(into, deadline(timeout_ns))?)?;
+        frame.stamp = convert::stamp(&opened.sensor.capture(into, deadline(timeout_ns))?)?;
         (frame.width, frame.height) = (info.width, info.height);
         frame.format = format(info.format)?;
         (frame.data, frame.release) = (frame.buffer.cast_const(), None);
         frame.length = length as u64;
-        // Which frames were lost, drivers of core do not say.
-        frame.flags = 0;
-        frame.sequence = 0;
+        // Which frames were lost, drivers of core do not say: those that were given are counted.
+        opened.frames += 1;
+        (frame.sequence, frame.flags) = (opened.frames, 0);
         Ok(())
     };
     // SAFETY: the host's own promise for `error`.
@@ -125,10 +133,10 @@ unsafe extern "C" fn set_light(
     timeout_ns: u64,
     error: *mut Error,
 ) -> Status {
-    let work = |sensor: &mut Opened| {
+    let work = |opened: &mut Opened| {
         // SAFETY: the host lends the text for the call.
         let scene = unsafe { memory::text("scene", scene) }?;
-        let lighting = sensor.lighting().ok_or_else(|| {
+        let lighting = opened.sensor.lighting().ok_or_else(|| {
             Failure::new(
                 ErrorKind::Unsupported,
                 "the sensor does not set the light around it",

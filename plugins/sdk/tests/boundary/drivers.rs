@@ -8,9 +8,9 @@ use taceva_core::{
     Access, ArgSpec, ArgValue, Args, Axes, Channels, Deadline, Degree, Descriptor, DescriptorError,
     DescriptorSpec, DriverError, DriverKey, DriverSource, ErrorKind, Factory, Facts, FeatureShape,
     Features, ForceFacts, ForceTransducer, Found, FrameInfo, FrameMut, Guard, GuardedMotion,
-    GuardedStop, Halt, Interrupt, Lighting, LightingFacts, ModelError, Newton, PixelFormat, Pose,
-    Regressor, Rig, Robot, RobotFacts, Saved, SavedRegressor, Sensor, SensorFacts, SimulatedBench,
-    Specimen, Speed, Stamp, Tare, Wrench,
+    GuardedStop, Halt, Interrupt, Lighting, LightingFacts, Millimetre, ModelError, Newton,
+    PixelFormat, Point, Pose, Regressor, Rig, Robot, RobotFacts, Saved, SavedRegressor, Sensor,
+    SensorFacts, SimulatedBench, Specimen, Speed, Stamp, Tare, Workspace, Wrench,
 };
 use taceva_plugin::{EstimatorFactory, FitRequest, HaltLatch, Interruption, export_plugin};
 
@@ -163,9 +163,26 @@ impl RobotMaker {
     fn new() -> Result<RobotMaker, DescriptorError> {
         Ok(RobotMaker(descriptor(
             "arm",
-            Facts::Robot(RobotFacts::default()),
+            Facts::Robot(limits()),
             way(),
         )?))
+    }
+}
+
+/// Half a metre around the gel, at 100 mm/s.
+fn limits() -> RobotFacts {
+    let corner = |side| Point {
+        x: Millimetre(side),
+        y: Millimetre(side),
+        z: Millimetre(side),
+    };
+    RobotFacts {
+        workspace: Some(Workspace {
+            least: corner(-500.0),
+            greatest: corner(500.0),
+        }),
+        speed_max: Speed::try_new(100.0).ok(),
+        ..RobotFacts::default()
     }
 }
 

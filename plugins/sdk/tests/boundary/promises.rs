@@ -127,6 +127,7 @@ fn a_frame_is_written_into_the_buffer_of_the_host() {
         (frame.length, frame.stamp.valid_ns, frame.stamp.received_ns),
         (36, 1_500_000_000, 0)
     );
+    assert_eq!(frame.sequence, 1, "frames are counted");
     assert!(frame.release.is_none() && std::ptr::eq(frame.data, frame.buffer));
     assert_eq!(
         (bytes[35], bytes[36]),
@@ -201,6 +202,27 @@ fn a_pose_goes_out_as_it_came_in_to_the_bit() {
         (stamp.valid_ns, stamp.received_ns),
         (2 * SECOND, 2 * SECOND)
     );
+}
+
+#[test]
+fn a_motion_beyond_what_the_robot_says_of_itself_is_refused_before_it_begins() {
+    let robot = Open::new(ROBOT_FACTORY, "well");
+    let move_to = robot.calls::<RobotCalls>().move_to.expect("a function");
+    let mut token = 0;
+    let mut refused = |asked: Motion| {
+        // SAFETY: both places live for the call.
+        ended(|error| unsafe { move_to(robot.handle(), &raw const asked, &raw mut token, error) })
+    };
+    let (status, message) = refused(motion(0.9));
+    assert_eq!(status, Status::OUT_OF_RANGE);
+    assert_eq!(message, "0 mm, 0 mm, 900 mm lies outside the workspace");
+    let fast = Motion {
+        speed_m_per_s: 0.2,
+        ..motion(0.0)
+    };
+    let (status, message) = refused(fast);
+    assert_eq!(status, Status::OUT_OF_RANGE);
+    assert_eq!(message, "200 mm/s, expected at most 100 mm/s");
 }
 
 #[test]
