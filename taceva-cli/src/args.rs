@@ -193,7 +193,7 @@ pub(crate) struct Evaluate {
     /// Write a page to look at, to print and to send: one file that needs no network
     #[arg(long, value_name = "FILE.html")]
     pub(crate) html: Option<PathBuf>,
-    /// Write every figure into this folder, as SVG
+    /// Write every figure into this folder, as SVG and PDF
     #[arg(long, value_name = "FOLDER")]
     pub(crate) figures: Option<PathBuf>,
     /// Write truth and prediction of every sample as CSV, for `taceva compare`
@@ -259,7 +259,7 @@ pub(crate) struct Score {
     /// Write a page to look at, to print and to send: one file that needs no network
     #[arg(long, value_name = "FILE.html")]
     pub(crate) html: Option<PathBuf>,
-    /// Write every figure into this folder, as SVG
+    /// Write every figure into this folder, as SVG and PDF
     #[arg(long, value_name = "FOLDER")]
     pub(crate) figures: Option<PathBuf>,
     /// Write truth and prediction of every sample as CSV, for `taceva compare`

@@ -4,6 +4,7 @@ mod canvas;
 mod numerals;
 mod palette;
 mod panel;
+mod pdf;
 mod scale;
 mod svg;
 
@@ -38,6 +39,11 @@ impl Figure {
     /// As SVG that stands alone, on white.
     pub fn svg(&self) -> String {
         svg::write(self, true)
+    }
+
+    /// As PDF of one page, with the fonts that every reader has; vectors, on white.
+    pub fn pdf(&self) -> Vec<u8> {
+        pdf::write(self)
     }
 
     /// How many marks it has.

@@ -57,12 +57,14 @@ impl Page {
         Ok(())
     }
 
-    /// Writes every figure into `folder`, as SVG that stands alone.
+    /// Writes every figure into `folder`, as SVG that stands alone and as PDF.
     pub(crate) fn write_figures(&self, folder: &Path) -> anyhow::Result<()> {
         fs::create_dir_all(folder).with_context(|| format!("cannot make {}", folder.display()))?;
         for figure in figures(&self.studies) {
             let path = folder.join(format!("{}.svg", figure.id));
             output::write(Some(&path), |out| out.write_all(figure.svg().as_bytes()))?;
+            let path = path.with_extension("pdf");
+            output::write(Some(&path), |out| out.write_all(&figure.pdf()))?;
         }
         Ok(())
     }
