@@ -82,11 +82,11 @@ impl Browser {
         }
     }
 
-    /// What a script gives.
+    /// What a script gives, or what its promise does.
     pub(crate) fn evaluate(&mut self, script: &str) -> Value {
         let answer = self.call(
             "Runtime.evaluate",
-            json!({"expression": script, "returnByValue": true}),
+            json!({"expression": script, "returnByValue": true, "awaitPromise": true}),
         );
         assert!(answer["exceptionDetails"].is_null(), "{script}: {answer}");
         answer["result"]["value"].clone()

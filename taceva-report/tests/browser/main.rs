@@ -79,6 +79,10 @@ fn pointing_at_a_mark_shows_its_value_and_arrow_keys_go_on() {
     };
     let browser = &mut opened.browser;
     browser.evaluate("document.documentElement.style.scrollBehavior = 'auto'; document.querySelector('#figure-predicted-1').scrollIntoView()");
+    // The page hides the tip when it scrolls, which it does with the next frame.
+    browser.evaluate(
+        "new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(() => done(1))))",
+    );
     let place = browser.evaluate(
         "(() => { const box = document.querySelector('#figure-predicted-1 circle').getBoundingClientRect(); return [box.x + box.width / 2, box.y + box.height / 2]; })()",
     );
