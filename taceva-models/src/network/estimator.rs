@@ -55,7 +55,7 @@ const RATE: SettingInfo = SettingInfo {
 const DECAY: SettingInfo = SettingInfo {
     key: "weight_decay",
     accepts: "a number from 0 to 10",
-    default: "0.01",
+    default: "0.1",
     about: "the decay of weights",
 };
 const SEED: SettingInfo = SettingInfo {
@@ -73,19 +73,19 @@ const PATIENCE: SettingInfo = SettingInfo {
 const JITTER: SettingInfo = SettingInfo {
     key: "jitter",
     accepts: "a number of pixels from 0 to 100",
-    default: "2",
+    default: "3",
     about: "how far training pictures are shifted",
 };
 const NOISE: SettingInfo = SettingInfo {
     key: "noise",
     accepts: "a number from 0 to 10",
-    default: "0.05",
+    default: "0.1",
     about: "the standard deviation of what is added to training pictures, after preprocessing",
 };
 const BRIGHTNESS: SettingInfo = SettingInfo {
     key: "brightness",
     accepts: "a number from 0 to 1",
-    default: "0.1",
+    default: "0",
     about: "by which share training pictures are made brighter or darker at most, after preprocessing",
 };
 const LOCAL_MEAN: SettingInfo = SettingInfo {
@@ -160,8 +160,8 @@ impl NetworkEstimator {
             Kind::FiveLayers => (200, 3e-3),
             Kind::Residual(_) => (60, 1e-3),
         };
-        let weight_decay = settings.value(&DECAY, 1e-2, |text| number(text, 0.0..=10.0))?;
-        let pixels = settings.value(&JITTER, 2, |text| number(text, 0..=100))?;
+        let weight_decay = settings.value(&DECAY, 0.1, |text| number(text, 0.0..=10.0))?;
+        let pixels = settings.value(&JITTER, 3, |text| number(text, 0..=100))?;
         Ok(NetworkEstimator {
             kind,
             recipe: Recipe {
@@ -179,8 +179,8 @@ impl NetworkEstimator {
                 seed: settings.value(&SEED, 1, |text| text.parse().ok())?,
                 patience: settings.value(&PATIENCE, None, |text| number(text, 1..).map(Some))?,
                 augmentation: Augmentation {
-                    brightness: settings.value(&BRIGHTNESS, 0.1, |text| number(text, 0.0..=1.0))?,
-                    noise: settings.value(&NOISE, 0.05, |text| number(text, 0.0..=10.0))?,
+                    brightness: settings.value(&BRIGHTNESS, 0.0, |text| number(text, 0.0..=1.0))?,
+                    noise: settings.value(&NOISE, 0.1, |text| number(text, 0.0..=10.0))?,
                     jitter: Jitter {
                         pixels,
                         label_per_pixel: Vec::new(),
