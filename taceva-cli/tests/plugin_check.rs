@@ -9,6 +9,7 @@ use std::process::Command;
 use support::Bench;
 
 /// A bench with the plugin in `plugins/fixture`, built with `macros`; `None`, with a word about it, where there is no compiler of C.
+#[expect(clippy::print_stdout, reason = "a test that is skipped says so")]
 fn with_plugin(macros: &[&str]) -> Option<Bench> {
     let bench = Bench::new();
     let plugins = Path::new(env!("CARGO_MANIFEST_DIR")).join("../plugins");
