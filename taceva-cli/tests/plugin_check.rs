@@ -63,7 +63,8 @@ fn checks_are_reported_as_a_runner_of_tests_does() {
         "{out}"
     );
     assert!(out.trim_end().ends_with("(seed 0)"), "{out}");
-    assert_eq!(bench.run(&format!("{check} --only nothing")).code, 2);
+    let nothing = "plugin check org.example.fixture --plugin-dir plugins --only nothing";
+    assert_eq!(bench.run(nothing).code, 2);
 }
 
 #[test]
