@@ -1,6 +1,9 @@
 //! Draws that other programs can make too, and networks that are filled with them.
 
-#![allow(dead_code, reason = "each suite that shares this file uses a part of it")]
+#![allow(
+    dead_code,
+    reason = "each suite that shares this file uses a part of it"
+)]
 
 use taceva_network::{Architecture, NamedTensor, Network};
 
