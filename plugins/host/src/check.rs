@@ -6,6 +6,7 @@
 mod driver;
 mod estimator;
 mod force;
+mod lending;
 mod library;
 mod lighting;
 mod probe;
@@ -64,6 +65,7 @@ pub fn checks() -> impl Iterator<Item = &'static Check> {
         library::CHECKS,
         driver::CHECKS,
         sensor::CHECKS,
+        lending::CHECKS,
         robot::CHECKS,
         force::CHECKS,
         lighting::CHECKS,
