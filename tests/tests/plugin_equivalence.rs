@@ -96,7 +96,7 @@ fn a_study_has_the_same_bytes_linked_in_in_process_and_in_a_child() {
     assert_eq!(first_difference(&in_child, &in_process), None);
     assert_eq!(printed_in_child, printed);
     let (in_child, named) = renamed(in_child);
-    assert!(named >= 2, "the plan and the scene name the drivers");
+    assert!(named > 0, "the scene names the drivers");
     assert_eq!(first_difference(&in_child, &linked), None);
     assert!(linked.len() > 100, "only {} files", linked.len());
 }
