@@ -276,27 +276,6 @@ variants!(BenchAnswer, "the answer of a bench" {
     3 => Failed { failure },
 });
 
-impl Wire for ArgValue {
-    fn write(&self, into: &mut Vec<u8>) {
-        match self {
-            ArgValue::Text(text) => (0_u8, text.clone()).write(into),
-            ArgValue::Whole(whole) => (1_u8, *whole).write(into),
-            ArgValue::Number(number) => (2_u8, *number).write(into),
-            ArgValue::Flag(flag) => (3_u8, *flag).write(into),
-        }
-    }
-
-    fn read(from: &mut Reader<'_>) -> Result<ArgValue, Malformed> {
-        match u8::read(from)? {
-            0 => Ok(ArgValue::Text(Wire::read(from)?)),
-            1 => Ok(ArgValue::Whole(Wire::read(from)?)),
-            2 => Ok(ArgValue::Number(Wire::read(from)?)),
-            3 => Ok(ArgValue::Flag(Wire::read(from)?)),
-            _ => Err(from.malformed("the value of an argument")),
-        }
-    }
-}
-
 impl Wire for Found {
     fn write(&self, into: &mut Vec<u8>) {
         self.driver.write(into);

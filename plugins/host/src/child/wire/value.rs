@@ -1,7 +1,7 @@
 //! The values of core as they cross: every number by its bits, so that a driver says the same through a child as without one.
 
 use taceva_core::{
-    Axes, Axis, Deadline, Degree, DriverKind, ErrorKind, FrameInfo, GratingKind, Guard,
+    ArgValue, Axes, Axis, Deadline, Degree, DriverKind, ErrorKind, FrameInfo, GratingKind, Guard,
     GuardedStop, Hertz, Millimetre, Nanometre, Newton, NewtonMillimetre, PixelFormat, Point, Pose,
     Rotation, Specimen, Speed, Stamp, Wrench,
 };
@@ -116,6 +116,27 @@ impl Wire for ErrorKind {
             .into_iter()
             .find(|kind| *kind as i32 == number)
             .ok_or_else(|| from.malformed("a kind of error"))
+    }
+}
+
+impl Wire for ArgValue {
+    fn write(&self, into: &mut Vec<u8>) {
+        match self {
+            ArgValue::Text(text) => (0_u8, text.clone()).write(into),
+            ArgValue::Whole(whole) => (1_u8, *whole).write(into),
+            ArgValue::Number(number) => (2_u8, *number).write(into),
+            ArgValue::Flag(flag) => (3_u8, *flag).write(into),
+        }
+    }
+
+    fn read(from: &mut Reader<'_>) -> Result<ArgValue, Malformed> {
+        match u8::read(from)? {
+            0 => Ok(ArgValue::Text(Wire::read(from)?)),
+            1 => Ok(ArgValue::Whole(Wire::read(from)?)),
+            2 => Ok(ArgValue::Number(Wire::read(from)?)),
+            3 => Ok(ArgValue::Flag(Wire::read(from)?)),
+            _ => Err(from.malformed("the value of an argument")),
+        }
     }
 }
 
