@@ -16,7 +16,7 @@ pub(crate) fn check_free(path: &Path, force: bool) -> anyhow::Result<()> {
 
 /// Writes a result to `path`, or to standard output.
 ///
-/// A file is written beside its place and renamed, so that it is absent or whole.
+/// A file is written beside its place and renamed, so that it is absent or whole, and stays when the power is cut afterwards.
 pub(crate) fn write(
     path: Option<&Path>,
     render: impl FnOnce(&mut dyn Write) -> io::Result<()>,
@@ -30,7 +30,9 @@ pub(crate) fn write(
         };
     };
     let beside = beside(path)?;
-    let written = write_whole(&beside, render).and_then(|()| fs::rename(&beside, path));
+    let written = write_whole(&beside, render)
+        .and_then(|()| fs::rename(&beside, path))
+        .and_then(|()| sync_parent(path));
     if written.is_err() {
         // The error that counts is the one reported below.
         drop(fs::remove_file(&beside));
@@ -47,6 +49,15 @@ fn write_whole(
     out.into_inner()
         .map_err(io::IntoInnerError::into_error)?
         .sync_all()
+}
+
+/// Makes the name of `path` durable.
+fn sync_parent(path: &Path) -> io::Result<()> {
+    let parent = match path.parent() {
+        Some(parent) if parent != Path::new("") => parent,
+        _ => Path::new("."),
+    };
+    File::open(parent)?.sync_all()
 }
 
 fn beside(path: &Path) -> anyhow::Result<PathBuf> {

@@ -18,8 +18,6 @@ const RUNS: &str = "runs";
 const PAGE: &str = "report.html";
 /// Every number of a run.
 const RESULTS: &str = "results.json";
-/// The folder of its figures.
-const FIGURES: &str = "figures";
 
 pub(crate) fn run(args: &Run, context: &Context) -> anyhow::Result<u8> {
     let drivers = context.drivers(Some(Path::new(&args.scene.scene)))?;
@@ -66,7 +64,7 @@ pub(crate) fn run(args: &Run, context: &Context) -> anyhow::Result<u8> {
     let page = folder.path().join(PAGE);
     let shown = report::page::Page::of(&planned.scene.name, &reports)?;
     output::write(Some(&page), |out| shown.write(out))?;
-    shown.write_figures(&folder.path().join(FIGURES))?;
+    shown.write_figures(&folder.figures())?;
     shown.write_scores(folder.path())?;
     let results = folder.path().join(RESULTS);
     output::write(Some(&results), |out| {

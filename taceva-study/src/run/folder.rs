@@ -33,6 +33,7 @@ const PLANS: &str = "plans.json";
 const SCENE: &str = "scene.toml";
 const RECORDINGS: &str = "recordings";
 const REPORTS: &str = "reports";
+const FIGURES: &str = "figures";
 const STAGES: &str = "stages.json";
 
 impl RunFolder {
@@ -64,8 +65,8 @@ impl RunFolder {
                             .to_owned(),
                     ));
                 }
-                for written in [path.to_owned(), folder.reports(), path.join(RECORDINGS)] {
-                    remove_partial(&written).map_err(failed)?;
+                for written in ["", REPORTS, FIGURES, RECORDINGS] {
+                    remove_partial(&path.join(written)).map_err(failed)?;
                 }
                 return Ok(folder);
             }
@@ -95,6 +96,11 @@ impl RunFolder {
     /// Where its reports are.
     pub fn reports(&self) -> PathBuf {
         self.path.join(REPORTS)
+    }
+
+    /// Where its figures are.
+    pub fn figures(&self) -> PathBuf {
+        self.path.join(FIGURES)
     }
 
     /// Where it is written which stages were found rather than carried out.
@@ -149,7 +155,7 @@ fn make(path: &Path, scene: &str, plans: &str) -> io::Result<()> {
     hidden.push(name);
     hidden.push(format!(".{}.partial", std::process::id()));
     let beside = path.with_file_name(hidden);
-    for inner in [RECORDINGS, REPORTS] {
+    for inner in [RECORDINGS, REPORTS, FIGURES] {
         fs::create_dir_all(beside.join(inner))?;
     }
     for (name, text) in [(SCENE, scene), (PLANS, plans)] {
@@ -257,6 +263,27 @@ mod tests {
         assert!(refused.to_string().contains("other plans"), "{refused}");
         RunFolder::open(&run, &other, Existing::Replace).expect("begun anew");
         RunFolder::open(&run, &other, Existing::Resume).expect("goes on");
+    }
+
+    #[test]
+    fn a_run_that_goes_on_clears_what_an_interruption_left_half_written() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let run = folder.path().join("run");
+        let scene = scene(folder.path(), 1);
+        let opened = RunFolder::open(&run, &scene, Existing::Refuse).expect("made");
+        let halves = [
+            run.join(".results.json.7.partial"),
+            opened.reports().join(".1-gel.json.7.partial"),
+            opened.figures().join(".labels.svg.7.partial"),
+            run.join("recordings/.1-gel.partial"),
+        ];
+        for half in &halves {
+            fs::write(half, "half").expect("written");
+        }
+        RunFolder::open(&run, &scene, Existing::Resume).expect("goes on");
+        for half in &halves {
+            assert!(!half.exists(), "{half:?}");
+        }
     }
 
     #[test]
