@@ -11,6 +11,7 @@ mod frame;
 mod geometry;
 mod grating;
 mod id;
+mod isa;
 mod model;
 mod nanometre;
 mod needs;
@@ -43,6 +44,7 @@ pub use frame::{Frame, FrameError, FrameInfo, FrameMut, PixelFormat};
 pub use geometry::{Point, Pose, Rotation};
 pub use grating::GratingKind;
 pub use id::{DriverKey, DriverKeyError};
+pub use isa::{Isa, IsaError};
 pub use model::{
     Estimator, FeatureShape, Features, ModelError, Regressor, Saved, SavedRegressor, Targets,
     TrainingSet,

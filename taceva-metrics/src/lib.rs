@@ -57,7 +57,7 @@ pub use curve::{Band, Curve};
 pub use error::{MetricError, UnknownMetric};
 pub use evaluate::Evaluator;
 pub use evaluation::Evaluation;
-pub use exact::{Canonical, CanonicalError, ExactSum, Isa, IsaError};
+pub use exact::{Canonical, CanonicalError, ExactSum};
 pub use facts::{Fact, SensorFacts};
 pub use flag::Flag;
 pub use map::Map;
@@ -75,4 +75,5 @@ pub use stats::{
     IntervalMethod, PoissonBootstrap, Question, Side, Sides, SignFlip, Verdict, holm, welch,
 };
 pub use streams::{Stream, Streams};
+pub use taceva_core::{Isa, IsaError};
 pub use value::{InapplicableReason, UndefinedReason, Value};

@@ -1,7 +1,9 @@
 //! What is kept of the pairs of one channel: enough for every score of accuracy, and mergeable.
 
+use taceva_core::{Isa, IsaError};
+
 use crate::error::MetricError;
-use crate::exact::{BlockSums, Counts, Dyadic, ExactSum, Isa, IsaError, Machine, Sums};
+use crate::exact::{BlockSums, Counts, Dyadic, ExactSum, Machine, Sums};
 use crate::merge::Merge;
 use crate::paired::Paired;
 use crate::streams::{Stream, Streams};

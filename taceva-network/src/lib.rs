@@ -5,8 +5,8 @@ mod batch_norm;
 mod convolution;
 mod error;
 mod head;
-mod isa;
 mod loss;
+mod machine;
 mod max_pool;
 mod network;
 mod normed;
@@ -24,13 +24,13 @@ mod update;
 
 pub use architecture::{Architecture, Body, Depth, PlainLayer, Pooling};
 pub use error::{NetworkError, Part};
-pub use isa::{Isa, IsaError};
 pub use loss::Loss;
 pub use network::{Gradients, NamedTensor, Network};
 pub use optimizer::Optimizer;
 pub use planes::Picture;
 pub use predictor::Predictor;
 pub use schedule::Schedule;
+pub use taceva_core::{Isa, IsaError};
 pub use training::{
     Augmentation, Checkpoint, Epoch, Jitter, LabelScale, LabelScaling, Labels, Recipe, Samples,
     Step, Summary, Trained, Trainer, TrainingState,

@@ -6,10 +6,12 @@ mod tensors;
 pub use gradients::Gradients;
 pub use tensors::NamedTensor;
 
+use taceva_core::Isa;
+
 use crate::architecture::{Architecture, StagePlan};
 use crate::error::NetworkError;
 use crate::head::Head;
-use crate::isa::{Isa, Machine};
+use crate::machine::Machine;
 use crate::normed::{Back, Normed};
 use crate::planes::Planes;
 use crate::random::Draws;

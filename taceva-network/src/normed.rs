@@ -6,7 +6,7 @@ use crate::batch_norm::{
 use crate::convolution::{
     Convolution, ConvolutionWeights, Epilogue, Forward, InputGradient, Onto, Source, WeightGradient,
 };
-use crate::isa::Machine;
+use crate::machine::Machine;
 use crate::panel::{Aligned, PANEL};
 use crate::planes::{Layout, Picture, Planes};
 use crate::scratch::Scratch;

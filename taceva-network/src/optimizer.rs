@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-use crate::isa::Machine;
+use crate::machine::Machine;
 use crate::panel::{Aligned, PANEL};
 use crate::simd::{Job, Vector};
 use crate::update::Update;

@@ -4,7 +4,7 @@ use crate::architecture::StagePlan;
 use crate::convolution::{ConvolutionWeights, Epilogue, Forward, Source};
 use crate::error::{NetworkError, Part};
 use crate::head::Head;
-use crate::isa::Machine;
+use crate::machine::Machine;
 use crate::max_pool;
 use crate::network::Network;
 use crate::normed::Normed;

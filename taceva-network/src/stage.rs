@@ -9,7 +9,7 @@ pub(crate) use plain::PlainSpace;
 pub(crate) use stem::StemSpace;
 
 use crate::architecture::StagePlan;
-use crate::isa::Machine;
+use crate::machine::Machine;
 use crate::normed::{Back, Normed};
 use crate::planes::{Layout, Planes};
 

@@ -9,8 +9,8 @@ use std::ops::Range;
 
 use super::bounds::{Bounds, Grids, TERMS};
 use super::grid::{Grid, SquareUnits};
-use super::isa::Machine;
 use super::kernel::{BLOCK_ROWS, Block, ErrorUnits, ValueUnits};
+use super::machine::Machine;
 use super::sum::ExactSum;
 use crate::merge::Merge;
 use crate::paired::Paired;

@@ -151,9 +151,11 @@ pub(super) fn power_of_two(exponent: i32) -> f64 {
 
 #[cfg(test)]
 mod tests {
+    use taceva_core::Isa;
+
     use super::*;
     use crate::exact::ExactSum;
-    use crate::exact::isa::{Isa, Machine};
+    use crate::exact::machine::Machine;
     use crate::exact::vector::Job;
 
     /// All values in turn in every lane.

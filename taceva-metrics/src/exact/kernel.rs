@@ -6,7 +6,7 @@
 
 use super::bounds::{Bounds, Grids, TERMS};
 use super::grid::{DEPTH, GridSum, SquareSum, SquareUnits};
-use super::isa::Machine;
+use super::machine::Machine;
 use super::vector::{Job, Vector};
 use crate::accuracy::EPSILON;
 use crate::paired::Paired;

@@ -1,8 +1,10 @@
 //! The ways to sum.
 
+use taceva_core::Isa;
+
 use super::compensated::{Kahan, Neumaier, Plain, RunningSum, Single, pairwise};
 use crate::accuracy::{MAE, R2, SMAPE};
-use crate::exact::{Isa, Machine};
+use crate::exact::Machine;
 use crate::metric::{Formula, Metric};
 use crate::pair_sums::{PairSpec, PairSums};
 use crate::paired::Paired;

@@ -1,6 +1,8 @@
 //! The least that any summation takes.
 
-use crate::exact::{Isa, Job, Machine, Vector};
+use taceva_core::Isa;
+
+use crate::exact::{Job, Machine, Vector};
 use crate::paired::Paired;
 
 /// Sums that are in flight at once, so that no addition waits for the one before.

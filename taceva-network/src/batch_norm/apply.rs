@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 
 use super::Moments;
-use crate::isa::Machine;
+use crate::machine::Machine;
 use crate::panel::PANEL;
 use crate::planes::{Layout, Planes};
 use crate::simd::{Job, Vector};

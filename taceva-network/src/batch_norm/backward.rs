@@ -4,7 +4,7 @@ use rayon::prelude::*;
 
 use super::Moments;
 use super::sums::{ChannelSums, PIXELS_AT_ONCE};
-use crate::isa::Machine;
+use crate::machine::Machine;
 use crate::panel::{Aligned, PANEL};
 use crate::planes::{Layout, Planes};
 use crate::simd::{Job, Vector};

@@ -1,6 +1,6 @@
 //! Sums of one picture's channels.
 
-use crate::isa::Machine;
+use crate::machine::Machine;
 use crate::panel::PANEL;
 use crate::simd::{Job, Vector};
 

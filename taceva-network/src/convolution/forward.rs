@@ -5,7 +5,7 @@ use rayon::prelude::*;
 use super::correlation::{Correlation, Finish, Start, Tap, are_weights_many};
 use super::weights::ConvolutionWeights;
 use super::{Convolution, offset};
-use crate::isa::Machine;
+use crate::machine::Machine;
 use crate::panel::PANEL;
 use crate::planes::{Layout, Planes};
 use crate::simd::Pixels;

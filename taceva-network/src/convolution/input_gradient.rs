@@ -7,7 +7,7 @@ use super::correlation::{Correlation, Finish, Start, Tap, are_weights_many};
 use super::forward::images_at_once;
 use super::weights::ConvolutionWeights;
 use super::{Convolution, offset};
-use crate::isa::Machine;
+use crate::machine::Machine;
 use crate::panel::{Aligned, PANEL};
 use crate::planes::{Layout, Planes};
 use crate::simd::Pixels;

@@ -1,7 +1,9 @@
 //! Every pass against a plain implementation in double precision, on every instruction set of the machine.
 
+use taceva_core::Isa;
+
 use super::*;
-use crate::isa::{Isa, Machine};
+use crate::machine::Machine;
 use crate::panel::Aligned;
 use crate::planes::Planes;
 use crate::random::Draws;

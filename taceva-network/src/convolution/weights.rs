@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 
 use super::Convolution;
-use crate::isa::Machine;
+use crate::machine::Machine;
 use crate::panel::{Aligned, PANEL};
 use crate::simd::{Job, Vector};
 

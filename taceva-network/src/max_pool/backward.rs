@@ -4,7 +4,7 @@ use rayon::prelude::*;
 
 use super::{KERNEL, window, windows};
 use crate::batch_norm::{ChannelSums, GradientSums, Moments};
-use crate::isa::Machine;
+use crate::machine::Machine;
 use crate::panel::PANEL;
 use crate::planes::{Layout, Planes};
 use crate::simd::{Job, Vector};

@@ -4,7 +4,7 @@ use rayon::prelude::*;
 
 use super::{KERNEL, window};
 use crate::batch_norm::{Moments, relu};
-use crate::isa::Machine;
+use crate::machine::Machine;
 use crate::panel::PANEL;
 use crate::planes::{Layout, Planes};
 use crate::simd::{Job, Vector};

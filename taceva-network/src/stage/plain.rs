@@ -3,7 +3,7 @@
 use super::Standing;
 use crate::batch_norm::{Gate, Shortcut, apply};
 use crate::convolution::Onto;
-use crate::isa::Machine;
+use crate::machine::Machine;
 use crate::normed::{Back, Normed, NormedSpace};
 use crate::planes::{Picture, Planes};
 

@@ -1,7 +1,7 @@
 //! The first part of a residual network: a convolution, its normalisation, zero below zero, and pooling.
 
 use super::Standing;
-use crate::isa::Machine;
+use crate::machine::Machine;
 use crate::max_pool::{self, Pooled};
 use crate::normed::{Back, Normed, NormedSpace};
 use crate::planes::Planes;

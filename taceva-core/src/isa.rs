@@ -1,24 +1,19 @@
-//! Which instructions the passes are made with.
+//! Which instructions loops over many numbers are made with.
 
 use std::fmt;
+use std::str::FromStr;
 use std::sync::OnceLock;
-
-#[cfg(target_arch = "aarch64")]
-use crate::simd::Neon;
-#[cfg(target_arch = "x86_64")]
-use crate::simd::{Avx2, Avx512};
-use crate::simd::{Job, Portable};
 
 /// The environment variable that asks for an instruction set by name.
 const VARIABLE: &str = "TACEVA_ISA";
 
 /// An instruction set that there are kernels for.
 ///
-/// Those with fused multiplication give the same bits; the portable one rounds products too and differs in last places. NEON
-/// was written for 64-bit ARM and is compiled there only.
+/// What depends on the choice, if anything does, is said by those who make the kernels. NEON was written for 64-bit ARM and is
+/// compiled there only.
 ///
 /// ```
-/// use taceva_network::Isa;
+/// use taceva_core::Isa;
 /// assert!(Isa::Portable.is_available());
 /// assert_eq!("portable".parse(), Ok(Isa::Portable));
 /// assert!(Isa::available().contains(&Isa::detect()));
@@ -26,11 +21,11 @@ const VARIABLE: &str = "TACEVA_ISA";
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Isa {
-    /// AVX-512F: sixteen numbers at a time.
+    /// AVX-512F, FMA and POPCNT: vectors of 64 bytes.
     Avx512,
-    /// AVX2 and FMA: eight numbers at a time.
+    /// AVX2, FMA and POPCNT: vectors of 32 bytes.
     Avx2,
-    /// NEON: four numbers at a time.
+    /// NEON: vectors of 16 bytes.
     Neon,
     /// Whatever the compiler's target has, without fused multiplication.
     Portable,
@@ -61,9 +56,26 @@ impl Isa {
         })
     }
 
-    /// Whether this machine has it.
+    /// Whether this machine has it: everything that any kernel for it may ask of the processor.
     pub fn is_available(self) -> bool {
-        Machine::with(self).is_some()
+        match self {
+            #[cfg(target_arch = "x86_64")]
+            Isa::Avx512 => {
+                is_x86_feature_detected!("avx512f")
+                    && is_x86_feature_detected!("fma")
+                    && is_x86_feature_detected!("popcnt")
+            }
+            #[cfg(target_arch = "x86_64")]
+            Isa::Avx2 => {
+                is_x86_feature_detected!("avx2")
+                    && is_x86_feature_detected!("fma")
+                    && is_x86_feature_detected!("popcnt")
+            }
+            #[cfg(target_arch = "aarch64")]
+            Isa::Neon => std::arch::is_aarch64_feature_detected!("neon"),
+            Isa::Portable => true,
+            _ => false,
+        }
     }
 
     /// Those that this machine has, the fastest first.
@@ -74,7 +86,7 @@ impl Isa {
             .collect()
     }
 
-    /// The one that passes are made with: what `TACEVA_ISA` asks for, or else the fastest that this machine has.
+    /// The one to work with: what `TACEVA_ISA` asks for, or else the fastest that this machine has.
     ///
     /// The variable is read once in the life of a program. One that cannot be met is passed over here; a program that wants to
     /// refuse it asks [`requested`](Isa::requested).
@@ -95,15 +107,10 @@ impl Isa {
             return Ok(None);
         };
         let isa = Isa::from_name(&name.to_string_lossy())?;
-        isa.check().map(|()| Some(isa))
-    }
-
-    /// Whether this machine has it, as an error if not.
-    fn check(self) -> Result<(), IsaError> {
-        if self.is_available() {
-            Ok(())
+        if isa.is_available() {
+            Ok(Some(isa))
         } else {
-            Err(IsaError::Unavailable { isa: self })
+            Err(IsaError::Unavailable { isa })
         }
     }
 
@@ -119,7 +126,7 @@ impl fmt::Display for Isa {
     }
 }
 
-impl std::str::FromStr for Isa {
+impl FromStr for Isa {
     type Err = IsaError;
 
     fn from_str(name: &str) -> Result<Isa, IsaError> {
@@ -163,48 +170,6 @@ impl fmt::Display for IsaError {
 }
 
 impl std::error::Error for IsaError {}
-
-/// An instruction set that the machine was found to have.
-#[derive(Clone, Copy, Debug)]
-pub(crate) enum Machine {
-    #[cfg(target_arch = "x86_64")]
-    Avx512(Avx512),
-    #[cfg(target_arch = "x86_64")]
-    Avx2(Avx2),
-    #[cfg(target_arch = "aarch64")]
-    Neon(Neon),
-    Portable(Portable),
-}
-
-impl Machine {
-    /// The machine with `isa`, if it has it.
-    pub(crate) fn with(isa: Isa) -> Option<Machine> {
-        match isa {
-            #[cfg(target_arch = "x86_64")]
-            Isa::Avx512 => Avx512::detect().map(Machine::Avx512),
-            #[cfg(target_arch = "x86_64")]
-            Isa::Avx2 => Avx2::detect().map(Machine::Avx2),
-            #[cfg(target_arch = "aarch64")]
-            Isa::Neon => Neon::detect().map(Machine::Neon),
-            Isa::Portable => Some(Machine::Portable(Portable)),
-            _ => None,
-        }
-    }
-
-    /// Does `job` with the machine's vectors.
-    #[inline]
-    pub(crate) fn run<J: Job>(self, job: J) -> J::Output {
-        match self {
-            #[cfg(target_arch = "x86_64")]
-            Machine::Avx512(proof) => proof.run(job),
-            #[cfg(target_arch = "x86_64")]
-            Machine::Avx2(proof) => proof.run(job),
-            #[cfg(target_arch = "aarch64")]
-            Machine::Neon(proof) => proof.run(job),
-            Machine::Portable(proof) => proof.run(job),
-        }
-    }
-}
 
 #[cfg(test)]
 mod tests {
