@@ -13,7 +13,7 @@ use taceva_plugin::abi::{
 };
 
 use crate::fake_host::{Ended, Open, ended, factory, init, plugin};
-use crate::promises::{frame, motion};
+use crate::places::{frame, motion};
 
 fn capture(sensor: &Open, frame: *mut Frame) -> Ended {
     let capture = sensor.calls::<SensorCalls>().capture.expect("a function");

@@ -1,0 +1,32 @@
+//! A lamp that nobody may open.
+
+use taceva_core::{
+    Args, Descriptor, DescriptorError, DriverError, ErrorKind, Factory, Facts, Lighting,
+    LightingFacts, Rig,
+};
+
+use super::{descriptor, error, way};
+
+pub(super) struct LightingMaker(Descriptor);
+
+impl LightingMaker {
+    pub(super) fn new() -> Result<LightingMaker, DescriptorError> {
+        let facts = LightingFacts {
+            scenes: vec!["dark".to_owned()],
+        };
+        Ok(LightingMaker(descriptor(
+            "lamp",
+            Facts::Lighting(facts),
+            way(),
+        )?))
+    }
+}
+
+impl Factory<dyn Lighting> for LightingMaker {
+    fn descriptor(&self) -> &Descriptor {
+        &self.0
+    }
+    fn open(&self, _: &Args, _: &mut Rig) -> Result<Box<dyn Lighting>, DriverError> {
+        Err(error(ErrorKind::PermissionDenied).because("not for you"))
+    }
+}

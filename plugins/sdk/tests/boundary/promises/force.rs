@@ -1,0 +1,48 @@
+//! Force transducers: wrenches and their tare.
+
+#![expect(unsafe_code, reason = "the tables of a plugin are called")]
+
+use taceva_plugin::abi::ext::{TARE, TareCalls};
+use taceva_plugin::abi::{FORCE_FACTORY, ForceCalls, Stamp, Status, Wrench};
+
+use super::SECOND;
+use crate::fake_host::{Open, ended};
+
+#[test]
+fn a_wrench_arrives_in_newton_and_newton_metres_and_a_tare_calls_it_zero() {
+    let force = Open::new(FORCE_FACTORY, "well");
+    let calls = force.calls::<ForceCalls>();
+    let (mut wrench, mut stamp) = (Wrench::default(), Stamp::default());
+    let mut read = || {
+        // SAFETY: both places live for the call.
+        let (status, _) = ended(|error| unsafe {
+            calls.read.expect("a function")(
+                force.handle(),
+                &raw mut wrench,
+                &raw mut stamp,
+                SECOND,
+                error,
+            )
+        });
+        assert_eq!((status, stamp.valid_ns), (Status::OK, 1_234_567_891));
+        wrench
+    };
+    assert_eq!(
+        read(),
+        Wrench {
+            force_n: [0.0, 0.0, 4.0],
+            torque_nm: [0.0125, 0.0, 0.0]
+        }
+    );
+    let tare = force.extension::<TareCalls>(TARE).expect("it can");
+    // SAFETY: the device is open.
+    let answer =
+        ended(|error| unsafe { tare.zero.expect("a function")(force.handle(), SECOND, error) });
+    assert_eq!(answer.0, Status::OK);
+    assert!(read().force_n[2].abs() < f64::EPSILON);
+    assert!(
+        force
+            .extension::<TareCalls>("taceva.unheard-of/9")
+            .is_none()
+    );
+}
