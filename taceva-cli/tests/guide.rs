@@ -95,16 +95,34 @@ fn a_plugin_in_rust_is_made_as_the_guide_says() {
     assert!(is_listed(&project, "org.example.my-scale"));
 }
 
-#[test]
+/// Whether there is such a compiler.
 #[expect(clippy::print_stderr, reason = "a skipped test must say why")]
+fn has(compiler: &str) -> bool {
+    let found = Command::new(compiler).arg("--version").output();
+    if let Err(error) = &found {
+        eprintln!("skipped: `{compiler}`: {error}");
+    }
+    found.is_ok()
+}
+
+#[test]
 fn a_plugin_in_c_is_made_as_the_guide_says() {
-    if let Err(error) = Command::new("cc").arg("--version").output() {
-        eprintln!("skipped: `cc`: {error}");
+    if !has("cc") {
         return;
     }
     let folder = tempfile::tempdir().expect("a folder");
     let project = follow("## In C, in fifteen minutes\n", folder.path());
     assert!(is_listed(&project, "org.example.my-eye"));
+}
+
+#[test]
+fn a_plugin_in_cpp_is_made_as_the_guide_says() {
+    if !has("c++") {
+        return;
+    }
+    let folder = tempfile::tempdir().expect("a folder");
+    let project = follow("## In C++\n", folder.path());
+    assert!(is_listed(&project, "org.example.my-skin"));
 }
 
 #[test]

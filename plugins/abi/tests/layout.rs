@@ -189,7 +189,7 @@ fn include() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("include")
 }
 
-/// Every header, as it is included.
+/// Every header of C, as it is included; what is for C++ alone declares nothing that crosses.
 fn headers() -> Vec<String> {
     let root = include().join("taceva");
     let mut folders = vec![root.clone()];
@@ -199,7 +199,7 @@ fn headers() -> Vec<String> {
             let path = entry.expect("an entry").path();
             if path.is_dir() {
                 folders.push(path);
-            } else {
+            } else if path.extension().is_some_and(|extension| extension == "h") {
                 let name = path.strip_prefix(&root).expect("below it");
                 found.push(name.to_string_lossy().into_owned());
             }

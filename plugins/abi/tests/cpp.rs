@@ -1,0 +1,65 @@
+//! The helper for C++: whatever a sensor throws, the tables answer with a status and a message, and nothing is left behind.
+
+use std::path::Path;
+use std::process::Command;
+
+/// What the host in `cpp/sensor.cpp` prints: a line a call, with the status, the length of the message and how it begins.
+const EXPECTED: &str = "\
+well: 0 0 
+2x1 of 4, 12 bytes to 9, picture 1 at 5
+no device: -1 23 no camera is plugged in
+failure: -5 16 the cable is out
+success: -15 29 a failure that claims success
+exception: -15 10 row 7 of 3
+memory: -15 14 std::bad_alloc
+whatever: -15 36 what was thrown is no std::exception
+long: -15 502 xxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxx
+stop throws: 0 0 
+wait: -4 21 no frame came in time
+well: -7 17 it is not started
+well: -7 38 a buffer that is too short for a frame
+interrupted: -10 18 it was interrupted
+third: -1 14 no such sensor
+key = \"second\"
+others: 0
+tiny: -1 3 no 
+none: -1 3 no 
+0 alive, 22 starts and stops
+";
+
+#[test]
+#[expect(clippy::print_stderr, reason = "a skipped test must say why")]
+fn whatever_a_sensor_in_cpp_throws_is_a_status_with_a_message() {
+    let here = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let compiler = std::env::var("CXX").unwrap_or_else(|_| "c++".to_owned());
+    let folder = tempfile::tempdir().expect("a folder");
+    for level in ["-O0", "-O3"] {
+        let program = folder.path().join(level);
+        let built = Command::new(&compiler)
+            .args(["-std=c++17", "-Wall", "-Wextra", "-Wpedantic", "-Werror"])
+            .args([level, "-pthread", "-I"])
+            .arg(here.join("include"))
+            .arg(here.join("tests/cpp/sensor.cpp"))
+            .arg("-o")
+            .arg(&program)
+            .output();
+        let built = match built {
+            Ok(built) => built,
+            Err(error) => {
+                eprintln!("skipped: `{compiler}`: {error}");
+                return;
+            }
+        };
+        let said = String::from_utf8_lossy(&built.stderr);
+        assert!(built.status.success(), "{level}: {said}");
+        let run = Command::new(&program).output().expect("it was built");
+        assert!(run.status.success(), "{level}: {:?}", run.status);
+        assert_eq!(String::from_utf8_lossy(&run.stdout), EXPECTED, "{level}");
+    }
+}
+
+#[test]
+fn the_helper_stays_small_enough_to_be_read_whole() {
+    let header = include_str!("../include/taceva/sensor.hpp");
+    assert!(header.lines().count() < 150);
+}
