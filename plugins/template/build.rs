@@ -1,4 +1,7 @@
 //! Lists the sources of the crates that a plugin in Rust is built from, and the headers for one in C, so that they can be embedded.
+//!
+//! `vendor/` holds links to them, which `cargo package` replaces by what they lead to: the published crate has them all. Where a checkout
+//! has no symbolic links they are read from the workspace.
 
 use std::env;
 use std::fmt::Write as _;
@@ -6,7 +9,7 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-/// The crates, and where they lie from here.
+/// The crates, and where they lie in the workspace from here.
 const CRATES: [(&str, &str); 3] = [
     ("taceva-core", "../../taceva-core"),
     ("taceva-abi", "../abi"),
@@ -17,15 +20,25 @@ fn main() -> io::Result<()> {
     let here = PathBuf::from(env::var_os("CARGO_MANIFEST_DIR").ok_or(io::ErrorKind::NotFound)?);
     let out = PathBuf::from(env::var_os("OUT_DIR").ok_or(io::ErrorKind::NotFound)?);
     let mut sources = String::new();
-    for (name, folder) in CRATES {
-        let folder = here.join(folder).canonicalize()?;
+    for (name, in_workspace) in CRATES {
+        let packed = here.join("vendor").join(name);
+        let folder = if packed.join("src").is_dir() {
+            packed
+        } else {
+            here.join(in_workspace)
+        };
         let mut files = vec![folder.join("README.md")];
         walk(&folder.join("src"), &mut files)?;
         list(name, &folder, files, &mut sources)?;
     }
     fs::write(out.join("sources.rs"), format!("&[\n{sources}]\n"))?;
 
-    let folder = here.join("../abi/include").canonicalize()?;
+    let packed = here.join("vendor/include");
+    let folder = if packed.is_dir() {
+        packed
+    } else {
+        here.join("../abi/include")
+    };
     let (mut files, mut headers) = (Vec::new(), String::new());
     walk(&folder, &mut files)?;
     list("include", &folder, files, &mut headers)?;
@@ -46,7 +59,10 @@ fn list(name: &str, folder: &Path, mut files: Vec<PathBuf>, into: &mut String) -
 
 /// The files below `folder`; cargo runs this again when one is added.
 fn walk(folder: &Path, files: &mut Vec<PathBuf>) -> io::Result<()> {
-    println!("cargo::rerun-if-changed={}", folder.display());
+    println!(
+        "cargo::rerun-if-changed={}",
+        folder.canonicalize()?.display()
+    );
     for entry in fs::read_dir(folder)? {
         let path = entry?.path();
         if path.is_dir() {

@@ -166,7 +166,11 @@ fn rust_files(folder: &std::path::Path) -> Vec<std::path::PathBuf> {
     let mut found = Vec::new();
     for entry in std::fs::read_dir(folder).expect("a folder of the workspace") {
         let path = entry.expect("readable").path();
-        if path.is_dir() && !path.ends_with("target") {
+        // What a link leads to is looked at where it lies.
+        if path.is_symlink() || path.ends_with("target") {
+            continue;
+        }
+        if path.is_dir() {
             found.extend(rust_files(&path));
         } else if path.extension().is_some_and(|extension| extension == "rs") {
             found.push(path);

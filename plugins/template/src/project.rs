@@ -8,11 +8,17 @@ const SOURCES: &[(&str, &str)] = include!(concat!(env!("OUT_DIR"), "/sources.rs"
 
 /// Their manifests, in which nothing is left to a workspace.
 const MANIFESTS: [(&str, &str); 3] = [
-    ("taceva-core", include_str!("../vendor/taceva-core.toml.in")),
-    ("taceva-abi", include_str!("../vendor/taceva-abi.toml.in")),
+    (
+        "taceva-core",
+        include_str!("../vendor/taceva-core/Cargo.toml.in"),
+    ),
+    (
+        "taceva-abi",
+        include_str!("../vendor/taceva-abi/Cargo.toml.in"),
+    ),
     (
         "taceva-plugin",
-        include_str!("../vendor/taceva-plugin.toml.in"),
+        include_str!("../vendor/taceva-plugin/Cargo.toml.in"),
     ),
 ];
 
@@ -130,11 +136,9 @@ mod tests {
         ] {
             assert!(files.iter().any(|file| file.path == path), "{path}");
         }
-        assert!(
-            headers()
-                .iter()
-                .any(|file| file.path == "include/taceva/ext/tare.h")
-        );
+        for path in ["include/taceva/ext/tare.h", "include/taceva/sensor.hpp"] {
+            assert!(headers().iter().any(|file| file.path == path), "{path}");
+        }
         let manifests = files.iter().filter(|file| file.path.ends_with(".toml"));
         for manifest in manifests {
             assert!(!manifest.text.contains("workspace"), "{}", manifest.path);

@@ -1,0 +1,79 @@
+//! The crate as it is published: packed, unpacked where no sibling lies beside it, and built.
+
+#![cfg(target_os = "linux")]
+
+use std::fs;
+use std::path::Path;
+use std::process::Command;
+
+use taceva_template::{Kind, Sources, headers, project};
+
+/// Writes every file that the library gives, behind its path and its length.
+const PRINTER: &str = r#"
+use taceva_template::{Kind, Sources, headers, project};
+
+fn main() {
+    let name = "my-device".parse().expect("a name");
+    for file in project(Kind::Robot, &name, Sources::Vendored).into_iter().chain(headers()) {
+        print!("{} {}\n{}", file.path, file.text.len(), file.text);
+    }
+}
+"#;
+
+const PRINTER_MANIFEST: &str = r#"
+[package]
+name = "printer"
+edition = "2024"
+
+[dependencies]
+taceva-template = { path = "../crate" }
+
+[workspace]
+"#;
+
+fn run(command: &mut Command) -> String {
+    let done = command.output().expect("cargo and tar are there");
+    let said = String::from_utf8_lossy(&done.stderr);
+    assert!(done.status.success(), "{command:?}: {said}");
+    String::from_utf8(done.stdout).expect("text")
+}
+
+#[test]
+fn the_published_crate_builds_alone_and_embeds_the_same_bytes() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let here = Path::new(env!("CARGO_MANIFEST_DIR"));
+    run(Command::new(env!("CARGO"))
+        .args(["package", "--no-verify", "--allow-dirty", "--offline"])
+        // It would name the crates that the tests use, as the registry has them.
+        .arg("--exclude-lockfile")
+        .arg("--target-dir")
+        .arg(folder.path().join("packed"))
+        .current_dir(here));
+    let package = concat!("taceva-template-", env!("CARGO_PKG_VERSION"));
+    run(Command::new("tar")
+        .arg("-xzf")
+        .arg(folder.path().join(format!("packed/package/{package}.crate")))
+        .arg("-C")
+        .arg(folder.path()));
+    fs::rename(folder.path().join(package), folder.path().join("crate")).expect("unpacked");
+
+    let printer = folder.path().join("printer");
+    fs::create_dir_all(printer.join("src")).expect("room");
+    fs::write(printer.join("src/main.rs"), PRINTER).expect("room");
+    fs::write(printer.join("Cargo.toml"), PRINTER_MANIFEST).expect("room");
+    // The versions that are there without a network.
+    fs::copy(here.join("../../Cargo.lock"), printer.join("Cargo.lock")).expect("room");
+    let printed = run(Command::new(env!("CARGO"))
+        .args(["run", "--offline", "--quiet", "--target-dir"])
+        .arg(folder.path().join("target"))
+        .current_dir(&printer));
+
+    let name = "my-device".parse().expect("a name");
+    let files = project(Kind::Robot, &name, Sources::Vendored).into_iter();
+    let expected: String = files
+        .chain(headers())
+        .map(|file| format!("{} {}\n{}", file.path, file.text.len(), file.text))
+        .collect();
+    assert!(expected.len() > 300_000, "{}", expected.len());
+    assert!(printed == expected, "the published crate embeds other bytes");
+}
