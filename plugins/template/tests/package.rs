@@ -52,7 +52,11 @@ fn the_published_crate_builds_alone_and_embeds_the_same_bytes() {
     let package = concat!("taceva-template-", env!("CARGO_PKG_VERSION"));
     run(Command::new("tar")
         .arg("-xzf")
-        .arg(folder.path().join(format!("packed/package/{package}.crate")))
+        .arg(
+            folder
+                .path()
+                .join(format!("packed/package/{package}.crate")),
+        )
         .arg("-C")
         .arg(folder.path()));
     fs::rename(folder.path().join(package), folder.path().join("crate")).expect("unpacked");
@@ -75,5 +79,8 @@ fn the_published_crate_builds_alone_and_embeds_the_same_bytes() {
         .map(|file| format!("{} {}\n{}", file.path, file.text.len(), file.text))
         .collect();
     assert!(expected.len() > 300_000, "{}", expected.len());
-    assert!(printed == expected, "the published crate embeds other bytes");
+    assert!(
+        printed == expected,
+        "the published crate embeds other bytes"
+    );
 }

@@ -125,7 +125,9 @@ impl Sensor for SimulatedSensor {
         self.camera.frame_info()
     }
 
+    /// Makes what pictures need, so that the first one keeps its deadline as the later ones do.
     fn start(&mut self, _: Deadline) -> Result<(), DriverError> {
+        self.camera.prepare();
         self.is_running = true;
         Ok(())
     }

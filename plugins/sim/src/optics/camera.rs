@@ -54,7 +54,7 @@ pub struct Camera {
     binning: f64,
     random: Random,
     is_transparent: bool,
-    /// What the gel is made from, and the gel once a picture was asked for: who takes none need not wait for its tables.
+    /// What the gel is made from, and the gel once it was asked for: who takes no picture need not wait for its tables.
     unmade: (GelSpec, Raster, u32),
     gel: Option<Gel>,
     /// Rows painted at a time, and the room for them.
@@ -104,6 +104,12 @@ impl Camera {
         self.is_transparent
     }
 
+    /// Makes the tables that pictures are painted from, a second's work at most; without it the first picture waits for them.
+    pub fn prepare(&mut self) {
+        noise::prepare();
+        self.gel();
+    }
+
     /// Takes a picture.
     ///
     /// # Errors
@@ -120,12 +126,15 @@ impl Camera {
         if view.light != AmbientLight::Normal && !self.is_transparent {
             return Err(OpticsError::Opaque { scene: view.light });
         }
-        let (spec, raster, unit) = &self.unmade;
-        let gel = self
-            .gel
-            .get_or_insert_with(|| Gel::new(spec, *raster, *unit));
-        gel.pose(view, &self.random)?;
+        let random = self.random;
+        self.gel().pose(view, &random)?;
         Ok(simd::expose(self, view, into.bytes_mut()))
+    }
+
+    fn gel(&mut self) -> &mut Gel {
+        let (spec, raster, unit) = &self.unmade;
+        self.gel
+            .get_or_insert_with(|| Gel::new(spec, *raster, *unit))
     }
 
     /// Paints the view taken in and reads it out; made twice, see [`simd::expose`].
@@ -222,6 +231,18 @@ mod tests {
         let into = FrameMut::new(camera.info, &mut bytes).expect("its own frame");
         camera.render(view, into).expect("a picture");
         bytes
+    }
+
+    #[test]
+    fn a_camera_that_was_prepared_takes_the_same_pictures() {
+        for model in Model::ALL {
+            let (mut camera, view) = pressed(model);
+            let unprepared = take(&mut camera.clone(), &view);
+            camera.prepare();
+            assert!(camera.gel.is_some(), "{model}");
+            camera.prepare();
+            assert!(take(&mut camera, &view) == unprepared, "{model}");
+        }
     }
 
     #[test]

@@ -33,6 +33,11 @@ pub(super) fn row(stream: &Stream, index: u64, length: usize) -> RowNoise {
     }
 }
 
+/// Draws the tile, if nobody has.
+pub(super) fn prepare() {
+    tile();
+}
+
 /// 65,536 numbers of mean 0 and standard deviation 1, and the first ones again.
 fn tile() -> &'static [f32] {
     static NUMBERS: OnceLock<Vec<f32>> = OnceLock::new();
