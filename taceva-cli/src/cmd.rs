@@ -150,7 +150,9 @@ impl Beside<'_> {
             }
         }
         if let (Some(path), Some(samples)) = (self.samples, &written.samples) {
-            output::write(Some(path), |out| samples.write(out))?;
+            output::write(Some(path), |out| {
+                samples.write(out, taceva_report::escape_csv)
+            })?;
         }
         Ok(())
     }

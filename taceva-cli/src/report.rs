@@ -50,7 +50,7 @@ pub(crate) fn profiles(
     if format == Format::Json {
         return json::write(
             &Profiles {
-                schema: "taceva.run/1",
+                schema: taceva_report::RUN_SCHEMA,
                 studies: reports,
             },
             out,
@@ -68,7 +68,7 @@ pub(crate) fn profiles(
     Ok(())
 }
 
-/// Schema `taceva.run/1`.
+/// Schema [`taceva_report::RUN_SCHEMA`].
 #[derive(serde::Serialize)]
 struct Profiles<'a> {
     schema: &'static str,

@@ -164,6 +164,26 @@ impl Interval {
         }
     }
 
+    /// The standard error that it was made from, in the unit of the score; none where samples are taken as independent.
+    pub fn standard_error(&self) -> Option<f64> {
+        match *self {
+            Interval::Jackknife { standard_error, .. }
+            | Interval::Bootstrap { standard_error, .. }
+            | Interval::Delta { standard_error, .. } => Some(standard_error),
+            Interval::Wilson { .. } | Interval::Undefined(_) => None,
+        }
+    }
+
+    /// How many clusters it was made from, if it was made from clusters.
+    pub fn clusters(&self) -> Option<usize> {
+        match *self {
+            Interval::Jackknife { clusters, .. }
+            | Interval::Bootstrap { clusters, .. }
+            | Interval::Delta { clusters, .. } => Some(clusters),
+            Interval::Wilson { .. } | Interval::Undefined(_) => None,
+        }
+    }
+
     /// How it was found, in words: `jackknife by point_id, G=32` or
     /// `Poisson bootstrap by point_id (percentile), G=32, B=1000, seed=0`.
     pub fn method(&self) -> Option<String> {

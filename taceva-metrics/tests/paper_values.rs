@@ -100,7 +100,8 @@ fn a_report_has_the_keys_that_scripts_rely_on() {
         report["metrics"]["mae"]["Fxy"],
         serde_json::json!({
             "value": 0.25, "unit": "N", "of": ["Fx", "Fy"], "n": 5, "n_invalid": 0,
-            "ci95": [0.25, 0.25], "method": "jackknife by point_id, G=5", "definition": "mae/1"
+            "ci95": [0.25, 0.25], "method": "jackknife by point_id, G=5",
+            "standard_error": 0.0, "clusters": 5, "definition": "mae/1"
         })
     );
     assert_eq!(

@@ -7,7 +7,7 @@ pub use sheet::{ACCEPTANCE_SCHEMA, Acceptance};
 use serde::Deserialize;
 use taceva_core::Unit;
 
-use crate::figure::numeral;
+use crate::number::numeral;
 use crate::results::{Interval, Study};
 
 /// The limits that a sensor is accepted by.

@@ -33,14 +33,22 @@ pub fn latex(text: &str) -> String {
             '<' => escaped.push_str("\\textless{}"),
             '>' => escaped.push_str("\\textgreater{}"),
             '|' => escaped.push_str("\\textbar{}"),
-            '"' => escaped.push_str("\\textquotedbl{}"),
+            // The plain font has no straight quotation mark.
+            '"' => escaped.push_str("''"),
             '{' | '}' | '$' | '&' | '#' | '_' | '%' => escaped.extend(['\\', character]),
-            '²' => escaped.push_str("$^2$"),
-            '·' => escaped.push_str("$\\cdot$"),
-            '×' => escaped.push_str("$\\times$"),
-            '−' => escaped.push_str("$-$"),
             '–' => escaped.push_str("--"),
             '…' => escaped.push_str("\\dots{}"),
+            '²' => escaped.push_str("$^2$"),
+            '³' => escaped.push_str("$^3$"),
+            '·' => escaped.push_str("$\\cdot$"),
+            '×' => escaped.push_str("$\\times$"),
+            '±' => escaped.push_str("$\\pm$"),
+            '−' => escaped.push_str("$-$"),
+            '≤' => escaped.push_str("$\\leq$"),
+            '≥' => escaped.push_str("$\\geq$"),
+            '→' => escaped.push_str("$\\to$"),
+            'µ' | 'μ' => escaped.push_str("$\\mu$"),
+            'σ' => escaped.push_str("$\\sigma$"),
             'ε' => escaped.push_str("$\\varepsilon$"),
             '\n' | '\r' | '\t' => escaped.push(' '),
             _ if is_unprintable(character) => {}
@@ -69,11 +77,33 @@ pub fn markdown(text: &str) -> String {
 }
 
 /// A cell of words in a CSV table: one that begins like a formula is begun with an apostrophe, as spreadsheets want it.
+///
+/// [`from_csv`] takes it away again, so that names keep their meaning for programs:
+///
+/// ```
+/// use taceva_report::{escape_csv, unescape_csv};
+/// assert_eq!(escape_csv("=1+1"), "'=1+1");
+/// assert_eq!(unescape_csv(&escape_csv("'=1+1")), "'=1+1");
+/// ```
 pub fn csv(text: &str) -> String {
-    match text.chars().next() {
-        Some('=' | '+' | '-' | '@' | '\t' | '\r') => format!("'{text}"),
-        _ => text.to_owned(),
+    match begins_like_a_formula(text) {
+        true => format!("'{text}"),
+        false => text.to_owned(),
     }
+}
+
+/// The words of a cell that [`csv`] has written.
+pub fn from_csv(cell: &str) -> &str {
+    match cell.strip_prefix('\'') {
+        Some(text) if begins_like_a_formula(text) => text,
+        _ => cell,
+    }
+}
+
+/// Whether a spreadsheet may take a text for a formula, or for one that was escaped; signs of full width are signs there too.
+fn begins_like_a_formula(text: &str) -> bool {
+    text.trim_start_matches('\'')
+        .starts_with(['=', '+', '-', '@', '\t', '\r', '\n', '＝', '＋', '－', '＠'])
 }
 
 /// Text for a terminal: control characters, and those that turn the direction of writing, are shown and not obeyed.
@@ -112,6 +142,19 @@ mod tests {
     fn cells_that_begin_like_a_formula_are_words() {
         let cells = ["=1+1", "+1", "-x", "@x", "plain"].map(csv);
         assert_eq!(cells, ["'=1+1", "'+1", "'-x", "'@x", "plain"]);
+    }
+
+    #[test]
+    fn whatever_a_name_is_a_cell_gives_it_back() {
+        let odd = ["'", "''", "'=x", "''=x", "it's", "'\t"];
+        for text in naughty_strings::BLNS.iter().chain(&odd) {
+            let cell = csv(text);
+            assert_eq!(from_csv(&cell), *text);
+            assert!(
+                !cell.starts_with(['=', '+', '-', '@', '\t', '\r', '\n']),
+                "{text:?}"
+            );
+        }
     }
 
     #[test]

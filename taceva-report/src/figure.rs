@@ -1,20 +1,24 @@
 //! A figure: marks on a canvas, with a title, what it shows in words, and what a reader must know.
 
 mod canvas;
-mod numerals;
+mod grid;
+mod names;
 mod palette;
 mod panel;
 mod pdf;
 mod scale;
 mod svg;
+mod words;
 
 pub(crate) use canvas::{Anchor, Canvas, Ink, Label, Points, Stroke};
-pub(crate) use numerals::{axis_label, numeral, short};
+pub(crate) use grid::Grid;
+pub(crate) use names::beside;
 pub use palette::{DARK, LIGHT, SERIES};
 pub(crate) use palette::{diverging, sequential};
 pub(crate) use panel::{Area, Axes, Panel};
 pub(crate) use scale::{Scale, extent};
 pub use svg::STYLE;
+pub(crate) use words::{axis_label, short};
 
 /// A finished figure.
 #[derive(Clone, Debug)]

@@ -7,6 +7,7 @@ mod histograms;
 mod levels;
 mod lighting;
 mod loops;
+mod models;
 mod overlay;
 mod predicted;
 mod race;
@@ -17,6 +18,7 @@ mod sensitivity;
 mod spatial;
 mod thin;
 
+pub use models::model_bench;
 pub use race::{Contender, Race, race};
 
 use crate::figure::{Figure, short};

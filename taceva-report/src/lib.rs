@@ -1,6 +1,7 @@
 #![doc = include_str!("../README.md")]
 
 mod accept;
+mod bench;
 pub mod catalogue;
 mod choose;
 mod compare;
@@ -21,16 +22,19 @@ pub use choose::{
 };
 pub use compare::{Answer, COMPARISON_SCHEMA, CompareRequest, Comparison, compare};
 pub use escape::{
-    csv as escape_csv, html as escape_html, latex as escape_latex, markdown as escape_markdown,
-    terminal as escape_terminal,
+    csv as escape_csv, from_csv as unescape_csv, html as escape_html, latex as escape_latex,
+    markdown as escape_markdown, terminal as escape_terminal,
 };
 pub use figure::{DARK, Figure, LIGHT, SERIES, STYLE};
-pub use figures::{Contender, Race, figures, names, race};
+pub use figures::{Contender, Race, figures, model_bench, names, race};
 pub use html::{Document, Pick, Picture, Report, picks, report};
 pub use listing::Listing;
 pub use number::{Printed, spaced, with_interval};
 pub use results::{
-    EVALUATION_SCHEMA, Interval, RUN_SCHEMA, ResultsError, Score, Skip, Study, Value, Variant,
+    BENCH_SCHEMA, BenchMachine, BenchRecording, ChannelError, EVALUATION_SCHEMA, Interval,
+    ModelBench, ModelRow, RUN_SCHEMA, ResultsError, Score, Skip, Study, Value, Variant,
 };
 pub use samples::{SampleChannel, Samples, SamplesError};
-pub use table::{ScoreCell, ScoreRow, ScoreTable, csv, latex, markdown};
+pub use table::{
+    ScoreCell, ScoreRow, ScoreTable, csv, latex, latex_number, latex_symbol, markdown,
+};

@@ -1,6 +1,7 @@
 //! Words and numbers in rows: one content, and a form for people, programs, pages and papers each.
 
 use crate::escape;
+use crate::table::latex_number;
 
 /// Letters of a cell that is broken into lines on a page.
 const LONG: usize = 28;
@@ -121,7 +122,7 @@ impl Listing {
     /// For papers, with booktabs.
     pub fn latex(&self) -> String {
         let line = |row: &[String]| {
-            let cells: Vec<String> = row.iter().map(|cell| escape::latex(cell)).collect();
+            let cells: Vec<String> = row.iter().map(|cell| latex_number(cell)).collect();
             format!("    {} \\\\\n", cells.join(" & "))
         };
         let columns = (0..self.head.len()).map(|column| match self.is_of_numbers(column) {

@@ -1,8 +1,15 @@
-//! Numbers as people read them: as many digits as their interval supports.
+//! Numbers as people read them: as many digits as their interval supports, no minus before a zero, and no rounding error as a result.
 
 use taceva_core::Unit;
 
 use crate::results::{Interval, Score, Value};
+
+/// What is smaller is what rounding leaves of zero, in any of our units: a millionth of a nanometre, of a piconewton, of a microsecond.
+const ROUNDING: f64 = 1e-12;
+/// Decimals beyond which small numbers are written with a power of ten.
+const MOST: usize = 6;
+/// Numbers from here on are never written with a power of ten for being small.
+const SMALL: f64 = 1e-4;
 
 /// A value and the ends of its interval, to the digit that the interval supports.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -24,33 +31,60 @@ impl Printed {
                 ..Printed::default()
             };
         };
-        let ends = interval.and_then(Interval::ends);
-        let step = ends.map(|[low, high]| (high - low) / 20.0);
-        let step = step.filter(|step| *step > 0.0).unwrap_or(number / 1e3);
-        let decimals = if step.abs() > 0.0 { decimals(step) } else { 0 };
-        let print = |number: f64| format!("{number:.decimals$}");
+        let reason = match interval {
+            Some(Interval::Absent(reason)) => Some(format!("none: {reason}")),
+            _ => None,
+        };
+        Printed {
+            reason,
+            ..Printed::number(number, interval.and_then(Interval::ends))
+        }
+    }
+
+    /// Prints a number to a twentieth of the width between `ends`; without them, or if they are equal, to four digits.
+    ///
+    /// Numbers below 10⁻¹² are rounding errors and print as 0; a minus never stands before a zero.
+    ///
+    /// ```
+    /// use taceva_report::Printed;
+    /// assert_eq!(Printed::number(-0.001, Some([-0.2, 0.2])).phrase(" N"), "0.00 N (-0.20 … 0.20)");
+    /// assert_eq!(Printed::number(1.4e-17, None).phrase(" s"), "0 s");
+    /// ```
+    pub fn number(number: f64, ends: Option<[f64; 2]>) -> Printed {
+        let all = ends.into_iter().flatten().chain([number]);
+        let greatest = all.map(f64::abs).fold(0.0, f64::max);
+        // A width that is rounding error is none.
+        let widths = ends.map(|[low, high]| (high - low) / 20.0);
+        let width = widths.filter(|width| *width > greatest * 1e-9);
+        let step = width.unwrap_or(number / 1e3).abs();
+        let decimals = match greatest < ROUNDING || step <= 0.0 {
+            true => 0,
+            false => decimals(step),
+        };
+        let print = |number: f64| match decimals > MOST && greatest < SMALL {
+            true => powered(number, decimals),
+            false => fixed(number, decimals),
+        };
         Printed {
             value: print(number),
             interval: ends.map(|ends| ends.map(print)),
-            reason: match interval {
-                Some(Interval::Absent(reason)) => Some(format!("none: {reason}")),
-                _ => None,
-            },
+            reason: None,
+        }
+    }
+
+    /// Value, unit and interval in a row, `0.55 mm (0.34 … 0.76)`; or why there is none.
+    pub fn phrase(&self, unit: &str) -> String {
+        match (&self.interval, &self.reason) {
+            _ if self.value.is_empty() => self.reason.clone().unwrap_or_default(),
+            (Some([low, high]), _) => format!("{}{unit} ({low} … {high})", self.value),
+            (None, _) => format!("{}{unit}", self.value),
         }
     }
 }
 
 /// A score as one phrase: `0.55 mm (0.34 … 0.76)`, or why there is none.
 pub fn with_interval(score: &Score) -> String {
-    let printed = Printed::of(&score.value, score.interval.as_ref());
-    if printed.value.is_empty() {
-        return printed.reason.unwrap_or_default();
-    }
-    let unit = spaced(score.unit);
-    match printed.interval {
-        Some([low, high]) => format!("{}{unit} ({low} … {high})", printed.value),
-        None => format!("{}{unit}", printed.value),
-    }
+    Printed::of(&score.value, score.interval.as_ref()).phrase(&spaced(score.unit))
 }
 
 /// ` N`, or nothing for a ratio.
@@ -59,6 +93,67 @@ pub fn spaced(unit: Unit) -> String {
         Unit::One => String::new(),
         unit => format!(" {unit}"),
     }
+}
+
+/// A number with `decimals` decimals; one that is 0 to them has no sign.
+pub(crate) fn fixed(number: f64, decimals: usize) -> String {
+    unsigned_zero(format!("{number:.decimals$}"))
+}
+
+/// A number with three digits, as figures have room for, a true minus and no idle zeros; rounding errors are 0.
+pub(crate) fn numeral(number: f64) -> String {
+    match number.abs() < ROUNDING {
+        true => "0".to_owned(),
+        false => significant(number),
+    }
+}
+
+/// A number with three digits however small it is, as probabilities are.
+pub(crate) fn significant(number: f64) -> String {
+    let size = number.abs();
+    if size <= 0.0 {
+        return "0".to_owned();
+    }
+    let text = if !(SMALL..1e5).contains(&size) {
+        format!("{number:.2e}")
+    } else {
+        let decimals = (0..8).find(|&decimals| size * 10_f64.powi(decimals) >= 99.5);
+        let text = fixed(number, decimals.map_or(8, i32_to_usize));
+        match text.contains('.') {
+            true => text.trim_end_matches('0').trim_end_matches('.').to_owned(),
+            false => text,
+        }
+    };
+    match text.strip_prefix('-') {
+        Some(size) => format!("−{size}"),
+        None => text,
+    }
+}
+
+/// With a true minus for a reader's eye.
+pub(crate) fn minus(text: &str) -> String {
+    text.replace('-', "−")
+}
+
+/// A number with a power of ten, to the place of `decimals`.
+fn powered(number: f64, decimals: usize) -> String {
+    let zeros = (0..).find(|&zeros| number.abs() * 10_f64.powi(zeros) >= 1.0 || zeros > 12);
+    let zeros = zeros.map_or(0, i32_to_usize);
+    match decimals.checked_sub(zeros) {
+        Some(digits) if number.abs() > 0.0 => unsigned_zero(format!("{number:.digits$e}")),
+        _ => "0".to_owned(),
+    }
+}
+
+fn unsigned_zero(text: String) -> String {
+    match text.strip_prefix('-') {
+        Some(size) if !size.contains(|letter| ('1'..='9').contains(&letter)) => size.to_owned(),
+        _ => text,
+    }
+}
+
+fn i32_to_usize(number: i32) -> usize {
+    number.unsigned_abs() as usize
 }
 
 fn what(value: &Value) -> &'static str {
@@ -70,22 +165,80 @@ fn what(value: &Value) -> &'static str {
     }
 }
 
-/// Decimals that show a step of `step`, from 0 to 12.
+/// Decimals that show a step of `step`, from 0 to 15.
 fn decimals(step: f64) -> usize {
-    (0..12)
-        .find(|&decimals| 10_f64.powi(-decimals) <= step.abs())
-        .map_or(12, |decimals| decimals.unsigned_abs() as usize)
+    let found = (0..15).find(|&decimals| 10_f64.powi(-decimals) <= step);
+    found.map_or(15, i32_to_usize)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
+    fn phrase(number: f64, ends: Option<[f64; 2]>) -> String {
+        Printed::number(number, ends).phrase("")
+    }
+
     #[test]
     fn a_step_is_shown_with_the_decimals_it_needs() {
         assert_eq!(
             [20.0, 1.0, 0.5, 0.1, 0.0004, 0.0].map(decimals),
-            [0, 0, 1, 1, 4, 12]
+            [0, 0, 1, 1, 4, 15]
         );
+    }
+
+    #[test]
+    fn no_minus_stands_before_a_zero() {
+        assert_eq!(
+            [-0.0, -0.004, 0.004].map(|number| fixed(number, 2)),
+            ["0.00"; 3]
+        );
+        assert_eq!(fixed(-0.006, 2), "-0.01");
+        assert_eq!(phrase(-0.002, Some([-0.5, -0.001])), "0.00 (-0.50 … 0.00)");
+        assert_eq!(phrase(-0.0, None), "0");
+        assert_eq!([-0.0, -1e-15, -0.02].map(numeral), ["0", "0", "−0.02"]);
+    }
+
+    #[test]
+    fn what_rounding_leaves_of_zero_is_zero() {
+        assert_eq!(phrase(1.4e-17, None), "0");
+        assert_eq!(phrase(1.4e-17, Some([1.2e-17, 1.6e-17])), "0 (0 … 0)");
+        assert_eq!(phrase(0.0, Some([-1e-15, 1e-15])), "0 (0 … 0)");
+    }
+
+    #[test]
+    fn an_interval_as_narrow_as_rounding_asks_for_no_digits() {
+        assert_eq!(
+            phrase(0.001, Some([0.001, 0.001 + 1e-18])),
+            "0.001000 (0.001000 … 0.001000)"
+        );
+        assert_eq!(phrase(0.25, Some([0.25, 0.25])), "0.2500 (0.2500 … 0.2500)");
+    }
+
+    #[test]
+    fn small_numbers_have_a_power_of_ten_and_others_none() {
+        assert_eq!(
+            phrase(2.34e-7, Some([2.1e-7, 2.6e-7])),
+            "2.34e-7 (2.10e-7 … 2.60e-7)"
+        );
+        assert_eq!(
+            phrase(2.34e-7, Some([-1e-9, 4.6e-7])),
+            "2.3e-7 (0 … 4.6e-7)"
+        );
+        assert_eq!(
+            phrase(0.012_345_67, Some([0.012_345_6, 0.012_345_8])),
+            "0.01234567 (0.01234560 … 0.01234580)"
+        );
+        assert_eq!(phrase(6.53, Some([6.1, 6.9])), "6.53 (6.10 … 6.90)");
+    }
+
+    #[test]
+    fn numerals_have_three_digits_and_no_idle_zeros() {
+        let printed = [0.0, 12.0, 0.5, -0.012_34, 1234.4, 0.000_01, -250_000.0].map(numeral);
+        assert_eq!(
+            printed,
+            ["0", "12", "0.5", "−0.0123", "1234", "1.00e-5", "−2.50e5"]
+        );
+        assert_eq!(significant(3e-20), "3.00e-20");
     }
 }

@@ -1,18 +1,22 @@
 //! Results as they are read back from what `evaluate`, `score` and `run` write.
 
 mod error;
+mod model_bench;
 mod read;
 mod score;
 
 pub use error::ResultsError;
+pub use model_bench::{
+    BENCH_SCHEMA, BenchMachine, BenchRecording, ChannelError, ModelBench, ModelRow,
+};
 pub use score::{Interval, Score, Value, Variant};
 
 use crate::samples::Samples;
 
-/// The schema of one evaluation.
-pub const EVALUATION_SCHEMA: &str = "taceva.evaluation/1";
-/// The schema of the evaluations of a scene.
-pub const RUN_SCHEMA: &str = "taceva.run/1";
+/// The schema of one evaluation. A minor version only adds keys, so every `taceva.evaluation/1.N` is read.
+pub const EVALUATION_SCHEMA: &str = "taceva.evaluation/1.1";
+/// The schema of the evaluations of a scene, in versions as [`EVALUATION_SCHEMA`].
+pub const RUN_SCHEMA: &str = "taceva.run/1.1";
 
 /// The results of one sensor: what was evaluated, every score, what was left out, and where it all comes from.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -47,12 +51,12 @@ pub struct Skip {
 }
 
 impl Study {
-    /// The evaluations in `text`, of the schema `taceva.evaluation/1` or `taceva.run/1`.
+    /// The evaluations in `text`, of the schema `taceva.evaluation/1` or `taceva.run/1` in any minor version.
     ///
     /// ```
     /// use taceva_report::Study;
     /// let studies = Study::read(r#"{
-    ///     "schema": "taceva.evaluation/1",
+    ///     "schema": "taceva.evaluation/1.1",
     ///     "subject": {"sensor": "TacTip", "serial": "unknown", "gel": "unknown", "source": "recorded"},
     ///     "metrics": {"mae": {"Fz": {"value": 0.0361, "unit": "N", "n": 460, "n_invalid": 0,
     ///                 "ci95": [0.034, 0.038], "method": "jackknife by point_id, G=32", "definition": "mae/1"}}},

@@ -4,6 +4,8 @@ use std::collections::BTreeMap;
 
 use taceva_core::{Channel, Unit};
 
+use crate::escape;
+
 /// Columns of words.
 const WORDS: [&str; 8] = [
     "id", "protocol", "part", "point_id", "unit_id", "scene", "phase", "kind",
@@ -84,7 +86,8 @@ impl Samples {
     /// [`SamplesError`] with the line and the column.
     pub fn read(table: &str) -> Result<Samples, SamplesError> {
         let mut reader = csv::Reader::from_reader(table.as_bytes());
-        let head = reader.headers()?.clone();
+        let head = reader.headers()?.iter().map(escape::from_csv);
+        let head: Vec<String> = head.map(str::to_owned).collect();
         if !head.iter().any(|name| name == "id") {
             return Err(SamplesError::NoId);
         }
@@ -95,8 +98,8 @@ impl Samples {
         while reader.read_record(&mut record)? {
             rows += 1;
             for (position, (cell, name)) in record.iter().zip(&head).enumerate() {
-                if WORDS.contains(&name) {
-                    texts[position].push(cell.to_owned());
+                if WORDS.contains(&name.as_str()) {
+                    texts[position].push(escape::from_csv(cell).to_owned());
                 } else {
                     let line = record.position().map_or(0, csv::Position::line);
                     numbers[position].push(number(cell, name, line)?);
@@ -237,6 +240,14 @@ mod tests {
         assert_eq!(samples.of_protocol("light-sweep"), [0]);
         assert_eq!(samples.word("scene", 0), None);
         assert_eq!(samples.word("scene", 1), Some("S1"));
+    }
+
+    #[test]
+    fn names_that_begin_like_a_formula_are_read_as_they_were() {
+        let samples = Samples::read("id,point_id\n'=1+1,'=p\n'a,b\n").expect("samples");
+        let words = |row: usize| (samples.word("id", row), samples.word("point_id", row));
+        assert_eq!(words(0), (Some("=1+1"), Some("=p")));
+        assert_eq!(words(1), (Some("'a"), Some("b")));
     }
 
     #[test]

@@ -5,7 +5,7 @@ mod latex;
 mod markdown;
 
 pub use csv::csv;
-pub use latex::latex;
+pub use latex::{latex, number as latex_number, symbol as latex_symbol};
 pub use markdown::markdown;
 
 use taceva_core::Unit;

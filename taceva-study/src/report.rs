@@ -10,7 +10,7 @@ use crate::samples::Samples;
 use crate::subject::Subject;
 
 /// The schema of [`EvaluationReport`] as JSON.
-pub const EVALUATION_SCHEMA: &str = "taceva.evaluation/1";
+pub const EVALUATION_SCHEMA: &str = "taceva.evaluation/1.1";
 
 /// A finished evaluation. Its JSON follows [`EVALUATION_SCHEMA`].
 #[derive(Clone, Debug, Serialize)]

@@ -144,18 +144,20 @@ impl Samples {
     }
 
     /// Writes them as CSV: `id`, what is known beside, and for each channel its truth under its name and its prediction under
-    /// `<name>_predicted`. Numbers are in shortest round-trip form.
+    /// `<name>_predicted`. Numbers are in shortest round-trip form, names and words as `word` writes them: a table for people escapes what
+    /// a spreadsheet would take for a formula.
     ///
     /// # Errors
     /// Those of `out`.
-    pub fn write(&self, out: &mut dyn Write) -> io::Result<()> {
+    pub fn write(&self, out: &mut dyn Write, word: impl Fn(&str) -> String) -> io::Result<()> {
         let mut writer = csv::Writer::from_writer(out);
-        writer.write_record(self.columns.iter().map(|(name, _)| name))?;
+        writer.write_record(self.columns.iter().map(|(name, _)| word(name)))?;
         for row in 0..self.rows {
             for (_, column) in &self.columns {
                 match column {
                     SampleColumn::Words(words) => {
-                        writer.write_field(words[row].as_deref().unwrap_or_default())?;
+                        writer
+                            .write_field(words[row].as_deref().map_or_else(String::new, &word))?;
                     }
                     SampleColumn::Numbers(numbers) => {
                         let number = numbers.get(row);

@@ -49,7 +49,7 @@ fn study(name: &str, model: &str, split: &str) -> Option<Study> {
     written
         .samples
         .expect("the samples of one call")
-        .write(&mut table)
+        .write(&mut table, taceva_report::escape_csv)
         .expect("memory");
     let table = String::from_utf8(table).expect("a text");
     study.samples = Some(Samples::read(&table).expect("what we write we read"));

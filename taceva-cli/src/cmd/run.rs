@@ -6,6 +6,7 @@ mod cache;
 use std::path::{Path, PathBuf};
 
 use anyhow::Context as _;
+use taceva_report::escape_csv;
 use taceva_study::{EvaluationReport, Existing, PlannedScene, RunFolder, Workshop, run_scene};
 
 use super::{Context, Usage, scene};
@@ -117,7 +118,7 @@ fn write_files(
         }
         if let Some(samples) = &written.samples {
             let path = folder.report(number, &study.plan.name, "samples.csv");
-            output::write(Some(&path), |out| samples.write(out))?;
+            output::write(Some(&path), |out| samples.write(out, escape_csv))?;
         }
     }
     Ok(())

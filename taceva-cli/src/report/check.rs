@@ -2,9 +2,8 @@
 
 use std::io::{self, Write};
 
+use taceva_report::{escape_csv, escape_latex as escape, escape_markdown};
 use taceva_study::{CheckReport, Finding};
-
-use super::latex::escape;
 
 pub(super) fn text(report: &CheckReport, out: &mut dyn Write) -> io::Result<()> {
     let count = |severity: &str| {
@@ -54,9 +53,9 @@ pub(super) fn csv(report: &CheckReport, out: &mut dyn Write) -> io::Result<()> {
             finding.code,
             finding.name,
             &finding.severity.to_string(),
-            &finding.message,
+            &escape_csv(&finding.message),
             &finding.count.to_string(),
-            &finding.samples.join(" "),
+            &escape_csv(&finding.samples.join(" ")),
             finding.hint,
         ])?;
     }
@@ -72,7 +71,7 @@ pub(super) fn markdown(report: &CheckReport, out: &mut dyn Write) -> io::Result<
             "| {} | {} | {} |",
             finding.code,
             finding.severity,
-            finding.message.replace('|', "\\|")
+            escape_markdown(&finding.message)
         )?;
     }
     Ok(())

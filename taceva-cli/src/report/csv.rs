@@ -1,8 +1,9 @@
-//! One row a score or variant, numbers in full.
+//! One row a score or variant, numbers in full; words that begin like a formula are begun with an apostrophe.
 
 use std::io::{self, Write};
 
 use taceva_metrics::Interval;
+use taceva_report::escape_csv as word;
 use taceva_study::EvaluationReport;
 
 use super::line::lines;
@@ -38,17 +39,17 @@ pub(super) fn write(report: &EvaluationReport, out: &mut dyn Write) -> io::Resul
         };
         let method = line.interval.and_then(Interval::method);
         writer.write_record([
-            &line.name,
-            line.channel,
+            &word(&line.name),
+            &word(line.channel),
             &number(line.value.scalar()),
             line.unit.symbol(),
             &number(ends.map(|ends| ends[0])),
             &number(ends.map(|ends| ends[1])),
-            &method.unwrap_or_default(),
+            &word(&method.unwrap_or_default()),
             &line.score.n.to_string(),
             &line.score.n_invalid.to_string(),
             line.score.definition,
-            &why,
+            &word(&why),
         ])?;
     }
     writer.flush()

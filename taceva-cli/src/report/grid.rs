@@ -3,7 +3,7 @@
 use taceva_study::EvaluationReport;
 
 use super::line::lines;
-use super::number::Printed;
+use super::number::printed;
 
 /// Scores by metric and channel.
 pub(super) struct Grid {
@@ -39,7 +39,7 @@ impl Grid {
                 let empty = grid.channels.iter().map(|_| None).collect();
                 grid.rows.push((line.name.clone(), empty));
             }
-            let printed = Printed::of(&line);
+            let printed = printed(&line);
             let has_value = !printed.value.is_empty();
             let cell = Cell {
                 value: if has_value {

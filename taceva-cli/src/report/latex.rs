@@ -3,6 +3,7 @@
 use std::io::{self, Write};
 
 pub(super) use taceva_report::escape_latex as escape;
+use taceva_report::{latex_number as number, latex_symbol as symbol};
 use taceva_study::EvaluationReport;
 
 use super::grid::{Grid, caption};
@@ -25,8 +26,8 @@ pub(super) fn write(report: &EvaluationReport, out: &mut dyn Write) -> io::Resul
         let values: Vec<String> = cells
             .iter()
             .map(|cell| match cell {
-                Some(cell) if cell.unit.is_empty() => escape(&cell.value),
-                Some(cell) => format!("{}\\,{}", escape(&cell.value), escape(&cell.unit)),
+                Some(cell) if cell.unit.is_empty() => number(&cell.value),
+                Some(cell) => format!("{}\\,{}", number(&cell.value), escape(&cell.unit)),
                 None => "--".to_owned(),
             })
             .collect();
@@ -35,7 +36,9 @@ pub(super) fn write(report: &EvaluationReport, out: &mut dyn Write) -> io::Resul
             .iter()
             .map(
                 |cell| match cell.as_ref().and_then(|cell| cell.interval.as_ref()) {
-                    Some([low, high]) => format!("\\scriptsize [{low}, {high}]"),
+                    Some([low, high]) => {
+                        format!("\\scriptsize [{}, {}]", number(low), number(high))
+                    }
                     None => String::new(),
                 },
             )
@@ -47,31 +50,4 @@ pub(super) fn write(report: &EvaluationReport, out: &mut dyn Write) -> io::Resul
     writeln!(out, "    \\bottomrule")?;
     writeln!(out, "  \\end{{tabular}}")?;
     writeln!(out, "\\end{{table}}")
-}
-
-/// `Fxy` as `$F_{xy}$`; other names as they are.
-fn symbol(name: &str) -> String {
-    let axes = name
-        .strip_prefix('P')
-        .map(|axes| ('P', axes))
-        .or_else(|| name.strip_prefix('F').map(|axes| ('F', axes)));
-    match axes {
-        Some((quantity, axes)) if ["x", "y", "z", "xy"].contains(&axes) => {
-            format!("${quantity}_{{{axes}}}$")
-        }
-        _ => escape(name),
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn channels_are_symbols_and_other_names_words() {
-        assert_eq!(
-            [symbol("Fxy"), symbol("Pz"), symbol("shear_x")],
-            ["$F_{xy}$", "$P_{z}$", "shear\\_x"]
-        );
-    }
 }

@@ -6,7 +6,7 @@ use std::path::Path;
 
 use anyhow::Context as _;
 use taceva_dataset::Dataset;
-use taceva_report::{Picture, Report, Samples, ScoreTable, Study, figures, picks};
+use taceva_report::{Picture, Report, Samples, ScoreTable, Study, escape_csv, figures, picks};
 use taceva_study::EvaluationReport;
 
 use crate::output;
@@ -110,7 +110,7 @@ pub(crate) fn study(report: &EvaluationReport) -> anyhow::Result<Study> {
     let mut study = studies.pop().context("one evaluation is one study")?;
     if let Some(samples) = &report.samples {
         let mut table = Vec::new();
-        samples.write(&mut table)?;
+        samples.write(&mut table, escape_csv)?;
         study.samples = Some(Samples::read(&String::from_utf8(table)?)?);
     }
     Ok(study)

@@ -8,7 +8,7 @@ use taceva_report::escape_terminal;
 use taceva_study::EvaluationReport;
 
 use super::line::{Line, lines};
-use super::number::Printed;
+use super::number::printed;
 use super::text::presses;
 
 /// A channel and the plane that says the same of it and its neighbour.
@@ -116,7 +116,7 @@ fn row_of(line: &Line<'_>) -> Row {
 
 fn cell(lines: &[Line<'_>], row: &Row) -> String {
     let line = lines.iter().find(|line| row_of(line) == *row);
-    let printed = line.map(|line| Printed::of(line).value);
+    let printed = line.map(|line| printed(line).value);
     printed
         .filter(|value| !value.is_empty())
         .unwrap_or_else(|| "–".to_owned())

@@ -7,7 +7,7 @@ use taceva_report::escape_terminal;
 use taceva_study::EvaluationReport;
 
 use super::line::{flags, lines, pictures};
-use super::number::Printed;
+use super::number::printed;
 
 pub(super) fn write(report: &EvaluationReport, out: &mut dyn Write) -> io::Result<()> {
     heading(report, out)?;
@@ -18,7 +18,7 @@ pub(super) fn write(report: &EvaluationReport, out: &mut dyn Write) -> io::Resul
             // A metric is named once, above its channels.
             let is_new = last != line.name;
             last.clone_from(&line.name);
-            let printed = Printed::of(line);
+            let printed = printed(line);
             let interval = printed
                 .interval
                 .map(|[low, high]| format!("{low} … {high}"));

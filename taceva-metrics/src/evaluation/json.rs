@@ -123,7 +123,7 @@ fn serialize_value<M: SerializeMap>(
     into.serialize_entry("unit", &unit)
 }
 
-/// The interval of a number with the way it was found.
+/// The interval of a number with the way it was found, and the standard error and clusters behind it.
 fn serialize_interval<M: SerializeMap>(
     into: &mut M,
     value: &Value,
@@ -133,10 +133,16 @@ fn serialize_interval<M: SerializeMap>(
         return Ok(());
     };
     into.serialize_entry("ci95", interval)?;
-    match interval.method() {
-        Some(method) => into.serialize_entry("method", &method),
-        None => Ok(()),
+    if let Some(method) = interval.method() {
+        into.serialize_entry("method", &method)?;
     }
+    if let Some(standard_error) = interval.standard_error() {
+        into.serialize_entry("standard_error", &standard_error)?;
+    }
+    if let Some(clusters) = interval.clusters() {
+        into.serialize_entry("clusters", &clusters)?;
+    }
+    Ok(())
 }
 
 /// `[low, high]`, or `{"undefined": reason}`.

@@ -4,9 +4,9 @@ use serde_json::json;
 
 use super::{Finding, Limit};
 use crate::escape::html;
-use crate::figure::numeral;
 use crate::html::{Document, lead};
 use crate::listing::Listing;
+use crate::number::numeral;
 use crate::results::Study;
 
 /// The schema of an acceptance as JSON.

@@ -1,8 +1,8 @@
 //! The catalogue as rows.
 
 use super::Sensor;
-use crate::figure::numeral;
 use crate::listing::Listing;
+use crate::number::numeral;
 
 /// A row a sensor.
 pub fn list(sensors: &[Sensor]) -> Listing {

@@ -2,9 +2,9 @@
 
 use super::{Published, Sensor};
 use crate::escape::html;
-use crate::figure::numeral;
 use crate::figures::figures;
 use crate::html::{Document, figure};
+use crate::number::numeral;
 use crate::results::Study;
 
 /// A file of the site.

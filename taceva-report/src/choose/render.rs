@@ -6,6 +6,7 @@ use super::{Candidate, Choice, Step};
 use crate::escape::html;
 use crate::html::Document;
 use crate::listing::Listing;
+use crate::number::fixed;
 
 /// The schema of a choice as JSON.
 pub const CHOICE_SCHEMA: &str = "taceva.choice/1";
@@ -33,9 +34,8 @@ impl Choice {
                     step.need.clone(),
                     step.property.to_string(),
                     shown(step),
-                    step.share
-                        .map_or_else(String::new, |share| format!("{share:.2}")),
-                    once(format!("{:.2}", candidate.share)),
+                    step.share.map_or_else(String::new, |share| fixed(share, 2)),
+                    once(fixed(candidate.share, 2)),
                 ]);
             }
         }

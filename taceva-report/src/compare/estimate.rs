@@ -26,7 +26,8 @@ pub(super) fn of_both(scores: Sides<&Score>) -> Result<Sides<Estimate>, String> 
     })
 }
 
-/// A score with the standard error that its interval was made from: its half width over the quantile of Student's t.
+/// A score with the standard error that its interval was made from; where an older result does not say it, the half width of the interval
+/// over the quantile of Student's t.
 fn estimate(score: &Score) -> Result<Estimate, String> {
     let Some(value) = score.value.number() else {
         let reason = score.value.reason();
@@ -35,8 +36,13 @@ fn estimate(score: &Score) -> Result<Estimate, String> {
     let Some(interval) = &score.interval else {
         return Err("no interval".to_owned());
     };
-    let (ends, method) = match interval {
-        Interval::Ends { ends, method } => (ends, method),
+    let (ends, method, stated) = match interval {
+        Interval::Ends {
+            ends,
+            method,
+            standard_error,
+            ..
+        } => (ends, method, *standard_error),
         Interval::Absent(reason) => return Err(format!("no interval: {reason}")),
     };
     let Some(clusters) = interval.clusters() else {
@@ -44,8 +50,10 @@ fn estimate(score: &Score) -> Result<Estimate, String> {
             "an interval by `{method}` says nothing of clusters"
         ));
     };
-    let quantile = quantile(clusters).ok_or("too few clusters")?;
-    let standard_error = (ends[1] - ends[0]) / 2.0 / quantile;
+    let standard_error = match stated {
+        Some(stated) => stated,
+        None => (ends[1] - ends[0]) / 2.0 / quantile(clusters).ok_or("too few clusters")?,
+    };
     Estimate::try_new(value, standard_error, clusters).map_err(|error| error.to_string())
 }
 
@@ -64,6 +72,28 @@ fn quantile(clusters: usize) -> Option<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::results::Study;
+
+    #[test]
+    fn the_standard_error_that_is_stated_is_taken_as_it_is() {
+        let read = |more: &str| {
+            let text = format!(
+                r#"{{"schema": "taceva.evaluation/1.1", "subject": {{"sensor": "x"}}, "metrics": {{"mae": {{"Fz":
+                {{"value": 0.5, "unit": "N", "n": 40, "ci95": [0.4, 0.6], "method": "jackknife by point_id, G=10"{more}}}}}}}}}"#
+            );
+            let study = Study::read(&text).expect("a result").remove(0);
+            estimate(&study.scores[0]).expect("an estimate")
+        };
+        let stated = 0.044_204_709_301_234_5;
+        let exact = read(&format!(
+            r#", "standard_error": {stated:?}, "clusters": 12"#
+        ));
+        let expected = Estimate::try_new(0.5, stated, 12).expect("an estimate");
+        assert_eq!(exact, expected);
+        let from_width = (0.6 - 0.4) / 2.0 / quantile(10).expect("enough clusters");
+        let expected = Estimate::try_new(0.5, from_width, 10).expect("an estimate");
+        assert_eq!(read(""), expected);
+    }
 
     #[test]
     fn the_quantile_is_student_s() {

@@ -4,10 +4,10 @@ use serde_json::json;
 
 use super::{Answer, Comparison};
 use crate::escape::html;
-use crate::figure::numeral;
 use crate::figures::{figures, listed};
 use crate::html::{Document, figure, lead};
 use crate::listing::Listing;
+use crate::number::{numeral, significant};
 use crate::results::Study;
 
 /// The schema of a comparison as JSON.
@@ -58,7 +58,9 @@ impl Comparison {
             number(answer.scores.b),
             number(apart),
             interval,
-            number(answer.difference.map(|difference| difference.p)),
+            answer
+                .difference
+                .map_or_else(|| "–".to_owned(), |difference| significant(difference.p)),
             answer.unit.to_string(),
             answer.words(&self.names),
         ]

@@ -202,7 +202,7 @@ impl Canvas {
     }
 }
 
-use super::numerals::short;
+use super::words::short;
 
 /// About how wide a text is.
 pub(crate) fn width_of(text: &str, size: f64) -> f64 {

@@ -30,17 +30,6 @@ impl Area {
     pub(crate) fn upwards(&self) -> [f64; 2] {
         [self.bottom(), self.top]
     }
-
-    /// Panel `position` of a grid of equal panels with room for axes between them.
-    #[expect(clippy::cast_precision_loss, reason = "a handful of rows and columns")]
-    pub(crate) fn in_grid(position: usize, columns: usize, first: Area, gaps: [f64; 2]) -> Area {
-        let (row, column) = (position / columns, position % columns);
-        Area {
-            left: first.left + column as f64 * (first.width + gaps[0]),
-            top: first.top + row as f64 * (first.height + gaps[1]),
-            ..first
-        }
-    }
 }
 
 /// What stands beside the axes of a panel.

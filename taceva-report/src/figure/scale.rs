@@ -1,5 +1,7 @@
 //! From values to places, and the values that are named beside an axis.
 
+use crate::number::{fixed, minus, numeral};
+
 /// A straight or a logarithmic way from values to places.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Scale {
@@ -73,11 +75,9 @@ impl Scale {
         let mut number = first;
         while number <= last && ticks.len() < 50 {
             let value = number * step;
-            let label = format!("{:.decimals$}", value.abs());
-            let sign = if number < 0.0 { "−" } else { "" };
             ticks.push(Tick {
                 value,
-                label: format!("{sign}{label}"),
+                label: minus(&fixed(value, decimals)),
             });
             number += 1.0;
         }
@@ -102,7 +102,7 @@ impl Scale {
                 if value >= low * (1.0 - 1e-9) && value <= high * (1.0 + 1e-9) {
                     ticks.push(Tick {
                         value,
-                        label: super::numerals::numeral(value),
+                        label: numeral(value),
                     });
                 }
             }

@@ -2,7 +2,8 @@
 
 use taceva_metrics::Matrix;
 
-use crate::figure::{Anchor, Area, Canvas, Figure, Ink, Label, diverging, numeral, short};
+use crate::figure::{Anchor, Area, Canvas, Figure, Grid, Ink, Label, diverging, short};
+use crate::number::{fixed, minus, numeral};
 use crate::results::{Study, Value};
 
 /// Names a matrix may have and still be read.
@@ -26,23 +27,16 @@ pub(super) fn draw(studies: &[Study]) -> Option<Figure> {
     if matrices.is_empty() {
         return None;
     }
-    let columns = matrices.len().min(2);
     let first = Area {
         left: 66.0,
         top: 58.0,
         width: 300.0,
         height: 216.0,
     };
-    let gaps = [86.0, 84.0];
-    let last = Area::in_grid(
-        matrices.len().div_ceil(columns) * columns - 1,
-        columns,
-        first,
-        gaps,
-    );
-    let mut canvas = Canvas::new(last.right() + 16.0, last.bottom() + 16.0);
+    let grid = Grid::new(matrices.len(), 2, first, [86.0, 84.0]);
+    let mut canvas = grid.canvas([16.0, 16.0]);
     for (position, (matrix, name)) in matrices.iter().enumerate() {
-        let area = Area::in_grid(position, columns, first, gaps);
+        let area = grid.area(position);
         cells(matrix, name, area, &mut canvas);
     }
     Some(Figure {
@@ -87,11 +81,7 @@ fn cells(matrix: &Matrix, name: &str, area: Area, canvas: &mut Canvas) {
             let place = [left + 1.0, top + 1.0, width - 2.0, height - 2.0];
             canvas.fill(place, Ink::Rgb(diverging(*value)), words);
             let middle = [left + width / 2.0, top + height / 2.0 + 4.0];
-            let mut label = Label::new(
-                middle,
-                format!("{value:.2}").replace('-', "−"),
-                Anchor::Middle,
-            );
+            let mut label = Label::new(middle, minus(&fixed(*value, 2)), Anchor::Middle);
             label.ink = Ink::Text;
             canvas.cell_label(label);
         }

@@ -3,10 +3,10 @@
 use std::collections::BTreeMap;
 
 use crate::figure::{
-    Anchor, Area, Axes, Canvas, Figure, Ink, Label, Panel, Points, Scale, diverging, extent,
-    numeral, short,
+    Anchor, Area, Axes, Canvas, Figure, Grid, Ink, Label, Panel, Points, Scale, diverging, extent,
+    short,
 };
-use crate::number::with_interval;
+use crate::number::{numeral, with_interval};
 use crate::results::Study;
 use crate::samples::Samples;
 
@@ -29,24 +29,17 @@ pub(super) fn draw(studies: &[Study]) -> Option<Figure> {
     if found.is_empty() {
         return None;
     }
-    let columns = found.len().min(2);
     let first = Area {
         left: 58.0,
         top: 34.0,
         width: 280.0,
         height: 280.0,
     };
-    let room = [142.0, 82.0];
-    let last = Area::in_grid(
-        found.len().div_ceil(columns) * columns - 1,
-        columns,
-        first,
-        room,
-    );
-    let mut canvas = Canvas::new(last.right() + 78.0, last.bottom() + 42.0);
+    let grid = Grid::new(found.len(), 2, first, [142.0, 82.0]);
+    let mut canvas = grid.canvas([78.0, 42.0]);
     let mut words = Vec::new();
     for (position, (at, gaps, units)) in found.iter().enumerate() {
-        let area = Area::in_grid(position, columns, first, room);
+        let area = grid.area(position);
         let title = format!(
             "{}: unit {} less {}",
             short(&names[*at], 24),

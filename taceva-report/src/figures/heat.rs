@@ -3,9 +3,8 @@
 use taceva_core::Unit;
 use taceva_metrics::Map;
 
-use crate::figure::{
-    Anchor, Area, Axes, Canvas, Ink, Label, Panel, Scale, axis_label, numeral, sequential,
-};
+use crate::figure::{Anchor, Area, Axes, Canvas, Ink, Label, Panel, Scale, axis_label, sequential};
+use crate::number::numeral;
 
 /// Cells that a map may have and still be drawn: more are no picture but a file.
 const MOST_CELLS: usize = 10_000;

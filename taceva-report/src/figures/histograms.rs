@@ -1,9 +1,10 @@
 //! How the truth is spread: what a sensor was asked, channel by channel.
 
 use crate::figure::{
-    Area, Axes, Canvas, Figure, Panel, Points, Scale, Stroke, axis_label, extent, numeral,
+    Area, Axes, Canvas, Figure, Grid, Panel, Points, Scale, Stroke, axis_label, extent,
 };
 use crate::figure::{Ink, SERIES};
+use crate::number::numeral;
 use crate::results::Study;
 use crate::samples::SampleChannel;
 
@@ -27,20 +28,13 @@ pub(super) fn draw(studies: &[Study]) -> Option<Figure> {
         width: 216.0,
         height: 150.0,
     };
-    let columns = channels.len().min(3);
-    let gaps = [66.0, 78.0];
-    let last = Area::in_grid(
-        channels.len().div_ceil(columns) * columns - 1,
-        columns,
-        first,
-        gaps,
-    );
-    let mut canvas = Canvas::new(last.right() + 16.0, last.bottom() + 42.0);
+    let grid = Grid::new(channels.len(), 3, first, [66.0, 78.0]);
+    let mut canvas = grid.canvas([16.0, 42.0]);
     if names.len() > 1 {
         canvas.legend([first.left, 16.0], &names);
     }
     for (position, channel) in channels.iter().enumerate() {
-        let area = Area::in_grid(position, columns, first, gaps);
+        let area = grid.area(position);
         panel(studies, channel, area, &names, &mut canvas);
     }
     Some(Figure {

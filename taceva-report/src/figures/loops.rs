@@ -3,9 +3,9 @@
 use std::collections::BTreeMap;
 
 use crate::figure::{
-    Area, Axes, Canvas, Figure, Ink, Panel, Points, Scale, Stroke, extent, numeral, short,
+    Area, Axes, Canvas, Figure, Grid, Ink, Panel, Points, Scale, Stroke, extent, short,
 };
-use crate::number::with_interval;
+use crate::number::{numeral, with_interval};
 use crate::results::Study;
 use crate::samples::Samples;
 
@@ -30,24 +30,17 @@ pub(super) fn draw(studies: &[Study]) -> Option<Figure> {
     if found.is_empty() {
         return None;
     }
-    let columns = found.len().min(2);
     let first = Area {
         left: 58.0,
         top: 34.0,
         width: 330.0,
         height: 220.0,
     };
-    let gaps = [66.0, 78.0];
-    let last = Area::in_grid(
-        found.len().div_ceil(columns) * columns - 1,
-        columns,
-        first,
-        gaps,
-    );
-    let mut canvas = Canvas::new(last.right() + 16.0, last.bottom() + 42.0);
+    let grid = Grid::new(found.len(), 2, first, [66.0, 78.0]);
+    let mut canvas = grid.canvas([16.0, 42.0]);
     let mut words = Vec::new();
     for (position, (at, loops)) in found.iter().enumerate() {
-        let area = Area::in_grid(position, columns, first, gaps);
+        let area = grid.area(position);
         panel(loops, (*at, &names[*at]), area, &mut canvas);
         let score = studies[*at].of_metric("hysteresis").next();
         words.extend(score.map(|score| format!("{}: {}", names[*at], with_interval(score))));

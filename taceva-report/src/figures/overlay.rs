@@ -2,9 +2,8 @@
 
 use taceva_core::Unit;
 
-use crate::figure::{
-    Area, Axes, Canvas, Figure, Ink, Panel, Points, Scale, Stroke, extent, numeral,
-};
+use crate::figure::{Area, Axes, Canvas, Figure, Grid, Ink, Panel, Points, Scale, Stroke, extent};
+use crate::number::numeral;
 use crate::results::Study;
 
 /// A curve of one sensor.
@@ -66,15 +65,14 @@ pub(super) fn draw(
     }
     let names = super::names(studies);
     let columns = columns.min(sheets.len()).max(1);
-    let rows = sheets.len().div_ceil(columns);
-    let (gaps, first) = ([66.0, 78.0], panel_size(columns));
-    let last = Area::in_grid(rows * columns - 1, columns, first, gaps);
-    let mut canvas = Canvas::new(last.right() + 16.0, last.bottom() + 42.0);
+    let first = panel_size(columns);
+    let grid = Grid::new(sheets.len(), columns, first, [66.0, 78.0]);
+    let mut canvas = grid.canvas([16.0, 42.0]);
     if names.len() > 1 {
         canvas.legend([first.left, 16.0], &names);
     }
     for (position, sheet) in sheets.iter().enumerate() {
-        let area = Area::in_grid(position, columns, first, gaps);
+        let area = grid.area(position);
         sheet.draw(area, &names, &mut canvas);
     }
     Some(Figure {

@@ -1,9 +1,9 @@
 //! Predicted against true, a panel a channel and a figure a sensor.
 
 use crate::figure::{
-    Area, Axes, Canvas, Figure, Ink, Panel, Points, Scale, Stroke, axis_label, extent, numeral,
-    short,
+    Area, Axes, Canvas, Figure, Grid, Ink, Panel, Points, Scale, Stroke, axis_label, extent, short,
 };
+use crate::number::numeral;
 use crate::results::Study;
 use crate::samples::{SampleChannel, Samples};
 
@@ -37,17 +37,11 @@ fn one(study: &Study, at: usize, name: &str) -> Option<Figure> {
         width: 216.0,
         height: 196.0,
     };
-    let (columns, gaps) = (channels.len().min(3), [66.0, 78.0]);
-    let last = Area::in_grid(
-        channels.len().div_ceil(columns) * columns - 1,
-        columns,
-        first,
-        gaps,
-    );
-    let mut canvas = Canvas::new(last.right() + 16.0, last.bottom() + 42.0);
+    let grid = Grid::new(channels.len(), 3, first, [66.0, 78.0]);
+    let mut canvas = grid.canvas([16.0, 42.0]);
     let mut drawn = String::new();
     for (position, channel) in channels.iter().enumerate() {
-        let area = Area::in_grid(position, columns, first, gaps);
+        let area = grid.area(position);
         let (all, shown) = panel((samples, &rows), channel, area, at, &mut canvas)?;
         if position == 0 {
             drawn = rule(shown, all);

@@ -1,7 +1,10 @@
 //! Run time against error: who stands right and low is right and fast.
 
-use crate::figure::{Anchor, Area, Axes, Canvas, Figure, Ink, Label, Panel, Points, Scale, Stroke};
-use crate::figure::{extent, numeral, short};
+use crate::figure::{
+    Anchor, Area, Axes, Canvas, Figure, Ink, Label, Panel, Points, Scale, Stroke, beside, extent,
+    short,
+};
+use crate::number::numeral;
 
 /// Contenders with what they cost and what they give.
 #[derive(Clone, Debug)]
@@ -73,8 +76,14 @@ pub fn race(race: &Race) -> Figure {
             let words = format!("floor: {} {}", short(name, 40), numeral(*cost));
             canvas.label(Label::new([area.left + 6.0, y - 5.0], words, Anchor::Start));
         }
+        let mut names = Vec::new();
         for contender in &race.contenders {
-            dot(contender, &panel, &mut canvas);
+            let at = panel.at(contender.gain, contender.cost);
+            names.push((at, short(&contender.name, 40)));
+            dot(contender, at, &mut canvas);
+        }
+        for name in beside(&names, area) {
+            canvas.label(name);
         }
     }
     let front = race
@@ -95,8 +104,7 @@ pub fn race(race: &Race) -> Figure {
     }
 }
 
-fn dot(contender: &Contender, panel: &Panel, canvas: &mut Canvas) {
-    let at = panel.at(contender.gain, contender.cost);
+fn dot(contender: &Contender, at: [f64; 2], canvas: &mut Canvas) {
     let words = format!(
         "{}: {} at {}",
         contender.name,
@@ -111,19 +119,6 @@ fn dot(contender: &Contender, panel: &Panel, canvas: &mut Canvas) {
     if !contender.is_on_front {
         canvas.points(one(Vec::new()), Ink::Paper, 3.9, 1.0);
     }
-    // Names on the right half stand to the left of their dots, where there is room.
-    let is_right = at[0] > panel.area.left + panel.area.width / 2.0;
-    let (off, anchor) = match is_right {
-        true => (-10.0, Anchor::End),
-        false => (10.0, Anchor::Start),
-    };
-    let mut label = Label::new(
-        [at[0] + off, at[1] + 4.0],
-        short(&contender.name, 40),
-        anchor,
-    );
-    label.ink = Ink::Text;
-    canvas.label(label);
 }
 
 #[cfg(test)]

@@ -4,7 +4,8 @@ use std::f64::consts::TAU;
 
 use taceva_metrics::Better;
 
-use crate::figure::{Anchor, Canvas, Figure, Ink, Label, Points, SERIES, Stroke, numeral, short};
+use crate::figure::{Anchor, Canvas, Figure, Ink, Label, Points, SERIES, Stroke, short};
+use crate::number::numeral;
 use crate::results::{Score, Study};
 
 /// An axis of a radar.

@@ -1,8 +1,9 @@
 //! How predictions of the same press are spread: over depth, and about their places.
 
 use crate::figure::{
-    Area, Axes, Canvas, Figure, Ink, Panel, Points, Scale, Stroke, extent, numeral, short,
+    Area, Axes, Canvas, Figure, Grid, Ink, Panel, Points, Scale, Stroke, extent, short,
 };
+use crate::number::numeral;
 use crate::results::Study;
 use crate::samples::Samples;
 
@@ -50,23 +51,16 @@ pub(super) fn volumes(studies: &[Study]) -> Option<Figure> {
     if clouds.is_empty() {
         return None;
     }
-    let columns = clouds.len().min(2);
     let first = Area {
         left: 58.0,
         top: 34.0,
         width: 300.0,
         height: 300.0,
     };
-    let gaps = [74.0, 82.0];
-    let last = Area::in_grid(
-        clouds.len().div_ceil(columns) * columns - 1,
-        columns,
-        first,
-        gaps,
-    );
-    let mut canvas = Canvas::new(last.right() + 16.0, last.bottom() + 42.0);
+    let grid = Grid::new(clouds.len(), 2, first, [74.0, 82.0]);
+    let mut canvas = grid.canvas([16.0, 42.0]);
     for (position, (at, clouds)) in clouds.iter().enumerate() {
-        let area = Area::in_grid(position, columns, first, gaps);
+        let area = grid.area(position);
         panel(clouds, (*at, &names[*at]), area, &mut canvas);
     }
     Some(Figure {

@@ -1,6 +1,6 @@
 //! How far the gel yields, by place.
 
-use crate::figure::{Area, Canvas, Figure, short};
+use crate::figure::{Area, Figure, Grid, short};
 use crate::number::with_interval;
 use crate::results::{Study, Value};
 
@@ -37,27 +37,16 @@ pub(super) fn draw(studies: &[Study]) -> Option<Figure> {
     if maps.is_empty() {
         return None;
     }
-    let columns = maps.len().min(2);
     let first = Area {
         left: 58.0,
         top: 34.0,
         width: 280.0,
         height: 280.0,
     };
-    let gaps = [142.0, 82.0];
-    let last = Area::in_grid(
-        maps.len().div_ceil(columns) * columns - 1,
-        columns,
-        first,
-        gaps,
-    );
-    let mut canvas = Canvas::new(last.right() + 78.0, last.bottom() + 42.0);
+    let grid = Grid::new(maps.len(), 2, first, [142.0, 82.0]);
+    let mut canvas = grid.canvas([78.0, 42.0]);
     for (position, (map, _)) in maps.iter().enumerate() {
-        heat(
-            map,
-            Area::in_grid(position, columns, first, gaps),
-            &mut canvas,
-        );
+        heat(map, grid.area(position), &mut canvas);
     }
     let words: Vec<String> = maps.into_iter().map(|(_, words)| words).collect();
     Some(Figure {

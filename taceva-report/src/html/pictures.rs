@@ -5,8 +5,9 @@ use std::collections::BTreeMap;
 use super::Report;
 use super::base64::base64;
 use crate::escape::html;
-use crate::figure::{Anchor, Canvas, Figure, Ink, Label, Points, Stroke, numeral, short};
+use crate::figure::{Anchor, Canvas, Figure, Ink, Label, Points, Stroke, short};
 use crate::figures::{SIX, names};
+use crate::number::numeral;
 use crate::results::Study;
 use crate::samples::{SampleChannel, Samples};
 

@@ -4,7 +4,7 @@ use taceva_metrics::Better;
 
 use crate::escape::html;
 use crate::figures::{listed, names};
-use crate::number::spaced;
+use crate::number::{minus, spaced};
 use crate::results::{Score, Study};
 use crate::table::{ScoreCell, ScoreRow, ScoreTable};
 
@@ -135,10 +135,10 @@ fn rivals(
 
 fn phrase(cell: &ScoreCell, row: &ScoreRow) -> String {
     let unit = spaced(row.unit);
-    let value = cell.printed.value.replace('-', "−");
+    let value = minus(&cell.printed.value);
     match &cell.printed.interval {
         Some([low, high]) => {
-            let [low, high] = [low, high].map(|end| end.replace('-', "−"));
+            let [low, high] = [low, high].map(|end| minus(end));
             format!("{value}{unit} ({low} … {high})")
         }
         None => format!("{value}{unit}"),

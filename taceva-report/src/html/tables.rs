@@ -3,6 +3,7 @@
 use taceva_core::Unit;
 
 use crate::escape::html;
+use crate::number::minus;
 use crate::table::{ScoreCell, ScoreRow, ScoreTable};
 
 /// Metrics that are read together.
@@ -145,8 +146,4 @@ fn cell(cell: Option<&ScoreCell>) -> String {
     format!(
         "<td class=\"r\" data-v=\"{value:?}\"{hover}>{shown}<span class=\"ci\">{interval}</span></td>"
     )
-}
-
-fn minus(number: &str) -> String {
-    number.replace('-', "−")
 }

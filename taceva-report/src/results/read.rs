@@ -3,7 +3,7 @@
 mod place;
 mod values;
 
-use super::{EVALUATION_SCHEMA, RUN_SCHEMA, ResultsError, Skip, Study};
+use super::{ResultsError, Skip, Study};
 use crate::json::Json;
 use place::Place;
 
@@ -12,8 +12,8 @@ pub(super) fn studies(text: &str) -> Result<Vec<Study>, ResultsError> {
     let json: Json = serde_json::from_str(text)?;
     let root = Place::root(&json);
     match json.get("schema") {
-        Some(Json::Text(schema)) if schema == EVALUATION_SCHEMA => Ok(vec![study(&root)?]),
-        Some(Json::Text(schema)) if schema == RUN_SCHEMA => {
+        Some(Json::Text(schema)) if is_of(schema, "taceva.evaluation/1") => Ok(vec![study(&root)?]),
+        Some(Json::Text(schema)) if is_of(schema, "taceva.run/1") => {
             let studies = root.entry("studies")?.items()?;
             studies.iter().map(study).collect()
         }
@@ -24,6 +24,17 @@ pub(super) fn studies(text: &str) -> Result<Vec<Study>, ResultsError> {
             found: "no schema".to_owned(),
         }),
     }
+}
+
+/// Whether a schema is some minor version of `major`.
+fn is_of(schema: &str, major: &str) -> bool {
+    let minor = schema.strip_prefix(major);
+    minor.is_some_and(|minor| {
+        minor.is_empty()
+            || minor
+                .strip_prefix('.')
+                .is_some_and(|minor| minor.parse::<u32>().is_ok())
+    })
 }
 
 fn study(root: &Place<'_>) -> Result<Study, ResultsError> {

@@ -73,6 +73,10 @@ pub enum Interval {
         ends: [f64; 2],
         /// How they were found: `jackknife by point_id, G=32`.
         method: String,
+        /// The standard error behind them, in the unit of the score; not known of results of schema 1.0.
+        standard_error: Option<f64>,
+        /// The number of clusters behind them; not known of results of schema 1.0.
+        clusters: Option<u64>,
     },
     /// There is none: why.
     Absent(String),
@@ -126,8 +130,15 @@ impl Interval {
         }
     }
 
-    /// The number of clusters that it was found from, if its method says so.
+    /// The number of clusters that it was found from, if the result or its method says so.
     pub fn clusters(&self) -> Option<usize> {
+        if let Interval::Ends {
+            clusters: Some(clusters),
+            ..
+        } = self
+        {
+            return usize::try_from(*clusters).ok();
+        }
         let (_, rest) = self.method()?.split_once("G=")?;
         let digits = rest.find(|letter: char| !letter.is_ascii_digit());
         rest[..digits.unwrap_or(rest.len())].parse().ok()

@@ -62,7 +62,7 @@ fn cell(cell: Option<&ScoreCell>) -> String {
     let Some(cell) = cell.filter(|cell| !cell.printed.value.is_empty()) else {
         return "--".to_owned();
     };
-    let value = cell.printed.value.replace('-', "$-$");
+    let value = number(&cell.printed.value);
     match cell.is_best {
         true => format!("\\textbf{{{value}}}"),
         false => value,
@@ -71,13 +71,36 @@ fn cell(cell: Option<&ScoreCell>) -> String {
 
 fn interval(cell: Option<&ScoreCell>) -> String {
     match cell.and_then(|cell| cell.printed.interval.as_ref()) {
-        Some([low, high]) => format!("\\scriptsize [{low}, {high}]").replace('-', "$-$"),
+        Some([low, high]) => format!("\\scriptsize [{}, {}]", number(low), number(high)),
         None => String::new(),
     }
 }
 
-/// `Fxy` as `$F_{xy}$`; other names as they are.
-fn symbol(name: &str) -> String {
+/// A printed number as papers set it: a minus as wide as a plus, and `2.3e-7` with its power of ten; what is no number is escaped.
+///
+/// ```
+/// assert_eq!(taceva_report::latex_number("-0.5"), "$-0.5$");
+/// assert_eq!(taceva_report::latex_number("2.3e-7"), "$2.3\\times 10^{-7}$");
+/// ```
+pub fn number(text: &str) -> String {
+    let plain = text.replace('−', "-");
+    if plain.parse::<f64>().is_err() {
+        return escape(text);
+    }
+    match plain.split_once('e') {
+        Some((digits, power)) => format!("${digits}\\times 10^{{{power}}}$"),
+        None if plain.starts_with('-') => format!("${plain}$"),
+        None => plain,
+    }
+}
+
+/// The symbol of a channel, `Fxy` as `$F_{xy}$`; other names as they are.
+///
+/// ```
+/// assert_eq!(taceva_report::latex_symbol("Fxy"), "$F_{xy}$");
+/// assert_eq!(taceva_report::latex_symbol("shear_x"), "shear\\_x");
+/// ```
+pub fn symbol(name: &str) -> String {
     let axes = name
         .strip_prefix('P')
         .map(|axes| ('P', axes))
@@ -99,6 +122,22 @@ mod tests {
         assert_eq!(
             [symbol("Fxy"), symbol("Pz"), symbol("shear_x")],
             ["$F_{xy}$", "$P_{z}$", "shear\\_x"]
+        );
+    }
+
+    #[test]
+    fn numbers_are_set_and_words_escaped() {
+        let texts = ["0.25", "−0.25", "-1.5e-9", "50 %", "–", "inf_1"];
+        assert_eq!(
+            texts.map(number),
+            [
+                "0.25",
+                "$-0.25$",
+                "$-1.5\\times 10^{-9}$",
+                "50 \\%",
+                "--",
+                "inf\\_1"
+            ]
         );
     }
 }

@@ -97,7 +97,7 @@ pub(crate) fn results(sensor: &str, scale: f64) -> Value {
     crosstalk["matrix"] = json!({"rows": SIX, "columns": SIX, "values": matrix, "unit": "1"});
     metrics["crosstalk"]["all"] = crosstalk;
     json!({
-        "schema": "taceva.evaluation/1",
+        "schema": "taceva.evaluation/1.1",
         "subject": {"sensor": sensor, "serial": sensor, "gel": sensor, "source": "synthetic"},
         "metrics": metrics,
         "skipped": [{"what": sensor, "reason": sensor}],

@@ -7,7 +7,7 @@ use super::super::{Interval, ResultsError, Score, Value, Variant};
 use super::place::Place;
 
 /// Keys of a score that are no variants.
-const OWN: [&str; 20] = [
+const OWN: [&str; 22] = [
     "value",
     "unit",
     "undefined",
@@ -17,6 +17,8 @@ const OWN: [&str; 20] = [
     "n_invalid",
     "ci95",
     "method",
+    "standard_error",
+    "clusters",
     "definition",
     "parameters",
     "counts",
@@ -130,7 +132,14 @@ fn interval(place: &Place<'_>) -> Result<Option<Interval>, ResultsError> {
         Some(method) => method.text()?.to_owned(),
         None => "unstated".to_owned(),
     };
-    Ok(Some(Interval::Ends { ends, method }))
+    let standard_error = place.optional("standard_error");
+    let clusters = place.optional("clusters");
+    Ok(Some(Interval::Ends {
+        ends,
+        method,
+        standard_error: standard_error.map(|at| at.number()).transpose()?,
+        clusters: clusters.map(|at| at.count()).transpose()?,
+    }))
 }
 
 fn map(place: &Place<'_>) -> Result<Map, ResultsError> {
