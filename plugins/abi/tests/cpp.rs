@@ -8,6 +8,7 @@ const EXPECTED: &str = "\
 well: 0 0 
 2x1 of 4, 12 bytes to 9, picture 1 at 5
 no device: -1 23 no camera is plugged in
+no gain: -7 19 `gain` is not given
 failure: -5 16 the cable is out
 success: -15 29 a failure that claims success
 exception: -15 10 row 7 of 3

@@ -28,10 +28,14 @@ struct failure : std::runtime_error {
 /* What a sensor is opened with, checked by the host against the manifest. */
 struct arguments {
   const taceva_args *list;
-  const taceva_arg *find(std::string_view key) const {
+  const taceva_arg *find(std::string_view key) const { /* NULL: it is not given */
     for (size_t at = 0; list && at < list->count; at++)
       if (std::string_view(list->items[at].key.data, list->items[at].key.length) == key) return &list->items[at];
     return nullptr;
+  }
+  const taceva_arg &at(const std::string &key) const {
+    if (const taceva_arg *found = find(key)) return *found;
+    throw failure(TACEVA_INVALID_ARGUMENT, "`" + key + "` is not given");
   }
 };
 
@@ -89,17 +93,14 @@ template <class... Sensors> struct [[gnu::visibility("hidden")]] sensor_plugin {
       return say(error, TACEVA_INTERNAL, "what was thrown is no std::exception");
     }
   }
-  static void expect(bool holds, const char *why) {
-    if (!holds) throw failure(TACEVA_INVALID_ARGUMENT, why);
-  }
+  static void expect(bool holds, const char *why) { if (!holds) throw failure(TACEVA_INVALID_ARGUMENT, why); }
   static deadline after(uint64_t timeout_ns) { /* as far as the clock reaches: a year is for ever */
     return std::chrono::steady_clock::now() + std::chrono::nanoseconds(std::min(timeout_ns, uint64_t{31'536'000} * 1'000'000'000));
   }
   static sensor &begun(void *handle) {
     sensor &it = *static_cast<sensor *>(handle);
     std::lock_guard<std::mutex> lock(it.mutex_);
-    it.seen_ = it.interrupts_;
-    return it;
+    return it.seen_ = it.interrupts_, it;
   }
   static taceva_status start(void *handle, uint64_t timeout_ns, taceva_error *error) noexcept {
     return guarded(error, [&] { if (sensor &it = begun(handle); !it.is_started_) it.start(after(timeout_ns)), it.is_started_ = true; });
@@ -123,7 +124,6 @@ template <class... Sensors> struct [[gnu::visibility("hidden")]] sensor_plugin {
   static void interrupt(void *handle) noexcept { static_cast<sensor *>(handle)->interrupt(); }
   static void close(void *handle) noexcept { stop(handle, nullptr), delete static_cast<sensor *>(handle); }
   static constexpr taceva_sensor_calls calls = {{sizeof(taceva_sensor_calls), 0, close, interrupt, nullptr}, 0, 0, start, capture, stop};
-
   static taceva_status describe(uint32_t driver, const taceva_args *, taceva_take_text take, void *context, taceva_error *error) noexcept {
     static constexpr std::string_view tables[] = {Sensors::table...};
     if (driver >= sizeof...(Sensors)) return say(error, TACEVA_NOT_FOUND, "no such sensor");

@@ -19,6 +19,7 @@ class wild : public taceva::sensor {
     const taceva_arg *way = given.find("way");
     way_ = way ? std::string(way->text.data, way->text.length) : "well";
     if (way_ == "no device") throw taceva::failure(TACEVA_NOT_FOUND, "no camera is plugged in");
+    if (way_ == "no gain") (void)given.at("gain");
     alive += 1;
   }
   ~wild() override { alive -= 1; }
@@ -115,7 +116,7 @@ void interrupted() {
 }  // namespace
 
 int main() {
-  for (auto way : {"well", "no device", "failure", "success", "exception", "memory", "whatever", "long", "stop throws", "wait"}) try_way(way);
+  for (auto way : {"well", "no device", "no gain", "failure", "success", "exception", "memory", "whatever", "long", "stop throws", "wait"}) try_way(way);
   try_way("well", 1'000'000, false);
   try_way("well", 1'000'000, true, 11);
   interrupted();
