@@ -7,7 +7,7 @@ use std::ffi::c_void;
 use taceva_abi::{
     Args as AbiArgs, Device, Error, Factory as Table, Rig as AbiRig, Status, TakeText,
 };
-use taceva_core::{ArgSpec, Args, Factory, Rig};
+use taceva_core::{ArgSpec, Args, Factory, Presence, Rig};
 
 use crate::calls::Kind;
 use crate::failure::Failure;
@@ -56,11 +56,13 @@ unsafe extern "C" fn describe<D: Kind + ?Sized>(
 ) -> Status {
     let work = || {
         let factory = driver::<D>(number)?;
-        let descriptor = if given.is_null() {
+        let specs = factory.descriptor().arguments();
+        // SAFETY: the host lends its arguments for the call.
+        let descriptor = if unsafe { is_before_any(given, specs) }? {
             factory.descriptor().clone()
         } else {
-            // SAFETY: the host lends its arguments for the call.
-            let args = unsafe { args(given, factory.descriptor().arguments()) }?;
+            // SAFETY: as above.
+            let args = unsafe { args(given, specs) }?;
             let described = factory.describe(&args);
             described.map_err(|error| Failure::argument(error.to_string()))?
         };
@@ -69,6 +71,20 @@ unsafe extern "C" fn describe<D: Kind + ?Sized>(
     };
     // SAFETY: the host's own promise for `error`.
     unsafe { guard(error, work) }
+}
+
+/// Whether a host asks before it knows any arguments: with NULL, or with none where one must be given.
+///
+/// # Safety
+/// As for [`args`].
+unsafe fn is_before_any(given: *const AbiArgs, specs: &[ArgSpec]) -> Result<bool, Failure> {
+    if given.is_null() {
+        return Ok(true);
+    }
+    // SAFETY: promised by the caller.
+    let given = unsafe { memory::given("args", given) }?;
+    let is_required = |spec: &ArgSpec| matches!(spec.presence, Presence::Required);
+    Ok(given.count == 0 && specs.iter().any(is_required))
 }
 
 unsafe extern "C" fn discover<D: Kind + ?Sized>(

@@ -34,6 +34,7 @@ export_plugin! {
         dyn Robot => || Ok(Box::new(RobotMaker::new()?)),
         dyn ForceTransducer => || Ok(Box::new(ForceMaker::new()?)),
         dyn Lighting => || Ok(Box::new(LightingMaker::new()?)),
+        dyn Lighting => || Ok(Box::new(LightingMaker::on_a_port()?)),
         dyn EstimatorFactory => || Box::new(MeanMaker::new()),
     ],
 }

@@ -1,7 +1,7 @@
 //! A lamp that nobody may open.
 
 use taceva_core::{
-    Args, Descriptor, DescriptorError, DriverError, ErrorKind, Factory, Facts, Lighting,
+    ArgSpec, Args, Descriptor, DescriptorError, DriverError, ErrorKind, Factory, Facts, Lighting,
     LightingFacts, Rig,
 };
 
@@ -19,6 +19,16 @@ impl LightingMaker {
             Facts::Lighting(facts),
             way(),
         )?))
+    }
+
+    /// A lamp on a port that must be named.
+    pub(super) fn on_a_port() -> Result<LightingMaker, DescriptorError> {
+        let facts = LightingFacts {
+            scenes: vec!["dark".to_owned()],
+        };
+        let port = ArgSpec::text("port");
+        let descriptor = descriptor("street", Facts::Lighting(facts), vec![port])?;
+        Ok(LightingMaker(descriptor))
     }
 }
 

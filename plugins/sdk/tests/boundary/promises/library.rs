@@ -5,7 +5,9 @@
 use std::ptr::null;
 use std::time::Duration;
 
-use taceva_plugin::abi::{ABI_MAJOR, FORCE_FACTORY, MAGIC, Plugin, SENSOR_FACTORY, Status};
+use taceva_plugin::abi::{
+    ABI_MAJOR, Args, FORCE_FACTORY, LIGHTING_FACTORY, MAGIC, Plugin, SENSOR_FACTORY, Status,
+};
 
 use crate::fake_host::{ended, exported, factory, plugin, taken, with_args};
 
@@ -54,6 +56,41 @@ default = "well"
         discover(0, Some(crate::fake_host::take), context, error)
     });
     assert_eq!(found, ["way=well"]);
+}
+
+#[test]
+fn a_driver_that_must_be_given_something_describes_itself_before_it_is() {
+    let lamps = factory(LIGHTING_FACTORY);
+    let describe = lamps.describe.expect("a function");
+    let nothing = Args {
+        items: null(),
+        count: 0,
+    };
+    for args in [null(), &raw const nothing] {
+        // SAFETY: the list takes the text; the arguments live for the call.
+        let (ended, texts) = taken(|context, error| unsafe {
+            describe(1, args, Some(crate::fake_host::take), context, error)
+        });
+        assert_eq!(ended, (Status::OK, String::new()));
+        assert!(texts.concat().contains("key = \"port\""), "{texts:?}");
+    }
+    let open = lamps.open.expect("a function");
+    let mut device = taceva_plugin::abi::Device {
+        handle: std::ptr::null_mut(),
+        calls: null(),
+    };
+    // SAFETY: all places live for the call.
+    let (status, message) = ended(|error| unsafe {
+        open(
+            1,
+            &raw const nothing,
+            std::ptr::null_mut(),
+            &raw mut device,
+            error,
+        )
+    });
+    assert_eq!(status, Status::INVALID_ARGUMENT);
+    assert!(message.contains("`port`: missing"), "{message}");
 }
 
 #[test]
