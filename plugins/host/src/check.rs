@@ -13,6 +13,7 @@ mod probe;
 mod robot;
 mod sensor;
 mod subject;
+mod waiting;
 
 use std::collections::BTreeMap;
 use std::os::fd::OwnedFd;

@@ -1,12 +1,9 @@
 //! Checks of force transducers.
 
-use std::thread;
-use std::time::{Duration, Instant};
-
 use taceva_core::{Axis, Deadline, DriverKind, ErrorKind, ForceTransducer};
 
-use super::subject::{AT_ONCE, Ending, PATIENT, SOON, Subject, ensure, timed};
-use super::{Check, Of};
+use super::subject::{Ending, PATIENT, Subject, ensure};
+use super::{Check, Of, waiting};
 use crate::session::Session;
 
 pub(super) const CHECKS: &[Check] = &[
@@ -108,72 +105,15 @@ fn any_order(subject: &Subject) -> Result<(), Ending> {
 }
 
 fn passed_deadline(subject: &Subject) -> Result<(), Ending> {
-    let mut force = started(subject)?;
-    for _ in 0..5 {
-        let (read, took) = timed(|| force.read(Deadline::PASSED));
-        ensure(took < SOON, || {
-            format!("no time was given, and it took {took:?}")
-        })?;
-        match read {
-            Err(error) if error.kind() != ErrorKind::Timeout => return Err(error.into()),
-            _ => {}
-        }
-    }
-    force.read(PATIENT)?;
-    Ok(())
+    waiting::passed_deadline(&mut started(subject)?)
 }
 
 fn keeps_deadlines(subject: &Subject) -> Result<(), Ending> {
-    let mut force = started(subject)?;
-    let short = Duration::from_millis(5);
-    for _ in 0..10 {
-        let (read, took) = timed(|| force.read(Deadline::after(short)));
-        ensure(took < short + SOON, || {
-            format!("{short:?} were given, and it took {took:?}")
-        })?;
-        match read {
-            Err(error) if error.kind() != ErrorKind::Timeout => return Err(error.into()),
-            _ => {}
-        }
-    }
-    Ok(())
+    waiting::keeps_deadlines(&mut started(subject)?)
 }
 
 fn interrupt(subject: &Subject) -> Result<(), Ending> {
-    let mut force = started(subject)?;
-    let interrupt = force.interrupt_handle();
-    let interrupt =
-        interrupt.ok_or_else(|| Ending::Skipped("it cannot be interrupted".to_owned()))?;
-    let interrupter = thread::spawn(move || {
-        thread::sleep(Duration::from_millis(20));
-        let now = Instant::now();
-        interrupt.interrupt();
-        now
-    });
-    let long = Deadline::after(Duration::from_secs(3));
-    let mut begun = Instant::now();
-    loop {
-        let read = force.read(long);
-        let ended = Instant::now();
-        match read {
-            // A reading that came by itself: whether the interrupt met this call or none, the next must work.
-            Ok(_) if !interrupter.is_finished() => begun = ended,
-            Ok(_) => break,
-            Err(error) if error.kind() == ErrorKind::Interrupted => {
-                let at = interrupter
-                    .join()
-                    .map_err(|_| Ending::Broken("the check panicked".to_owned()))?;
-                let late = ended.saturating_duration_since(at.max(begun));
-                ensure(late < AT_ONCE, || {
-                    format!("it took {late:?}, expected at most {AT_ONCE:?}")
-                })?;
-                break;
-            }
-            Err(error) => return Err(error.into()),
-        }
-    }
-    force.read(PATIENT)?;
-    Ok(())
+    waiting::interrupt(&mut started(subject)?)
 }
 
 fn tares(subject: &Subject) -> Result<(), Ending> {

@@ -1,14 +1,11 @@
 //! Checks of sensors.
 
-use std::thread;
-use std::time::{Duration, Instant};
-
 use taceva_core::{
     Deadline, DriverError, DriverKind, DriverSource, ErrorKind, FrameInfo, FrameMut, Sensor, Stamp,
 };
 
-use super::subject::{AT_ONCE, Ending, PATIENT, SOON, Subject, ensure, timed};
-use super::{Check, Of};
+use super::subject::{Ending, PATIENT, Subject, ensure};
+use super::{Check, Of, waiting};
 use crate::device::PluginSensor;
 
 pub(super) const CHECKS: &[Check] = &[
@@ -48,7 +45,10 @@ fn buffer(info: FrameInfo) -> Vec<u8> {
     vec![0; info.byte_len().unwrap_or(0)]
 }
 
-fn capture(sensor: &mut PluginSensor, deadline: Deadline) -> Result<(Stamp, Vec<u8>), DriverError> {
+pub(super) fn capture(
+    sensor: &mut PluginSensor,
+    deadline: Deadline,
+) -> Result<(Stamp, Vec<u8>), DriverError> {
     let info = sensor.frame_info();
     let mut pixels = buffer(info);
     let into = FrameMut::new(info, &mut pixels).expect("made for it");
@@ -102,69 +102,16 @@ fn any_order(subject: &Subject) -> Result<(), Ending> {
     Ok(())
 }
 
-fn in_time(sensor: &mut PluginSensor, given: Duration) -> Result<(), Ending> {
-    let (captured, took) = timed(|| capture(sensor, Deadline::after(given)));
-    ensure(took < given + SOON, || {
-        format!("{given:?} were given, and it took {took:?}")
-    })?;
-    match captured {
-        Err(error) if error.kind() != ErrorKind::Timeout => Err(error.into()),
-        _ => Ok(()),
-    }
-}
-
 fn passed_deadline(subject: &Subject) -> Result<(), Ending> {
-    let mut sensor = started(subject)?;
-    for _ in 0..5 {
-        in_time(&mut sensor, Duration::ZERO)?;
-    }
-    capture(&mut sensor, PATIENT)?;
-    Ok(())
+    waiting::passed_deadline(&mut started(subject)?)
 }
 
 fn keeps_deadlines(subject: &Subject) -> Result<(), Ending> {
-    let mut sensor = started(subject)?;
-    for _ in 0..10 {
-        in_time(&mut sensor, Duration::from_millis(5))?;
-    }
-    Ok(())
+    waiting::keeps_deadlines(&mut started(subject)?)
 }
 
 fn interrupt(subject: &Subject) -> Result<(), Ending> {
-    let mut sensor = started(subject)?;
-    let interrupt = sensor.interrupt_handle();
-    let interrupt =
-        interrupt.ok_or_else(|| Ending::Skipped("it cannot be interrupted".to_owned()))?;
-    let interrupter = thread::spawn(move || {
-        thread::sleep(Duration::from_millis(20));
-        let now = Instant::now();
-        interrupt.interrupt();
-        now
-    });
-    let long = Deadline::after(Duration::from_secs(3));
-    let mut begun = Instant::now();
-    loop {
-        let captured = capture(&mut sensor, long);
-        let ended = Instant::now();
-        match captured {
-            // A frame that came by itself: whether the interrupt met this call or none, the next must work.
-            Ok(_) if !interrupter.is_finished() => begun = ended,
-            Ok(_) => break,
-            Err(error) if error.kind() == ErrorKind::Interrupted => {
-                let at = interrupter
-                    .join()
-                    .map_err(|_| Ending::Broken("the check panicked".to_owned()))?;
-                let late = ended.saturating_duration_since(at.max(begun));
-                ensure(late < AT_ONCE, || {
-                    format!("it took {late:?}, expected at most {AT_ONCE:?}")
-                })?;
-                break;
-            }
-            Err(error) => return Err(error.into()),
-        }
-    }
-    capture(&mut sensor, PATIENT)?;
-    Ok(())
+    waiting::interrupt(&mut started(subject)?)
 }
 
 fn same_frames(subject: &Subject) -> Result<(), Ending> {

@@ -23,7 +23,7 @@
 #define SECRET "/etc/passwd"
 #endif
 #ifndef OUTSIDE
-#define OUTSIDE "/tmp/taceva-outside"
+#define OUTSIDE P_tmpdir "/taceva-outside"
 #endif
 #ifndef PORT
 #define PORT 9
