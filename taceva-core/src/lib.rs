@@ -5,6 +5,7 @@ mod batch;
 mod channel;
 mod driver;
 mod error;
+mod estimator_factory;
 mod field;
 mod footprint;
 mod frame;
@@ -38,6 +39,7 @@ pub use driver::{
     SpeedError, Tare, check_pose, check_wrench,
 };
 pub use error::ErrorKind;
+pub use estimator_factory::{EstimatorFactory, FitRequest};
 pub use field::{Field, FieldSet};
 pub use footprint::{Footprint, FootprintError, Outline};
 pub use frame::{Frame, FrameError, FrameInfo, FrameMut, PixelFormat};

@@ -5,12 +5,16 @@
 
 mod finding;
 mod machine;
+#[cfg(feature = "plugin")]
+mod plugins;
 mod ports;
 mod usb;
 mod user;
 
 pub use finding::{Finding, State};
 pub use machine::Machine;
+#[cfg(feature = "plugin")]
+pub use plugins::examine_plugins;
 
 use crate::devices::devices;
 use crate::drivers::Drivers;

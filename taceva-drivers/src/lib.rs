@@ -7,6 +7,7 @@ mod drivers;
 pub mod fault;
 mod guard;
 mod name_order;
+mod on_bench;
 mod pace;
 mod random;
 mod selector;
@@ -16,6 +17,7 @@ mod text;
 
 pub use devices::{Devices, ListedArgument, ListedDevice, ListedDriver, devices};
 pub use drivers::{Drivers, OpenError, open};
+pub use on_bench::OnBench;
 pub use pace::{Pace, RealPace, VirtualPace};
 pub use selector::{Selector, SelectorError};
 pub use sensor::replay::{Replay, ReplayFactory, ReplayOptions};

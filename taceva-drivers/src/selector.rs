@@ -28,6 +28,21 @@ impl Selector {
     pub fn arguments(&self) -> &str {
         &self.arguments
     }
+
+    /// The name of the simulated bench that its device is of, if it is of one: as [`Rig::bench`](taceva_core::Rig::bench) knows it.
+    ///
+    /// ```
+    /// use taceva_drivers::Selector;
+    /// let selector: Selector = "sim/gelsight:seed=3;rig=left".parse()?;
+    /// assert_eq!(selector.bench().as_deref(), Some("sim left"));
+    /// # Ok::<(), taceva_drivers::SelectorError>(())
+    /// ```
+    pub fn bench(&self) -> Option<String> {
+        let (makers, _) = self.driver.rsplit_once('/')?;
+        let mut arguments = self.arguments.split(';').map(str::trim);
+        let name = arguments.find_map(|argument| argument.strip_prefix("rig="));
+        Some(format!("{makers} {}", name.unwrap_or("bench").trim()))
+    }
 }
 
 impl FromStr for Selector {

@@ -9,7 +9,7 @@ use std::sync::Arc;
 use taceva_tests::power_cut::{Tree, read_tree};
 use taceva_tests::{library, root, scratch, taceva};
 
-/// Pictures, forces, two units, another light and a board, in little time.
+/// Pictures of a size that the manifest does not say, forces, two units, another light and a board, in little time.
 const SCENE: &str = r#"scene_version = 1
 name = "study"
 seed = 7
@@ -17,7 +17,7 @@ robot = { driver = "sim/robot" }
 force = { driver = "sim/force-transducer" }
 lighting = { driver = "sim/lighting" }
 model = { name = "ridge", set = { size = "8x8" } }
-sensor = { driver = "sim/vitactip", units = ["1", "2"] }
+sensor = { driver = "sim/vitactip:reduction=16", units = ["1", "2"] }
 protocol = { calibration = { points = 4, indentations = 2 }, spatial = { points = 3 }, gratings = { step_mm = 0.75, presses = 2 }, lighting = { points = 1 }, repeatability = { points = 1, trials = 2, depth_step_mm = 0.5 }, hysteresis = { points = 1, depth_step_mm = 0.5 }, surface = { points = 3 }, idle = { frames = 4 } }
 "#;
 

@@ -9,6 +9,7 @@
 //! | orders: open, describe, discover, end | one pair of sockets a child |
 //! | calls of a device | one pair a device, served by a thread of its own: a call blocks its device alone |
 //! | interrupt, halt | a second pair a device, served by another thread: round the queue |
+//! | lines of the log | a socket a child, read by a thread of its own |
 //! | frames | memory of a sealed size, written in place by the child, copied once by the host |
 //!
 //! The host believes nothing: every length and number that comes is checked ([`wire`]), every call has a time after which the child is
@@ -18,6 +19,7 @@ mod array;
 mod error;
 mod fate;
 mod keeper;
+mod log;
 mod main_hook;
 mod memory;
 mod patience;

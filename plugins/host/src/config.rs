@@ -87,16 +87,22 @@ impl PluginConfig {
     }
 
     /// How `plugin` is delivered.
+    pub fn delivery(&self, plugin: &Plugin) -> Delivery {
+        match self.trust(plugin) {
+            Some(_) => Delivery::InProcess,
+            None => Delivery::Child,
+        }
+    }
+
+    /// Who trusts `plugin` with this process, if anybody does.
     ///
     /// What the settings trust is not trusted beside a scene: whoever hands over a scene may put any plugin there, under any id.
-    pub fn delivery(&self, plugin: &Plugin) -> Delivery {
+    pub fn trust(&self, plugin: &Plugin) -> Option<Trust> {
         let id = plugin.id();
-        let is_trusted = self.trust_in_process.contains(id) && plugin.place != Place::Project;
-        if is_trusted || self.trusted_now.contains(id) {
-            Delivery::InProcess
-        } else {
-            Delivery::Child
-        }
+        let settings = self.trust_in_process.contains(id) && plugin.place != Place::Project;
+        let now = self.trusted_now.contains(id);
+        now.then_some(Trust::CommandLine)
+            .or(settings.then_some(Trust::Settings))
     }
 
     /// What `plugin` may reach: what it asks for and the user allows.
@@ -106,6 +112,24 @@ impl PluginConfig {
             Some(allowed) => needs.intersection(allowed).cloned().collect(),
             None => BTreeSet::new(),
         }
+    }
+}
+
+/// Who lets the code of a plugin run in this process.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Trust {
+    /// Whoever typed the command.
+    CommandLine,
+    /// The user's settings.
+    Settings,
+}
+
+impl std::fmt::Display for Trust {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(match self {
+            Trust::CommandLine => "`--trust` says so",
+            Trust::Settings => "`trust_in_process` of the user's settings says so",
+        })
     }
 }
 

@@ -2,7 +2,31 @@
 
 use std::fmt::Debug;
 
-use taceva_core::{ArgSpec, Descriptor, Facts};
+use taceva_core::{ArgSpec, Args, Descriptor, Facts};
+
+/// Whether `args` set an argument of `descriptor` that can change its facts.
+pub(crate) fn changes_facts(descriptor: &Descriptor, args: &Args) -> bool {
+    let mut arguments = descriptor.arguments().iter();
+    arguments.any(|argument| argument.changes_facts && argument.is_set_by(args))
+}
+
+/// As [`difference`], of what the library says of a driver that is told `args`: those can change facts where they are declared to.
+pub(crate) fn difference_with(
+    manifest: &Descriptor,
+    library: &Descriptor,
+    args: &Args,
+) -> Option<[String; 3]> {
+    let keys = [manifest, library].map(Descriptor::key);
+    let kinds = [manifest, library].map(Descriptor::kind);
+    let rest = || match changes_facts(manifest, args) {
+        true => differ("source", [manifest, library].map(Descriptor::source))
+            .or_else(|| arguments([manifest, library].map(Descriptor::arguments))),
+        false => difference(manifest, library),
+    };
+    differ("key", keys)
+        .or_else(|| differ("kind", kinds))
+        .or_else(rest)
+}
 
 /// The first thing that `manifest` and `library` disagree about: its name and what either says. Words for people may differ.
 pub(crate) fn difference(manifest: &Descriptor, library: &Descriptor) -> Option<[String; 3]> {
@@ -68,6 +92,36 @@ mod tests {
             Facts::Sensor(Box::new(facts)),
         );
         spec.check().expect("consistent")
+    }
+
+    #[test]
+    fn facts_may_differ_where_an_argument_is_set_that_changes_them_and_nothing_else_may() {
+        let with = |rate_hz: f64, source: DriverSource| {
+            let facts = SensorFacts {
+                rate: Some(Hertz(rate_hz)),
+                ..SensorFacts::default()
+            };
+            let key = DriverKey::fixed("org.example/eye");
+            let facts = Facts::Sensor(Box::new(facts));
+            let speed = ArgSpec::whole("speed", 1, 9).optional().changes_facts();
+            let name = ArgSpec::text("name").optional();
+            let spec = DescriptorSpec::new(key, "eye", source, facts);
+            spec.arguments([speed, name]).check().expect("consistent")
+        };
+        let (manifest, other) = (
+            with(30.0, DriverSource::Real),
+            with(60.0, DriverSource::Real),
+        );
+        let difference = |library: &Descriptor, arguments: &str| {
+            let args = manifest.args(arguments).expect("declared");
+            difference_with(&manifest, library, &args).map(|[what, ..]| what)
+        };
+        assert_eq!(difference(&other, "speed=2"), None);
+        assert_eq!(difference(&other, "name=a").as_deref(), Some("rate_hz"));
+        assert_eq!(difference(&other, "").as_deref(), Some("rate_hz"));
+        let simulated = with(60.0, DriverSource::Simulated);
+        let found = difference(&simulated, "speed=2");
+        assert_eq!(found.as_deref(), Some("source"));
     }
 
     #[test]

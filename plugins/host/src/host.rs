@@ -1,25 +1,32 @@
 //! The plugins of a program, and the drivers that they are.
 
-use std::collections::BTreeMap;
-use std::io;
-use std::path::{Path, PathBuf};
-use std::sync::{Arc, Mutex, PoisonError};
+mod driver;
+mod estimator;
+mod isolation;
+mod looking;
 
-use taceva_core::{
-    Access, ArgValue, Args, Descriptor, DriverError, DriverKey, ErrorKind, Factory,
-    ForceTransducer, Found, Lighting, Rig, Robot, Sensor,
-};
+use std::collections::{BTreeMap, BTreeSet};
+use std::io;
+use std::path::PathBuf;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::time::Duration;
+
+use taceva_core::{DriverError, DriverKey, ErrorKind, Factory};
 
 #[cfg(target_os = "linux")]
 use crate::child::{ChildSession, ChildSpec, Quarantine};
 use crate::config::{Delivery, PluginConfig};
 use crate::id::PluginId;
 use crate::in_process::InProcess;
-use crate::library::{Image, Level, Library};
-use crate::manifest::{EstimatorInfo, Provided, UsbId};
+use crate::library::{Image, Level, Library, Log};
+use crate::log::limited;
+use crate::manifest::{EstimatorInfo, Need, Provided, Sha256Digest};
 use crate::search::{NotFound, Plugin, Plugins};
 use crate::session::Session;
-use crate::usb;
+
+pub use self::driver::PluginDriver;
+pub use self::isolation::Keeping;
+use self::looking::Looker;
 
 /// Takes what plugins log: whose line it is, how much it matters, what it is about, and what it says.
 pub type PluginLog = Arc<dyn Fn(&PluginId, Level, &str, &str) + Send + Sync>;
@@ -45,6 +52,9 @@ impl Children {
     }
 }
 
+/// A session, and the digest of the library that answers in it.
+type Started = (Arc<dyn Session>, Sha256Digest);
+
 /// The plugins of a program: found, settled, and delivered as the user decided.
 pub struct PluginHost {
     plugins: Plugins,
@@ -56,7 +66,11 @@ pub struct PluginHost {
     )]
     children: Children,
     /// What is loaded in this process: once a plugin, however many rigs use it.
-    loaded: Mutex<BTreeMap<PluginId, Arc<Library>>>,
+    loaded: Mutex<BTreeMap<PluginId, (Arc<Library>, Sha256Digest)>>,
+    /// Where devices are looked for: one session a plugin.
+    lookers: Mutex<BTreeMap<PluginId, Looker>>,
+    /// What is enforced upon children, by what they may reach.
+    tried: Mutex<BTreeMap<BTreeSet<Need>, Keeping>>,
 }
 
 impl PluginHost {
@@ -78,6 +92,8 @@ impl PluginHost {
             log,
             children,
             loaded: Mutex::default(),
+            lookers: Mutex::default(),
+            tried: Mutex::default(),
         })
     }
 
@@ -141,12 +157,27 @@ impl PluginHost {
             DriverError::new(ErrorKind::NotFound, driver, "load the plugin").because(error)
         };
         let plugin = self.plugins.get(id.as_str()).map_err(refused)?;
+        self.start(plugin, driver).map(|(session, _)| session)
+    }
+
+    /// A new session of `plugin`, and the digest of the library that answers in it.
+    fn start(&self, plugin: &Plugin, driver: &DriverKey) -> Result<Started, DriverError> {
+        self.start_within(plugin, driver, None)
+    }
+
+    /// The same, of a child that has so long to load and for each order.
+    fn start_within(
+        &self,
+        plugin: &Plugin,
+        driver: &DriverKey,
+        limit: Option<Duration>,
+    ) -> Result<Started, DriverError> {
         match self.config.delivery(plugin) {
             Delivery::InProcess => {
-                let library = self.library(plugin, driver)?;
-                Ok(Arc::new(InProcess::open(&library)?))
+                let (library, digest) = self.library(plugin, driver)?;
+                Ok((Arc::new(InProcess::open(&library)?), digest))
             }
-            Delivery::Child => self.child(plugin, driver),
+            Delivery::Child => self.child(plugin, driver, limit),
         }
     }
 
@@ -187,7 +218,12 @@ impl PluginHost {
 
     /// A session in a child that may reach what the plugin asks for and the user allows.
     #[cfg(target_os = "linux")]
-    fn child(&self, plugin: &Plugin, driver: &DriverKey) -> Result<Arc<dyn Session>, DriverError> {
+    fn child(
+        &self,
+        plugin: &Plugin,
+        driver: &DriverKey,
+        limit: Option<Duration>,
+    ) -> Result<Started, DriverError> {
         const DOING: &str = "load the plugin";
         let image = Image::read(&plugin.folder, &plugin.library)
             .map_err(|error| error.of_driver(driver))?;
@@ -199,13 +235,23 @@ impl PluginHost {
         let mut spec = spec
             .map_err(|error| DriverError::new(ErrorKind::Internal, driver, DOING).because(error))?;
         spec.program = program;
+        spec.log = Some(self.log_of(plugin));
+        if let Some(limit) = limit {
+            (spec.patience.start, spec.patience.open) = (limit, limit);
+        }
         spec.confinement.needs = self.config.allowed(plugin).into_iter().collect();
         let session = ChildSession::of_plugin(spec, &plugin.manifest);
-        Ok(Arc::new(session.map_err(|error| error.of(driver, DOING))?))
+        let session = session.map_err(|error| error.of(driver, DOING))?;
+        Ok((Arc::new(session), image.digest()))
     }
 
     #[cfg(not(target_os = "linux"))]
-    fn child(&self, plugin: &Plugin, driver: &DriverKey) -> Result<Arc<dyn Session>, DriverError> {
+    fn child(
+        &self,
+        plugin: &Plugin,
+        driver: &DriverKey,
+        _: Option<Duration>,
+    ) -> Result<Started, DriverError> {
         let why = format!(
             "plugins are isolated on Linux alone; `--trust {}` runs it in this process",
             plugin.id()
@@ -213,22 +259,40 @@ impl PluginHost {
         Err(DriverError::new(ErrorKind::Unsupported, driver, "load the plugin").because(why))
     }
 
+    fn lock_lookers(&self) -> MutexGuard<'_, BTreeMap<PluginId, Looker>> {
+        self.lookers.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    #[cfg(target_os = "linux")]
+    fn lock_tried(&self) -> MutexGuard<'_, BTreeMap<BTreeSet<Need>, Keeping>> {
+        self.tried.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Where the lines of `plugin` go, however it is delivered.
+    fn log_of(&self, plugin: &Plugin) -> Log {
+        let (log, id) = (Arc::clone(&self.log), plugin.id().clone());
+        limited(Box::new(move |level, target, message| {
+            log(&id, level, target, message);
+        }))
+    }
+
     /// The library of a trusted plugin, loaded when it is first needed.
-    fn library(&self, plugin: &Plugin, driver: &DriverKey) -> Result<Arc<Library>, DriverError> {
+    fn library(
+        &self,
+        plugin: &Plugin,
+        driver: &DriverKey,
+    ) -> Result<(Arc<Library>, Sha256Digest), DriverError> {
         let mut loaded = self.loaded.lock().unwrap_or_else(PoisonError::into_inner);
-        if let Some(library) = loaded.get(plugin.id()) {
-            return Ok(Arc::clone(library));
+        if let Some((library, digest)) = loaded.get(plugin.id()) {
+            return Ok((Arc::clone(library), *digest));
         }
         let image = Image::read(&plugin.folder, &plugin.library)
             .map_err(|error| error.of_driver(driver))?;
-        let (log, id) = (Arc::clone(&self.log), plugin.id().clone());
-        let line = Box::new(move |level, target: &str, message: &str| {
-            log(&id, level, target, message);
-        });
-        let library = Library::load(&image, &plugin.manifest, line)
+        let library = Library::load(&image, &plugin.manifest, self.log_of(plugin))
             .map_err(|error| error.of_driver(driver))?;
-        loaded.insert(plugin.id().clone(), Arc::clone(&library));
-        Ok(library)
+        let digest = image.digest();
+        loaded.insert(plugin.id().clone(), (Arc::clone(&library), digest));
+        Ok((library, digest))
     }
 }
 
@@ -237,78 +301,4 @@ impl std::fmt::Debug for PluginHost {
         let ids = self.plugins.iter().map(Plugin::id);
         f.debug_set().entries(ids).finish()
     }
-}
-
-/// A driver of a plugin: described by its manifest, opened by its library.
-#[derive(Debug)]
-pub struct PluginDriver {
-    host: Arc<PluginHost>,
-    plugin: PluginId,
-    descriptor: Box<Descriptor>,
-    usb: Vec<UsbId>,
-}
-
-impl PluginDriver {
-    /// Opens a device in the session that `rig` has of the plugin, and makes its bench known, where it is one.
-    fn open_in<D: ?Sized>(
-        &self,
-        args: &Args,
-        rig: &mut Rig,
-        open: impl FnOnce(&dyn Session, &DriverKey) -> Result<Box<D>, DriverError>,
-    ) -> Result<Box<D>, DriverError> {
-        let key = self.descriptor.key();
-        let name = format!("plugin {}", self.plugin);
-        let session: Arc<Arc<dyn Session>> =
-            rig.share(&name, || self.host.session(&self.plugin, key))?;
-        let device = open(&**session, key)?;
-        if let Some(ArgValue::Text(bench)) = args.get("rig")
-            && let Some(found) = session.bench(bench)
-        {
-            rig.offer_bench(&format!("{} {bench}", self.plugin), found);
-        }
-        Ok(device)
-    }
-
-    /// The devices that the manifest names and the kernel lists.
-    fn seen(&self) -> Vec<Found> {
-        if self.usb.is_empty() {
-            return Vec::new();
-        }
-        let devices = usb::plugged_in(Path::new("/sys/bus/usb/devices"));
-        let ours = devices
-            .into_iter()
-            .filter(|device| self.usb.contains(&device.id));
-        let found = ours.map(|device| Found {
-            driver: self.descriptor.key().clone(),
-            title: (device.product).unwrap_or_else(|| self.descriptor.title().to_owned()),
-            arguments: String::new(),
-            access: Access::Ready,
-        });
-        found.collect()
-    }
-}
-
-macro_rules! factories {
-    ($($device:ty => $open:ident),* $(,)?) => {$(
-        impl Factory<$device> for PluginDriver {
-            fn descriptor(&self) -> &Descriptor {
-                &self.descriptor
-            }
-
-            fn open(&self, args: &Args, rig: &mut Rig) -> Result<Box<$device>, DriverError> {
-                self.open_in(args, rig, |session, key| session.$open(key, args))
-            }
-
-            fn discover(&self) -> Result<Vec<Found>, DriverError> {
-                Ok(self.seen())
-            }
-        }
-    )*};
-}
-
-factories! {
-    dyn Sensor => sensor,
-    dyn Robot => robot,
-    dyn ForceTransducer => force,
-    dyn Lighting => lighting,
 }

@@ -56,7 +56,7 @@ impl InProcess {
         let entry = library.entry(driver, Place::Driver(kind), OPENING)?;
         let list = ArgList::new(args, entry.arguments());
         let said = entry
-            .describe(library.id(), &list.args())
+            .describe(library.id(), args)
             .map_err(|failure| failure.of(driver, OPENING))?;
         Ok((entry, list, said))
     }
@@ -77,9 +77,8 @@ impl Session for InProcess {
         const DOING: &str = "describe the device";
         let library = self.rig.library();
         let entry = library.driver(driver, DOING)?;
-        let list = ArgList::new(args, entry.arguments());
         entry
-            .describe(library.id(), &list.args())
+            .describe(library.id(), args)
             .map_err(|failure| failure.of(driver, DOING))
     }
 

@@ -13,6 +13,7 @@ mod host;
 mod id;
 mod in_process;
 mod library;
+mod log;
 mod manifest;
 mod search;
 mod session;
@@ -31,9 +32,9 @@ pub use child::{
 #[cfg(target_os = "linux")]
 #[doc(hidden)]
 pub use child::read_any_message;
-pub use config::{ConfigError, Delivery, PluginConfig};
+pub use config::{ConfigError, Delivery, PluginConfig, Trust};
 pub use device::{LentFrame, PluginSensor};
-pub use host::{Children, PluginDriver, PluginHost, PluginLog};
+pub use host::{Children, Keeping, PluginDriver, PluginHost, PluginLog};
 pub use id::{PluginId, PluginIdError};
 pub use in_process::InProcess;
 pub use library::{Image, Level, Library, LoadError, LoadProblem, Log, libraries_loaded};

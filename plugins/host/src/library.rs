@@ -14,6 +14,7 @@ mod mapped;
 
 use std::collections::BTreeMap;
 use std::ffi::c_void;
+use std::fs::File;
 use std::mem::{MaybeUninit, offset_of};
 use std::os::fd::{AsRawFd, IntoRawFd};
 use std::path::PathBuf;
@@ -191,7 +192,10 @@ fn open(image: &Image) -> Result<*const abi::Plugin, LoadProblem> {
     LOADED.fetch_add(1, Ordering::Relaxed);
     // SAFETY: its constructors are foreign code; whoever calls has decided that they may run in this process.
     let loaded = unsafe { Loaded::open(Some(&name), RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE) };
-    let loaded = loaded.map_err(|error| LoadProblem::Loader(told(error)))?;
+    let loaded = match loaded {
+        Ok(loaded) => loaded,
+        Err(error) => return Err(refused(&File::from(memory), told(error))),
+    };
     // The loader knows the library by the name of this descriptor, which therefore is never used for another.
     let _ = memory.into_raw_fd();
     let name_of_symbol = abi::ENTRY_SYMBOL.to_bytes_with_nul();
@@ -202,6 +206,18 @@ fn open(image: &Image) -> Result<*const abi::Plugin, LoadProblem> {
     // Never unloaded, whatever becomes of this handle.
     std::mem::forget(loaded);
     Ok(address)
+}
+
+/// Why the loader refused `library`, to whose maker `$ORIGIN` meant the folder that it lay in.
+fn refused(library: &File, message: String) -> LoadProblem {
+    let run_path = elf::run_path(library);
+    match run_path.filter(|path| path.contains("$ORIGIN") || path.contains("${ORIGIN}")) {
+        Some(run_path) => LoadProblem::BesideItself {
+            message,
+            run_path: crate::shown::shown(&run_path),
+        },
+        None => LoadProblem::Loader(message),
+    }
 }
 
 /// The exported symbol, read as data: no code of the plugin runs.

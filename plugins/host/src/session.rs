@@ -3,10 +3,10 @@
 use std::sync::Arc;
 
 use taceva_core::{
-    Args, Descriptor, DriverError, DriverKey, ForceTransducer, Found, Lighting, ModelError,
-    Progress, Robot, Sensor, SimulatedBench, TrainingSet,
+    Args, Descriptor, DriverError, DriverKey, ForceTransducer, Found, Lighting, ModelError, Robot,
+    Sensor, SimulatedBench,
 };
-pub use taceva_core::{Saved, SavedRegressor};
+pub use taceva_core::{FitRequest, Saved, SavedRegressor};
 
 /// A loaded plugin and the devices that are opened in it together: one session a plugin and rig.
 ///
@@ -74,16 +74,4 @@ pub trait Session: Send + Sync {
         estimator: &DriverKey,
         saved: &Saved<'_>,
     ) -> Result<Box<dyn SavedRegressor>, ModelError>;
-}
-
-/// What a fit is made from.
-pub struct FitRequest<'a> {
-    /// What was set, checked against what the estimator declares.
-    pub settings: &'a Args,
-    /// Samples to learn from.
-    pub training: &'a TrainingSet<'a>,
-    /// Samples to choose settings by.
-    pub validation: Option<&'a TrainingSet<'a>>,
-    /// Who listens, and may cancel.
-    pub progress: &'a dyn Progress,
 }

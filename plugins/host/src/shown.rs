@@ -10,13 +10,20 @@ pub(crate) fn shown(text: &str) -> String {
             shown.push('…');
             break;
         }
-        if letter.is_control() {
+        if is_obeyed(letter) {
             shown.extend(letter.escape_default());
         } else {
             shown.push(letter);
         }
     }
     shown
+}
+
+/// Whether a terminal obeys a letter in the place of showing it: a control, or one that changes the direction of what follows, so that it is
+/// read as something else.
+pub(crate) fn is_obeyed(letter: char) -> bool {
+    let is_direction = matches!(letter, '\u{200E}' | '\u{200F}' | '\u{202A}'..='\u{202E}' | '\u{2066}'..='\u{2069}');
+    letter.is_control() || is_direction
 }
 
 /// The candidate most like `wrong`, if one is like it at all.
@@ -49,6 +56,7 @@ mod tests {
     #[test]
     fn control_characters_are_written_out_and_long_text_is_cut() {
         assert_eq!(shown("a\u{1b}[31m\n"), "a\\u{1b}[31m\\n");
+        assert_eq!(shown("b\u{202e}c"), "b\\u{202e}c");
         assert_eq!(shown(&"x".repeat(900)).chars().count(), 201);
     }
 

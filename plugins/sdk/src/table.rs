@@ -235,6 +235,9 @@ impl Table {
         if !argument.help.is_empty() {
             self.line("help", &Text(&argument.help));
         }
+        if argument.changes_facts {
+            self.line("changes_facts", &true);
+        }
     }
 }
 

@@ -2,6 +2,7 @@
 
 use std::fmt;
 
+use super::Args;
 use super::error::ArgError;
 use super::nearest::nearest;
 use super::value::ArgValue;
@@ -20,6 +21,8 @@ pub struct ArgSpec {
     pub presence: Presence,
     /// What it means, in words that follow a colon.
     pub help: String,
+    /// Whether it can change what is known of the device before it is opened: the size of its frames, for one.
+    pub changes_facts: bool,
 }
 
 /// What the value of an argument is.
@@ -72,6 +75,7 @@ impl ArgSpec {
             unit: None,
             presence: Presence::Required,
             help: String::new(),
+            changes_facts: false,
         }
     }
 
@@ -132,6 +136,21 @@ impl ArgSpec {
     pub fn help(mut self, help: &str) -> ArgSpec {
         self.help = help.to_owned();
         self
+    }
+
+    /// The same argument, which can change what is known of the device.
+    #[must_use]
+    pub fn changes_facts(mut self) -> ArgSpec {
+        self.changes_facts = true;
+        self
+    }
+
+    /// Whether `args` say something else than nothing, or than its default.
+    pub fn is_set_by(&self, args: &Args) -> bool {
+        match &self.presence {
+            Presence::Default(value) => args.get(&self.key) != Some(value),
+            Presence::Required | Presence::Optional => args.get(&self.key).is_some(),
+        }
     }
 
     /// The value written as `text`.

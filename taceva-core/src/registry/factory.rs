@@ -33,4 +33,13 @@ pub trait Factory<D: ?Sized>: Send + Sync {
     fn discover(&self) -> Result<Vec<Found>, DriverError> {
         Ok(Vec::new())
     }
+
+    /// The digest of the library that it is in, `sha256:` and 64 hexadecimal digits; `None` where it is linked into the program. What is kept
+    /// of one build is not taken for what another does.
+    ///
+    /// # Errors
+    /// [`DriverError`] if the library cannot be read.
+    fn build(&self) -> Result<Option<String>, DriverError> {
+        Ok(None)
+    }
 }

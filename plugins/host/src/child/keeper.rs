@@ -17,6 +17,7 @@ use rustix::event::{EventfdFlags, PollFd, PollFlags, Timespec, eventfd, poll};
 use rustix::process::{Pid, PidfdFlags, Signal, pidfd_open, pidfd_send_signal};
 
 use super::fate::Fate;
+use crate::shown::is_obeyed;
 
 /// How much of the last that a child printed is kept.
 const PRINTED_MAX: usize = 4096;
@@ -193,18 +194,13 @@ pub(crate) fn plain(text: &str) -> String {
     for character in text.chars() {
         match character {
             '\n' => plain.push('\n'),
-            _ if character.is_control() || is_direction(character) => {
+            _ if is_obeyed(character) => {
                 plain.extend(character.escape_unicode());
             }
             _ => plain.push(character),
         }
     }
     plain
-}
-
-/// Whether a character changes the direction of what follows, so that it is read as something else.
-fn is_direction(character: char) -> bool {
-    matches!(character, '\u{200E}' | '\u{200F}' | '\u{202A}'..='\u{202E}' | '\u{2066}'..='\u{2069}')
 }
 
 /// A running child: its number, what watches it, and the thread that does.

@@ -13,6 +13,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use rustix::io::fcntl_dupfd_cloexec;
 use taceva_core::ErrorKind;
 
+use super::log;
 use super::sandbox::{Isolation, confine, seal};
 use super::serve::serve;
 use super::socket::Socket;
@@ -97,13 +98,16 @@ fn run(
     mut orders: Socket,
     load: impl FnOnce(Vec<File>) -> Result<Arc<dyn Session>, (ErrorKind, String)>,
 ) -> i32 {
-    let Ok(((sequence, hello), files)) = orders.receive_with_files::<(u32, Hello)>() else {
+    let Ok(((sequence, hello), mut files)) = orders.receive_with_files::<(u32, Hello)>() else {
         return NOT_A_CHILD;
     };
+    if let Some(host) = files.pop_if(|_| hello.is_heard) {
+        log::to_host(host);
+    }
     let files = files.into_iter().map(File::from).collect();
     let ready = prepare(&hello, files, load);
     let (greeting, session) = match ready {
-        Ok((isolation, session)) => (Greeting::Ready { isolation }, Some(session)),
+        Ok((isolation, session)) => (Greeting::Ready { isolation }, session),
         Err((kind, why)) => {
             let failure = Failure::new(kind, "serve", &why);
             (Greeting::Refused { failure }, None)
@@ -118,14 +122,17 @@ fn run(
     0
 }
 
+/// What is enforced, and what is served, if anything was to be loaded.
+type Prepared = (Isolation, Option<Arc<dyn Session>>);
+
 fn prepare(
     hello: &Hello,
     files: Vec<File>,
     load: impl FnOnce(Vec<File>) -> Result<Arc<dyn Session>, (ErrorKind, String)>,
-) -> Result<(Isolation, Arc<dyn Session>), (ErrorKind, String)> {
+) -> Result<Prepared, (ErrorKind, String)> {
     let denied = |why| (ErrorKind::PermissionDenied, why);
     let isolation = confine(&hello.confinement, hello.parent).map_err(denied)?;
-    let session = load(files)?;
+    let session = hello.loads.then(|| load(files)).transpose()?;
     seal(&isolation).map_err(denied)?;
     Ok((isolation, session))
 }

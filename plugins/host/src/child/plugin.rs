@@ -120,9 +120,9 @@ fn read(file: File) -> io::Result<Label> {
     decode(&bytes).map_err(io::Error::other)
 }
 
-/// What a plugin logs stands among what its process prints, of which the host keeps the last.
+/// What a plugin logs goes to its host; where that does not listen it stands among what the process prints, of which the host keeps the last.
 fn log(level: Level, target: &str, message: &str) {
-    if level <= Level::Warn {
+    if !super::log::send(level, target, message) && level <= Level::Warn {
         // Nobody is left to tell if this fails.
         let _ = writeln!(io::stderr(), "{target}: {message}");
     }

@@ -13,12 +13,14 @@ use rustix::pipe::{PipeFlags, pipe_with};
 use super::error::ChildError;
 use super::fate::Fate;
 use super::keeper::{Kept, Watch, keep};
+use super::log::listen;
 use super::main_hook::{CHILD_ARGUMENT, can_be_child};
 use super::patience::Patience;
 use super::quarantine::{Quarantine, Quarantined};
 use super::sandbox::{Confinement, Isolation};
 use super::socket::{Caller, LinkError, Socket};
 use super::wire::{Greeting, Hello, Order, OrderAnswer};
+use crate::library::Log;
 use crate::manifest::Sha256Digest;
 
 /// The program that is running: the same file, even if another one has taken its name since.
@@ -41,6 +43,10 @@ pub struct ChildSpec {
     pub patience: Patience,
     /// Called once with how it ended, from the thread that watches it.
     pub ended: Option<Ended>,
+    /// Whether it loads anything; one that does not only shows what is enforced upon it.
+    pub loads: bool,
+    /// Takes what its plugin logs, from a thread of its own; without, the errors and warnings stand among what the child prints.
+    pub log: Option<Log>,
     /// Where its library is kept if it crashes, and where it must not be; and the digest of that library.
     pub quarantine: Option<(Quarantine, Sha256Digest)>,
 }
@@ -55,6 +61,8 @@ impl ChildSpec {
             confinement: Confinement::default(),
             patience: Patience::default(),
             ended: None,
+            loads: true,
+            log: None,
             quarantine: None,
         }
     }
@@ -107,6 +115,7 @@ pub struct Child {
     life: Arc<Life>,
     orders: Mutex<Caller>,
     keeper: Option<JoinHandle<()>>,
+    listener: Option<JoinHandle<()>>,
 }
 
 impl Child {
@@ -122,6 +131,8 @@ impl Child {
             confinement,
             patience,
             ended,
+            loads,
+            log,
             quarantine,
         } = spec;
         refuse_quarantined(&plugin, quarantine.as_ref())?;
@@ -149,6 +160,8 @@ impl Child {
             .stdout(Stdio::from(output))
             .stderr(Stdio::from(also_output));
         let ended = when_ended(plugin.clone(), quarantine, ended);
+        let heard = log.map(|log| Ok((log, Socket::pair()?))).transpose();
+        let heard = heard.map_err(|error: rustix::io::Errno| failed(&error))?;
         let Kept {
             process,
             watch,
@@ -158,18 +171,30 @@ impl Child {
             process,
             isolation: Isolation::default(),
             life: Arc::new(Life {
-                plugin,
+                plugin: plugin.clone(),
                 watch,
                 patience,
             }),
             orders: Mutex::new(Caller::from(orders)),
             keeper: Some(keeper),
+            listener: None,
         };
         let hello = Hello {
             parent: std::process::id(),
             confinement,
+            is_heard: heard.is_some(),
+            loads,
         };
-        child.isolation = child.greet(&hello, &files)?;
+        let mut files = files;
+        if let Some((log, (ours, theirs))) = heard {
+            files.push(theirs);
+            let listener = listen(ours, log, Arc::clone(&child.life.watch));
+            child.listener = Some(listener.map_err(|error| failed(&error))?);
+        }
+        let greeting = child.greet(&hello, &files);
+        // Whoever listens hears the end of the child only when nobody here holds its ends.
+        drop(files);
+        child.isolation = greeting?;
         Ok(Arc::new(child))
     }
 
@@ -284,6 +309,10 @@ impl Drop for Child {
         if let Some(keeper) = self.keeper.take() {
             // A keeper that panicked keeps nothing any more.
             let _ = keeper.join();
+        }
+        if let Some(listener) = self.listener.take() {
+            // As above: what it was told last is told before the child is forgotten.
+            let _ = listener.join();
         }
         watch.end(call);
     }

@@ -54,6 +54,51 @@ pub(super) fn check(file: &File) -> Result<(), LoadProblem> {
     }
 }
 
+/// Where `file` tells the loader to look for what it needs, if it says so anywhere: its run path, as it is written.
+pub(super) fn run_path(file: &File) -> Option<String> {
+    let mut header = [0; HEADER];
+    file.read_exact_at(&mut header, 0).ok()?;
+    let count = u16_at(&header, 56).min(SEGMENTS_MAX);
+    let mut segments = vec![0; SEGMENT * usize::from(count)];
+    file.read_exact_at(&mut segments, u64_at(&header, 32))
+        .ok()?;
+    let of_kind = |kind| {
+        let segments = segments.chunks_exact(SEGMENT);
+        segments.filter(move |segment| u32_at(segment, 0) == kind)
+    };
+    let dynamic = of_kind(DYNAMIC).next()?;
+    let length = usize::try_from(u64_at(dynamic, 32).min(DYNAMIC_MAX)).ok()?;
+    let mut entries = vec![0; length];
+    file.read_exact_at(&mut entries, u64_at(dynamic, 8)).ok()?;
+    let value = |tag| {
+        let mut entries = entries.chunks_exact(ENTRY);
+        entries.find_map(|entry| (u64_at(entry, 0) == tag).then(|| u64_at(entry, 8)))
+    };
+    let address = value(TEXTS)?.checked_add(value(RUN_PATH).or_else(|| value(OLD_RUN_PATH))?)?;
+    let offset = of_kind(LOADED).find_map(|segment| {
+        let within = address.checked_sub(u64_at(segment, 16))?;
+        (within < u64_at(segment, 32)).then(|| u64_at(segment, 8).checked_add(within))?
+    })?;
+    let mut text = vec![0; RUN_PATH_MAX];
+    let read = file.read_at(&mut text, offset).ok()?;
+    let text = text[..read].split(|byte| *byte == 0).next()?;
+    Some(String::from_utf8_lossy(text).into_owned())
+}
+
+/// A segment of what the loader reads.
+const DYNAMIC: u32 = 2;
+/// No such segment has more bytes.
+const DYNAMIC_MAX: u64 = 1 << 16;
+/// Bytes of an entry in it: what it is, and its value.
+const ENTRY: usize = 16;
+/// The entry of the texts that others are places in.
+const TEXTS: u64 = 5;
+/// The entry of the run path, and the one that linkers wrote before.
+const RUN_PATH: u64 = 29;
+const OLD_RUN_PATH: u64 = 15;
+/// Bytes of a run path that are read.
+const RUN_PATH_MAX: usize = 4096;
+
 /// The type of a shared library.
 const SHARED: u16 = 3;
 /// 64 bits.

@@ -6,12 +6,12 @@ use std::collections::BTreeMap;
 use std::fmt;
 
 use taceva_abi as abi;
-use taceva_core::{ArgSpec, Descriptor, DriverKey, DriverKind};
+use taceva_core::{ArgSpec, Args, Descriptor, DriverKey, DriverKind};
 
 use super::Library;
 use super::error::LoadProblem;
-use crate::call::{Failure, Taken, call, take};
-use crate::descriptor::{arguments, difference};
+use crate::call::{ArgList, Failure, Taken, call, take};
+use crate::descriptor::{arguments, difference, difference_with};
 use crate::id::PluginId;
 use crate::manifest::{Manifest, Provided};
 
@@ -52,8 +52,26 @@ impl Entry {
         }
     }
 
+    /// What the library says of the driver that is told `args`, compared with what it said without any.
+    pub(crate) fn describe(&self, id: &PluginId, args: &Args) -> Result<Descriptor, Failure> {
+        let list = ArgList::new(args, self.arguments());
+        let said = self.said(id, &list.args())?;
+        let Provided::Driver { descriptor, .. } = &self.provided else {
+            return Ok(said);
+        };
+        match difference_with(descriptor, &said, args) {
+            None => Ok(said),
+            Some([what, manifest, library]) => {
+                let why = format!(
+                    "with these arguments it says another {what}: {library}, the manifest {manifest}; an argument that may change facts is declared with `changes_facts = true`"
+                );
+                Err(Failure::new(taceva_core::ErrorKind::Abi, why))
+            }
+        }
+    }
+
     /// What the library says of the driver with these arguments.
-    pub(crate) fn describe(&self, id: &PluginId, args: &abi::Args) -> Result<Descriptor, Failure> {
+    fn said(&self, id: &PluginId, args: &abi::Args) -> Result<Descriptor, Failure> {
         let abi_fault = |why: String| Failure::new(taceva_core::ErrorKind::Abi, why);
         let Some(describe) = self.factory.and_then(|factory| factory.describe) else {
             return Err(abi_fault("its `describe` is NULL".to_owned()));

@@ -82,6 +82,13 @@ pub enum LoadProblem {
     CutOff,
     /// The system's loader refused it.
     Loader(String),
+    /// The system's loader did not find what it needs, which it looks for beside itself.
+    BesideItself {
+        /// What the loader says.
+        message: String,
+        /// Where it looks.
+        run_path: String,
+    },
     /// It exports no `taceva_plugin_v1`.
     Symbol(String),
     /// The exported symbol, or a text in it, lies where nothing can be read.
@@ -163,7 +170,8 @@ impl LoadProblem {
             | LoadProblem::NotALibrary
             | LoadProblem::OtherMachine
             | LoadProblem::CutOff
-            | LoadProblem::Loader(_) => ErrorKind::Protocol,
+            | LoadProblem::Loader(_)
+            | LoadProblem::BesideItself { .. } => ErrorKind::Protocol,
             _ => ErrorKind::Abi,
         }
     }
@@ -183,6 +191,10 @@ impl fmt::Display for LoadProblem {
             LoadProblem::OtherMachine => f.write_str("a shared library for another machine"),
             LoadProblem::CutOff => f.write_str("a shared library that is cut off"),
             LoadProblem::Loader(message) => write!(f, "the loader refused it: {message}"),
+            LoadProblem::BesideItself { message, run_path } => write!(
+                f,
+                "the loader refused it: {message}; it looks in `{run_path}`, and a library that is loaded from a sealed copy has no folder of its own: link what it needs into it, or install that among the system's libraries"
+            ),
             LoadProblem::Symbol(message) => {
                 write!(f, "it exports no `taceva_plugin_v1`: {message}")
             }

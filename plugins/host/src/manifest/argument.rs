@@ -20,6 +20,8 @@ pub(super) struct WrittenArgument {
     optional: bool,
     #[serde(default)]
     help: String,
+    #[serde(default)]
+    changes_facts: bool,
 }
 
 #[derive(Clone, Copy, Deserialize, PartialEq)]
@@ -76,6 +78,7 @@ impl WrittenArgument {
             unit: self.unit,
             presence,
             help: self.help,
+            changes_facts: self.changes_facts,
         };
         match spec.fault() {
             Some(fault) => Err(Refused::at(&self.key, fault)),

@@ -110,6 +110,38 @@ impl Fixture {
         Some(fixture)
     }
 
+    /// The same plugin linked with a library that lies beside it, which it looks for where it lies itself.
+    pub(crate) fn with_neighbour(self) -> Fixture {
+        let folder = self.folder.path();
+        let plugins = Path::new(env!("CARGO_MANIFEST_DIR"));
+        fs::write(
+            folder.join("neighbour.c"),
+            "int neighbour(void) { return 1; }\n",
+        )
+        .expect("room");
+        let cc = |arguments: &[&str], source: &Path, library: &str| {
+            let done = Command::new("cc")
+                .args(["-shared", "-fPIC", "-I"])
+                .arg(plugins.join("../abi/include"))
+                .arg(source)
+                .arg("-o")
+                .arg(folder.join(library))
+                .arg("-L")
+                .arg(folder)
+                .args(arguments)
+                .status();
+            assert!(done.expect("it compiled before").success());
+        };
+        cc(&[], &folder.join("neighbour.c"), "libneighbour.so");
+        let beside = ["-Wl,--no-as-needed,-rpath,$ORIGIN", "-lneighbour", "-lm"];
+        cc(
+            &beside,
+            &plugins.join("tests/fixture/plugin.c"),
+            "libfixture.so",
+        );
+        self
+    }
+
     pub(crate) fn folder(&self) -> &Path {
         self.folder.path()
     }

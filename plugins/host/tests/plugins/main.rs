@@ -2,6 +2,8 @@
 
 #[cfg(target_os = "linux")]
 mod check;
+#[cfg(target_os = "linux")]
+mod children;
 mod devices;
 mod estimator;
 mod fixture;

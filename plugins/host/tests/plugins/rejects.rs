@@ -55,6 +55,24 @@ refused!(a_factory_that_is_null: ["NO_FACTORY"], LoadProblem::Lacks { what: "fac
 refused!(an_open_that_is_null: ["NO_OPEN"], LoadProblem::Lacks { what: "open" }, "`open` is NULL");
 refused!(a_table_that_is_misaligned: ["MISALIGNED"], LoadProblem::Table(_), "misaligned");
 
+#[test]
+fn a_library_that_looks_for_another_beside_itself_is_told_that_it_has_no_folder() {
+    let Some(fixture) = Fixture::built(&[]) else {
+        return;
+    };
+    let Some((problem, text)) = why(&fixture.with_neighbour()) else {
+        return;
+    };
+    assert!(
+        matches!(problem, LoadProblem::BesideItself { .. }),
+        "{problem:?}"
+    );
+    assert!(
+        text.contains("libneighbour.so") && text.contains("it looks in `$ORIGIN`"),
+        "{text}"
+    );
+}
+
 /// Why the sensor of the plugin built with `macros` does not open.
 fn open(macros: &[&str]) -> Option<(ErrorKind, String)> {
     let fixture = Fixture::built(macros)?;

@@ -4,14 +4,15 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use taceva_core::{
-    Args, Deadline, Descriptor, DescriptorError, DescriptorSpec, DriverError, DriverKey,
-    DriverSource, ErrorKind, Factory, Facts, Guard, GuardedMotion, GuardedStop, Halt, Millimetre,
-    Point, Pose, Rig, Robot, RobotFacts, Speed, Stamp, Workspace, check_pose,
+    ArgSpec, ArgValue, Args, Deadline, Descriptor, DescriptorError, DescriptorSpec, DriverError,
+    DriverKey, DriverSource, ErrorKind, Factory, Facts, Guard, GuardedMotion, GuardedStop, Halt,
+    Millimetre, Point, Pose, Rig, Robot, RobotFacts, Speed, Stamp, Workspace, check_pose,
 };
 
 use super::error::{failed, rig_argument, rig_name};
 use super::rig::SimulatedRig;
 use super::state::{Ended, Motion};
+use crate::bench::Bench;
 use crate::parameters::Model;
 
 pub(super) const KEY: DriverKey = DriverKey::fixed("sim/robot");
@@ -47,7 +48,7 @@ impl RobotFactory {
             Facts::Robot(facts),
         );
         Ok(RobotFactory {
-            descriptor: spec.arguments([rig_argument()]).check()?,
+            descriptor: spec.arguments(arguments()).check()?,
         })
     }
 }
@@ -58,11 +59,51 @@ impl Factory<dyn Robot> for RobotFactory {
     }
 
     fn open(&self, args: &Args, rig: &mut Rig) -> Result<Box<dyn Robot>, DriverError> {
+        let rig = SimulatedRig::of(rig, rig_name(args));
+        if let Some(gel) = gel(args) {
+            let mut state = rig.state();
+            if state.sensor_is_open {
+                let why = format!(
+                    "`gel={gel}`: the bench `{}` holds a sensor, whose gel it presses",
+                    rig_name(args)
+                );
+                return Err(failed(
+                    ErrorKind::InvalidArgument,
+                    &KEY,
+                    "open the robot",
+                    why,
+                ));
+            }
+            let seed = args.whole("seed").unsigned_abs();
+            state.lay(Bench::new(gel.parameters(), NOMINAL, seed));
+        }
         Ok(Box::new(SimulatedRobot {
-            rig: SimulatedRig::of(rig, rig_name(args)),
+            rig,
             latch: Arc::default(),
         }))
     }
+}
+
+/// What it may be told. A gel of its own is for sensors that are not of this bench: their pictures do not show it, the forces are its.
+fn arguments() -> [ArgSpec; 3] {
+    let gels = Model::ALL.map(Model::key);
+    [
+        rig_argument(),
+        ArgSpec::choice("gel", gels)
+            .optional()
+            .help("the gel under the tip, where the sensor is none of this bench"),
+        ArgSpec::whole("seed", 0, i64::MAX)
+            .default(ArgValue::Whole(0))
+            .help("what the noise of that gel is drawn from"),
+    ]
+}
+
+/// The specimen of that gel.
+const NOMINAL: u32 = 0;
+
+/// The gel that `args` ask for.
+fn gel(args: &Args) -> Option<Model> {
+    Model::from_key(args.get("gel")?.as_text()?)
 }
 
 taceva_core::submit_builtin!(dyn Robot, || Ok(Box::new(RobotFactory::new()?)));

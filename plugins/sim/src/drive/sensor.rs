@@ -265,10 +265,12 @@ fn describe(model: Model, parameters: &Parameters, frame: Option<FrameInfo>) -> 
             .help("the specimen of the sensor; 0 is nominal"),
         ArgSpec::whole("reduction", 1, REDUCTIONS)
             .optional()
-            .help("how many pixels of the camera, along x and along y, make one of the frame"),
+            .help("how many pixels of the camera, along x and along y, make one of the frame")
+            .changes_facts(),
         ArgSpec::text("table")
             .optional()
-            .help("a table of parameters in the place of the compiled-in one, its whole text"),
+            .help("a table of parameters in the place of the compiled-in one, its whole text")
+            .changes_facts(),
     ])
 }
 

@@ -103,6 +103,12 @@ impl State {
 
     /// Puts a sensor under the tip, in the place of the last one.
     pub(super) fn install(&mut self, bench: Bench) {
+        self.lay(bench);
+        self.sensor_is_open = true;
+    }
+
+    /// Puts a gel under the tip, in the place of the last one.
+    pub(super) fn lay(&mut self, bench: Bench) {
         self.robot = bench.parameters().robot;
         self.transducer = bench.parameters().transducer;
         self.random = bench.random();
@@ -111,7 +117,6 @@ impl State {
         self.visit.ground = None;
         self.visit.errors = self.visit_errors();
         self.bench = Some(bench);
-        self.sensor_is_open = true;
     }
 
     pub(super) fn sent(&self) -> Pose {

@@ -44,7 +44,8 @@ fields!(ArgSpec {
     kind,
     unit,
     presence,
-    help
+    help,
+    changes_facts
 });
 
 impl Wire for [u32; 2] {

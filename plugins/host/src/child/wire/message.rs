@@ -20,6 +20,10 @@ pub(crate) struct Hello {
     pub(crate) parent: u32,
     /// What to confine itself to.
     pub(crate) confinement: Confinement,
+    /// Whether the last file beside it is the socket for what its plugin logs.
+    pub(crate) is_heard: bool,
+    /// Whether it loads anything; one that does not only shows what is enforced.
+    pub(crate) loads: bool,
 }
 
 /// The answer to [`Hello`].
@@ -197,7 +201,9 @@ pub(crate) struct Failure {
 
 fields!(Hello {
     parent,
-    confinement
+    confinement,
+    is_heard,
+    loads
 });
 fields!(Failure { kind, doing, cause });
 

@@ -7,6 +7,7 @@ use taceva_core::{
 };
 
 use super::{Malformed, Reader, Wire, fields, variants};
+use crate::library::Level;
 
 macro_rules! quantities {
     ($($type:ident),*) => {$(
@@ -163,4 +164,5 @@ listed! {
     PixelFormat, [PixelFormat::Gray8, PixelFormat::Gray16, PixelFormat::Rgb8, PixelFormat::Rgb16], "a pixel format";
     DriverKind, DriverKind::ALL, "a kind of device";
     GratingKind, GratingKind::ALL, "a kind of grating";
+    Level, [Level::Error, Level::Warn, Level::Info, Level::Debug], "how much a line matters";
 }

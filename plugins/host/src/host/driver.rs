@@ -1,0 +1,140 @@
+//! A driver of a plugin among other drivers.
+
+use std::path::Path;
+use std::sync::Arc;
+
+use taceva_core::{
+    Access, ArgValue, Args, Descriptor, DescriptorError, DriverError, DriverKey, ErrorKind,
+    Factory, ForceTransducer, Found, Lighting, Rig, Robot, Sensor,
+};
+
+use super::PluginHost;
+use crate::descriptor::changes_facts;
+use crate::id::PluginId;
+use crate::library::{Image, Level};
+use crate::manifest::UsbId;
+use crate::search::Plugin;
+use crate::session::Session;
+use crate::usb;
+
+/// A driver of a plugin: described by its manifest, opened by its library.
+#[derive(Debug)]
+pub struct PluginDriver {
+    pub(super) host: Arc<PluginHost>,
+    pub(super) plugin: PluginId,
+    pub(super) descriptor: Box<Descriptor>,
+    pub(super) usb: Vec<UsbId>,
+}
+
+impl PluginDriver {
+    /// Opens a device in the session that `rig` has of the plugin, and makes its bench known, where it is one.
+    fn open_in<D: ?Sized>(
+        &self,
+        args: &Args,
+        rig: &mut Rig,
+        open: impl FnOnce(&dyn Session, &DriverKey) -> Result<Box<D>, DriverError>,
+    ) -> Result<Box<D>, DriverError> {
+        let key = self.descriptor.key();
+        let name = format!("plugin {}", self.plugin);
+        let session: Arc<Arc<dyn Session>> =
+            rig.share(&name, || self.host.session(&self.plugin, key))?;
+        let device = open(&**session, key)?;
+        if let Some(ArgValue::Text(bench)) = args.get("rig")
+            && let Some(found) = session.bench(bench)
+        {
+            rig.offer_bench(&format!("{} {bench}", self.plugin), found);
+        }
+        Ok(device)
+    }
+
+    /// What the manifest says, unless `args` can change that: then the library is asked, in its process. Where it cannot be, opening the
+    /// device will say why.
+    fn described(&self, args: &Args) -> Descriptor {
+        let manifest = &*self.descriptor;
+        if !changes_facts(manifest, args) {
+            return manifest.clone();
+        }
+        let key = manifest.key();
+        let session = self.host.session(&self.plugin, key);
+        let said = session.and_then(|session| session.describe(key, args));
+        said.unwrap_or_else(|error| {
+            let line = format!("described by its manifest alone: {error}");
+            (self.host.log)(&self.plugin, Level::Warn, key.as_str(), &line);
+            manifest.clone()
+        })
+    }
+
+    /// The digest of the library that opens its devices.
+    fn digest(&self) -> Result<String, DriverError> {
+        let key = self.descriptor.key();
+        let plugin = self.plugin("read the library")?;
+        let image = Image::read(&plugin.folder, &plugin.library);
+        let image = image.map_err(|error| error.of_driver(key))?;
+        Ok(format!("sha256:{}", image.digest()))
+    }
+
+    /// The devices that the library finds; where it finds none, those that the manifest names and the kernel lists.
+    fn present(&self) -> Result<Vec<Found>, DriverError> {
+        let key = self.descriptor.key();
+        let found = self.host.look(self.plugin("look for devices")?, key)?;
+        Ok(if found.is_empty() { self.seen() } else { found })
+    }
+
+    /// The plugin that it is of.
+    fn plugin(&self, doing: &'static str) -> Result<&Plugin, DriverError> {
+        let key = self.descriptor.key();
+        let plugin = self.host.plugins().get(self.plugin.as_str());
+        plugin.map_err(|error| DriverError::new(ErrorKind::NotFound, key, doing).because(error))
+    }
+
+    /// The devices that the manifest names and the kernel lists.
+    fn seen(&self) -> Vec<Found> {
+        if self.usb.is_empty() {
+            return Vec::new();
+        }
+        let devices = usb::plugged_in(Path::new("/sys/bus/usb/devices"));
+        let ours = devices
+            .into_iter()
+            .filter(|device| self.usb.contains(&device.id));
+        let found = ours.map(|device| Found {
+            driver: self.descriptor.key().clone(),
+            title: (device.product).unwrap_or_else(|| self.descriptor.title().to_owned()),
+            arguments: String::new(),
+            access: Access::Ready,
+        });
+        found.collect()
+    }
+}
+
+macro_rules! factories {
+    ($($device:ty => $open:ident),* $(,)?) => {$(
+        impl Factory<$device> for PluginDriver {
+            fn descriptor(&self) -> &Descriptor {
+                &self.descriptor
+            }
+
+            fn describe(&self, args: &Args) -> Result<Descriptor, DescriptorError> {
+                Ok(self.described(args))
+            }
+
+            fn open(&self, args: &Args, rig: &mut Rig) -> Result<Box<$device>, DriverError> {
+                self.open_in(args, rig, |session, key| session.$open(key, args))
+            }
+
+            fn discover(&self) -> Result<Vec<Found>, DriverError> {
+                self.present()
+            }
+
+            fn build(&self) -> Result<Option<String>, DriverError> {
+                self.digest().map(Some)
+            }
+        }
+    )*};
+}
+
+factories! {
+    dyn Sensor => sensor,
+    dyn Robot => robot,
+    dyn ForceTransducer => force,
+    dyn Lighting => lighting,
+}

@@ -1,0 +1,115 @@
+//! An estimator of a plugin: described by its manifest, fitted and loaded by its library.
+
+use std::fmt;
+use std::sync::{Arc, OnceLock};
+
+use taceva_core::{
+    ArgSpec, DriverError, DriverKey, ErrorKind, EstimatorFactory, FitRequest, ModelError, Saved,
+    SavedRegressor,
+};
+
+use super::PluginHost;
+use crate::library::{Image, Level};
+use crate::manifest::{EstimatorInfo, Sha256Digest};
+use crate::search::Plugin;
+use crate::session::Session;
+
+/// An estimator of a plugin, delivered as the user decided. What it fitted is its own bytes, and the digest of its library stands beside them.
+struct PluginEstimator {
+    host: Arc<PluginHost>,
+    plugin: Plugin,
+    info: EstimatorInfo,
+    /// Of the library that answered first, which is the one that answers.
+    built: OnceLock<Sha256Digest>,
+}
+
+impl PluginHost {
+    /// What fits and loads the models of every plugin, by key.
+    pub fn models(self: &Arc<PluginHost>) -> Vec<Arc<dyn EstimatorFactory>> {
+        let estimators = self.estimators().map(|(plugin, info)| {
+            let estimator: Arc<dyn EstimatorFactory> = Arc::new(PluginEstimator {
+                host: Arc::clone(self),
+                plugin: plugin.clone(),
+                info: info.clone(),
+                built: OnceLock::new(),
+            });
+            estimator
+        });
+        estimators.collect()
+    }
+}
+
+impl PluginEstimator {
+    fn session(&self) -> Result<Arc<dyn Session>, ModelError> {
+        let started = self.host.start(&self.plugin, &self.info.key);
+        let (session, digest) = started.map_err(of_driver)?;
+        self.built.get_or_init(|| digest);
+        Ok(session)
+    }
+
+    fn digest(&self) -> Result<Sha256Digest, ModelError> {
+        if let Some(digest) = self.built.get() {
+            return Ok(*digest);
+        }
+        let image = Image::read(&self.plugin.folder, &self.plugin.library);
+        let image = image.map_err(|error| of_driver(error.of_driver(&self.info.key)))?;
+        Ok(*self.built.get_or_init(|| image.digest()))
+    }
+}
+
+impl EstimatorFactory for PluginEstimator {
+    fn key(&self) -> &DriverKey {
+        &self.info.key
+    }
+
+    fn title(&self) -> &str {
+        &self.info.title
+    }
+
+    fn settings(&self) -> &[ArgSpec] {
+        &self.info.settings
+    }
+
+    fn fit(&self, request: &FitRequest<'_>) -> Result<Box<dyn SavedRegressor>, ModelError> {
+        self.session()?.fit(&self.info.key, request)
+    }
+
+    fn load(&self, saved: &Saved<'_>) -> Result<Box<dyn SavedRegressor>, ModelError> {
+        self.session()?.load(&self.info.key, saved)
+    }
+
+    fn build(&self) -> Result<Option<String>, ModelError> {
+        Ok(Some(format!("sha256:{}", self.digest()?)))
+    }
+
+    /// A manifest that demands one build demands it of models too; otherwise another build is told of.
+    fn admit(&self, fitted_by: Option<&str>) -> Result<(), ModelError> {
+        let build = format!("sha256:{}", self.digest()?);
+        if fitted_by == Some(build.as_str()) {
+            return Ok(());
+        }
+        let fitted_by =
+            crate::shown::shown(fitted_by.unwrap_or("a program that it was linked into"));
+        let key = &self.info.key;
+        if self.plugin.library.sha256.is_some() {
+            let why = format!(
+                "{key}: the model was fitted by {fitted_by}, the manifest allows {build} alone"
+            );
+            return Err(ModelError::new(ErrorKind::PermissionDenied, why));
+        }
+        let line = format!("the model was fitted by {fitted_by}, and {build} answers for it");
+        (self.host.log)(self.plugin.id(), Level::Warn, key.as_str(), &line);
+        Ok(())
+    }
+}
+
+impl fmt::Debug for PluginEstimator {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "PluginEstimator({})", self.info.key)
+    }
+}
+
+/// What kept the plugin from answering, as models say it.
+fn of_driver(error: DriverError) -> ModelError {
+    ModelError::new(error.kind(), error.to_string()).because(error)
+}

@@ -1,0 +1,166 @@
+//! A plugin in its child, as a host has it: what it logs, what it finds, and how it is isolated.
+
+use std::path::PathBuf;
+use std::sync::{Arc, Mutex};
+use std::time::{Duration, Instant};
+
+use taceva_core::{Args, Factory, Sensor};
+use taceva_host::{Children, Keeping, PluginConfig, PluginHost, Trust};
+
+use crate::fixture::Fixture;
+
+type Lines = Arc<Mutex<Vec<String>>>;
+
+/// A host whose children are the program for that, and what it was told.
+fn host(fixture: &Fixture) -> (Arc<PluginHost>, Lines) {
+    let children = Children {
+        program: Some(PathBuf::from(env!("CARGO_BIN_EXE_taceva-host-child"))),
+        quarantine: None,
+    };
+    let lines = Lines::default();
+    let told = Arc::clone(&lines);
+    let log = Arc::new(move |id: &_, level, target: &str, message: &str| {
+        let line = format!("{id} {level:?} {target}: {message}");
+        told.lock().expect("whole").push(line);
+    });
+    let host = PluginHost::with_children(fixture.found(), PluginConfig::default(), log, children);
+    (host, lines)
+}
+
+fn eye(host: &Arc<PluginHost>) -> Box<dyn Factory<dyn Sensor>> {
+    let mut eyes = host.drivers::<dyn Sensor>();
+    eyes.swap_remove(0)
+}
+
+/// The lines, once there are so many.
+fn told(lines: &Lines, count: usize) -> Vec<String> {
+    let begun = Instant::now();
+    loop {
+        let told = lines.lock().expect("whole").clone();
+        if told.len() >= count {
+            return told;
+        }
+        assert!(begun.elapsed() < Duration::from_secs(20), "{told:?}");
+        std::thread::yield_now();
+    }
+}
+
+#[test]
+fn what_a_plugin_logs_comes_while_it_runs_with_control_characters_written_out() {
+    let Some(fixture) = Fixture::built(&["LOGS=\"\\033[2Jgone\\nthe next\""]) else {
+        return;
+    };
+    let (host, lines) = host(&fixture);
+    let eye = eye(&host);
+    let args = Args::default();
+    let open = eye.open(&args, &mut taceva_core::Rig::new());
+    let open = open.unwrap_or_else(|error| panic!("{error}"));
+    let expected = [
+        "org.example.fixture Info fixture: begins",
+        "org.example.fixture Error fixture: \\u{1b}[2Jgone\\nthe next",
+    ];
+    assert_eq!(told(&lines, 2), expected);
+    drop(open);
+}
+
+#[test]
+fn a_flood_of_lines_is_cut_and_counted_and_stops_nobody() {
+    let Some(fixture) = Fixture::built(&["FLOODS=100000"]) else {
+        return;
+    };
+    let (host, lines) = host(&fixture);
+    let begun = Instant::now();
+    let open = eye(&host).open(&Args::default(), &mut taceva_core::Rig::new());
+    drop(open.unwrap_or_else(|error| panic!("{error}")));
+    let seconds = usize::try_from(begun.elapsed().as_secs()).expect("short");
+    let told = lines.lock().expect("whole").clone();
+    // A line beside those that pass may say how many did not.
+    assert!(
+        told.len() < 2 * (110 + 20 * seconds),
+        "{} lines",
+        told.len()
+    );
+    let lost: usize = told
+        .iter()
+        .filter_map(|line| line.split_once("lines left out: ")?.1.parse::<usize>().ok())
+        .sum();
+    let passed = told.iter().filter(|line| line.ends_with("begins")).count();
+    assert_eq!(passed + lost, 100_001, "{told:?}");
+}
+
+#[test]
+fn devices_are_found_by_the_library_with_what_tells_them_apart() {
+    let Some(fixture) = Fixture::built(&["LOOKS=\"serial=SN-2\""]) else {
+        return;
+    };
+    let (host, _) = host(&fixture);
+    let found = eye(&host)
+        .discover()
+        .unwrap_or_else(|error| panic!("{error}"));
+    let arguments: Vec<&str> = found.iter().map(|found| &*found.arguments).collect();
+    assert_eq!(arguments, ["serial=SN-1", "serial=SN-2"]);
+    let Some(fixture) = Fixture::built(&["LOOKS=\"serial=\\033[2J\""]) else {
+        return;
+    };
+    let (host, _) = self::host(&fixture);
+    let error = eye(&host).discover().expect_err("no serial number");
+    assert!(
+        error.to_string().contains("is no arguments of a device"),
+        "{error}"
+    );
+}
+
+#[test]
+fn one_that_looks_for_ever_costs_its_time_once_and_is_named() {
+    let Some(fixture) = Fixture::built(&["LOOKS_FOR_EVER"]) else {
+        return;
+    };
+    let (host, _) = host(&fixture);
+    let begun = Instant::now();
+    let error = eye(&host).discover().expect_err("it hangs");
+    let took = begun.elapsed();
+    assert!(
+        took > Duration::from_secs(9) && took < Duration::from_secs(20),
+        "{took:?}"
+    );
+    let words = error.to_string();
+    assert!(words.contains("org.example.fixture/eye"), "{words}");
+    assert!(
+        words.contains("did not look for devices within 10s"),
+        "{words}"
+    );
+    // Its process is gone, so the next who asks learns that at once.
+    let begun = Instant::now();
+    assert!(eye(&host).discover().is_err());
+    assert!(
+        begun.elapsed() < Duration::from_secs(2),
+        "{:?}",
+        begun.elapsed()
+    );
+}
+
+#[test]
+fn how_a_plugin_is_isolated_is_found_out_by_doing_it_and_loads_nothing() {
+    let Some(fixture) = Fixture::built(&["INIT_FAILS"]) else {
+        return;
+    };
+    let (host, lines) = host(&fixture);
+    let Keeping::Confined(words) = host.keeping(&fixture.plugin()) else {
+        panic!("{:?}", host.keeping(&fixture.plugin()));
+    };
+    assert!(words.contains("closed by Landlock"), "{words}");
+    assert!(words.contains("system calls allowed"), "{words}");
+    assert!(lines.lock().expect("whole").is_empty());
+    let (trusted, _) = fixture.trusted();
+    let keeping = trusted.keeping(&fixture.plugin());
+    assert_eq!(keeping, Keeping::Trusted(Trust::CommandLine));
+    let nobody = Children {
+        program: Some(PathBuf::from("/nonexistent/child")),
+        quarantine: None,
+    };
+    let config = PluginConfig::default();
+    let log = Arc::new(|_: &_, _, _: &str, _: &str| {});
+    let host = PluginHost::with_children(fixture.found(), config, log, nobody);
+    let keeping = host.keeping(&fixture.plugin());
+    assert!(!keeping.is_possible(), "{keeping}");
+}

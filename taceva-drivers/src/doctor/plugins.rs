@@ -1,0 +1,38 @@
+//! How each plugin would be kept from the rest of the machine.
+
+use std::sync::Arc;
+
+use taceva_host::{Keeping, PluginHost};
+
+use super::{Finding, State};
+
+/// How each plugin of `host` would run, by id: found out by confining a process that loads nothing. No code of a plugin runs.
+pub fn examine_plugins(host: &Arc<PluginHost>) -> Vec<Finding> {
+    let findings = host.plugins().iter().map(|plugin| {
+        let id = plugin.id();
+        let keeping = host.keeping(plugin);
+        let (state, remedy) = match &keeping {
+            Keeping::Trusted(_) | Keeping::Confined(_) => (State::Good, None),
+            Keeping::Refused(_) => {
+                let remedy = format!("`--trust {id}` runs it unconfined, in this process");
+                (State::Problem, Some(remedy))
+            }
+        };
+        let finding = Finding {
+            code: "plugin-isolation",
+            state,
+            subject: id.to_string(),
+            detail: format!("runs {keeping}"),
+            remedy,
+        };
+        let quarantined = host.quarantined(plugin).map(|reason| Finding {
+            code: "plugin-quarantined",
+            state: State::Problem,
+            subject: id.to_string(),
+            detail: format!("does not start any more: {reason}"),
+            remedy: Some(format!("`taceva plugin release {id}` lets it start again")),
+        });
+        [Some(finding), quarantined]
+    });
+    findings.flatten().flatten().collect()
+}

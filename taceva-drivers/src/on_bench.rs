@@ -1,0 +1,133 @@
+//! A sensor with a clock of its own over a simulated bench.
+
+use std::sync::Arc;
+use std::time::Duration;
+
+use taceva_core::{
+    Deadline, DriverError, FrameInfo, FrameMut, Interrupt, Lighting, Sensor, SimulatedBench, Stamp,
+};
+
+/// A sensor whose frames are stamped by the clock of a simulated bench that it is no part of.
+///
+/// The time that passes between two frames on the clock of the sensor passes on the bench as well, so that a rate and a rest mean on both what
+/// they say. What the sensor sees, the bench does not know: nothing of it depends on the presses, unless the sensor is truly pressed.
+pub struct OnBench {
+    sensor: Box<dyn Sensor>,
+    bench: Arc<dyn SimulatedBench>,
+    /// The last frame, on the clock of the sensor.
+    last: Option<Duration>,
+}
+
+impl OnBench {
+    /// `sensor` by the clock of `bench`.
+    pub fn new(sensor: Box<dyn Sensor>, bench: Arc<dyn SimulatedBench>) -> OnBench {
+        OnBench {
+            sensor,
+            bench,
+            last: None,
+        }
+    }
+}
+
+impl Sensor for OnBench {
+    fn frame_info(&self) -> FrameInfo {
+        self.sensor.frame_info()
+    }
+
+    fn start(&mut self, deadline: Deadline) -> Result<(), DriverError> {
+        self.sensor.start(deadline)
+    }
+
+    fn capture(&mut self, into: FrameMut<'_>, deadline: Deadline) -> Result<Stamp, DriverError> {
+        let now = self.sensor.capture(into, deadline)?.valid();
+        let last = self.last.replace(now).unwrap_or(now);
+        self.bench.rest(now.saturating_sub(last))?;
+        Ok(Stamp::at(self.bench.now()))
+    }
+
+    fn stop(&mut self) -> Result<(), DriverError> {
+        self.sensor.stop()
+    }
+
+    fn interrupt_handle(&self) -> Option<Arc<dyn Interrupt>> {
+        self.sensor.interrupt_handle()
+    }
+
+    fn lighting(&mut self) -> Option<&mut dyn Lighting> {
+        self.sensor.lighting()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Mutex;
+
+    use taceva_core::{PixelFormat, Specimen};
+
+    use super::*;
+
+    const FRAME: FrameInfo = FrameInfo {
+        width: 1,
+        height: 1,
+        format: PixelFormat::Gray8,
+    };
+
+    /// Frames at the times that are left.
+    struct Timed(Vec<u64>);
+
+    impl Sensor for Timed {
+        fn frame_info(&self) -> FrameInfo {
+            FRAME
+        }
+
+        fn capture(&mut self, _: FrameMut<'_>, _: Deadline) -> Result<Stamp, DriverError> {
+            let time_ms = self.0.remove(0);
+            Ok(Stamp::at(Duration::from_millis(time_ms)))
+        }
+    }
+
+    /// A clock and nothing else.
+    struct Clock(Mutex<Duration>);
+
+    impl SimulatedBench for Clock {
+        fn now(&self) -> Duration {
+            *self.0.lock().expect("whole")
+        }
+
+        fn rest(&self, rest: Duration) -> Result<(), DriverError> {
+            *self.0.lock().expect("whole") += rest;
+            Ok(())
+        }
+
+        fn mount(&self, _: Specimen) -> Result<(), DriverError> {
+            Ok(())
+        }
+
+        fn name_press(&self, _: u64) -> Result<(), DriverError> {
+            Ok(())
+        }
+
+        fn schedule(&self, _: Duration) -> Result<(), DriverError> {
+            Ok(())
+        }
+
+        fn provenance(&self) -> Option<String> {
+            None
+        }
+    }
+
+    #[test]
+    fn frames_are_stamped_by_the_bench_on_which_as_much_time_passes_as_between_them() {
+        let bench = Arc::new(Clock(Mutex::new(Duration::from_secs(7))));
+        let mut sensor = OnBench::new(Box::new(Timed(vec![500, 510, 510, 540])), bench.clone());
+        let mut byte = [0];
+        let mut stamp_ms = || {
+            let into = FrameMut::new(FRAME, &mut byte).expect("a byte");
+            let stamp = sensor.capture(into, Deadline::after(Duration::from_secs(1)));
+            stamp.expect("a frame").valid().as_millis()
+        };
+        assert_eq!([stamp_ms(), stamp_ms(), stamp_ms()], [7_000, 7_010, 7_010]);
+        bench.rest(Duration::from_secs(1)).expect("it rests");
+        assert_eq!(stamp_ms(), 8_040);
+    }
+}
