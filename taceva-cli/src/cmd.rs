@@ -26,7 +26,7 @@ use std::num::NonZeroUsize;
 use std::path::Path;
 
 use taceva_dataset::Dataset;
-use taceva_models::Settings;
+use taceva_models::{Models, Settings};
 use taceva_study::{EvaluationReport, FitRequest, Part, Plan, StudyError};
 
 use crate::args::{Everywhere, PartArg, PluginArgs, SettingArgs, SplitArgs};
@@ -163,10 +163,11 @@ pub(crate) fn fit_request(
     name: &str,
     settings: &SettingArgs,
     split: &SplitArgs,
+    models: &Models,
 ) -> anyhow::Result<FitRequest> {
     let words = settings.set.iter().map(String::as_str);
     Ok(FitRequest {
-        model: name.to_owned(),
+        model: models.find(name).map_err(StudyError::from)?,
         settings: Settings::parse(words).map_err(StudyError::from)?,
         channels: settings.channels.clone(),
         split: split.split.clone(),

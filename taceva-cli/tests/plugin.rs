@@ -58,6 +58,18 @@ fn plugins_are_listed_with_what_they_provide_and_how_they_would_run() {
     assert_eq!(trusted["plugins"][1]["delivery"], "in-process");
     let out = bench.ok("plugin list --plugin-dir plugins");
     assert!(out.contains("needs usb (none of it allowed)"), "{out}");
+    // What is enforced was tried, by a child that loads nothing.
+    let isolation = plugins[0]["isolation"].as_str().expect("words");
+    assert!(
+        isolation.starts_with("in a process of its own, files and ports closed by Landlock"),
+        "{isolation}"
+    );
+    assert!(!isolation.contains("may reach"), "{isolation}");
+    let isolation = trusted["plugins"][1]["isolation"].as_str();
+    assert_eq!(
+        isolation,
+        Some("in this process, unconfined: `--trust` says so")
+    );
     assert!(out.ends_with("2 plugins, 0 not used\n"), "{out}");
 }
 
@@ -181,4 +193,17 @@ fn settings_with_a_mistake_name_their_line() {
     let ran = bench.run("plugin list --plugin-dir plugins");
     assert!(ran.out.contains("in process"), "{}", ran.out);
     assert!(ran.out.contains("needs usb (allowed: usb)"), "{}", ran.out);
+    let why = "runs in this process, unconfined: `trust_in_process` of the user's settings says so";
+    assert!(ran.out.contains(why), "{}", ran.out);
+    // Beside a scene the settings trust nothing, and what is allowed is reached.
+    bench.write(
+        "user-config/taceva/config.toml",
+        "[plugins.allow]\n\"org.example.a\" = [\"usb\"]\n",
+    );
+    let ran = bench.run("doctor --plugin-dir plugins");
+    assert!(
+        ran.out.contains("MiB of memory, may reach usb"),
+        "{}",
+        ran.out
+    );
 }

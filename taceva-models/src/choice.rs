@@ -1,6 +1,7 @@
 //! Which settings were chosen, and by what.
 
 use serde::{Deserialize, Serialize};
+use taceva_core::{ModelError, Regressor, TrainingSet};
 
 /// What a setting was chosen by.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -53,6 +54,27 @@ pub(crate) fn least(errors: &Errors, channel: usize) -> usize {
         }
     }
     best
+}
+
+/// The error of each channel on the validation part.
+pub(crate) fn errors(
+    regressor: &dyn Regressor,
+    set: &TrainingSet<'_>,
+) -> Result<Vec<Option<f64>>, ModelError> {
+    let channels = set.targets.channels.len();
+    let mut found = vec![0.0; set.targets.values.len()];
+    regressor.predict(set.features, &mut found)?;
+    let samples = set.features.samples() as f64;
+    let of = |channel: usize| {
+        let pairs = found
+            .iter()
+            .zip(set.targets.values)
+            .skip(channel)
+            .step_by(channels);
+        let squares: f64 = pairs.map(|(found, label)| (found - label).powi(2)).sum();
+        rmse(squares / samples, 1.0)
+    };
+    Ok((0..channels).map(of).collect())
 }
 
 /// The root of a mean squared error in the unit of a channel whose labels span `span`.

@@ -9,10 +9,14 @@ use crate::features::Pca;
 use crate::label_scaling::LabelScaling;
 use crate::linear::{LinearEstimator, LinearRegressor};
 use crate::network::NetworkRegressor;
+use crate::plugin::PluginRegressor;
 use crate::problem::invalid;
 
 /// What a network says to features that are a list.
 pub(crate) const NO_PICTURE: &str = "a network reads pictures, and principal components are none";
+
+/// What the model of a plugin says to principal components.
+const OPAQUE: &str = "the model of a plugin reads pixels; it cannot be joined with principal components, and may find its own";
 
 /// An estimator whose regressor a model file can keep, and that can say what it chose.
 pub trait ModelEstimator: Estimator {
@@ -66,17 +70,20 @@ pub enum ModelRegressor {
     Linear(LinearRegressor),
     /// A network that reads features as a picture.
     Network(Box<NetworkRegressor>),
+    /// Of a plugin, which answers.
+    Plugin(PluginRegressor),
 }
 
 impl ModelRegressor {
     /// The regressor of pixels that equals `self` on the components of `pca`.
     ///
     /// # Errors
-    /// [`ModelError`] for a network, which reads pictures.
+    /// [`ModelError`] for a network, which reads pictures, and for a plugin's, which nobody can look into.
     pub(crate) fn through(&self, pca: &Pca) -> Result<ModelRegressor, ModelError> {
         match self {
             ModelRegressor::Linear(linear) => linear.through(pca).map(ModelRegressor::Linear),
             ModelRegressor::Network(_) => Err(invalid(NO_PICTURE)),
+            ModelRegressor::Plugin(_) => Err(invalid(OPAQUE)),
         }
     }
 
@@ -87,6 +94,7 @@ impl ModelRegressor {
                 linear.weights().iter().any(|weight| weight.abs() > 0.0)
             }
             ModelRegressor::Network(network) => network.reads_features(),
+            ModelRegressor::Plugin(_) => true,
         }
     }
 
@@ -94,6 +102,7 @@ impl ModelRegressor {
         match self {
             ModelRegressor::Linear(linear) => linear,
             ModelRegressor::Network(network) => &**network,
+            ModelRegressor::Plugin(plugin) => plugin,
         }
     }
 }

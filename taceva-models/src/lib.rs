@@ -9,8 +9,10 @@ mod label_scaling;
 mod linalg;
 mod linear;
 mod model;
+mod models;
 mod network;
 mod pls;
+mod plugin;
 mod problem;
 mod progress;
 mod random;
@@ -30,8 +32,10 @@ pub use model::{
     ChannelCard, FitInput, FormatError, Model, ModelCard, ModelFileError, Provenance, SampleCounts,
     Source, SplitCard,
 };
+pub use models::{ChosenModel, Models};
 pub use network::{NetworkCard, NetworkEstimator, NetworkRegressor, Preprocessing};
 pub use pls::Pls;
+pub use plugin::{PluginCard, PluginRegressor};
 pub use registry::{ALL, ModelInfo, UnknownModel, find};
 pub use ridge::Ridge;
 pub use settings::{SettingError, SettingInfo, Settings, Suggestion};

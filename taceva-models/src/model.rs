@@ -3,6 +3,7 @@
 mod bytes;
 mod card;
 mod disk;
+mod of_plugin;
 
 use taceva_core::{
     Channel, Channels, ErrorKind, Features, Frame, FrameInfo, ModelError, Progress, Regressor,

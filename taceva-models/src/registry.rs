@@ -61,16 +61,22 @@ pub const ALL: &[ModelInfo] = &[
 pub fn find(name: &str) -> Result<&'static ModelInfo, UnknownModel> {
     ALL.iter()
         .find(|info| info.name == name)
-        .ok_or_else(|| UnknownModel {
-            name: name.to_owned(),
-            suggestion: Suggestion::of(name, ALL.iter().map(|info| info.name)),
-        })
+        .ok_or_else(|| UnknownModel::new(name, ALL.iter().map(|info| info.name)))
 }
 
 /// A name that no model has.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("no model is called `{name}`, {suggestion}")]
+#[error("{} `{name}`, {suggestion}", if name.contains('/') { "no plugin that was found has the model" } else { "no model is called" })]
 pub struct UnknownModel {
     name: String,
     suggestion: Suggestion,
+}
+
+impl UnknownModel {
+    pub(crate) fn new<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> UnknownModel {
+        UnknownModel {
+            name: name.to_owned(),
+            suggestion: Suggestion::of(name, known),
+        }
+    }
 }

@@ -4,6 +4,8 @@ use std::collections::BTreeMap;
 use std::fmt;
 use std::str::FromStr;
 
+use taceva_core::ArgError;
+
 /// One thing that may be set: its key, what it means and what it accepts, for help texts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct SettingInfo {
@@ -60,6 +62,11 @@ impl Settings {
             .map(|(key, value)| format!("{key}={value}"))
     }
 
+    /// Keys and values, by key.
+    pub(crate) fn iter(&self) -> impl Iterator<Item = (&String, &String)> {
+        self.values.iter()
+    }
+
     /// The settings in two: those with one of the keys of `known`, and the others.
     pub fn partition(self, known: &[SettingInfo]) -> (Settings, Settings) {
         let is_known = |key: &String| known.iter().any(|info| info.key == key);
@@ -72,16 +79,20 @@ impl Settings {
     /// # Errors
     /// [`SettingError::Unknown`] with the nearest known key.
     pub fn check_keys(&self, known: &[SettingInfo]) -> Result<(), SettingError> {
-        let keys = || known.iter().map(|info| info.key);
-        match self
-            .values
-            .keys()
-            .find(|key| !keys().any(|known| known == *key))
-        {
+        let keys: Vec<&str> = known.iter().map(|info| info.key).collect();
+        self.check_names(&keys)
+    }
+
+    /// Refuses every key outside `known`.
+    ///
+    /// # Errors
+    /// As [`check_keys`](Settings::check_keys).
+    pub fn check_names(&self, known: &[&str]) -> Result<(), SettingError> {
+        match self.values.keys().find(|key| !known.contains(&&key[..])) {
             None => Ok(()),
             Some(key) => Err(SettingError::Unknown {
                 key: key.clone(),
-                suggestion: Suggestion::of(key, keys()),
+                suggestion: Suggestion::of(key, known.iter().copied()),
             }),
         }
     }
@@ -188,6 +199,9 @@ pub enum SettingError {
         /// What would be accepted.
         accepts: &'static str,
     },
+    /// A setting that the estimator of a plugin does not take.
+    #[error(transparent)]
+    Argument(#[from] ArgError),
 }
 
 #[cfg(test)]

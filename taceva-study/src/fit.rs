@@ -6,7 +6,7 @@ use std::num::NonZeroUsize;
 use taceva_core::{Channels, FrameInfo, PixelFormat, Progress, Targets, TrainingSet};
 use taceva_dataset::{Dataset, Source};
 use taceva_models::{
-    FeatureSpec, FitInput, Model, ModelEstimator, ModelInfo, Provenance, Settings, SplitCard,
+    ChosenModel, FeatureSpec, FitInput, Model, ModelEstimator, Provenance, Settings, SplitCard,
     SplitManifest,
 };
 
@@ -18,8 +18,8 @@ use crate::rows::{Divided, Need, Part, chosen_channels, usable};
 /// What to fit.
 #[derive(Clone, Debug)]
 pub struct FitRequest {
-    /// The name of the model.
-    pub model: String,
+    /// The model.
+    pub model: ChosenModel,
     /// Settings of its features and of itself.
     pub settings: Settings,
     /// Channels by name; empty for all.
@@ -47,27 +47,23 @@ pub struct Fitted {
 
 /// What a request asks for, before any data is looked at.
 pub(crate) struct Recipe {
-    info: &'static ModelInfo,
+    model: ChosenModel,
     estimator: Box<dyn ModelEstimator>,
     features: FeatureSpec,
 }
 
 impl Recipe {
-    /// Finds the model and reads its settings.
+    /// Reads the settings of the model and of its features.
     pub(crate) fn of(request: &FitRequest) -> Result<Recipe, StudyError> {
-        let info = taceva_models::find(&request.model)?;
+        let model = &request.model;
         let (of_features, of_model) = request.settings.clone().partition(FeatureSpec::SETTINGS);
-        let known: Vec<_> = info
-            .settings
-            .iter()
-            .chain(FeatureSpec::SETTINGS)
-            .copied()
-            .collect();
-        request.settings.check_keys(&known)?;
+        let mut known = model.setting_keys();
+        known.extend(FeatureSpec::SETTINGS.iter().map(|setting| setting.key));
+        request.settings.check_names(&known)?;
         Ok(Recipe {
-            info,
-            estimator: info.estimator(&of_model)?,
-            features: info.features.changed_by(&of_features)?,
+            model: model.clone(),
+            estimator: model.estimator(&of_model)?,
+            features: model.features().changed_by(&of_features)?,
         })
     }
 }
@@ -75,7 +71,7 @@ impl Recipe {
 /// A request made definite.
 pub(crate) struct FitPlan<'a> {
     dataset: &'a Dataset,
-    info: &'static ModelInfo,
+    model: ChosenModel,
     estimator: Box<dyn ModelEstimator>,
     settings: Settings,
     features: FeatureSpec,
@@ -104,13 +100,13 @@ impl<'a> FitPlan<'a> {
         divided: Divided,
     ) -> Result<FitPlan<'a>, StudyError> {
         let Recipe {
-            info,
+            model,
             estimator,
             features,
         } = recipe;
         let channels = chosen_channels(dataset, &request.channels)?;
         let need = || Need {
-            frame: info.reads_features,
+            frame: model.reads_features(),
             labels: Some(&channels),
         };
         let whole = [divided.rows(Part::Train), divided.rows(Part::Validation)];
@@ -118,7 +114,7 @@ impl<'a> FitPlan<'a> {
         let left_out = whole[0].len() + whole[1].len() - train.len() - validation.len();
         Ok(FitPlan {
             dataset,
-            info,
+            model,
             estimator,
             settings: request.settings.clone(),
             features,
@@ -131,7 +127,7 @@ impl<'a> FitPlan<'a> {
     }
 
     pub(crate) fn reads_frames(&self) -> bool {
-        self.info.reads_features
+        self.model.reads_features()
     }
 
     /// How many frames [`run`](FitPlan::run) decodes.
@@ -157,7 +153,7 @@ impl<'a> FitPlan<'a> {
             "fit",
             format!(
                 "{} of {} on {} training samples, settings chosen on {}",
-                self.info.name,
+                self.model.name(),
                 names.join(", "),
                 self.train.len(),
                 match self.validation.len() {

@@ -31,7 +31,7 @@ pub fn run_scene(
     workshop: Workshop<'_>,
     jobs: NonZeroUsize,
 ) -> Result<Vec<EvaluationReport>, StudyError> {
-    scene.check_models()?;
+    scene.check_models(workshop.models)?;
     let datasets = acquire_all(scene, folder, workshop, jobs)?;
     let work = Work {
         jobs,
@@ -40,7 +40,7 @@ pub fn run_scene(
     let studies = scene.studies.iter().zip(&datasets);
     let assessed = studies.enumerate().map(|(number, (study, dataset))| {
         let cache = workshop.cache_of(study, number);
-        assess(scene, study, dataset, (work, cache))
+        assess(scene, study, dataset, (work, cache, workshop.models))
     });
     assessed.collect()
 }

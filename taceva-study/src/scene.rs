@@ -9,7 +9,7 @@ use serde::ser::{Serialize, SerializeStruct, Serializer};
 use taceva_core::FieldSet;
 use taceva_dataset::{Dataset, Known};
 use taceva_drivers::Drivers;
-use taceva_models::Settings;
+use taceva_models::{Models, Settings};
 use taceva_protocol::{
     Plan, RecordingInfo, Scene, SceneError, SceneProblem, SourceInfo, Study, plan,
 };
@@ -90,13 +90,13 @@ impl PlannedScene {
     ///
     /// # Errors
     /// [`StudyError::Scene`] with the line.
-    pub fn check_models(&self) -> Result<(), StudyError> {
+    pub fn check_models(&self, models: &Models) -> Result<(), StudyError> {
         for planned in &self.studies {
             let (Some(model), false) = (&planned.study.model, planned.plan.fits.is_empty()) else {
                 continue;
             };
-            if let (Some(name), Some(request)) = (&model.name, planned.fit_request(self.scene.seed))
-            {
+            let request = planned.fit_request(self.scene.seed, models);
+            if let (Some(name), Some(request)) = (&model.name, request) {
                 let refused = |error: StudyError| {
                     let problem = SceneProblem::Contradiction(error.to_string());
                     self.text.error(name.at(), problem)
@@ -112,7 +112,11 @@ impl PlannedScene {
 
 impl PlannedStudy {
     /// The fit that the scene asks for, if it asks for one; contact points are kept whole.
-    pub(crate) fn fit_request(&self, seed: u64) -> Option<Result<FitRequest, StudyError>> {
+    pub(crate) fn fit_request(
+        &self,
+        seed: u64,
+        models: &Models,
+    ) -> Option<Result<FitRequest, StudyError>> {
         let model = self.study.model.as_ref()?;
         let name = model.name.as_ref()?;
         let words: Vec<String> = model
@@ -123,18 +127,16 @@ impl PlannedStudy {
                 other => format!("{key}={other}"),
             })
             .collect();
-        let settings = Settings::parse(words.iter().map(String::as_str));
-        Some(
-            settings
-                .map_err(StudyError::from)
-                .map(|settings| FitRequest {
-                    model: name.value.clone(),
-                    settings,
-                    channels: self.plan.channels.clone(),
-                    split: None,
-                    seed,
-                }),
-        )
+        let request = || {
+            Ok(FitRequest {
+                model: models.find(&name.value)?,
+                settings: Settings::parse(words.iter().map(String::as_str))?,
+                channels: self.plan.channels.clone(),
+                split: None,
+                seed,
+            })
+        };
+        Some(request())
     }
 
     /// The file of the finished model that the scene names, relative to its folder.

@@ -5,7 +5,7 @@ mod gratings;
 mod score;
 
 use taceva_dataset::Dataset;
-use taceva_models::Model;
+use taceva_models::{Model, Models};
 use taceva_protocol::PhaseKind;
 
 use crate::cache::{Key, Stage, StudyCache};
@@ -24,8 +24,8 @@ use deal::{Deal, seen};
 use gratings::ToldSpacings;
 use score::{Scores, score};
 
-/// How the stages of a study are carried out, and where their results are found and kept.
-type Means<'a> = (Work<'a>, StudyCache<'a>);
+/// How the stages of a study are carried out, where their results are found and kept, and the models there are.
+type Means<'a> = (Work<'a>, StudyCache<'a>, &'a Models);
 
 /// The report of `study`, whose recording is `dataset`.
 pub(crate) fn assess(
@@ -102,13 +102,14 @@ impl Learnt {
         study: &PlannedStudy,
         dataset: &Dataset,
         deal: &Deal<'_>,
-        (work, cache): Means<'_>,
+        (work, cache, models): Means<'_>,
     ) -> Result<Option<Learnt>, StudyError> {
         if !deal.reads_predictions() {
             return Ok(None);
         }
         if let Some(file) = study.model_file() {
-            let model = Model::open(&scene.text.folder.join(file))
+            let model = models
+                .open(&scene.text.folder.join(file))
                 .map_err(|error| StudyError::Request(error.to_string()))?;
             return Ok(Some(Learnt {
                 model,
@@ -116,7 +117,7 @@ impl Learnt {
                 frames_decoded: 0,
             }));
         }
-        let Some(request) = study.fit_request(scene.scene.seed) else {
+        let Some(request) = study.fit_request(scene.scene.seed, models) else {
             return Ok(None);
         };
         let request = FitRequest {
@@ -146,7 +147,7 @@ impl Learnt {
         study: &PlannedStudy,
         dataset: &Dataset,
         deal: &Deal<'_>,
-        (work, cache): Means<'_>,
+        (work, cache, _): Means<'_>,
     ) -> Result<(Predicted, Vec<usize>), StudyError> {
         let seen = self.divided.as_ref().map_or_else(Vec::new, seen);
         let phases = deal.predicted_phases();

@@ -32,7 +32,7 @@ fn import(folder: &str, map: &str) -> Option<(TempDir, Dataset, ImportReport)> {
 fn evaluated(dataset: &Dataset, model: &str, split: &str, seed: u64) -> Evaluated {
     let request = EvaluateRequest {
         model: ModelChoice::Fit(FitRequest {
-            model: model.to_owned(),
+            model: taceva_models::find(model).expect("a model").into(),
             settings: Settings::default(),
             channels: Vec::new(),
             split: Some(split.to_owned()),

@@ -29,7 +29,7 @@ fn study(name: &str, model: &str, split: &str) -> Option<Study> {
     let dataset = Dataset::open(&path).expect("a dataset");
     let request = EvaluateRequest {
         model: ModelChoice::Fit(FitRequest {
-            model: model.to_owned(),
+            model: taceva_models::find(model).expect("a model").into(),
             settings: Settings::default(),
             channels: Vec::new(),
             split: Some(split.to_owned()),

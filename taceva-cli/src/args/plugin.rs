@@ -22,7 +22,7 @@ pub(crate) struct PluginArgs {
 /// Plugins add sensors, robots, force transducers, lightings and estimators in any language.
 #[derive(Debug, Subcommand)]
 pub(crate) enum Plugin {
-    /// List the plugins that are found; no code of theirs runs
+    /// List the plugins that are found, and how each would be isolated; no code of theirs runs
     List(PluginList),
     /// Say everything that the manifest of a plugin says; no code of it runs
     Info(PluginInfo),

@@ -7,7 +7,7 @@ use clap::{Args, ValueEnum};
 /// A model to fit, and its settings.
 #[derive(Debug, Args)]
 pub(crate) struct ModelArgs {
-    /// The model: baseline, ridge, pls, cnn, resnet10, resnet18, resnet34
+    /// The model: baseline, ridge, pls, cnn, resnet10, resnet18, resnet34, or the one of a plugin, ID/KEY
     #[arg(long = "model", value_name = "NAME")]
     pub(crate) name: String,
     #[command(flatten)]
@@ -17,7 +17,7 @@ pub(crate) struct ModelArgs {
 /// As [`ModelArgs`], where a fitted model may stand instead.
 #[derive(Debug, Args)]
 pub(crate) struct OptionalModelArgs {
-    /// The model to fit: baseline, ridge, pls, cnn, resnet10, resnet18, resnet34
+    /// The model to fit: baseline, ridge, pls, cnn, resnet10, resnet18, resnet34, or the one of a plugin, ID/KEY
     #[arg(long = "model", value_name = "NAME")]
     pub(crate) name: Option<String>,
     #[command(flatten)]

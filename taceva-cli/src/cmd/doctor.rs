@@ -1,6 +1,7 @@
 //! `taceva doctor`.
 
-use taceva_drivers::doctor::{Machine, State, examine};
+use taceva_drivers::Drivers;
+use taceva_drivers::doctor::{Machine, State, examine, examine_plugins};
 
 use super::Context;
 use crate::args::Listing;
@@ -10,7 +11,10 @@ pub(crate) fn run(args: &Listing, context: &Context) -> anyhow::Result<u8> {
     if let Some(path) = args.path.as_deref() {
         output::check_free(path, args.force)?;
     }
-    let findings = examine(&context.drivers(None)?, &Machine::this());
+    let host = context.plugins(None)?;
+    let drivers = Drivers::builtin()?.with_plugins(&host)?;
+    let mut findings = examine(&drivers, &Machine::this());
+    findings.extend(examine_plugins(&host));
     output::write(args.path.as_deref(), |out| {
         report::devices::findings(&findings, args.format, out)
     })?;

@@ -1,7 +1,6 @@
 //! `taceva evaluate`.
 
 use taceva_dataset::SensorFile;
-use taceva_models::Model;
 use taceva_study::{EvaluateRequest, ModelChoice, Part, evaluate, evaluate_plan};
 
 use super::{Context, Usage, fit_request, open};
@@ -14,16 +13,20 @@ pub(crate) fn run(args: &Evaluate, context: &Context) -> anyhow::Result<u8> {
     for path in files.chain(&args.state_out) {
         output::check_free(path, args.output.force)?;
     }
+    let models = context.models()?;
     let model = match (&args.with, &args.model.name) {
-        (Some(path), _) => ModelChoice::Fitted(Box::new(Model::open(path)?)),
+        (Some(path), _) => ModelChoice::Fitted(Box::new(models.open(path)?)),
         (None, Some(name)) if name.contains('.') && std::path::Path::new(name).is_file() => {
             return Err(Usage::error(format!(
                 "{name} is a file: use --with {name} for a fitted model"
             )));
         }
-        (None, Some(name)) => {
-            ModelChoice::Fit(fit_request(name, &args.model.settings, &args.split)?)
-        }
+        (None, Some(name)) => ModelChoice::Fit(fit_request(
+            name,
+            &args.model.settings,
+            &args.split,
+            &models,
+        )?),
         (None, None) => {
             return Err(Usage::error(
                 "either --model NAME or --with MODEL is needed",

@@ -14,7 +14,8 @@ pub(crate) fn run(args: &Fit, context: &Context) -> anyhow::Result<u8> {
         output::check_free(path, args.force)?;
     }
     let dataset = open(&args.dataset)?;
-    let request = fit_request(&args.model.name, &args.model.settings, &args.split)?;
+    let models = context.models()?;
+    let request = fit_request(&args.model.name, &args.model.settings, &args.split, &models)?;
     let fitted = fit(&dataset, &request, context.jobs, &context.progress)?;
     fitted.model.save(&args.out)?;
     if let Some(path) = &args.split_out {

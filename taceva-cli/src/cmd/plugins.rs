@@ -8,6 +8,7 @@ use taceva_drivers::Drivers;
 use taceva_host::{
     Level, PluginConfig, PluginHost, PluginLog, Plugins, SearchPath, user_config_file,
 };
+use taceva_models::Models;
 
 use super::Context;
 
@@ -16,6 +17,19 @@ impl Context {
     pub(crate) fn drivers(&self, scene: Option<&Path>) -> anyhow::Result<Drivers> {
         let host = self.plugins(scene)?;
         Ok(Drivers::builtin()?.with_plugins(&host)?)
+    }
+
+    /// Every model: those built in, and those of plugins.
+    pub(crate) fn models(&self) -> anyhow::Result<Models> {
+        let host = self.plugins(None)?;
+        Ok(Models::builtin().with(host.models()))
+    }
+
+    /// Every driver and every model, also of plugins beside the scene at `scene`.
+    pub(crate) fn equipment(&self, scene: &Path) -> anyhow::Result<(Drivers, Models)> {
+        let host = self.plugins(Some(scene))?;
+        let drivers = Drivers::builtin()?.with_plugins(&host)?;
+        Ok((drivers, Models::builtin().with(host.models())))
     }
 
     /// The plugins that are found, delivered as the user decided.

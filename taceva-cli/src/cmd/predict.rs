@@ -1,6 +1,5 @@
 //! `taceva predict`.
 
-use taceva_models::Model;
 use taceva_study::{Part, predict};
 
 use super::{Context, open};
@@ -13,7 +12,7 @@ pub(crate) fn run(args: &Predict, context: &Context) -> anyhow::Result<u8> {
         output::check_free(path, args.force)?;
     }
     let dataset = open(&args.dataset)?;
-    let model = Model::open(&args.with)?;
+    let model = context.models()?.open(&args.with)?;
     let predicted = predict(
         &dataset,
         &model,

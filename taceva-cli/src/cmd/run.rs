@@ -21,9 +21,9 @@ const PAGE: &str = "report.html";
 const RESULTS: &str = "results.json";
 
 pub(crate) fn run(args: &Run, context: &Context) -> anyhow::Result<u8> {
-    let drivers = context.drivers(Some(Path::new(&args.scene.scene)))?;
+    let (drivers, models) = context.equipment(Path::new(&args.scene.scene))?;
     let planned = scene::planned(&args.scene, &drivers)?;
-    planned.check_models()?;
+    planned.check_models(&models)?;
     let formats = formats(&planned)?;
     if args.format == Format::Csv && planned.studies.len() > 1 {
         return Err(Usage::error(format!(
@@ -45,6 +45,7 @@ pub(crate) fn run(args: &Run, context: &Context) -> anyhow::Result<u8> {
     let cache = cache::of(args);
     let workshop = Workshop {
         drivers: &drivers,
+        models: &models,
         surroundings: &bench::surroundings,
         cache: cache.as_ref(),
         progress: &context.progress,

@@ -84,6 +84,7 @@ fn line(plugin: &Listed, out: &mut dyn Write) -> io::Result<()> {
         out,
         "{id:<30} {version:<10} {delivery:<14} {place:<12} {name}"
     )?;
+    writeln!(out, "    runs {}", plugin.isolation)?;
     if let Some(reason) = &plugin.quarantined {
         writeln!(
             out,
@@ -124,6 +125,8 @@ struct Listed {
     /// What the manifest demands of the library, or that it demands nothing.
     sha256: String,
     delivery: Delivery,
+    /// How it would be kept from the rest of the machine, tried by confining a process without it.
+    isolation: String,
     needs: Vec<String>,
     allowed: Vec<String>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -158,6 +161,7 @@ impl Listed {
                 None => "any build of it".to_owned(),
             },
             delivery: host.config().delivery(plugin),
+            isolation: host.keeping(plugin).to_string(),
             needs: words(manifest.needs.clone()),
             allowed: words(host.config().allowed(plugin)),
             quarantined: host.quarantined(plugin),

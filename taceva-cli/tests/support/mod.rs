@@ -114,6 +114,26 @@ impl Bench {
         assert_eq!(ran.out, "", "taceva {words}");
     }
 
+    /// Begins a plugin called `name` that provides one `kind`, and builds it.
+    pub(crate) fn make_plugin(&self, kind: &str, name: &str) {
+        self.ok(&format!("plugin new {kind} {name}"));
+        self.build_plugin(name);
+    }
+
+    /// Builds the plugin in the folder `name`, without a network.
+    pub(crate) fn build_plugin(&self, name: &str) {
+        let built = Command::new(env!("CARGO"))
+            .args(["build", "--release", "--offline", "--quiet"])
+            .current_dir(self.path(name))
+            .env("CARGO_HOME", self.path("cargo"))
+            .env_remove("CARGO_TARGET_DIR")
+            .env_remove("RUSTFLAGS")
+            .output()
+            .expect("cargo runs, it runs this test");
+        let said = String::from_utf8_lossy(&built.stderr);
+        assert!(built.status.success(), "{said}");
+    }
+
     /// A recording of pictures of `side` pixels at `name`.
     pub(crate) fn record(&self, name: &str, side: u32) -> PathBuf {
         let path = self.path(name);

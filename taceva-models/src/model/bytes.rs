@@ -6,9 +6,11 @@ use safetensors::tensor::{Dtype, SafeTensors, TensorView};
 use serde::Deserialize;
 
 use super::card::ModelCard;
+use super::of_plugin::{plugin_from, plugin_tensor};
 use super::{Model, channels_of};
 use crate::fit::ModelRegressor;
 use crate::linear::LinearRegressor;
+use crate::models::Models;
 use crate::network::{NetworkCard, NetworkRegressor};
 use taceva_core::{Channels, FeatureShape, ModelError};
 use taceva_network::{NamedTensor, Network, NetworkError, Picture};
@@ -46,6 +48,7 @@ impl Model {
                 linear_tensors(linear, self.card.features.shape().len())
             }
             ModelRegressor::Network(network) => network_tensors(network),
+            ModelRegressor::Plugin(plugin) => vec![plugin_tensor(plugin)],
         };
         let views: Result<Vec<_>, _> = tensors
             .iter()
@@ -59,11 +62,22 @@ impl Model {
         Ok(bytes)
     }
 
-    /// The model that `bytes` of a file hold.
+    /// The model that `bytes` of a file hold, of those that are built in.
     ///
     /// # Errors
-    /// [`FormatError`] if anything is other than [`to_bytes`](Model::to_bytes) writes it, or of a newer major version.
+    /// As [`Models::read`].
     pub fn from_bytes(bytes: &[u8]) -> Result<Model, FormatError> {
+        Models::builtin().read(bytes)
+    }
+}
+
+impl Models {
+    /// The model that `bytes` of a file hold; one of a plugin is loaded by its plugin.
+    ///
+    /// # Errors
+    /// [`FormatError`] if anything is other than [`to_bytes`](Model::to_bytes) writes it, of a newer major version, or of a plugin that is not
+    /// among these models or refuses it.
+    pub fn read(&self, bytes: &[u8]) -> Result<Model, FormatError> {
         check_sizes(bytes)?;
         let (_, header) = SafeTensors::read_metadata(bytes)?;
         let text = header
@@ -78,9 +92,15 @@ impl Model {
             return Err(FormatError::Card);
         }
         let tensors = SafeTensors::deserialize(bytes)?;
-        let regressor = match &card.network {
-            None => ModelRegressor::Linear(linear_from(&tensors, channels, card.features.shape())?),
-            Some(network) => {
+        let regressor = match (&card.network, &card.plugin) {
+            (None, Some(plugin)) => {
+                ModelRegressor::Plugin(plugin_from(self, &tensors, (&channels, &card, plugin))?)
+            }
+            (Some(_), Some(_)) => return Err(FormatError::Card),
+            (None, None) => {
+                ModelRegressor::Linear(linear_from(&tensors, channels, card.features.shape())?)
+            }
+            (Some(network), None) => {
                 let ready = network_from(&tensors, channels, &card, network)?;
                 ModelRegressor::Network(Box::new(ready))
             }
@@ -90,11 +110,11 @@ impl Model {
 }
 
 /// A tensor as a file keeps it.
-struct Raw {
-    name: String,
-    kind: Dtype,
-    shape: Vec<usize>,
-    bytes: Vec<u8>,
+pub(super) struct Raw {
+    pub(super) name: String,
+    pub(super) kind: Dtype,
+    pub(super) shape: Vec<usize>,
+    pub(super) bytes: Vec<u8>,
 }
 
 /// The tensors of a linear model, in the order of their names.
@@ -132,22 +152,24 @@ fn network_tensors(network: &NetworkRegressor) -> Vec<Raw> {
         .collect()
 }
 
+/// Refuses tensors beside `known`.
+pub(super) fn only(tensors: &SafeTensors<'_>, known: &[&str]) -> Result<(), FormatError> {
+    let names = tensors.names();
+    match names.into_iter().find(|name| !known.contains(name)) {
+        None => Ok(()),
+        Some(name) => Err(FormatError::Unexpected {
+            name: name.to_owned(),
+        }),
+    }
+}
+
 /// The linear model that tensors hold.
 fn linear_from(
     tensors: &SafeTensors<'_>,
     channels: Channels,
     shape: FeatureShape,
 ) -> Result<LinearRegressor, FormatError> {
-    let known = [BIAS, WEIGHTS];
-    if let Some(name) = tensors
-        .names()
-        .into_iter()
-        .find(|name| !known.contains(name))
-    {
-        return Err(FormatError::Unexpected {
-            name: name.to_owned(),
-        });
-    }
+    only(tensors, &[BIAS, WEIGHTS])?;
     let bias = numbers(tensors, BIAS, &[channels.len()])?;
     let weights = numbers(tensors, WEIGHTS, &[channels.len(), shape.len()])?;
     Ok(LinearRegressor::new(channels, shape, weights, bias)?)
@@ -300,6 +322,16 @@ pub enum FormatError {
     Missing {
         /// Its name.
         name: &'static str,
+    },
+    /// A model of a plugin that is not there.
+    #[error(
+        "fitted by `{key}` of the plugin `{id}`, which is not among the plugins that were found"
+    )]
+    NoPlugin {
+        /// The plugin.
+        id: String,
+        /// The estimator in it.
+        key: String,
     },
     /// A tensor that does not belong there.
     #[error("unexpected tensor `{name}`")]

@@ -8,6 +8,7 @@ use crate::choice::Choice;
 use crate::features::FeatureSpec;
 use crate::fit::{ModelFit, ModelRegressor};
 use crate::network::NetworkCard;
+use crate::plugin::PluginCard;
 
 /// The description kept in a model file.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -39,6 +40,9 @@ pub struct ModelCard {
     /// The network, where the model is one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub network: Option<NetworkCard>,
+    /// The plugin that fitted it and is needed to ask it, where the model is of one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub plugin: Option<PluginCard>,
 }
 
 /// A channel, and the labels it was learnt from.
@@ -137,8 +141,12 @@ impl ModelCard {
             },
             provenance: input.provenance.clone(),
             network: match &fit.regressor {
-                ModelRegressor::Linear(_) => None,
+                ModelRegressor::Linear(_) | ModelRegressor::Plugin(_) => None,
                 ModelRegressor::Network(network) => Some(network.card().clone()),
+            },
+            plugin: match &fit.regressor {
+                ModelRegressor::Plugin(plugin) => Some(plugin.card().clone()),
+                _ => None,
             },
         }
     }

@@ -8,6 +8,7 @@ use sha2::{Digest, Sha256};
 
 use super::Model;
 use super::bytes::{FILE_MAX, FormatError};
+use crate::models::Models;
 
 impl Model {
     /// Writes the model to `path`, in place of what was there: into a file beside it first, then renamed, so that a
@@ -26,19 +27,12 @@ impl Model {
         })
     }
 
-    /// Reads the model at `path`, trusting nothing in it.
+    /// Reads the model at `path`, of those that are built in.
     ///
     /// # Errors
-    /// [`ModelFileError`], naming the path and what is wrong there.
+    /// As [`Models::open`].
     pub fn open(path: &Path) -> Result<Model, ModelFileError> {
-        let bytes = read_capped(path).map_err(|source| ModelFileError::Read {
-            path: path.into(),
-            source,
-        })?;
-        Model::from_bytes(&bytes).map_err(|source| ModelFileError::Format {
-            path: path.into(),
-            source,
-        })
+        Models::builtin().open(path)
     }
 
     /// The digest of the file that [`save`](Model::save) writes, `sha256:` and 64 hexadecimal digits.
@@ -49,6 +43,23 @@ impl Model {
         let digest = Sha256::digest(self.to_bytes()?);
         let digits: String = digest.iter().map(|byte| format!("{byte:02x}")).collect();
         Ok(format!("sha256:{digits}"))
+    }
+}
+
+impl Models {
+    /// Reads the model at `path`, trusting nothing in it; one of a plugin is loaded by its plugin.
+    ///
+    /// # Errors
+    /// [`ModelFileError`], naming the path and what is wrong there.
+    pub fn open(&self, path: &Path) -> Result<Model, ModelFileError> {
+        let bytes = read_capped(path).map_err(|source| ModelFileError::Read {
+            path: path.into(),
+            source,
+        })?;
+        self.read(&bytes).map_err(|source| ModelFileError::Format {
+            path: path.into(),
+            source,
+        })
     }
 }
 

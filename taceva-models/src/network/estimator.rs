@@ -10,7 +10,7 @@ use taceva_network::{
 
 use super::regressor::picture;
 use super::{NetworkCard, NetworkRegressor, Preprocessing};
-use crate::choice::{ChannelChoice, Choice, ChosenBy, rmse};
+use crate::choice::{ChannelChoice, Choice, ChosenBy, errors};
 use crate::features::{Color, FeatureSpec};
 use crate::fit::{ModelEstimator, ModelFit, ModelRegressor, NO_PICTURE};
 use crate::problem::{Problem, invalid};
@@ -339,27 +339,6 @@ impl ModelEstimator for NetworkEstimator {
             refitted: false,
         })
     }
-}
-
-/// The error of each channel on the validation part.
-fn errors(
-    regressor: &NetworkRegressor,
-    set: &TrainingSet<'_>,
-) -> Result<Vec<Option<f64>>, ModelError> {
-    let channels = set.targets.channels.len();
-    let mut found = vec![0.0; set.targets.values.len()];
-    regressor.predict(set.features, &mut found)?;
-    let samples = set.features.samples() as f64;
-    let of = |channel: usize| {
-        let pairs = found
-            .iter()
-            .zip(set.targets.values)
-            .skip(channel)
-            .step_by(channels);
-        let squares: f64 = pairs.map(|(found, label)| (found - label).powi(2)).sum();
-        rmse(squares / samples, 1.0)
-    };
-    Ok((0..channels).map(of).collect())
 }
 
 impl Estimator for NetworkEstimator {

@@ -1,10 +1,12 @@
 //! The devices of a rig, opened for one unit of the sensor and lent to a run.
 
+use std::sync::Arc;
+
 use taceva_core::{
     Device, DriverError, DriverKey, DriverSource, ErrorKind, ForceTransducer, Lighting, Registry,
     Rig, Robot, Sensor,
 };
-use taceva_drivers::{Drivers, OpenError, Selector, open};
+use taceva_drivers::{Drivers, OnBench, OpenError, Selector, open};
 use taceva_protocol::{Devices, Setting, StopCause, Timekeeper};
 
 use super::workshop::{Surroundings, Workshop};
@@ -57,8 +59,14 @@ impl OpenRig {
         };
         let surroundings = (workshop.surroundings)(&selector, &mut shared)
             .ok_or_else(|| failed(OpenError::Device(without_clock(&selector))))?;
+        let sensor = sensor.map(|(sensor, own)| match &surroundings.bench {
+            Some(bench) if own.bench() != selector.bench() => {
+                Box::new(OnBench::new(sensor, Arc::clone(bench)))
+            }
+            _ => sensor,
+        });
         Ok(OpenRig {
-            sensor: sensor.map(|(sensor, _)| sensor),
+            sensor,
             robot,
             force,
             lighting: lighting.map(|(lighting, _)| lighting),

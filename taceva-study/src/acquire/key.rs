@@ -1,7 +1,7 @@
 //! Everything that decides what a simulated study records.
 
 use taceva_core::{ArgKind, Device, Registry};
-use taceva_drivers::{Drivers, Selector};
+use taceva_drivers::Drivers;
 use taceva_protocol::Setting;
 
 use crate::cache::{Cache, Key, Stage};
@@ -33,20 +33,31 @@ pub(crate) fn key(
         .whole("opaque", &plan.opaque)
         .whole("footprint", &plan.footprint);
     for unit in &plan.units {
-        for selector in selectors(rig, unit, drivers)? {
-            key = key.whole("device", &selector.map(|selector| selector.to_string()));
+        for device in devices(rig, unit, drivers)? {
+            key = key.whole("device", &device);
         }
     }
     Some(key.finish())
 }
 
+/// What opens a device, and which build of its driver does where that is not the program itself.
+#[derive(Debug)]
+#[expect(
+    dead_code,
+    reason = "its fields are read when it is debugged into a key"
+)]
+struct Opened {
+    selector: String,
+    build: Option<String>,
+}
+
 /// What opens each device of `rig` for `unit`.
-fn selectors(rig: &RigSpec, unit: &str, drivers: &Drivers) -> Option<[Option<Selector>; 4]> {
+fn devices(rig: &RigSpec, unit: &str, drivers: &Drivers) -> Option<[Option<Opened>; 4]> {
     fn of<D: Device + ?Sized>(
         (rig, unit): (&RigSpec, &str),
         registry: &Registry<D>,
         device: Option<&Setting<String>>,
-    ) -> Option<Option<Selector>> {
+    ) -> Option<Option<Opened>> {
         let Some(device) = device else {
             return Some(None);
         };
@@ -56,7 +67,13 @@ fn selectors(rig: &RigSpec, unit: &str, drivers: &Drivers) -> Option<[Option<Sel
         let reads_file = taken.any(|argument| {
             argument.kind == ArgKind::Path && selector.arguments().contains(&argument.key[..])
         });
-        (!reads_file).then_some(Some(selector))
+        let build = factory.build().ok()?;
+        (!reads_file).then(|| {
+            Some(Opened {
+                selector: selector.to_string(),
+                build,
+            })
+        })
     }
     let way = (rig, unit);
     Some([

@@ -1,9 +1,11 @@
 //! What presses are made with, beside the devices themselves: drivers, clocks and whoever exchanges specimens.
 
+use std::sync::Arc;
 use std::time::Duration;
 
-use taceva_core::{Progress, Rig};
+use taceva_core::{Progress, Rig, SimulatedBench};
 use taceva_drivers::{Drivers, Selector};
+use taceva_models::Models;
 use taceva_protocol::{Digest, SpecimenChanger, Timekeeper};
 
 use crate::cache::Cache;
@@ -18,6 +20,8 @@ pub struct Surroundings {
     pub upcoming: Option<Box<dyn FnMut(Upcoming)>>,
     /// What the recording calls the gel.
     pub gel: Option<String>,
+    /// The simulated bench that it is, where it is one: a sensor of another has frames by its clock all the same.
+    pub bench: Option<Arc<dyn SimulatedBench>>,
     /// Whether its gel is new in every process, and remembers within one what was done to it.
     ///
     /// Such a rig goes on after an interruption only where the past of a place is done again first: recorded presses there are made
@@ -43,6 +47,8 @@ pub type SurroundingsOf<'a> = &'a (dyn Fn(&Selector, &mut Rig) -> Option<Surroun
 pub struct Workshop<'a> {
     /// The drivers of the program.
     pub drivers: &'a Drivers,
+    /// The models of the program.
+    pub models: &'a Models,
     /// What rigs have beside their devices.
     pub surroundings: SurroundingsOf<'a>,
     /// Where finished stages are found and kept, if anywhere.

@@ -18,9 +18,11 @@ pub(crate) trait Kept: Sized {
     fn from_kept(bytes: &[u8]) -> Option<Self>;
 }
 
+/// The model of a plugin is not kept: nobody but its plugin can load it.
 impl Kept for Model {
     fn to_kept(&self) -> Option<Vec<u8>> {
-        self.to_bytes().ok()
+        let is_of_plugin = self.card().plugin.is_some();
+        self.to_bytes().ok().filter(|_| !is_of_plugin)
     }
 
     fn from_kept(bytes: &[u8]) -> Option<Model> {

@@ -11,12 +11,9 @@ use taceva_study::{Surroundings, Upcoming};
 
 /// The surroundings of the rig whose robot was opened by `robot`; `None` where that is of no simulated bench.
 pub(super) fn surroundings(robot: &Selector, rig: &mut Rig) -> Option<Surroundings> {
-    let (makers, _) = robot.driver().rsplit_once('/')?;
-    let mut arguments = robot.arguments().split(';').map(str::trim);
-    let name = arguments.find_map(|argument| argument.strip_prefix("rig="));
-    let bench = rig.bench(&format!("{makers} {}", name.unwrap_or("bench").trim()))?;
+    let bench = rig.bench(&robot.bench()?)?;
     let gel = bench.provenance();
-    let announced = Arc::clone(&bench);
+    let [announced, shared] = [0; 2].map(|_| Arc::clone(&bench));
     Some(Surroundings {
         clock: Box::new(Hands(Arc::clone(&bench))),
         specimens: Some(Box::new(Hands(bench))),
@@ -25,6 +22,7 @@ pub(super) fn surroundings(robot: &Selector, rig: &mut Rig) -> Option<Surroundin
             unless_gone(named.and_then(|()| announced.schedule(upcoming.begins)));
         })),
         gel,
+        bench: Some(shared),
         begins_anew: true,
     })
 }
