@@ -1,5 +1,7 @@
 //! Pages, figures, tables, comparisons, choices and data sheets, as a person asks for them.
 
+#[path = "../../taceva-report/tests/support/latex.rs"]
+mod latex;
 mod schema;
 mod support;
 
@@ -113,6 +115,152 @@ fn predictions_of_the_same_samples_are_compared_one_by_one() {
             .as_str()
             .is_some_and(|words| words.starts_with("equivalent within"))
     }));
+}
+
+/// One sensor, pressed a few times; what differs between two of them is the model.
+fn small(model: &str) -> String {
+    format!(
+        r#"scene_version = 1
+name = "small"
+seed = 7
+robot = {{ driver = "sim/robot" }}
+force = {{ driver = "sim/force-transducer" }}
+model = {{ name = "{model}" }}
+metrics = {{ want = ["mae", "r2"] }}
+protocol = {{ calibration = {{ points = 80, indentations = 1 }} }}
+[[study]]
+name = "dome"
+sensor = {{ driver = "sim/vitactip:reduction=16" }}
+"#
+    )
+}
+
+#[test]
+fn runs_are_compared_by_their_folders_and_what_is_missing_is_named() {
+    let bench = Bench::new();
+    for (model, folder) in [("ridge", "one"), ("baseline", "two")] {
+        bench.write(&format!("{folder}.toml"), &small(model));
+        bench.ok(&format!("run {folder}.toml --out {folder} -q"));
+    }
+    let is_paired = |comparison: &Value| {
+        let answers = comparison["answers"].as_array().expect("a list");
+        let mut tests = answers
+            .iter()
+            .filter_map(|answer| answer["difference"]["test"].as_str());
+        tests.any(|test| test.starts_with("paired sign flip"))
+    };
+    let by_folder = bench.json("compare one two --metrics mae");
+    assert!(is_paired(&by_folder), "{by_folder:#}");
+    let by_file = bench.json("compare one/results.json two/reports/1-dome.json --metrics mae");
+    assert_eq!(by_file, by_folder);
+    fs::remove_file(bench.path("two/reports/1-dome.samples.csv")).expect("it was there");
+    let ran = bench.run("compare one two --metrics mae");
+    assert_eq!(ran.code, 0, "{}", ran.err);
+    let told = "two/results.json: no samples of dome, looked for two/reports/1-*.samples.csv: compared without pairs, by Welch's test";
+    assert!(ran.err.contains(told), "{}", ran.err);
+    assert!(!ran.out.contains("paired sign flip"), "{}", ran.out);
+    bench.refused(
+        "compare one two/figures",
+        2,
+        "two/figures: a folder without results.json; expected the folder of a run",
+    );
+}
+
+#[test]
+fn names_that_begin_like_a_formula_are_words_in_tables_and_the_same_names_when_read() {
+    let begins = |text: &&&str| text.starts_with(['=', '+', '-', '@']);
+    let mut names: Vec<&str> = naughty_strings::BLNS
+        .iter()
+        .filter(begins)
+        .copied()
+        .collect();
+    names.sort_unstable();
+    names.dedup();
+    names.extend(["=1+1", "=cmd|' /C calc'!A0", "'=quoted", "plain"]);
+    assert!(names.len() > 12, "{}", names.len());
+    let bench = Bench::new();
+    let table = |off: f64| {
+        let mut writer = csv::Writer::from_writer(Vec::new());
+        writer
+            .write_record(["id", "point_id", "Fz"])
+            .expect("memory");
+        for (name, at) in names.iter().zip(1_u32..) {
+            let value = (f64::from(at) * 0.1 + off * f64::from(at % 3)).to_string();
+            writer
+                .write_record([name, name, value.as_str()])
+                .expect("memory");
+        }
+        String::from_utf8(writer.into_inner().expect("memory")).expect("texts")
+    };
+    bench.write("t.csv", &table(0.0));
+    for (name, off) in [("a", 0.01), ("b", 0.02)] {
+        bench.write("p.csv", &table(off));
+        bench.ok(&format!(
+            "score --truth t.csv --pred p.csv --metrics mae --format json --out {name}.json --samples-out {name}.samples.csv -q"
+        ));
+    }
+    let text = fs::read_to_string(bench.path("a.samples.csv")).expect("written");
+    let mut reader = csv::Reader::from_reader(text.as_bytes());
+    let mut read: Vec<String> = Vec::new();
+    for record in reader.records() {
+        let record = record.expect("a row");
+        assert!(!record[0].starts_with(['=', '+', '-', '@']), "{record:?}");
+        assert!(!record[1].starts_with(['=', '+', '-', '@']), "{record:?}");
+        read.push(taceva_report::unescape_csv(&record[0]).to_owned());
+    }
+    assert_eq!(read, names);
+    let comparison = bench.json("compare a.json b.json --metrics mae");
+    let test = comparison["answers"][0]["difference"]["test"].as_str();
+    assert!(
+        test.is_some_and(|test| test.starts_with("paired sign flip")),
+        "{comparison:#}"
+    );
+    let scores = bench.ok("score --truth t.csv --pred p.csv --metrics mae --format csv -q");
+    for record in csv::Reader::from_reader(scores.as_bytes()).records() {
+        let record = record.expect("a row");
+        let words = [0, 1, 3, 6, 9, 10].map(|column| &record[column]);
+        assert!(
+            words
+                .iter()
+                .all(|word| !word.starts_with(['=', '+', '-', '@']))
+        );
+    }
+}
+
+#[test]
+fn both_readmes_name_every_command() {
+    let help = Bench::new().ok("--help");
+    let (_, commands) = help.split_once("Commands:\n").expect("a list");
+    let (commands, _) = commands.split_once("\n\n").expect("its end");
+    let names = commands.lines().filter(|line| !line.starts_with("   "));
+    let names: Vec<&str> = names
+        .filter_map(|line| line.split_whitespace().next())
+        .collect();
+    assert!(names.len() > 15, "{names:?}");
+    for file in ["README.md", "../README.md"] {
+        let path = format!("{}/{file}", env!("CARGO_MANIFEST_DIR"));
+        let text = fs::read_to_string(path).expect("the page is there");
+        for name in names.iter().filter(|name| **name != "help") {
+            let is_named =
+                text.contains(&format!("`taceva {name}")) || text.contains(&format!("`{name}`"));
+            assert!(is_named, "{file}: {name}");
+        }
+    }
+}
+
+#[test]
+fn tables_for_papers_compile() {
+    let bench = Bench::new();
+    bench.record("data", 40);
+    for words in [
+        "evaluate data --model ridge --split random --part all --format tex",
+        "check data --format tex",
+        "bench kernels --rows 600 --rounds 1 --format tex",
+        "choose --need shear,fast --format tex",
+        "catalogue show GelSight --format tex",
+    ] {
+        latex::assert_compiles(words, &bench.ok(&format!("{words} -q")));
+    }
 }
 
 #[test]

@@ -5,6 +5,8 @@ use crate::table::latex_number;
 
 /// Letters of a cell that is broken into lines on a page.
 const LONG: usize = 28;
+/// Letters of a cell that is broken into long lines: short ones would make a tower of it.
+const VERY_LONG: usize = 70;
 
 /// Rows below a head.
 ///
@@ -148,22 +150,28 @@ impl Listing {
     /// As a table of a page, that sorts.
     pub fn html(&self) -> String {
         let caption = escape::html(&self.caption);
+        if self.rows.is_empty() {
+            return format!("<p>{caption}: none.</p>\n{}", self.html_notes());
+        }
         let mut out = format!(
             "<div class=\"scroll\" tabindex=\"0\" role=\"group\" aria-label=\"{caption}\"><table class=\"sorts\"><caption>{caption}</caption><thead><tr>"
         );
-        let is_long = |column: usize| {
-            let mut cells = self.rows.iter().map(|row| row[column].chars().count());
-            cells.any(|letters| letters > LONG)
+        let longest = |column: usize| {
+            let cells = self.rows.iter().map(|row| row[column].chars().count());
+            cells.max().unwrap_or(0)
         };
-        let class = |column: usize| match self.is_of_numbers(column) {
-            true => " class=\"r\"",
-            false if is_long(column) => " class=\"wrap\"",
-            false => "",
-        };
+        let classes: Vec<&str> = (0..self.head.len())
+            .map(|column| match longest(column) {
+                _ if self.is_of_numbers(column) => " class=\"r\"",
+                letters if letters > VERY_LONG => " class=\"wrap long\"",
+                letters if letters > LONG => " class=\"wrap\"",
+                _ => "",
+            })
+            .collect();
         for (column, name) in self.head.iter().enumerate() {
             out += &format!(
                 "<th scope=\"col\"{}>{}</th>",
-                class(column),
+                classes[column],
                 escape::html(name)
             );
         }
@@ -171,15 +179,17 @@ impl Listing {
         for row in &self.rows {
             out += "<tr>";
             for (column, cell) in row.iter().enumerate() {
-                out += &format!("<td{}>{}</td>", class(column), escape::html(cell));
+                out += &format!("<td{}>{}</td>", classes[column], escape::html(cell));
             }
             out += "</tr>\n";
         }
-        out += "</tbody></table></div>\n";
-        for note in &self.notes {
-            out += &format!("<p class=\"note\">{}</p>\n", escape::html(note));
-        }
-        out
+        out + "</tbody></table></div>\n" + &self.html_notes()
+    }
+
+    fn html_notes(&self) -> String {
+        let notes = self.notes.iter();
+        let notes = notes.map(|note| format!("<p class=\"note\">{}</p>\n", escape::html(note)));
+        notes.collect()
     }
 
     /// Whether a column holds numbers, or nothing, and at least one of them.

@@ -6,8 +6,9 @@ use clap::{ArgGroup, Args, Subcommand};
 
 use super::Output;
 
-/// Results are JSON files of `evaluate`, `score` and `run`, or names of the catalogue. Where `<name>.samples.csv` lies beside `<name>.json`
-/// and both predict the same samples, mean absolute errors are compared sample by sample; all else by Welch's test, with Holm's adjustment.
+/// Results are JSON files of `evaluate` and `score`, folders of runs (or their results.json), or names of the catalogue. Where two of them
+/// predict the same samples, mean absolute errors are compared sample by sample: the samples are looked for in `<name>.samples.csv` beside
+/// `<name>.json` (`--samples-out` writes it) and in `reports/` of a run. All else is compared by Welch's test, with Holm's adjustment.
 #[derive(Debug, Args)]
 pub(crate) struct Compare {
     /// The results to compare

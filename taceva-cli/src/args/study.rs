@@ -17,6 +17,8 @@ pub(crate) struct SceneArgs {
     pub(crate) seed: Option<u64>,
 }
 
+/// The folder then holds `report.html`, one file to look at, to print and to send; every figure as SVG and PDF in `figures/`; `results.json`
+/// with every number; and the tables `scores.csv`, `scores.md` and `scores.tex`.
 #[derive(Debug, Args)]
 pub(crate) struct Run {
     #[command(flatten)]

@@ -8,15 +8,18 @@ use super::{Context, Usage, results};
 use crate::args::Compare;
 use crate::{exit, output};
 
-pub(crate) fn run(args: &Compare, _context: &Context) -> anyhow::Result<u8> {
+pub(crate) fn run(args: &Compare, context: &Context) -> anyhow::Result<u8> {
     for path in args.output.path.iter().chain(&args.html) {
         output::check_free(path, args.output.force)?;
     }
-    let studies = results::read_all(&args.results)?;
+    let results::Found { studies, missing } = results::find_all(&args.results)?;
     if studies.len() < 2 {
         return Err(Usage::error(
             "one result: there is nothing to compare it with",
         ));
+    }
+    for line in missing {
+        context.say(format_args!("{line}"));
     }
     let request = CompareRequest {
         metrics: args.metrics.clone(),

@@ -1,46 +1,77 @@
 //! Results that are there already, read for the commands that look at them.
 
+mod samples;
+
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use anyhow::Context as _;
-use taceva_report::{Listing, Samples, Study, catalogue};
+use taceva_report::{Listing, Study, catalogue, escape_terminal};
 
 use super::Usage;
 use crate::args::Format;
 
-/// The studies of every result: of files, or of the catalogue where no file has that name.
-pub(super) fn read_all(named: &[std::path::PathBuf]) -> anyhow::Result<Vec<Study>> {
-    let mut studies = Vec::new();
-    for path in named {
-        studies.extend(read(path)?);
-    }
-    Ok(studies)
+/// Every number of a run, in its folder.
+const RESULTS: &str = "results.json";
+
+/// Results with the samples behind them.
+#[derive(Default)]
+pub(super) struct Found {
+    /// The studies, each with its samples where they are at hand.
+    pub(super) studies: Vec<Study>,
+    /// Where samples were looked for in vain, a line a study.
+    pub(super) missing: Vec<String>,
 }
 
-/// The studies of one result, with the samples that lie beside it.
+/// The studies of every result: of files, of folders of runs, or of the catalogue where nothing has that name.
+pub(super) fn find_all(named: &[PathBuf]) -> anyhow::Result<Found> {
+    let mut all = Found::default();
+    for path in named {
+        let found = find(path)?;
+        all.studies.extend(found.studies);
+        all.missing.extend(found.missing);
+    }
+    Ok(all)
+}
+
+/// The studies of every result, for those who do not ask for samples.
+pub(super) fn read_all(named: &[PathBuf]) -> anyhow::Result<Vec<Study>> {
+    find_all(named).map(|found| found.studies)
+}
+
+/// The studies of one result.
 pub(super) fn read(path: &Path) -> anyhow::Result<Vec<Study>> {
+    find(path).map(|found| found.studies)
+}
+
+fn find(path: &Path) -> anyhow::Result<Found> {
     if !path.exists() {
         let name = path.to_string_lossy();
         let sensor = catalogue::find(&name).ok_or_else(|| {
             Usage::error(format!(
                 "`{}`: no such file, and no such name in the catalogue; see taceva catalogue list",
-                taceva_report::escape_terminal(&name)
+                escape_terminal(&name)
             ))
         })?;
-        return Ok(vec![sensor.as_study()]);
+        return Ok(Found {
+            studies: vec![sensor.as_study()],
+            missing: Vec::new(),
+        });
+    }
+    let file = match path.is_dir() {
+        true => path.join(RESULTS),
+        false => path.to_owned(),
+    };
+    if path.is_dir() && !file.is_file() {
+        return Err(Usage::error(format!(
+            "{}: a folder without {RESULTS}; expected the folder of a run, or the JSON of evaluate, score or run",
+            path.display()
+        )));
     }
     let text =
-        fs::read_to_string(path).with_context(|| format!("cannot read {}", path.display()))?;
-    let mut studies = Study::read(&text).with_context(|| path.display().to_string())?;
-    let samples = path.with_extension("samples.csv");
-    if let ([study], true) = (studies.as_mut_slice(), samples.is_file()) {
-        let table = fs::read_to_string(&samples)
-            .with_context(|| format!("cannot read {}", samples.display()))?;
-        let read = Samples::read(&table).with_context(|| samples.display().to_string())?;
-        study.samples = Some(read);
-    }
-    Ok(studies)
+        fs::read_to_string(&file).with_context(|| format!("cannot read {}", file.display()))?;
+    let studies = Study::read(&text).with_context(|| file.display().to_string())?;
+    samples::beside(&file, studies)
 }
 
 /// Rows in the form asked for; `json` makes the one that is no table.

@@ -7,7 +7,7 @@ use crate::escape::html;
 use crate::figures::{figures, listed};
 use crate::html::{Document, figure, lead};
 use crate::listing::Listing;
-use crate::number::{numeral, significant};
+use crate::number::{numeral, significant, spaced};
 use crate::results::Study;
 
 /// The schema of a comparison as JSON.
@@ -98,21 +98,7 @@ impl Comparison {
     pub fn page(&self, studies: &[Study]) -> String {
         let mut document = Document::new("Comparison");
         document.lead(&lead(studies));
-        let mut lines = String::new();
-        for answer in &self.answers {
-            let (Some(better), [a, b]) = (answer.better(), [answer.sides.a, answer.sides.b]) else {
-                continue;
-            };
-            let words = answer.verdict.to_string();
-            let words = words.strip_prefix("A ").unwrap_or(&words);
-            let [a, b, better] = [a, b, better].map(|at| html(&self.names[at]));
-            lines += &format!(
-                "<li><code>{}</code> {}: <strong>{better}</strong> is better; {a} is {} than {b}</li>\n",
-                html(&answer.metric),
-                html(&answer.channel),
-                html(words)
-            );
-        }
+        let lines: String = self.won().iter().map(|won| won.html(&self.names)).collect();
         let summary = match lines.is_empty() {
             true => format!(
                 "<p>No difference is shown between {}.</p>",
@@ -131,5 +117,62 @@ impl Comparison {
             document.section("figures", "Side by side", &radars);
         }
         document.finish()
+    }
+}
+
+impl Comparison {
+    /// What is shown, score by score: who is better, and than whom.
+    fn won(&self) -> Vec<Won<'_>> {
+        let mut all: Vec<Won<'_>> = Vec::new();
+        for answer in &self.answers {
+            let Some(winner) = answer.better() else {
+                continue;
+            };
+            let is_same = |won: &&mut Won<'_>| {
+                let of = won.answers[0];
+                won.winner == winner && of.metric == answer.metric && of.channel == answer.channel
+            };
+            match all.iter_mut().find(is_same) {
+                Some(won) => won.answers.push(answer),
+                None => all.push(Won {
+                    winner,
+                    answers: vec![answer],
+                }),
+            }
+        }
+        all
+    }
+}
+
+/// The answers by which one study is better than others, all of one metric and channel.
+struct Won<'a> {
+    winner: usize,
+    /// At least one.
+    answers: Vec<&'a Answer>,
+}
+
+impl Won<'_> {
+    /// `mae Fz: MagicTac is better than ViTacTip (0.092 and 0.17 N) and GelSight (0.092 and 0.3 N)`.
+    fn html(&self, names: &[String]) -> String {
+        let of = self.answers[0];
+        let than = |answer: &&Answer| {
+            let (loser, [own, other]) = match answer.sides.a == self.winner {
+                true => (answer.sides.b, [answer.scores.a, answer.scores.b]),
+                false => (answer.sides.a, [answer.scores.b, answer.scores.a]),
+            };
+            let scores = own.zip(other).map_or_else(String::new, |(own, other)| {
+                let unit = spaced(answer.unit);
+                format!(" ({} and {}{unit})", numeral(own), numeral(other))
+            });
+            format!("{}{scores}", names[loser])
+        };
+        let others: Vec<String> = self.answers.iter().map(than).collect();
+        format!(
+            "<li><code>{}</code> {}: <strong>{}</strong> is better than {}</li>\n",
+            html(&of.metric),
+            html(&of.channel),
+            html(&names[self.winner]),
+            html(&listed(&others))
+        )
     }
 }

@@ -20,9 +20,30 @@ pub(crate) fn short(name: &str, most: usize) -> String {
     format!("{start}…")
 }
 
+/// `name`, cut in its middle to `most` letters: ids that are digests begin alike and end in what tells them apart.
+pub(crate) fn middle_cut(name: &str, most: usize) -> String {
+    let letters: Vec<char> = name.chars().filter(|letter| !letter.is_control()).collect();
+    if letters.len() <= most {
+        return letters.into_iter().collect();
+    }
+    let kept = most.saturating_sub(1);
+    let (start, end) = (
+        &letters[..kept - kept / 2],
+        &letters[letters.len() - kept / 2..],
+    );
+    start.iter().chain(&['…']).chain(end).collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn ids_keep_both_ends() {
+        assert_eq!(middle_cut("663e115541e9e2ec/12", 9), "663e…c/12");
+        assert_eq!(middle_cut("663e", 9), "663e");
+        assert_eq!(middle_cut("663e", 1), "…");
+    }
 
     #[test]
     fn long_names_are_cut_and_say_so() {

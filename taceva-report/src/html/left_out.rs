@@ -35,7 +35,7 @@ pub(super) fn section(studies: &[Study]) -> String {
         return "<p>Nothing was skipped, every score has a value, and there is nothing to mind.</p>".to_owned();
     }
     format!(
-        "<div class=\"scroll\"><table class=\"sorts\"><thead><tr><th scope=\"col\">sensor</th><th scope=\"col\">kind</th>\
+        "<div class=\"scroll\" tabindex=\"0\" role=\"group\" aria-label=\"What was left out\"><table class=\"sorts\"><thead><tr><th scope=\"col\">sensor</th><th scope=\"col\">kind</th>\
          <th scope=\"col\">what</th><th scope=\"col\">why</th></tr></thead><tbody>\n{rows}</tbody></table></div>"
     )
 }

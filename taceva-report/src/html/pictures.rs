@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use super::Report;
 use super::base64::base64;
 use crate::escape::html;
-use crate::figure::{Anchor, Canvas, Figure, Ink, Label, Points, Stroke, short};
+use crate::figure::{Anchor, Canvas, Figure, Ink, Label, Points, Stroke, middle_cut, short};
 use crate::figures::{SIX, names};
 use crate::number::numeral;
 use crate::results::Study;
@@ -129,12 +129,12 @@ fn card(
     let mut out = format!(
         "<li class=\"card\" data-tags=\"s{at} {kind}\"><h3>{}: {kind}, sample {}</h3>",
         html(&short(name, 30)),
-        html(&short(&pick.id, 14))
+        html(&middle_cut(&pick.id, 14))
     );
     if let Some(picture) = picture {
         out += &format!(
             "<img alt=\"picture of sample {}\" src=\"data:{};base64,{}\">",
-            html(&short(&pick.id, 40)),
+            html(&middle_cut(&pick.id, 40)),
             picture.media_type,
             base64(&picture.bytes)
         );

@@ -71,9 +71,9 @@ impl Browser {
 
     /// Opens `address` and waits until it is there.
     pub(crate) fn open(&mut self, address: &str) {
+        let before = self.events.len();
         self.call("Page.navigate", json!({"url": address}));
-        while !self
-            .events
+        while !self.events[before..]
             .iter()
             .any(|event| event["method"] == "Page.loadEventFired")
         {

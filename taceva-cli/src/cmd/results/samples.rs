@@ -1,0 +1,72 @@
+//! The samples behind results: where `evaluate`, `score` and `run` put them.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use anyhow::Context as _;
+use taceva_report::{Samples, Study, escape_terminal};
+
+use super::{Found, RESULTS};
+
+/// What the name of a table of samples ends with, in the place of `json`.
+const SAMPLES: &str = "samples.csv";
+/// Where a run has the reports of its studies, each begun with the number of the study.
+const REPORTS: &str = "reports";
+
+/// The studies of `file` with their samples: those of a run are in `reports/<number>-*.samples.csv`, those of one evaluation beside it in
+/// `<name>.samples.csv`.
+pub(super) fn beside(file: &Path, mut studies: Vec<Study>) -> anyhow::Result<Found> {
+    let is_run = file.file_name().is_some_and(|name| name == RESULTS);
+    let own = file.with_extension(SAMPLES);
+    let reports = file.with_file_name(REPORTS);
+    let is_alone = studies.len() == 1;
+    let mut missing = Vec::new();
+    for (study, number) in studies.iter_mut().zip(1_u32..) {
+        let (wanted, found) = match is_run {
+            true => (
+                reports.join(format!("{number}-*.{SAMPLES}")),
+                of_run(&reports, number)?,
+            ),
+            false => (
+                own.clone(),
+                Some(own.clone()).filter(|path| is_alone && path.is_file()),
+            ),
+        };
+        match found {
+            Some(path) => study.samples = Some(read(&path)?),
+            None => missing.push(format!(
+                "{}: no samples of {}, looked for {}: compared without pairs, by Welch's test",
+                file.display(),
+                escape_terminal(&study.sensor),
+                wanted.display()
+            )),
+        }
+    }
+    Ok(Found { studies, missing })
+}
+
+/// The table of study `number` of a run, counted from 1; the first by name if there are several.
+fn of_run(reports: &Path, number: u32) -> anyhow::Result<Option<PathBuf>> {
+    if !reports.is_dir() {
+        return Ok(None);
+    }
+    let start = format!("{number}-");
+    let of_study = |name: &str| name.starts_with(&start) && name.ends_with(&format!(".{SAMPLES}"));
+    let mut names = Vec::new();
+    let entries =
+        fs::read_dir(reports).with_context(|| format!("cannot read {}", reports.display()))?;
+    for entry in entries {
+        let name = entry?.file_name().to_string_lossy().into_owned();
+        if of_study(&name) {
+            names.push(name);
+        }
+    }
+    names.sort_unstable();
+    Ok(names.first().map(|name| reports.join(name)))
+}
+
+fn read(path: &Path) -> anyhow::Result<Samples> {
+    let table =
+        fs::read_to_string(path).with_context(|| format!("cannot read {}", path.display()))?;
+    Samples::read(&table).with_context(|| path.display().to_string())
+}

@@ -1,0 +1,51 @@
+//! What a screen reader, a keyboard and weak eyes need, looked for by axe-core.
+
+use std::path::PathBuf;
+use std::process::Command;
+
+use serde_json::{Value, json};
+
+use crate::cdp::Browser;
+
+/// The source of axe-core: the file that `TACEVA_AXE` names, or the one that node finds; why there is none.
+pub(crate) fn source() -> Result<String, String> {
+    let path = match std::env::var_os("TACEVA_AXE") {
+        Some(path) => PathBuf::from(path),
+        None => found_by_node()?,
+    };
+    std::fs::read_to_string(&path).map_err(|error| format!("{}: {error}", path.display()))
+}
+
+fn found_by_node() -> Result<PathBuf, String> {
+    let script = "process.stdout.write(require.resolve('axe-core/axe.min.js'))";
+    let ran = Command::new("node").args(["-e", script]).output();
+    match ran {
+        Ok(ran) if ran.status.success() => {
+            Ok(PathBuf::from(String::from_utf8_lossy(&ran.stdout).as_ref()))
+        }
+        Ok(_) => Err(
+            "node finds no axe-core; `npm install axe-core`, or name axe.min.js by TACEVA_AXE"
+                .to_owned(),
+        ),
+        Err(error) => Err(format!("node: {error}")),
+    }
+}
+
+/// Fails if axe-core finds a violation on the page that is open, in the light or in the dark.
+pub(crate) fn assert_accessible(browser: &mut Browser, axe: &str, page: &str) {
+    for scheme in ["light", "dark"] {
+        let features = json!([{"name": "prefers-color-scheme", "value": scheme}]);
+        browser.call("Emulation.setEmulatedMedia", json!({"features": features}));
+        browser.evaluate(&format!("{axe};0"));
+        let found = browser.evaluate(
+            "axe.run(document, {resultTypes: ['violations']}).then((found) => ({
+                passes: found.passes.length,
+                violations: found.violations.map((one) => `${one.id}: ${one.help}: ` + one.nodes.slice(0, 3).map((node) => node.html.slice(0, 160)).join(' | '))
+            }))",
+        );
+        assert_eq!(found["violations"], json!([]), "{page}, {scheme}");
+        let passes = found["passes"].as_u64();
+        assert!(passes.is_some_and(|passes| passes > 10), "{page}: {found}");
+    }
+    assert_eq!(browser.evaluate("typeof axe"), Value::from("object"));
+}

@@ -1,0 +1,94 @@
+//! Every table for papers compiles: with `pdflatex` where it is installed, skipped with the reason printed elsewhere.
+
+#[path = "support/latex.rs"]
+mod latex;
+mod support;
+
+use latex::assert_compiles;
+use support::drawn;
+use taceva_core::Unit;
+use taceva_report::{
+    Acceptance, BenchMachine, BenchRecording, ChannelError, CompareRequest, LimitsFile, ModelBench,
+    ModelRow, Need, ScoreTable, Study, accept, catalogue, choose, compare,
+};
+
+/// A name of everything that LaTeX reads specially, and of what our own words hold.
+const NAME: &str =
+    "a_b & 50 % #1 {x} $y$ ^2 ~ \\end{document} <\"'> | ² ³ µm · × ± − – … ≤ ≥ → ε σ é ö";
+
+fn studies() -> [Study; 2] {
+    [drawn(NAME, 60, 1.0), drawn("other", 60, 1.5)]
+}
+
+#[test]
+fn scores_compile() {
+    let table = ScoreTable::of(&studies());
+    assert_compiles("scores", &taceva_report::latex(&table, NAME));
+    assert_compiles(
+        "headlines",
+        &taceva_report::latex(&table.headlines(), "Drawn"),
+    );
+}
+
+#[test]
+fn comparisons_compile() {
+    let comparison = compare(&studies(), &CompareRequest::default());
+    assert!(comparison.answers.len() > 10);
+    // A page of paper has an end; the table of every answer goes over several.
+    let listing = comparison.listing();
+    for rows in listing.rows.chunks(30) {
+        let mut part = listing.clone();
+        part.rows = rows.to_vec();
+        assert_compiles("comparison", &part.latex());
+    }
+}
+
+#[test]
+fn choices_and_the_catalogue_compile() {
+    let needs = Need::parse("accurate shear, ambient light, rate >= 50 Hz").expect("needs");
+    let choice = choose(&catalogue::all(), &needs);
+    assert_compiles("choice", &choice.listing().latex());
+    let all = catalogue::list(&catalogue::all());
+    assert_compiles("catalogue", &all.latex());
+    let mut details = String::new();
+    for sensor in catalogue::all() {
+        details += &catalogue::details(&sensor).latex();
+        details += "\\clearpage\n";
+    }
+    assert_compiles("every sensor of the catalogue", &details);
+}
+
+#[test]
+fn data_sheets_compile() {
+    let limits = LimitsFile::read(
+        "limits_version = 1\nname = \"line 50 %\"\n[[limit]]\nmetric = \"mae\"\nchannel = \"Fz\"\nunit = \"N\"\nmost = 0.00001\n",
+    )
+    .expect("limits");
+    let study = drawn(NAME, 60, 1.0);
+    let findings = accept(&study, &limits);
+    let acceptance = Acceptance {
+        name: &limits.name,
+        study: &study,
+        findings: &findings,
+    };
+    assert_compiles("acceptance", &acceptance.listing().latex());
+}
+
+#[test]
+fn benchmarks_of_models_compile() {
+    let mut bench = ModelBench::new(BenchMachine::default(), BenchRecording::default());
+    bench.recording.source = "simulated".to_owned();
+    bench.rows.push(ModelRow {
+        model: NAME.to_owned(),
+        fit_s: 1e-7,
+        errors: vec![ChannelError {
+            channel: "Fz".to_owned(),
+            unit: Unit::Newton,
+            mae: 0.25,
+            ci95: Some([-0.05, 0.55]),
+            n: 40,
+        }],
+        ..ModelRow::default()
+    });
+    assert_compiles("models", &bench.listing().latex());
+}
