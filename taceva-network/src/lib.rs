@@ -2,6 +2,7 @@
 
 mod architecture;
 mod batch_norm;
+mod constant;
 mod convolution;
 mod error;
 mod head;

@@ -1,5 +1,6 @@
 //! What the forward pass and the gradient of the input have in common: sums of runs of pixels times rows of weights.
 
+use crate::constant::with_constant;
 use crate::panel::PANEL;
 use crate::simd::{Job, Pixels, Tile, Vector};
 
@@ -100,13 +101,10 @@ impl Job for Correlation<'_> {
                     is_first: index == 0,
                     is_last: end == taps.len(),
                 };
-                match width * PANEL / V::LANES {
-                    1 => self.round::<V, 1>(proof, round),
-                    2 => self.round::<V, 2>(proof, round),
-                    3 => self.round::<V, 3>(proof, round),
-                    4 => self.round::<V, 4>(proof, round),
-                    _ => unreachable!("at most four vectors a tile"),
-                }
+                with_constant!(
+                    VECTORS = width * PANEL / V::LANES, one of [1, 2, 3, 4] =>
+                    self.round::<V, VECTORS>(proof, round)
+                );
             }
             panel += width;
         }
@@ -120,15 +118,10 @@ impl Correlation<'_> {
         let mut first = 0;
         while first < total {
             let count = (total - first).min(V::ROWS);
-            match count {
-                1 => self.tile::<V, 1, VECTORS>(proof, round, first),
-                2 => self.tile::<V, 2, VECTORS>(proof, round, first),
-                3 => self.tile::<V, 3, VECTORS>(proof, round, first),
-                4 => self.tile::<V, 4, VECTORS>(proof, round, first),
-                5 => self.tile::<V, 5, VECTORS>(proof, round, first),
-                6 => self.tile::<V, 6, VECTORS>(proof, round, first),
-                _ => unreachable!("at most six rows a tile"),
-            }
+            with_constant!(
+                ROWS = count, one of [1, 2, 3, 4, 5, 6] =>
+                self.tile::<V, ROWS, VECTORS>(proof, round, first)
+            );
             first += count;
         }
     }

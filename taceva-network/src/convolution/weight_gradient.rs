@@ -3,6 +3,7 @@
 use rayon::prelude::*;
 
 use super::{Convolution, offset};
+use crate::constant::with_constant;
 use crate::machine::Machine;
 use crate::panel::PANEL;
 use crate::planes::{Layout, Planes};
@@ -144,13 +145,10 @@ impl Job for Sums<'_, '_> {
         let mut panel = 0;
         while panel < self.task.panels.len() {
             let width = (self.task.panels.len() - panel).min(V::PANELS);
-            match width * PANEL / V::LANES {
-                1 => self.panels::<V, 1>(proof, panel),
-                2 => self.panels::<V, 2>(proof, panel),
-                3 => self.panels::<V, 3>(proof, panel),
-                4 => self.panels::<V, 4>(proof, panel),
-                _ => unreachable!("at most four vectors a tile"),
-            }
+            with_constant!(
+                VECTORS = width * PANEL / V::LANES, one of [1, 2, 3, 4] =>
+                self.panels::<V, VECTORS>(proof, panel)
+            );
             panel += width;
         }
     }
@@ -163,15 +161,10 @@ impl Sums<'_, '_> {
         let mut first = 0;
         while first < rows {
             let count = (rows - first).min(V::ROWS);
-            match count {
-                1 => self.tile::<V, 1, VECTORS>(proof, panel, first),
-                2 => self.tile::<V, 2, VECTORS>(proof, panel, first),
-                3 => self.tile::<V, 3, VECTORS>(proof, panel, first),
-                4 => self.tile::<V, 4, VECTORS>(proof, panel, first),
-                5 => self.tile::<V, 5, VECTORS>(proof, panel, first),
-                6 => self.tile::<V, 6, VECTORS>(proof, panel, first),
-                _ => unreachable!("at most six rows a tile"),
-            }
+            with_constant!(
+                ROWS = count, one of [1, 2, 3, 4, 5, 6] =>
+                self.tile::<V, ROWS, VECTORS>(proof, panel, first)
+            );
             first += count;
         }
     }
