@@ -9,6 +9,7 @@ mod study;
 use std::path::PathBuf;
 
 use clap::{ArgGroup, Args, Parser, Subcommand};
+use taceva_models::Checkpoints;
 
 pub(crate) use self::bench::{Bench, BenchKernels, BenchSubject};
 pub(crate) use self::plugin::{
@@ -140,6 +141,8 @@ pub(crate) struct Check {
     pub(crate) output: Output,
 }
 
+/// A network that is trained is put aside every half a minute, and when it is stopped, in the file MODEL.checkpoint; the same command
+/// goes on from it, ends with the same bytes as one that nobody stopped, and removes it.
 #[derive(Debug, Args)]
 pub(crate) struct Fit {
     /// The dataset to learn from
@@ -154,7 +157,10 @@ pub(crate) struct Fit {
     /// Write the ids of the training, validation and test samples as JSON
     #[arg(long, value_name = "SPLIT.json")]
     pub(crate) split_out: Option<PathBuf>,
-    /// Replace a file that stands there already
+    /// Put a training aside after so many seconds, 0 for after each step
+    #[arg(long, value_name = "SECONDS", default_value_t = Checkpoints::EVERY.as_secs())]
+    pub(crate) checkpoint_every: u64,
+    /// Replace a file that stands there already, and the checkpoint of another training
     #[arg(long)]
     pub(crate) force: bool,
 }

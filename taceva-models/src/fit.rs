@@ -8,7 +8,7 @@ use crate::choice::Choice;
 use crate::features::Pca;
 use crate::label_scaling::LabelScaling;
 use crate::linear::{LinearEstimator, LinearRegressor};
-use crate::network::NetworkRegressor;
+use crate::network::{Checkpoints, NetworkRegressor};
 use crate::plugin::PluginRegressor;
 use crate::problem::invalid;
 
@@ -30,6 +30,10 @@ pub trait ModelEstimator: Estimator {
         validation: Option<&TrainingSet<'_>>,
         progress: &dyn Progress,
     ) -> Result<ModelFit, ModelError>;
+
+    /// From now on puts aside what was learnt so far, and goes on from what is found there; a model that is fitted in one go
+    /// has nothing to put aside.
+    fn put_aside(&mut self, _: Checkpoints) {}
 }
 
 impl<L: LinearEstimator> ModelEstimator for L {

@@ -2,6 +2,7 @@
 
 mod baseline;
 mod choice;
+mod durable;
 mod features;
 mod fit;
 mod gratings;
@@ -33,7 +34,10 @@ pub use model::{
     Source, SplitCard,
 };
 pub use models::{ChosenModel, Models};
-pub use network::{NetworkCard, NetworkEstimator, NetworkRegressor, Preprocessing};
+pub use network::{
+    CheckpointError, Checkpoints, Foreign, NetworkCard, NetworkEstimator, NetworkRegressor,
+    Preprocessing,
+};
 pub use pls::Pls;
 pub use plugin::{PluginCard, PluginRegressor};
 pub use registry::{ALL, ModelInfo, UnknownModel, find};

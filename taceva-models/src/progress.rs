@@ -14,7 +14,11 @@ impl<'a> Stage<'a> {
     }
 
     pub(crate) fn advance(&self) {
-        self.progress.advance(1);
+        self.advance_by(1);
+    }
+
+    pub(crate) fn advance_by(&self, steps: u64) {
+        self.progress.advance(steps);
     }
 }
 

@@ -128,8 +128,8 @@ pub enum NetworkError {
         /// The step, counted from 0.
         step: u64,
     },
-    /// A weight that a step made not finite.
-    #[error("step {step}: a weight is not finite")]
+    /// A weight, or a running moment of a normalisation, that a step made not finite.
+    #[error("step {step}: a weight or a running moment is not finite")]
     WeightNotFinite {
         /// The step, counted from 0.
         step: u64,

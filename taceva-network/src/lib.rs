@@ -33,6 +33,6 @@ pub use predictor::Predictor;
 pub use schedule::Schedule;
 pub use taceva_core::{Isa, IsaError};
 pub use training::{
-    Augmentation, Checkpoint, Epoch, Jitter, LabelScale, LabelScaling, Labels, Recipe, Samples,
-    Step, Summary, Trained, Trainer, TrainingState,
+    Augmentation, Breakage, Checkpoint, Epoch, Jitter, LabelScale, LabelScaling, Labels, Recipe,
+    Samples, Step, Summary, Trained, Trainer, TrainingState,
 };

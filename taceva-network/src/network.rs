@@ -108,6 +108,17 @@ impl Network {
         Ok(self)
     }
 
+    /// Whether all running moments are finite.
+    pub(crate) fn are_moments_finite(&self) -> bool {
+        let mut norms = self.stages.iter().flat_map(Stage::normed);
+        norms.all(|(normed, _)| {
+            let moments = [&normed.norm.running_mean, &normed.norm.running_variance];
+            moments
+                .into_iter()
+                .all(|moments| moments.iter().all(|value| value.is_finite()))
+        })
+    }
+
     /// The make of it.
     pub fn architecture(&self) -> &Architecture {
         &self.architecture

@@ -1,12 +1,14 @@
 //! Training: one step at a time, so that whoever trains can look, save or stop between any two.
 
 mod augmentation;
+mod breakage;
 mod checkpoint;
 mod label_scale;
 mod recipe;
 mod samples;
 
 pub use augmentation::{Augmentation, Jitter};
+pub use breakage::Breakage;
 pub use checkpoint::{Checkpoint, Summary};
 pub use label_scale::{LabelScale, LabelScaling};
 pub use recipe::Recipe;
@@ -55,6 +57,8 @@ pub struct TrainingState {
     pub best: Option<u64>,
     /// Whether the recipe's patience came to an end.
     pub is_stopped: bool,
+    /// Where a number was not finite.
+    pub broken: Option<Breakage>,
 }
 
 /// What an epoch came to, in the unit of the scaled labels.
@@ -173,9 +177,22 @@ impl<'a> Trainer<'a> {
     /// Makes the next step; nothing if the training is finished.
     ///
     /// # Errors
-    /// [`NetworkError::LossNotFinite`] or [`NetworkError::WeightNotFinite`], naming the step; the network of the best epoch
-    /// until then is still what [`finish`](Trainer::finish) gives.
+    /// [`NetworkError::LossNotFinite`] or [`NetworkError::WeightNotFinite`], naming the step, now and at every further call; the
+    /// network of the best epoch until then is still what [`finish`](Trainer::finish) gives and what a checkpoint keeps.
     pub fn step(&mut self) -> Result<Option<Step>, NetworkError> {
+        if let Some(breakage) = self.state.broken {
+            return Err(breakage.into());
+        }
+        let made = self.next_step();
+        self.state.broken = made.as_ref().err().and_then(Breakage::of);
+        if let (Some(_), Some(best)) = (self.state.broken, &self.best) {
+            // Weights that may not be finite are of no use to anybody.
+            self.network = best.clone();
+        }
+        made
+    }
+
+    fn next_step(&mut self) -> Result<Option<Step>, NetworkError> {
         if self.is_finished() {
             return Ok(None);
         }
@@ -213,7 +230,7 @@ impl<'a> Trainer<'a> {
         };
         self.network
             .backward(&mut self.space, &gradient, &mut descent);
-        if descent.is_broken {
+        if descent.is_broken || !self.network.are_moments_finite() {
             return Err(NetworkError::WeightNotFinite { step });
         }
         self.state.step += 1;

@@ -311,6 +311,40 @@ fn a_loss_that_is_not_finite_names_its_step_and_leaves_the_best() {
 }
 
 #[test]
+fn a_training_that_broke_keeps_its_best_and_breaks_again_wherever_it_is_gone_on_with() {
+    let (training, validation) = (sums(1, 16), sums(2, 8));
+    // Each step overshoots a hundredfold: the first epochs are finite, the tenth or so is not.
+    let recipe = Recipe {
+        epochs: 50,
+        rate: 10.0,
+        schedule: Schedule::Constant,
+        optimizer: Optimizer::Sgd {
+            momentum: 0.9,
+            weight_decay: 0.0,
+        },
+        loss: Loss::SquaredError,
+        ..recipe()
+    };
+    let samples = || (values(&training), Some(values(&validation)));
+    let (learnt, held) = samples();
+    let trainer = Trainer::new(&architecture(), &recipe, learnt, held);
+    let mut trainer = trainer.expect("a training");
+    let error = loop {
+        match trainer.step() {
+            Ok(made) => assert!(made.is_some(), "such a rate breaks any training"),
+            Err(error) => break error,
+        }
+    };
+    assert_eq!(trainer.step().expect_err("broken"), error);
+    assert!(trainer.state().best.is_some(), "{error}");
+    let (learnt, held) = samples();
+    let resumed = Trainer::resume(trainer.checkpoint(), learnt, held);
+    let mut resumed = resumed.expect("what is kept is finite");
+    assert_eq!(resumed.step().expect_err("broken"), error);
+    assert_same(&resumed.finish(), &trainer.finish(), "the best epoch");
+}
+
+#[test]
 fn parameters_are_counted_as_they_are() {
     for architecture in [
         architecture(),

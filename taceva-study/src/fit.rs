@@ -6,8 +6,8 @@ use std::num::NonZeroUsize;
 use taceva_core::{Channels, FrameInfo, PixelFormat, Progress, Targets, TrainingSet};
 use taceva_dataset::{Dataset, Source};
 use taceva_models::{
-    ChosenModel, FeatureSpec, FitInput, Model, ModelEstimator, Provenance, Settings, SplitCard,
-    SplitManifest,
+    Checkpoints, ChosenModel, FeatureSpec, FitInput, Model, ModelEstimator, Provenance, Settings,
+    SplitCard, SplitManifest,
 };
 
 use crate::error::StudyError;
@@ -28,6 +28,16 @@ pub struct FitRequest {
     pub split: Option<String>,
     /// The seed of everything that is drawn.
     pub seed: u64,
+}
+
+/// How a model is fitted; nothing of this changes the model.
+pub struct FitMeans<'a> {
+    /// Worker threads.
+    pub jobs: NonZeroUsize,
+    /// Who listens.
+    pub progress: &'a dyn Progress,
+    /// Where a long training is put aside, and goes on from; models that are fitted in one go put nothing aside.
+    pub checkpoints: Option<Checkpoints>,
 }
 
 /// A fitted model and how its dataset was divided.
@@ -164,6 +174,11 @@ impl<'a> FitPlan<'a> {
         );
     }
 
+    /// From now on puts a long training aside, and goes on from what is found there.
+    pub(crate) fn put_aside(&mut self, checkpoints: Checkpoints) {
+        self.estimator.put_aside(checkpoints);
+    }
+
     pub(crate) fn run(self, work: Work<'_>) -> Result<Fitted, StudyError> {
         let rows = [self.train.clone(), self.validation.clone()].concat();
         let (features, frame) = if self.reads_frames() {
@@ -271,10 +286,18 @@ impl<'a> FitPlan<'a> {
 pub fn fit(
     dataset: &Dataset,
     request: &FitRequest,
-    jobs: NonZeroUsize,
-    progress: &dyn Progress,
+    means: FitMeans<'_>,
 ) -> Result<Fitted, StudyError> {
-    FitPlan::new(dataset, request)?.run(Work { jobs, progress })
+    let FitMeans {
+        jobs,
+        progress,
+        checkpoints,
+    } = means;
+    let mut plan = FitPlan::new(dataset, request)?;
+    if let Some(checkpoints) = checkpoints {
+        plan.put_aside(checkpoints);
+    }
+    plan.run(Work { jobs, progress })
 }
 
 /// A number a row for its contact location, if every row has one.

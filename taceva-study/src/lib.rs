@@ -29,7 +29,7 @@ pub use cache::{Cache, Stage, StageRecord};
 pub use check::{CheckReport, CheckRequest, Finding, Severity, check, check_plan};
 pub use error::StudyError;
 pub use evaluate::{EvaluateRequest, Evaluated, ModelChoice, evaluate, evaluate_plan};
-pub use fit::{FitRequest, Fitted, fit};
+pub use fit::{FitMeans, FitRequest, Fitted, fit};
 pub use plan::{Plan, Step};
 pub use predict::{Predicted, predict};
 pub use provenance::{ModelProvenance, Provenance};

@@ -15,7 +15,7 @@ use crate::error::StudyError;
 use crate::features::Work;
 use crate::report::EvaluationReport;
 use crate::scene::{PlannedScene, PlannedStudy, StudySource};
-use crate::stage::assess;
+use crate::stage::{Means, assess};
 pub use folder::{Existing, RunFolder};
 
 /// The reports of the studies of `scene`, in order; what is acquired is recorded in `folder`, several studies at a time.
@@ -39,8 +39,13 @@ pub fn run_scene(
     };
     let studies = scene.studies.iter().zip(&datasets);
     let assessed = studies.enumerate().map(|(number, (study, dataset))| {
-        let cache = workshop.cache_of(study, number);
-        assess(scene, study, dataset, (work, cache, workshop.models))
+        let means = Means {
+            work,
+            cache: workshop.cache_of(study, number),
+            models: workshop.models,
+            checkpoint: &folder.checkpoint(number, &study.plan.name),
+        };
+        assess(scene, study, dataset, means)
     });
     assessed.collect()
 }

@@ -4,8 +4,10 @@ mod deal;
 mod gratings;
 mod score;
 
+use std::path::Path;
+
 use taceva_dataset::Dataset;
-use taceva_models::{Model, Models};
+use taceva_models::{Checkpoints, Model, Models};
 use taceva_protocol::PhaseKind;
 
 use crate::cache::{Key, Stage, StudyCache};
@@ -25,7 +27,14 @@ use gratings::ToldSpacings;
 use score::{Scores, score};
 
 /// How the stages of a study are carried out, where their results are found and kept, and the models there are.
-type Means<'a> = (Work<'a>, StudyCache<'a>, &'a Models);
+#[derive(Clone, Copy)]
+pub(crate) struct Means<'a> {
+    pub(crate) work: Work<'a>,
+    pub(crate) cache: StudyCache<'a>,
+    pub(crate) models: &'a Models,
+    /// Where a long training is put aside.
+    pub(crate) checkpoint: &'a Path,
+}
 
 /// The report of `study`, whose recording is `dataset`.
 pub(crate) fn assess(
@@ -51,7 +60,7 @@ pub(crate) fn assess(
         deal: &deal,
         predicted: predicted.as_ref(),
         told: told.as_ref(),
-        jobs: means.0.jobs,
+        jobs: means.work.jobs,
     };
     let (evaluation, mut notes) = score(&input)?;
     notes.extend(told.as_ref().map(|_| ToldSpacings::NOTE.to_owned()));
@@ -102,13 +111,14 @@ impl Learnt {
         study: &PlannedStudy,
         dataset: &Dataset,
         deal: &Deal<'_>,
-        (work, cache, models): Means<'_>,
+        means: Means<'_>,
     ) -> Result<Option<Learnt>, StudyError> {
         if !deal.reads_predictions() {
             return Ok(None);
         }
         if let Some(file) = study.model_file() {
-            let model = models
+            let model = means
+                .models
                 .open(&scene.text.folder.join(file))
                 .map_err(|error| StudyError::Request(error.to_string()))?;
             return Ok(Some(Learnt {
@@ -117,7 +127,7 @@ impl Learnt {
                 frames_decoded: 0,
             }));
         }
-        let Some(request) = study.fit_request(scene.scene.seed, models) else {
+        let Some(request) = study.fit_request(scene.scene.seed, means.models) else {
             return Ok(None);
         };
         let request = FitRequest {
@@ -126,14 +136,17 @@ impl Learnt {
         };
         let recipe = Recipe::of(&request)?;
         let divided = deal.divided(&request)?;
-        let plan = FitPlan::on(dataset, &request, recipe, divided.clone())?;
+        let mut plan = FitPlan::on(dataset, &request, recipe, divided.clone())?;
+        plan.put_aside(Checkpoints::at(means.checkpoint.to_owned()));
         let key = Key::of(Stage::Fit)
             .part("dataset", &dataset.digest().to_string())
             .whole("request", &request)
             .whole("divided", &divided)
             .finish();
         let frames_decoded = plan.frames_to_decode();
-        let model = cache.value(&key, || Ok(plan.run(work)?.model))?;
+        let model = means
+            .cache
+            .value(&key, || Ok(plan.run(means.work)?.model))?;
         Ok(Some(Learnt {
             model,
             divided: Some(divided),
@@ -147,7 +160,7 @@ impl Learnt {
         study: &PlannedStudy,
         dataset: &Dataset,
         deal: &Deal<'_>,
-        (work, cache, _): Means<'_>,
+        Means { work, cache, .. }: Means<'_>,
     ) -> Result<(Predicted, Vec<usize>), StudyError> {
         let seen = self.divided.as_ref().map_or_else(Vec::new, seen);
         let phases = deal.predicted_phases();

@@ -1,8 +1,11 @@
 //! `taceva fit`.
 
 use std::io::{self, Write};
+use std::time::Duration;
 
-use taceva_study::{Fitted, fit};
+use anyhow::Context as _;
+use taceva_models::{Checkpoints, Foreign};
+use taceva_study::{FitMeans, Fitted, fit};
 
 use super::{Context, fit_request, open};
 use crate::args::Fit;
@@ -16,8 +19,18 @@ pub(crate) fn run(args: &Fit, context: &Context) -> anyhow::Result<u8> {
     let dataset = open(&args.dataset)?;
     let models = context.models()?;
     let request = fit_request(&args.model.name, &args.model.settings, &args.split, &models)?;
-    let fitted = fit(&dataset, &request, context.jobs, &context.progress)?;
+    let checkpoints = checkpoints(args);
+    let means = FitMeans {
+        jobs: context.jobs,
+        progress: &context.progress,
+        checkpoints: Some(checkpoints.clone()),
+    };
+    let fitted = fit(&dataset, &request, means)?;
     fitted.model.save(&args.out)?;
+    checkpoints.remove().with_context(|| {
+        let path = checkpoints.path.display();
+        format!("the model is written; cannot remove {path}")
+    })?;
     if let Some(path) = &args.split_out {
         output::write(Some(path), |out| {
             serde_json::to_writer_pretty(&mut *out, &fitted.manifest)?;
@@ -26,6 +39,21 @@ pub(crate) fn run(args: &Fit, context: &Context) -> anyhow::Result<u8> {
     }
     output::write(None, |out| summary(&fitted, args, out))?;
     Ok(exit::DONE)
+}
+
+/// Beside the model that is to be written.
+fn checkpoints(args: &Fit) -> Checkpoints {
+    let mut path = args.out.clone().into_os_string();
+    path.push(".checkpoint");
+    Checkpoints {
+        path: path.into(),
+        every: Duration::from_secs(args.checkpoint_every),
+        foreign: if args.force {
+            Foreign::Replace
+        } else {
+            Foreign::Refuse
+        },
+    }
 }
 
 /// What was learnt from, what was chosen, and where the model is.

@@ -72,6 +72,7 @@ pub(crate) fn run(args: &Run, context: &Context) -> anyhow::Result<u8> {
     output::write(Some(&results), |out| {
         report::profiles(&reports, Format::Json, out)
     })?;
+    folder.close(&planned)?;
     output::write(None, |out| report::profiles(&reports, args.format, out))?;
     context.say(format_args!(
         "reports are in {}",

@@ -1,6 +1,6 @@
 //! A model on disk: there whole, or not at all.
 
-use std::fs::{self, File, OpenOptions};
+use std::fs::{self, File};
 use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
 
@@ -8,6 +8,7 @@ use sha2::{Digest, Sha256};
 
 use super::Model;
 use super::bytes::{FILE_MAX, FormatError};
+use crate::durable;
 use crate::models::Models;
 
 impl Model {
@@ -78,36 +79,14 @@ fn read_capped(path: &Path) -> io::Result<Vec<u8>> {
 
 fn write_whole(path: &Path, bytes: &[u8]) -> io::Result<()> {
     let name = path.file_name().ok_or(io::ErrorKind::InvalidFilename)?;
-    let folder = match path.parent() {
-        Some(parent) if !parent.as_os_str().is_empty() => parent,
-        _ => Path::new("."),
-    };
-    let beside = folder.join(format!(
+    let beside = path.with_file_name(format!(
         ".{}.{}.part",
         name.to_string_lossy(),
         std::process::id()
     ));
-    let written = write_new(&beside, bytes).and_then(|()| fs::rename(&beside, path));
-    if written.is_err() {
-        // The first error is the one to tell of; a file left behind does no harm.
-        let _ = fs::remove_file(&beside);
-    }
-    written?;
-    sync_folder(folder)
-}
-
-fn write_new(path: &Path, bytes: &[u8]) -> io::Result<()> {
-    let mut file = OpenOptions::new().write(true).create_new(true).open(path)?;
-    file.write_all(bytes)?;
-    file.sync_all()
-}
-
-/// Makes the new name last; elsewhere than on Unix a folder cannot be opened as a file.
-fn sync_folder(folder: &Path) -> io::Result<()> {
-    if cfg!(unix) {
-        File::open(folder)?.sync_all()?;
-    }
-    Ok(())
+    durable::replace(path, &beside, |beside| {
+        File::create_new(beside)?.write_all(bytes)
+    })
 }
 
 /// Why a model file cannot be read or written.

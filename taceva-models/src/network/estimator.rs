@@ -1,20 +1,18 @@
-//! Networks that are fitted: what can be set, and the training.
+//! Networks that are fitted: what can be set, and what is learnt from which samples.
 
-use taceva_core::{
-    ErrorKind, Estimator, FeatureShape, ModelError, Progress, Regressor, TrainingSet,
-};
+use taceva_core::{Estimator, FeatureShape, ModelError, Progress, Regressor, TrainingSet};
 use taceva_network::{
-    Architecture, Augmentation, Depth, Isa, Jitter, LabelScale, Labels, Loss, Network,
-    NetworkError, Optimizer, Recipe, Samples, Trained, Trainer,
+    Architecture, Augmentation, Depth, Isa, Jitter, LabelScale, Labels, Loss, Network, Optimizer,
+    Recipe, Samples, Trained,
 };
 
 use super::regressor::picture;
-use super::{NetworkCard, NetworkRegressor, Preprocessing};
+use super::training::{Training, refused};
+use super::{Checkpoints, NetworkCard, NetworkRegressor, Preprocessing};
 use crate::choice::{ChannelChoice, Choice, ChosenBy, errors};
 use crate::features::{Color, FeatureSpec};
 use crate::fit::{ModelEstimator, ModelFit, ModelRegressor, NO_PICTURE};
 use crate::problem::{Problem, invalid};
-use crate::progress::{Stage, interrupted};
 use crate::registry::ModelInfo;
 use crate::settings::{SettingError, SettingInfo, Settings, number};
 
@@ -25,6 +23,7 @@ pub struct NetworkEstimator {
     kind: Kind,
     recipe: Recipe,
     preprocessing: Preprocessing,
+    checkpoints: Option<Checkpoints>,
 }
 
 /// Which network.
@@ -194,6 +193,7 @@ impl NetworkEstimator {
                 })?,
                 contrast: settings.value(&CONTRAST, true, |text| text.parse().ok())?,
             },
+            checkpoints: None,
         })
     }
 
@@ -212,38 +212,6 @@ impl NetworkEstimator {
             Kind::Residual(depth) => Architecture::residual(depth, picture(shape), outputs),
         }
     }
-
-    /// The training, with a word to whoever listens after each step.
-    fn train(
-        &self,
-        architecture: &Architecture,
-        training: Samples<'_>,
-        validation: Option<Samples<'_>>,
-        progress: &dyn Progress,
-    ) -> Result<Trained, ModelError> {
-        let trainer = Trainer::new(architecture, &self.recipe, training, validation);
-        let mut trainer = trainer.map_err(refused)?;
-        let steps = usize::try_from(trainer.steps()).unwrap_or(usize::MAX);
-        let stage = Stage::begin(progress, "training", steps);
-        loop {
-            interrupted(progress)?;
-            if trainer.step().map_err(refused)?.is_none() {
-                return Ok(trainer.finish());
-            }
-            stage.advance();
-        }
-    }
-}
-
-/// What a network refused, as models say it.
-fn refused(error: NetworkError) -> ModelError {
-    let kind = match error {
-        NetworkError::LossNotFinite { .. } | NetworkError::WeightNotFinite { .. } => {
-            ErrorKind::OutOfRange
-        }
-        _ => ErrorKind::InvalidArgument,
-    };
-    ModelError::new(kind, error.to_string()).because(error)
 }
 
 /// The labels of a part whose channel is among `varying`.
@@ -288,7 +256,14 @@ impl ModelEstimator for NetworkEstimator {
                 labels: Labels::Values(labels),
             };
             let kept = kept.as_ref().map(|(pictures, labels)| of(pictures, labels));
-            Some(self.train(&architecture, of(&learnt.0, &learnt.1), kept, progress)?)
+            let training = Training {
+                architecture: &architecture,
+                recipe: &self.recipe,
+                samples: of(&learnt.0, &learnt.1),
+                validation: kept,
+                checkpoints: self.checkpoints.as_ref(),
+            };
+            Some(training.run(progress)?)
         };
         let constant = (0..channels.len()).map(|channel| {
             let label = problem.scaling.minimum()[channel];
@@ -338,6 +313,10 @@ impl ModelEstimator for NetworkEstimator {
             scaling: problem.scaling,
             refitted: false,
         })
+    }
+
+    fn put_aside(&mut self, checkpoints: Checkpoints) {
+        self.checkpoints = Some(checkpoints);
     }
 }
 

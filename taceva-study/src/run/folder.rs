@@ -5,6 +5,8 @@ use std::fs::{self, File};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
+use taceva_models::Checkpoints;
+
 use crate::cache::remove;
 use crate::durable::sync_folder;
 use crate::error::StudyError;
@@ -118,6 +120,28 @@ impl RunFolder {
     pub fn report(&self, number: usize, study: &str, extension: &str) -> PathBuf {
         let name = format!("{}-{}.{extension}", number + 1, slug(study));
         self.reports().join(name)
+    }
+
+    /// Where a long training of study `number`, counted from 0, is put aside while it goes on.
+    pub(crate) fn checkpoint(&self, number: usize, study: &str) -> PathBuf {
+        let name = format!("{}-{}.checkpoint", number + 1, slug(study));
+        self.path.join(name)
+    }
+
+    /// Removes what only a run that goes on needs, for whoever has written its reports.
+    ///
+    /// # Errors
+    /// [`StudyError::RunFolder`], naming what cannot be removed.
+    pub fn close(&self, scene: &PlannedScene) -> Result<(), StudyError> {
+        for (number, study) in scene.studies.iter().enumerate() {
+            let path = self.checkpoint(number, &study.plan.name);
+            let removed = Checkpoints::at(path.clone()).remove();
+            removed.map_err(|error| StudyError::RunFolder {
+                path,
+                problem: error.to_string(),
+            })?;
+        }
+        Ok(())
     }
 
     /// The first path `<parent>/<scene>-<number>` that is free, counted from 1; or the last that is taken.

@@ -42,7 +42,7 @@ impl ToldSpacings {
     pub(super) fn of(
         dataset: &Dataset,
         rows: Vec<usize>,
-        (work, cache, _): Means<'_>,
+        Means { work, cache, .. }: Means<'_>,
     ) -> Result<ToldSpacings, StudyError> {
         let boards = boards(dataset, &rows);
         let key = Key::of(Stage::Tell)

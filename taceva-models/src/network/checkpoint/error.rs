@@ -1,0 +1,65 @@
+//! Why a training cannot be put aside or gone on with.
+
+use std::io;
+use std::path::PathBuf;
+
+use taceva_core::{ErrorKind, ModelError};
+
+/// Why a training cannot be put aside or gone on with.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum CheckpointError {
+    /// The file cannot be written.
+    #[error(
+        "cannot write checkpoint {}: {source}; what was there before stands, and the same training goes on from it",
+        path.display()
+    )]
+    Write {
+        /// The file.
+        path: PathBuf,
+        /// What the system says.
+        source: io::Error,
+    },
+    /// The file cannot be read.
+    #[error("cannot read checkpoint {}: {source}", path.display())]
+    Read {
+        /// The file.
+        path: PathBuf,
+        /// What the system says.
+        source: io::Error,
+    },
+    /// The file is not what was written.
+    #[error("checkpoint {}: {problem}; remove it to begin anew", path.display())]
+    Damaged {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong with it.
+        problem: String,
+    },
+    /// The file is of another training.
+    #[error("checkpoint {} is of another training, with other {what}; remove it to begin anew", path.display())]
+    Foreign {
+        /// The file.
+        path: PathBuf,
+        /// What differs.
+        what: &'static str,
+    },
+}
+
+impl From<CheckpointError> for ModelError {
+    fn from(error: CheckpointError) -> ModelError {
+        let kind = match &error {
+            CheckpointError::Write { source, .. } | CheckpointError::Read { source, .. } => {
+                match source.kind() {
+                    io::ErrorKind::NotFound => ErrorKind::NotFound,
+                    io::ErrorKind::PermissionDenied => ErrorKind::PermissionDenied,
+                    io::ErrorKind::StorageFull => ErrorKind::OutOfRange,
+                    _ => ErrorKind::DeviceFault,
+                }
+            }
+            CheckpointError::Damaged { .. } => ErrorKind::Protocol,
+            CheckpointError::Foreign { .. } => ErrorKind::InvalidArgument,
+        };
+        ModelError::new(kind, error.to_string()).because(error)
+    }
+}

@@ -1,0 +1,35 @@
+//! Where a training met a number that is not finite.
+
+use serde::{Deserialize, Serialize};
+
+use crate::error::NetworkError;
+
+/// Where a training met a number that is not finite; from there it cannot go on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Breakage {
+    /// The loss of this step, counted from 0.
+    Loss(u64),
+    /// A weight or a running moment after this step, counted from 0.
+    Weight(u64),
+}
+
+impl Breakage {
+    /// What `error` says of numbers; nothing if it speaks of something else.
+    pub(super) fn of(error: &NetworkError) -> Option<Breakage> {
+        match error {
+            NetworkError::LossNotFinite { step } => Some(Breakage::Loss(*step)),
+            NetworkError::WeightNotFinite { step } => Some(Breakage::Weight(*step)),
+            _ => None,
+        }
+    }
+}
+
+impl From<Breakage> for NetworkError {
+    fn from(breakage: Breakage) -> NetworkError {
+        match breakage {
+            Breakage::Loss(step) => NetworkError::LossNotFinite { step },
+            Breakage::Weight(step) => NetworkError::WeightNotFinite { step },
+        }
+    }
+}
