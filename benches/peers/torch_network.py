@@ -4,7 +4,8 @@ with `cargo bench -p taceva-network`.
 usage: python3 benches/peers/torch_network.py [SIDE [THREADS [REPEATS]]]
 
 Batch 32, six outputs, mean squared error, SGD with momentum, channels_last, single precision. Printed are images a second of
-processor time (of all threads) and of the wall clock, best of REPEATS. On a machine with other work pin both sides to the same
+processor time (of all threads) and of the wall clock, best of REPEATS, and how much memory training takes at most beyond what
+the process has once PyTorch is loaded. On a machine with other work pin both sides to the same
 processors (`taskset -c 0`) and run them in turn.
 """
 import sys
@@ -38,7 +39,14 @@ def tell(name, side, seconds, images=BATCH):
     print(f"{name:<36} {side}²  {images / busy:8.1f} images a processor second  {images / wall:8.1f} images/s")
 
 
+def resident(key):
+    """The number of `key` in the state of this process, in MiB."""
+    with open("/proc/self/status") as state:
+        return next(int(line.split()[1]) for line in state if line.startswith(key)) / 1024
+
+
 def main():
+    before = resident("VmRSS:")
     side, threads, repeats = (int(word) for word in (sys.argv[1:] + ["64", "1", "10"][len(sys.argv) - 1:]))
     torch.set_num_threads(threads)
     torch.manual_seed(1)
@@ -53,6 +61,7 @@ def main():
         optimizer.step()
 
     tell("PyTorch channels_last, training", side, best(repeats, step))
+    print(f"memory of training at most beyond PyTorch {side}² {resident('VmHWM:') - before:9.1f} MiB")
     model.eval()
     with torch.no_grad():
         tell("PyTorch channels_last, inference", side, best(repeats, lambda: model(pictures)))

@@ -1,7 +1,9 @@
 //! Images a second of training steps and of predictions: ResNet-18, six outputs, batches of 32 (and single pictures).
 //!
 //! `cargo bench -p taceva-network [-- SIDE [THREADS [REPEATS]]]`; without arguments 64² and 112² on one and two threads. The best
-//! of REPEATS, by processor time of all threads and by the wall clock. `benches/peers/torch_network.py` measures PyTorch alike.
+//! of REPEATS, by processor time of all threads and by the wall clock; and how much memory training takes at most beyond what the
+//! process had before, on Linux and of the first size alone, since a peak is one of the process.
+//! `benches/peers/torch_network.py` measures PyTorch alike.
 
 #![expect(
     clippy::print_stdout,
@@ -27,16 +29,25 @@ fn main() {
     let words: Vec<usize> = words.map(|word| word.parse().expect("a number")).collect();
     let repeats = words.get(2).copied().unwrap_or(8);
     println!("instructions: {}", Isa::detect());
+    let mut before = resident("VmRSS:");
     for side in words.first().map_or(vec![64, 112], |side| vec![*side]) {
         for threads in words.get(1).map_or(vec![1, 2], |threads| vec![*threads]) {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
             pool.expect("threads")
-                .install(|| measure(side, threads, repeats));
+                .install(|| measure(side, threads, repeats, before.take()));
         }
     }
 }
 
-fn measure(side: usize, threads: usize, repeats: usize) {
+/// The number of `key` in the state of this process, in MiB, where the system tells.
+fn resident(key: &str) -> Option<f64> {
+    let state = std::fs::read_to_string("/proc/self/status").ok()?;
+    let line = state.lines().find_map(|line| line.strip_prefix(key))?;
+    let kib: f64 = line.trim().strip_suffix("kB")?.trim().parse().ok()?;
+    Some(kib / 1024.0)
+}
+
+fn measure(side: usize, threads: usize, repeats: usize, before: Option<f64>) {
     let input = Picture {
         height: side,
         width: side,
@@ -72,6 +83,12 @@ fn measure(side: usize, threads: usize, repeats: usize) {
         trainer.step().expect("finite").expect("a step is left");
     };
     tell("training", side, threads, BATCH, best(repeats, step));
+    if let Some((peak, before)) = resident("VmHWM:").zip(before) {
+        println!(
+            "memory       {side}² {threads} threads {:9.1} MiB at most beyond the process before",
+            peak - before
+        );
+    }
 
     let network = trainer.finish().network;
     let mut predictor = network.predictor();
