@@ -9,6 +9,7 @@ use std::fs;
 
 use serde_json::Value;
 use support::Bench;
+use taceva_report::{BenchMachine, BenchRecording, ChannelError, ModelBench, ModelRow};
 
 /// Two sensors, every part of the protocol, a few presses each.
 const TWO: &str = r#"scene_version = 1
@@ -225,6 +226,31 @@ fn names_that_begin_like_a_formula_are_words_in_tables_and_the_same_names_when_r
                 .all(|word| !word.starts_with(['=', '+', '-', '@']))
         );
     }
+}
+
+#[test]
+fn a_benchmark_of_models_is_what_its_schema_says() {
+    let mut bench = ModelBench::new(BenchMachine::default(), BenchRecording::default());
+    let error = ChannelError {
+        channel: "Fz".to_owned(),
+        unit: taceva_core::Unit::Newton,
+        mae: 0.25,
+        ci95: Some([0.2, 0.3]),
+        n: 40,
+    };
+    bench.rows = vec![
+        ModelRow {
+            errors: vec![error],
+            ..ModelRow::default()
+        },
+        ModelRow {
+            failed: Some("no memory".to_owned()),
+            ..ModelRow::default()
+        },
+    ];
+    schema::check("bench-models", &json(&bench.json()));
+    bench.rows[0].errors[0].ci95 = None;
+    schema::check("bench-models", &json(&bench.json()));
 }
 
 #[test]
