@@ -2,7 +2,7 @@
 
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
+use std::process::{Command, Output, Stdio};
 use std::time::{Duration, Instant};
 
 use taceva_tests::{Form, Lab, Random, scratch, taceva};
@@ -78,7 +78,10 @@ fn mark(path: &Path) -> Option<(u64, std::time::SystemTime)> {
 /// Starts `command` and kills it a while after `checkpoint` was written anew, or a while after its start; whether it was killed.
 fn killed(command: &mut Command, checkpoint: Option<&Path>, random: &mut Random) -> bool {
     let before = checkpoint.and_then(mark);
-    let mut child = command.spawn().expect("the program was built");
+    let mut child = command
+        .stdout(Stdio::null())
+        .spawn()
+        .expect("the program was built");
     let patience = Instant::now() + Duration::from_secs(60);
     while let Some(path) = checkpoint {
         let is_over = child.try_wait().expect("a child").is_some();
@@ -110,30 +113,23 @@ fn a_training_that_is_killed_again_and_again_gives_the_model_of_one_that_is_not(
         bench.path("killed.model.checkpoint"),
     );
     let mut random = Random::new(SEED);
-    let (mut kills, mut models, mut resumptions) = (0, 0, 0);
-    while kills < KILLS || models == 0 {
+    let (mut kills, mut resumptions, mut is_last) = (0, 0, false);
+    while !is_last {
+        // Enough kills: the last run is left alone.
+        is_last = kills == KILLS;
         resumptions += usize::from(checkpoint.exists());
         let mut command = bench.fit("killed.model", &LONG);
-        // Enough kills: the last run is left alone.
-        let was_killed = if kills < KILLS {
-            killed(
-                &mut command,
-                (kills % 3 != 0).then_some(&checkpoint),
-                &mut random,
-            )
+        if is_last {
+            let output = output(&mut command);
+            assert!(output.status.success(), "{}", complaint(&output));
         } else {
-            !output(&mut command).status.success()
-        };
-        kills += usize::from(was_killed);
+            let after = (kills % 3 != 0).then_some(checkpoint.as_path());
+            kills += usize::from(killed(&mut command, after, &mut random));
+        }
         if model.exists() {
-            assert!(
-                fs::read(&model).expect("there") == expected,
-                "seed {SEED}, {kills} kills"
-            );
+            let found = fs::read(&model).expect("there");
+            assert!(found == expected, "seed {SEED}, {kills} kills");
             fs::remove_file(&model).expect("there");
-            // A kill between the model and the end of the program leaves it.
-            let _ = fs::remove_file(&checkpoint);
-            models += 1;
         }
     }
     assert!(
