@@ -9,13 +9,13 @@ use taceva_core::{
 
 /// A sensor whose frames are stamped by the clock of a simulated bench that it is no part of.
 ///
-/// The time that passes between two frames on the clock of the sensor passes on the bench as well, so that a rate and a rest mean on both what
-/// they say. What the sensor sees, the bench does not know: nothing of it depends on the presses, unless the sensor is truly pressed.
+/// As much time as passes between two frames on the clock of the sensor passes between them on the bench, or more where the bench was busy with
+/// others meanwhile: a rate means on both what it says. What the sensor sees, the bench does not know: nothing of it depends on the presses, unless the sensor is truly pressed.
 pub struct OnBench {
     sensor: Box<dyn Sensor>,
     bench: Arc<dyn SimulatedBench>,
-    /// The last frame, on the clock of the sensor.
-    last: Option<Duration>,
+    /// The last frame, on the clock of the sensor and on that of the bench.
+    last: Option<[Duration; 2]>,
 }
 
 impl OnBench {
@@ -39,10 +39,14 @@ impl Sensor for OnBench {
     }
 
     fn capture(&mut self, into: FrameMut<'_>, deadline: Deadline) -> Result<Stamp, DriverError> {
-        let now = self.sensor.capture(into, deadline)?.valid();
-        let last = self.last.replace(now).unwrap_or(now);
-        self.bench.rest(now.saturating_sub(last))?;
-        Ok(Stamp::at(self.bench.now()))
+        let own = self.sensor.capture(into, deadline)?.valid();
+        if let Some([last, on_bench]) = self.last {
+            let due = on_bench + own.saturating_sub(last);
+            self.bench.rest(due.saturating_sub(self.bench.now()))?;
+        }
+        let now = self.bench.now();
+        self.last = Some([own, now]);
+        Ok(Stamp::at(now))
     }
 
     fn stop(&mut self) -> Result<(), DriverError> {
@@ -117,9 +121,10 @@ mod tests {
     }
 
     #[test]
-    fn frames_are_stamped_by_the_bench_on_which_as_much_time_passes_as_between_them() {
+    fn frames_are_stamped_by_the_bench_on_which_no_less_time_passes_than_between_them() {
         let bench = Arc::new(Clock(Mutex::new(Duration::from_secs(7))));
-        let mut sensor = OnBench::new(Box::new(Timed(vec![500, 510, 510, 540])), bench.clone());
+        let times_ms = vec![500, 510, 510, 540, 570, 600];
+        let mut sensor = OnBench::new(Box::new(Timed(times_ms)), bench.clone());
         let mut byte = [0];
         let mut stamp_ms = || {
             let into = FrameMut::new(FRAME, &mut byte).expect("a byte");
@@ -127,7 +132,10 @@ mod tests {
             stamp.expect("a frame").valid().as_millis()
         };
         assert_eq!([stamp_ms(), stamp_ms(), stamp_ms()], [7_000, 7_010, 7_010]);
+        // What others took of the time until the next frame is not taken twice.
+        bench.rest(Duration::from_millis(20)).expect("it rests");
+        assert_eq!(stamp_ms(), 7_040);
         bench.rest(Duration::from_secs(1)).expect("it rests");
-        assert_eq!(stamp_ms(), 8_040);
+        assert_eq!([stamp_ms(), stamp_ms()], [8_040, 8_070]);
     }
 }
