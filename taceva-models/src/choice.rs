@@ -13,6 +13,8 @@ pub enum ChosenBy {
     Validation,
     /// The least squared error on groups left out one after the other.
     LeaveOneGroupOut,
+    /// The likelihood of the labels that were learnt from.
+    Likelihood,
     /// The least squared error on samples left out one after the other.
     LeaveOneOut,
     /// The least squared error on ten folds left out one after the other: whole groups, or runs of neighbouring samples.

@@ -4,13 +4,20 @@ use taceva_core::{
     Channels, Estimator, FeatureShape, Features, ModelError, Progress, Regressor, TrainingSet,
 };
 
+use crate::auto::AutoCard;
 use crate::choice::Choice;
 use crate::features::Pca;
+use crate::kernel::KernelRegressor;
 use crate::label_scaling::LabelScaling;
 use crate::linear::{LinearEstimator, LinearRegressor};
+use crate::model::plugin_tensor;
+use crate::neighbours::NeighbourRegressor;
 use crate::network::{Checkpoints, NetworkRegressor};
 use crate::plugin::PluginRegressor;
 use crate::problem::invalid;
+use crate::projected::ProjectedRegressor;
+use crate::tensors::Raw;
+use crate::trees::TreeRegressor;
 
 /// What a network says to features that are a list.
 pub(crate) const NO_PICTURE: &str = "a network reads pictures, and principal components are none";
@@ -20,6 +27,18 @@ const OPAQUE: &str = "the model of a plugin reads pixels; it cannot be joined wi
 
 /// An estimator whose regressor a model file can keep, and that can say what it chose.
 pub trait ModelEstimator: Estimator {
+    /// The estimator that takes the place of this one on `training`, and why; `None` for every one but that which only chooses.
+    ///
+    /// # Errors
+    /// As [`Estimator::fit`].
+    fn choose(
+        &self,
+        _training: &TrainingSet<'_>,
+        _progress: &dyn Progress,
+    ) -> Result<Option<Chosen>, ModelError> {
+        Ok(None)
+    }
+
     /// Learns as [`Estimator::fit`] does.
     ///
     /// # Errors
@@ -53,6 +72,14 @@ impl<L: LinearEstimator> ModelEstimator for L {
     }
 }
 
+/// A model that was chosen among others.
+pub struct Chosen {
+    /// The model.
+    pub estimator: Box<dyn ModelEstimator>,
+    /// What was tried, and what came of it.
+    pub card: AutoCard,
+}
+
 /// What fitting gave.
 #[derive(Clone, Debug)]
 pub struct ModelFit {
@@ -72,10 +99,18 @@ pub struct ModelFit {
 pub enum ModelRegressor {
     /// Linear in the features.
     Linear(LinearRegressor),
+    /// Linear in a kernel of landmarks.
+    Kernel(Box<KernelRegressor>),
+    /// The mean of the nearest training samples.
+    Neighbours(Box<NeighbourRegressor>),
+    /// Trees whose answers are added up.
+    Trees(Box<TreeRegressor>),
     /// A network that reads features as a picture.
     Network(Box<NetworkRegressor>),
     /// Of a plugin, which answers.
     Plugin(PluginRegressor),
+    /// Any of them but the linear and the network, on principal components.
+    Projected(Box<ProjectedRegressor>),
 }
 
 impl ModelRegressor {
@@ -83,11 +118,15 @@ impl ModelRegressor {
     ///
     /// # Errors
     /// [`ModelError`] for a network, which reads pictures, and for a plugin's, which nobody can look into.
-    pub(crate) fn through(&self, pca: &Pca) -> Result<ModelRegressor, ModelError> {
+    pub(crate) fn through(self, pca: Pca) -> Result<ModelRegressor, ModelError> {
         match self {
-            ModelRegressor::Linear(linear) => linear.through(pca).map(ModelRegressor::Linear),
+            ModelRegressor::Linear(linear) => linear.through(&pca).map(ModelRegressor::Linear),
             ModelRegressor::Network(_) => Err(invalid(NO_PICTURE)),
             ModelRegressor::Plugin(_) => Err(invalid(OPAQUE)),
+            other => {
+                let projected = ProjectedRegressor::new(pca, other);
+                Ok(ModelRegressor::Projected(Box::new(projected)))
+            }
         }
     }
 
@@ -97,16 +136,58 @@ impl ModelRegressor {
             ModelRegressor::Linear(linear) => {
                 linear.weights().iter().any(|weight| weight.abs() > 0.0)
             }
+            ModelRegressor::Kernel(kernel) => kernel.reads_features(),
+            ModelRegressor::Neighbours(neighbours) => neighbours.reads_features(),
+            ModelRegressor::Trees(trees) => trees.reads_features(),
             ModelRegressor::Network(network) => network.reads_features(),
             ModelRegressor::Plugin(_) => true,
+            ModelRegressor::Projected(projected) => projected.inner().reads_features(),
+        }
+    }
+
+    /// The standard deviation of every prediction; `None` for a model that does not know it.
+    ///
+    /// # Shapes
+    /// `[samples, channels]`.
+    /// # Units
+    /// Those of the channels.
+    /// # Errors
+    /// [`ModelError`] if the features are of another shape.
+    pub fn deviations(&self, features: &Features) -> Result<Option<Vec<f64>>, ModelError> {
+        match self {
+            ModelRegressor::Kernel(kernel) => kernel.deviations(features),
+            ModelRegressor::Projected(projected) => projected.deviations(features),
+            _ => Ok(None),
+        }
+    }
+
+    /// The tensors of a file.
+    pub(crate) fn tensors(&self) -> Vec<Raw> {
+        match self {
+            ModelRegressor::Linear(linear) => linear.tensors(),
+            ModelRegressor::Kernel(kernel) => kernel.tensors(),
+            ModelRegressor::Neighbours(neighbours) => neighbours.tensors(),
+            ModelRegressor::Trees(trees) => trees.tensors(),
+            ModelRegressor::Network(network) => {
+                let tensors = network.tensors().into_iter();
+                tensors
+                    .map(|tensor| Raw::singles(&tensor.name, tensor.shape, &tensor.values))
+                    .collect()
+            }
+            ModelRegressor::Plugin(plugin) => vec![plugin_tensor(plugin)],
+            ModelRegressor::Projected(projected) => projected.tensors(),
         }
     }
 
     fn inner(&self) -> &dyn Regressor {
         match self {
             ModelRegressor::Linear(linear) => linear,
+            ModelRegressor::Kernel(kernel) => &**kernel,
+            ModelRegressor::Neighbours(neighbours) => &**neighbours,
+            ModelRegressor::Trees(trees) => &**trees,
             ModelRegressor::Network(network) => &**network,
             ModelRegressor::Plugin(plugin) => plugin,
+            ModelRegressor::Projected(projected) => &**projected,
         }
     }
 }

@@ -1,45 +1,61 @@
 #![doc = include_str!("../README.md")]
 
+mod auto;
 mod baseline;
 mod choice;
+mod distance;
 mod durable;
+mod elastic_net;
 mod features;
 mod fit;
 mod gratings;
+mod kernel;
 mod label_scaling;
 mod linalg;
 mod linear;
 mod model;
 mod models;
+mod neighbours;
 mod network;
+mod output;
 mod pls;
 mod plugin;
 mod problem;
 mod progress;
+mod projected;
 mod random;
 mod registry;
 mod ridge;
 mod settings;
 mod split;
+mod standard;
+mod tensors;
+mod trees;
+mod trials;
 
+pub use auto::{Auto, AutoCard, AutoTrial, Untried};
 pub use baseline::Baseline;
 pub use choice::{ChannelChoice, Choice, ChosenBy};
+pub use elastic_net::ElasticNet;
 pub use features::{Color, Extractor, FeatureError, FeatureSpec, Pca};
-pub use fit::{ModelEstimator, ModelFit, ModelRegressor};
+pub use fit::{Chosen, ModelEstimator, ModelFit, ModelRegressor};
 pub use gratings::{Discriminant, FourierPlane, RadialSpectrum};
+pub use kernel::{GaussianProcess, KernelRegressor, KernelRidge, SupportVectors};
 pub use label_scaling::LabelScaling;
 pub use linear::{LinearEstimator, LinearFit, LinearRegressor};
 pub use model::{
-    ChannelCard, FitInput, FormatError, Model, ModelCard, ModelFileError, Provenance, SampleCounts,
-    Source, SplitCard,
+    ChannelCard, FitInput, Form, FormatError, Model, ModelCard, ModelFileError, Provenance,
+    SampleCounts, Source, SplitCard,
 };
 pub use models::{ChosenModel, Models};
+pub use neighbours::{NeighbourRegressor, Neighbours};
 pub use network::{
     CheckpointError, Checkpoints, Foreign, NetworkCard, NetworkEstimator, NetworkRegressor,
     Preprocessing,
 };
 pub use pls::Pls;
 pub use plugin::{PluginCard, PluginRegressor};
+pub use projected::ProjectedRegressor;
 pub use registry::{ALL, ModelInfo, UnknownModel, find};
 pub use ridge::Ridge;
 pub use settings::{SettingError, SettingInfo, Settings, Suggestion};
@@ -47,3 +63,4 @@ pub use split::{
     ColumnSplit, Fractions, Part, Split, SplitCounts, SplitError, SplitInput, SplitKind,
     SplitManifest, SplitSpec,
 };
+pub use trees::{GradientBoosting, RandomForest, TreeRegressor};

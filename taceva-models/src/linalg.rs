@@ -5,8 +5,10 @@
 
 mod design;
 mod gram;
+mod least_squares;
 mod spectrum;
 
 pub(crate) use design::{Design, FeatureScale};
-pub(crate) use gram::multiply;
+pub(crate) use gram::{feature_gram, multiply};
+pub(crate) use least_squares::{Wide, least_squares};
 pub(crate) use spectrum::{Spectrum, symmetric_eigen};

@@ -11,7 +11,10 @@ use crate::choice::Choice;
 use crate::features::Pca;
 use crate::label_scaling::LabelScaling;
 use crate::linalg::Design;
+use crate::model::FormatError;
+use crate::output::{check_call, check_finite};
 use crate::problem::{Problem, invalid};
+use crate::tensors::{Raw, Tensors};
 
 /// An estimator whose regressor is linear, and that can say what it chose.
 pub trait LinearEstimator: Estimator {
@@ -48,6 +51,10 @@ pub struct LinearRegressor {
     weights: Vec<f64>,
     bias: Vec<f64>,
 }
+
+/// The tensors of a linear model, in the order of their names.
+const BIAS: &str = "bias";
+const WEIGHTS: &str = "weights";
 
 /// Samples a thread takes at a time.
 const CHUNK: usize = 64;
@@ -98,6 +105,27 @@ impl LinearRegressor {
         weights: &Mat<f64>,
         mean: &[f64],
     ) -> Result<LinearRegressor, ModelError> {
+        let shape = problem.training.features.shape();
+        LinearRegressor::of_design((problem, shape), design, weights, mean)
+    }
+
+    /// The same of features that something else was made into: those of a kernel.
+    pub(crate) fn from_mapped(
+        problem: &Problem<'_>,
+        design: &Design<'_>,
+        weights: &Mat<f64>,
+        mean: &[f64],
+    ) -> Result<LinearRegressor, ModelError> {
+        let shape = FeatureShape::flat(design.width());
+        LinearRegressor::of_design((problem, shape), design, weights, mean)
+    }
+
+    fn of_design(
+        (problem, shape): (&Problem<'_>, FeatureShape),
+        design: &Design<'_>,
+        weights: &Mat<f64>,
+        mean: &[f64],
+    ) -> Result<LinearRegressor, ModelError> {
         let mut flat = Vec::with_capacity(weights.nrows() * weights.ncols());
         let mut bias = Vec::with_capacity(mean.len());
         for (channel, mean) in mean.iter().enumerate() {
@@ -123,13 +151,28 @@ impl LinearRegressor {
                 .sum();
             bias.push(minimum + span * mean - at_centre);
         }
-        let training = &problem.training;
-        LinearRegressor::new(
-            training.targets.channels.clone(),
-            training.features.shape(),
-            flat,
-            bias,
-        )
+        LinearRegressor::new(problem.training.targets.channels.clone(), shape, flat, bias)
+    }
+
+    /// The tensors of a file.
+    pub(crate) fn tensors(&self) -> Vec<Raw> {
+        let (channels, features) = (self.channels.len(), self.shape.len());
+        vec![
+            Raw::doubles(BIAS, vec![channels], &self.bias),
+            Raw::doubles(WEIGHTS, vec![channels, features], &self.weights),
+        ]
+    }
+
+    /// The model that a file holds.
+    pub(crate) fn from_tensors(
+        tensors: &Tensors<'_>,
+        channels: Channels,
+        shape: FeatureShape,
+    ) -> Result<LinearRegressor, FormatError> {
+        tensors.only(&[BIAS, WEIGHTS])?;
+        let bias = tensors.doubles(BIAS, &[channels.len()])?;
+        let weights = tensors.doubles(WEIGHTS, &[channels.len(), shape.len()])?;
+        Ok(LinearRegressor::new(channels, shape, weights, bias)?)
     }
 
     /// The weights of each channel's features.
@@ -198,7 +241,7 @@ impl LinearRegressor {
         }
     }
 
-    fn write(&self, sample: &[f32], into: &mut [f64]) {
+    pub(crate) fn write(&self, sample: &[f32], into: &mut [f64]) {
         let rows = self.weights.chunks_exact(sample.len().max(1));
         for ((place, row), bias) in into.iter_mut().zip(rows).zip(&self.bias) {
             *place = bias + dot(row, sample);
@@ -232,20 +275,7 @@ impl Regressor for LinearRegressor {
 
     fn predict(&self, features: &Features, into: &mut [f64]) -> Result<(), ModelError> {
         let channels = self.channels.len();
-        if features.shape() != self.shape {
-            return Err(invalid(format!(
-                "features of shape {:?} for a model of {:?}",
-                features.shape(),
-                self.shape
-            )));
-        }
-        if into.len() != features.samples() * channels {
-            return Err(invalid(format!(
-                "{} places for {} samples of {channels} channels",
-                into.len(),
-                features.samples()
-            )));
-        }
+        check_call(&self.channels, self.shape, features, into)?;
         into.par_chunks_mut(CHUNK * channels)
             .zip(features.values().par_chunks(CHUNK * self.shape.len()))
             .for_each(|(into, samples)| {
@@ -254,16 +284,6 @@ impl Regressor for LinearRegressor {
                     self.write(sample, into);
                 }
             });
-        match into.iter().position(|value| !value.is_finite()) {
-            None => Ok(()),
-            Some(position) => Err(ModelError::new(
-                ErrorKind::OutOfRange,
-                format!(
-                    "sample {}: the prediction of `{}` is not finite",
-                    position / channels,
-                    self.channels.as_slice()[position % channels]
-                ),
-            )),
-        }
+        check_finite(&self.channels, into)
     }
 }

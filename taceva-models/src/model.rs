@@ -1,5 +1,6 @@
 //! A fitted model with all that is needed to use it and to know where it comes from.
 
+mod bounds;
 mod bytes;
 mod card;
 mod disk;
@@ -11,8 +12,9 @@ use taceva_core::{
 };
 
 pub use self::bytes::FormatError;
-pub use self::card::{ChannelCard, ModelCard, Provenance, SampleCounts, Source, SplitCard};
+pub use self::card::{ChannelCard, Form, ModelCard, Provenance, SampleCounts, Source, SplitCard};
 pub use self::disk::ModelFileError;
+pub(crate) use self::of_plugin::plugin_tensor;
 use crate::features::{Extractor, FeatureError, FeatureSpec, Pca};
 use crate::fit::{ModelEstimator, ModelRegressor};
 use crate::problem::invalid;
@@ -60,36 +62,36 @@ impl Model {
                 shape
             )));
         }
-        let (fit, pca_variance, regressor) = match input.features.pca {
-            None => {
-                let validation = input.validation.as_ref();
-                let fit = input
-                    .estimator
-                    .fit_model(&input.training, validation, progress)?;
-                let regressor = fit.regressor.clone();
-                (fit, None, regressor)
-            }
-            Some(count) => {
-                let pca = Pca::fit(input.training.features, count as usize, progress)?;
-                let training = pca.transform(input.training.features)?;
-                let held = match &input.validation {
-                    Some(set) => Some(pca.transform(set.features)?),
-                    None => None,
-                };
-                let validation = held.as_ref().zip(input.validation);
-                let validation = validation.map(|(features, set)| TrainingSet { features, ..set });
-                let training = TrainingSet {
-                    features: &training,
-                    ..input.training
-                };
-                let fit = input
-                    .estimator
-                    .fit_model(&training, validation.as_ref(), progress)?;
-                let regressor = fit.regressor.through(&pca)?;
-                (fit, Some(pca.variance_ratio().iter().sum()), regressor)
-            }
+        let pca = match input.features.pca {
+            None => None,
+            Some(count) => Some(Pca::fit(input.training.features, count as usize, progress)?),
         };
-        let card = ModelCard::new(&input, &fit, pca_variance);
+        let seen =
+            |features: &Features| pca.as_ref().map(|pca| pca.transform(features)).transpose();
+        let learnt = seen(input.training.features)?;
+        let held = match &input.validation {
+            Some(set) => seen(set.features)?,
+            None => None,
+        };
+        let training = with_features(input.training, learnt.as_ref());
+        let validation = input
+            .validation
+            .map(|set| with_features(set, held.as_ref()));
+        let chosen = input.estimator.choose(&training, progress)?;
+        let estimator = chosen
+            .as_ref()
+            .map_or(input.estimator, |chosen| &*chosen.estimator);
+        let fit = estimator.fit_model(&training, validation.as_ref(), progress)?;
+        let kept = pca.as_ref().map(|pca| pca.variance_ratio().iter().sum());
+        let regressor = match pca {
+            None => fit.regressor.clone(),
+            Some(pca) => fit.regressor.clone().through(pca)?,
+        };
+        let how = (
+            estimator.name(),
+            chosen.as_ref().map(|chosen| chosen.card.clone()),
+        );
+        let card = ModelCard::new(&input, &fit, how, kept);
         Ok(Model { card, regressor })
     }
 
@@ -131,7 +133,7 @@ impl Model {
         Extractor::new(self.card.features, info, reference)
     }
 
-    /// The prediction for every sample of `features`.
+    /// The prediction for every sample of `features`, within the [bounds](Model::bounds) of its channel.
     ///
     /// # Shapes
     /// `[samples, channels]`.
@@ -142,7 +144,28 @@ impl Model {
     pub fn predict(&self, features: &Features) -> Result<Vec<f64>, ModelError> {
         let mut predictions = vec![0.0; features.samples() * self.channels().len()];
         self.regressor.predict(features, &mut predictions)?;
+        self.bound(&mut predictions);
         Ok(predictions)
+    }
+
+    /// The standard deviation of every prediction, before bounds; `None` for a model that does not know it.
+    ///
+    /// # Shapes
+    /// `[samples, channels]`.
+    /// # Units
+    /// Those of the channels.
+    /// # Errors
+    /// [`ModelError`] if the features are of another shape.
+    pub fn deviations(&self, features: &Features) -> Result<Option<Vec<f64>>, ModelError> {
+        self.regressor.deviations(features)
+    }
+}
+
+/// The same samples, seen as `features` where there are others.
+fn with_features<'s>(set: TrainingSet<'s>, features: Option<&'s Features>) -> TrainingSet<'s> {
+    TrainingSet {
+        features: features.unwrap_or(set.features),
+        ..set
     }
 }
 

@@ -13,6 +13,7 @@ use crate::linear::{LinearEstimator, LinearFit, LinearRegressor};
 use crate::problem::{Problem, Validation, centred, joined, stacked};
 use crate::registry::ModelInfo;
 use crate::settings::{SettingError, SettingInfo, Settings, number};
+use crate::trials::{FOLDS, dealt, folds};
 
 /// Partial least squares of all channels at once.
 ///
@@ -49,9 +50,6 @@ const REFIT: SettingInfo = SettingInfo {
     default: "true",
     about: "whether the validation part is learnt from too, once the numbers are chosen",
 };
-
-/// Fits that choosing without a validation part costs at most.
-const FOLDS: usize = 10;
 
 impl Default for Pls {
     fn default() -> Pls {
@@ -119,23 +117,6 @@ impl Pls {
             }
         }
     }
-}
-
-/// Many groups dealt into ten, each kept whole: every one left out costs a fit.
-fn dealt(groups: Vec<Vec<usize>>) -> Vec<Vec<usize>> {
-    let mut folds = vec![Vec::new(); FOLDS];
-    for (position, group) in groups.into_iter().enumerate() {
-        folds[position % FOLDS].extend(group);
-    }
-    folds
-}
-
-/// Ten runs of neighbouring samples, or as many as there are samples.
-fn folds(samples: usize) -> Vec<Vec<usize>> {
-    let count = FOLDS.min(samples);
-    (0..count)
-        .map(|fold| (fold * samples / count..(fold + 1) * samples / count).collect())
-        .collect()
 }
 
 /// The summed squares of each channel for every number of directions, each group predicted by a fit that never saw it.

@@ -1,12 +1,17 @@
 //! The models by name.
 
+use crate::auto::Auto;
 use crate::baseline::Baseline;
+use crate::elastic_net::ElasticNet;
 use crate::features::FeatureSpec;
 use crate::fit::ModelEstimator;
+use crate::kernel::{GaussianProcess, KernelRidge, SupportVectors};
+use crate::neighbours::Neighbours;
 use crate::network::NetworkEstimator;
 use crate::pls::Pls;
 use crate::ridge::Ridge;
 use crate::settings::{SettingError, SettingInfo, Settings, Suggestion};
+use crate::trees::{GradientBoosting, RandomForest};
 
 /// A model that people can choose: its name, what it is, and what can be set.
 #[derive(Clone, Copy, Debug)]
@@ -39,10 +44,18 @@ pub const ALL: &[ModelInfo] = &[
     Baseline::INFO,
     Ridge::INFO,
     Pls::INFO,
+    ElasticNet::INFO,
+    KernelRidge::INFO,
+    SupportVectors::INFO,
+    GaussianProcess::INFO,
+    Neighbours::INFO,
+    RandomForest::INFO,
+    GradientBoosting::INFO,
     NetworkEstimator::CNN,
     NetworkEstimator::RESNET_10,
     NetworkEstimator::RESNET_18,
     NetworkEstimator::RESNET_34,
+    Auto::INFO,
 ];
 
 /// The model called `name`.

@@ -2,6 +2,7 @@
 
 mod leave_out;
 mod strength;
+mod unpenalised;
 
 use faer::Mat;
 use taceva_core::{Estimator, Features, ModelError, Progress, Regressor, TrainingSet};
@@ -21,7 +22,8 @@ use crate::settings::{SettingError, SettingInfo, Settings, number};
 /// λ is the strength × the mean eigenvalue of the centred Gram matrix, so that a strength means the same for
 /// bright and dark pictures, many and few. Of the 41 strengths 10⁻⁶, 10⁻⁵·⁷⁵ … 10⁴ each channel gets its own: the one of least
 /// squared error on the validation part; without one, on the groups of the training part left out one after the
-/// other, or on its samples. Leaving out is exact, by the blocks of the hat matrix, and costs no refit.
+/// other, or on its samples. Leaving out is exact, by the blocks of the hat matrix, and costs no refit. A strength of 0 is least squares,
+/// refined to the last digits; it needs more samples than features.
 ///
 /// # Reference
 /// A. E. Hoerl, R. W. Kennard, Technometrics 12 (1970) 55; D. M. Allen, Technometrics 16 (1974) 125 (leaving out).
@@ -35,7 +37,7 @@ pub struct Ridge {
 const SCALE: SettingInfo = FeatureScale::SETTING;
 const STRENGTH: SettingInfo = SettingInfo {
     key: "strength",
-    accepts: "a number from 1e-12 to 1e12",
+    accepts: "0 or a number from 1e-12 to 1e12",
     default: "chosen for each channel",
     about: "the penalty on large weights, relative to the mean eigenvalue",
 };
@@ -77,10 +79,20 @@ impl Ridge {
         Ok(Ridge {
             scale: settings.value(&SCALE, default.scale, FeatureScale::from_name)?,
             strength: settings.value(&STRENGTH, default.strength, |text| {
-                number(text, 1e-12..=1e12).map(Some)
+                let zero = || number(text, 0.0..=0.0);
+                number(text, 1e-12..=1e12).or_else(zero).map(Some)
             })?,
             refit: settings.value(&REFIT, default.refit, |text| text.parse().ok())?,
         })
+    }
+
+    /// Ridge regression of features as they are, its strengths chosen.
+    pub(crate) fn unscaled(refit: bool) -> Ridge {
+        Ridge {
+            scale: FeatureScale::None,
+            strength: None,
+            refit,
+        }
     }
 
     /// The strength for every channel, if a person set it.
@@ -185,6 +197,9 @@ impl LinearEstimator for Ridge {
     ) -> Result<LinearFit, ModelError> {
         let problem = Problem::new(*training)?;
         let validation = problem.validation(validation)?;
+        if self.strength.is_some_and(|strength| strength <= 0.0) {
+            return self.fit_unpenalised(training, &problem, validation.as_ref(), progress);
+        }
         let design = Design::new(training.features, self.scale);
         let spectrum = Spectrum::new(&design, progress)?;
         let unit = match spectrum.mean_eigenvalue() {

@@ -203,6 +203,8 @@ fn score(
             .into_iter()
             .chain(few_points_note(points.as_deref()))
             .chain(left_out_note(target.part.name(), predicted.left_out))
+            .chain(predicted.bounded_note())
+            .chain(model.card().auto.as_ref().map(ToString::to_string))
             .chain(passes.note(dataset))
             .collect(),
         ..Provenance::of(dataset)

@@ -22,6 +22,8 @@ pub struct Predicted {
     beside: Vec<(&'static str, Vec<Option<String>>)>,
     truth: Vec<Column>,
     prediction: Vec<Column>,
+    /// Predictions of each channel that lie on the bound of the model.
+    bounded: Vec<usize>,
     pub(crate) frames_decoded: u64,
     pub(crate) left_out: usize,
 }
@@ -40,6 +42,24 @@ impl Predicted {
     /// What was predicted.
     pub fn channels(&self) -> &Channels {
         &self.channels
+    }
+
+    /// The share of predictions that the model's bounds changed, channel by channel; `None` where there is none.
+    pub(crate) fn bounded_note(&self) -> Option<String> {
+        let rows = self.rows() as f64;
+        let shares = self.channels.iter().zip(&self.bounded);
+        let shares: Vec<String> = shares
+            .filter(|(_, count)| **count > 0)
+            .map(|(channel, &count)| {
+                format!("{} {:.1} %", channel.name(), 100.0 * count as f64 / rows)
+            })
+            .collect();
+        (!shares.is_empty()).then(|| {
+            format!(
+                "predictions brought back to the bounds of the model, a quarter of the range of labels beyond them: {}",
+                shares.join(", ")
+            )
+        })
     }
 
     pub(crate) fn truth(&self) -> &[Column] {
@@ -247,6 +267,7 @@ pub(crate) fn table(
             .map(|channel| truth(dataset, channel, rows))
             .collect::<Result<_, _>>()?,
         prediction: (0..width).map(column).collect(),
+        bounded: model.bounded(numbers.values()),
         frames_decoded: if model.reads_features() {
             rows.len() as u64
         } else {

@@ -65,6 +65,11 @@ pub(crate) fn assess(
     let (evaluation, mut notes) = score(&input)?;
     notes.extend(told.as_ref().map(|_| ToldSpacings::NOTE.to_owned()));
     notes.extend(deal.shortfall());
+    notes.extend(
+        predicted
+            .iter()
+            .filter_map(|(predicted, _)| predicted.bounded_note()),
+    );
     let divided = learnt.as_ref().and_then(|learnt| learnt.divided.as_ref());
     let frames_decoded = [
         learnt.as_ref().map(|learnt| learnt.frames_decoded),

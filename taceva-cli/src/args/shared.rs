@@ -7,7 +7,8 @@ use clap::{Args, ValueEnum};
 /// A model to fit, and its settings.
 #[derive(Debug, Args)]
 pub(crate) struct ModelArgs {
-    /// The model: baseline, ridge, pls, cnn, resnet10, resnet18, resnet34, or the one of a plugin, ID/KEY
+    /// The model: baseline, ridge, pls, elastic-net, kernel-ridge, svr, gaussian-process, knn, random-forest,
+    /// gradient-boosting, cnn, resnet10, resnet18, resnet34; auto: the one that does best on groups left out; or that of a plugin, ID/KEY
     #[arg(long = "model", value_name = "NAME")]
     pub(crate) name: String,
     #[command(flatten)]
@@ -17,7 +18,8 @@ pub(crate) struct ModelArgs {
 /// As [`ModelArgs`], where a fitted model may stand instead.
 #[derive(Debug, Args)]
 pub(crate) struct OptionalModelArgs {
-    /// The model to fit: baseline, ridge, pls, cnn, resnet10, resnet18, resnet34, or the one of a plugin, ID/KEY
+    /// The model to fit: baseline, ridge, pls, elastic-net, kernel-ridge, svr, gaussian-process, knn, random-forest,
+    /// gradient-boosting, cnn, resnet10, resnet18, resnet34; auto: the one that does best on groups left out; or that of a plugin, ID/KEY
     #[arg(long = "model", value_name = "NAME")]
     pub(crate) name: Option<String>,
     #[command(flatten)]

@@ -37,6 +37,9 @@ pub(crate) fn run(args: &Fit, context: &Context) -> anyhow::Result<u8> {
             writeln!(out)
         })?;
     }
+    if let Some(auto) = &fitted.model.card().auto {
+        context.say(format_args!("{auto}"));
+    }
     output::write(None, |out| summary(&fitted, args, out))?;
     Ok(exit::DONE)
 }

@@ -65,6 +65,30 @@ impl Pca {
         })
     }
 
+    /// Components that were found before.
+    ///
+    /// # Errors
+    /// [`ModelError`] if a length differs or a number is not finite.
+    pub(crate) fn ready(
+        shape: FeatureShape,
+        mean: Vec<f64>,
+        components: Vec<f64>,
+        variance_ratio: Vec<f64>,
+    ) -> Result<Pca, ModelError> {
+        let places = shape.len().checked_mul(variance_ratio.len());
+        let mut numbers = mean.iter().chain(&components).chain(&variance_ratio);
+        let whole = mean.len() == shape.len() && Some(components.len()) == places;
+        if !whole || !numbers.all(|value| value.is_finite()) {
+            return Err(invalid("principal components with a number out of range"));
+        }
+        Ok(Pca {
+            shape,
+            mean,
+            components,
+            variance_ratio,
+        })
+    }
+
     /// The shape of the features it was fitted on.
     pub fn shape(&self) -> FeatureShape {
         self.shape

@@ -79,6 +79,20 @@ pub(super) fn gram(
     Ok(whole)
 }
 
+/// Xᵀ X of `design`, both triangles filled.
+pub(crate) fn feature_gram(
+    design: &Design<'_>,
+    progress: &dyn Progress,
+) -> Result<Mat<f64>, ModelError> {
+    let mut whole = gram(design, Side::Features, progress)?;
+    for column in 0..whole.ncols() {
+        for row in column + 1..whole.nrows() {
+            whole[(column, row)] = whole[(row, column)];
+        }
+    }
+    Ok(whole)
+}
+
 struct Tile {
     row: usize,
     column: usize,

@@ -5,22 +5,23 @@ use std::collections::HashMap;
 use safetensors::tensor::{Dtype, SafeTensors, TensorView};
 use serde::Deserialize;
 
-use super::card::ModelCard;
-use super::of_plugin::{plugin_from, plugin_tensor};
+use super::card::{Form, ModelCard};
+use super::of_plugin::plugin_from;
 use super::{Model, channels_of};
 use crate::fit::ModelRegressor;
+use crate::kernel::KernelRegressor;
 use crate::linear::LinearRegressor;
 use crate::models::Models;
+use crate::neighbours::NeighbourRegressor;
 use crate::network::{NetworkCard, NetworkRegressor};
+use crate::projected::ProjectedRegressor;
+use crate::tensors::Tensors;
+use crate::trees::TreeRegressor;
 use taceva_core::{Channels, FeatureShape, ModelError};
 use taceva_network::{NamedTensor, Network, NetworkError, Picture};
 
 /// The key of the card in the metadata.
 const CARD: &str = "taceva.model";
-
-/// The tensors of a model, in the order of their names.
-const BIAS: &str = "bias";
-const WEIGHTS: &str = "weights";
 
 /// Longest header: a card is a few kilobytes.
 const HEADER_MAX: u64 = 1 << 20;
@@ -43,13 +44,7 @@ impl Model {
         let card = serde_json::to_string(&self.card)?;
         // One key only: the order of several would not be defined.
         let metadata = HashMap::from([(CARD.to_owned(), card)]);
-        let tensors = match &self.regressor {
-            ModelRegressor::Linear(linear) => {
-                linear_tensors(linear, self.card.features.shape().len())
-            }
-            ModelRegressor::Network(network) => network_tensors(network),
-            ModelRegressor::Plugin(plugin) => vec![plugin_tensor(plugin)],
-        };
+        let tensors = self.regressor.tensors();
         let views: Result<Vec<_>, _> = tensors
             .iter()
             .map(|tensor| {
@@ -88,91 +83,86 @@ impl Models {
         check_version(&serde_json::from_str::<Version>(text)?.format)?;
         let card: ModelCard = serde_json::from_str(text)?;
         let channels = channels_of(&card)?;
-        if !card.features.is_valid() || card.choice.channels.len() != channels.len() {
+        let margin = card.margin.unwrap_or(0.0);
+        let labels = card.channels.iter().all(|channel| {
+            channel.minimum.is_finite() && channel.span.is_finite() && channel.span > 0.0
+        });
+        if !card.features.is_valid()
+            || card.choice.channels.len() != channels.len()
+            || !(0.0..=1e6).contains(&margin)
+            || !labels
+        {
             return Err(FormatError::Card);
         }
-        let tensors = SafeTensors::deserialize(bytes)?;
-        let regressor = match (&card.network, &card.plugin) {
-            (None, Some(plugin)) => {
+        let tensors = Tensors(SafeTensors::deserialize(bytes)?);
+        let regressor = match (&card.network, &card.plugin, card.form) {
+            (None, None, None) => {
+                let shape = card.features.shape();
+                ModelRegressor::Linear(LinearRegressor::from_tensors(&tensors, channels, shape)?)
+            }
+            (None, None, Some(form)) => formed(&tensors, (channels, &card), form)?,
+            (None, Some(plugin), None) => {
                 ModelRegressor::Plugin(plugin_from(self, &tensors, (&channels, &card, plugin))?)
             }
-            (Some(_), Some(_)) => return Err(FormatError::Card),
-            (None, None) => {
-                ModelRegressor::Linear(linear_from(&tensors, channels, card.features.shape())?)
-            }
-            (Some(network), None) => {
-                let ready = network_from(&tensors, channels, &card, network)?;
+            (Some(network), None, None) => {
+                let ready = network_from(&tensors.0, channels, &card, network)?;
                 ModelRegressor::Network(Box::new(ready))
             }
+            _ => return Err(FormatError::Card),
         };
         Ok(Model { card, regressor })
     }
 }
 
-/// A tensor as a file keeps it.
-pub(super) struct Raw {
-    pub(super) name: String,
-    pub(super) kind: Dtype,
-    pub(super) shape: Vec<usize>,
-    pub(super) bytes: Vec<u8>,
-}
-
-/// The tensors of a linear model, in the order of their names.
-fn linear_tensors(linear: &LinearRegressor, features: usize) -> Vec<Raw> {
-    let raw = |name: &str, shape, values: &[f64]| Raw {
-        name: name.to_owned(),
-        kind: Dtype::F64,
-        shape,
-        bytes: values
-            .iter()
-            .flat_map(|value| value.to_le_bytes())
-            .collect(),
+/// The kernel, the neighbours or the trees that tensors hold, and the principal components before them.
+fn formed(
+    tensors: &Tensors<'_>,
+    (channels, card): (Channels, &ModelCard),
+    form: Form,
+) -> Result<ModelRegressor, FormatError> {
+    let shape = card.features.shape();
+    let pca = match card.features.pca {
+        None => None,
+        Some(count) => Some(ProjectedRegressor::pca_from(
+            tensors,
+            shape,
+            count as usize,
+        )?),
     };
-    let channels = linear.bias().len();
-    vec![
-        raw(BIAS, vec![channels], linear.bias()),
-        raw(WEIGHTS, vec![channels, features], linear.weights()),
-    ]
-}
-
-/// The tensors of a network, in the order of their names.
-fn network_tensors(network: &NetworkRegressor) -> Vec<Raw> {
-    let tensors = network.tensors().into_iter();
-    tensors
-        .map(|tensor| Raw {
-            name: tensor.name,
-            kind: Dtype::F32,
-            shape: tensor.shape,
-            bytes: tensor
-                .values
-                .iter()
-                .flat_map(|value| value.to_le_bytes())
-                .collect(),
-        })
-        .collect()
-}
-
-/// Refuses tensors beside `known`.
-pub(super) fn only(tensors: &SafeTensors<'_>, known: &[&str]) -> Result<(), FormatError> {
-    let names = tensors.names();
-    match names.into_iter().find(|name| !known.contains(name)) {
-        None => Ok(()),
-        Some(name) => Err(FormatError::Unexpected {
-            name: name.to_owned(),
-        }),
+    let seen = pca
+        .as_ref()
+        .map_or(shape, |pca| FeatureShape::flat(pca.variance_ratio().len()));
+    let regressor = match form {
+        Form::Kernel { .. } => {
+            let kernel = KernelRegressor::from_tensors(tensors, channels, seen)?;
+            ModelRegressor::Kernel(Box::new(kernel))
+        }
+        Form::Neighbours { .. } => {
+            let neighbours = NeighbourRegressor::from_tensors(tensors, channels, seen)?;
+            ModelRegressor::Neighbours(Box::new(neighbours))
+        }
+        Form::Trees { .. } => {
+            let trees = TreeRegressor::from_tensors(tensors, channels, seen)?;
+            ModelRegressor::Trees(Box::new(trees))
+        }
+    };
+    let regressor = match pca {
+        None => regressor,
+        Some(pca) => regressor.through(pca)?,
+    };
+    // Nothing but what was read: what it would write again is what there is.
+    let known: Vec<String> = regressor
+        .tensors()
+        .into_iter()
+        .map(|tensor| tensor.name)
+        .collect();
+    let known: Vec<&str> = known.iter().map(String::as_str).collect();
+    tensors.only(&known)?;
+    if Form::of(&regressor) == Some(form) {
+        Ok(regressor)
+    } else {
+        Err(FormatError::Card)
     }
-}
-
-/// The linear model that tensors hold.
-fn linear_from(
-    tensors: &SafeTensors<'_>,
-    channels: Channels,
-    shape: FeatureShape,
-) -> Result<LinearRegressor, FormatError> {
-    only(tensors, &[BIAS, WEIGHTS])?;
-    let bias = numbers(tensors, BIAS, &[channels.len()])?;
-    let weights = numbers(tensors, WEIGHTS, &[channels.len(), shape.len()])?;
-    Ok(LinearRegressor::new(channels, shape, weights, bias)?)
 }
 
 /// The network that tensors hold.
@@ -251,28 +241,6 @@ fn check_version(found: &str) -> Result<(), FormatError> {
             found: found.to_owned(),
         })
     }
-}
-
-fn numbers(
-    tensors: &SafeTensors<'_>,
-    name: &'static str,
-    shape: &[usize],
-) -> Result<Vec<f64>, FormatError> {
-    let tensor = tensors
-        .tensor(name)
-        .map_err(|_| FormatError::Missing { name })?;
-    if tensor.dtype() != Dtype::F64 || tensor.shape() != shape {
-        return Err(FormatError::Tensor {
-            name,
-            found: format!("{:?} {:?}", tensor.dtype(), tensor.shape()),
-            expected: format!("F64 {shape:?}"),
-        });
-    }
-    let (numbers, _) = tensor.data().as_chunks::<8>();
-    Ok(numbers
-        .iter()
-        .map(|bytes| f64::from_le_bytes(*bytes))
-        .collect())
 }
 
 /// Why bytes are no model.

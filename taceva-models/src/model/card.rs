@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 use taceva_core::{FrameInfo, Unit};
 
 use super::FitInput;
+use crate::auto::AutoCard;
 use crate::choice::Choice;
 use crate::features::FeatureSpec;
 use crate::fit::{ModelFit, ModelRegressor};
@@ -31,18 +32,74 @@ pub struct ModelCard {
     pub pca_variance: Option<f64>,
     /// The kind of frame it was fitted on, and the only one it takes.
     pub frame: FrameInfo,
+    /// How far beyond the labels of the training part predictions may go, as a share of their range; no bound where absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub margin: Option<f64>,
     /// What it predicts.
     pub channels: Vec<ChannelCard>,
     /// How many samples it was fitted on.
     pub samples: SampleCounts,
     /// Where the samples come from.
     pub provenance: Provenance,
+    /// What it is where it is neither linear nor a network.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub form: Option<Form>,
+    /// How the model was chosen, where a person left that open.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub auto: Option<AutoCard>,
     /// The network, where the model is one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub network: Option<NetworkCard>,
     /// The plugin that fitted it and is needed to ask it, where the model is of one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub plugin: Option<PluginCard>,
+}
+
+/// What a model that is neither linear nor a network consists of.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(tag = "kind", rename_all = "kebab-case")]
+pub enum Form {
+    /// A kernel of landmarks.
+    Kernel {
+        /// How many training samples stand for all of them.
+        landmarks: usize,
+        /// How far the kernel reaches, in typical distances of a sample from the mean.
+        length: f64,
+        /// Whether it knows how sure it is.
+        deviations: bool,
+    },
+    /// Training samples that are looked up.
+    Neighbours {
+        /// How many are kept.
+        samples: usize,
+    },
+    /// Trees whose answers are added up.
+    Trees {
+        /// How many there are.
+        trees: usize,
+    },
+}
+
+impl Form {
+    pub(super) fn of(regressor: &ModelRegressor) -> Option<Form> {
+        match regressor {
+            ModelRegressor::Linear(_) | ModelRegressor::Network(_) | ModelRegressor::Plugin(_) => {
+                None
+            }
+            ModelRegressor::Kernel(kernel) => Some(Form::Kernel {
+                landmarks: kernel.landmarks(),
+                length: kernel.length(),
+                deviations: kernel.knows_deviations(),
+            }),
+            ModelRegressor::Neighbours(neighbours) => Some(Form::Neighbours {
+                samples: neighbours.samples(),
+            }),
+            ModelRegressor::Trees(trees) => Some(Form::Trees {
+                trees: trees.trees(),
+            }),
+            ModelRegressor::Projected(projected) => Form::of(projected.inner()),
+        }
+    }
 }
 
 /// A channel, and the labels it was learnt from.
@@ -113,19 +170,21 @@ impl ModelCard {
     pub(super) fn new(
         input: &FitInput<'_>,
         fit: &ModelFit,
+        (model, auto): (&str, Option<AutoCard>),
         pca_variance: Option<f64>,
     ) -> ModelCard {
         let channels = input.training.targets.channels.iter().enumerate();
         ModelCard {
             format: ModelCard::FORMAT.into(),
             taceva: env!("CARGO_PKG_VERSION").into(),
-            model: input.estimator.name().into(),
+            model: model.into(),
             settings: input.settings.words().collect(),
             choice: fit.choice.clone(),
             refitted: fit.refitted,
             features: input.features,
             pca_variance,
             frame: input.frame,
+            margin: Some(super::bounds::MARGIN),
             channels: channels
                 .map(|(position, channel)| ChannelCard {
                     name: channel.name().into(),
@@ -140,9 +199,11 @@ impl ModelCard {
                 validation: input.validation.map_or(0, |set| set.features.samples()),
             },
             provenance: input.provenance.clone(),
+            auto,
+            form: Form::of(&fit.regressor),
             network: match &fit.regressor {
-                ModelRegressor::Linear(_) | ModelRegressor::Plugin(_) => None,
                 ModelRegressor::Network(network) => Some(network.card().clone()),
+                _ => None,
             },
             plugin: match &fit.regressor {
                 ModelRegressor::Plugin(plugin) => Some(plugin.card().clone()),

@@ -1,18 +1,19 @@
 //! The model of a plugin in a file: one tensor, the bytes of its maker.
 
-use safetensors::tensor::{Dtype, SafeTensors};
+use safetensors::tensor::Dtype;
 use taceva_core::{Channels, Saved};
 
-use super::bytes::{FormatError, Raw, only};
+use super::bytes::FormatError;
 use super::card::ModelCard;
 use crate::models::Models;
 use crate::plugin::{PluginCard, PluginRegressor};
+use crate::tensors::{Raw, Tensors};
 
 /// The tensor of the bytes.
 const PLUGIN: &str = "plugin";
 
 /// The tensor of the model of a plugin.
-pub(super) fn plugin_tensor(plugin: &PluginRegressor) -> Raw {
+pub(crate) fn plugin_tensor(plugin: &PluginRegressor) -> Raw {
     Raw {
         name: PLUGIN.to_owned(),
         kind: Dtype::U8,
@@ -24,11 +25,11 @@ pub(super) fn plugin_tensor(plugin: &PluginRegressor) -> Raw {
 /// The model that the tensor holds, loaded by its plugin.
 pub(super) fn plugin_from(
     models: &Models,
-    tensors: &SafeTensors<'_>,
+    tensors: &Tensors<'_>,
     (channels, card, plugin): (&Channels, &ModelCard, &PluginCard),
 ) -> Result<PluginRegressor, FormatError> {
-    only(tensors, &[PLUGIN])?;
-    let tensor = tensors.tensor(PLUGIN);
+    tensors.only(&[PLUGIN])?;
+    let tensor = tensors.0.tensor(PLUGIN);
     let tensor = tensor.map_err(|_| FormatError::Missing { name: PLUGIN })?;
     if tensor.dtype() != Dtype::U8 || card.features.pca.is_some() || card.model != plugin.key {
         return Err(FormatError::Card);

@@ -309,3 +309,21 @@ fn learning_from_validation_too_equals_learning_from_both_at_once() {
         assert!(distance(&found, &expected) < 1e-9);
     }
 }
+
+#[test]
+fn without_a_penalty_an_exact_map_is_found_to_the_last_digits_or_refused() {
+    let exact = recording(60, 8, 0.0, 14);
+    let fit = fit(&*model("ridge", &["strength=0"]), &exact.set());
+    let found = predict(&fit.regressor, &exact.features);
+    assert!(distance(&found, &exact.labels) < 1e-14);
+    let penalised = common::fit(&*model("ridge", &["strength=1e-12"]), &exact.set());
+    let found = predict(&penalised.regressor, &exact.features);
+    assert!(distance(&found, &exact.labels) < 1e-9);
+    let few = recording(6, 8, 0.0, 14);
+    let result = model("ridge", &["strength=0"]).fit_linear(&few.set(), None, &Silent);
+    let said = refusal(result, "ridge");
+    assert!(
+        said.starts_with("6 samples for 8 weights: least squares"),
+        "{said}"
+    );
+}

@@ -1,0 +1,62 @@
+//! How far two samples are from each other: the same bits on every machine, one sample at a time or many.
+
+use rayon::prelude::*;
+
+/// Features whose squares are summed in single precision before they are added up in double.
+const RUN: usize = 256;
+
+/// Partial sums of a run, so that the additions do not wait for each other.
+const LANES: usize = 16;
+
+/// Σ (a − b)² over the features of two samples of one length.
+///
+/// Products and sums are never fused and always made in the same order, so that no instruction set changes a bit.
+#[expect(
+    clippy::cast_possible_truncation,
+    reason = "distances are kept in single precision, as features are"
+)]
+pub(crate) fn squared_distance(a: &[f32], b: &[f32]) -> f32 {
+    let runs = a.chunks(RUN).zip(b.chunks(RUN));
+    runs.map(|(a, b)| f64::from(squares(a, b))).sum::<f64>() as f32
+}
+
+fn squares(a: &[f32], b: &[f32]) -> f32 {
+    let (a, last_a) = a.as_chunks::<LANES>();
+    let (b, last_b) = b.as_chunks::<LANES>();
+    let mut sums = [0.0_f32; LANES];
+    for (a, b) in a.iter().zip(b) {
+        for ((sum, a), b) in sums.iter_mut().zip(a).zip(b) {
+            let difference = a - b;
+            *sum += difference * difference;
+        }
+    }
+    let last = last_a.iter().zip(last_b).map(|(a, b)| (a - b) * (a - b));
+    sums.iter().sum::<f32>() + last.sum::<f32>()
+}
+
+/// Samples that a thread compares with one other at a time.
+const CHUNK: usize = 256;
+
+/// The squared distance of `sample` from every row of `rows`, in parallel.
+pub(crate) fn from_all(sample: &[f32], rows: &[f32], into: &mut [f32]) {
+    let width = sample.len();
+    into.par_chunks_mut(CHUNK)
+        .zip(rows.par_chunks(CHUNK * width))
+        .for_each(|(into, rows)| {
+            for (place, row) in into.iter_mut().zip(rows.chunks_exact(width)) {
+                *place = squared_distance(sample, row);
+            }
+        });
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn runs_lanes_and_the_rest_make_the_whole_sum() {
+        let a: Vec<f32> = (0..601_u16).map(f32::from).collect();
+        let b: Vec<f32> = a.iter().map(|value| value + 2.0).collect();
+        assert!((squared_distance(&a, &b) - 4.0 * 601.0).abs() < f32::EPSILON);
+    }
+}

@@ -1,0 +1,109 @@
+//! Models that compare a sample with landmarks among the training samples, by the kernel exp(−‖x − x'‖² / 2ℓ²D).
+//!
+//! D is the summed variance of the features over the training part, so that a length ℓ means the same for bright and dark
+//! pictures, many features and few. A kernel of all training samples is replaced by Nyström's form on the landmarks, whose
+//! features every linear method here can learn from: ridge regression of them is kernel ridge regression.
+
+mod gaussian_process;
+mod landmarks;
+mod nystrom;
+mod regressor;
+mod ridge;
+mod support_vector;
+mod uncertainty;
+
+pub use self::gaussian_process::GaussianProcess;
+pub use self::regressor::KernelRegressor;
+pub use self::ridge::KernelRidge;
+pub use self::support_vector::SupportVectors;
+
+use taceva_core::{Features, ModelError, Progress, TrainingSet};
+
+use self::landmarks::Landmarks;
+use self::nystrom::Nystrom;
+use crate::linalg::FeatureScale;
+use crate::settings::{SettingError, SettingInfo, Settings, number};
+
+const SCALE: SettingInfo = FeatureScale::SETTING;
+const LENGTH: SettingInfo = SettingInfo {
+    key: "length",
+    accepts: "a number from 0.01 to 1000",
+    default: "chosen, one for all channels",
+    about: "how far the kernel reaches, in typical distances of a sample from the mean",
+};
+const LANDMARKS: SettingInfo = SettingInfo {
+    key: "landmarks",
+    accepts: "a number from 1 to 5000",
+    default: "500",
+    about: "how many training samples stand for all of them at most",
+};
+const REFIT: SettingInfo = SettingInfo {
+    key: "refit",
+    accepts: "true or false",
+    default: "true",
+    about: "whether the validation part is learnt from too, once the settings are chosen",
+};
+
+/// The lengths that are tried, the plainest last.
+const LENGTHS: [f64; 6] = [0.25, 0.5, 1.0, 2.0, 4.0, 8.0];
+
+/// What all kernel methods have in common.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Kernel {
+    scale: FeatureScale,
+    length: Option<f64>,
+    landmarks: usize,
+}
+
+impl Kernel {
+    fn from_settings(settings: &Settings) -> Result<Kernel, SettingError> {
+        Ok(Kernel {
+            scale: settings.value(&SCALE, FeatureScale::default(), FeatureScale::from_name)?,
+            length: settings.value(&LENGTH, None, |text| number(text, 0.01..=1000.0).map(Some))?,
+            landmarks: settings.value(&LANDMARKS, 500, |text| number(text, 1..=5000))?,
+        })
+    }
+
+    fn lengths(&self) -> Vec<f64> {
+        self.length
+            .map_or_else(|| LENGTHS.to_vec(), |length| vec![length])
+    }
+
+    fn landmarks(
+        &self,
+        training: &Features,
+        progress: &dyn Progress,
+    ) -> Result<Landmarks, ModelError> {
+        Landmarks::choose(training, self.scale, self.landmarks, progress)
+    }
+}
+
+/// The samples of both parts as a kernel of one length sees them.
+struct Mapped {
+    map: Nystrom,
+    training: Features,
+    validation: Option<Features>,
+}
+
+impl Mapped {
+    fn new(landmarks: &Landmarks, length: f64, validation: Option<&Features>) -> Mapped {
+        let map = Nystrom::new(landmarks, length);
+        Mapped {
+            training: map.of_training(landmarks),
+            validation: validation.map(|features| map.of(features)),
+            map,
+        }
+    }
+
+    fn training<'s>(&'s self, set: &TrainingSet<'s>) -> TrainingSet<'s> {
+        TrainingSet {
+            features: &self.training,
+            ..*set
+        }
+    }
+
+    fn validation<'s>(&'s self, set: Option<&TrainingSet<'s>>) -> Option<TrainingSet<'s>> {
+        let features = self.validation.as_ref()?;
+        set.map(|set| TrainingSet { features, ..*set })
+    }
+}

@@ -1,0 +1,290 @@
+//! A Gaussian process on landmarks, its settings those under which the labels are likeliest.
+
+use std::borrow::Cow;
+
+use faer::Mat;
+use taceva_core::{Estimator, Features, ModelError, Progress, Regressor, TrainingSet};
+
+use super::regressor::KernelRegressor;
+use super::uncertainty::Uncertainty;
+use super::{Kernel, LANDMARKS, LENGTH, Mapped, REFIT, SCALE};
+use crate::choice::{ChannelChoice, Choice, ChosenBy, rmse};
+use crate::features::FeatureSpec;
+use crate::fit::{ModelEstimator, ModelFit, ModelRegressor};
+use crate::linalg::{Design, FeatureScale, Spectrum};
+use crate::linear::LinearRegressor;
+use crate::problem::{Problem, Validation, centred, joined, stacked};
+use crate::progress::interrupted;
+use crate::registry::ModelInfo;
+use crate::settings::{SettingError, Settings};
+
+/// Gaussian process regression in Nyström's form, which also says how sure it is.
+///
+/// Each channel has a signal of variance s² and noise of variance λs². Of 41 ratios λ from 10⁻⁸ to 10² each channel gets the one
+/// under which its labels are likeliest; s² follows; the length of the kernel is one for all channels, likeliest for all together. No sample is
+/// held out for it.
+///
+/// # Reference
+/// C. E. Rasmussen, C. K. I. Williams, Gaussian Processes for Machine Learning, MIT Press 2006, eqs. 5.8 and 8.14, 8.15.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct GaussianProcess {
+    kernel: Kernel,
+    refit: bool,
+}
+
+impl GaussianProcess {
+    /// What the registry says of it.
+    pub const INFO: ModelInfo = ModelInfo {
+        name: "gaussian-process",
+        about: "a Gaussian process on landmarks: says how sure it is of every prediction",
+        settings: &[SCALE, LENGTH, LANDMARKS, REFIT],
+        reads_features: true,
+        features: FeatureSpec::DEFAULT,
+        make: |settings| Ok(Box::new(GaussianProcess::from_settings(settings)?)),
+    };
+
+    /// A Gaussian process as `settings` ask for.
+    ///
+    /// # Errors
+    /// [`SettingError`] for an unknown key or a value out of range.
+    pub fn from_settings(settings: &Settings) -> Result<GaussianProcess, SettingError> {
+        settings.check_keys(GaussianProcess::INFO.settings)?;
+        Ok(GaussianProcess {
+            kernel: Kernel::from_settings(settings)?,
+            refit: settings.value(&REFIT, true, |text| text.parse().ok())?,
+        })
+    }
+}
+
+/// The ratios that are tried.
+fn ratios() -> Vec<f64> {
+    (0..=40)
+        .map(|step| 10_f64.powf(-8.0 + 0.25 * f64::from(step)))
+        .collect()
+}
+
+/// What one channel is likeliest to be.
+#[derive(Clone, Copy, Debug)]
+struct Likeliest {
+    /// −2 log of the likelihood, up to what no setting changes.
+    cost: f64,
+    /// λ.
+    ratio: f64,
+    /// s² of scaled labels.
+    signal: f64,
+}
+
+/// Of each column of centred `labels`, given the spectrum of the centred features.
+fn likeliest(spectrum: &Spectrum<'_, '_>, rotated: &Mat<f64>, labels: &Mat<f64>) -> Vec<Likeliest> {
+    let eigenvalues = spectrum.eigenvalues();
+    let samples = labels.nrows() as f64;
+    let unseen = samples - eigenvalues.len() as f64;
+    let of = |channel: usize| {
+        let column = labels.col_as_slice(channel);
+        let total: f64 = column.iter().map(|label| label * label).sum();
+        // The squares of the labels along the eigenvectors of the samples.
+        let along: Vec<f64> = eigenvalues
+            .iter()
+            .zip(rotated.col_as_slice(channel))
+            .map(|(&eigenvalue, rotated)| match spectrum.spans_samples() {
+                true => rotated * rotated,
+                false if eigenvalue > spectrum.noise() => rotated * rotated / eigenvalue,
+                false => 0.0,
+            })
+            .collect();
+        let rest = (total - along.iter().sum::<f64>()).max(0.0);
+        let candidates = ratios().into_iter().map(|ratio| {
+            let seen = along.iter().zip(eigenvalues);
+            let inside: f64 = seen.map(|(along, value)| along / (value + ratio)).sum();
+            let signal = (inside + rest / ratio) / samples;
+            let volume: f64 = eigenvalues.iter().map(|value| (value + ratio).ln()).sum();
+            let cost = if signal > 0.0 {
+                samples * signal.ln() + volume + unseen * ratio.ln()
+            } else {
+                // Every label is the same: nothing is likelier than anything else.
+                0.0
+            };
+            Likeliest {
+                cost,
+                ratio,
+                signal,
+            }
+        });
+        let best = candidates.reduce(|best, next| if next.cost <= best.cost { next } else { best });
+        best.expect("there are ratios to try")
+    };
+    (0..labels.ncols()).map(of).collect()
+}
+
+/// A Gaussian process of one length.
+struct Fit {
+    cost: f64,
+    mapped: Mapped,
+    linear: LinearRegressor,
+    uncertainty: Uncertainty,
+}
+
+fn fit_length(
+    problem: &Problem<'_>,
+    mapped: Mapped,
+    validation: Option<&Validation<'_>>,
+    progress: &dyn Progress,
+) -> Result<Fit, ModelError> {
+    let (features, labels): (Cow<'_, Features>, _) =
+        match validation.zip(mapped.validation.as_ref()) {
+            Some((part, features)) => (
+                Cow::Owned(joined(&mapped.training, features)),
+                stacked(&problem.centred, &part.labels),
+            ),
+            None => (Cow::Borrowed(&mapped.training), problem.centred.clone()),
+        };
+    let (shift, labels) = centred(labels);
+    let design = Design::new(&features, FeatureScale::None);
+    let spectrum = Spectrum::new(&design, progress)?;
+    let rotated = spectrum.rotate(labels.as_ref());
+    let best = likeliest(&spectrum, &rotated, &labels);
+    let eigenvalues = spectrum.eigenvalues();
+    let coefficients = Mat::from_fn(eigenvalues.len(), best.len(), |row, channel| {
+        rotated[(row, channel)] / (eigenvalues[row] + best[channel].ratio)
+    });
+    let weights = spectrum.weights(coefficients.as_ref());
+    let mean: Vec<f64> = problem
+        .mean
+        .iter()
+        .zip(&shift)
+        .map(|(a, b)| a + b)
+        .collect();
+    let linear = LinearRegressor::from_mapped(problem, &design, &weights, &mean)?;
+    let known = eigenvalues
+        .iter()
+        .filter(|value| **value > spectrum.noise())
+        .count();
+    let vectors = spectrum.leading_feature_vectors(known);
+    let samples = labels.nrows() as f64;
+    let spans = problem.scaling.span();
+    let uncertainty = Uncertainty {
+        centre: design.centre().to_vec(),
+        vectors: (0..known)
+            .flat_map(|column| vectors.col_as_slice(column).to_vec())
+            .collect(),
+        eigenvalues: eigenvalues.iter().rev().take(known).copied().collect(),
+        ratio: best.iter().map(|best| best.ratio).collect(),
+        signal: best
+            .iter()
+            .zip(spans)
+            .map(|(best, span)| best.signal * span * span)
+            .collect(),
+        noise: best
+            .iter()
+            .map(|best| best.ratio * (1.0 + 1.0 / samples))
+            .collect(),
+    };
+    drop(spectrum);
+    Ok(Fit {
+        cost: best.iter().map(|best| best.cost).sum(),
+        mapped,
+        linear,
+        uncertainty,
+    })
+}
+
+impl ModelEstimator for GaussianProcess {
+    fn fit_model(
+        &self,
+        training: &TrainingSet<'_>,
+        validation: Option<&TrainingSet<'_>>,
+        progress: &dyn Progress,
+    ) -> Result<ModelFit, ModelError> {
+        let problem = Problem::new(*training)?;
+        let held = problem.validation(validation)?;
+        let landmarks = self.kernel.landmarks(training.features, progress)?;
+        // Without the validation part, what it says of the settings is no flattery.
+        let learn = |part: Option<&Validation<'_>>, lengths: &[f64]| {
+            let mut best: Option<Fit> = None;
+            for &length in lengths.iter().rev() {
+                interrupted(progress)?;
+                let mapped = Mapped::new(&landmarks, length, part.map(|part| part.features));
+                let fit = fit_length(&problem, mapped, part, progress)?;
+                if best.as_ref().is_none_or(|best| fit.cost < best.cost) {
+                    best = Some(fit);
+                }
+            }
+            Ok::<Fit, ModelError>(best.expect("there is a length to try"))
+        };
+        let first = learn(None, &self.kernel.lengths())?;
+        let ratios = first.uncertainty.ratio.clone();
+        let errors = |part: &Validation<'_>| -> Result<Vec<Option<f64>>, ModelError> {
+            let mapped = first.mapped.map.of(part.features);
+            let mut found = vec![0.0; part.labels.nrows() * problem.channels()];
+            first.linear.predict(&mapped, &mut found)?;
+            Ok(problem.errors_of(&found, part))
+        };
+        let errors = match &held {
+            Some(part) => errors(part)?,
+            None => vec![None; problem.channels()],
+        };
+        let refitted = self.refit && held.is_some();
+        let fit = if refitted {
+            learn(held.as_ref(), &[first.mapped.map.length])?
+        } else {
+            first
+        };
+        let edges = self::ratios();
+        let channels = ratios
+            .iter()
+            .zip(errors)
+            .map(|(&ratio, rmse)| ChannelChoice {
+                value: Some(ratio),
+                rmse,
+                at_edge: ratio <= edges[0] || ratio >= edges[edges.len() - 1],
+            });
+        let shape = training.features.shape();
+        let known = Some(fit.uncertainty);
+        let regressor = KernelRegressor::new(shape, fit.mapped.map, fit.linear, known);
+        Ok(ModelFit {
+            regressor: ModelRegressor::Kernel(Box::new(regressor)),
+            choice: Choice {
+                by: ChosenBy::Likelihood,
+                setting: Some("noise_ratio".to_owned()),
+                channels: channels.collect(),
+            },
+            scaling: problem.scaling,
+            refitted,
+        })
+    }
+}
+
+impl Problem<'_> {
+    /// The root mean square error of each channel of predictions in its unit, a row a sample of `part`.
+    pub(crate) fn errors_of(&self, found: &[f64], part: &Validation<'_>) -> Vec<Option<f64>> {
+        let channels = self.channels();
+        let of = |channel: usize| {
+            let span = self.scaling.span()[channel];
+            let offset = self.scaling.minimum()[channel] + span * self.mean[channel];
+            let labels = part.labels.col_as_slice(channel).iter();
+            let pairs = labels.zip(found.iter().skip(channel).step_by(channels));
+            let squares: f64 = pairs
+                .map(|(label, found)| ((found - offset) / span - label).powi(2))
+                .sum();
+            rmse(squares / part.labels.nrows() as f64, span)
+        };
+        (0..channels).map(of).collect()
+    }
+}
+
+impl Estimator for GaussianProcess {
+    fn name(&self) -> &'static str {
+        GaussianProcess::INFO.name
+    }
+
+    fn fit(
+        &self,
+        training: &TrainingSet<'_>,
+        validation: Option<&TrainingSet<'_>>,
+        progress: &dyn Progress,
+    ) -> Result<Box<dyn Regressor>, ModelError> {
+        Ok(Box::new(
+            self.fit_model(training, validation, progress)?.regressor,
+        ))
+    }
+}

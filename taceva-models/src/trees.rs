@@ -1,0 +1,11 @@
+//! Models that ask one pixel after the other: trees grown on histograms, many at once or one after the other.
+
+mod bins;
+mod boosting;
+mod forest;
+mod grow;
+mod regressor;
+
+pub use self::boosting::GradientBoosting;
+pub use self::forest::RandomForest;
+pub use self::regressor::TreeRegressor;
