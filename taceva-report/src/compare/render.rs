@@ -10,6 +10,9 @@ use crate::listing::Listing;
 use crate::number::{numeral, significant, spaced};
 use crate::results::Study;
 
+/// Answers that a page shows at once.
+const MANY: usize = 80;
+
 /// The schema of a comparison as JSON.
 pub const COMPARISON_SCHEMA: &str = "taceva.comparison/1";
 
@@ -107,7 +110,7 @@ impl Comparison {
             false => format!("<ul class=\"verdicts\">{lines}</ul>"),
         };
         document.section("summary", "What is shown to differ", &summary);
-        document.section("answers", "Every pair", &self.listing().html());
+        document.section("answers", "Every pair", &self.pairs());
         let radars: String = figures(studies)
             .iter()
             .filter(|drawn| drawn.id.starts_with("radar"))
@@ -121,6 +124,17 @@ impl Comparison {
 }
 
 impl Comparison {
+    /// Every answer; folded where they are more than a reader goes through.
+    fn pairs(&self) -> String {
+        let table = self.listing().html();
+        match self.answers.len() {
+            0..=MANY => table,
+            count => {
+                format!("<details><summary>All {count} answers</summary>\n{table}</details>\n")
+            }
+        }
+    }
+
     /// What is shown, score by score: who is better, and than whom.
     fn won(&self) -> Vec<Won<'_>> {
         let mut all: Vec<Won<'_>> = Vec::new();

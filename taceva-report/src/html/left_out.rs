@@ -10,7 +10,7 @@ pub(super) fn section(studies: &[Study]) -> String {
         let name = html(&name);
         let mut row = |kind: &str, what: &str, why: &str| {
             rows += &format!(
-                "<tr><th scope=\"row\">{name}</th><td>{kind}</td><td class=\"wrap\">{}</td><td class=\"wrap\">{}</td></tr>\n",
+                "<tr><th scope=\"row\">{name}</th><td>{kind}</td><td class=\"wrap\">{}</td><td class=\"wrap long\">{}</td></tr>\n",
                 html(what),
                 html(why)
             );
