@@ -19,7 +19,7 @@ use crate::config::{Delivery, PluginConfig};
 use crate::id::PluginId;
 use crate::in_process::InProcess;
 use crate::library::{Image, Level, Library, Log};
-use crate::log::limited;
+use crate::log::Limited;
 use crate::manifest::{EstimatorInfo, Need, Provided, Sha256Digest};
 use crate::search::{NotFound, Plugin, Plugins};
 use crate::session::Session;
@@ -271,9 +271,9 @@ impl PluginHost {
     /// Where the lines of `plugin` go, however it is delivered.
     fn log_of(&self, plugin: &Plugin) -> Log {
         let (log, id) = (Arc::clone(&self.log), plugin.id().clone());
-        limited(Box::new(move |level, target, message| {
+        Box::new(move |level, target, message| {
             log(&id, level, target, message);
-        }))
+        })
     }
 
     /// The library of a trusted plugin, loaded when it is first needed.
@@ -288,7 +288,11 @@ impl PluginHost {
         }
         let image = Image::read(&plugin.folder, &plugin.library)
             .map_err(|error| error.of_driver(driver))?;
-        let library = Library::load(&image, &plugin.manifest, self.log_of(plugin))
+        let log = Limited::new(self.log_of(plugin));
+        let log = Box::new(move |level, target: &str, message: &str| {
+            log.tell(level, target, message);
+        });
+        let library = Library::load(&image, &plugin.manifest, log)
             .map_err(|error| error.of_driver(driver))?;
         let digest = image.digest();
         loaded.insert(plugin.id().clone(), (Arc::clone(&library), digest));

@@ -187,7 +187,9 @@ fn open(image: &Image) -> Result<*const abi::Plugin, LoadProblem> {
     let name = format!("/proc/self/fd/{}", memory.as_raw_fd());
     let told = |error: libloading::Error| {
         // The loader names the file by its number, which tells nobody anything.
-        crate::shown::shown(&error.to_string().replace(&name, "the library"))
+        let words = std::error::Error::source(&error).map(ToString::to_string);
+        let words = words.unwrap_or_else(|| error.to_string());
+        crate::shown::shown(&words.replace(&name, "the library"))
     };
     LOADED.fetch_add(1, Ordering::Relaxed);
     // SAFETY: its constructors are foreign code; whoever calls has decided that they may run in this process.

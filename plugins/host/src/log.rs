@@ -10,28 +10,11 @@ const BURST: u32 = 100;
 /// Then one passes each time after so long.
 const EVERY: Duration = Duration::from_millis(50);
 
-/// What such lines are about that say how many there were.
+/// What a line is about that says how many others there were.
 const TARGET: &str = "log";
 
-/// `log`, told of 100 lines at once and of 20 a second from then on; of the others it is told how many they were.
-pub(crate) fn limited(log: Log) -> Log {
-    let limited = Limited {
-        log,
-        state: Mutex::default(),
-    };
-    Box::new(move |level, target, message| {
-        limited.tell(Instant::now(), (level, target, message));
-    })
-}
-
-/// Tells `log` that lines were lost.
-pub(crate) fn tell_lost(log: &Log, lost: u64) {
-    if lost > 0 {
-        log(Level::Warn, TARGET, &format!("lines left out: {lost}"));
-    }
-}
-
-struct Limited {
+/// A log that is told of 100 lines at once and of 20 a second from then on; of the others it is told how many they were.
+pub(crate) struct Limited {
     log: Log,
     state: Mutex<State>,
 }
@@ -44,26 +27,51 @@ struct State {
 }
 
 impl Limited {
-    fn tell(&self, now: Instant, (level, target, message): (Level, &str, &str)) {
+    pub(crate) fn new(log: Log) -> Limited {
+        Limited {
+            log,
+            state: Mutex::default(),
+        }
+    }
+
+    /// Passes a line on, if it is not one too many.
+    pub(crate) fn tell(&self, level: Level, target: &str, message: &str) {
+        self.tell_at(Instant::now(), (level, target, message));
+    }
+
+    /// Counts lines that were lost on their way here.
+    pub(crate) fn lose(&self, count: u64) {
+        let mut state = self.state.lock().unwrap_or_else(PoisonError::into_inner);
+        state.left_out = state.left_out.saturating_add(count);
+    }
+
+    fn tell_at(&self, now: Instant, (level, target, message): (Level, &str, &str)) {
         let mut state = self.state.lock().unwrap_or_else(PoisonError::into_inner);
         let due = state.due.map_or(now, |due| due.max(now));
         if due.saturating_duration_since(now) >= EVERY * BURST {
-            state.left_out += 1;
+            state.left_out = state.left_out.saturating_add(1);
             return;
         }
         state.due = Some(due + EVERY);
-        let lost = std::mem::take(&mut state.left_out);
+        let left_out = std::mem::take(&mut state.left_out);
         drop(state);
-        tell_lost(&self.log, lost);
+        self.tell_left_out(left_out);
         (self.log)(level, target, message);
+    }
+
+    fn tell_left_out(&self, count: u64) {
+        if count > 0 {
+            let message = format!("lines left out: {count}");
+            (self.log)(Level::Warn, TARGET, &message);
+        }
     }
 }
 
 impl Drop for Limited {
     fn drop(&mut self) {
         let state = self.state.get_mut().unwrap_or_else(PoisonError::into_inner);
-        let lost = std::mem::take(&mut state.left_out);
-        tell_lost(&self.log, lost);
+        let left_out = std::mem::take(&mut state.left_out);
+        self.tell_left_out(left_out);
     }
 }
 
@@ -77,20 +85,18 @@ mod tests {
     fn a_flood_is_cut_and_counted_and_what_comes_after_it_passes() {
         let told = Arc::new(Mutex::new(Vec::new()));
         let lines = Arc::clone(&told);
-        let limited = Limited {
-            log: Box::new(move |_, _, message| {
-                lines.lock().expect("whole").push(message.to_owned());
-            }),
-            state: Mutex::default(),
-        };
+        let limited = Limited::new(Box::new(move |_, _, message| {
+            lines.lock().expect("whole").push(message.to_owned());
+        }));
         let begin = Instant::now();
-        let tell = |at, message: &str| limited.tell(begin + at, (Level::Info, "eye", message));
+        let tell = |at, message: &str| limited.tell_at(begin + at, (Level::Info, "eye", message));
         for number in 0..1_000 {
             tell(Duration::ZERO, &format!("line {number}"));
         }
         assert_eq!(told.lock().expect("whole").len(), 100);
         tell(EVERY, "later");
         tell(EVERY, "too many again");
+        limited.lose(41);
         drop(limited);
         let told = told.lock().expect("whole");
         let last: Vec<&str> = told[99..].iter().map(String::as_str).collect();
@@ -98,7 +104,7 @@ mod tests {
             "line 99",
             "lines left out: 900",
             "later",
-            "lines left out: 1",
+            "lines left out: 42",
         ];
         assert_eq!(last, expected);
     }

@@ -4,30 +4,31 @@ use std::os::fd::{AsFd, OwnedFd};
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, OnceLock};
 use std::thread::JoinHandle;
+use std::time::Duration;
 
 use super::fate::Fate;
 use super::keeper::Watch;
 use super::socket::{LinkError, Socket, send_now};
-use super::wire::fields;
+use super::wire::variants;
 use crate::library::{Level, Log};
-use crate::log::tell_lost;
+use crate::log::Limited;
 use crate::shown::shown;
 
-/// A line.
+/// What comes by that socket.
 #[derive(Debug, PartialEq)]
-struct Line {
-    level: Level,
-    target: String,
-    message: String,
-    /// How many before it found no room.
-    lost: u64,
+enum Told {
+    Line {
+        level: Level,
+        target: String,
+        message: String,
+    },
+    /// So many lines found no room.
+    Lost { count: u64 },
 }
 
-fields!(Line {
-    level,
-    target,
-    message,
-    lost
+variants!(Told, "a line of the log" {
+    0 => Line { level, target, message },
+    1 => Lost { count },
 });
 
 /// In the child: where its lines go.
@@ -45,34 +46,62 @@ pub(super) fn send(level: Level, target: &str, message: &str) -> bool {
     let Some(host) = HOST.get() else {
         return false;
     };
-    let line = Line {
+    let line = Told::Line {
         level,
         target: target.to_owned(),
         message: message.to_owned(),
-        lost: LOST.swap(0, Ordering::Relaxed),
     };
-    if send_now(host.as_fd(), &line).is_err() {
-        LOST.fetch_add(line.lost + 1, Ordering::Relaxed);
+    if tell_how_many(host).is_err() || send_now(host.as_fd(), &line).is_err() {
+        LOST.fetch_add(1, Ordering::Relaxed);
     }
     true
 }
 
-/// In the host: hands what comes from the child to `log` until the child is gone. A child that sends anything else is ended.
+/// Tells how many lines found no room since that was told last.
+fn tell_how_many(host: &OwnedFd) -> Result<(), LinkError> {
+    let count = LOST.swap(0, Ordering::Relaxed);
+    let told = match count {
+        0 => Ok(()),
+        _ => send_now(host.as_fd(), &Told::Lost { count }),
+    };
+    if told.is_err() {
+        LOST.fetch_add(count, Ordering::Relaxed);
+    }
+    told
+}
+
+/// In the child: tells at its end what could not be told before, as long as its host reads.
+pub(super) fn end() {
+    let Some(host) = HOST.get() else {
+        return;
+    };
+    while let Err(LinkError::Breach(_)) = tell_how_many(host) {
+        std::thread::sleep(PAUSE);
+    }
+}
+
+/// How long a child that ends waits for room.
+const PAUSE: Duration = Duration::from_millis(1);
+
+/// In the host: hands what comes from the child to `log`, within its limit, until the child is gone. A child that sends anything else is ended.
 pub(super) fn listen(
     socket: Socket,
     log: Log,
     watch: Arc<Watch>,
 ) -> std::io::Result<JoinHandle<()>> {
     let mut socket = socket;
+    let log = Limited::new(log);
     std::thread::Builder::new()
         .name("taceva-log".to_owned())
         .spawn(move || {
             loop {
-                match socket.receive::<Line>() {
-                    Ok(line) => {
-                        tell_lost(&log, line.lost);
-                        log(line.level, &shown(&line.target), &shown(&line.message));
-                    }
+                match socket.receive::<Told>() {
+                    Ok(Told::Line {
+                        level,
+                        target,
+                        message,
+                    }) => log.tell(level, &shown(&target), &shown(&message)),
+                    Ok(Told::Lost { count }) => log.lose(count),
                     Err(LinkError::Closed) => return,
                     Err(LinkError::Breach(what) | LinkError::Unsendable(what)) => {
                         watch.condemn(Fate::Breach { what });

@@ -119,6 +119,7 @@ fn run(
     serve(orders, session.as_ref());
     // What it serves is closed as it should be, while the host watches the clock.
     drop(session);
+    log::end();
     0
 }
 
