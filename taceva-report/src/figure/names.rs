@@ -8,11 +8,12 @@ const DOT: f64 = 6.5;
 const SIZE: f64 = 11.0;
 /// Where a name may stand from its dot, the best place first.
 const PLACES: [([f64; 2], Anchor); 10] = [
-    ([10.0, 4.0], Anchor::Start),
+    // Above a line that leads on from the dot, not on it.
+    ([8.0, -7.0], Anchor::Start),
     ([-10.0, 4.0], Anchor::End),
+    ([10.0, 4.0], Anchor::Start),
     ([0.0, -10.0], Anchor::Middle),
     ([0.0, 19.0], Anchor::Middle),
-    ([8.0, -7.0], Anchor::Start),
     ([8.0, 15.0], Anchor::Start),
     ([-8.0, -7.0], Anchor::End),
     ([-8.0, 15.0], Anchor::End),
