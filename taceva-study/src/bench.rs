@@ -2,10 +2,12 @@
 
 mod kernels;
 mod machine;
+mod models;
 mod stopwatch;
 
 pub use kernels::{Floor, InputDigits, KernelBench, KernelRequest, KernelRow, kernels};
 pub use machine::Machine;
+pub use models::{ModelTrial, ModelTrials, TrialError, models};
 pub use stopwatch::{Spread, Stopwatch};
 
 /// The schema of every benchmark as JSON.

@@ -177,7 +177,7 @@ fn metrics(
     Ok(MetricPlan::new(&wanted, channels.clone(), available).with_facts(facts))
 }
 
-fn score(
+pub(crate) fn score(
     dataset: &Dataset,
     request: &EvaluateRequest,
     model: &Model,

@@ -30,6 +30,16 @@ pub struct FitRequest {
     pub seed: u64,
 }
 
+impl FitRequest {
+    /// Whether its model and settings can be meant; no data is looked at.
+    ///
+    /// # Errors
+    /// [`StudyError`] for a model that does not exist, or a setting that it does not have.
+    pub fn check(&self) -> Result<(), StudyError> {
+        Recipe::of(self).map(drop)
+    }
+}
+
 /// How a model is fitted; nothing of this changes the model.
 pub struct FitMeans<'a> {
     /// Worker threads.

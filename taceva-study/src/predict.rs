@@ -302,7 +302,10 @@ fn beside(dataset: &Dataset, rows: &[usize]) -> Vec<(&'static str, Vec<Option<St
 }
 
 /// The extractor of a fitted model on the frames of `dataset`.
-fn extractor(dataset: &Dataset, model: &Model) -> Result<taceva_models::Extractor, StudyError> {
+pub(crate) fn extractor(
+    dataset: &Dataset,
+    model: &Model,
+) -> Result<taceva_models::Extractor, StudyError> {
     let frames = dataset.header().frames.as_ref();
     let info = frames
         .ok_or_else(|| StudyError::Unsuited(FeatureError::NoReference.to_string()))?

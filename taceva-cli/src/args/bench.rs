@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Args, Subcommand};
 
-use super::Output;
+use super::{Output, SplitArgs};
 
 #[derive(Debug, Args)]
 pub(crate) struct Bench {
@@ -17,6 +17,8 @@ pub(crate) struct Bench {
 pub(crate) enum BenchSubject {
     /// The ways to sum: nanoseconds for each pair of values against digits that are right
     Kernels(BenchKernels),
+    /// The models: what fitting, predicting and one prediction take against how far off they are
+    Models(BenchModels),
 }
 
 /// Naive, two-pass, pairwise, Kahan, Neumaier and Welford sums and ours on every instruction set, over inputs that tell them
@@ -33,6 +35,30 @@ pub(crate) struct BenchKernels {
     #[arg(long, value_name = "N", default_value_t = 0)]
     pub(crate) seed: u64,
     /// Draw time against digits as SVG
+    #[arg(long, value_name = "FILE.svg")]
+    pub(crate) svg: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) output: Output,
+}
+
+/// Fits every model on the training part of one recording and scores it on the test part of the same split: mean absolute errors with
+/// intervals by contact point, beside seconds to fit, to predict, and from one frame to its prediction. A model that cannot be fitted on
+/// the recording says why and the race goes on.
+#[derive(Debug, Args)]
+pub(crate) struct BenchModels {
+    /// The dataset; without one the simulated bench presses a sensor first: 400 points of four presses
+    #[arg(value_name = "DATASET")]
+    pub(crate) dataset: Option<PathBuf>,
+    /// A model, its settings after a colon: ridge, knn:size=16x16, cnn:epochs=20,batch=16; may be repeated
+    /// [default: all but resnet10, resnet18, resnet34 and auto, which take long]
+    #[arg(long = "model", value_name = "NAME[:KEY=VALUE,…]")]
+    pub(crate) models: Vec<String>,
+    /// Few presses where the bench presses, and short trainings where no model is named
+    #[arg(long)]
+    pub(crate) quick: bool,
+    #[command(flatten)]
+    pub(crate) split: SplitArgs,
+    /// Draw time against error as SVG, the Pareto front marked
     #[arg(long, value_name = "FILE.svg")]
     pub(crate) svg: Option<PathBuf>,
     #[command(flatten)]

@@ -1,5 +1,8 @@
 //! `taceva bench`.
 
+mod models;
+mod pressed;
+
 use taceva_study::bench::{KernelRequest, kernels};
 
 use super::Context;
@@ -9,6 +12,7 @@ use crate::{exit, output, report};
 pub(crate) fn run(args: &Bench, context: &Context) -> anyhow::Result<u8> {
     match &args.subject {
         BenchSubject::Kernels(args) => run_kernels(args, context),
+        BenchSubject::Models(args) => models::run(args, context),
     }
 }
 

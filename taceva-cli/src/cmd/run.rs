@@ -1,6 +1,6 @@
 //! `taceva run`.
 
-mod bench;
+pub(super) mod bench;
 mod cache;
 
 use std::path::{Path, PathBuf};

@@ -10,7 +10,7 @@ use taceva_sim::{MODEL_VERSION, Model};
 use taceva_study::{Surroundings, Upcoming};
 
 /// The surroundings of the rig whose robot was opened by `robot`; `None` where that is of no simulated bench.
-pub(super) fn surroundings(robot: &Selector, rig: &mut Rig) -> Option<Surroundings> {
+pub(in crate::cmd) fn surroundings(robot: &Selector, rig: &mut Rig) -> Option<Surroundings> {
     let bench = rig.bench(&robot.bench()?)?;
     let gel = bench.provenance();
     let [announced, shared] = [0; 2].map(|_| Arc::clone(&bench));

@@ -1,0 +1,150 @@
+//! `taceva bench models`.
+
+use std::path::Path;
+
+use taceva_dataset::Dataset;
+use taceva_metrics::Isa;
+use taceva_models::{ALL, Models, Settings};
+use taceva_report::{
+    BenchMachine, BenchRecording, ChannelError, ModelBench, ModelRow, model_bench,
+};
+use taceva_study::bench::{Machine, ModelTrial, ModelTrials, TrialError, models};
+use taceva_study::{FitRequest, StudyError, Subject};
+
+use super::super::{Context, open, results};
+use super::pressed::Pressed;
+use crate::args::BenchModels;
+use crate::{exit, output};
+
+/// What is raced only where it is named: hours on most machines, or no model of its own.
+const NAMED_ONLY: [&str; 4] = ["resnet10", "resnet18", "resnet34", "auto"];
+
+/// Settings that make a race short.
+const QUICK: [(&str, &str); 3] = [
+    ("cnn", "epochs=20,size=32x32"),
+    ("gradient-boosting", "most=60"),
+    ("random-forest", "trees=30"),
+];
+
+pub(super) fn run(args: &BenchModels, context: &Context) -> anyhow::Result<u8> {
+    for path in args.output.path.iter().chain(&args.svg) {
+        output::check_free(path, args.output.force)?;
+    }
+    let known = context.models()?;
+    let requests = requests(args, &known)?;
+    // Before the bench presses anything.
+    requests.iter().try_for_each(FitRequest::check)?;
+    let bench = match &args.dataset {
+        Some(path) => {
+            let name = path.file_name().unwrap_or(path.as_os_str());
+            race(&open(path)?, &name.to_string_lossy(), &requests, context)?
+        }
+        None => {
+            let pressed = Pressed::new(args.quick, args.split.seed, (context, &known))?;
+            race(&pressed.dataset, "simulated bench", &requests, context)?
+        }
+    };
+    let text = results::rendered(&bench.listing(), args.output.format, || bench.json());
+    output::write(args.output.path.as_deref(), |out| {
+        out.write_all(text.as_bytes())
+    })?;
+    if let Some(path) = &args.svg {
+        draw(&bench, path)?;
+    }
+    Ok(exit::DONE)
+}
+
+/// A fit each, in the order of `--model`, or of the registry.
+fn requests(args: &BenchModels, known: &Models) -> anyhow::Result<Vec<FitRequest>> {
+    let quick = |name: &str| {
+        let known = QUICK.iter().find(|(of, _)| args.quick && *of == name);
+        known.map_or_else(
+            || name.to_owned(),
+            |(_, settings)| format!("{name}:{settings}"),
+        )
+    };
+    let all = || {
+        let names = ALL.iter().map(|info| info.name);
+        names
+            .filter(|name| !NAMED_ONLY.contains(name))
+            .map(quick)
+            .collect()
+    };
+    let words: Vec<String> = if args.models.is_empty() {
+        all()
+    } else {
+        args.models.clone()
+    };
+    let request = |word: &String| {
+        let (name, settings) = word.split_once(':').unwrap_or((word, ""));
+        let settings = settings.split(',').filter(|setting| !setting.is_empty());
+        Ok(FitRequest {
+            model: known.find(name).map_err(StudyError::from)?,
+            settings: Settings::parse(settings).map_err(StudyError::from)?,
+            channels: Vec::new(),
+            split: args.split.split.clone(),
+            seed: args.split.seed,
+        })
+    };
+    words.iter().map(request).collect()
+}
+
+fn race(
+    dataset: &Dataset,
+    name: &str,
+    requests: &[FitRequest],
+    context: &Context,
+) -> anyhow::Result<ModelBench> {
+    let trials = models(dataset, requests, context.jobs, &context.progress)?;
+    let isa = Isa::available()
+        .into_iter()
+        .map(|isa| isa.name().to_owned());
+    let machine = Machine::here(context.jobs.get(), isa.collect());
+    let subject = Subject::of(dataset);
+    let recording = BenchRecording {
+        name: name.to_owned(),
+        sensor: subject.sensor,
+        source: subject.source,
+        split: trials.split.clone(),
+        train: trials.train as u64,
+        test: trials.test as u64,
+    };
+    let mut bench = ModelBench::new(
+        BenchMachine {
+            cpu: machine.cpu,
+            cores: machine.cores,
+            threads: machine.threads,
+            isa: machine.isa,
+            load: machine.load,
+        },
+        recording,
+    );
+    let ModelTrials { rows, .. } = trials;
+    bench.rows = rows.into_iter().map(row).collect();
+    Ok(bench)
+}
+
+fn row(trial: ModelTrial) -> ModelRow {
+    let error = |error: TrialError| ChannelError {
+        channel: error.channel,
+        unit: error.unit,
+        mae: error.mae,
+        ci95: error.ci95,
+        n: error.n,
+    };
+    ModelRow {
+        model: trial.model,
+        settings: trial.settings.join(" "),
+        fit_s: trial.fit_s,
+        predict_s: trial.predict_s,
+        latency_s: trial.latency_s,
+        errors: trial.errors.into_iter().map(error).collect(),
+        failed: trial.failed,
+    }
+}
+
+fn draw(bench: &ModelBench, path: &Path) -> anyhow::Result<()> {
+    let figure = model_bench(bench)
+        .ok_or_else(|| anyhow::anyhow!("no model could be scored: nothing to draw"))?;
+    output::write(Some(path), |out| out.write_all(figure.svg().as_bytes()))
+}

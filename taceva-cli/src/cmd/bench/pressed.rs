@@ -1,0 +1,89 @@
+//! A recording of the simulated bench, pressed for a benchmark and removed after it.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use taceva_dataset::Dataset;
+use taceva_models::Models;
+use taceva_study::{Existing, PlannedScene, RunFolder, SceneText, Workshop, run_scene};
+
+use super::super::Context;
+use super::super::run::bench::surroundings;
+
+/// What is pressed: one sensor, its whole surface. The study that comes with it fits the baseline only.
+const SCENE: &str = r#"scene_version = 1
+name = "bench"
+seed = 0
+
+[sensor]
+driver = "sim/vitactip"
+
+[robot]
+driver = "sim/robot"
+
+[force]
+driver = "sim/force-transducer"
+
+[model]
+name = "baseline"
+
+[metrics]
+want = ["mae"]
+
+[protocol.calibration]
+points = POINTS
+indentations = 4
+"#;
+
+/// Contact points of a race, and of a quick one.
+const POINTS: [usize; 2] = [400, 60];
+
+/// A recording that is gone when this is dropped.
+pub(super) struct Pressed {
+    pub(super) dataset: Dataset,
+    _folder: Folder,
+}
+
+/// A folder of this process among temporary files.
+struct Folder(PathBuf);
+
+impl Drop for Folder {
+    fn drop(&mut self) {
+        // What cannot be removed is left to whoever clears temporary files.
+        drop(fs::remove_dir_all(&self.0));
+    }
+}
+
+impl Pressed {
+    /// Presses the simulated bench; the same seed gives the same recording.
+    pub(super) fn new(
+        is_quick: bool,
+        seed: u64,
+        (context, models): (&Context, &Models),
+    ) -> anyhow::Result<Pressed> {
+        let points = POINTS[usize::from(is_quick)];
+        let text = SceneText {
+            name: "bench".to_owned(),
+            text: SCENE.replace("POINTS", &points.to_string()),
+            folder: PathBuf::from("."),
+        };
+        let drivers = context.drivers(None::<&Path>)?;
+        let planned = PlannedScene::new(text, &drivers, Some(seed))?;
+        let name = format!("taceva-bench-{}", std::process::id());
+        let folder = Folder(std::env::temp_dir().join(name));
+        let run = RunFolder::open(&folder.0, &planned, Existing::Refuse)?;
+        let workshop = Workshop {
+            drivers: &drivers,
+            models,
+            surroundings: &surroundings,
+            cache: None,
+            progress: &context.progress,
+        };
+        run_scene(&planned, &run, workshop, context.jobs)?;
+        let study = &planned.studies[0].plan.name;
+        Ok(Pressed {
+            dataset: Dataset::open(&run.recording(0, study))?,
+            _folder: folder,
+        })
+    }
+}

@@ -1,0 +1,230 @@
+//! Models raced on one recording: what fitting, predicting and one prediction take, against how far off they are.
+
+use std::num::NonZeroUsize;
+use std::time::Instant;
+
+use taceva_core::{ErrorKind, Features, Progress, Unit};
+use taceva_dataset::{Dataset, Pass};
+use taceva_models::Model;
+
+use crate::error::StudyError;
+use crate::evaluate::{EvaluateRequest, ModelChoice, score};
+use crate::features::Work;
+use crate::fit::{FitMeans, FitRequest, fit};
+use crate::predict::{self, Target, extractor};
+use crate::rows::{Divided, Part};
+
+/// The error that models are compared by.
+const METRIC: &str = "mae";
+/// Frames that are taken one by one.
+const SINGLES: usize = 50;
+
+/// One model: what it costs and how far off it is.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ModelTrial {
+    /// Its name in the registry.
+    pub model: String,
+    /// Its settings as `key=value`; of `auto` the model that it took.
+    pub settings: Vec<String>,
+    /// Seconds to fit it, features included.
+    pub fit_s: f64,
+    /// Seconds to predict the whole test part, features included.
+    pub predict_s: f64,
+    /// Seconds from one decoded frame to its prediction, the median over frames taken one by one.
+    pub latency_s: f64,
+    /// The error of each channel on the test part; empty if the model could not be fitted.
+    pub errors: Vec<TrialError>,
+    /// Why the model could not be fitted or scored.
+    pub failed: Option<String>,
+}
+
+/// The mean absolute error of one channel.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TrialError {
+    /// The channel.
+    pub channel: String,
+    /// The unit of error and interval.
+    pub unit: Unit,
+    /// The mean absolute error.
+    pub mae: f64,
+    /// Its 95 % interval by contact point; `None` if there are too few points.
+    pub ci95: Option<[f64; 2]>,
+    /// Samples it is made of.
+    pub n: u64,
+}
+
+/// How the recording was divided, and what came of each model.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ModelTrials {
+    /// How: `by-point 70/20/10, seed 0`.
+    pub split: String,
+    /// Samples of the training part.
+    pub train: usize,
+    /// Samples of the part that is scored.
+    pub test: usize,
+    /// A model each, in the order asked for.
+    pub rows: Vec<ModelTrial>,
+}
+
+/// Fits and scores every model of `requests` on the same split of `dataset`, one after the other; `rows` tells of each as it is done.
+///
+/// A model that cannot be fitted on this recording is a row that says why.
+///
+/// # Errors
+/// [`StudyError`] if a request cannot be meant, requests differ in split or seed, the dataset cannot be read, or `progress` asks to stop.
+pub fn models(
+    dataset: &Dataset,
+    requests: &[FitRequest],
+    jobs: NonZeroUsize,
+    progress: &dyn Progress,
+) -> Result<ModelTrials, StudyError> {
+    let Some(first) = requests.first() else {
+        return Err(StudyError::Request("no model to race".to_owned()));
+    };
+    let same = |request: &FitRequest| (&request.split, request.seed) == (&first.split, first.seed);
+    if !requests.iter().all(same) {
+        return Err(StudyError::Request(
+            "models are raced on one split and one seed".to_owned(),
+        ));
+    }
+    for request in requests {
+        // Asked before the work: an unknown setting must not cost the fits before it.
+        request.check()?;
+    }
+    let divided = Divided::new(dataset.table(), first.split.as_deref(), first.seed)?;
+    let work = Work { jobs, progress };
+    progress.begin("models raced", Some(requests.len() as u64));
+    let rows: Result<Vec<ModelTrial>, StudyError> = requests
+        .iter()
+        .map(|request| {
+            let row = trial(dataset, request, work);
+            progress.advance(1);
+            row
+        })
+        .collect();
+    progress.end();
+    Ok(ModelTrials {
+        split: format!("{}, seed {}", divided.spec, divided.seed),
+        train: divided.rows(Part::Train).len(),
+        test: divided.rows(Part::Test).len(),
+        rows: rows?,
+    })
+}
+
+fn trial(
+    dataset: &Dataset,
+    request: &FitRequest,
+    work: Work<'_>,
+) -> Result<ModelTrial, StudyError> {
+    let mut row = ModelTrial {
+        model: request.model.name().to_owned(),
+        settings: request.settings.words().collect(),
+        fit_s: 0.0,
+        predict_s: 0.0,
+        latency_s: 0.0,
+        errors: Vec::new(),
+        failed: None,
+    };
+    match measure(dataset, request, work, &mut row) {
+        Ok(()) => Ok(row),
+        Err(StudyError::Model(error)) if error.kind() != ErrorKind::Interrupted => {
+            row.failed = Some(error.to_string());
+            Ok(row)
+        }
+        Err(StudyError::Features(error)) => {
+            row.failed = Some(error.to_string());
+            Ok(row)
+        }
+        Err(error) => Err(error),
+    }
+}
+
+fn measure(
+    dataset: &Dataset,
+    request: &FitRequest,
+    work: Work<'_>,
+    row: &mut ModelTrial,
+) -> Result<(), StudyError> {
+    let start = Instant::now();
+    let means = FitMeans {
+        jobs: work.jobs,
+        progress: work.progress,
+        checkpoints: None,
+    };
+    let fitted = fit(dataset, request, means)?;
+    row.fit_s = start.elapsed().as_secs_f64();
+    let model = &fitted.model;
+    if model.card().auto.is_some() {
+        row.settings.push(format!("took={}", model.card().model));
+    }
+    let target = Target::of(dataset, Some(fitted.divided), None, model.reads_features())?;
+    let start = Instant::now();
+    let predicted = predict::run(dataset, model, &target, work)?;
+    row.predict_s = start.elapsed().as_secs_f64();
+    row.latency_s = latency(dataset, model, &target, work.progress)?;
+    let asked = EvaluateRequest {
+        model: ModelChoice::Fit(request.clone()),
+        metrics: vec![METRIC.to_owned()],
+        part: None,
+        sensor: None,
+        jobs: work.jobs,
+    };
+    let scored = score(dataset, &asked, model, &target, &predicted)?;
+    let evaluation = &scored.report.evaluation;
+    let errors = model.channels().iter().filter_map(|channel| {
+        let score = evaluation.score(METRIC, channel.name())?;
+        Some(TrialError {
+            channel: channel.name().to_owned(),
+            unit: score.unit,
+            mae: score.value.scalar()?,
+            ci95: score.interval.ends(),
+            n: score.n,
+        })
+    });
+    row.errors = errors.collect();
+    Ok(())
+}
+
+/// The median time from a decoded frame to its prediction.
+fn latency(
+    dataset: &Dataset,
+    model: &Model,
+    target: &Target,
+    progress: &dyn Progress,
+) -> Result<f64, StudyError> {
+    let shape = model.card().features.shape();
+    let mut times = Vec::new();
+    let rows = &target.rows[..target.rows.len().min(SINGLES)];
+    if model.reads_features() {
+        let extractor = extractor(dataset, model)?;
+        let pass = Pass {
+            rows,
+            jobs: NonZeroUsize::MIN,
+            progress,
+        };
+        let predict = |frame| -> Result<f64, StudyError> {
+            let start = Instant::now();
+            let mut sample = vec![0.0; shape.len()];
+            extractor.extract(&frame, &mut sample)?;
+            model.predict(&Features::new(shape, sample)?)?;
+            Ok(start.elapsed().as_secs_f64())
+        };
+        dataset.map_frames(
+            pass,
+            |_, frame| predict(frame),
+            |_, time| {
+                times.push(time?);
+                Ok(())
+            },
+        )?;
+    } else {
+        let blank = Features::new(shape, vec![0.0; shape.len()])?;
+        for _ in rows {
+            let start = Instant::now();
+            model.predict(&blank)?;
+            times.push(start.elapsed().as_secs_f64());
+        }
+    }
+    times.sort_by(f64::total_cmp);
+    Ok(times.get(times.len() / 2).copied().unwrap_or(0.0))
+}
