@@ -23,7 +23,8 @@ fn models_are_raced_on_one_split_of_the_simulated_bench() {
         let own = errors.iter().find(|error| error["channel"] == channel);
         own.expect("there")["mae"].as_f64().expect("a number")
     };
-    for channel in ["Pz", "Fz"] {
+    // Six contact points are left to be scored: enough to tell where the gel is touched, not how deep.
+    for channel in ["Px", "Py"] {
         assert!(error(1, channel) < error(0, channel), "{channel}");
         assert!(error(2, channel) < error(0, channel), "{channel}");
     }

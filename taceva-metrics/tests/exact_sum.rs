@@ -6,8 +6,14 @@ fn sum(values: impl IntoIterator<Item = f64>) -> ExactSum {
     values.into_iter().collect()
 }
 
+/// 2^exponent to the bit: below the normal numbers `powi` gives one thing where the compiler computes it and another where the machine does.
 fn power(exponent: i32) -> f64 {
-    2.0_f64.powi(exponent)
+    let bits = match exponent {
+        -1022..=1023 => u64::from((exponent + 1023).unsigned_abs()) << 52,
+        -1074..=-1023 => 1 << (exponent + 1074),
+        _ => panic!("2^{exponent} is no binary64"),
+    };
+    f64::from_bits(bits)
 }
 
 #[test]

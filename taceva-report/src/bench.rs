@@ -53,8 +53,14 @@ impl ModelBench {
 impl ModelRow {
     fn cells(&self, channels: &[&str]) -> Vec<String> {
         let times = [self.fit_s, self.predict_s, self.latency_s * 1e3];
-        let mut cells = vec![self.model.clone()];
-        cells.extend(times.map(numeral));
+        // A model that failed took no time that means anything.
+        let time = |time: f64| match self.failed {
+            Some(_) => "–".to_owned(),
+            None => numeral(time),
+        };
+        let name = format!("{} {}", self.model, self.settings);
+        let mut cells = vec![name.trim_end().to_owned()];
+        cells.extend(times.map(time));
         let error = |channel: &&str| match self.error(channel) {
             None => "–".to_owned(),
             Some(error) => Printed::number(error.mae, error.ci95).phrase(""),

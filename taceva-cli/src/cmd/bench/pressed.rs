@@ -12,7 +12,7 @@ use super::super::run::bench::surroundings;
 
 /// What is pressed: one sensor, its whole surface. The study that comes with it fits the baseline only.
 const SCENE: &str = r#"scene_version = 1
-name = "bench"
+name = "ViTacTip"
 seed = 0
 
 [sensor]
