@@ -92,7 +92,7 @@ pub fn csv(text: &str) -> String {
     }
 }
 
-/// The words of a cell that [`csv`] has written.
+/// The words of a cell that [`csv()`] has written.
 pub fn from_csv(cell: &str) -> &str {
     match cell.strip_prefix('\'') {
         Some(text) if begins_like_a_formula(text) => text,

@@ -14,15 +14,15 @@ use crate::workspace::root;
 /// # Panics
 /// If it does not build, which ends the test.
 pub fn taceva() -> PathBuf {
-    built(&["--package", "taceva-cli", "--bin", "taceva"])
+    built(&["--bin", "taceva"], "taceva")
 }
 
-/// The built example `name` of the crate `package`.
+/// The built example `name` of any crate.
 ///
 /// # Panics
 /// If it does not build, which ends the test.
-pub fn example(package: &str, name: &str) -> PathBuf {
-    built(&["--package", package, "--example", name])
+pub fn example(name: &str) -> PathBuf {
+    built(&["--example", name], name)
 }
 
 /// The built shared library of the crate `package`.
@@ -30,10 +30,10 @@ pub fn example(package: &str, name: &str) -> PathBuf {
 /// # Panics
 /// If it does not build, which ends the test.
 pub fn library(package: &str) -> PathBuf {
-    built(&["--package", package, "--lib"])
+    built(&["--lib"], &package.replace('-', "_"))
 }
 
-fn built(what: &[&str]) -> PathBuf {
+fn built(what: &[&str], name: &str) -> PathBuf {
     static BUILT: OnceLock<Mutex<BTreeMap<String, PathBuf>>> = OnceLock::new();
     let built = BUILT.get_or_init(Mutex::default);
     // A build that failed in another test fails again here, with its own message.
@@ -41,16 +41,19 @@ fn built(what: &[&str]) -> PathBuf {
         .lock()
         .unwrap_or_else(std::sync::PoisonError::into_inner);
     built
-        .entry(what.join(" "))
-        .or_insert_with(|| build(what))
+        .entry(name.to_owned())
+        .or_insert_with(|| build(what, name))
         .clone()
 }
 
-fn build(what: &[&str]) -> PathBuf {
+/// Builds `what` with the features that the tests of the whole workspace are built with, so that nothing is compiled for a second time after them.
+fn build(what: &[&str], name: &str) -> PathBuf {
     let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
     let output = Command::new(cargo)
         .args(["build", "--message-format=json", "--manifest-path"])
         .arg(root().join("Cargo.toml"))
+        // Only beside an example does cargo look at what tests depend on.
+        .args(["--workspace", "--example", "toy_writer"])
         .args(what)
         .args(as_this_test())
         .stderr(Stdio::piped())
@@ -61,13 +64,15 @@ fn build(what: &[&str]) -> PathBuf {
     Message::parse_stream(output.stdout.as_slice())
         .filter_map(Result::ok)
         .filter_map(|message| match message {
-            Message::CompilerArtifact(artifact) => artifact.executable.or_else(|| {
-                let is_library = artifact.target.is_cdylib();
-                let mut files = artifact.filenames.into_iter();
-                is_library.then(|| {
-                    files.find(|file| file.extension() == Some(std::env::consts::DLL_EXTENSION))
-                })?
-            }),
+            Message::CompilerArtifact(artifact) if artifact.target.name == name => {
+                artifact.executable.or_else(|| {
+                    let is_library = artifact.target.is_cdylib();
+                    let mut files = artifact.filenames.into_iter();
+                    is_library.then(|| {
+                        files.find(|file| file.extension() == Some(std::env::consts::DLL_EXTENSION))
+                    })?
+                })
+            }
             _ => None,
         })
         .last()

@@ -24,7 +24,7 @@ impl Recorded {
     /// # Panics
     /// If the recorder fails, which ends the test.
     pub fn up_to(most: usize) -> Recorded {
-        let program = example("taceva-dataset", "record");
+        let program = example("record");
         let digests = (0..=most)
             .map(|count| uninterrupted(&program, count))
             .collect();

@@ -237,7 +237,7 @@ fn a_power_cut_while_a_recording_is_resumed_loses_nothing() {
 fn a_reference_that_is_taken_anew_never_spoils_the_one_before() {
     let folder = scratch();
     let watched = folder.path();
-    let mut command = Command::new(example("taceva-tests", "two_references"));
+    let mut command = Command::new(example("two_references"));
     command.arg(watched.join("set"));
     let initial = Disk::load(watched).expect("empty");
     let Some(trace) = traced(&command, watched, initial) else {

@@ -32,7 +32,7 @@ fn hunt(protocol: Protocol) -> Result<Tally, TraceError> {
     if !protocol.is_journal() {
         std::fs::write(watched.join(HEADER), old_header()).expect("written");
     }
-    let mut command = Command::new(taceva_tests::example("taceva-tests", "toy_writer"));
+    let mut command = Command::new(taceva_tests::example("toy_writer"));
     command.arg(protocol.to_string());
     let initial = Disk::load(&watched).expect("read");
     let trace = Trace::run(&command, &watched, initial)?;
