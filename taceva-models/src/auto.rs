@@ -43,8 +43,7 @@ impl Auto {
         name: "auto",
         about: "whichever of the others does best on groups left out, within a budget of work",
         settings: &[BUDGET],
-        reads_features: true,
-        features: FeatureSpec::DEFAULT,
+        features: Some(FeatureSpec::DEFAULT),
         make: |settings| Ok(Box::new(Auto::from_settings(settings)?)),
     };
 

@@ -3,7 +3,6 @@
 use taceva_core::{Estimator, ModelError, Progress, Regressor, TrainingSet};
 
 use crate::choice::{ChannelChoice, Choice, ChosenBy, rmse};
-use crate::features::FeatureSpec;
 use crate::linear::{LinearEstimator, LinearFit, LinearRegressor};
 use crate::problem::Problem;
 use crate::registry::ModelInfo;
@@ -19,8 +18,7 @@ impl Baseline {
         name: "baseline",
         about: "predicts the mean of the training part: the line every model must beat",
         settings: &[],
-        reads_features: false,
-        features: FeatureSpec::DEFAULT,
+        features: None,
         make: |settings| Ok(Box::new(Baseline::from_settings(settings)?)),
     };
 

@@ -31,7 +31,6 @@ pub struct ElasticNet {
     refit: bool,
 }
 
-const SCALE: SettingInfo = FeatureScale::SETTING;
 const STRENGTH: SettingInfo = SettingInfo {
     key: "strength",
     accepts: "a number from 1e-6 to 1",
@@ -43,12 +42,6 @@ const MIX: SettingInfo = SettingInfo {
     accepts: "a number from 0.01 to 1",
     default: "0.5",
     about: "the share of the penalty that is on sizes rather than squares: 1 is the lasso",
-};
-const REFIT: SettingInfo = SettingInfo {
-    key: "refit",
-    accepts: "true or false",
-    default: "true",
-    about: "whether the validation part is learnt from too, once the strengths are chosen",
 };
 
 /// The weights of one channel, at each strength.
@@ -62,9 +55,8 @@ impl ElasticNet {
     pub const INFO: ModelInfo = ModelInfo {
         name: "elastic-net",
         about: "least squares that leaves most weights at 0: shows which pixels matter",
-        settings: &[SCALE, STRENGTH, MIX, REFIT],
-        reads_features: true,
-        features: FeatureSpec::DEFAULT,
+        settings: &[FeatureScale::SETTING, STRENGTH, MIX, SettingInfo::REFIT],
+        features: Some(FeatureSpec::DEFAULT),
         make: |settings| Ok(Box::new(ElasticNet::from_settings(settings)?)),
     };
 
@@ -75,10 +67,10 @@ impl ElasticNet {
     pub fn from_settings(settings: &Settings) -> Result<ElasticNet, SettingError> {
         settings.check_keys(ElasticNet::INFO.settings)?;
         Ok(ElasticNet {
-            scale: settings.value(&SCALE, FeatureScale::default(), FeatureScale::from_name)?,
+            scale: FeatureScale::from_settings(settings)?,
             strength: settings.value(&STRENGTH, None, |text| number(text, 1e-6..=1.0).map(Some))?,
             mix: settings.value(&MIX, 0.5, |text| number(text, 0.01..=1.0))?,
-            refit: settings.value(&REFIT, true, |text| text.parse().ok())?,
+            refit: settings.refit()?,
         })
     }
 

@@ -24,7 +24,6 @@ use self::nystrom::Nystrom;
 use crate::linalg::FeatureScale;
 use crate::settings::{SettingError, SettingInfo, Settings, number};
 
-const SCALE: SettingInfo = FeatureScale::SETTING;
 const LENGTH: SettingInfo = SettingInfo {
     key: "length",
     accepts: "a number from 0.01 to 1000",
@@ -36,12 +35,6 @@ const LANDMARKS: SettingInfo = SettingInfo {
     accepts: "a number from 1 to 5000",
     default: "500",
     about: "how many training samples stand for all of them at most",
-};
-const REFIT: SettingInfo = SettingInfo {
-    key: "refit",
-    accepts: "true or false",
-    default: "true",
-    about: "whether the validation part is learnt from too, once the settings are chosen",
 };
 
 /// The lengths that are tried, the plainest last.
@@ -56,9 +49,13 @@ struct Kernel {
 }
 
 impl Kernel {
+    /// What can be set of every one.
+    const SETTINGS: &'static [SettingInfo] =
+        &[FeatureScale::SETTING, LENGTH, LANDMARKS, SettingInfo::REFIT];
+
     fn from_settings(settings: &Settings) -> Result<Kernel, SettingError> {
         Ok(Kernel {
-            scale: settings.value(&SCALE, FeatureScale::default(), FeatureScale::from_name)?,
+            scale: FeatureScale::from_settings(settings)?,
             length: settings.value(&LENGTH, None, |text| number(text, 0.01..=1000.0).map(Some))?,
             landmarks: settings.value(&LANDMARKS, 500, |text| number(text, 1..=5000))?,
         })

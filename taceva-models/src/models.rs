@@ -91,7 +91,7 @@ impl ChosenModel {
     /// Whether its predictions depend on what is seen; if not, no frame need be decoded for it.
     pub fn reads_features(&self) -> bool {
         match self {
-            ChosenModel::BuiltIn(info) => info.reads_features,
+            ChosenModel::BuiltIn(info) => info.features.is_some(),
             ChosenModel::Offered(_) => true,
         }
     }
@@ -99,7 +99,7 @@ impl ChosenModel {
     /// What it sees of a frame where nothing else is asked for.
     pub fn features(&self) -> FeatureSpec {
         match self {
-            ChosenModel::BuiltIn(info) => info.features,
+            ChosenModel::BuiltIn(info) => info.features.unwrap_or_default(),
             ChosenModel::Offered(_) => FeatureSpec::default(),
         }
     }

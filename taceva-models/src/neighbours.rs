@@ -35,18 +35,11 @@ pub struct Neighbours {
     refit: bool,
 }
 
-const SCALE: SettingInfo = FeatureScale::SETTING;
 const COUNT: SettingInfo = SettingInfo {
     key: "neighbours",
     accepts: "a number from 1 to 1000",
     default: "chosen for each channel",
     about: "how many training samples a prediction is the mean of",
-};
-const REFIT: SettingInfo = SettingInfo {
-    key: "refit",
-    accepts: "true or false",
-    default: "true",
-    about: "whether the validation part is learnt from too, once the numbers are chosen",
 };
 
 /// The numbers that are tried; more neighbours are plainer.
@@ -57,9 +50,8 @@ impl Neighbours {
     pub const INFO: ModelInfo = ModelInfo {
         name: "knn",
         about: "the mean of the training samples that look most alike: nothing is assumed, nothing extrapolated",
-        settings: &[SCALE, COUNT, REFIT],
-        reads_features: true,
-        features: FeatureSpec::DEFAULT,
+        settings: &[FeatureScale::SETTING, COUNT, SettingInfo::REFIT],
+        features: Some(FeatureSpec::DEFAULT),
         make: |settings| Ok(Box::new(Neighbours::from_settings(settings)?)),
     };
 
@@ -70,9 +62,9 @@ impl Neighbours {
     pub fn from_settings(settings: &Settings) -> Result<Neighbours, SettingError> {
         settings.check_keys(Neighbours::INFO.settings)?;
         Ok(Neighbours {
-            scale: settings.value(&SCALE, FeatureScale::default(), FeatureScale::from_name)?,
+            scale: FeatureScale::from_settings(settings)?,
             count: settings.value(&COUNT, None, |text| number(text, 1..=1000).map(Some))?,
-            refit: settings.value(&REFIT, true, |text| text.parse().ok())?,
+            refit: settings.refit()?,
         })
     }
 }

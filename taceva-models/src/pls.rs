@@ -31,7 +31,6 @@ pub struct Pls {
     refit: bool,
 }
 
-const SCALE: SettingInfo = FeatureScale::SETTING;
 const COMPONENTS: SettingInfo = SettingInfo {
     key: "components",
     accepts: "a number from 1 to 1000",
@@ -43,12 +42,6 @@ const MOST: SettingInfo = SettingInfo {
     accepts: "a number from 1 to 1000",
     default: "60",
     about: "how many directions are tried at most where their number is chosen",
-};
-const REFIT: SettingInfo = SettingInfo {
-    key: "refit",
-    accepts: "true or false",
-    default: "true",
-    about: "whether the validation part is learnt from too, once the numbers are chosen",
 };
 
 impl Default for Pls {
@@ -67,9 +60,8 @@ impl Pls {
     pub const INFO: ModelInfo = ModelInfo {
         name: "pls",
         about: "partial least squares: few directions, each the one that goes best with the labels",
-        settings: &[SCALE, COMPONENTS, MOST, REFIT],
-        reads_features: true,
-        features: FeatureSpec::DEFAULT,
+        settings: &[FeatureScale::SETTING, COMPONENTS, MOST, SettingInfo::REFIT],
+        features: Some(FeatureSpec::DEFAULT),
         make: |settings| Ok(Box::new(Pls::from_settings(settings)?)),
     };
 
@@ -81,12 +73,12 @@ impl Pls {
         settings.check_keys(Pls::INFO.settings)?;
         let default = Pls::default();
         Ok(Pls {
-            scale: settings.value(&SCALE, default.scale, FeatureScale::from_name)?,
+            scale: FeatureScale::from_settings(settings)?,
             components: settings.value(&COMPONENTS, default.components, |text| {
                 number(text, 1..=1000).map(Some)
             })?,
             most: settings.value(&MOST, default.most, |text| number(text, 1..=1000))?,
-            refit: settings.value(&REFIT, default.refit, |text| text.parse().ok())?,
+            refit: settings.refit()?,
         })
     }
 

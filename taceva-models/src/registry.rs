@@ -22,10 +22,9 @@ pub struct ModelInfo {
     pub about: &'static str,
     /// What can be set.
     pub settings: &'static [SettingInfo],
-    /// Whether its predictions depend on what is seen; if not, no frame need be decoded for it.
-    pub reads_features: bool,
-    /// What it sees of a frame where nothing else is asked for.
-    pub features: FeatureSpec,
+    /// What it sees of a frame where nothing else is asked for; `None` if its predictions do not depend on what is seen, so that no
+    /// frame need be decoded for it.
+    pub features: Option<FeatureSpec>,
     pub(crate) make: fn(&Settings) -> Result<Box<dyn ModelEstimator>, SettingError>,
 }
 

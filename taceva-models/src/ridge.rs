@@ -34,18 +34,11 @@ pub struct Ridge {
     refit: bool,
 }
 
-const SCALE: SettingInfo = FeatureScale::SETTING;
 const STRENGTH: SettingInfo = SettingInfo {
     key: "strength",
     accepts: "0 or a number from 1e-12 to 1e12",
     default: "chosen for each channel",
     about: "the penalty on large weights, relative to the mean eigenvalue",
-};
-const REFIT: SettingInfo = SettingInfo {
-    key: "refit",
-    accepts: "true or false",
-    default: "true",
-    about: "whether the validation part is learnt from too, once the strengths are chosen",
 };
 
 impl Default for Ridge {
@@ -63,9 +56,8 @@ impl Ridge {
     pub const INFO: ModelInfo = ModelInfo {
         name: "ridge",
         about: "least squares with a penalty on large weights; fast, and hard to beat on few recordings",
-        settings: &[SCALE, STRENGTH, REFIT],
-        reads_features: true,
-        features: FeatureSpec::DEFAULT,
+        settings: &[FeatureScale::SETTING, STRENGTH, SettingInfo::REFIT],
+        features: Some(FeatureSpec::DEFAULT),
         make: |settings| Ok(Box::new(Ridge::from_settings(settings)?)),
     };
 
@@ -77,12 +69,12 @@ impl Ridge {
         settings.check_keys(Ridge::INFO.settings)?;
         let default = Ridge::default();
         Ok(Ridge {
-            scale: settings.value(&SCALE, default.scale, FeatureScale::from_name)?,
+            scale: FeatureScale::from_settings(settings)?,
             strength: settings.value(&STRENGTH, default.strength, |text| {
                 let zero = || number(text, 0.0..=0.0);
                 number(text, 1e-12..=1e12).or_else(zero).map(Some)
             })?,
-            refit: settings.value(&REFIT, default.refit, |text| text.parse().ok())?,
+            refit: settings.refit()?,
         })
     }
 

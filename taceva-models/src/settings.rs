@@ -19,6 +19,16 @@ pub struct SettingInfo {
     pub about: &'static str,
 }
 
+impl SettingInfo {
+    /// For models that choose settings on the validation part, where there is one.
+    pub(crate) const REFIT: SettingInfo = SettingInfo {
+        key: "refit",
+        accepts: "true or false",
+        default: "true",
+        about: "whether the validation part is learnt from too, once the settings are chosen",
+    };
+}
+
 /// Keys with their values as typed, each key once.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Settings {
@@ -115,6 +125,13 @@ impl Settings {
             found: text.into(),
             accepts: info.accepts,
         })
+    }
+}
+
+impl Settings {
+    /// What [`SettingInfo::REFIT`] is set to.
+    pub(crate) fn refit(&self) -> Result<bool, SettingError> {
+        self.value(&SettingInfo::REFIT, true, |text| text.parse().ok())
     }
 }
 

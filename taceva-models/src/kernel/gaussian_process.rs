@@ -7,7 +7,7 @@ use taceva_core::{Estimator, Features, ModelError, Progress, Regressor, Training
 
 use super::regressor::KernelRegressor;
 use super::uncertainty::Uncertainty;
-use super::{Kernel, LANDMARKS, LENGTH, Mapped, REFIT, SCALE};
+use super::{Kernel, Mapped};
 use crate::choice::{ChannelChoice, Choice, ChosenBy, rmse};
 use crate::features::FeatureSpec;
 use crate::fit::{ModelEstimator, ModelFit, ModelRegressor};
@@ -37,9 +37,8 @@ impl GaussianProcess {
     pub const INFO: ModelInfo = ModelInfo {
         name: "gaussian-process",
         about: "a Gaussian process on landmarks: says how sure it is of every prediction",
-        settings: &[SCALE, LENGTH, LANDMARKS, REFIT],
-        reads_features: true,
-        features: FeatureSpec::DEFAULT,
+        settings: Kernel::SETTINGS,
+        features: Some(FeatureSpec::DEFAULT),
         make: |settings| Ok(Box::new(GaussianProcess::from_settings(settings)?)),
     };
 
@@ -51,7 +50,7 @@ impl GaussianProcess {
         settings.check_keys(GaussianProcess::INFO.settings)?;
         Ok(GaussianProcess {
             kernel: Kernel::from_settings(settings)?,
-            refit: settings.value(&REFIT, true, |text| text.parse().ok())?,
+            refit: settings.refit()?,
         })
     }
 }

@@ -2,7 +2,7 @@
 
 use taceva_core::{Estimator, ModelError, Progress, Regressor, TrainingSet};
 
-use super::{Kernel, LANDMARKS, LENGTH, Mapped, REFIT, SCALE};
+use super::{Kernel, Mapped};
 use crate::features::FeatureSpec;
 use crate::fit::{ModelEstimator, ModelFit, ModelRegressor};
 use crate::linear::{LinearEstimator, LinearFit};
@@ -32,9 +32,8 @@ impl KernelRidge {
     pub const INFO: ModelInfo = ModelInfo {
         name: "kernel-ridge",
         about: "ridge regression of a kernel: bends where pictures bend, as sure-footed as ridge",
-        settings: &[SCALE, LENGTH, LANDMARKS, REFIT],
-        reads_features: true,
-        features: FeatureSpec::DEFAULT,
+        settings: Kernel::SETTINGS,
+        features: Some(FeatureSpec::DEFAULT),
         make: |settings| Ok(Box::new(KernelRidge::from_settings(settings)?)),
     };
 
@@ -46,7 +45,7 @@ impl KernelRidge {
         settings.check_keys(KernelRidge::INFO.settings)?;
         Ok(KernelRidge {
             kernel: Kernel::from_settings(settings)?,
-            refit: settings.value(&REFIT, true, |text| text.parse().ok())?,
+            refit: settings.refit()?,
         })
     }
 }

@@ -9,7 +9,7 @@ use taceva_core::{Estimator, Features, ModelError, Progress, Regressor, Training
 use self::descent::{Tube, descend};
 use super::regressor::KernelRegressor;
 use super::ridge::fit_best;
-use super::{Kernel, LANDMARKS, LENGTH, REFIT, SCALE};
+use super::{Kernel, LANDMARKS, LENGTH};
 use crate::features::FeatureSpec;
 use crate::fit::{ModelEstimator, ModelFit, ModelRegressor};
 use crate::linalg::{Design, FeatureScale};
@@ -57,9 +57,15 @@ impl SupportVectors {
     pub const INFO: ModelInfo = ModelInfo {
         name: "svr",
         about: "support vector regression: a few wrong labels do not bend it",
-        settings: &[SCALE, LENGTH, LANDMARKS, COST, TUBE, REFIT],
-        reads_features: true,
-        features: FeatureSpec::DEFAULT,
+        settings: &[
+            FeatureScale::SETTING,
+            LENGTH,
+            LANDMARKS,
+            COST,
+            TUBE,
+            SettingInfo::REFIT,
+        ],
+        features: Some(FeatureSpec::DEFAULT),
         make: |settings| Ok(Box::new(SupportVectors::from_settings(settings)?)),
     };
 
@@ -73,7 +79,7 @@ impl SupportVectors {
             kernel: Kernel::from_settings(settings)?,
             cost: settings.value(&COST, None, |text| number(text, 1e-6..=1e6).map(Some))?,
             tube: settings.value(&TUBE, 0.01, |text| number(text, 0.0..=1.0))?,
-            refit: settings.value(&REFIT, true, |text| text.parse().ok())?,
+            refit: settings.refit()?,
         })
     }
 

@@ -6,7 +6,7 @@ use faer::{Mat, MatRef};
 use rayon::prelude::*;
 use taceva_core::Features;
 
-use crate::settings::SettingInfo;
+use crate::settings::{SettingError, SettingInfo, Settings};
 
 use super::gram::{add_product, slabs};
 
@@ -32,13 +32,17 @@ impl FeatureScale {
         about: "whether each feature is divided by its standard deviation over the training part",
     };
 
-    /// The scale written as `name`.
-    pub(crate) fn from_name(name: &str) -> Option<FeatureScale> {
-        match name {
-            "none" => Some(FeatureScale::None),
-            "unit" => Some(FeatureScale::Unit),
-            _ => None,
-        }
+    /// The scale that `settings` ask for.
+    pub(crate) fn from_settings(settings: &Settings) -> Result<FeatureScale, SettingError> {
+        settings.value(
+            &FeatureScale::SETTING,
+            FeatureScale::default(),
+            |name| match name {
+                "none" => Some(FeatureScale::None),
+                "unit" => Some(FeatureScale::Unit),
+                _ => None,
+            },
+        )
     }
 }
 

@@ -120,8 +120,7 @@ macro_rules! info {
             name: $name,
             about: $about,
             settings: SETTINGS,
-            reads_features: true,
-            features: FEATURES,
+            features: Some(FEATURES),
             make: |settings| Ok(Box::new(NetworkEstimator::from_settings($kind, settings)?)),
         }
     };

@@ -84,21 +84,23 @@ const SEED: SettingInfo = SettingInfo {
     default: "1",
     about: "what features are drawn from",
 };
-const REFIT: SettingInfo = SettingInfo {
-    key: "refit",
-    accepts: "true or false",
-    default: "true",
-    about: "whether the validation part is learnt from too, once the numbers are chosen",
-};
 
 impl GradientBoosting {
     /// What the registry says of it.
     pub const INFO: ModelInfo = ModelInfo {
         name: "gradient-boosting",
         about: "trees that each mend what those before left",
-        settings: &[TREES, MOST, RATE, SHARE, DEPTH, LEAF, SEED, REFIT],
-        reads_features: true,
-        features: FeatureSpec::DEFAULT,
+        settings: &[
+            TREES,
+            MOST,
+            RATE,
+            SHARE,
+            DEPTH,
+            LEAF,
+            SEED,
+            SettingInfo::REFIT,
+        ],
+        features: Some(FeatureSpec::DEFAULT),
         make: |settings| Ok(Box::new(GradientBoosting::from_settings(settings)?)),
     };
 
@@ -118,7 +120,7 @@ impl GradientBoosting {
                 leaf: settings.value(&LEAF, 5, |text| number(text, 1..=10_000))?,
             },
             seed: settings.value(&SEED, 1, |text| text.parse().ok())?,
-            refit: settings.value(&REFIT, true, |text| text.parse().ok())?,
+            refit: settings.refit()?,
         })
     }
 

@@ -69,8 +69,7 @@ impl RandomForest {
         name: "random-forest",
         about: "the mean of many trees: no scale to choose, and hard to upset",
         settings: &[TREES, SHARE, DEPTH, LEAF, SEED],
-        reads_features: true,
-        features: FeatureSpec::DEFAULT,
+        features: Some(FeatureSpec::DEFAULT),
         make: |settings| Ok(Box::new(RandomForest::from_settings(settings)?)),
     };
 

@@ -1,0 +1,79 @@
+//! What some models promise beyond what all do.
+
+use taceva_core::Features;
+
+use crate::blobs::{SHAPE, recording};
+use crate::case::{case_of, predict};
+
+#[test]
+fn a_gaussian_process_knows_how_sure_it_is() {
+    let (training, test) = (recording(200, 31), recording(200, 32));
+    let regressor = case_of("gaussian-process")
+        .fitted(&training, None)
+        .regressor;
+    let found = predict(&regressor, &test.features);
+    let deviations = regressor.deviations(&test.features).expect("its shape");
+    let deviations = deviations.expect("known");
+    let errors = found.iter().zip(&test.labels).map(|(a, b)| (a - b).abs());
+    let inside = errors
+        .zip(&deviations)
+        .filter(|(error, deviation)| *error < 1.96 * **deviation);
+    let coverage = inside.count() as f64 / found.len() as f64;
+    // 0.95 is nominal; its landmarks are all the samples there are.
+    assert!((0.85..=1.0).contains(&coverage), "{coverage}");
+    // A picture without any blob is like none that was learnt from.
+    let empty = Features::new(SHAPE, vec![0.2; SHAPE.len()]).expect("one sample");
+    let unsure = regressor
+        .deviations(&empty)
+        .expect("its shape")
+        .expect("known");
+    let mut sorted = deviations;
+    sorted.sort_by(f64::total_cmp);
+    assert!(unsure[0] > 2.0 * sorted[sorted.len() / 2], "{unsure:?}");
+    let other = case_of("kernel-ridge").fitted(&training, None).regressor;
+    assert!(other.deviations(&empty).expect("its shape").is_none());
+}
+
+#[test]
+fn what_was_never_seen_is_not_extrapolated_beyond_the_bounds() {
+    let training = recording(60, 33);
+    let model = case_of("ridge").model(&training, None);
+    let glaring = training.features.values().iter().map(|value| 50.0 * value);
+    let glaring = Features::new(SHAPE, glaring.collect()).expect("whole samples");
+    let found = model.predict(&glaring).expect("finite");
+    let counts = model.bounded(&found);
+    assert!(counts.iter().sum::<usize>() > 60, "{counts:?}");
+    for (position, count) in counts.into_iter().enumerate() {
+        let [least, greatest] = model.bounds(position).expect("a new model");
+        let card = &model.card().channels[position];
+        assert!((least - (card.minimum - 0.25 * card.span)).abs() < 1e-9);
+        let own = found.iter().skip(position).step_by(2);
+        let on_bound = own.filter(|value| **value <= least || **value >= greatest);
+        assert_eq!(on_bound.count(), count);
+    }
+    let seen = model.predict(&training.features).expect("finite");
+    assert_eq!(model.bounded(&seen), [0, 0]);
+}
+
+#[test]
+fn a_choice_among_models_says_what_was_tried_and_keeps_the_one_it_took() {
+    let training = recording(40, 34);
+    let model = case_of("auto").model(&training, None);
+    let card = model.card();
+    let auto = card.auto.as_ref().expect("chosen");
+    let best = auto.best().expect("tried");
+    assert_eq!(
+        (best.model.as_str(), card.model.as_str()),
+        ("ridge", "ridge")
+    );
+    assert!(auto.tried.iter().any(|trial| trial.model == "baseline"));
+    let unaffordable = auto
+        .untried
+        .iter()
+        .find(|untried| untried.model == "resnet34");
+    assert_eq!(unaffordable.expect("untried").reason, "beyond the budget");
+    let said = auto.to_string();
+    assert!(said.starts_with("auto took ridge: error 0."), "{said}");
+    let alone = case_of("ridge").model(&training, None);
+    assert_eq!(model.regressor(), alone.regressor());
+}

@@ -1,0 +1,178 @@
+//! The models as the suite fits them.
+
+use taceva_core::{Features, ModelError, Regressor, Silent};
+use taceva_models::{
+    FeatureSpec, FitInput, Model, ModelEstimator, ModelFit, Provenance, Settings, find,
+};
+
+use crate::blobs::{FRAME, Recording};
+
+/// A model as the suite fits it, and what it promises beyond what all do.
+pub(crate) struct Case {
+    pub(crate) name: &'static str,
+    /// Settings that make it quick.
+    pub(crate) words: &'static [&'static str],
+    /// Samples without which it cannot be fitted.
+    pub(crate) least: usize,
+    /// How far predictions may move, relative to the largest, where training samples come in another order; `None` where the order is
+    /// part of what is drawn.
+    pub(crate) order: Option<f64>,
+    /// Whether it is but a deeper form of another, which stands for it where every model is fitted several times.
+    pub(crate) deeper: bool,
+    /// Whether principal components may take the place of pixels.
+    pub(crate) components: bool,
+    /// The largest root mean square error on the blobs, whose labels deviate by 4.
+    pub(crate) error: f64,
+}
+
+const fn case(name: &'static str, words: &'static [&'static str], error: f64) -> Case {
+    Case {
+        name,
+        words,
+        least: 2,
+        order: Some(1e-9),
+        deeper: false,
+        components: true,
+        error,
+    }
+}
+
+const fn network(name: &'static str) -> Case {
+    Case {
+        least: 8,
+        order: None,
+        components: false,
+        ..case(name, &["epochs=1", "batch=8"], f64::INFINITY)
+    }
+}
+
+pub(crate) const CASES: &[Case] = &[
+    case("baseline", &[], 5.0),
+    case("ridge", &[], 0.6),
+    case("pls", &[], 0.6),
+    // The path ends where a sweep changes little, wherever it started.
+    Case {
+        order: Some(1e-3),
+        ..case("elastic-net", &[], 0.9)
+    },
+    // Samples are compared in single precision.
+    Case {
+        order: Some(1e-4),
+        ..case("kernel-ridge", &[], 0.4)
+    },
+    Case {
+        order: None,
+        ..case("svr", &[], 0.6)
+    },
+    Case {
+        order: Some(1e-4),
+        ..case("gaussian-process", &[], 0.4)
+    },
+    Case {
+        order: Some(1e-5),
+        ..case("knn", &[], 1.0)
+    },
+    Case {
+        order: None,
+        ..case("random-forest", &["trees=40"], 1.5)
+    },
+    Case {
+        order: None,
+        ..case("gradient-boosting", &["most=40"], 1.5)
+    },
+    network("cnn"),
+    network("resnet10"),
+    Case {
+        deeper: true,
+        ..network("resnet18")
+    },
+    Case {
+        deeper: true,
+        ..network("resnet34")
+    },
+    Case {
+        least: 5,
+        order: None,
+        ..case("auto", &["budget_s=0.02"], 0.6)
+    },
+];
+
+pub(crate) fn case_of(name: &str) -> &'static Case {
+    let mut cases = CASES.iter();
+    cases.find(|case| case.name == name).expect("listed")
+}
+
+impl Case {
+    pub(crate) fn estimator(&self) -> Box<dyn ModelEstimator> {
+        let settings = Settings::parse(self.words.iter().copied()).expect("well formed");
+        let info = find(self.name).expect("registered");
+        info.estimator(&settings).expect("valid settings")
+    }
+
+    pub(crate) fn fit(
+        &self,
+        training: &Recording,
+        held: Option<&Recording>,
+    ) -> Result<ModelFit, ModelError> {
+        let held = held.map(Recording::set);
+        self.estimator()
+            .fit_model(&training.set(), held.as_ref(), &Silent)
+    }
+
+    pub(crate) fn fitted(&self, training: &Recording, held: Option<&Recording>) -> ModelFit {
+        self.fit(training, held)
+            .unwrap_or_else(|error| panic!("{}: {error}", self.name))
+    }
+
+    pub(crate) fn refusal(&self, training: &Recording, held: Option<&Recording>) -> String {
+        match self.fit(training, held) {
+            Ok(_) => panic!("{} accepted what it should refuse", self.name),
+            Err(error) => error.to_string(),
+        }
+    }
+
+    pub(crate) fn model(&self, training: &Recording, pca: Option<u32>) -> Model {
+        self.try_model(training, pca)
+            .unwrap_or_else(|error| panic!("{}: {error}", self.name))
+    }
+
+    pub(crate) fn try_model(
+        &self,
+        training: &Recording,
+        pca: Option<u32>,
+    ) -> Result<Model, ModelError> {
+        let settings = Settings::parse(self.words.iter().copied()).expect("well formed");
+        let estimator = self.estimator();
+        let features = FeatureSpec {
+            width: 24,
+            height: 20,
+            pca,
+            ..FeatureSpec::default()
+        };
+        let input = FitInput {
+            estimator: &*estimator,
+            settings: &settings,
+            features,
+            frame: FRAME,
+            training: training.set(),
+            validation: None,
+            provenance: Provenance::default(),
+        };
+        Model::fit(input, &Silent)
+    }
+}
+
+pub(crate) fn predict(regressor: &dyn Regressor, features: &Features) -> Vec<f64> {
+    let mut into = vec![0.0; features.samples() * regressor.channels().len()];
+    regressor.predict(features, &mut into).expect("finite");
+    into
+}
+
+pub(crate) fn bits(values: &[f64]) -> Vec<u64> {
+    values.iter().map(|value| value.to_bits()).collect()
+}
+
+pub(crate) fn rms(found: &[f64], labels: &[f64]) -> f64 {
+    let errors = found.iter().zip(labels).map(|(a, b)| (a - b).powi(2));
+    (errors.sum::<f64>() / found.len() as f64).sqrt()
+}

@@ -1,0 +1,151 @@
+//! What networks promise beyond what all models do.
+
+use taceva_core::{Frame, Silent};
+use taceva_models::{Model, ModelEstimator, ModelRegressor, Settings, find};
+
+use crate::blobs::{FRAME, numbers, recording};
+use crate::case::{case_of, predict, rms};
+
+const NETWORKS: [&str; 4] = ["cnn", "resnet10", "resnet18", "resnet34"];
+
+fn estimator(name: &str, words: &[&str]) -> Box<dyn ModelEstimator> {
+    let settings = Settings::parse(words.iter().copied()).expect("well formed");
+    find(name)
+        .expect("registered")
+        .estimator(&settings)
+        .expect("valid")
+}
+
+#[test]
+fn a_network_finds_a_blob_and_keeps_its_best_epoch() {
+    let (training, validation, test) = (recording(200, 1), recording(40, 2), recording(60, 3));
+    let words = ["epochs=30", "batch=20", "jitter=0", "local_mean=0"];
+    let fit = estimator("cnn", &words)
+        .fit_model(&training.set(), Some(&validation.set()), &Silent)
+        .expect("fits");
+    let found = predict(&fit.regressor, &test.features);
+    let rms = rms(&found, &test.labels);
+    // The labels spread by about four pixels.
+    assert!(rms < 1.0, "{rms}");
+    let kept = fit.choice.channels[0].rmse.expect("measured");
+    assert!(kept < 1.0 && fit.choice.setting.as_deref() == Some("epoch"));
+}
+
+#[test]
+fn a_constant_label_is_predicted_exactly_by_the_deepest() {
+    let mut training = recording(16, 1);
+    training
+        .labels
+        .iter_mut()
+        .skip(1)
+        .step_by(2)
+        .for_each(|label| *label = 0.1);
+    for name in NETWORKS {
+        let fit = estimator(name, &["epochs=1", "batch=8"])
+            .fit_model(&training.set(), None, &Silent)
+            .expect("fits");
+        let found = predict(&fit.regressor, &training.features);
+        assert!(
+            found
+                .iter()
+                .skip(1)
+                .step_by(2)
+                .all(|value| value.to_bits() == 0.1_f64.to_bits()),
+            "{name}"
+        );
+        assert!(found[0].to_bits() != found[2].to_bits(), "{name}");
+    }
+    training.labels.iter_mut().for_each(|label| *label = -2.5);
+    let fit = estimator("cnn", &["epochs=1", "batch=8"])
+        .fit_model(&training.set(), None, &Silent)
+        .expect("fits");
+    let found = predict(&fit.regressor, &training.features);
+    assert!(
+        found
+            .iter()
+            .all(|value| value.to_bits() == (-2.5_f64).to_bits())
+    );
+}
+
+#[test]
+fn fewer_samples_than_a_batch_are_refused() {
+    let training = recording(16, 1);
+    for name in NETWORKS {
+        let few = estimator(name, &["batch=17"]).fit_model(&training.set(), None, &Silent);
+        let said = few.expect_err("too few").to_string();
+        assert_eq!(said, "16 training samples, a batch takes 17");
+    }
+}
+
+#[test]
+fn a_setting_that_no_network_has_is_refused_with_the_nearest() {
+    let settings = Settings::parse(["epoch=3"]).expect("well formed");
+    let error = find("cnn").expect("registered").estimator(&settings).err();
+    assert_eq!(
+        error.expect("refused").to_string(),
+        "`epoch`: unknown key, did you mean `epochs`?"
+    );
+}
+
+#[test]
+fn weights_have_the_names_of_torchvision() {
+    let resnet = case_of("resnet10").model(&recording(24, 1), None);
+    let ModelRegressor::Network(network) = resnet.regressor() else {
+        panic!("a network")
+    };
+    let tensors = network.tensors();
+    let running = "layer2.0.downsample.1.running_var";
+    assert!(tensors.iter().any(|tensor| tensor.name == running));
+}
+
+#[test]
+fn components_are_no_picture() {
+    let error = case_of("cnn")
+        .try_model(&recording(24, 1), Some(4))
+        .expect_err("refused");
+    assert_eq!(
+        error.to_string(),
+        "a network reads pictures, and principal components are none"
+    );
+}
+
+#[test]
+fn no_damaged_network_panics_or_opens_as_something_else() {
+    let model = case_of("cnn").model(&recording(24, 1), None);
+    let bytes = model.to_bytes().expect("small");
+    let header = usize::from(u16::from_le_bytes([bytes[0], bytes[1]])) + 8;
+    let mut next = numbers(11);
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "a place below the bound"
+    )]
+    let mut below = |bound: usize| (next() * bound as f64) as usize;
+    for _ in 0..3_000 {
+        let mut damaged = bytes.clone();
+        // Most of the damage where the file says what it is.
+        for _ in 0..=below(3) {
+            let within = if below(4) > 0 { header } else { bytes.len() };
+            damaged[below(within)] = u8::try_from(below(256)).expect("a byte");
+        }
+        if let Ok(opened) = Model::from_bytes(&damaged) {
+            let ModelRegressor::Network(network) = opened.regressor() else {
+                panic!("a network")
+            };
+            assert!(
+                network
+                    .tensors()
+                    .iter()
+                    .flat_map(|tensor| &tensor.values)
+                    .all(|value| value.is_finite())
+            );
+        }
+    }
+    let frames = [Frame::new(FRAME, vec![7; 48 * 40]).expect("whole")];
+    let extractor = model.extractor(FRAME, None).expect("its own frames");
+    assert!(
+        model
+            .predict(&extractor.extract_all(&frames).expect("one kind"))
+            .is_ok()
+    );
+}

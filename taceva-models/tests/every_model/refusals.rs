@@ -1,0 +1,99 @@
+//! What cannot be learnt from, and a fit that is cancelled.
+
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use taceva_core::{ErrorKind, FeatureShape, Features, Progress, Regressor};
+
+use crate::blobs::{Recording, SHAPE, recording};
+use crate::case::CASES;
+
+#[test]
+fn as_many_samples_as_are_needed_are_enough_and_one_less_is_refused() {
+    for case in CASES {
+        case.fitted(&recording(case.least, 7), None);
+        let said = case.refusal(&recording(case.least - 1, 7), None);
+        let few = format!("{} training samples, ", case.least - 1);
+        assert!(said.starts_with(&few), "{}: {said}", case.name);
+    }
+}
+
+#[test]
+fn numbers_that_are_not_finite_are_refused_where_they_stand() {
+    let clean = recording(24, 8);
+    let mut values = clean.features.values().to_vec();
+    values[SHAPE.len() * 3 + 2] = f32::NAN;
+    let broken = Recording {
+        features: Features::new(SHAPE, values).expect("whole"),
+        ..clean.clone()
+    };
+    let mut mislabelled = clean.clone();
+    mislabelled.labels[2 * 5 + 1] = f64::INFINITY;
+    for case in CASES {
+        let said = case.refusal(&broken, None);
+        assert_eq!(
+            said, "training sample 3: feature 2 is not finite",
+            "{}",
+            case.name
+        );
+        let said = case.refusal(&clean, Some(&broken));
+        assert_eq!(
+            said, "validation sample 3: feature 2 is not finite",
+            "{}",
+            case.name
+        );
+        let said = case.refusal(&mislabelled, None);
+        assert_eq!(
+            said, "training sample 5: `Py` is not finite",
+            "{}",
+            case.name
+        );
+    }
+}
+
+#[test]
+fn parts_that_do_not_fit_each_other_are_refused() {
+    let training = recording(24, 9);
+    let mut other = recording(24, 9);
+    other.features = Features::new(FeatureShape::flat(20), vec![0.5; 480]).expect("whole");
+    for case in CASES {
+        let said = case.refusal(&training, Some(&other));
+        let expected = "validation samples of 20 features, training samples of 480";
+        assert_eq!(said, expected, "{}", case.name);
+        let regressor = case.fitted(&training, None).regressor;
+        let error = regressor
+            .predict(&other.features, &mut [0.0; 48])
+            .expect_err("shape");
+        assert_eq!(error.kind(), ErrorKind::InvalidArgument, "{}", case.name);
+        let error = regressor
+            .predict(&training.features, &mut [0.0; 6])
+            .expect_err("buffer");
+        assert_eq!(error.to_string(), "6 places for 24 samples of 2 channels");
+    }
+}
+
+/// Cancels after some questions.
+struct Cancel(usize, AtomicUsize);
+
+impl Progress for Cancel {
+    fn begin(&self, _stage: &str, _steps: Option<u64>) {}
+    fn advance(&self, _steps: u64) {}
+    fn end(&self) {}
+    fn is_cancelled(&self) -> bool {
+        self.1.fetch_add(1, Ordering::Relaxed) >= self.0
+    }
+}
+
+#[test]
+fn a_cancelled_fit_stops_with_an_error() {
+    let training = recording(24, 25);
+    for case in CASES.iter().filter(|case| case.name != "baseline") {
+        for after in 0..2 {
+            let progress = Cancel(after, AtomicUsize::new(0));
+            let result = case.estimator().fit_model(&training.set(), None, &progress);
+            let error = result
+                .err()
+                .unwrap_or_else(|| panic!("{} went on", case.name));
+            assert_eq!(error.kind(), ErrorKind::Interrupted, "{}", case.name);
+        }
+    }
+}
