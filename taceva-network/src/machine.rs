@@ -1,5 +1,7 @@
 //! The instructions that passes are made with: those with fused multiplication give the same bits, the portable one rounds products
 //! too and differs in last places.
+//!
+//! Chosen as `taceva-metrics` chooses its own, which have other operations: each crate proves what its own `simd/` may run.
 
 use taceva_core::Isa;
 

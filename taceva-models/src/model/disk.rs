@@ -80,7 +80,7 @@ fn read_capped(path: &Path) -> io::Result<Vec<u8>> {
 fn write_whole(path: &Path, bytes: &[u8]) -> io::Result<()> {
     let name = path.file_name().ok_or(io::ErrorKind::InvalidFilename)?;
     let beside = path.with_file_name(format!(
-        ".{}.{}.part",
+        ".{}.{}.partial",
         name.to_string_lossy(),
         std::process::id()
     ));

@@ -21,7 +21,7 @@ use crate::durable;
 /// Nothing of this changes what is learnt: gone on with, a training ends with the same bits as if it had not been put aside.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Checkpoints {
-    /// The file. It is written beside its place as `.<name>.part`, forced to disk and renamed.
+    /// The file. It is written beside its place as `.<name>.partial`, forced to disk and renamed.
     pub path: PathBuf,
     /// It is written after the first step that ends so long after the last time, and when the training is stopped on request.
     pub every: Duration,
@@ -69,7 +69,7 @@ impl Checkpoints {
     fn beside(&self) -> PathBuf {
         let name = self.path.file_name().unwrap_or_default();
         self.path
-            .with_file_name(format!(".{}.part", name.to_string_lossy()))
+            .with_file_name(format!(".{}.partial", name.to_string_lossy()))
     }
 
     /// The checkpoint of the training that is `identity`, if it is there.

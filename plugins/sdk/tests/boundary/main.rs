@@ -4,5 +4,6 @@ mod drivers;
 mod estimators;
 mod fake_host;
 mod mistakes;
+mod motions;
 mod places;
 mod promises;

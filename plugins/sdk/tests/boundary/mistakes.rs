@@ -65,31 +65,12 @@ fn a_panic_kills_its_handle_and_no_other() {
 #[test]
 fn a_panic_of_a_motion_leaves_its_halt_in_force() {
     let robot = Open::new(ROBOT_FACTORY, "panic");
+    let moved = robot.move_to(&motion(0.001));
+    let panicked = moved.and_then(|token| robot.wait(token, 1));
+    assert_eq!(panicked.expect_err("it panics").0, Status::PANICKED);
     let calls = robot.calls::<RobotCalls>();
-    let (asked, mut token, mut stamp) = (motion(0.001), 0, Stamp::default());
-    // SAFETY: all places live for the calls.
+    // SAFETY: the device is open.
     unsafe {
-        assert_eq!(
-            ended(|error| calls.move_to.expect("a function")(
-                robot.handle(),
-                &raw const asked,
-                &raw mut token,
-                error
-            ))
-            .0,
-            Status::OK
-        );
-        assert_eq!(
-            ended(|error| calls.wait.expect("a function")(
-                robot.handle(),
-                token,
-                &raw mut stamp,
-                1,
-                error
-            ))
-            .0,
-            Status::PANICKED
-        );
         assert_eq!(
             ended(|error| calls.halt.expect("a function")(robot.handle(), error)).0,
             Status::OK
@@ -186,7 +167,7 @@ fn numbers_that_are_not_finite_go_neither_way() {
     assert_eq!((status, wrench), (Status::DEVICE_FAULT, Wrench::default()));
     let robot = Open::new(ROBOT_FACTORY, "nan");
     let calls = robot.calls::<RobotCalls>();
-    let (mut pose, mut stamp, mut token) = (motion(0.0).target, Stamp::default(), 0);
+    let (mut pose, mut stamp) = (motion(0.0).target, Stamp::default());
     // SAFETY: all places live for the calls.
     unsafe {
         assert_eq!(
@@ -200,45 +181,24 @@ fn numbers_that_are_not_finite_go_neither_way() {
             .0,
             Status::DEVICE_FAULT
         );
-        let asked = motion(f64::NAN);
-        assert_eq!(
-            ended(|error| calls.move_to.expect("a function")(
-                robot.handle(),
-                &raw const asked,
-                &raw mut token,
-                error
-            ))
-            .0,
-            Status::INVALID_ARGUMENT
-        );
     }
+    let refused = robot.move_to(&motion(f64::NAN)).expect_err("refused");
+    assert_eq!(refused.0, Status::INVALID_ARGUMENT);
 }
 
 #[test]
 fn a_motion_is_waited_for_once_and_by_its_own_token() {
     let robot = Open::new(ROBOT_FACTORY, "well");
-    let calls = robot.calls::<RobotCalls>();
-    let (asked, mut token, mut stamp) = (motion(0.001), 0, Stamp::default());
-    let mut wait = |token| {
-        // SAFETY: the place lives for the call.
-        ended(|error| unsafe {
-            calls.wait.expect("a function")(robot.handle(), token, &raw mut stamp, 1, error)
-        })
-        .0
-    };
-    assert_eq!(wait(0), Status::INVALID_ARGUMENT);
-    // SAFETY: all places live for the call.
-    let _ = ended(|error| unsafe {
-        calls.move_to.expect("a function")(robot.handle(), &raw const asked, &raw mut token, error)
-    });
-    assert_eq!(wait(token + 1), Status::INVALID_ARGUMENT);
-    assert_eq!(wait(token), Status::OK);
-    assert_eq!(wait(token), Status::INVALID_ARGUMENT);
+    let wait = |token| robot.wait(token, 1).map_err(|(status, _)| status);
+    let invalid = Err(Status::INVALID_ARGUMENT);
+    assert_eq!(wait(0), invalid);
+    let asked = motion(0.001);
+    let token = robot.move_to(&asked).expect("it begins");
+    assert_eq!(wait(token + 1), invalid);
+    assert!(wait(token).is_ok());
+    assert_eq!(wait(token), invalid);
     let short = Motion { size: 4, ..asked };
-    // SAFETY: all places live for the call.
-    let (status, _) = ended(|error| unsafe {
-        calls.move_to.expect("a function")(robot.handle(), &raw const short, &raw mut token, error)
-    });
+    let (status, _) = robot.move_to(&short).expect_err("refused");
     assert_eq!(status, Status::ABI);
 }
 

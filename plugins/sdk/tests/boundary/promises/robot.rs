@@ -37,31 +37,14 @@ fn a_pose_goes_out_as_it_came_in_to_the_bit() {
         target,
         ..motion(0.0)
     };
-    let (mut token, mut stamp, mut pose) = (0, Stamp::default(), asked.target);
-    // SAFETY: all places live for the calls.
+    let moved = robot
+        .move_to(&asked)
+        .and_then(|token| robot.wait(token, SECOND));
+    let mut stamp = moved.expect("it moves");
+    assert_eq!(stamp.valid_ns, 2 * SECOND, "the driver was told 2 mm/s");
+    let mut pose = asked.target;
+    // SAFETY: all places live for the call.
     unsafe {
-        assert_eq!(
-            ended(|error| calls.move_to.expect("a function")(
-                robot.handle(),
-                &raw const asked,
-                &raw mut token,
-                error
-            ))
-            .0,
-            Status::OK
-        );
-        assert_eq!(
-            ended(|error| calls.wait.expect("a function")(
-                robot.handle(),
-                token,
-                &raw mut stamp,
-                SECOND,
-                error
-            ))
-            .0,
-            Status::OK
-        );
-        assert_eq!(stamp.valid_ns, 2 * SECOND, "the driver was told 2 mm/s");
         assert_eq!(
             ended(|error| calls.pose.expect("a function")(
                 robot.handle(),
@@ -84,12 +67,7 @@ fn a_pose_goes_out_as_it_came_in_to_the_bit() {
 #[test]
 fn a_motion_beyond_what_the_robot_says_of_itself_is_refused_before_it_begins() {
     let robot = Open::new(ROBOT_FACTORY, "well");
-    let move_to = robot.calls::<RobotCalls>().move_to.expect("a function");
-    let mut token = 0;
-    let mut refused = |asked: Motion| {
-        // SAFETY: both places live for the call.
-        ended(|error| unsafe { move_to(robot.handle(), &raw const asked, &raw mut token, error) })
-    };
+    let refused = |asked: Motion| robot.move_to(&asked).expect_err("refused");
     let (status, message) = refused(motion(0.9));
     assert_eq!(status, Status::OUT_OF_RANGE);
     assert_eq!(message, "0 mm, 0 mm, 900 mm lies outside the workspace");
@@ -151,26 +129,9 @@ fn a_halt_from_another_thread_stops_a_motion_and_latches() {
     let robot = Open::new(ROBOT_FACTORY, "block");
     let calls = robot.calls::<RobotCalls>();
     let go = |timeout_ns| {
-        let (asked, mut token, mut stamp) = (motion(0.001), 0, Stamp::default());
-        // SAFETY: all places live for the calls.
-        ended(|error| unsafe {
-            match calls.move_to.expect("a function")(
-                robot.handle(),
-                &raw const asked,
-                &raw mut token,
-                error,
-            ) {
-                Status::OK => calls.wait.expect("a function")(
-                    robot.handle(),
-                    token,
-                    &raw mut stamp,
-                    timeout_ns,
-                    error,
-                ),
-                refused => refused,
-            }
-        })
-        .0
+        let moved = robot.move_to(&motion(0.001));
+        let ended = moved.and_then(|token| robot.wait(token, timeout_ns));
+        ended.map_or_else(|(status, _)| status, |_| Status::OK)
     };
     thread::scope(|scope| {
         let blocked = scope.spawn(|| (go(60 * SECOND), Instant::now()));
