@@ -126,13 +126,11 @@ pub(super) fn entries(
         };
         for number in 0..count(factory.drivers)? {
             let place = Place::Driver(kind);
-            let args = abi::Args {
-                items: std::ptr::null(),
-                count: 0,
-            };
+            // As it holds for whatever arguments.
+            let args: *const abi::Args = std::ptr::null();
             let provided = described(library, (place, number), |taken, error| {
-                // SAFETY: [any], with arguments, a context and an error that outlive the call.
-                unsafe { describe(number, &raw const args, Some(take), taken, error) }
+                // SAFETY: [any], without arguments, with a context and an error that outlive the call.
+                unsafe { describe(number, args, Some(take), taken, error) }
             })?;
             let entry = Entry {
                 place,
