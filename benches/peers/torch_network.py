@@ -1,12 +1,15 @@
 """Training steps and inference of ResNet-18 in PyTorch (and inference in ONNX Runtime, where it is installed), for comparison
 with `cargo bench -p taceva-network`.
 
-usage: python3 benches/peers/torch_network.py [SIDE [THREADS [REPEATS]]]
+usage: python3 benches/peers/torch_network.py [SIDE [THREADS [REPEATS]]] [--device DEVICE]
 
 Batch 32, six outputs, mean squared error, SGD with momentum, channels_last, single precision. Printed are images a second of
 processor time (of all threads) and of the wall clock, best of REPEATS, and how much memory training takes at most beyond what
 the process has once PyTorch is loaded. On a machine with other work pin both sides to the same
 processors (`taskset -c 0`) and run them in turn.
+
+With `--device cuda` the same on a GPU, by the wall clock, and without ONNX Runtime, for comparison with the example `speed` of
+taceva-gpu: pictures and labels go to the device in each step, as they do there, and the device has finished when time is taken.
 """
 import sys
 import time
@@ -20,10 +23,23 @@ import torch  # noqa: E402
 from torch_resnet import resnet18  # noqa: E402
 
 BATCH = 32
+WORDS = sys.argv[1:]
+DEVICE = torch.device("cpu")
+if "--device" in WORDS:
+    place = WORDS.index("--device")
+    DEVICE = torch.device(WORDS[place + 1])
+    del WORDS[place:place + 2]
 
 
 def best(repeats, work):
     """The least processor and wall seconds of `work`, after one warm-up."""
+    if DEVICE.type == "cuda":
+        on_host, wait = work, torch.cuda.synchronize
+
+        def work():
+            on_host()
+            wait()
+
     work()
     busy, wall = [], []
     for _ in range(repeats):
@@ -47,24 +63,28 @@ def resident(key):
 
 def main():
     before = resident("VmRSS:")
-    side, threads, repeats = (int(word) for word in (sys.argv[1:] + ["64", "1", "10"][len(sys.argv) - 1:]))
+    side, threads, repeats = (int(word) for word in (WORDS + ["64", "1", "10"][len(WORDS):]))
     torch.set_num_threads(threads)
     torch.manual_seed(1)
-    model = resnet18(6).to(memory_format=torch.channels_last)
+    model = resnet18(6).to(DEVICE, memory_format=torch.channels_last)
     pictures = torch.rand(BATCH, 3, side, side).to(memory_format=torch.channels_last)
     labels = torch.rand(BATCH, 6)
     optimizer = torch.optim.SGD(model.parameters(), lr=1e-3, momentum=0.9, weight_decay=1e-4)
 
     def step():
         optimizer.zero_grad(set_to_none=True)
-        torch.nn.functional.mse_loss(model(pictures), labels).backward()
+        torch.nn.functional.mse_loss(model(pictures.to(DEVICE)), labels.to(DEVICE)).backward()
         optimizer.step()
 
+    if DEVICE.type != "cpu":
+        print(f"on {torch.cuda.get_device_name(DEVICE) if DEVICE.type == 'cuda' else DEVICE}")
     tell("PyTorch channels_last, training", side, best(repeats, step))
     print(f"memory of training at most beyond PyTorch {side}² {resident('VmHWM:') - before:9.1f} MiB")
     model.eval()
     with torch.no_grad():
-        tell("PyTorch channels_last, inference", side, best(repeats, lambda: model(pictures)))
+        tell("PyTorch channels_last, inference", side, best(repeats, lambda: model(pictures.to(DEVICE)).cpu()))
+        if DEVICE.type != "cpu":
+            return
         frozen = torch.jit.optimize_for_inference(torch.jit.trace(model, pictures))
         frozen(pictures)
         tell("PyTorch frozen, inference", side, best(repeats, lambda: frozen(pictures)))

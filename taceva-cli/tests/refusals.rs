@@ -23,6 +23,15 @@ fn arguments_that_cannot_be_meant_are_usage_errors() {
         ),
         ("evaluate data --model ridge --set size=0", "size=0"),
         (
+            "evaluate data --model cnn --set device=gpu",
+            "expected cpu, cuda or wgpu",
+        ),
+        #[cfg(not(feature = "cuda"))]
+        (
+            "evaluate data --model cnn --set device=cuda",
+            "build it with `--features cuda`",
+        ),
+        (
             "evaluate data --model ridge --metrics smap",
             "did you mean `smape`?",
         ),

@@ -5,6 +5,7 @@ use std::fmt;
 use std::str::FromStr;
 
 use taceva_core::ArgError;
+use taceva_gpu::{GpuError, GpuKind};
 
 /// One thing that may be set: its key, what it means and what it accepts, for help texts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -215,6 +216,14 @@ pub enum SettingError {
         found: String,
         /// What would be accepted.
         accepts: &'static str,
+    },
+    /// A device that this program cannot reach.
+    #[error("`device={kind}`: {source}")]
+    Device {
+        /// How it would be reached.
+        kind: GpuKind,
+        /// Why it cannot be.
+        source: GpuError,
     },
     /// A setting that the estimator of a plugin does not take.
     #[error(transparent)]

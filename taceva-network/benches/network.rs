@@ -90,7 +90,7 @@ fn measure(side: usize, threads: usize, repeats: usize, before: Option<f64>) {
         );
     }
 
-    let network = trainer.finish().network;
+    let network = trainer.finish().expect("at hand").network;
     let mut predictor = network.predictor();
     let mut outputs = [0.0; BATCH * OUTPUTS];
     let all = || predictor.predict(&pictures, &mut outputs).expect("finite");

@@ -92,13 +92,21 @@ impl Pooling {
 
 /// A part of a network that is passed as a whole.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum StagePlan {
+pub enum StagePlan {
     /// A convolution of 7 × 7 with stride 2, then the greatest of 3 × 3 with stride 2.
-    Stem { channels: usize },
+    Stem {
+        /// Channels it gives.
+        channels: usize,
+    },
     /// A convolution.
     Plain(PlainLayer),
-    /// Two convolutions of 3 × 3 and what leads past them.
-    Block { channels: usize, stride: usize },
+    /// Two convolutions of 3 × 3 and what leads past them: a convolution of 1 × 1 where pictures change their shape.
+    Block {
+        /// Channels it gives.
+        channels: usize,
+        /// Pixels from one place of the first kernel to the next.
+        stride: usize,
+    },
 }
 
 impl Depth {
@@ -228,7 +236,7 @@ impl Architecture {
     }
 
     /// Its parts in order.
-    pub(crate) fn stages(&self) -> Vec<StagePlan> {
+    pub fn stages(&self) -> Vec<StagePlan> {
         match &self.body {
             Body::Plain { layers, .. } => layers.iter().copied().map(StagePlan::Plain).collect(),
             Body::Residual(depth) => {
@@ -244,8 +252,8 @@ impl Architecture {
         }
     }
 
-    /// The name of each part, and what it begins the names of its tensors with.
-    pub(crate) fn stage_names(&self) -> Vec<String> {
+    /// What the names of the tensors of each part begin with.
+    pub fn stage_names(&self) -> Vec<String> {
         match &self.body {
             Body::Plain { layers, .. } => (0..layers.len())
                 .map(|layer| format!("features.{layer}."))
@@ -263,7 +271,8 @@ impl Architecture {
         }
     }
 
-    pub(crate) fn pooling(&self) -> Pooling {
+    /// How the last pictures become features.
+    pub fn pooling(&self) -> Pooling {
         match self.body {
             Body::Residual(_) => Pooling::Average,
             Body::Plain { pooling, .. } => pooling,

@@ -11,10 +11,10 @@ pub(crate) use sums::ChannelSums;
 use crate::panel::Aligned;
 
 /// What is added to a variance before its root is taken, as PyTorch does.
-const EPSILON: f64 = 1e-5;
+pub(crate) const EPSILON: f64 = 1e-5;
 
 /// The share of the newest batch in running moments, as PyTorch has it.
-const MOMENTUM: f64 = 0.1;
+pub(crate) const MOMENTUM: f64 = 0.1;
 
 /// Gain, bias and running moments of each channel.
 #[derive(Clone, Debug)]

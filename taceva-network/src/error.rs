@@ -140,6 +140,14 @@ pub enum NetworkError {
         /// What differs.
         what: String,
     },
+    /// A device that does not do what is asked of it.
+    #[error("{device}: {problem}")]
+    Device {
+        /// Which one.
+        device: String,
+        /// What it says.
+        problem: String,
+    },
     /// Room for results that has another length than there are results.
     #[error("room for {found} numbers where {expected} are written")]
     Room {

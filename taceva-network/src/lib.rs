@@ -23,16 +23,16 @@ mod stage;
 mod training;
 mod update;
 
-pub use architecture::{Architecture, Body, Depth, PlainLayer, Pooling};
+pub use architecture::{Architecture, Body, Depth, PlainLayer, Pooling, StagePlan};
 pub use error::{NetworkError, Part};
 pub use loss::Loss;
 pub use network::{Gradients, NamedTensor, Network};
-pub use optimizer::Optimizer;
+pub use optimizer::{Adam, Momentum, Optimizer, Rule};
 pub use planes::Picture;
 pub use predictor::Predictor;
 pub use schedule::Schedule;
 pub use taceva_core::{Isa, IsaError};
 pub use training::{
-    Augmentation, Breakage, Checkpoint, Epoch, Jitter, LabelScale, LabelScaling, Labels, Recipe,
-    Samples, Step, Summary, Trained, Trainer, TrainingState,
+    Augmentation, Batch, Breakage, Checkpoint, Engine, Epoch, Jitter, LabelScale, LabelScaling,
+    Labels, Moments, Recipe, Samples, Snapshot, Step, Summary, Trained, Trainer, TrainingState,
 };

@@ -2,6 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::training::Labels;
+
 /// A measure of how far outputs are from labels, with the mean over samples and outputs.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
@@ -20,30 +22,23 @@ pub enum Loss {
     CrossEntropy,
 }
 
-/// What the outputs of some samples should be.
-#[derive(Clone, Copy, Debug)]
-pub(crate) enum Truth<'a> {
-    /// `[samples, outputs]`.
-    Values(&'a [f64]),
-    /// `[samples]`.
-    Classes(&'a [u32]),
-}
-
 impl Loss {
     /// The loss of some samples, and its gradient.
     ///
     /// # Shapes
     /// `outputs`, `gradient`: `[samples, width]`.
-    pub(crate) fn measure(
+    /// # Panics
+    /// If classes are measured by a distance, or numbers by cross entropy: [`Trainer`](crate::Trainer) refuses both before.
+    pub fn measure(
         self,
         (outputs, width): (&[f64], usize),
-        truth: Truth<'_>,
+        truth: Labels<'_>,
         gradient: &mut Vec<f64>,
     ) -> f64 {
         gradient.clear();
         let count = outputs.len() as f64;
         match (self, truth) {
-            (Loss::CrossEntropy, Truth::Classes(classes)) => {
+            (Loss::CrossEntropy, Labels::Classes(classes)) => {
                 let samples = classes.len() as f64;
                 let mut loss = 0.0;
                 for (outputs, class) in outputs.chunks_exact(width).zip(classes) {
@@ -57,7 +52,7 @@ impl Loss {
                 }
                 loss / samples
             }
-            (Loss::SquaredError, Truth::Values(labels)) => {
+            (Loss::SquaredError, Labels::Values(labels)) => {
                 let mut loss = 0.0;
                 for (output, label) in outputs.iter().zip(labels) {
                     let distance = output - label;
@@ -66,7 +61,7 @@ impl Loss {
                 }
                 loss / count
             }
-            (Loss::Huber { delta }, Truth::Values(labels)) => {
+            (Loss::Huber { delta }, Labels::Values(labels)) => {
                 let mut loss = 0.0;
                 for (output, label) in outputs.iter().zip(labels) {
                     let distance = output - label;
@@ -79,7 +74,7 @@ impl Loss {
                 }
                 loss / count
             }
-            (Loss::CrossEntropy, Truth::Values(_)) | (_, Truth::Classes(_)) => {
+            (Loss::CrossEntropy, Labels::Values(_)) | (_, Labels::Classes(_)) => {
                 unreachable!("a recipe is checked against the labels")
             }
         }

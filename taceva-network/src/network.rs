@@ -9,6 +9,7 @@ pub use tensors::NamedTensor;
 use taceva_core::Isa;
 
 use crate::architecture::{Architecture, StagePlan};
+use crate::batch_norm;
 use crate::error::NetworkError;
 use crate::head::Head;
 use crate::machine::Machine;
@@ -39,6 +40,12 @@ pub(crate) struct TrainingSpace {
 }
 
 impl Network {
+    /// What is added to the variance of a batch before its root is taken, as PyTorch does.
+    pub const NORM_EPSILON: f64 = batch_norm::EPSILON;
+
+    /// The share of the newest batch in running moments, as PyTorch has it.
+    pub const NORM_MOMENTUM: f64 = batch_norm::MOMENTUM;
+
     /// A network with random weights, drawn as torchvision draws them: each convolution's from a normal distribution of
     /// variance 2 / (kernel² · outputs), the last layer's evenly within ±1/√features.
     ///

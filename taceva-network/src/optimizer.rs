@@ -121,38 +121,49 @@ impl Update for Descent<'_> {
 }
 
 /// The numbers of one step.
-enum Rule {
+#[derive(Clone, Copy, Debug)]
+pub enum Rule {
+    /// Those of [`Optimizer::Sgd`].
     Momentum(Momentum),
+    /// Those of [`Optimizer::AdamW`].
     Adam(Adam),
 }
 
-#[derive(Clone, Copy)]
-struct Momentum {
-    momentum: f32,
-    decay: f32,
-    rate: f32,
+/// v ← `momentum` · v + g + `decay` · w, w ← w − `rate` · v.
+#[derive(Clone, Copy, Debug)]
+pub struct Momentum {
+    /// What is left of the last velocity.
+    pub momentum: f32,
+    /// The decay of weights.
+    pub decay: f32,
+    /// The rate of the step.
+    pub rate: f32,
 }
 
-#[derive(Clone, Copy)]
-struct Adam {
+/// m ← β₁ · m + `news.0` · g, s ← β₂ · s + `news.1` · g², w ← `keep` · w − `step` · m / (√s · `correction` + `epsilon`).
+#[derive(Clone, Copy, Debug)]
+pub struct Adam {
     /// What is left of weights.
-    keep: f32,
-    betas: (f32, f32),
+    pub keep: f32,
+    /// What is left of the means, β₁ and β₂.
+    pub betas: (f32, f32),
     /// What the means get of the newest.
-    news: (f32, f32),
+    pub news: (f32, f32),
     /// 1 / √(1 − β₂ⁿ).
-    correction: f32,
-    epsilon: f32,
+    pub correction: f32,
+    /// What is added to the root of the mean square.
+    pub epsilon: f32,
     /// rate / (1 − β₁ⁿ).
-    step: f32,
+    pub step: f32,
 }
 
 impl Rule {
+    /// Those of step `steps`, counted from 1, at `rate`.
     #[expect(
         clippy::cast_possible_truncation,
         reason = "factors are formed in double precision and applied in single"
     )]
-    fn new(optimizer: Optimizer, rate: f64, steps: u64) -> Rule {
+    pub fn new(optimizer: Optimizer, rate: f64, steps: u64) -> Rule {
         match optimizer {
             Optimizer::Sgd {
                 momentum,

@@ -1,5 +1,6 @@
 //! Pictures in memory: how they lie, and a batch of them.
 
+use crate::error::{NetworkError, Part};
 use crate::panel::Aligned;
 
 /// The size of a picture and how many numbers a pixel has.
@@ -25,6 +26,39 @@ impl Picture {
     /// Whether a picture has no number.
     pub const fn is_empty(&self) -> bool {
         self.len() == 0
+    }
+
+    /// Whether `pictures` are such ones, finite, and `into` has room for `outputs` numbers of each.
+    ///
+    /// # Errors
+    /// [`NetworkError`], saying what is not so.
+    pub fn check_prediction(
+        self,
+        pictures: &[f32],
+        outputs: usize,
+        into: &[f64],
+    ) -> Result<(), NetworkError> {
+        if !pictures.len().is_multiple_of(self.len()) {
+            return Err(NetworkError::Pictures {
+                values: pictures.len(),
+                expected: self,
+            });
+        }
+        let expected = pictures.len() / self.len() * outputs;
+        if into.len() != expected {
+            return Err(NetworkError::Room {
+                found: into.len(),
+                expected,
+            });
+        }
+        match pictures.iter().position(|value| !value.is_finite()) {
+            None => Ok(()),
+            Some(position) => Err(NetworkError::PictureNotFinite {
+                part: Part::Prediction,
+                picture: position / self.len(),
+                position: position % self.len(),
+            }),
+        }
     }
 
     /// Pixels a picture.

@@ -2,7 +2,7 @@
 
 use crate::architecture::StagePlan;
 use crate::convolution::{ConvolutionWeights, Epilogue, Forward, Source};
-use crate::error::{NetworkError, Part};
+use crate::error::NetworkError;
 use crate::head::Head;
 use crate::machine::Machine;
 use crate::max_pool;
@@ -104,28 +104,8 @@ impl Predictor {
     /// # Errors
     /// [`NetworkError`] if a length differs or a number is not finite.
     pub fn predict(&mut self, pictures: &[f32], into: &mut [f64]) -> Result<(), NetworkError> {
-        let picture = self.input();
-        if !pictures.len().is_multiple_of(picture.len()) {
-            return Err(NetworkError::Pictures {
-                values: pictures.len(),
-                expected: picture,
-            });
-        }
-        let expected = pictures.len() / picture.len() * self.outputs();
-        if into.len() != expected {
-            return Err(NetworkError::Room {
-                found: into.len(),
-                expected,
-            });
-        }
-        if let Some(position) = pictures.iter().position(|value| !value.is_finite()) {
-            return Err(NetworkError::PictureNotFinite {
-                part: Part::Prediction,
-                picture: position / picture.len(),
-                position: position % picture.len(),
-            });
-        }
-        let outputs = self.outputs();
+        let (picture, outputs) = (self.input(), self.outputs());
+        picture.check_prediction(pictures, outputs, into)?;
         let batches = pictures.chunks(self.batch * picture.len());
         for (pictures, into) in batches.zip(into.chunks_mut(self.batch * outputs)) {
             for (position, values) in pictures.chunks_exact(picture.len()).enumerate() {

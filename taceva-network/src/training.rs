@@ -3,40 +3,42 @@
 mod augmentation;
 mod breakage;
 mod checkpoint;
+mod engine;
 mod label_scale;
+mod processor;
 mod recipe;
 mod samples;
 
 pub use augmentation::{Augmentation, Jitter};
 pub use breakage::Breakage;
 pub use checkpoint::{Checkpoint, Summary};
+pub use engine::{Batch, Engine, Moments, Snapshot};
 pub use label_scale::{LabelScale, LabelScaling};
 pub use recipe::Recipe;
 pub use samples::{Labels, Samples};
 
+use processor::Processor;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use crate::architecture::Architecture;
 use crate::error::{NetworkError, Part};
-use crate::loss::Truth;
-use crate::network::{Network, TrainingSpace};
-use crate::optimizer::{Descent, Memory};
+use crate::network::Network;
 use crate::random::Draws;
 
 /// A training that goes on.
 ///
 /// Everything drawn is a function of the recipe's seed, the epoch and the sample, so that a training that was interrupted and
-/// resumed ends with the same bits as one that was not, on any number of threads.
+/// resumed ends with the same bits as one that was not, on any number of threads. (On another device than the processor, draws
+/// are the same and sums may not be.)
 #[derive(Debug)]
 pub struct Trainer<'a> {
-    network: Network,
+    architecture: Architecture,
+    engine: Box<dyn Engine>,
     recipe: Recipe,
     training: Samples<'a>,
     validation: Option<Samples<'a>>,
     scale: LabelScale,
-    space: TrainingSpace,
-    memory: Memory,
     state: TrainingState,
     /// The network after the epoch that did best on the validation part.
     best: Option<Network>,
@@ -122,8 +124,19 @@ impl<'a> Trainer<'a> {
         training: Samples<'a>,
         validation: Option<Samples<'a>>,
     ) -> Result<Trainer<'a>, NetworkError> {
+        let moments = Moments::new();
+        let snapshot = Snapshot { network, moments };
+        Trainer::from_snapshot(&snapshot, recipe, training, validation)
+    }
+
+    fn from_snapshot(
+        snapshot: &Snapshot,
+        recipe: &Recipe,
+        training: Samples<'a>,
+        validation: Option<Samples<'a>>,
+    ) -> Result<Trainer<'a>, NetworkError> {
         recipe.check()?;
-        let architecture = network.architecture();
+        let architecture = snapshot.network.architecture();
         training.check(Part::Training, architecture, recipe.loss)?;
         if let Some(validation) = &validation {
             validation.check(Part::Validation, architecture, recipe.loss)?;
@@ -141,17 +154,43 @@ impl<'a> Trainer<'a> {
             Labels::Values(labels) => LabelScale::of(recipe.scaling, labels, architecture.outputs)?,
         };
         Ok(Trainer {
-            space: network.training_space(recipe.batch),
-            memory: Memory::new(network.slots()),
+            engine: Box::new(Processor::new(snapshot, recipe)),
+            architecture: architecture.clone(),
             state: TrainingState::default(),
             best: None,
             order: Vec::new(),
             recipe: recipe.clone(),
-            network,
             training,
             validation,
             scale,
         })
+    }
+
+    /// The same training on the engine that `begin` makes of how it stands.
+    ///
+    /// # Errors
+    /// Those of `begin`, and of the engine that it leaves.
+    pub fn on(
+        mut self,
+        begin: impl FnOnce(&Snapshot, &Recipe) -> Result<Box<dyn Engine>, NetworkError>,
+    ) -> Result<Trainer<'a>, NetworkError> {
+        self.engine = begin(&self.snapshot()?, &self.recipe)?;
+        Ok(self)
+    }
+
+    /// How it stands. Of a training that broke, the best network: weights that may not be finite are of no use to anybody, nor is
+    /// what the optimiser remembers of them.
+    fn snapshot(&self) -> Result<Snapshot, NetworkError> {
+        match (&self.best, self.state.broken) {
+            (Some(best), Some(_)) => Ok(Snapshot {
+                network: best.clone(),
+                moments: Moments::new(),
+            }),
+            _ => Ok(Snapshot {
+                network: self.engine.network()?,
+                moments: self.engine.moments()?,
+            }),
+        }
     }
 
     /// How far it has come.
@@ -161,7 +200,7 @@ impl<'a> Trainer<'a> {
 
     /// Steps of an epoch: as many whole batches as there are; the samples left over are others in each epoch.
     pub fn steps_per_epoch(&self) -> u64 {
-        (self.training.count(self.network.architecture()) / self.recipe.batch) as u64
+        (self.training.count(&self.architecture) / self.recipe.batch) as u64
     }
 
     /// Steps of the whole training, unless it stops early.
@@ -185,10 +224,6 @@ impl<'a> Trainer<'a> {
         }
         let made = self.next_step();
         self.state.broken = made.as_ref().err().and_then(Breakage::of);
-        if let (Some(_), Some(best)) = (self.state.broken, &self.best) {
-            // Weights that may not be finite are of no use to anybody.
-            self.network = best.clone();
-        }
         made
     }
 
@@ -199,40 +234,22 @@ impl<'a> Trainer<'a> {
         let (step, batch) = (self.state.step, self.recipe.batch);
         let (epoch, position) = (step / self.steps_per_epoch(), step % self.steps_per_epoch());
         if self.order.is_empty() || position == 0 {
-            let samples = self.training.count(self.network.architecture());
+            let samples = self.training.count(&self.architecture);
             self.order = self.draws(ORDER).of(epoch).order(samples);
         }
         let first = usize::try_from(position).expect("below the number of samples") * batch;
         let chosen = self.order[first..first + batch].to_vec();
-        let (labels, classes) = self.deal(epoch, &chosen);
-        let truth = match self.training.labels {
-            Labels::Values(_) => Truth::Values(&labels),
-            Labels::Classes(_) => Truth::Classes(&classes),
-        };
-
-        let width = self.network.architecture().outputs;
-        let outputs = self.network.forward(&mut self.space, batch);
-        let mut gradient = Vec::new();
-        let loss = self
-            .recipe
-            .loss
-            .measure((outputs, width), truth, &mut gradient);
-        if !loss.is_finite() {
-            return Err(NetworkError::LossNotFinite { step });
-        }
-        let mut descent = Descent {
-            machine: self.network.machine,
-            optimizer: self.recipe.optimizer,
+        let (pictures, labels, classes) = self.deal(epoch, &chosen);
+        let batch = Batch {
+            pictures: &pictures,
+            labels: match self.training.labels {
+                Labels::Values(_) => Labels::Values(&labels),
+                Labels::Classes(_) => Labels::Classes(&classes),
+            },
+            step,
             rate: self.recipe.rate * self.recipe.schedule.factor(step, self.steps()),
-            steps: step + 1,
-            memory: &mut self.memory,
-            is_broken: false,
         };
-        self.network
-            .backward(&mut self.space, &gradient, &mut descent);
-        if descent.is_broken || !self.network.are_moments_finite() {
-            return Err(NetworkError::WeightNotFinite { step });
-        }
+        let loss = self.engine.step(&batch)?;
         self.state.step += 1;
         self.state.loss_sum += loss;
         let is_last = position + 1 == self.steps_per_epoch();
@@ -250,16 +267,23 @@ impl<'a> Trainer<'a> {
     /// As [`step`](Trainer::step).
     pub fn run(mut self) -> Result<Trained, NetworkError> {
         while self.step()?.is_some() {}
-        Ok(self.finish())
+        self.finish()
     }
 
     /// What the training gave so far.
-    pub fn finish(self) -> Trained {
-        Trained {
-            network: self.best.unwrap_or(self.network),
+    ///
+    /// # Errors
+    /// Those of [`Engine::network`]; never on the processor.
+    pub fn finish(self) -> Result<Trained, NetworkError> {
+        let network = match self.best {
+            Some(best) => best,
+            None => self.engine.network()?,
+        };
+        Ok(Trained {
+            network,
             scale: self.scale,
             state: self.state,
-        }
+        })
     }
 
     /// The draws of a purpose.
@@ -268,35 +292,33 @@ impl<'a> Trainer<'a> {
         Draws::new(self.recipe.seed).of(u64::MAX - purpose)
     }
 
-    /// Writes the pictures of a batch, augmented; gives their scaled labels or their classes.
-    fn deal(&mut self, epoch: u64, chosen: &[usize]) -> (Vec<f64>, Vec<u32>) {
-        let architecture = self.network.architecture();
-        let (picture, outputs) = (architecture.input, architecture.outputs);
+    /// The pictures of a batch, augmented, and their scaled labels or their classes.
+    fn deal(&self, epoch: u64, chosen: &[usize]) -> (Vec<Vec<f32>>, Vec<f64>, Vec<u32>) {
+        let (picture, outputs) = (self.architecture.input, self.architecture.outputs);
         let draws = self.draws(AUGMENTATION).of(epoch);
         let augmentation = &self.recipe.augmentation;
         let pictures = self.training.pictures;
-        let changed: Vec<_> = chosen
+        let (changed, shifts): (Vec<_>, Vec<_>) = chosen
             .par_iter()
             .map(|&sample| {
                 let values = &pictures[sample * picture.len()..][..picture.len()];
                 augmentation.apply(draws.of(sample as u64), picture, values)
             })
-            .collect();
+            .unzip();
         let (mut labels, mut classes) = (Vec::new(), Vec::new());
-        for (position, (&sample, (values, shift))) in chosen.iter().zip(&changed).enumerate() {
-            self.space.input.set(position, values);
+        for (&sample, shift) in chosen.iter().zip(shifts) {
             match self.training.labels {
                 Labels::Classes(all) => classes.push(all[sample]),
                 Labels::Values(all) => {
                     let own = &all[sample * outputs..][..outputs];
                     labels.extend(own.iter().enumerate().map(|(output, label)| {
-                        let moved = label + augmentation.moved(*shift, output);
+                        let moved = label + augmentation.moved(shift, output);
                         self.scale.scaled(output, moved)
                     }));
                 }
             }
         }
-        (labels, classes)
+        (changed, labels, classes)
     }
 
     /// Closes an epoch: measures, remembers the best, and stops when patience ends.
@@ -314,8 +336,8 @@ impl<'a> Trainer<'a> {
                 self.state.epochs[best].validation_loss
             });
             if least.is_none_or(|least| loss < least) {
+                self.best = Some(self.engine.network()?);
                 self.state.best = Some(number);
-                self.best = Some(self.network.clone());
             }
             let since = number - self.state.best.unwrap_or(number);
             self.state.is_stopped = self.recipe.patience.is_some_and(|most| since >= most);
@@ -324,23 +346,21 @@ impl<'a> Trainer<'a> {
     }
 
     /// The loss of the validation part, normalised by running moments.
-    fn validation_loss(&self) -> Result<Option<f64>, NetworkError> {
+    fn validation_loss(&mut self) -> Result<Option<f64>, NetworkError> {
         let Some(validation) = &self.validation else {
             return Ok(None);
         };
-        let width = self.network.architecture().outputs;
-        let samples = validation.count(self.network.architecture());
+        let width = self.architecture.outputs;
+        let samples = validation.count(&self.architecture);
         let mut outputs = vec![0.0; samples * width];
-        self.network
-            .predictor()
-            .predict(validation.pictures, &mut outputs)?;
+        self.engine.predict(validation.pictures, &mut outputs)?;
         let labels = match validation.labels {
             Labels::Classes(_) => Vec::new(),
             Labels::Values(labels) => self.scale.all_scaled(labels),
         };
         let truth = match validation.labels {
-            Labels::Classes(classes) => Truth::Classes(classes),
-            Labels::Values(_) => Truth::Values(&labels),
+            Labels::Classes(classes) => Labels::Classes(classes),
+            Labels::Values(_) => Labels::Values(&labels),
         };
         let loss = self
             .recipe

@@ -113,7 +113,7 @@ fn a_training_gone_on_with_after_any_step_ends_with_the_same_bits() {
             for _ in 0..stop {
                 trainer.step().expect("finite");
             }
-            let Checkpoint { summary, tensors } = trainer.checkpoint();
+            let Checkpoint { summary, tensors } = trainer.checkpoint().expect("at hand");
             let text = serde_json::to_string(&summary).expect("text");
             let summary = serde_json::from_str(&text).expect("the same");
             let checkpoint = Checkpoint { summary, tensors };
@@ -123,7 +123,7 @@ fn a_training_gone_on_with_after_any_step_ends_with_the_same_bits() {
                 Some(values(&validation)),
             );
             let resumed = resumed.expect("its own checkpoint");
-            assert_eq!(resumed.checkpoint(), checkpoint);
+            assert_eq!(resumed.checkpoint().expect("at hand"), checkpoint);
             assert_same(
                 &resumed.run().expect("finite"),
                 &whole,
@@ -300,7 +300,7 @@ fn a_loss_that_is_not_finite_names_its_step_and_leaves_the_best() {
         named == made || named + 1 == made,
         "step {named}, {made} were made"
     );
-    let trained = trainer.finish();
+    let trained = trainer.finish().expect("at hand");
     let finite = |tensors: &[NamedTensor]| {
         tensors
             .iter()
@@ -338,10 +338,14 @@ fn a_training_that_broke_keeps_its_best_and_breaks_again_wherever_it_is_gone_on_
     assert_eq!(trainer.step().expect_err("broken"), error);
     assert!(trainer.state().best.is_some(), "{error}");
     let (learnt, held) = samples();
-    let resumed = Trainer::resume(trainer.checkpoint(), learnt, held);
+    let resumed = Trainer::resume(trainer.checkpoint().expect("at hand"), learnt, held);
     let mut resumed = resumed.expect("what is kept is finite");
     assert_eq!(resumed.step().expect_err("broken"), error);
-    assert_same(&resumed.finish(), &trainer.finish(), "the best epoch");
+    assert_same(
+        &resumed.finish().expect("at hand"),
+        &trainer.finish().expect("at hand"),
+        "the best epoch",
+    );
 }
 
 #[test]

@@ -107,6 +107,8 @@ fn every_crate_states_the_oldest_compiler_it_promises() {
     for package in metadata().packages {
         let expected = match package.name.as_str() {
             "taceva-core" | "taceva-abi" | "taceva-plugin" => "1.85.0",
+            // Burn's; without a feature nothing of it is built.
+            "taceva-gpu" => "1.92.0",
             _ => "1.89.0",
         };
         let stated = package.rust_version.as_ref().map(ToString::to_string);

@@ -18,6 +18,9 @@ pub struct NetworkCard {
     /// The label of each channel that never changed in the training part, and is predicted as that; nothing for those
     /// that the outputs stand for, one after the other.
     pub constant: Vec<Option<f64>>,
-    /// The instructions that it was trained on: on the same ones predictions have the same bits.
+    /// The instructions of the processor: on the same ones predictions have the same bits.
     pub instructions: String,
+    /// The GPU that trained it, where the processor did not; trained there anew, it has other bits.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub gpu: Option<String>,
 }

@@ -102,7 +102,7 @@ impl Checkpoints {
 
     /// Puts `trainer`, whose training is `identity`, aside.
     fn put(&self, identity: &Identity, trainer: &Trainer<'_>) -> Result<(), CheckpointError> {
-        let checkpoint = trainer.checkpoint();
+        let checkpoint = trainer.checkpoint().map_err(CheckpointError::Unread)?;
         durable::replace(&self.path, &self.beside(), |beside| {
             bytes::write(identity, &checkpoint, File::create(beside)?)
         })

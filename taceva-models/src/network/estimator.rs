@@ -1,13 +1,14 @@
 //! Networks that are fitted: what can be set, and what is learnt from which samples.
 
 use taceva_core::{Estimator, FeatureShape, ModelError, Progress, Regressor, TrainingSet};
+use taceva_gpu::{Gpu, GpuKind};
 use taceva_network::{
     Architecture, Augmentation, Depth, Isa, Jitter, LabelScale, Labels, Loss, Network, Optimizer,
     Recipe, Samples, Trained,
 };
 
 use super::regressor::picture;
-use super::training::{Training, refused};
+use super::training::{Training, no_gpu, refused};
 use super::{Checkpoints, NetworkCard, NetworkRegressor, Preprocessing};
 use crate::choice::{ChannelChoice, Choice, ChosenBy, errors};
 use crate::features::{Color, FeatureSpec};
@@ -23,6 +24,8 @@ pub struct NetworkEstimator {
     kind: Kind,
     recipe: Recipe,
     preprocessing: Preprocessing,
+    /// How the GPU that trains is reached, where the processor does not.
+    gpu: Option<GpuKind>,
     checkpoints: Option<Checkpoints>,
 }
 
@@ -99,9 +102,16 @@ const CONTRAST: SettingInfo = SettingInfo {
     default: "true",
     about: "whether each picture is divided by its standard deviation",
 };
+const DEVICE: SettingInfo = SettingInfo {
+    key: "device",
+    accepts: "cpu, cuda or wgpu",
+    default: "cpu",
+    about: "what trains; a GPU needs a program built with the feature of that name, and gives other last digits each time",
+};
 
 const SETTINGS: &[SettingInfo] = &[
     EPOCHS, BATCH, RATE, DECAY, SEED, PATIENCE, JITTER, NOISE, BRIGHTNESS, LOCAL_MEAN, CONTRAST,
+    DEVICE,
 ];
 
 /// What networks see where nothing else is asked for.
@@ -159,6 +169,11 @@ impl NetworkEstimator {
             Kind::Residual(_) => (60, 1e-3),
         };
         let weight_decay = settings.value(&DECAY, 0.1, |text| number(text, 0.0..=10.0))?;
+        let gpu = settings.value(&DEVICE, None, gpu_of)?;
+        if let Some(kind) = gpu {
+            kind.check_built()
+                .map_err(|source| SettingError::Device { kind, source })?;
+        }
         let pixels = settings.value(&JITTER, 3, |text| number(text, 0..=100))?;
         Ok(NetworkEstimator {
             kind,
@@ -192,6 +207,7 @@ impl NetworkEstimator {
                 })?,
                 contrast: settings.value(&CONTRAST, true, |text| text.parse().ok())?,
             },
+            gpu,
             checkpoints: None,
         })
     }
@@ -211,6 +227,15 @@ impl NetworkEstimator {
             Kind::Residual(depth) => Architecture::residual(depth, picture(shape), outputs),
         }
     }
+}
+
+/// The GPU that `device` means, none for the processor.
+fn gpu_of(device: &str) -> Option<Option<GpuKind>> {
+    if device == "cpu" {
+        return Some(None);
+    }
+    let mut kinds = GpuKind::ALL.into_iter();
+    kinds.find(|kind| kind.name() == device).map(Some)
 }
 
 /// The labels of a part whose channel is among `varying`.
@@ -234,6 +259,8 @@ impl ModelEstimator for NetworkEstimator {
         if shape.height == 1 && shape.depth == 1 {
             return Err(invalid(NO_PICTURE));
         }
+        // Looked for before anything is computed.
+        let gpu = self.gpu.map(Gpu::find).transpose().map_err(no_gpu)?;
         let channels = training.targets.channels;
         let is_constant = |channel: &usize| problem.scaling.is_constant(*channel);
         let varying: Vec<usize> = (0..channels.len())
@@ -260,6 +287,7 @@ impl ModelEstimator for NetworkEstimator {
                 recipe: &self.recipe,
                 samples: of(&learnt.0, &learnt.1),
                 validation: kept,
+                gpu: gpu.as_ref(),
                 checkpoints: self.checkpoints.as_ref(),
             };
             Some(training.run(progress)?)
@@ -286,6 +314,9 @@ impl ModelEstimator for NetworkEstimator {
             scale,
             constant: constant.collect(),
             instructions: Isa::detect().name().to_owned(),
+            gpu: gpu
+                .filter(|_| !varying.is_empty())
+                .map(|gpu| gpu.to_string()),
         };
         let regressor = NetworkRegressor::new(channels.clone(), card, network)?;
         let errors = match validation {

@@ -1,6 +1,7 @@
 //! A training, gone on with where it was interrupted.
 
 use taceva_core::{ErrorKind, ModelError, Progress};
+use taceva_gpu::{Gpu, GpuError};
 use taceva_network::{Architecture, NetworkError, Recipe, Samples, Trained, Trainer};
 
 use super::Checkpoints;
@@ -13,6 +14,8 @@ pub(super) struct Training<'a> {
     pub(super) recipe: &'a Recipe,
     pub(super) samples: Samples<'a>,
     pub(super) validation: Option<Samples<'a>>,
+    /// What trains it, where the processor does not.
+    pub(super) gpu: Option<&'a Gpu>,
     /// Where it is put aside, and goes on from.
     pub(super) checkpoints: Option<&'a Checkpoints>,
 }
@@ -34,7 +37,7 @@ impl<'a> Training<'a> {
             }
             match trainer.step() {
                 Ok(Some(_)) => stage.advance(),
-                Ok(None) => return Ok(trainer.finish()),
+                Ok(None) => return trainer.finish().map_err(refused),
                 Err(error) => return Err(broken(error, &trainer, shelf)),
             }
             if let Some(shelf) = &mut shelf {
@@ -46,7 +49,8 @@ impl<'a> Training<'a> {
     fn shelf(&self) -> Option<Shelf<'a>> {
         self.checkpoints.map(|checkpoints| {
             let samples = (self.samples, self.validation);
-            let identity = Identity::new(self.architecture, self.recipe, samples);
+            let kind = self.gpu.map(Gpu::kind);
+            let identity = Identity::new(self.architecture, self.recipe, samples, kind);
             Shelf::new(checkpoints, identity)
         })
     }
@@ -65,7 +69,15 @@ impl<'a> Training<'a> {
                 Trainer::new(self.architecture, self.recipe, samples, validation),
             ),
         };
-        Ok((name, trainer.map_err(refused)?))
+        let trainer = trainer.map_err(refused)?;
+        let trainer = match self.gpu {
+            None => trainer,
+            Some(gpu) => {
+                let engine = |snapshot: &_, recipe: &_| gpu.engine(snapshot, recipe);
+                trainer.on(engine).map_err(refused)?
+            }
+        };
+        Ok((name, trainer))
     }
 }
 
@@ -89,7 +101,17 @@ pub(super) fn refused(error: NetworkError) -> ModelError {
         NetworkError::LossNotFinite { .. } | NetworkError::WeightNotFinite { .. } => {
             ErrorKind::OutOfRange
         }
+        NetworkError::Device { .. } => ErrorKind::DeviceFault,
         _ => ErrorKind::InvalidArgument,
+    };
+    ModelError::new(kind, error.to_string()).because(error)
+}
+
+/// Why there is no GPU, as models say it.
+pub(super) fn no_gpu(error: GpuError) -> ModelError {
+    let kind = match error {
+        GpuError::NotFound { .. } => ErrorKind::NotFound,
+        _ => ErrorKind::Unsupported,
     };
     ModelError::new(kind, error.to_string()).because(error)
 }

@@ -1,6 +1,6 @@
 //! What networks promise beyond what all models do.
 
-use taceva_core::{Frame, Silent};
+use taceva_core::{ErrorKind, Frame, Silent};
 use taceva_models::{Model, ModelEstimator, ModelRegressor, Settings, find};
 
 use crate::blobs::{FRAME, numbers, recording};
@@ -85,6 +85,70 @@ fn a_setting_that_no_network_has_is_refused_with_the_nearest() {
         error.expect("refused").to_string(),
         "`epoch`: unknown key, did you mean `epochs`?"
     );
+}
+
+#[test]
+fn a_device_that_this_program_cannot_reach_is_refused_by_the_feature_it_needs() {
+    let refused = |word: &str| {
+        let settings = Settings::parse([word]).expect("well formed");
+        let made = find("cnn").expect("registered").estimator(&settings);
+        made.err().map(|error| error.to_string())
+    };
+    assert_eq!(refused("device=cpu"), None);
+    assert_eq!(
+        refused("device=gpu").as_deref(),
+        Some("`device=gpu`: expected cpu, cuda or wgpu")
+    );
+    for (device, is_built) in [
+        ("cuda", cfg!(feature = "cuda")),
+        ("wgpu", cfg!(feature = "wgpu")),
+    ] {
+        let said = refused(&format!("device={device}"));
+        assert_eq!(said.is_none(), is_built, "{said:?}");
+        let expected = format!(
+            "`device={device}`: this program was built without the feature `{device}`: build it with `--features {device}`, or train with `device=cpu`"
+        );
+        assert!(said.is_none_or(|said| said == expected));
+    }
+}
+
+#[test]
+fn a_network_of_a_gpu_says_which_and_finds_the_blob_here() {
+    for device in ["cuda", "wgpu"] {
+        let words = ["epochs=30", "batch=20", "jitter=0", "local_mean=0"];
+        let device_word = format!("device={device}");
+        let settings = Settings::parse(words.into_iter().chain([&*device_word]));
+        let made = find("cnn")
+            .expect("registered")
+            .estimator(&settings.expect("well formed"));
+        let (training, validation, test) = (recording(200, 1), recording(40, 2), recording(60, 3));
+        let fit = match made {
+            Ok(estimator) => estimator.fit_model(&training.set(), Some(&validation.set()), &Silent),
+            Err(reason) => {
+                say_skipped(&reason);
+                continue;
+            }
+        };
+        let fit = match fit {
+            Err(reason) if reason.kind() == ErrorKind::NotFound => {
+                say_skipped(&reason);
+                continue;
+            }
+            fit => fit.expect("fits"),
+        };
+        let rms = rms(&predict(&fit.regressor, &test.features), &test.labels);
+        assert!(rms < 1.0, "{device}: {rms}");
+        let ModelRegressor::Network(network) = &fit.regressor else {
+            panic!("a network")
+        };
+        let gpu = network.card().gpu.as_deref();
+        assert!(gpu.is_some_and(|gpu| gpu.ends_with(&format!("({device})"))));
+    }
+}
+
+#[expect(clippy::print_stderr, reason = "a skipped test must say why")]
+fn say_skipped(reason: &dyn std::error::Error) {
+    eprintln!("skipped: {reason}");
 }
 
 #[test]

@@ -3,9 +3,9 @@
 use super::{NamedTensor, Network};
 use crate::convolution::plain;
 use crate::error::{NetworkError, Part};
-use crate::loss::{Loss, Truth};
+use crate::loss::Loss;
 use crate::stage::Stage;
-use crate::training::{Labels, Samples};
+use crate::training::Samples;
 use crate::update::Update;
 
 /// The loss of some samples, and how it changes with each parameter.
@@ -43,13 +43,9 @@ impl Network {
         for (position, values) in samples.pictures.chunks_exact(picture.len()).enumerate() {
             space.input.set(position, values);
         }
-        let truth = match samples.labels {
-            Labels::Values(values) => Truth::Values(values),
-            Labels::Classes(classes) => Truth::Classes(classes),
-        };
         let mut gradient = Vec::new();
         let outputs = self.forward(&mut space, batch);
-        let loss = loss.measure((outputs, width), truth, &mut gradient);
+        let loss = loss.measure((outputs, width), samples.labels, &mut gradient);
         let mut kept = Keep(vec![Vec::new(); self.slots()]);
         self.backward(&mut space, &gradient, &mut kept);
         let Keep(kept) = kept;
@@ -59,8 +55,8 @@ impl Network {
         })
     }
 
-    /// Gradients by slot under the names of their parameters.
-    fn named(&self, mut gradients: Vec<Vec<f32>>) -> Vec<NamedTensor> {
+    /// Gradients by slot, or what else is as they are, under the names of their parameters.
+    pub(crate) fn named(&self, mut gradients: Vec<Vec<f32>>) -> Vec<NamedTensor> {
         let mut values = std::collections::BTreeMap::new();
         for (prefix, stage) in self.architecture.stage_names().iter().zip(&self.stages) {
             for (normed, [convolution, norm]) in Stage::normed(stage) {

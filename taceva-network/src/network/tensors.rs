@@ -6,6 +6,7 @@ use super::Network;
 use crate::architecture::Architecture;
 use crate::error::NetworkError;
 use crate::panel::Aligned;
+use crate::stage::Stage;
 
 /// A tensor and its name: for residual networks those of torchvision, `layer1.0.conv1.weight`.
 #[derive(Clone, Debug, PartialEq)]
@@ -16,6 +17,13 @@ pub struct NamedTensor {
     pub shape: Vec<usize>,
     /// Its numbers, the last size fastest.
     pub values: Vec<f32>,
+}
+
+impl NamedTensor {
+    /// Whether it is learnt: all are but running moments.
+    pub fn is_learnt(&self) -> bool {
+        !self.name.contains(".running_")
+    }
 }
 
 /// What PyTorch counts batches under; running moments do not depend on it here.
@@ -100,6 +108,30 @@ impl Network {
         }
         network.set_tensors(&values);
         Ok(network)
+    }
+
+    /// The tensors that are learnt, by name, sorted: all but the running moments.
+    pub(crate) fn learnt(&self) -> Vec<NamedTensor> {
+        let mut tensors = self.tensors();
+        tensors.retain(NamedTensor::is_learnt);
+        tensors
+    }
+
+    /// The numbers of `learnt`, which are as many under the names of [`learnt`](Network::learnt), as they lie in the slots.
+    pub(crate) fn slotted(&self, learnt: &[NamedTensor]) -> Vec<Aligned> {
+        let mut carrier = self.clone();
+        let mut tensors = carrier.tensors();
+        tensors.retain(|tensor| !tensor.is_learnt());
+        tensors.extend_from_slice(learnt);
+        carrier.set_tensors(&tensors);
+        let normed = carrier.stages.iter().flat_map(Stage::normed);
+        let parts = normed.flat_map(|(part, _)| {
+            let weights = Aligned::of(part.weights.values());
+            [weights, part.norm.gain.clone(), part.norm.bias.clone()]
+        });
+        parts
+            .chain([carrier.head.weights.clone(), carrier.head.bias.clone()])
+            .collect()
     }
 
     /// Takes tensors that are those of [`tensors`](Network::tensors) by name and shape.

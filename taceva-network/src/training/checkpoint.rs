@@ -4,18 +4,18 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
-use super::{Recipe, Samples, Trainer, TrainingState};
+use super::{Moments, Recipe, Samples, Snapshot, Trainer, TrainingState};
 use crate::architecture::Architecture;
 use crate::error::NetworkError;
 use crate::network::{NamedTensor, Network};
-use crate::panel::Aligned;
 
 /// A training put aside after any step: gone on with, it ends with the same bits as if it had not been.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Checkpoint {
     /// What a file of a few lines can hold.
     pub summary: Summary,
-    /// Weights now, under `now.`; those of the best epoch, under `best.`; what the optimiser remembers, under `moment.`.
+    /// Weights now, under `now.`; those of the best epoch, under `best.`; what the optimiser remembers of each parameter, under
+    /// `moment.0.` and `moment.1.`.
     pub tensors: Vec<NamedTensor>,
 }
 
@@ -34,40 +34,36 @@ pub struct Summary {
 
 impl<'a> Trainer<'a> {
     /// The training as it stands.
-    pub fn checkpoint(&self) -> Checkpoint {
-        let named = |prefix: &str, network: &Network| {
-            let tensors = network.tensors().into_iter();
-            let renamed = tensors.map(|tensor| NamedTensor {
+    ///
+    /// # Errors
+    /// Those of [`Engine::network`](super::Engine::network) and [`moments`](super::Engine::moments); never on the processor.
+    pub fn checkpoint(&self) -> Result<Checkpoint, NetworkError> {
+        let named = |prefix: String, tensors: Vec<NamedTensor>| {
+            tensors.into_iter().map(move |tensor| NamedTensor {
                 name: format!("{prefix}.{}", tensor.name),
                 ..tensor
-            });
-            renamed.collect::<Vec<_>>()
+            })
         };
-        let mut tensors = named("now", &self.network);
+        let Snapshot { network, moments } = self.snapshot()?;
+        let mut tensors: Vec<NamedTensor> = named("now".into(), network.tensors()).collect();
         if let Some(best) = &self.best {
-            tensors.extend(named("best", best));
+            tensors.extend(named("best".into(), best.tensors()));
         }
-        for (slot, moments) in self.memory.moments.iter().enumerate() {
-            for (which, values) in moments.iter().enumerate() {
-                tensors.push(NamedTensor {
-                    name: format!("moment.{slot}.{which}"),
-                    shape: vec![values.len()],
-                    values: values.to_vec(),
-                });
-            }
+        for (which, moments) in moments.into_iter().enumerate() {
+            tensors.extend(named(format!("moment.{which}"), moments));
         }
         tensors.sort_by(|a, b| a.name.cmp(&b.name));
-        Checkpoint {
+        Ok(Checkpoint {
             summary: self.summary(),
             tensors,
-        }
+        })
     }
 
     fn summary(&self) -> Summary {
         Summary {
-            architecture: self.network.architecture().clone(),
+            architecture: self.architecture.clone(),
             recipe: self.recipe.clone(),
-            samples: self.training.count(self.network.architecture()),
+            samples: self.training.count(&self.architecture),
             state: self.state.clone(),
         }
     }
@@ -105,7 +101,13 @@ impl<'a> Trainer<'a> {
             return refuse("no tensor begins with `now.`".into());
         };
         let best = network("best").transpose()?;
-        let mut trainer = Trainer::of(now?, &summary.recipe, training, validation)?;
+        let (network, recipe) = (now?, &summary.recipe);
+        let moments = moments_of(&network, recipe, parts.remove("moment").unwrap_or_default());
+        let snapshot = Snapshot {
+            moments: moments?,
+            network,
+        };
+        let mut trainer = Trainer::from_snapshot(&snapshot, recipe, training, validation)?;
         let samples = trainer.summary().samples;
         if samples != summary.samples {
             return refuse(format!(
@@ -117,7 +119,6 @@ impl<'a> Trainer<'a> {
             return refuse("the best epoch is named without its tensors, or the reverse".into());
         }
         trainer.best = best;
-        trainer.restore(parts.remove("moment").unwrap_or_default())?;
         trainer.state = summary.state;
         if !trainer.is_finished() {
             // The order within the epoch is made anew from its number.
@@ -126,38 +127,42 @@ impl<'a> Trainer<'a> {
         }
         Ok(trainer)
     }
+}
 
-    /// Takes back what the optimiser remembered.
-    fn restore(&mut self, tensors: Vec<NamedTensor>) -> Result<(), NetworkError> {
-        let lengths = self.network.slot_lengths();
-        let moments = self.recipe.optimizer.moments();
-        let mut found: BTreeMap<String, Vec<f32>> = tensors
-            .into_iter()
-            .map(|tensor| (tensor.name, tensor.values))
-            .collect();
-        if found.is_empty() {
-            return Ok(());
-        }
-        for (slot, length) in lengths.into_iter().enumerate() {
-            for which in 0..moments {
-                let name = format!("{slot}.{which}");
-                match found.remove(&name) {
-                    Some(values) if values.len() == length => {
-                        self.memory.moments[slot].push(Aligned::of(&values));
-                    }
-                    _ => {
-                        let what =
-                            format!("`moment.{name}` is missing or does not have {length} numbers");
-                        return Err(NetworkError::Checkpoint { what });
-                    }
-                }
-            }
-        }
-        match found.into_keys().next() {
-            None => Ok(()),
-            Some(name) => Err(NetworkError::UnexpectedTensor {
-                name: format!("moment.{name}"),
+/// The moments of `recipe`'s optimiser among `tensors`, whose names are `<which>.<parameter of the network>`.
+fn moments_of(
+    network: &Network,
+    recipe: &Recipe,
+    tensors: Vec<NamedTensor>,
+) -> Result<Moments, NetworkError> {
+    if tensors.is_empty() {
+        return Ok(Moments::new());
+    }
+    let mut found: BTreeMap<String, Vec<f32>> = tensors
+        .into_iter()
+        .map(|tensor| (tensor.name, tensor.values))
+        .collect();
+    let learnt = network.learnt();
+    let mut take = |which: usize, parameter: &NamedTensor| {
+        let name = format!("{which}.{}", parameter.name);
+        let length = parameter.values.len();
+        match found.remove(&name) {
+            Some(values) if values.len() == length => Ok(NamedTensor {
+                values,
+                ..parameter.clone()
+            }),
+            _ => Err(NetworkError::Checkpoint {
+                what: format!("`moment.{name}` is missing or does not have {length} numbers"),
             }),
         }
+    };
+    let moments = (0..recipe.optimizer.moments())
+        .map(|which| learnt.iter().map(|tensor| take(which, tensor)).collect())
+        .collect::<Result<Moments, _>>()?;
+    match found.into_keys().next() {
+        None => Ok(moments),
+        Some(name) => Err(NetworkError::UnexpectedTensor {
+            name: format!("moment.{name}"),
+        }),
     }
 }

@@ -14,7 +14,7 @@ use super::identity::{Identity, Origin, add_numbers, hexadecimal};
 /// The key of the metadata.
 const KEY: &str = "taceva.checkpoint";
 /// A file of any other version is refused: it is of a training that another program began.
-const FORMAT: &str = "1";
+const FORMAT: &str = "2";
 
 /// Four times the largest model: its weights now and at their best, and two moments of each.
 pub(super) const FILE_MAX: u64 = 1 << 30;

@@ -4,6 +4,7 @@ use std::io;
 use std::path::PathBuf;
 
 use taceva_core::{ErrorKind, ModelError};
+use taceva_network::NetworkError;
 
 /// Why a training cannot be put aside or gone on with.
 #[derive(Debug, thiserror::Error)]
@@ -20,6 +21,9 @@ pub enum CheckpointError {
         /// What the system says.
         source: io::Error,
     },
+    /// The device that trains does not give its weights.
+    #[error("cannot put the training aside: {0}")]
+    Unread(NetworkError),
     /// The file cannot be read.
     #[error("cannot read checkpoint {}: {source}", path.display())]
     Read {
@@ -57,6 +61,7 @@ impl From<CheckpointError> for ModelError {
                     _ => ErrorKind::DeviceFault,
                 }
             }
+            CheckpointError::Unread(_) => ErrorKind::DeviceFault,
             CheckpointError::Damaged { .. } => ErrorKind::Protocol,
             CheckpointError::Foreign { .. } => ErrorKind::InvalidArgument,
         };

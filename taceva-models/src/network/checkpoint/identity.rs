@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
+use taceva_gpu::GpuKind;
 use taceva_network::{Architecture, Isa, Labels, Recipe, Samples, Summary};
 
 /// By what a training is known again: everything that its result depends on.
@@ -19,6 +20,8 @@ pub(super) struct Origin {
     samples: String,
     /// Whether products are rounded before they are added: then results differ in last places.
     rounds_products: bool,
+    /// What trained it: `cpu`, or the kind of a GPU, whose sums have no one order.
+    device: String,
 }
 
 impl Identity {
@@ -26,6 +29,7 @@ impl Identity {
         architecture: &Architecture,
         recipe: &Recipe,
         (training, validation): (Samples<'_>, Option<Samples<'_>>),
+        gpu: Option<GpuKind>,
     ) -> Identity {
         let mut digest = Sha256::new();
         for samples in std::iter::once(training).chain(validation) {
@@ -37,6 +41,7 @@ impl Identity {
             of: Origin {
                 samples: hexadecimal(digest),
                 rounds_products: Isa::detect() == Isa::Portable,
+                device: gpu.map_or("cpu", GpuKind::name).to_owned(),
             },
         }
     }
@@ -51,6 +56,8 @@ impl Identity {
             Some("samples or preprocessing")
         } else if self.of.rounds_products != of.rounds_products {
             Some("instructions, which round differently")
+        } else if self.of.device != of.device {
+            Some("device")
         } else {
             None
         }

@@ -1,0 +1,139 @@
+//! A network in training on a device.
+
+use burn_tensor::Tensor;
+use burn_tensor::backend::Backend;
+use taceva_network::{
+    Architecture, Batch, Engine, Moments, Network, NetworkError, Recipe, Rule, Snapshot,
+};
+
+use crate::Gpu;
+use crate::guard::guard;
+use crate::passes::Passes;
+use crate::prediction::{Prediction, pictures_on};
+use crate::training::{Course, descend};
+use crate::weights::{Layout, Weights, named, upload};
+
+/// A network in training on a device of `B`.
+#[derive(Debug)]
+struct DeviceEngine<B: Backend> {
+    device: B::Device,
+    /// What to call the device.
+    name: String,
+    architecture: Architecture,
+    recipe: Recipe,
+    layout: Layout,
+    passes: Passes,
+    weights: Weights<B>,
+    moments: Vec<Tensor<B, 1>>,
+    /// The last step, for whoever finds a weight that is not finite.
+    last: u64,
+    /// Why the device failed in a step, which may be half done: no other is made.
+    failed: Option<NetworkError>,
+}
+
+/// A training on `gpu`, the first device of `B`, that goes on from `snapshot`.
+pub(crate) fn begin<B: Backend>(
+    gpu: &Gpu,
+    snapshot: &Snapshot,
+    recipe: &Recipe,
+) -> Result<Box<dyn Engine>, NetworkError> {
+    let (name, device) = (gpu.to_string(), &B::Device::default());
+    guard(&name, || {
+        let tensors = snapshot.network.tensors();
+        let architecture = snapshot.network.architecture().clone();
+        let layout = Layout::of(&tensors);
+        let passes = Passes::new(&architecture, &layout);
+        if let Some(stride) = passes.gap() {
+            let reason = format!("a stride of {stride} beyond its kernel: not on a GPU");
+            return Err(NetworkError::Architecture { reason });
+        }
+        let engine = DeviceEngine::<B> {
+            passes,
+            weights: Weights::upload(&tensors, device),
+            moments: snapshot
+                .moments
+                .iter()
+                .map(|tensors| upload(tensors, device))
+                .collect(),
+            device: device.clone(),
+            name: name.clone(),
+            architecture,
+            recipe: recipe.clone(),
+            layout,
+            last: 0,
+            failed: None,
+        };
+        Ok(Box::new(engine) as Box<dyn Engine>)
+    })
+}
+
+impl<B: Backend> DeviceEngine<B> {
+    fn make_step(&mut self, batch: &Batch<'_>) -> Result<f64, NetworkError> {
+        let pictures = pictures_on(
+            self.architecture.input,
+            batch.pictures.concat(),
+            &self.device,
+        );
+        let course = Course::forward(&self.passes, &self.layout, &self.weights, pictures);
+        let outputs = (&course.outputs()[..], self.architecture.outputs);
+        // The loss is formed here, of a few numbers and by the one formula that there is.
+        let mut gradient = Vec::new();
+        let loss = self
+            .recipe
+            .loss
+            .measure(outputs, batch.labels, &mut gradient);
+        if !loss.is_finite() {
+            return Err(NetworkError::LossNotFinite { step: batch.step });
+        }
+        let gradient = course.backward(&gradient);
+        let running = course.followed(&self.weights.running);
+        let rule = Rule::new(self.recipe.optimizer, batch.rate, batch.step + 1);
+        self.weights = Weights {
+            learnt: descend(rule, &self.weights.learnt, gradient, &mut self.moments),
+            running,
+        };
+        self.last = batch.step;
+        Ok(loss)
+    }
+}
+
+impl<B: Backend> Engine for DeviceEngine<B> {
+    fn step(&mut self, batch: &Batch<'_>) -> Result<f64, NetworkError> {
+        if let Some(error) = &self.failed {
+            return Err(error.clone());
+        }
+        let name = self.name.clone();
+        let made = guard(&name, || self.make_step(batch));
+        self.failed = made.as_ref().err().cloned();
+        made
+    }
+
+    fn predict(&mut self, pictures: &[f32], into: &mut [f64]) -> Result<(), NetworkError> {
+        let picture = self.architecture.input;
+        picture.check_prediction(pictures, self.architecture.outputs, into)?;
+        guard(&self.name, || {
+            let prediction = Prediction::new(&self.passes, &self.layout, &self.weights);
+            prediction.run(picture, pictures, into, &self.device);
+            Ok(())
+        })
+    }
+
+    fn network(&self) -> Result<Network, NetworkError> {
+        let read = || self.weights.download(&self.layout, &self.architecture);
+        guard(&self.name, read).map_err(|error| match error {
+            NetworkError::TensorNotFinite { .. } => {
+                NetworkError::WeightNotFinite { step: self.last }
+            }
+            other => other,
+        })
+    }
+
+    fn moments(&self) -> Result<Moments, NetworkError> {
+        guard(&self.name, || {
+            let moments = self.moments.iter();
+            Ok(moments
+                .map(|moments| named(&self.layout.learnt, moments))
+                .collect())
+        })
+    }
+}

@@ -1,0 +1,27 @@
+//! Why there is no GPU to train on.
+
+use crate::GpuKind;
+
+/// Why there is no GPU to train on.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum GpuError {
+    /// The program can reach none of that kind.
+    #[error(
+        "this program was built without the feature `{kind}`: build it with `--features {kind}`, or train with `device=cpu`"
+    )]
+    NotBuilt {
+        /// What was asked for; the feature has its name.
+        kind: GpuKind,
+    },
+    /// None of that kind is at hand.
+    #[error("no device for `{kind}`: looked for {looked_for}; {found}")]
+    NotFound {
+        /// What was asked for.
+        kind: GpuKind,
+        /// What is needed.
+        looked_for: &'static str,
+        /// What there was instead.
+        found: String,
+    },
+}

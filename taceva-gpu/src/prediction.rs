@@ -1,0 +1,95 @@
+//! Prediction: running moments are worked into the weights, so that nothing but convolutions is left.
+
+use burn_tensor::backend::Backend;
+use burn_tensor::{Tensor, TensorData};
+use taceva_network::{Network, Picture};
+
+use crate::passes::{Normed, Passes};
+use crate::weights::{Layout, Weights, numbers};
+
+/// Pictures that are passed at once.
+const BATCH: usize = 256;
+
+/// A network ready to predict.
+pub(crate) struct Prediction<'a, B: Backend> {
+    passes: &'a Passes,
+    learnt: Vec<Tensor<B, 1>>,
+    /// The weights and the bias of each convolution, by the position of its weights.
+    folded: Vec<Option<(Tensor<B, 1>, Tensor<B, 1>)>>,
+}
+
+impl<'a, B: Backend> Prediction<'a, B> {
+    pub(crate) fn new(passes: &'a Passes, layout: &Layout, weights: &Weights<B>) -> Self {
+        let learnt: Vec<_> = layout
+            .learnt
+            .iter()
+            .map(|slice| slice.of(&weights.learnt))
+            .collect();
+        let mut folded = vec![None; learnt.len()];
+        for normed in passes.normed() {
+            let running = |position: usize| layout.running[position].of(&weights.running);
+            let [outputs, ..] = normed.shape;
+            let root = (running(normed.variance) + Network::NORM_EPSILON).sqrt();
+            let scale = learnt[normed.gain].clone() / root;
+            let shift = learnt[normed.bias].clone() - running(normed.mean) * scale.clone();
+            let kernels = learnt[normed.weight].clone().reshape(normed.shape);
+            let kernels = kernels * scale.reshape([outputs, 1, 1, 1]);
+            let count = normed.shape.into_iter().product::<usize>();
+            folded[normed.weight] = Some((kernels.reshape([count]), shift));
+        }
+        Prediction {
+            passes,
+            learnt,
+            folded,
+        }
+    }
+
+    /// The outputs for `pictures` of size `picture`, written to `into`.
+    pub(crate) fn run(
+        &self,
+        picture: Picture,
+        pictures: &[f32],
+        into: &mut [f64],
+        device: &B::Device,
+    ) {
+        let samples = pictures.len() / picture.len();
+        let outputs = into.len() / samples.max(1);
+        let batches = pictures.chunks(BATCH * picture.len());
+        for (pictures, into) in batches.zip(into.chunks_mut((BATCH * outputs).max(1))) {
+            let pictures = pictures_on(picture, pictures.to_vec(), device);
+            let found = self.passes.run(pictures, &self.learnt, |normed, pictures| {
+                self.norm(normed, pictures)
+            });
+            for (place, output) in into.iter_mut().zip(numbers(found)) {
+                *place = f64::from(output);
+            }
+        }
+    }
+
+    fn norm(&self, normed: &Normed, pictures: Tensor<B, 4>) -> Tensor<B, 4> {
+        let (kernels, bias) = self.folded[normed.weight]
+            .clone()
+            .expect("every convolution was folded");
+        normed.convolve(pictures, kernels, Some(bias))
+    }
+}
+
+/// Pictures on the device, seen with their channels before their rows.
+///
+/// # Shapes
+/// `values`: `[samples, height, width, channels]`; the tensor: `[samples, channels, height, width]`.
+pub(crate) fn pictures_on<B: Backend>(
+    picture: Picture,
+    values: Vec<f32>,
+    device: &B::Device,
+) -> Tensor<B, 4> {
+    let Picture {
+        height,
+        width,
+        channels,
+    } = picture;
+    let samples = values.len() / picture.len();
+    let shape = [samples, height, width, channels];
+    let pictures = Tensor::<B, 4>::from_data(TensorData::new(values, shape), device);
+    pictures.permute([0, 3, 1, 2])
+}
