@@ -2,7 +2,7 @@
 
 use divan::Bencher;
 use taceva_core::{Frame, FrameInfo, PixelFormat};
-use taceva_models::{Color, Extractor, FeatureSpec};
+use taceva_models::{Color, Extractor, FeatureKind, FeatureSpec};
 
 fn main() {
     divan::main();
@@ -21,11 +21,61 @@ const KINDS: [(PixelFormat, Color, u32); 6] = [
 #[divan::bench(args = 0..KINDS.len())]
 fn extract_640x480(bencher: Bencher, kind: usize) {
     let (format, color, side) = KINDS[kind];
-    let info = FrameInfo {
+    let frame = noise(format);
+    let spec = FeatureSpec {
+        width: side,
+        height: side,
+        color,
+        ..FeatureSpec::default()
+    };
+    let extractor = Extractor::new(spec, frame.info(), None).expect("fits");
+    let mut into = vec![0.0; extractor.shape().len()];
+    bencher.bench_local(|| extractor.extract(divan::black_box(&frame), &mut into));
+}
+
+#[divan::bench(args = ["gradients", "statistics"])]
+fn extract_colours_640x480(bencher: Bencher, kind: &str) {
+    let frame = noise(PixelFormat::Rgb8);
+    let kind = FeatureKind::ALL
+        .into_iter()
+        .find(|known| known.name() == kind);
+    let spec = FeatureSpec {
+        kinds: kind.expect("a kind").into(),
+        ..FeatureSpec::default()
+    };
+    let extractor = Extractor::new(spec, frame.info(), Some(&frame)).expect("fits");
+    let mut into = vec![0.0; extractor.shape().len()];
+    bencher.bench_local(|| extractor.extract(divan::black_box(&frame), &mut into));
+}
+
+/// White squares of 13 pixels, 40 pixels apart.
+#[divan::bench]
+fn extract_markers_640x480(bencher: Bencher) {
+    let info = info(PixelFormat::Gray8);
+    let is_lit = |at: usize| at % 40 < 13;
+    let pixel = |at: usize| 255 * u8::from(is_lit(at % 640) && is_lit(at / 640));
+    let frame = Frame::new(info, (0..640 * 480).map(pixel).collect()).expect("whole");
+    let spec = FeatureSpec {
+        kinds: FeatureKind::Markers.into(),
+        width: 16,
+        height: 16,
+        ..FeatureSpec::default()
+    };
+    let extractor = Extractor::new(spec, info, Some(&frame)).expect("markers");
+    let mut into = vec![0.0; extractor.shape().len()];
+    bencher.bench_local(|| extractor.extract(divan::black_box(&frame), &mut into));
+}
+
+fn info(format: PixelFormat) -> FrameInfo {
+    FrameInfo {
         width: 640,
         height: 480,
         format,
-    };
+    }
+}
+
+fn noise(format: PixelFormat) -> Frame {
+    let info = info(format);
     let mut state = 1_u64;
     let bytes = (0..info.byte_len().expect("small")).map(|_| {
         state = state
@@ -33,14 +83,5 @@ fn extract_640x480(bencher: Bencher, kind: usize) {
             .wrapping_add(1);
         state.to_be_bytes()[0]
     });
-    let frame = Frame::new(info, bytes.collect()).expect("whole");
-    let spec = FeatureSpec {
-        width: side,
-        height: side,
-        color,
-        ..FeatureSpec::default()
-    };
-    let extractor = Extractor::new(spec, info, None).expect("fits");
-    let mut into = vec![0.0; extractor.shape().len()];
-    bencher.bench_local(|| extractor.extract(divan::black_box(&frame), &mut into));
+    Frame::new(info, bytes.collect()).expect("whole")
 }

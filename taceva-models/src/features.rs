@@ -1,10 +1,22 @@
 //! From frames to features.
 
 mod area;
+#[cfg(test)]
+mod drawn;
+mod error;
 mod extractor;
+mod gradients;
+mod kinds;
+mod markers;
+mod part;
 mod pca;
+mod pixels;
 mod spec;
+mod statistics;
 
-pub use extractor::{Extractor, FeatureError};
+pub use error::FeatureError;
+pub use extractor::Extractor;
+pub use kinds::{FeatureKind, FeatureKinds};
+pub use markers::{Marker, MarkerTracker, Polarity, Tracked};
 pub use pca::Pca;
 pub use spec::{Color, FeatureSpec};

@@ -37,7 +37,10 @@ pub use auto::{Auto, AutoCard, AutoTrial, Untried};
 pub use baseline::Baseline;
 pub use choice::{ChannelChoice, Choice, ChosenBy};
 pub use elastic_net::ElasticNet;
-pub use features::{Color, Extractor, FeatureError, FeatureSpec, Pca};
+pub use features::{
+    Color, Extractor, FeatureError, FeatureKind, FeatureKinds, FeatureSpec, Marker, MarkerTracker,
+    Pca, Polarity, Tracked,
+};
 pub use fit::{Chosen, ModelEstimator, ModelFit, ModelRegressor};
 pub use gratings::{Discriminant, FourierPlane, RadialSpectrum};
 pub use kernel::{GaussianProcess, KernelRegressor, KernelRidge, SupportVectors};

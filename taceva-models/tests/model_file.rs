@@ -7,8 +7,8 @@ use taceva_core::{
     TrainingSet, Unit,
 };
 use taceva_models::{
-    Color, FeatureError, FeatureSpec, FitInput, FormatError, Model, ModelFileError, ModelRegressor,
-    Provenance, Settings, Source, SplitCard, find,
+    Color, FeatureError, FeatureKind, FeatureSpec, FitInput, FormatError, Model, ModelFileError,
+    ModelRegressor, Provenance, Settings, Source, SplitCard, find,
 };
 
 const FRAME: FrameInfo = FrameInfo {
@@ -23,6 +23,7 @@ const SPEC: FeatureSpec = FeatureSpec {
     color: Color::Gray,
     difference: false,
     pca: None,
+    ..FeatureSpec::DEFAULT
 };
 
 /// Frames whose brightness patterns carry the labels.
@@ -185,6 +186,23 @@ fn weights_of_pixels_equal_weights_of_principal_components() {
             .pca_variance
             .is_some_and(|share| (share - 1.0).abs() < 1e-9)
     );
+}
+
+#[test]
+fn a_model_of_statistics_says_so_and_one_of_pixels_says_what_it_always_said() {
+    let of_statistics = FeatureSpec {
+        kinds: FeatureKind::Statistics.into(),
+        ..SPEC
+    };
+    let (model, features) = fit("ridge", &[], of_statistics);
+    let opened = Model::from_bytes(&model.to_bytes().expect("small")).expect("opens");
+    assert_eq!(opened.card().features, of_statistics);
+    assert_eq!(opened.predict(&features), model.predict(&features));
+    // As older versions wrote it: their files open, and they open ours.
+    let (pixels, _) = fit("ridge", &[], SPEC);
+    let bytes = pixels.to_bytes().expect("small");
+    let text = String::from_utf8_lossy(&bytes);
+    assert!(!text.contains("kinds"));
 }
 
 #[test]

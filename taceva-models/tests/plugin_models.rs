@@ -135,6 +135,7 @@ const SPEC: FeatureSpec = FeatureSpec {
     color: Color::Gray,
     difference: false,
     pca: None,
+    ..FeatureSpec::DEFAULT
 };
 
 /// A model of one channel, fitted by one whose way is `way` on six samples.

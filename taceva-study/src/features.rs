@@ -23,7 +23,7 @@ pub(crate) fn extractor(dataset: &Dataset, spec: FeatureSpec) -> Result<Extracto
             StudyError::Request("the dataset has no frames, the model needs them".to_owned())
         })?
         .info;
-    let reference = if spec.difference {
+    let reference = if spec.asks_for_reference().is_some() {
         dataset.reference()?
     } else {
         None

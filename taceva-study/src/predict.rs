@@ -5,7 +5,7 @@ use std::num::NonZeroUsize;
 
 use taceva_core::{Channels, Column, Field, Progress};
 use taceva_dataset::Dataset;
-use taceva_models::{FeatureError, Model};
+use taceva_models::Model;
 
 use crate::error::StudyError;
 use crate::features::{Work, blank, extract};
@@ -308,9 +308,11 @@ pub(crate) fn extractor(
 ) -> Result<taceva_models::Extractor, StudyError> {
     let frames = dataset.header().frames.as_ref();
     let info = frames
-        .ok_or_else(|| StudyError::Unsuited(FeatureError::NoReference.to_string()))?
+        .ok_or_else(|| {
+            StudyError::Unsuited("the dataset has no frames, the model needs them".to_owned())
+        })?
         .info;
-    let reference = if model.card().features.difference {
+    let reference = if model.card().features.asks_for_reference().is_some() {
         dataset.reference()?
     } else {
         None

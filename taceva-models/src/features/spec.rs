@@ -1,10 +1,11 @@
-//! What a model sees of a frame: size, colour, difference from a reference, principal components.
+//! What a model sees of a frame: kinds of features, size, colour, difference from a reference, principal components.
 
 use std::fmt;
 
 use serde::{Deserialize, Serialize};
 use taceva_core::FeatureShape;
 
+use super::kinds::{FeatureKind, FeatureKinds};
 use crate::settings::{SettingError, SettingInfo, Settings, number};
 
 /// Whether colour is kept.
@@ -39,6 +40,9 @@ impl Color {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct FeatureSpec {
+    /// What is taken of every cell; pixels where a model file says nothing.
+    #[serde(default, skip_serializing_if = "FeatureKinds::are_pixels")]
+    pub kinds: FeatureKinds,
     /// Columns after the reduction.
     pub width: u32,
     /// Rows after the reduction.
@@ -57,11 +61,17 @@ impl Default for FeatureSpec {
     }
 }
 
+const KINDS: SettingInfo = SettingInfo {
+    key: "features",
+    accepts: "pixels, markers, gradients, statistics, or several joined by +",
+    default: "pixels",
+    about: "what is taken of every cell: brightness, displacements of markers, slopes by three lamps, or mean, spread and quantiles",
+};
 const SIZE: SettingInfo = SettingInfo {
     key: "size",
     accepts: "WIDTHxHEIGHT or one number for both, from 1 to 1024",
-    default: "32x32, 128x96 for networks",
-    about: "the size every frame is reduced to by averaging areas",
+    default: "32x32, 128x96 for networks; 16x16 with markers, 8x8 with statistics",
+    about: "how many cells every frame is divided into",
 };
 const COLOR: SettingInfo = SettingInfo {
     key: "color",
@@ -73,13 +83,13 @@ const DIFFERENCE: SettingInfo = SettingInfo {
     key: "difference",
     accepts: "true or false",
     default: "false",
-    about: "whether the no-contact reference frame is subtracted",
+    about: "whether the no-contact reference frame is subtracted from pixels and statistics; markers and gradients always compare with it",
 };
 const PCA: SettingInfo = SettingInfo {
     key: "pca",
     accepts: "a number of components from 1 to 65536",
     default: "all pixels",
-    about: "how many principal components of the training part replace the pixels",
+    about: "how many principal components of the training part replace the numbers of all cells",
 };
 
 impl FeatureSpec {
@@ -91,6 +101,7 @@ impl FeatureSpec {
 
     /// What linear models see where nothing else is asked for.
     pub const DEFAULT: FeatureSpec = FeatureSpec {
+        kinds: FeatureKinds::PIXELS,
         width: 32,
         height: 32,
         color: Color::Gray,
@@ -99,7 +110,7 @@ impl FeatureSpec {
     };
 
     /// What can be set.
-    pub const SETTINGS: &'static [SettingInfo] = &[SIZE, COLOR, DIFFERENCE, PCA];
+    pub const SETTINGS: &'static [SettingInfo] = &[KINDS, SIZE, COLOR, DIFFERENCE, PCA];
 
     /// The features that `settings` ask for.
     ///
@@ -122,7 +133,8 @@ impl FeatureSpec {
     /// [`SettingError`] for an unknown key or a value out of range.
     pub fn changed_by(self, settings: &Settings) -> Result<FeatureSpec, SettingError> {
         settings.check_keys(FeatureSpec::SETTINGS)?;
-        let default = self;
+        let kinds = settings.value(&KINDS, self.kinds, FeatureKinds::parse)?;
+        let default = self.with_kinds(kinds);
         let (width, height) = settings.value(&SIZE, (default.width, default.height), |text| {
             let side = |text| number(text, 1..=FeatureSpec::SIDE_MAX);
             match text.split_once('x') {
@@ -131,6 +143,7 @@ impl FeatureSpec {
             }
         })?;
         Ok(FeatureSpec {
+            kinds,
             width,
             height,
             color: settings.value(&COLOR, default.color, |text| {
@@ -146,12 +159,35 @@ impl FeatureSpec {
         })
     }
 
+    /// The same, of other `kinds`, on a grid as fine as they deserve where there are others than pixels.
+    fn with_kinds(self, kinds: FeatureKinds) -> FeatureSpec {
+        let others = kinds.iter().filter(|_| !kinds.are_pixels());
+        let side = others.map(FeatureKind::side).min();
+        FeatureSpec {
+            kinds,
+            width: side.unwrap_or(self.width),
+            height: side.unwrap_or(self.height),
+            ..self
+        }
+    }
+
     /// The shape of one sample's features, before principal components.
     pub fn shape(&self) -> FeatureShape {
         FeatureShape {
             height: self.height as usize,
             width: self.width as usize,
-            depth: self.color.depth(),
+            depth: self.kinds.iter().map(|kind| kind.depth(self.color)).sum(),
+        }
+    }
+
+    /// The setting for which the no-contact reference frame is needed; `None` if it is not.
+    pub fn asks_for_reference(&self) -> Option<&'static str> {
+        let by_kind = self.kinds.iter().find(|kind| kind.needs_reference());
+        match by_kind {
+            _ if self.difference => Some("difference=true"),
+            Some(FeatureKind::Markers) => Some("features=markers"),
+            Some(_) => Some("features=gradients"),
+            None => None,
         }
     }
 
@@ -170,6 +206,9 @@ impl fmt::Display for FeatureSpec {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let FeatureSpec { width, height, .. } = self;
         write!(f, "{width}×{height} {}", self.color.name())?;
+        if !self.kinds.are_pixels() {
+            write!(f, " {}", self.kinds)?;
+        }
         if self.difference {
             f.write_str(", difference from the reference")?;
         }
@@ -196,6 +235,34 @@ mod tests {
     }
 
     #[test]
+    fn each_kind_has_a_grid_of_its_own_unless_another_is_asked_for() {
+        let shape = |words: &[&str]| parse(words).expect("valid").shape();
+        let sides = |words: &[&str]| (shape(words).width, shape(words).depth);
+        assert_eq!(sides(&["features=pixels"]), (32, 1));
+        assert_eq!(sides(&["features=markers"]), (16, 3));
+        assert_eq!(sides(&["features=pixels+statistics", "color=rgb"]), (8, 24));
+        assert_eq!(sides(&["features=gradients", "size=20"]), (20, 3));
+        let spec = parse(&["features=markers+pixels"]).expect("valid");
+        assert_eq!(spec.to_string(), "16×16 gray pixels+markers");
+        assert_eq!(spec.asks_for_reference(), Some("features=markers"));
+    }
+
+    #[test]
+    fn the_spec_of_an_older_file_says_nothing_of_kinds_and_means_pixels() {
+        let old = r#"{"width":24,"height":18,"color":"gray","difference":true,"pca":null}"#;
+        let spec: FeatureSpec = serde_json::from_str(old).expect("reads");
+        assert_eq!(spec.kinds, FeatureKinds::PIXELS);
+        assert_eq!(serde_json::to_string(&spec).expect("writes"), old);
+        let new = parse(&["features=markers+pixels"]).expect("valid");
+        let text = serde_json::to_string(&new).expect("writes");
+        assert!(text.contains(r#""kinds":"pixels+markers""#), "{text}");
+        assert_eq!(
+            serde_json::from_str::<FeatureSpec>(&text).expect("reads"),
+            new
+        );
+    }
+
+    #[test]
     fn sizes_out_of_range_are_refused() {
         for word in [
             "size=0",
@@ -204,6 +271,8 @@ mod tests {
             "size=1025",
             "pca=0",
             "difference=1",
+            "features=smells",
+            "features=",
         ] {
             assert!(
                 matches!(parse(&[word]), Err(SettingError::Value { .. })),

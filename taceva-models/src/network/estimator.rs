@@ -11,7 +11,7 @@ use super::regressor::picture;
 use super::training::{Training, no_gpu, refused};
 use super::{Checkpoints, NetworkCard, NetworkRegressor, Preprocessing};
 use crate::choice::{ChannelChoice, Choice, ChosenBy, errors};
-use crate::features::{Color, FeatureSpec};
+use crate::features::{Color, FeatureKinds, FeatureSpec};
 use crate::fit::{ModelEstimator, ModelFit, ModelRegressor, NO_PICTURE};
 use crate::problem::{Problem, invalid};
 use crate::registry::ModelInfo;
@@ -116,6 +116,7 @@ const SETTINGS: &[SettingInfo] = &[
 
 /// What networks see where nothing else is asked for.
 const FEATURES: FeatureSpec = FeatureSpec {
+    kinds: FeatureKinds::PIXELS,
     width: 128,
     height: 96,
     color: Color::Gray,

@@ -1,0 +1,228 @@
+//! How the surface of a gel without markers leans, by what three coloured lamps make of it.
+
+use taceva_core::{Frame, FrameInfo, PixelFormat};
+
+use super::area::AreaSums;
+use super::error::FeatureError;
+use super::part::Part;
+use super::pixels::{ratio, signed};
+use super::spec::FeatureSpec;
+
+/// The share of full scale that a lamp is taken to reach everywhere: where it reaches less, noise would be taken for slope.
+const LIT: f32 = 1.0 / 16.0;
+/// Steps of 1 in which the numbers of a pixel are kept until they are averaged.
+const STEPS: f32 = 16_384.0;
+/// The step that stands for 0; 2 above and 2 below are the most that is kept.
+const ZERO: u16 = 32_768;
+/// 1 / √3: from the difference of the lamps at 120° and 240° to the slope across the one at 0°.
+const ACROSS: f32 = 0.577_350_27;
+
+/// Slopes of each cell, towards 0° and towards 90°, and the change of light that no slope explains.
+///
+/// # The light
+/// Three lamps shine flatly from the side, red at 0°, green at 120° and blue at 240°, on a matt surface. Where the surface leans by the slope
+/// `g` (∂z/∂x, ∂z/∂y, small), lamp `c` in the direction `d_c` and at the elevation `e` lights it by `1 - cot(e) g·d_c` of what it did before (Lambert's
+/// law to first order). With `r_c = (frame - reference) / reference` of colour `c` and an unexplained change `s` that all three share,
+/// `r_c = p·d_c + s` has one solution, which these are, pixel by pixel, then averaged over the cell:
+///
+/// `p_x = 2/3 (r_red - (r_green + r_blue) / 2)`, `p_y = (r_green - r_blue) / √3`, `s = (r_red + r_green + r_blue) / 3`.
+///
+/// `p = -cot(e) g`: the number grows where the surface turns towards the lamp. The reference takes uneven lamps, vignetting and the
+/// colour of the gel with it.
+///
+/// # What is learnt
+/// Nothing. Lamps in other directions, or of other colours than the camera's, make of these numbers another fixed linear mix of slopes, which is
+/// what a model learns anyway; a sensor needs no calibration with a ball.
+///
+/// # What it cannot see
+/// Shear, as nothing on the surface is followed; the depth of a flat touch but at its edge; slopes in shadow, in saturated pixels or so steep
+/// that light no longer changes in proportion; a change of light of all lamps alike is kept apart as `s`, one of a single lamp is taken for a slope.
+#[derive(Debug)]
+pub(super) struct Gradients {
+    areas: AreaSums,
+    reference: Vec<f32>,
+    /// 1 / brightness of the reference, where it is lit.
+    inverse: Vec<f32>,
+}
+
+impl Gradients {
+    /// For frames like `reference`, no smaller than the grid of `spec`.
+    pub(super) fn new(spec: &FeatureSpec, reference: &Frame) -> Result<Gradients, FeatureError> {
+        let info = reference.info();
+        if info.format.samples() != 3 {
+            return Err(FeatureError::Lampless { info });
+        }
+        let slopes = slopes_info(info);
+        let full_scale = f32::from(info.format.full_scale());
+        let reference: Vec<f32> = reference.samples().map(f32::from).collect();
+        let inverse = reference
+            .iter()
+            .map(|light| light.max(LIT * full_scale).recip());
+        Ok(Gradients {
+            areas: AreaSums::new(slopes, spec.width, spec.height),
+            inverse: inverse.collect(),
+            reference,
+        })
+    }
+
+    /// The numbers of each pixel, as steps.
+    fn slopes(&self, frame: &Frame) -> Frame {
+        let mut bytes = Vec::with_capacity(2 * self.reference.len());
+        let own = self.reference.iter().zip(&self.inverse);
+        let mut changes = frame
+            .samples()
+            .zip(own)
+            .map(|(light, (reference, inverse))| (f32::from(light) - reference) * inverse);
+        while let (Some(red), Some(green), Some(blue)) =
+            (changes.next(), changes.next(), changes.next())
+        {
+            let towards = 2.0 / 3.0 * (red - 0.5 * (green + blue));
+            let across = ACROSS * (green - blue);
+            let common = (red + green + blue) / 3.0;
+            for number in [towards, across, common] {
+                bytes.extend(step(number).to_le_bytes());
+            }
+        }
+        Frame::new(slopes_info(frame.info()), bytes).expect("three numbers a pixel")
+    }
+}
+
+impl Part for Gradients {
+    fn depth(&self) -> usize {
+        3
+    }
+
+    fn write(&self, frame: &Frame, into: &mut [f32]) {
+        let pixels = signed(self.areas.full_scale()) / i64::from(u16::MAX);
+        let zero = pixels * i64::from(ZERO);
+        #[expect(clippy::cast_possible_truncation, reason = "16,384")]
+        let one = pixels * STEPS as i64;
+        let mut places = into.iter_mut();
+        self.areas.for_each(&self.slopes(frame), |cell| {
+            for (&sum, place) in cell.iter().zip(&mut places) {
+                *place = ratio(signed(sum) - zero, one);
+            }
+        });
+    }
+}
+
+fn slopes_info(info: FrameInfo) -> FrameInfo {
+    FrameInfo {
+        format: PixelFormat::Rgb16,
+        ..info
+    }
+}
+
+/// The nearest step, within what is kept.
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "a conversion to fewer bits ends at its bounds"
+)]
+fn step(number: f32) -> u16 {
+    (number * STEPS + f32::from(ZERO)).round() as u16
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::features::drawn::noise;
+    use crate::features::{Extractor, FeatureKind};
+
+    const SIDE: u32 = 24;
+
+    fn spec(side: u32) -> FeatureSpec {
+        FeatureSpec {
+            kinds: FeatureKind::Gradients.into(),
+            width: side,
+            height: side,
+            ..FeatureSpec::default()
+        }
+    }
+
+    /// A surface that leans by `slope` of its place, in 16 bits, each lamp as bright as `lamps` says, all dimmed by `dimming`.
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "a camera"
+    )]
+    fn lit(lamps: [f64; 3], dimming: f64, slope: impl Fn(f64, f64) -> [f64; 2]) -> Frame {
+        let info = FrameInfo {
+            width: SIDE,
+            height: SIDE,
+            format: PixelFormat::Rgb16,
+        };
+        let mut bytes = Vec::new();
+        for y in 0..SIDE {
+            for x in 0..SIDE {
+                let [gx, gy] = slope(f64::from(x), f64::from(y));
+                for (lamp, angle) in lamps.iter().zip([0.0_f64, 120.0, 240.0]) {
+                    let (across, along) = angle.to_radians().sin_cos();
+                    let light = lamp * (dimming + gx * along + gy * across);
+                    bytes.extend(((65_535.0 * light).round() as u16).to_le_bytes());
+                }
+            }
+        }
+        Frame::new(info, bytes).expect("whole")
+    }
+
+    fn features(reference: &Frame, frame: &Frame, side: u32) -> Vec<f32> {
+        let extractor = Extractor::new(spec(side), frame.info(), Some(reference)).expect("fits");
+        let features = extractor.extract_all([frame]).expect("same kind");
+        features.values().to_vec()
+    }
+
+    #[test]
+    fn the_slopes_of_a_bowl_come_back_whatever_the_lamps() {
+        let bowl = |x: f64, y: f64| [0.01 * (x - 11.5), -0.006 * (y - 11.5)];
+        for lamps in [[0.4, 0.4, 0.4], [0.5, 0.2, 0.35]] {
+            let reference = lit(lamps, 1.0, |_, _| [0.0, 0.0]);
+            let frame = lit(lamps, 0.9, bowl);
+            for (position, cell) in features(&reference, &frame, 8).chunks_exact(3).enumerate() {
+                let middle = |cell: usize| 3.0 * cell as f64 + 1.0;
+                let [gx, gy] = bowl(middle(position % 8), middle(position / 8));
+                for (found, truth) in cell.iter().zip([gx, gy, -0.1]) {
+                    // Half a step of a pixel, and half a level of a 16-bit camera at a fifth of full scale.
+                    assert!(
+                        (f64::from(*found) - truth).abs() < 1e-4,
+                        "{found} for {truth}"
+                    );
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn the_untouched_gel_leans_nowhere() {
+        let untouched = noise(30, 20, PixelFormat::Rgb8, 2);
+        let found = features(&untouched, &untouched, 5);
+        assert!(found.iter().all(|value| value.to_bits() == 0));
+    }
+
+    #[test]
+    fn a_dark_corner_does_not_turn_noise_into_slopes() {
+        let info = noise(16, 16, PixelFormat::Rgb8, 1).info();
+        let of = |level: u8| Frame::new(info, vec![level; 3 * 256]).expect("whole");
+        let mut bytes = of(1).into_bytes();
+        bytes.iter_mut().step_by(3).for_each(|red| *red = 2);
+        let noisy = Frame::new(info, bytes).expect("whole");
+        let found = features(&of(1), &noisy, 2);
+        // One level against a sixteenth of full scale, two thirds of it; not the doubling that it is.
+        assert!(
+            (found[0] - 2.0 / 3.0 * 16.0 / 255.0).abs() < 1e-4,
+            "{}",
+            found[0]
+        );
+    }
+
+    #[test]
+    fn frames_without_colour_and_recordings_without_a_reference_are_refused() {
+        let gray = noise(40, 40, PixelFormat::Gray8, 1);
+        let error = Extractor::new(spec(32), gray.info(), Some(&gray)).expect_err("gray");
+        assert_eq!(error, FeatureError::Lampless { info: gray.info() });
+        let color = noise(40, 40, PixelFormat::Rgb8, 1);
+        let error = Extractor::new(spec(32), color.info(), None).expect_err("no reference");
+        let asked = "features=gradients";
+        assert_eq!(error, FeatureError::NoReference { asked });
+    }
+}

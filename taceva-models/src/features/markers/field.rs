@@ -1,0 +1,104 @@
+//! Displacements of markers as features: a field over the cells of a grid.
+
+use taceva_core::Frame;
+
+use super::lattice::closest;
+use super::local::{Moved, displacement};
+use super::spots::distance;
+use super::tracker::MarkerTracker;
+use crate::features::FeatureError;
+use crate::features::part::Part;
+use crate::features::spec::FeatureSpec;
+
+/// Markers that speak for a cell.
+const SPEAKERS: usize = 12;
+/// Markers whose absence is told of a cell.
+const NEAREST: usize = 4;
+/// How far from every marker a cell may be and still be spoken for, in spacings.
+const REACH: f64 = 1.5;
+
+/// Three numbers a cell: how far the gel has moved to the right and down in the middle of the cell, in typical distances of a marker from the
+/// next, and which share of its four nearest markers is not seen.
+///
+/// Between markers displacements are taken for linear; a cell that no marker is near to holds zeros. What is seen is the stretch of
+/// the gel: shear at once, depth by how markers spread. What is not seen is anything smaller than the distance between markers, and light.
+#[derive(Debug)]
+pub(crate) struct MarkerField {
+    tracker: MarkerTracker,
+    cells: Vec<Cell>,
+}
+
+/// Where the middle of a cell is, and who speaks for it; nobody where no marker is near.
+#[derive(Debug)]
+struct Cell {
+    middle_px: [f64; 2],
+    speakers: Vec<usize>,
+}
+
+impl MarkerField {
+    pub(crate) fn new(spec: &FeatureSpec, reference: &Frame) -> Result<MarkerField, FeatureError> {
+        let tracker = MarkerTracker::new(reference)?;
+        let info = reference.info();
+        let places: Vec<[f64; 2]> = tracker
+            .markers()
+            .iter()
+            .map(|marker| marker.place_px)
+            .collect();
+        let middle = |cell: u32, cells: u32, pixels: u32| {
+            f64::from(pixels) / f64::from(cells) * (f64::from(cell) + 0.5) - 0.5
+        };
+        let reach = REACH * tracker.spacing_px();
+        let mut cells = Vec::new();
+        for row in 0..spec.height {
+            for column in 0..spec.width {
+                let middle_px = [
+                    middle(column, spec.width, info.width),
+                    middle(row, spec.height, info.height),
+                ];
+                let mut speakers = closest(middle_px, &places, SPEAKERS);
+                if distance(middle_px, places[speakers[0]]) > reach {
+                    speakers.clear();
+                }
+                cells.push(Cell {
+                    middle_px,
+                    speakers,
+                });
+            }
+        }
+        Ok(MarkerField { tracker, cells })
+    }
+}
+
+impl Part for MarkerField {
+    fn depth(&self) -> usize {
+        3
+    }
+
+    #[expect(
+        clippy::cast_possible_truncation,
+        reason = "features are kept in single precision"
+    )]
+    fn write(&self, frame: &Frame, into: &mut [f32]) {
+        let tracked = self.tracker.follow(frame);
+        let markers = self.tracker.markers();
+        let spacing_px = self.tracker.spacing_px();
+        for (cell, place) in self.cells.iter().zip(into.chunks_exact_mut(3)) {
+            let known = cell.speakers.iter().filter(|own| tracked[**own].is_seen);
+            let known: Vec<Moved> = known
+                .map(|own| (markers[*own].place_px, tracked[*own].displacement_px))
+                .collect();
+            let nearest = &cell.speakers[..cell.speakers.len().min(NEAREST)];
+            let unseen = nearest.iter().filter(|own| !tracked[**own].is_seen).count();
+            let told = || {
+                // None of them is seen: what was filled in from further away.
+                let own = cell.speakers.first()?;
+                Some(tracked[*own].displacement_px)
+            };
+            let moved = displacement(cell.middle_px, spacing_px, &known).or_else(told);
+            let [right, down] = moved.unwrap_or([0.0; 2]);
+            place[0] = (right / spacing_px) as f32;
+            place[1] = (down / spacing_px) as f32;
+            place[2] = (unseen as f64 / nearest.len().max(1) as f64) as f32;
+        }
+    }
+}

@@ -1,0 +1,97 @@
+//! What a point does whose neighbours are known to move: locally, a gel is stretched, turned and sheared.
+
+use super::spots::distance;
+
+/// A place and how far it has moved.
+pub(super) type Moved = ([f64; 2], [f64; 2]);
+
+/// How near, in spacings, two places count as one.
+const NEAR: f64 = 0.3;
+/// How strongly gradients are held down, against places one spacing apart: where all neighbours lie on one side or on a line, nothing else does.
+const STIFF: f64 = 0.05;
+
+/// How far `place` has moved if displacements around it are a linear function of place, by least squares weighted by 1 / distance²;
+/// `None` without any neighbour.
+///
+/// With weighted means `ū` of places and `d̄` of displacements, and `G` from the normal equations with `STIFF` added to their diagonal, it is
+/// `d̄ - G ū`.
+pub(super) fn displacement(
+    place: [f64; 2],
+    spacing_px: f64,
+    neighbours: &[Moved],
+) -> Option<[f64; 2]> {
+    let weighted = neighbours.iter().map(|(at, moved)| {
+        let off = [0, 1].map(|axis| (at[axis] - place[axis]) / spacing_px);
+        let apart = distance(*at, place) / spacing_px;
+        (1.0 / (apart * apart + NEAR * NEAR), off, *moved)
+    });
+    let weighted: Vec<(f64, [f64; 2], [f64; 2])> = weighted.collect();
+    let total: f64 = weighted.iter().map(|(weight, ..)| weight).sum();
+    if weighted.is_empty() {
+        return None;
+    }
+    let mut middle = [0.0; 2];
+    let mut mean = [0.0; 2];
+    for (weight, off, moved) in &weighted {
+        for axis in 0..2 {
+            middle[axis] += weight * off[axis] / total;
+            mean[axis] += weight * moved[axis] / total;
+        }
+    }
+    // Second moments of places, and of places with displacements.
+    let (mut xx, mut xy, mut yy) = (STIFF, 0.0, STIFF);
+    let mut with = [[0.0; 2]; 2];
+    for (weight, off, moved) in &weighted {
+        let [x, y] = [off[0] - middle[0], off[1] - middle[1]];
+        let share = weight / total;
+        xx += share * x * x;
+        xy += share * x * y;
+        yy += share * y * y;
+        for axis in 0..2 {
+            let own = moved[axis] - mean[axis];
+            with[axis][0] += share * x * own;
+            with[axis][1] += share * y * own;
+        }
+    }
+    // Positive: the diagonal is larger than Cauchy and Schwarz ask for.
+    let determinant = xx * yy - xy * xy;
+    Some([0, 1].map(|axis| {
+        let [x, y] = with[axis];
+        let gradient = [
+            (yy * x - xy * y) / determinant,
+            (xx * y - xy * x) / determinant,
+        ];
+        mean[axis] - gradient[0] * middle[0] - gradient[1] * middle[1]
+    }))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn one_neighbour_is_followed_and_none_says_nothing() {
+        assert_eq!(displacement([0.0; 2], 10.0, &[]), None);
+        let one = [([8.0, 3.0], [1.5, -2.0])];
+        assert_eq!(displacement([0.0; 2], 10.0, &one), Some([1.5, -2.0]));
+    }
+
+    #[test]
+    fn neighbours_all_around_give_what_lies_between_them() {
+        let shear = |[x, y]: [f64; 2]| [2.0 + 0.3 * y, -1.0 + 0.1 * x];
+        let around = [[10.0, 0.0], [-10.0, 0.0], [0.0, 10.0], [0.0, -10.0]];
+        let moved: Vec<Moved> = around.iter().map(|place| (*place, shear(*place))).collect();
+        let found = displacement([0.0; 2], 10.0, &moved).expect("neighbours");
+        assert!(distance(found, [2.0, -1.0]) < 1e-12, "{found:?}");
+    }
+
+    #[test]
+    fn a_row_on_one_side_is_carried_on() {
+        let shear = |[x, _]: [f64; 2]| [0.2 * x, 0.0];
+        let row = [[-10.0, 0.0], [-20.0, 0.0], [-30.0, 0.0]];
+        let moved: Vec<Moved> = row.iter().map(|place| (*place, shear(*place))).collect();
+        let found = displacement([0.0; 2], 10.0, &moved).expect("neighbours");
+        // Nearer to the truth, 0, than to the nearest neighbour, which moves by -2.
+        assert!(found[0].abs() < 0.7, "{found:?}");
+    }
+}

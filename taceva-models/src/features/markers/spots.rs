@@ -1,0 +1,159 @@
+//! Spots that are darker or brighter than what surrounds them, each to a fraction of a pixel.
+
+use super::plane::Plane;
+
+/// Whether markers are darker or brighter than the gel around them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Polarity {
+    /// Black dots on a bright gel.
+    Dark,
+    /// White or glowing tips on a dark one.
+    Bright,
+}
+
+/// A spot.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Marker {
+    /// Columns and rows from the middle of the first pixel.
+    pub place_px: [f64; 2],
+    /// How much it stands out from its surroundings; full scale is 1.
+    pub contrast: f32,
+}
+
+/// What is looked for: spots of one polarity, so far apart.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Scale {
+    pub(super) polarity: Polarity,
+    pub(super) spacing_px: f64,
+}
+
+/// The nearest that two spots may be, in spacings.
+const APART: f64 = 0.5;
+
+impl Scale {
+    /// Pixels to each side of the square over which is averaged, twice, to find a spot: a fifth of the spacing across.
+    fn near(self) -> usize {
+        whole(0.1 * self.spacing_px)
+    }
+
+    /// Pixels to each side of the square that a spot is compared with, one spacing across: it ends between the spot and the next, since one
+    /// that it cut would pull the spot aside.
+    fn around(self) -> usize {
+        whole(0.5 * self.spacing_px)
+    }
+
+    /// The standard deviation of a response where that of pixels is 1: squares of the weights of the two averages, the surroundings left aside.
+    pub(super) fn noise_gain(self) -> f32 {
+        #[expect(clippy::cast_precision_loss, reason = "a few pixels")]
+        let side = (2 * self.near() + 1) as f32;
+        (2.0 * side * side + 1.0) / (3.0 * side * side * side)
+    }
+}
+
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "some pixels of a frame"
+)]
+fn whole(pixels: f64) -> usize {
+    pixels.round().max(1.0) as usize
+}
+
+/// The spots of `picture` that stand out by more than `least`, the most outstanding first.
+///
+/// The response of a pixel is a weighted mean over its neighbourhood, falling off like a tent, less the mean of its surroundings. A spot is where
+/// the response is largest within half a spacing; its place is the top of the paraboloid through nine responses around it, by least
+/// squares. Spots that the frame cuts are left out.
+pub(super) fn spots(picture: &Plane, scale: Scale, least: f32) -> Vec<Marker> {
+    let response = response(picture, scale);
+    let (width, height) = (picture.width, picture.height);
+    let step = scale.near().div_ceil(2);
+    let margin = 2 * scale.near() + step;
+    let mut tops = Vec::new();
+    for row in margin..height.saturating_sub(margin) {
+        for column in margin..width.saturating_sub(margin) {
+            let place = row * width + column;
+            if response[place] > least && is_top(&response, width, place) {
+                tops.push(marker(&response, width, place, step));
+            }
+        }
+    }
+    // Of equals the one that is further up or left, which a stable sort keeps first.
+    tops.sort_by(|left, right| right.contrast.total_cmp(&left.contrast));
+    let mut kept: Vec<Marker> = Vec::new();
+    let apart = APART * scale.spacing_px;
+    for top in tops {
+        let is_free = |other: &Marker| distance(other.place_px, top.place_px) >= apart;
+        if kept.iter().all(is_free) {
+            kept.push(top);
+        }
+    }
+    kept
+}
+
+fn response(picture: &Plane, scale: Scale) -> Vec<f32> {
+    let near = picture.local_mean(scale.near()).local_mean(scale.near());
+    let around = picture.local_mean(scale.around());
+    let sign = match scale.polarity {
+        Polarity::Dark => -1.0,
+        Polarity::Bright => 1.0,
+    };
+    let pairs = near.values.iter().zip(&around.values);
+    pairs.map(|(near, around)| sign * (near - around)).collect()
+}
+
+/// Whether no neighbour responds more, and none of those before it as much.
+fn is_top(response: &[f32], width: usize, place: usize) -> bool {
+    let own = response[place];
+    let before = [
+        place - width - 1,
+        place - width,
+        place - width + 1,
+        place - 1,
+    ];
+    let after = [
+        place + 1,
+        place + width - 1,
+        place + width,
+        place + width + 1,
+    ];
+    before.iter().all(|&other| response[other] < own)
+        && after.iter().all(|&other| response[other] <= own)
+}
+
+/// The top of the paraboloid through the responses at `place` and `step` pixels to each side.
+fn marker(response: &[f32], width: usize, place: usize, step: usize) -> Marker {
+    let at = |column: usize, row: usize| {
+        f64::from(response[place + row * step * width + column * step - step * width - step])
+    };
+    let column = |column| at(column, 0) + at(column, 1) + at(column, 2);
+    let row = |row| at(0, row) + at(1, row) + at(2, row);
+    let slope = [(column(2) - column(0)) / 6.0, (row(2) - row(0)) / 6.0];
+    let bend = [
+        (column(0) - 2.0 * column(1) + column(2)) / 3.0,
+        (row(0) - 2.0 * row(1) + row(2)) / 3.0,
+    ];
+    let twist = (at(2, 2) - at(0, 2) - at(2, 0) + at(0, 0)) / 4.0;
+    let determinant = bend[0] * bend[1] - twist * twist;
+    // A top bends down on all sides; where it does not, the pixel itself is all that is known.
+    let off = if determinant > 0.0 && bend[0] < 0.0 {
+        [
+            (twist * slope[1] - bend[1] * slope[0]) / determinant,
+            (twist * slope[0] - bend[0] * slope[1]) / determinant,
+        ]
+    } else {
+        [0.0; 2]
+    };
+    let pixels = |off: f64| (off * step as f64).clamp(-1.0, 1.0);
+    Marker {
+        place_px: [
+            (place % width) as f64 + pixels(off[0]),
+            (place / width) as f64 + pixels(off[1]),
+        ],
+        contrast: response[place],
+    }
+}
+
+pub(super) fn distance(left: [f64; 2], right: [f64; 2]) -> f64 {
+    (left[0] - right[0]).hypot(left[1] - right[1])
+}

@@ -1,0 +1,97 @@
+//! Area averages of pixels, exactly rounded once, and their differences from a reference.
+
+use taceva_core::{Frame, FrameInfo, PixelFormat};
+
+use super::area::AreaSums;
+use super::part::Part;
+use super::spec::{Color, FeatureSpec};
+
+/// Weights of red, green and blue in gray, in thousandths (Rec. ITU-R BT.601).
+pub(super) const LUMA: [i64; 3] = [299, 587, 114];
+pub(super) const LUMA_SUM: i64 = 1000;
+
+/// Whether frames of `format` are turned into gray where `color` is asked for.
+pub(super) fn mixes(color: Color, format: PixelFormat) -> bool {
+    color == Color::Gray && format.samples() == 3
+}
+
+/// Sums stay whole numbers until the one division at the end, so a feature is the exact area average rounded once.
+#[derive(Debug)]
+pub(super) struct Pixels {
+    color: Color,
+    mixes: bool,
+    areas: AreaSums,
+    reference: Option<Vec<i64>>,
+}
+
+impl Pixels {
+    pub(super) fn new(spec: &FeatureSpec, info: FrameInfo, reference: Option<&Frame>) -> Pixels {
+        let mut pixels = Pixels {
+            color: spec.color,
+            mixes: mixes(spec.color, info.format),
+            areas: AreaSums::new(info, spec.width, spec.height),
+            reference: None,
+        };
+        pixels.reference = reference.map(|frame| {
+            let mut sums = Vec::new();
+            pixels.for_each_sum(frame, |sum| sums.push(sum));
+            sums
+        });
+        pixels
+    }
+
+    fn full_scale(&self) -> i64 {
+        let mixed = if self.mixes { LUMA_SUM } else { 1 };
+        signed(self.areas.full_scale()) * mixed
+    }
+
+    fn for_each_sum(&self, frame: &Frame, mut take: impl FnMut(i64)) {
+        if self.mixes {
+            self.areas.for_each(frame, |cell| {
+                take(
+                    cell.iter()
+                        .zip(LUMA)
+                        .map(|(&sum, weight)| signed(sum) * weight)
+                        .sum(),
+                );
+            });
+        } else {
+            self.areas
+                .for_each(frame, |cell| cell.iter().for_each(|&sum| take(signed(sum))));
+        }
+    }
+}
+
+impl Part for Pixels {
+    fn depth(&self) -> usize {
+        self.color.depth()
+    }
+
+    /// Full scale is 1; a difference lies in -1..1.
+    fn write(&self, frame: &Frame, into: &mut [f32]) {
+        let full_scale = self.full_scale();
+        let mut places = into.iter_mut().enumerate();
+        self.for_each_sum(frame, |sum| {
+            let (position, place) = places.next().expect("a place for each sum, by contract");
+            let reference = self.reference.as_ref().map_or(0, |sums| sums[position]);
+            *place = ratio(sum - reference, full_scale);
+        });
+    }
+}
+
+/// A sum over a cell: below 2^48 for 65,535 rows and columns of 16 bits, and a frame in memory is no wider than 2^32.
+pub(super) fn signed(sum: u64) -> i64 {
+    i64::try_from(sum).expect("a cell of a frame in memory sums to less than 2^63")
+}
+
+/// The quotient as a feature.
+#[expect(
+    clippy::cast_possible_truncation,
+    reason = "features are kept in single precision; this is the one rounding"
+)]
+pub(super) fn ratio(sum: i64, full_scale: i64) -> f32 {
+    (sum as f64 / full_scale as f64) as f32
+}
+
+#[cfg(test)]
+mod tests;
