@@ -41,15 +41,15 @@ pub struct Tracked {
 /// use taceva_core::{Frame, FrameInfo, PixelFormat};
 /// use taceva_models::{MarkerTracker, Polarity};
 ///
-/// // White dots of 5×5 pixels, 16 pixels apart, on a black gel.
+/// // Four rows of six white dots of 5×5 pixels, 16 pixels apart, on a black gel.
 /// let info = FrameInfo { width: 128, height: 96, format: PixelFormat::Gray8 };
 /// let dots = |right: usize| {
-///     let lit = |at: usize| (6..11).contains(&(at % 16));
-///     let pixel = |at: usize| if lit(at % 128 + 16 - right) && lit(at / 128) { 255 } else { 0 };
+///     let lit = |at: usize, dots: usize| (6..11).contains(&(at % 16)) && (1..=dots).contains(&(at / 16));
+///     let pixel = |at: usize| if lit((at % 128).saturating_sub(right), 6) && lit(at / 128, 4) { 255 } else { 0 };
 ///     Frame::new(info, (0..128 * 96).map(pixel).collect())
 /// };
 /// let tracker = MarkerTracker::new(&dots(0)?)?;
-/// assert_eq!((tracker.polarity(), tracker.markers().len()), (Polarity::Bright, 48));
+/// assert_eq!((tracker.polarity(), tracker.markers().len()), (Polarity::Bright, 24));
 /// let tracked = tracker.track(&dots(3)?)?;
 /// assert!(tracked.iter().all(|marker| (marker.displacement_px[0] - 3.0).abs() < 0.05));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
