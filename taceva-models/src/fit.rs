@@ -6,6 +6,7 @@ use taceva_core::{
 
 use crate::auto::AutoCard;
 use crate::choice::Choice;
+use crate::discriminant::ClassRegressor;
 use crate::features::Pca;
 use crate::kernel::KernelRegressor;
 use crate::label_scaling::LabelScaling;
@@ -103,6 +104,8 @@ pub enum ModelRegressor {
     Kernel(Box<KernelRegressor>),
     /// The mean of the nearest training samples.
     Neighbours(Box<NeighbourRegressor>),
+    /// One of the values that were taught.
+    Classes(Box<ClassRegressor>),
     /// Trees whose answers are added up.
     Trees(Box<TreeRegressor>),
     /// A network that reads features as a picture.
@@ -138,6 +141,7 @@ impl ModelRegressor {
             }
             ModelRegressor::Kernel(kernel) => kernel.reads_features(),
             ModelRegressor::Neighbours(neighbours) => neighbours.reads_features(),
+            ModelRegressor::Classes(classes) => classes.reads_features(),
             ModelRegressor::Trees(trees) => trees.reads_features(),
             ModelRegressor::Network(network) => network.reads_features(),
             ModelRegressor::Plugin(_) => true,
@@ -167,6 +171,7 @@ impl ModelRegressor {
             ModelRegressor::Linear(linear) => linear.tensors(),
             ModelRegressor::Kernel(kernel) => kernel.tensors(),
             ModelRegressor::Neighbours(neighbours) => neighbours.tensors(),
+            ModelRegressor::Classes(classes) => classes.tensors(),
             ModelRegressor::Trees(trees) => trees.tensors(),
             ModelRegressor::Network(network) => {
                 let tensors = network.tensors().into_iter();
@@ -184,6 +189,7 @@ impl ModelRegressor {
             ModelRegressor::Linear(linear) => linear,
             ModelRegressor::Kernel(kernel) => &**kernel,
             ModelRegressor::Neighbours(neighbours) => &**neighbours,
+            ModelRegressor::Classes(classes) => &**classes,
             ModelRegressor::Trees(trees) => &**trees,
             ModelRegressor::Network(network) => &**network,
             ModelRegressor::Plugin(plugin) => plugin,

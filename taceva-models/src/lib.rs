@@ -3,6 +3,7 @@
 mod auto;
 mod baseline;
 mod choice;
+mod discriminant;
 mod distance;
 mod durable;
 mod elastic_net;
@@ -36,13 +37,14 @@ mod trials;
 pub use auto::{Auto, AutoCard, AutoTrial, Untried};
 pub use baseline::Baseline;
 pub use choice::{ChannelChoice, Choice, ChosenBy};
+pub use discriminant::{ClassRegressor, Discriminant, LinearDiscriminant};
 pub use elastic_net::ElasticNet;
 pub use features::{
     Color, Extractor, FeatureError, FeatureKind, FeatureKinds, FeatureSpec, Marker, MarkerTracker,
     Pca, Polarity, Tracked,
 };
 pub use fit::{Chosen, ModelEstimator, ModelFit, ModelRegressor};
-pub use gratings::{Discriminant, FourierPlane, RadialSpectrum};
+pub use gratings::{FourierPlane, RadialSpectrum};
 pub use kernel::{GaussianProcess, KernelRegressor, KernelRidge, SupportVectors};
 pub use label_scaling::LabelScaling;
 pub use linear::{LinearEstimator, LinearFit, LinearRegressor};
@@ -54,7 +56,7 @@ pub use models::{ChosenModel, Models};
 pub use neighbours::{NeighbourRegressor, Neighbours};
 pub use network::{
     CheckpointError, Checkpoints, Foreign, NetworkCard, NetworkEstimator, NetworkRegressor,
-    Preprocessing,
+    Preprocessing, SpacingNetwork, SpacingOutput,
 };
 pub use pls::Pls;
 pub use plugin::{PluginCard, PluginRegressor};

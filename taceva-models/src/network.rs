@@ -5,6 +5,7 @@ mod checkpoint;
 mod estimator;
 mod preprocessing;
 mod regressor;
+mod spacing;
 mod training;
 
 pub use card::NetworkCard;
@@ -12,3 +13,4 @@ pub use checkpoint::{CheckpointError, Checkpoints, Foreign};
 pub use estimator::NetworkEstimator;
 pub use preprocessing::Preprocessing;
 pub use regressor::NetworkRegressor;
+pub use spacing::{SpacingNetwork, SpacingOutput};

@@ -2,6 +2,7 @@
 
 use crate::auto::Auto;
 use crate::baseline::Baseline;
+use crate::discriminant::LinearDiscriminant;
 use crate::elastic_net::ElasticNet;
 use crate::features::FeatureSpec;
 use crate::fit::ModelEstimator;
@@ -48,6 +49,7 @@ pub const ALL: &[ModelInfo] = &[
     SupportVectors::INFO,
     GaussianProcess::INFO,
     Neighbours::INFO,
+    LinearDiscriminant::INFO,
     RandomForest::INFO,
     GradientBoosting::INFO,
     NetworkEstimator::CNN,

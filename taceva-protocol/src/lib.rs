@@ -25,10 +25,10 @@ pub use run::{
     RunReport, RunSpec, SpecimenChanger, Stage, StopCause, Supervisor, Timekeeper, Trip, run,
 };
 pub use scene::{
-    BuiltinScene, Calibration, Contact, DeviceSpec, FootprintSpec, GREATEST_SCENE, Gratings,
-    Hysteresis, Idle, LightSweep, LightingSpec, LimitSpec, MetricSettings, MetricsSpec, ModelSpec,
-    Protocol, Repeatability, ReportSpec, Scene, SceneError, SceneProblem, SensorSpec, Setting,
-    Shape, Spatial, Study, SurfaceMap,
+    BuiltinScene, Calibration, Contact, DeviceSpec, FootprintSpec, GREATEST_SCENE, GratingTeller,
+    Gratings, Hysteresis, Idle, LightSweep, LightingSpec, LimitSpec, MetricSettings, MetricsSpec,
+    ModelSpec, Protocol, Repeatability, ReportSpec, Scene, SceneError, SceneProblem, SensorSpec,
+    Setting, Shape, Spatial, Study, SurfaceMap,
 };
 pub use source::{RecordingInfo, RigInfo, SourceInfo};
 pub use taceva_core::Specimen;

@@ -10,6 +10,7 @@ mod metrics;
 mod parse;
 mod setting;
 mod study;
+mod teller;
 
 pub use builtin::BuiltinScene;
 pub use counts::{
@@ -23,6 +24,7 @@ pub use metrics::{MetricSettings, MetricsSpec, ReportSpec};
 pub use parse::GREATEST_SCENE;
 pub use setting::Setting;
 pub use study::Study;
+pub use teller::GratingTeller;
 
 pub(crate) use parse::Text;
 

@@ -23,6 +23,7 @@ mod stage;
 mod state_file;
 mod subject;
 mod tally;
+mod teller;
 
 pub use acquire::{Surroundings, SurroundingsOf, Upcoming, Workshop};
 pub use cache::{Cache, Stage, StageRecord};

@@ -3,19 +3,21 @@
 mod rig;
 mod text;
 
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use serde::ser::{Serialize, SerializeStruct, Serializer};
 use taceva_core::FieldSet;
 use taceva_dataset::{Dataset, Known};
 use taceva_drivers::Drivers;
-use taceva_models::{Models, Settings};
+use taceva_models::{Models, SettingError, Settings};
 use taceva_protocol::{
-    Plan, RecordingInfo, Scene, SceneError, SceneProblem, SourceInfo, Study, plan,
+    GratingTeller, Plan, RecordingInfo, Scene, SceneError, SceneProblem, SourceInfo, Study, plan,
 };
 
 use crate::error::StudyError;
 use crate::fit::{FitRequest, Recipe};
+use crate::teller::Teller;
 
 pub(crate) use rig::RigSpec;
 pub use text::SceneText;
@@ -106,7 +108,19 @@ impl PlannedScene {
                     .map_err(refused)?;
             }
         }
-        Ok(())
+        self.teller().map(drop)
+    }
+
+    /// What tells the spacing of gratings.
+    ///
+    /// # Errors
+    /// [`StudyError::Scene`] with the line of settings that it does not take.
+    pub(crate) fn teller(&self) -> Result<Teller, StudyError> {
+        let gratings = &self.scene.protocol.gratings;
+        Teller::of(gratings).map_err(|error| {
+            let problem = SceneProblem::Contradiction(error.to_string());
+            self.text.error(gratings.set.at(), problem)
+        })
     }
 }
 
@@ -119,18 +133,10 @@ impl PlannedStudy {
     ) -> Option<Result<FitRequest, StudyError>> {
         let model = self.study.model.as_ref()?;
         let name = model.name.as_ref()?;
-        let words: Vec<String> = model
-            .set
-            .iter()
-            .map(|(key, value)| match value {
-                toml::Value::String(text) => format!("{key}={text}"),
-                other => format!("{key}={other}"),
-            })
-            .collect();
         let request = || {
             Ok(FitRequest {
                 model: models.find(&name.value)?,
-                settings: Settings::parse(words.iter().map(String::as_str))?,
+                settings: settings_of(&model.set)?,
                 channels: self.plan.channels.clone(),
                 split: None,
                 seed,
@@ -144,6 +150,21 @@ impl PlannedStudy {
         let model = self.study.model.as_ref()?;
         Some(model.file.as_ref()?.value.as_str())
     }
+}
+
+/// Settings as a scene writes them, by name.
+///
+/// # Errors
+/// [`SettingError`] for a name that is none.
+pub(crate) fn settings_of(set: &BTreeMap<String, toml::Value>) -> Result<Settings, SettingError> {
+    let words: Vec<String> = set
+        .iter()
+        .map(|(key, value)| match value {
+            toml::Value::String(text) => format!("{key}={text}"),
+            other => format!("{key}={other}"),
+        })
+        .collect();
+    Settings::parse(words.iter().map(String::as_str))
 }
 
 /// What a study is fed from, for the planner and for those who carry the plan out.
@@ -206,11 +227,20 @@ fn recording(path: &Path) -> Result<RecordingInfo, StudyError> {
 impl Serialize for PlannedScene {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let plans: Vec<&Plan> = self.studies.iter().map(|study| &study.plan).collect();
-        let mut scene = serializer.serialize_struct("PlannedScene", 4)?;
+        let gratings = &self.scene.protocol.gratings;
+        let (told_by, set) = (gratings.told_by.value, &gratings.set.value);
+        let is_told_otherwise = told_by != GratingTeller::default();
+        let fields = 4 + 2 * usize::from(is_told_otherwise);
+        let mut scene = serializer.serialize_struct("PlannedScene", fields)?;
         scene.serialize_field("schema", "taceva.plans/1")?;
         scene.serialize_field("scene", &self.scene.name)?;
         scene.serialize_field("seed", &self.scene.seed)?;
         scene.serialize_field("studies", &plans)?;
+        // Results depend on it, so that a run with another teller is another run.
+        if is_told_otherwise {
+            scene.serialize_field("gratings_told_by", &told_by)?;
+            scene.serialize_field("gratings_set", set)?;
+        }
         scene.end()
     }
 }

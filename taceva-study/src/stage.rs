@@ -49,9 +49,10 @@ pub(crate) fn assess(
         .as_ref()
         .map(|learnt| learnt.predict(study, dataset, &deal, means))
         .transpose()?;
+    let teller = scene.teller()?;
     let told = deal
         .reads_spacings()
-        .then(|| ToldSpacings::of(dataset, deal.rows(PhaseKind::Gratings), means))
+        .then(|| ToldSpacings::of(dataset, deal.rows(PhaseKind::Gratings), &teller, means))
         .transpose()?;
     let input = Scores {
         scene,
@@ -63,7 +64,7 @@ pub(crate) fn assess(
         jobs: means.work.jobs,
     };
     let (evaluation, mut notes) = score(&input)?;
-    notes.extend(told.as_ref().map(|_| ToldSpacings::NOTE.to_owned()));
+    notes.extend(told.as_ref().map(|_| teller.note().to_owned()));
     notes.extend(deal.shortfall());
     notes.extend(
         predicted

@@ -8,6 +8,7 @@ use serde::Deserialize;
 use super::card::{Form, ModelCard};
 use super::of_plugin::plugin_from;
 use super::{Model, channels_of};
+use crate::discriminant::ClassRegressor;
 use crate::fit::ModelRegressor;
 use crate::kernel::KernelRegressor;
 use crate::linear::LinearRegressor;
@@ -140,6 +141,10 @@ fn formed(
         Form::Neighbours { .. } => {
             let neighbours = NeighbourRegressor::from_tensors(tensors, channels, seen)?;
             ModelRegressor::Neighbours(Box::new(neighbours))
+        }
+        Form::Classes { .. } => {
+            let classes = ClassRegressor::from_tensors(tensors, channels, seen)?;
+            ModelRegressor::Classes(Box::new(classes))
         }
         Form::Trees { .. } => {
             let trees = TreeRegressor::from_tensors(tensors, channels, seen)?;

@@ -73,6 +73,11 @@ pub enum Form {
         /// How many are kept.
         samples: usize,
     },
+    /// Values that are told apart.
+    Classes {
+        /// How many there are, over all channels.
+        classes: usize,
+    },
     /// Trees whose answers are added up.
     Trees {
         /// How many there are.
@@ -93,6 +98,9 @@ impl Form {
             }),
             ModelRegressor::Neighbours(neighbours) => Some(Form::Neighbours {
                 samples: neighbours.samples(),
+            }),
+            ModelRegressor::Classes(classes) => Some(Form::Classes {
+                classes: classes.classes(),
             }),
             ModelRegressor::Trees(trees) => Some(Form::Trees {
                 trees: trees.trees(),

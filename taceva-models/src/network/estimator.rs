@@ -22,11 +22,11 @@ use crate::settings::{SettingError, SettingInfo, Settings, number};
 #[derive(Clone, Debug, PartialEq)]
 pub struct NetworkEstimator {
     kind: Kind,
-    recipe: Recipe,
-    preprocessing: Preprocessing,
+    pub(super) recipe: Recipe,
+    pub(super) preprocessing: Preprocessing,
     /// How the GPU that trains is reached, where the processor does not.
-    gpu: Option<GpuKind>,
-    checkpoints: Option<Checkpoints>,
+    pub(super) gpu: Option<GpuKind>,
+    pub(super) checkpoints: Option<Checkpoints>,
 }
 
 /// Which network.
@@ -163,6 +163,14 @@ impl NetworkEstimator {
         Kind::Residual(Depth::ThirtyFour)
     );
 
+    /// The small network as `settings` ask for.
+    ///
+    /// # Errors
+    /// [`SettingError`] for an unknown key or a value out of range.
+    pub fn cnn(settings: &Settings) -> Result<NetworkEstimator, SettingError> {
+        NetworkEstimator::from_settings(Kind::FiveLayers, settings)
+    }
+
     fn from_settings(kind: Kind, settings: &Settings) -> Result<NetworkEstimator, SettingError> {
         settings.check_keys(SETTINGS)?;
         let (epochs, rate) = match kind {
@@ -222,7 +230,7 @@ impl NetworkEstimator {
         }
     }
 
-    fn architecture(&self, shape: FeatureShape, outputs: usize) -> Architecture {
+    pub(super) fn architecture(&self, shape: FeatureShape, outputs: usize) -> Architecture {
         match self.kind {
             Kind::FiveLayers => Architecture::five_layers(picture(shape), outputs),
             Kind::Residual(depth) => Architecture::residual(depth, picture(shape), outputs),

@@ -2,7 +2,7 @@
 
 use taceva_core::Features;
 
-use crate::blobs::{SHAPE, recording};
+use crate::blobs::{Recording, SHAPE, recording};
 use crate::case::{case_of, predict};
 
 #[test]
@@ -76,4 +76,33 @@ fn a_choice_among_models_says_what_was_tried_and_keeps_the_one_it_took() {
     assert!(said.starts_with("auto took ridge: error 0."), "{said}");
     let alone = case_of("ridge").model(&training, None);
     assert_eq!(model.regressor(), alone.regressor());
+}
+
+#[test]
+fn levels_are_told_as_they_were_taught_and_too_many_are_refused() {
+    let levels = |mut recording: Recording| {
+        // Thirds of the gel: values that no arithmetic gives back by chance.
+        let level = |label: &mut f64| *label = 0.1 + (*label / 8.0).floor() / 3.0;
+        recording.labels.iter_mut().for_each(level);
+        recording
+    };
+    let (training, test) = (levels(recording(400, 35)), levels(recording(100, 36)));
+    let found = predict(
+        &case_of("lda").fitted(&training, None).regressor,
+        &test.features,
+    );
+    assert!(found.iter().all(|value| training.labels.contains(value)));
+    let told = found
+        .iter()
+        .zip(&test.labels)
+        .filter(|(a, b)| a.to_bits() == b.to_bits());
+    // A blob near the edge of a third looks like one beyond it.
+    assert!(told.count() > 180);
+
+    let said = case_of("lda").refusal(&recording(257, 37), None);
+    assert_eq!(
+        said,
+        "`Px` takes 257 values in the training part, discriminants tell at most 256 apart: for what varies freely choose another \
+         model, such as ridge"
+    );
 }

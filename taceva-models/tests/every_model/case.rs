@@ -72,6 +72,8 @@ pub(crate) const CASES: &[Case] = &[
         order: Some(1e-5),
         ..case("knn", &[], 1.0)
     },
+    // As many values as samples: the nearest picture is told.
+    case("lda", &[], 1.5),
     Case {
         order: None,
         ..case("random-forest", &["trees=40"], 1.5)

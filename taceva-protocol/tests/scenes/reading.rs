@@ -68,6 +68,16 @@ fn a_value_of_another_type_names_its_line_and_what_was_expected() {
 }
 
 #[test]
+fn gratings_are_told_by_what_there_is() {
+    let error = with("[protocol.gratings]\ntold_by = \"cnm\"");
+    assert!(
+        error.starts_with("s.toml, line 10: ")
+            && error.contains("expected one of `spectrum`, `cnn`, `cnn-length`"),
+        "{error}"
+    );
+}
+
+#[test]
 fn a_scene_of_another_version_is_refused() {
     let error = message(&GOOD.replace("scene_version = 1", "scene_version = 2"));
     assert_eq!(

@@ -1,9 +1,12 @@
 //! Linear discriminants: classes that differ in their means and scatter alike.
 
-use faer::Mat;
-use taceva_core::{ErrorKind, ModelError};
+use std::ops::Range;
 
-use crate::linalg::symmetric_eigen;
+use faer::Mat;
+use taceva_core::{ErrorKind, ModelError, Progress, Silent};
+
+use crate::linalg::{multiply, symmetric_eigen};
+use crate::progress::interrupted;
 
 /// Tells which class features belong to: that whose mean is nearest once the scatter within classes is made round.
 ///
@@ -40,27 +43,38 @@ impl Discriminant {
             );
             return Err(ModelError::new(ErrorKind::InvalidArgument, message));
         }
-        let means = means(features, classes);
-        let deviations: Vec<Vec<f64>> = features
-            .iter()
-            .zip(classes)
-            .map(|(sample, class)| {
-                let mean = means[*class]
-                    .as_ref()
-                    .expect("the class of a sample has a mean");
-                sample
-                    .iter()
-                    .zip(mean)
-                    .map(|(value, mean)| value - mean)
-                    .collect()
+        let blocks = |samples: Range<usize>| {
+            Mat::from_fn(length, samples.len(), |row, column| {
+                features[samples.start + column][row]
             })
-            .collect();
-        let whitening = whitening(&shrunk(&deviations, length))?;
+        };
+        Discriminant::of_blocks(&blocks, classes, &Silent)
+    }
+
+    /// The discriminant of samples that come by blocks.
+    pub(super) fn of_blocks(
+        blocks: &Blocks<'_>,
+        classes: &[usize],
+        progress: &dyn Progress,
+    ) -> Result<Discriminant, ModelError> {
+        let means = means(blocks, classes);
+        let scatter = Scatter::of(blocks, classes, &means, progress)?;
+        let whitening = whitening(&scatter.shrunk())?;
         let centres = means
             .into_iter()
             .map(|mean| mean.map(|mean| applied(&whitening, &mean)))
             .collect();
         Ok(Discriminant { whitening, centres })
+    }
+
+    /// For each class with a sample the plane w, b with the greatest wᵀx + b where x is of that class.
+    pub(super) fn planes(&self) -> Vec<(Vec<f64>, f64)> {
+        let turned = self.whitening.transpose().to_owned();
+        let plane = |centre: &Vec<f64>| {
+            let square: f64 = centre.iter().map(|value| value * value).sum();
+            (applied(&turned, centre), -0.5 * square)
+        };
+        self.centres.iter().flatten().map(plane).collect()
     }
 
     /// The class of `features`; the first of equally near ones.
@@ -78,17 +92,34 @@ impl Discriminant {
     }
 }
 
+/// Samples by blocks, standardised where they are: `[features, samples]` of a range.
+pub(super) type Blocks<'a> = dyn Fn(Range<usize>) -> Mat<f64> + Sync + 'a;
+
+/// Samples of a block.
+const BLOCK: usize = 1024;
+
+/// The ranges of `samples` samples.
+fn ranges(samples: usize) -> impl Iterator<Item = Range<usize>> {
+    (0..samples)
+        .step_by(BLOCK)
+        .map(move |start| start..samples.min(start + BLOCK))
+}
+
 /// The mean of each class that has a sample.
-fn means(features: &[Vec<f64>], classes: &[usize]) -> Vec<Option<Vec<f64>>> {
+fn means(blocks: &Blocks<'_>, classes: &[usize]) -> Vec<Option<Vec<f64>>> {
     let count = classes.iter().max().map_or(0, |greatest| greatest + 1);
     let mut sums: Vec<(f64, Vec<f64>)> = vec![(0.0, Vec::new()); count];
-    for (sample, class) in features.iter().zip(classes) {
-        let (count, sum) = &mut sums[*class];
-        *count += 1.0;
-        sum.resize(sample.len(), 0.0);
-        sum.iter_mut()
-            .zip(sample)
-            .for_each(|(sum, value)| *sum += value);
+    for range in ranges(classes.len()) {
+        let block = blocks(range.clone());
+        for (column, &class) in classes[range].iter().enumerate() {
+            let (count, sum) = &mut sums[class];
+            *count += 1.0;
+            sum.resize(block.nrows(), 0.0);
+            let sample = block.col_as_slice(column);
+            sum.iter_mut()
+                .zip(sample)
+                .for_each(|(sum, value)| *sum += value);
+        }
     }
     sums.into_iter()
         .map(|(count, sum)| {
@@ -98,51 +129,74 @@ fn means(features: &[Vec<f64>], classes: &[usize]) -> Vec<Option<Vec<f64>>> {
         .collect()
 }
 
-/// S*: the covariance of `deviations`, drawn towards a round one.
-fn shrunk(deviations: &[Vec<f64>], length: usize) -> Mat<f64> {
-    #[expect(
-        clippy::cast_precision_loss,
-        reason = "samples and features are far fewer than 2^53"
-    )]
-    let (n, p) = (deviations.len() as f64, length as f64);
-    let mut covariance: Mat<f64> = Mat::zeros(length, length);
-    for sample in deviations {
-        for (row, one) in sample.iter().enumerate() {
-            for (column, other) in sample.iter().enumerate() {
-                covariance[(row, column)] += one * other / n;
+/// How samples scatter about the means of their classes.
+struct Scatter {
+    covariance: Mat<f64>,
+    samples: f64,
+    /// The sum over samples of the fourth power of their distance from the mean.
+    fourth_powers: f64,
+}
+
+impl Scatter {
+    fn of(
+        blocks: &Blocks<'_>,
+        classes: &[usize],
+        means: &[Option<Vec<f64>>],
+        progress: &dyn Progress,
+    ) -> Result<Scatter, ModelError> {
+        let samples = classes.len() as f64;
+        let mut fourth_powers = 0.0;
+        let mut covariance = Mat::zeros(0, 0);
+        for range in ranges(classes.len()) {
+            interrupted(progress)?;
+            let mut block = blocks(range.clone());
+            for (column, &class) in classes[range].iter().enumerate() {
+                let mean = means[class]
+                    .as_ref()
+                    .expect("the class of a sample has a mean");
+                let sample = block.col_as_slice_mut(column);
+                let mut square = 0.0;
+                for (value, mean) in sample.iter_mut().zip(mean) {
+                    *value -= mean;
+                    square += *value * *value;
+                }
+                fourth_powers += square * square;
             }
+            let products = multiply(block.as_ref(), block.transpose());
+            covariance = if covariance.nrows() == 0 {
+                products
+            } else {
+                covariance + products
+            };
         }
-    }
-    let mean = (0..length).map(|at| covariance[(at, at)]).sum::<f64>() / p;
-    let norm = |matrix: &Mat<f64>| {
-        let places = (0..length).flat_map(|row| (0..length).map(move |column| (row, column)));
-        places.map(|place| matrix[place].powi(2)).sum::<f64>()
-    };
-    let whole = norm(&covariance);
-    // ‖S − mI‖² = ‖S‖² − p m², and ‖xxᵀ − S‖² = (xᵀx)² − 2 xᵀSx + ‖S‖².
-    let spread = (whole - p * mean * mean).max(0.0);
-    let error: f64 = deviations
-        .iter()
-        .map(|sample| {
-            let square: f64 = sample.iter().map(|value| value * value).sum();
-            let turned = applied(&covariance, sample);
-            let form: f64 = sample
-                .iter()
-                .zip(&turned)
-                .map(|(value, turned)| value * turned)
-                .sum();
-            square * square - 2.0 * form + whole
+        Ok(Scatter {
+            covariance: covariance * faer::Scale(samples.recip()),
+            samples,
+            fourth_powers,
         })
-        .sum();
-    let error = (error / (n * n)).clamp(0.0, spread);
-    let share = if spread > 0.0 { error / spread } else { 1.0 };
-    for row in 0..length {
-        for column in 0..length {
-            covariance[(row, column)] *= 1.0 - share;
-        }
-        covariance[(row, row)] += share * mean;
     }
-    covariance
+
+    /// S*: the covariance, drawn towards a round one.
+    fn shrunk(self) -> Mat<f64> {
+        let mut covariance = self.covariance;
+        let length = covariance.nrows();
+        let p = length as f64;
+        let mean = (0..length).map(|at| covariance[(at, at)]).sum::<f64>() / p;
+        let columns = (0..length).map(|column| covariance.col_as_slice(column));
+        let whole: f64 = columns.flatten().map(|value| value * value).sum();
+        // ‖S − mI‖² = ‖S‖² − p m²; and Σ‖xxᵀ − S‖² = Σ (xᵀx)² − 2 xᵀSx + ‖S‖², of which Σ xᵀSx = n ‖S‖².
+        let spread = (whole - p * mean * mean).max(0.0);
+        let n = self.samples;
+        let error = ((self.fourth_powers - n * whole) / (n * n)).clamp(0.0, spread);
+        let share = if spread > 0.0 { error / spread } else { 1.0 };
+        for column in 0..length {
+            for value in covariance.col_as_slice_mut(column) {
+                *value *= 1.0 - share;
+            }
+            covariance[(column, column)] += share * mean;
+        }
+        covariance
+    }
 }
 
 /// S*^(−½); of a scatter without any extent, no change.
@@ -230,10 +284,35 @@ mod tests {
     fn the_shrinkage_is_that_of_its_authors() {
         // By hand: S = diag(2, ½), m = 5/4, ‖S − mI‖² = 9/8; of each sample ‖xxᵀ − S‖² = 17/4, of which the sum over n² is 17/16.
         let deviations = [[2.0, 0.0], [-2.0, 0.0], [0.0, 1.0], [0.0, -1.0]].map(Vec::from);
-        let scatter = shrunk(&deviations, 2);
+        let blocks = |samples: Range<usize>| {
+            Mat::from_fn(2, samples.len(), |row, column| {
+                deviations[samples.start + column][row]
+            })
+        };
+        let still = [Some(vec![0.0, 0.0])];
+        let scatter = Scatter::of(&blocks, &[0; 4], &still, &Silent).expect("nobody cancels");
+        let scatter = scatter.shrunk();
         let share = (17.0 / 16.0) / (9.0 / 8.0);
         assert!((scatter[(0, 0)] - (share * 1.25 + (1.0 - share) * 2.0)).abs() < 1e-12);
         assert!((scatter[(1, 1)] - (share * 1.25 + (1.0 - share) * 0.5)).abs() < 1e-12);
+    }
+
+    #[test]
+    fn the_greatest_plane_is_that_of_the_nearest_centre() {
+        let (features, classes) = tilted(200, 3);
+        let discriminant = Discriminant::fit(&features, &classes).expect("fits");
+        let planes = discriminant.planes();
+        for sample in tilted(50, 4).0 {
+            let heights = planes.iter().map(|(weights, offset)| {
+                let products = weights.iter().zip(&sample).map(|(w, x)| w * x);
+                products.sum::<f64>() + offset
+            });
+            let heights: Vec<f64> = heights.collect();
+            assert_eq!(
+                usize::from(heights[1] > heights[0]),
+                discriminant.class(&sample)
+            );
+        }
     }
 
     #[test]

@@ -1,0 +1,38 @@
+//! Spacings told by a network.
+
+use taceva_core::{ModelError, Nanometre};
+use taceva_dataset::Dataset;
+
+use super::{FOLDS, Told, folds};
+use crate::error::StudyError;
+use crate::features::{Work, extract, extractor};
+use crate::teller::NetworkTeller;
+
+/// Tells `presses`, whose pictures are in `dataset`, fold by fold.
+pub(super) fn tell(
+    dataset: &Dataset,
+    presses: &[(usize, Nanometre)],
+    (teller, work): (&NetworkTeller, Work<'_>),
+    told: &mut Told,
+) -> Result<(), StudyError> {
+    let rows: Vec<usize> = presses.iter().map(|(row, _)| *row).collect();
+    let extractor = extractor(dataset, teller.features)?;
+    let pictures = extract(dataset, &extractor, &rows, work)?;
+    let folds = folds(presses);
+    for fold in 0..FOLDS {
+        let places = 0..presses.len();
+        let (asked, taught): (Vec<usize>, Vec<usize>) = places.partition(|at| folds[*at] == fold);
+        if asked.is_empty() || taught.is_empty() {
+            continue;
+        }
+        let spacings: Vec<Nanometre> = taught.iter().map(|&at| presses[at].1).collect();
+        let network = teller.estimator.fit_spacings(
+            (&pictures.select(&taught), &spacings),
+            teller.output,
+            work.progress,
+        )?;
+        let found: Result<Vec<Nanometre>, ModelError> = network.tell(&pictures.select(&asked));
+        told.extend(asked.iter().map(|&at| presses[at].0).zip(found?));
+    }
+    Ok(())
+}

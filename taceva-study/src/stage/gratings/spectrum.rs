@@ -1,0 +1,138 @@
+//! Spacings told by linear discriminants of the radial spectrum.
+
+use taceva_core::Nanometre;
+use taceva_dataset::{Dataset, Pass};
+use taceva_models::{Discriminant, FourierPlane, RadialSpectrum};
+
+use super::{FOLDS, Told, folds};
+use crate::error::StudyError;
+use crate::features::Work;
+
+/// Tells `presses`, whose pictures are in `dataset`, fold by fold.
+pub(super) fn tell(
+    dataset: &Dataset,
+    presses: &[(usize, Nanometre)],
+    work: Work<'_>,
+    told: &mut Told,
+) -> Result<(), StudyError> {
+    let seen = Pictures::new(dataset, presses, work)?.seen()?;
+    for fold in 0..FOLDS {
+        tell_fold(&seen, fold, told)?;
+    }
+    Ok(())
+}
+
+/// A press of a board.
+struct Seen {
+    row: usize,
+    spacing: Nanometre,
+    fold: usize,
+    /// Its spectrum beyond the background of each fold.
+    spectra: Vec<Vec<f64>>,
+}
+
+/// The pictures of the presses of one relief.
+struct Pictures<'a> {
+    dataset: &'a Dataset,
+    spectra: RadialSpectrum,
+    presses: &'a [(usize, Nanometre)],
+    rows: Vec<usize>,
+    /// The fold of each press: those of one board are dealt in turn.
+    folds: Vec<usize>,
+    work: Work<'a>,
+}
+
+impl<'a> Pictures<'a> {
+    fn new(
+        dataset: &'a Dataset,
+        presses: &'a [(usize, Nanometre)],
+        work: Work<'a>,
+    ) -> Result<Pictures<'a>, StudyError> {
+        let frames = dataset.header().frames.as_ref();
+        let frames = frames.ok_or_else(|| {
+            StudyError::Request("the recording has no frames to tell spacings from".to_owned())
+        })?;
+        Ok(Pictures {
+            folds: folds(presses),
+            rows: presses.iter().map(|(row, _)| *row).collect(),
+            spectra: RadialSpectrum::new(frames.info),
+            dataset,
+            presses,
+            work,
+        })
+    }
+
+    /// Every press with its spectra.
+    fn seen(&self) -> Result<Vec<Seen>, StudyError> {
+        let backgrounds = self.backgrounds()?;
+        let mut seen = Vec::with_capacity(self.rows.len());
+        let spectra = |plane: &FourierPlane| {
+            let backgrounds = backgrounds.iter();
+            backgrounds
+                .map(|(sum, count)| self.spectra.beyond(plane, (sum, *count)))
+                .collect()
+        };
+        self.dataset.map_frames(
+            self.pass(),
+            |_, frame| self.spectra.plane(&frame).map(|plane| spectra(&plane)),
+            |_, spectra| {
+                let (row, spacing) = self.presses[seen.len()];
+                seen.push(Seen {
+                    row,
+                    spacing,
+                    fold: self.folds[seen.len()],
+                    spectra: spectra?,
+                });
+                Ok(())
+            },
+        )?;
+        Ok(seen)
+    }
+
+    /// For each fold, the sum of the planes of all other folds and how many they are.
+    fn backgrounds(&self) -> Result<Vec<(FourierPlane, f64)>, StudyError> {
+        let mut backgrounds = vec![(FourierPlane::default(), 0.0); FOLDS];
+        let mut folds = self.folds.iter();
+        self.dataset.map_frames(
+            self.pass(),
+            |_, frame| self.spectra.plane(&frame),
+            |_, plane| {
+                let (plane, own) = (plane?, folds.next());
+                let others = backgrounds.iter_mut().enumerate();
+                for (_, (sum, count)) in others.filter(|(fold, _)| Some(fold) != own) {
+                    sum.add(&plane);
+                    *count += 1.0;
+                }
+                Ok(())
+            },
+        )?;
+        Ok(backgrounds)
+    }
+
+    fn pass(&self) -> Pass<'_> {
+        Pass {
+            rows: &self.rows,
+            jobs: self.work.jobs,
+            progress: self.work.progress,
+        }
+    }
+}
+
+/// Tells the presses of `fold` from what the others teach.
+fn tell_fold(seen: &[Seen], fold: usize, told: &mut Told) -> Result<(), StudyError> {
+    let (asked, taught): (Vec<&Seen>, Vec<&Seen>) = seen.iter().partition(|seen| seen.fold == fold);
+    if asked.is_empty() || taught.is_empty() {
+        return Ok(());
+    }
+    let mut boards: Vec<Nanometre> = taught.iter().map(|seen| seen.spacing).collect();
+    boards.sort_unstable();
+    boards.dedup();
+    let class = |seen: &&Seen| boards.partition_point(|board| *board < seen.spacing);
+    let classes: Vec<usize> = taught.iter().map(class).collect();
+    let spectra = taught.iter().map(|seen| seen.spectra[fold].clone());
+    let discriminant = Discriminant::fit(&spectra.collect::<Vec<_>>(), &classes)?;
+    for seen in asked {
+        told.insert(seen.row, boards[discriminant.class(&seen.spectra[fold])]);
+    }
+    Ok(())
+}
