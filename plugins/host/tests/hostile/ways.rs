@@ -4,7 +4,7 @@ use std::error::Error;
 use std::time::{Duration, Instant};
 
 use taceva_core::{Args, DriverError, ErrorKind, Pose, Speed};
-use taceva_host::{ChildError, ChildSession, Patience, Session};
+use taceva_host::{ChildError, ChildSession, Fate, Patience, Session};
 
 use crate::plugin::{FORCE, LONG, Plugin, ROBOT, capture, sensor};
 
@@ -175,7 +175,7 @@ ways! {
 
     // At the end.
     threads_that_run_at_the_end: "threads_at_the_end", Do::Capture => Nothing;
-    a_thread_local_whose_end_aborts: "thread_local_end", Do::Capture => Nothing;
+    a_thread_local_whose_end_aborts: "thread_local_end", Do::Capture => Gone("signal 6");
     a_function_at_exit_that_hangs: "atexit_hang", Do::Capture => Nothing;
     a_function_at_exit_that_aborts: "atexit_abort", Do::Capture => Nothing;
     a_destructor_that_crashes: "destructor_segv", Do::Capture => Nothing;
@@ -241,6 +241,7 @@ fn of_call(
             assert_eq!(fate, None, "its process lives");
         }
         (Gone(how), done) => {
+            let fate = fate.or_else(|| end_of(session));
             let fate = fate.expect("its process is gone");
             // Whoever closes a device is told nothing: what it says is how the process ended.
             let said = done.err().map(|error| {
@@ -257,6 +258,18 @@ fn of_call(
         }
         (expected, done) => panic!("expected {expected:?}, found {done:?}, {fate:?}"),
     }
+}
+
+/// How the process ends that is about to, as one does whose device was closed and whose thread ends badly.
+fn end_of(session: &ChildSession) -> Option<Fate> {
+    let began = Instant::now();
+    while began.elapsed() < Duration::from_secs(5) {
+        if let Some(fate) = session.child().fate() {
+            return Some(fate);
+        }
+        std::thread::sleep(Duration::from_millis(1));
+    }
+    None
 }
 
 fn act(session: &ChildSession, action: Do) -> Result<(), DriverError> {
@@ -294,7 +307,8 @@ fn act(session: &ChildSession, action: Do) -> Result<(), DriverError> {
             let patience = taceva_core::Deadline::after(Duration::from_secs(20));
             std::thread::scope(|scope| {
                 let mover = scope.spawn(|| robot.move_to(Pose::default(), speed, patience));
-                std::thread::sleep(Duration::from_millis(10));
+                // Long enough for it to move, on a busy machine too.
+                std::thread::sleep(Duration::from_millis(100));
                 let halted = halt.halt();
                 let moved = mover.join().expect("whole");
                 moved.map(drop).and(halted)
