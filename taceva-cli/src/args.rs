@@ -11,7 +11,7 @@ use std::path::PathBuf;
 use clap::{ArgGroup, Args, Parser, Subcommand};
 use taceva_models::Checkpoints;
 
-pub(crate) use self::bench::{Bench, BenchKernels, BenchModels, BenchSubject};
+pub(crate) use self::bench::{Bench, BenchDecode, BenchKernels, BenchModels, BenchSubject};
 pub(crate) use self::plugin::{
     Plugin, PluginArgs, PluginCheck, PluginHeaders, PluginInfo, PluginList, PluginNew,
     PluginRelease,

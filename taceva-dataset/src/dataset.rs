@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use taceva_core::{Field, Frame, Progress, SampleSink, SinkError};
 
 use crate::decode::decode;
-use crate::digest::Digest;
+use crate::digest::{Digest, PartsDigest};
 use crate::error::DatasetError;
 use crate::file::{check_relative, open_regular, read_capped};
 use crate::header::{FramesInfo, Header};
@@ -15,6 +15,7 @@ use crate::layout;
 use crate::limits;
 use crate::parallel::ordered_map;
 use crate::samples::from_parquet;
+use crate::scaled::{DecodeScale, decode_scaled};
 use crate::store::dataset_digest;
 use crate::table::{FrameEntry, Table};
 
@@ -24,6 +25,7 @@ pub struct Dataset {
     path: PathBuf,
     header: Header,
     table: Table,
+    scale: DecodeScale,
 }
 
 /// Which rows to go through, how, and who listens.
@@ -71,8 +73,37 @@ impl Dataset {
             path: path.to_owned(),
             header,
             table,
+            scale: DecodeScale::Full,
         };
         dataset.check_consistency()?;
+        Ok(dataset)
+    }
+
+    /// Opens the recording at `path`, whose frames are JPEG, to be seen at a fraction of their size: header, digest and frames are those of a
+    /// recording by a camera with fewer pixels.
+    ///
+    /// # Errors
+    /// As [`open`](Dataset::open); [`DatasetError::Request`] if it has no frames, [`DatasetError::Image`] if the first of them is no JPEG.
+    pub fn open_scaled(path: &Path, scale: DecodeScale) -> Result<Dataset, DatasetError> {
+        let mut dataset = Dataset::open(path)?;
+        if scale == DecodeScale::Full {
+            return Ok(dataset);
+        }
+        let row = dataset.table.frames().iter().position(Option::is_some);
+        let (Some(row), Some(frames)) = (row, &mut dataset.header.frames) else {
+            return Err(DatasetError::Request {
+                path: path.to_owned(),
+                problem: "no frames that could be decoded".to_owned(),
+            });
+        };
+        frames.info = scale.of(frames.info);
+        let mut digest = PartsDigest::default();
+        digest.part(b"taceva.dataset/1 at a scale");
+        digest.fixed(dataset.header.digest.as_bytes());
+        digest.part(scale.denominator().to_string().as_bytes());
+        dataset.header.digest = digest.finish();
+        dataset.scale = scale;
+        dataset.frame(row)?;
         Ok(dataset)
     }
 
@@ -233,7 +264,11 @@ impl Dataset {
             path: path.clone(),
             problem,
         };
-        let (_, frame) = decode(&bytes, info.channel_order).map_err(wrong)?;
+        let frame = match self.scale {
+            DecodeScale::Full => decode(&bytes, info.channel_order).map(|(_, frame)| frame),
+            scale => decode_scaled(&bytes, info.channel_order, scale),
+        };
+        let frame = frame.map_err(wrong)?;
         if frame.info() != info.info {
             return Err(wrong(format!(
                 "{}, expected {} as in the header",

@@ -86,18 +86,7 @@ impl ImageKind {
 /// opaque everywhere and refused otherwise. A file that does not end in its end marker is refused: it was cut, even where a
 /// decoder would fill the rest with gray.
 pub(crate) fn decode(bytes: &[u8], order: ChannelOrder) -> Result<(ImageKind, Frame), String> {
-    let kind = ImageKind::of(bytes)
-        .ok_or("neither PNG nor JPEG: its first bytes are those of another format")?;
-    let end = match kind {
-        ImageKind::Png => PNG_END,
-        ImageKind::Jpeg => JPEG_END,
-    };
-    if !bytes.ends_with(end) {
-        return Err(
-            "cut short or damaged: the file does not end in the end marker of its format"
-                .to_owned(),
-        );
-    }
+    let kind = kind_of_whole(bytes)?;
     let (info, pixels) = guarded(|| match kind {
         ImageKind::Png => decode_png(bytes),
         ImageKind::Jpeg => decode_jpeg(bytes),
@@ -105,6 +94,24 @@ pub(crate) fn decode(bytes: &[u8], order: ChannelOrder) -> Result<(ImageKind, Fr
     let pixels = in_order(info, pixels, order)?;
     let frame = Frame::new(info, pixels).map_err(|error| error.to_string())?;
     Ok((kind, frame))
+}
+
+/// The kind of an image file that is there to its end.
+pub(crate) fn kind_of_whole(bytes: &[u8]) -> Result<ImageKind, String> {
+    let kind = ImageKind::of(bytes)
+        .ok_or("neither PNG nor JPEG: its first bytes are those of another format")?;
+    let end = match kind {
+        ImageKind::Png => PNG_END,
+        ImageKind::Jpeg => JPEG_END,
+    };
+    if bytes.ends_with(end) {
+        Ok(kind)
+    } else {
+        Err(
+            "cut short or damaged: the file does not end in the end marker of its format"
+                .to_owned(),
+        )
+    }
 }
 
 fn decode_png(bytes: &[u8]) -> Result<(FrameInfo, Vec<u8>), String> {
@@ -173,7 +180,7 @@ fn decode_jpeg(bytes: &[u8]) -> Result<(FrameInfo, Vec<u8>), String> {
     Ok((info, pixels))
 }
 
-fn checked_length(bytes: u64) -> Result<usize, String> {
+pub(crate) fn checked_length(bytes: u64) -> Result<usize, String> {
     if bytes > limits::DECODED_BYTES {
         return Err(format!(
             "{bytes} bytes when decoded, more than the {} that are accepted",
@@ -206,7 +213,12 @@ fn without_alpha<const PIXEL: usize, const ALPHA: usize>(pixels: &[u8]) -> Resul
     Ok(colours)
 }
 
-fn in_order(info: FrameInfo, mut pixels: Vec<u8>, order: ChannelOrder) -> Result<Vec<u8>, String> {
+/// The pixels with their colours in order, if `order` can be meant.
+pub(crate) fn in_order(
+    info: FrameInfo,
+    mut pixels: Vec<u8>,
+    order: ChannelOrder,
+) -> Result<Vec<u8>, String> {
     let is_gray = info.format.samples() == 1;
     if is_gray != (order == ChannelOrder::Gray) {
         return Err(format!(

@@ -1,5 +1,8 @@
-//! Frames to PNG files, without loss.
+//! Frames to PNG files, without loss, and to JPEG files, with.
 
+use std::borrow::Cow;
+
+use image::codecs::jpeg::JpegEncoder;
 use image::codecs::png::{CompressionType, FilterType, PngEncoder};
 use image::{ExtendedColorType, ImageEncoder};
 use taceva_core::{Frame, PixelFormat};
@@ -28,8 +31,43 @@ pub(crate) fn encode_png(frame: &Frame) -> Result<Vec<u8>, String> {
     Ok(file)
 }
 
+/// The JPEG file of `frame`, of a quality from 1 to 100; numbers of 16 bits are rounded to the 8 that JPEG holds.
+pub(crate) fn encode_jpeg(frame: &Frame, quality: u8) -> Result<Vec<u8>, String> {
+    let info = frame.info();
+    let color = match of_eight_bits(info.format) {
+        PixelFormat::Gray8 => ExtendedColorType::L8,
+        PixelFormat::Rgb8 => ExtendedColorType::Rgb8,
+        other => return Err(format!("frames of type {} are not written", other.name())),
+    };
+    let mut file = Vec::new();
+    guarded(|| {
+        JpegEncoder::new_with_quality(&mut file, quality)
+            .write_image(&eight_bits(frame), info.width, info.height, color)
+            .map_err(|error| error.to_string())
+    })??;
+    Ok(file)
+}
+
+/// What a frame of `format` is of as JPEG.
+pub(crate) fn of_eight_bits(format: PixelFormat) -> PixelFormat {
+    match format {
+        PixelFormat::Gray16 => PixelFormat::Gray8,
+        PixelFormat::Rgb16 => PixelFormat::Rgb8,
+        other => other,
+    }
+}
+
+fn eight_bits(frame: &Frame) -> Cow<'_, [u8]> {
+    if frame.info().format.bytes_per_sample() == 1 {
+        return frame.bytes().into();
+    }
+    // 65535 is 255 times 257.
+    let rounded = |value: u16| u8::try_from((u32::from(value) + 128) / 257).expect("at most 255");
+    frame.samples().map(rounded).collect()
+}
+
 /// The encoder takes 16-bit numbers in the order of the machine.
-fn native_endian(frame: &Frame) -> std::borrow::Cow<'_, [u8]> {
+fn native_endian(frame: &Frame) -> Cow<'_, [u8]> {
     if frame.info().format.bytes_per_sample() == 2 && cfg!(target_endian = "big") {
         frame.samples().flat_map(u16::to_ne_bytes).collect()
     } else {

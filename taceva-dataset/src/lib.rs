@@ -17,12 +17,14 @@ mod limits;
 mod parallel;
 mod recorder;
 mod samples;
+mod scaled;
 mod sensor_file;
 mod staged;
 mod store;
 mod table;
 mod text;
 mod toml_file;
+mod transcode;
 mod version;
 
 pub use csv_table::CsvTable;
@@ -40,8 +42,10 @@ pub use import::{
     magnitude_suspicion,
 };
 pub use recorder::{Recorder, RecordingSpec};
+pub use scaled::DecodeScale;
 pub use sensor_file::SensorFile;
 pub use store::RecordingFacts;
 pub use table::{FrameEntry, Row, Table};
 pub use toml_file::read_toml;
+pub use transcode::write_as_jpeg;
 pub use version::Version;

@@ -82,6 +82,15 @@ impl Table {
         }
     }
 
+    /// The same labels with other frames.
+    ///
+    /// # Panics
+    /// If there is not one, or none, a row.
+    pub(crate) fn with_frames(self, frames: Vec<Option<FrameEntry>>) -> Table {
+        assert_eq!(frames.len(), self.frames.len(), "one a row");
+        Table { frames, ..self }
+    }
+
     /// Number of rows.
     pub fn rows(&self) -> usize {
         self.sample.len()

@@ -1,8 +1,8 @@
-//! A benchmark of models as rows.
+//! Benchmarks of models and of decoding as rows.
 
 use crate::listing::Listing;
 use crate::number::{Printed, numeral};
-use crate::results::{ModelBench, ModelRow};
+use crate::results::{DecodeBench, DecodeRow, ModelBench, ModelRow, ScaledError};
 
 impl ModelBench {
     /// A row a model: what it takes, and the error of each channel with its interval.
@@ -66,6 +66,77 @@ impl ModelRow {
             Some(error) => Printed::number(error.mae, error.ci95).phrase(""),
         };
         cells.extend(channels.iter().map(error));
+        cells
+    }
+}
+
+impl DecodeBench {
+    /// A row a scale: what decoding takes, the error of each channel, and how much more it is than at full size.
+    pub fn listing(&self) -> Listing {
+        let known = self.rows.iter().map(|row| &row.errors);
+        let known: &[ScaledError] = known
+            .max_by_key(|errors| errors.len())
+            .map_or(&[], |all| all);
+        let mut head = ["scale", "pixels", "decode (ms)"]
+            .map(str::to_owned)
+            .to_vec();
+        for own in known {
+            let error = &own.error;
+            head.push(format!("MAE {} ({})", error.channel, error.unit));
+            head.push(format!("change of {} ({})", error.channel, error.unit));
+        }
+        let channels: Vec<&str> = known.iter().map(|own| own.error.channel.as_str()).collect();
+        let recording = &self.recording;
+        let model = format!("{} {}", self.model, self.settings);
+        let mut notes = Vec::new();
+        if self.is_simulated() {
+            let source = &recording.source;
+            notes.push(format!(
+                "Nothing here was measured: the samples are {source}."
+            ));
+        }
+        notes.extend((!self.note.is_empty()).then(|| self.note.clone()));
+        notes.push(format!(
+            "{} fitted on {} samples, scored on {}, split {}; {}, decoded on one core of {}. Intervals of 95 % by contact point; a change is paired sample by sample.",
+            model.trim_end(), recording.train, recording.test, recording.split, self.machine.cpu, self.machine.cores
+        ));
+        let failed = self.rows.iter();
+        let failed = failed.filter_map(|row| Some((row.scale(), row.failed.as_ref()?)));
+        notes.extend(failed.map(|(scale, why)| format!("{scale}: {why}")));
+        Listing {
+            caption: format!(
+                "JPEG decoded at a fraction of its size: {}, {}",
+                recording.name, recording.sensor
+            ),
+            head,
+            rows: self.rows.iter().map(|row| row.cells(&channels)).collect(),
+            notes,
+        }
+    }
+}
+
+impl DecodeRow {
+    fn cells(&self, channels: &[&str]) -> Vec<String> {
+        let pixels = format!("{}×{}", self.width, self.height);
+        let mut cells = vec![self.scale(), pixels, numeral(self.decode_s * 1e3)];
+        let printed = |value: Option<f64>, ends| {
+            value.map_or_else(
+                || "–".to_owned(),
+                |value| Printed::number(value, ends).phrase(""),
+            )
+        };
+        for channel in channels {
+            let own = self.error(channel);
+            let error = own.map(|own| &own.error);
+            cells.push(printed(
+                error.map(|error| error.mae),
+                error.and_then(|error| error.ci95),
+            ));
+            cells.push(printed(
+                own.and_then(|own| own.change),
+                own.and_then(|own| own.change_ci95),
+            ));
+        }
         cells
     }
 }

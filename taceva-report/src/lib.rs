@@ -26,13 +26,14 @@ pub use escape::{
     markdown as escape_markdown, terminal as escape_terminal,
 };
 pub use figure::{DARK, Figure, LIGHT, SERIES, STYLE};
-pub use figures::{Contender, Race, figures, model_bench, names, race};
+pub use figures::{Contender, Race, decode_bench, figures, model_bench, names, race};
 pub use html::{Document, Pick, Picture, Report, picks, report};
 pub use listing::Listing;
 pub use number::{Printed, spaced, with_interval};
 pub use results::{
-    BENCH_SCHEMA, BenchMachine, BenchRecording, ChannelError, EVALUATION_SCHEMA, Interval,
-    ModelBench, ModelRow, RUN_SCHEMA, ResultsError, Score, Skip, Study, Value, Variant,
+    BENCH_SCHEMA, BenchMachine, BenchRecording, ChannelError, DecodeBench, DecodeRow,
+    EVALUATION_SCHEMA, Interval, ModelBench, ModelRow, RUN_SCHEMA, ResultsError, ScaledError,
+    Score, Skip, Study, Value, Variant,
 };
 pub use samples::{SampleChannel, Samples, SamplesError};
 pub use table::{

@@ -1,10 +1,12 @@
 //! Results as they are read back from what `evaluate`, `score` and `run` write.
 
+mod decode_bench;
 mod error;
 mod model_bench;
 mod read;
 mod score;
 
+pub use decode_bench::{DecodeBench, DecodeRow, ScaledError};
 pub use error::ResultsError;
 pub use model_bench::{
     BENCH_SCHEMA, BenchMachine, BenchRecording, ChannelError, ModelBench, ModelRow,

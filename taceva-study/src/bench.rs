@@ -1,10 +1,12 @@
 //! Run time against error: what `taceva bench` measures, as data.
 
+mod decode;
 mod kernels;
 mod machine;
 mod models;
 mod stopwatch;
 
+pub use decode::{DecodeTrial, DecodeTrials, ErrorChange, decode};
 pub use kernels::{Floor, InputDigits, KernelBench, KernelRequest, KernelRow, kernels};
 pub use machine::Machine;
 pub use models::{ModelTrial, ModelTrials, TrialError, models};

@@ -17,6 +17,8 @@ pub(crate) struct Bench {
 pub(crate) enum BenchSubject {
     /// The ways to sum: nanoseconds for each pair of values against digits that are right
     Kernels(BenchKernels),
+    /// JPEG at a fraction of its size: what decoding takes against how much further off a model is
+    Decode(BenchDecode),
     /// The models: what fitting, predicting and one prediction take against how far off they are
     Models(BenchModels),
 }
@@ -59,6 +61,30 @@ pub(crate) struct BenchModels {
     #[command(flatten)]
     pub(crate) split: SplitArgs,
     /// Draw time against error as SVG, the Pareto front marked
+    #[arg(long, value_name = "FILE.svg")]
+    pub(crate) svg: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) output: Output,
+}
+
+/// Decodes every frame at full size, 1/2, 1/4 and 1/8, fits a model on the training part at each and scores it on the test part of the same
+/// split: milliseconds to read, verify and decode a frame beside mean absolute errors, and how much more they are than at full size, with
+/// intervals by contact point. Only JPEG can be decoded so; a dataset of PNG is refused.
+#[derive(Debug, Args)]
+pub(crate) struct BenchDecode {
+    /// The dataset, of JPEG frames; without one the simulated bench presses a sensor first, 400 points of four presses, whose frames are then
+    /// rounded to 8 bits and encoded as JPEG of quality 95 among temporary files
+    #[arg(value_name = "DATASET")]
+    pub(crate) dataset: Option<PathBuf>,
+    /// The model, its settings after a colon: ridge:size=16x16
+    #[arg(long, value_name = "NAME[:KEY=VALUE,…]", default_value = "ridge")]
+    pub(crate) model: String,
+    /// Few presses where the bench presses
+    #[arg(long)]
+    pub(crate) quick: bool,
+    #[command(flatten)]
+    pub(crate) split: SplitArgs,
+    /// Draw decode time against error as SVG, the Pareto front marked
     #[arg(long, value_name = "FILE.svg")]
     pub(crate) svg: Option<PathBuf>,
     #[command(flatten)]

@@ -5,7 +5,7 @@ use crate::figure::{
     extent, short,
 };
 use crate::number::numeral;
-use crate::results::{ChannelError, ModelBench, ModelRow};
+use crate::results::{ChannelError, DecodeBench, DecodeRow, ModelBench, ModelRow};
 
 /// Errors further apart than this are drawn by logarithm: else the small ones cannot be told apart.
 const FAR: f64 = 8.0;
@@ -20,6 +20,60 @@ struct Dot<'a> {
 
 /// Draws what one prediction takes against how far off it is; nothing if no model has an error.
 pub fn model_bench(bench: &ModelBench) -> Option<Figure> {
+    let time = "time from frame to prediction (ms)";
+    let (canvas, fronts) = draw(bench, time)?;
+    Some(Figure {
+        id: "models".to_owned(),
+        title: "Run time against error of models".to_owned(),
+        caption: caption(bench),
+        description: format!("On the Pareto front by channel. {fronts}."),
+        canvas,
+    })
+}
+
+/// Draws what decoding a frame takes against how far off the model is; nothing if there is no error.
+pub fn decode_bench(bench: &DecodeBench) -> Option<Figure> {
+    let mut raced = ModelBench::new(bench.machine.clone(), bench.recording.clone());
+    raced.rows = bench.rows.iter().map(as_model).collect();
+    let (canvas, fronts) = draw(&raced, "time to decode a frame (ms)")?;
+    let recording = &bench.recording;
+    let simulated = match bench.is_simulated() {
+        true => format!(
+            " Nothing here was measured: the samples are {}.",
+            recording.source
+        ),
+        false => String::new(),
+    };
+    Some(Figure {
+        id: "decode".to_owned(),
+        title: "Decode time against error".to_owned(),
+        caption: format!(
+            "Mean absolute error of {} on {} samples, with its 95 % interval by contact point, over the time to read, verify and decode one JPEG at each scale. {}, {}; split {}; {}, one core. {}{simulated}",
+            bench.model,
+            recording.test,
+            recording.name,
+            recording.sensor,
+            recording.split,
+            bench.machine.cpu,
+            bench.note
+        ),
+        description: format!("On the Pareto front by channel. {fronts}."),
+        canvas,
+    })
+}
+
+/// A scale in the place of a model.
+fn as_model(row: &DecodeRow) -> ModelRow {
+    ModelRow {
+        model: row.scale(),
+        latency_s: row.decode_s,
+        errors: row.errors.iter().map(|own| own.error.clone()).collect(),
+        ..ModelRow::default()
+    }
+}
+
+/// A panel a channel, and who is on the fronts.
+fn draw(bench: &ModelBench, time: &str) -> Option<(Canvas, String)> {
     let channels = bench.channels();
     if channels.is_empty() {
         return None;
@@ -41,15 +95,9 @@ pub fn model_bench(bench: &ModelBench) -> Option<Figure> {
             .map(|dot| dot.row.model.clone())
             .collect();
         fronts.push(format!("{channel}: {}", super::listed(&names)));
-        panel(&dots, channel, grid.area(position), &mut canvas);
+        panel(&dots, [channel, time], grid.area(position), &mut canvas);
     }
-    Some(Figure {
-        id: "models".to_owned(),
-        title: "Run time against error of models".to_owned(),
-        caption: caption(bench),
-        description: format!("On the Pareto front by channel. {}.", fronts.join("; ")),
-        canvas,
-    })
+    Some((canvas, fronts.join("; ")))
 }
 
 fn caption(bench: &ModelBench) -> String {
@@ -96,7 +144,7 @@ fn dots<'a>(bench: &'a ModelBench, channel: &str) -> Vec<Dot<'a>> {
     found.iter().map(dot).collect()
 }
 
-fn panel(dots: &[Dot<'_>], channel: &str, area: Area, canvas: &mut Canvas) {
+fn panel(dots: &[Dot<'_>], [channel, time]: [&str; 2], area: Area, canvas: &mut Canvas) {
     let times = extent(dots.iter().map(|dot| dot.row.latency_s * MILLI));
     let errors = extent(dots.iter().map(|dot| dot.error.mae));
     let (Some([fast, slow]), Some([low, high]), Some(one)) = (times, errors, dots.first()) else {
@@ -117,7 +165,7 @@ fn panel(dots: &[Dot<'_>], channel: &str, area: Area, canvas: &mut Canvas) {
     };
     let axes = Axes {
         title: channel.to_owned(),
-        x: "time from frame to prediction (ms)".to_owned(),
+        x: time.to_owned(),
         y: axis_label("MAE", one.error.unit),
     };
     panel.axes(&axes, canvas);
@@ -160,12 +208,16 @@ fn words(dot: &Dot<'_>) -> String {
         let [low, high] = ends.map(numeral);
         format!(" ({low} … {high})")
     });
+    // A scale of decoding is fitted in no time of its own.
+    let fitted = match dot.row.fit_s > 0.0 {
+        true => format!(", fitted in {} s", numeral(dot.row.fit_s)),
+        false => String::new(),
+    };
     format!(
-        "{}: {} {unit}{interval}, n = {n}; {} ms a frame, fitted in {} s",
+        "{}: {} {unit}{interval}, n = {n}; {} ms a frame{fitted}",
         short(&dot.row.model, 40),
         numeral(*mae),
         numeral(dot.row.latency_s * MILLI),
-        numeral(dot.row.fit_s)
     )
 }
 

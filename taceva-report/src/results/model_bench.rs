@@ -140,7 +140,7 @@ impl ModelBench {
 
     /// Whether no sensor was pressed for it.
     pub fn is_simulated(&self) -> bool {
-        matches!(self.recording.source.as_str(), "simulated" | "synthetic")
+        is_simulated(&self.recording.source)
     }
 
     /// The channels, each once, in the order of the first model that has them.
@@ -153,6 +153,11 @@ impl ModelBench {
         }
         channels
     }
+}
+
+/// Whether no sensor was pressed for samples of this `source`.
+pub(super) fn is_simulated(source: &str) -> bool {
+    matches!(source, "simulated" | "synthetic")
 }
 
 impl ModelRow {

@@ -11,7 +11,7 @@ use crate::error::StudyError;
 use crate::evaluate::{EvaluateRequest, ModelChoice, score};
 use crate::features::Work;
 use crate::fit::{FitMeans, FitRequest, fit};
-use crate::predict::{self, Target, extractor};
+use crate::predict::{self, Predicted, Target, extractor};
 use crate::rows::{Divided, Part};
 
 /// The error that models are compared by.
@@ -125,16 +125,18 @@ fn trial(
         errors: Vec::new(),
         failed: None,
     };
-    match measure(dataset, request, work, &mut row) {
-        Ok(()) => Ok(row),
+    row.failed = unfitted(measure(dataset, request, work, &mut row))?;
+    Ok(row)
+}
+
+/// Why a model could not be fitted or scored, where that ends its own row alone.
+pub(super) fn unfitted(outcome: Result<(), StudyError>) -> Result<Option<String>, StudyError> {
+    match outcome {
+        Ok(()) => Ok(None),
         Err(StudyError::Model(error)) if error.kind() != ErrorKind::Interrupted => {
-            row.failed = Some(error.to_string());
-            Ok(row)
+            Ok(Some(error.to_string()))
         }
-        Err(StudyError::Features(error)) => {
-            row.failed = Some(error.to_string());
-            Ok(row)
-        }
+        Err(StudyError::Features(error)) => Ok(Some(error.to_string())),
         Err(error) => Err(error),
     }
 }
@@ -145,44 +147,74 @@ fn measure(
     work: Work<'_>,
     row: &mut ModelTrial,
 ) -> Result<(), StudyError> {
-    let start = Instant::now();
-    let means = FitMeans {
-        jobs: work.jobs,
-        progress: work.progress,
-        checkpoints: None,
-    };
-    let fitted = fit(dataset, request, means)?;
-    row.fit_s = start.elapsed().as_secs_f64();
-    let model = &fitted.model;
+    let raced = Raced::new(dataset, request, work)?;
+    (row.fit_s, row.predict_s) = (raced.fit_s, raced.predict_s);
+    let model = &raced.model;
     if model.card().auto.is_some() {
         row.settings.push(format!("took={}", model.card().model));
     }
-    let target = Target::of(dataset, Some(fitted.divided), None, model.reads_features())?;
-    let start = Instant::now();
-    let predicted = predict::run(dataset, model, &target, work)?;
-    row.predict_s = start.elapsed().as_secs_f64();
-    row.latency_s = latency(dataset, model, &target, work.progress)?;
-    let asked = EvaluateRequest {
-        model: ModelChoice::Fit(request.clone()),
-        metrics: vec![METRIC.to_owned()],
-        part: None,
-        sensor: None,
-        jobs: work.jobs,
-    };
-    let scored = score(dataset, &asked, model, &target, &predicted)?;
-    let evaluation = &scored.report.evaluation;
-    let errors = model.channels().iter().filter_map(|channel| {
-        let score = evaluation.score(METRIC, channel.name())?;
-        Some(TrialError {
-            channel: channel.name().to_owned(),
-            unit: score.unit,
-            mae: score.value.scalar()?,
-            ci95: score.interval.ends(),
-            n: score.n,
-        })
-    });
-    row.errors = errors.collect();
+    row.latency_s = latency(dataset, model, &raced.target, work.progress)?;
+    row.errors = raced.errors;
     Ok(())
+}
+
+/// A model that was fitted on the training part and scored on the test part.
+pub(super) struct Raced {
+    pub(super) model: Model,
+    pub(super) target: Target,
+    pub(super) predicted: Predicted,
+    pub(super) errors: Vec<TrialError>,
+    fit_s: f64,
+    predict_s: f64,
+}
+
+impl Raced {
+    pub(super) fn new(
+        dataset: &Dataset,
+        request: &FitRequest,
+        work: Work<'_>,
+    ) -> Result<Raced, StudyError> {
+        let start = Instant::now();
+        let means = FitMeans {
+            jobs: work.jobs,
+            progress: work.progress,
+            checkpoints: None,
+        };
+        let fitted = fit(dataset, request, means)?;
+        let fit_s = start.elapsed().as_secs_f64();
+        let model = fitted.model;
+        let target = Target::of(dataset, Some(fitted.divided), None, model.reads_features())?;
+        let start = Instant::now();
+        let predicted = predict::run(dataset, &model, &target, work)?;
+        let predict_s = start.elapsed().as_secs_f64();
+        let asked = EvaluateRequest {
+            model: ModelChoice::Fit(request.clone()),
+            metrics: vec![METRIC.to_owned()],
+            part: None,
+            sensor: None,
+            jobs: work.jobs,
+        };
+        let scored = score(dataset, &asked, &model, &target, &predicted)?;
+        let evaluation = &scored.report.evaluation;
+        let errors = model.channels().iter().filter_map(|channel| {
+            let score = evaluation.score(METRIC, channel.name())?;
+            Some(TrialError {
+                channel: channel.name().to_owned(),
+                unit: score.unit,
+                mae: score.value.scalar()?,
+                ci95: score.interval.ends(),
+                n: score.n,
+            })
+        });
+        Ok(Raced {
+            errors: errors.collect(),
+            model,
+            target,
+            predicted,
+            fit_s,
+            predict_s,
+        })
+    }
 }
 
 /// The median time from a decoded frame to its prediction.

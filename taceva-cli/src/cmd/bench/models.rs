@@ -13,7 +13,7 @@ use taceva_study::{FitRequest, StudyError, Subject};
 
 use super::super::{Context, open, results};
 use super::pressed::Pressed;
-use crate::args::BenchModels;
+use crate::args::{BenchModels, SplitArgs};
 use crate::{exit, output};
 
 /// What is raced only where it is named: hours on most machines, or no model of its own.
@@ -75,18 +75,21 @@ fn requests(args: &BenchModels, known: &Models) -> anyhow::Result<Vec<FitRequest
     } else {
         args.models.clone()
     };
-    let request = |word: &String| {
-        let (name, settings) = word.split_once(':').unwrap_or((word, ""));
-        let settings = settings.split(',').filter(|setting| !setting.is_empty());
-        Ok(FitRequest {
-            model: known.find(name).map_err(StudyError::from)?,
-            settings: Settings::parse(settings).map_err(StudyError::from)?,
-            channels: Vec::new(),
-            split: args.split.split.clone(),
-            seed: args.split.seed,
-        })
-    };
+    let request = |word: &String| request(word, &args.split, known);
     words.iter().map(request).collect()
+}
+
+/// The fit that `word` asks for: a model, its settings after a colon.
+pub(super) fn request(word: &str, split: &SplitArgs, known: &Models) -> anyhow::Result<FitRequest> {
+    let (name, settings) = word.split_once(':').unwrap_or((word, ""));
+    let settings = settings.split(',').filter(|setting| !setting.is_empty());
+    Ok(FitRequest {
+        model: known.find(name).map_err(StudyError::from)?,
+        settings: Settings::parse(settings).map_err(StudyError::from)?,
+        channels: Vec::new(),
+        split: split.split.clone(),
+        seed: split.seed,
+    })
 }
 
 fn race(
@@ -96,42 +99,51 @@ fn race(
     context: &Context,
 ) -> anyhow::Result<ModelBench> {
     let trials = models(dataset, requests, context.jobs, &context.progress)?;
-    let isa = Isa::available()
-        .into_iter()
-        .map(|isa| isa.name().to_owned());
-    let machine = Machine::here(context.jobs.get(), isa.collect());
-    let subject = Subject::of(dataset);
-    let recording = BenchRecording {
-        name: name.to_owned(),
-        sensor: subject.sensor,
-        source: subject.source,
-        split: trials.split.clone(),
-        train: trials.train as u64,
-        test: trials.test as u64,
-    };
-    let mut bench = ModelBench::new(
-        BenchMachine {
-            cpu: machine.cpu,
-            cores: machine.cores,
-            threads: machine.threads,
-            isa: machine.isa,
-            load: machine.load,
-        },
-        recording,
-    );
-    let ModelTrials { rows, .. } = trials;
+    let ModelTrials {
+        rows,
+        split,
+        train,
+        test,
+    } = trials;
+    let recording = recording(dataset, name, (split, train, test));
+    let mut bench = ModelBench::new(machine(context), recording);
     bench.rows = rows.into_iter().map(row).collect();
     Ok(bench)
 }
 
+/// The machine that this runs on.
+pub(super) fn machine(context: &Context) -> BenchMachine {
+    let isa = Isa::available()
+        .into_iter()
+        .map(|isa| isa.name().to_owned());
+    let machine = Machine::here(context.jobs.get(), isa.collect());
+    BenchMachine {
+        cpu: machine.cpu,
+        cores: machine.cores,
+        threads: machine.threads,
+        isa: machine.isa,
+        load: machine.load,
+    }
+}
+
+/// What `dataset` is, and how it was divided: how that is written, and the samples learnt from and scored.
+pub(super) fn recording(
+    dataset: &Dataset,
+    name: &str,
+    (split, train, test): (String, usize, usize),
+) -> BenchRecording {
+    let subject = Subject::of(dataset);
+    BenchRecording {
+        name: name.to_owned(),
+        sensor: subject.sensor,
+        source: subject.source,
+        split,
+        train: train as u64,
+        test: test as u64,
+    }
+}
+
 fn row(trial: ModelTrial) -> ModelRow {
-    let error = |error: TrialError| ChannelError {
-        channel: error.channel,
-        unit: error.unit,
-        mae: error.mae,
-        ci95: error.ci95,
-        n: error.n,
-    };
     ModelRow {
         model: trial.model,
         settings: trial.settings.join(" "),
@@ -140,6 +152,16 @@ fn row(trial: ModelTrial) -> ModelRow {
         latency_s: trial.latency_s,
         errors: trial.errors.into_iter().map(error).collect(),
         failed: trial.failed,
+    }
+}
+
+pub(super) fn error(error: TrialError) -> ChannelError {
+    ChannelError {
+        channel: error.channel,
+        unit: error.unit,
+        mae: error.mae,
+        ci95: error.ci95,
+        n: error.n,
     }
 }
 

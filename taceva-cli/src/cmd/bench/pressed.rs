@@ -41,7 +41,7 @@ const POINTS: [usize; 2] = [400, 60];
 /// A recording that is gone when this is dropped.
 pub(super) struct Pressed {
     pub(super) dataset: Dataset,
-    _folder: Folder,
+    folder: Folder,
 }
 
 /// A folder of this process among temporary files.
@@ -55,6 +55,11 @@ impl Drop for Folder {
 }
 
 impl Pressed {
+    /// The folder that is removed with it.
+    pub(super) fn folder(&self) -> &Path {
+        &self.folder.0
+    }
+
     /// Presses the simulated bench; the same seed gives the same recording.
     pub(super) fn new(
         is_quick: bool,
@@ -83,7 +88,7 @@ impl Pressed {
         let study = &planned.studies[0].plan.name;
         Ok(Pressed {
             dataset: Dataset::open(&run.recording(0, study))?,
-            _folder: folder,
+            folder,
         })
     }
 }

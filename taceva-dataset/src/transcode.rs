@@ -1,0 +1,99 @@
+//! A recording written anew with frames in another format.
+
+use std::path::Path;
+
+use taceva_core::{Frame, FrameInfo, Progress};
+
+use crate::dataset::Dataset;
+use crate::decode::ChannelOrder;
+use crate::digest::Digest;
+use crate::encode::{encode_jpeg, of_eight_bits};
+use crate::error::DatasetError;
+use crate::file::write_durable;
+use crate::header::{FramesInfo, Header, ReferenceInfo};
+use crate::layout;
+use crate::staged::StagedFolder;
+use crate::store::{RecordingFacts, write_table_and_header};
+use crate::table::FrameEntry;
+
+/// Writes `dataset` to a new folder at `path` with each frame as a JPEG of `quality`, from 1 to 100: what a camera with a JPEG stream
+/// would have sent. Labels stay as they are; what the compression loses is lost, and what 16 bits hold beyond 8.
+///
+/// # Errors
+/// Those of [`Dataset::frame`]; [`DatasetError::TargetExists`]; [`DatasetError::Io`];
+/// [`DatasetError::Cancelled`].
+pub fn write_as_jpeg(
+    dataset: &Dataset,
+    path: &Path,
+    quality: u8,
+    progress: &dyn Progress,
+) -> Result<Header, DatasetError> {
+    let staged = StagedFolder::create(path)?;
+    let rows = dataset.table().rows();
+    let mut folders = vec![layout::FRAMES.to_owned()];
+    folders.extend(layout::frame_folders(rows));
+    for folder in &folders {
+        staged.create_folder(folder)?;
+    }
+    let write = |relative: String, frame: &Frame| -> Result<FrameEntry, DatasetError> {
+        let path = staged.path().join(&relative);
+        let bytes = encode_jpeg(frame, quality).map_err(|problem| DatasetError::Image {
+            place: None,
+            path: path.clone(),
+            problem,
+        })?;
+        write_durable(&path, &bytes)?;
+        Ok(FrameEntry {
+            path: relative,
+            digest: Digest::of(&bytes),
+        })
+    };
+    progress.begin("encode as JPEG", Some(rows as u64));
+    let mut entries = Vec::with_capacity(rows);
+    for row in 0..rows {
+        if progress.is_cancelled() {
+            return Err(DatasetError::Cancelled);
+        }
+        let frame = dataset.frame(row)?;
+        let entry = frame.map(|frame| write(layout::frame_path(row, "jpg"), &frame));
+        entries.push(entry.transpose()?);
+        progress.advance(1);
+    }
+    progress.end();
+    let reference = dataset.reference()?;
+    let reference = reference.map(|frame| write(layout::reference_path("jpg"), &frame));
+    let reference = reference.transpose()?;
+    let header = dataset.header();
+    let frames = header.frames.as_ref().map(|frames| FramesInfo {
+        // Frames are decoded into red, green, blue, whatever order they were stored in.
+        channel_order: match frames.channel_order {
+            ChannelOrder::Gray => ChannelOrder::Gray,
+            ChannelOrder::Rgb | ChannelOrder::Bgr => ChannelOrder::Rgb,
+        },
+        reference: reference.map(|entry| ReferenceInfo {
+            path: entry.path,
+            sha256: entry.digest,
+        }),
+        info: FrameInfo {
+            format: of_eight_bits(frames.info.format),
+            ..frames.info
+        },
+        ..frames.clone()
+    });
+    let facts = RecordingFacts {
+        source: header.source,
+        clock: header.clock,
+        sensor: header.sensor.clone(),
+        footprint: header.footprint,
+    };
+    let table = dataset.table().clone().with_frames(entries);
+    let written = write_table_and_header(
+        &staged.path().join(layout::SAMPLES),
+        &staged.path().join(layout::HEADER),
+        &facts,
+        (&table, frames),
+        header.presses.clone(),
+    )?;
+    staged.put_in_place(&folders)?;
+    Ok(written)
+}
