@@ -98,51 +98,6 @@ fn a_scene_gives_scores_of_every_part_and_says_that_nothing_was_measured() {
 }
 
 #[test]
-fn gratings_are_told_by_a_network_where_a_scene_says_so() {
-    let bench = with_small();
-    let told_by = |words: &str| {
-        let scene = SMALL.replace(
-            "gratings = { step_mm = 0.75, presses = 2 }",
-            &format!("gratings = {{ step_mm = 0.75, presses = 4, {words} }}"),
-        );
-        format!("{scene}metrics = {{ want = [\"sr\"] }}\n")
-    };
-    let reports = [
-        r#"told_by = "spectrum""#,
-        r#"told_by = "cnn", set = { size = "24x24", epochs = 2, local_mean = 0 }"#,
-        r#"told_by = "cnn-length", set = { size = "24x24", epochs = 2 }"#,
-    ]
-    .map(|words| {
-        bench.write("told.toml", &told_by(words));
-        bench.json("run told.toml --force --out told")["studies"][0].take()
-    });
-    for (report, by) in reports.iter().zip(["discriminants", "network", "network"]) {
-        for kind in ["line", "dot"] {
-            let share = &report["metrics"]["sr"][kind];
-            assert_eq!(share["n"], 12, "{share}");
-            assert!(share["value"].is_number(), "{share}");
-        }
-        let notes = report["provenance"]["notes"].to_string();
-        assert!(notes.contains(by), "{notes}");
-    }
-    // The presses are the same, whoever tells them.
-    let dataset = |report: &Value| report["provenance"]["dataset"].clone();
-    assert_eq!(dataset(&reports[0]), dataset(&reports[1]));
-
-    bench.write(
-        "wrong.toml",
-        &told_by("told_by = \"cnn\", set = { epoch = 2 }"),
-    );
-    bench.refused(
-        "run wrong.toml",
-        3,
-        "wrong.toml, line 9: `epoch`: unknown key, did you mean `epochs`?",
-    );
-    bench.write("wrong.toml", &told_by("set = { epochs = 2 }"));
-    bench.refused("run wrong.toml", 3, "none is accepted here");
-}
-
-#[test]
 fn a_run_never_writes_over_another_unless_told_to() {
     let bench = with_small();
     bench.ok("run small.toml -q");

@@ -2,7 +2,7 @@
 
 use taceva_core::{Estimator, ModelError, Progress, Regressor, TrainingSet};
 
-use crate::choice::{ChannelChoice, Choice, ChosenBy, rmse};
+use crate::choice::{Choice, rmse};
 use crate::linear::{LinearEstimator, LinearFit, LinearRegressor};
 use crate::problem::Problem;
 use crate::registry::ModelInfo;
@@ -53,16 +53,8 @@ impl LinearEstimator for Baseline {
             let squares: f64 = labels.iter().map(|label| label * label).sum();
             rmse(squares / labels.len() as f64, spans[channel])
         };
-        let choices = (0..channels).map(|channel| ChannelChoice {
-            rmse: error(channel),
-            ..ChannelChoice::default()
-        });
         Ok(LinearFit {
-            choice: Choice {
-                by: ChosenBy::Nobody,
-                setting: None,
-                channels: choices.collect(),
-            },
+            choice: Choice::nobodys((0..channels).map(error)),
             regressor: LinearRegressor::new(
                 training.targets.channels.clone(),
                 training.features.shape(),

@@ -32,6 +32,21 @@ pub struct Choice {
     pub channels: Vec<ChannelChoice>,
 }
 
+impl Choice {
+    /// Nothing was chosen, and each channel has that error on the validation part, where there is one.
+    pub(crate) fn nobodys(errors: impl IntoIterator<Item = Option<f64>>) -> Choice {
+        let scored = |rmse| ChannelChoice {
+            rmse,
+            ..ChannelChoice::default()
+        };
+        Choice {
+            by: ChosenBy::Nobody,
+            setting: None,
+            channels: errors.into_iter().map(scored).collect(),
+        }
+    }
+}
+
 /// The choice for one channel.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct ChannelChoice {

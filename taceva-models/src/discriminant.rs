@@ -11,7 +11,7 @@ use taceva_core::{Channel, Estimator, ModelError, Progress, Regressor, TrainingS
 pub use self::classes::Discriminant;
 pub use self::regressor::ClassRegressor;
 use self::regressor::Planes;
-use crate::choice::{ChannelChoice, Choice, ChosenBy, errors};
+use crate::choice::{Choice, errors};
 use crate::features::FeatureSpec;
 use crate::fit::{ModelEstimator, ModelFit, ModelRegressor};
 use crate::linalg::{Design, FeatureScale};
@@ -131,16 +131,8 @@ impl ModelEstimator for LinearDiscriminant {
             Some(set) => errors(&regressor, set)?,
             None => vec![None; problem.channels()],
         };
-        let channels = errors.into_iter().map(|rmse| ChannelChoice {
-            rmse,
-            ..ChannelChoice::default()
-        });
         Ok(ModelFit {
-            choice: Choice {
-                by: ChosenBy::Nobody,
-                setting: None,
-                channels: channels.collect(),
-            },
+            choice: Choice::nobodys(errors),
             regressor: ModelRegressor::Classes(Box::new(regressor)),
             refitted: false,
             scaling: problem.scaling,

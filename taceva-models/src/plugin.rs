@@ -9,7 +9,7 @@ use taceva_core::{
     ModelError, Progress, Regressor, Saved, SavedRegressor, TrainingSet,
 };
 
-use crate::choice::{ChannelChoice, Choice, ChosenBy, errors};
+use crate::choice::{Choice, errors};
 use crate::fit::{ModelEstimator, ModelFit, ModelRegressor};
 use crate::problem::Problem;
 
@@ -81,17 +81,9 @@ impl ModelEstimator for PluginEstimator {
             Some(set) => errors(&regressor, set)?,
             None => vec![None; training.targets.channels.len()],
         };
-        let choices = errors.into_iter().map(|rmse| ChannelChoice {
-            rmse,
-            ..ChannelChoice::default()
-        });
         Ok(ModelFit {
-            choice: Choice {
-                // What a plugin makes of the validation part, it does not say.
-                by: ChosenBy::Nobody,
-                setting: None,
-                channels: choices.collect(),
-            },
+            // What a plugin makes of the validation part, it does not say.
+            choice: Choice::nobodys(errors),
             regressor: ModelRegressor::Plugin(regressor),
             scaling: problem.scaling,
             refitted: false,

@@ -6,7 +6,7 @@ use taceva_core::{Estimator, ModelError, Progress, Regressor, TrainingSet};
 use super::bins::Binned;
 use super::grow::{Ground, Growth};
 use super::regressor::{Member, TreeRegressor};
-use crate::choice::{ChannelChoice, Choice, ChosenBy};
+use crate::choice::Choice;
 use crate::features::FeatureSpec;
 use crate::fit::{ModelEstimator, ModelFit, ModelRegressor};
 use crate::output::OutputScale;
@@ -165,16 +165,8 @@ impl ModelEstimator for RandomForest {
                 problem.errors_of(&found, part)
             }
         };
-        let channels = errors.into_iter().map(|rmse| ChannelChoice {
-            rmse,
-            ..ChannelChoice::default()
-        });
         Ok(ModelFit {
-            choice: Choice {
-                by: ChosenBy::Nobody,
-                setting: None,
-                channels: channels.collect(),
-            },
+            choice: Choice::nobodys(errors),
             regressor: ModelRegressor::Trees(Box::new(regressor)),
             refitted: false,
             scaling: problem.scaling,
