@@ -20,7 +20,7 @@ pub(crate) use self::results::{
     Accept, CatalogueArgs, CatalogueShow, CatalogueSite, CatalogueSubject, Choose, Compare,
 };
 pub(crate) use self::shared::{
-    Format, ModelArgs, OptionalModelArgs, Output, PartArg, SettingArgs, SplitArgs,
+    CacheArgs, Format, ModelArgs, OptionalModelArgs, Output, PartArg, SettingArgs, SplitArgs,
 };
 pub(crate) use self::study::{ListFormat, Listing, PlanArgs, Run, SceneArgs};
 
@@ -160,6 +160,8 @@ pub(crate) struct Fit {
     /// Put a training aside after so many seconds, 0 for after each step
     #[arg(long, value_name = "SECONDS", default_value_t = Checkpoints::EVERY.as_secs())]
     pub(crate) checkpoint_every: u64,
+    #[command(flatten)]
+    pub(crate) cache: CacheArgs,
     /// Replace a file that stands there already, and the checkpoint of another training
     #[arg(long)]
     pub(crate) force: bool,
@@ -179,6 +181,8 @@ pub(crate) struct Evaluate {
     pub(crate) model: OptionalModelArgs,
     #[command(flatten)]
     pub(crate) split: SplitArgs,
+    #[command(flatten)]
+    pub(crate) cache: CacheArgs,
     /// Which samples to score [default: test, or all if the model was fitted on another dataset]
     #[arg(long, value_enum)]
     pub(crate) part: Option<PartArg>,
@@ -222,6 +226,8 @@ pub(crate) struct Predict {
     /// A fitted model file
     #[arg(long, value_name = "MODEL")]
     pub(crate) with: PathBuf,
+    #[command(flatten)]
+    pub(crate) cache: CacheArgs,
     /// Which samples to predict [default: test, or all if the model was fitted on another dataset]
     #[arg(long, value_enum)]
     pub(crate) part: Option<PartArg>,

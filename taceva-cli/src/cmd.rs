@@ -2,6 +2,7 @@
 
 pub(crate) mod accept;
 pub(crate) mod bench;
+mod cache;
 pub(crate) mod catalogue;
 pub(crate) mod check;
 pub(crate) mod choose;
@@ -27,7 +28,7 @@ use std::path::Path;
 
 use taceva_dataset::Dataset;
 use taceva_models::{Models, Settings};
-use taceva_study::{EvaluationReport, FitRequest, Part, Plan, StudyError};
+use taceva_study::{Cache, EvaluationReport, FitRequest, Part, Plan, StudyError, Work};
 
 use crate::args::{Everywhere, PartArg, PluginArgs, SettingArgs, SplitArgs};
 use crate::exit;
@@ -55,6 +56,15 @@ impl Context {
             verbose: everywhere.verbose > 0,
             quiet: everywhere.quiet,
             plugins: everywhere.plugins.clone(),
+        }
+    }
+
+    /// With what a stage is carried out.
+    pub(crate) fn work<'a>(&'a self, cache: Option<&'a Cache>) -> Work<'a> {
+        Work {
+            jobs: self.jobs,
+            progress: &self.progress,
+            cache,
         }
     }
 

@@ -1,16 +1,18 @@
 //! Least squares with a penalty that leaves most weights at nothing.
 
 mod descent;
+mod form;
 
 use faer::Mat;
 use rayon::prelude::*;
 use taceva_core::{Estimator, Features, ModelError, Progress, Regressor, TrainingSet};
 
 use self::descent::{Penalty, path};
+use self::form::Form;
 use crate::features::FeatureSpec;
-use crate::linalg::{Design, FeatureScale, feature_gram};
+use crate::linalg::{Design, FeatureScale};
 use crate::linear::{LinearEstimator, LinearFit, LinearRegressor};
-use crate::problem::{Problem, centred, invalid};
+use crate::problem::{Problem, centred};
 use crate::progress::interrupted;
 use crate::registry::ModelInfo;
 use crate::settings::{SettingError, SettingInfo, Settings, number};
@@ -46,9 +48,6 @@ const MIX: SettingInfo = SettingInfo {
 
 /// The weights of one channel, at each strength.
 type Path = Vec<Vec<f64>>;
-
-/// Features that a Gram matrix is kept of: 134 MB.
-const FEATURES_MAX: usize = 4096;
 
 impl ElasticNet {
     /// What the registry says of it.
@@ -92,7 +91,7 @@ impl ElasticNet {
         progress: &dyn Progress,
     ) -> Result<(Vec<f64>, Vec<Path>), ModelError> {
         let (shift, labels) = centred(labels);
-        let gram = feature_gram(design, progress)?;
+        let form = Form::of(design, progress)?;
         let products = design.transpose_times(labels.as_ref());
         let strengths = self.strengths();
         let channels: Result<Vec<_>, ModelError> = (0..labels.ncols())
@@ -103,7 +102,9 @@ impl ElasticNet {
                     strengths: &strengths,
                     mix: self.mix,
                 };
-                path(&gram, products.col_as_slice(channel), penalty, progress)
+                let labels = labels.col_as_slice(channel);
+                let products = products.col_as_slice(channel);
+                path(&form, (labels, products), penalty, progress)
             })
             .collect();
         Ok((shift, channels?))
@@ -118,11 +119,6 @@ impl LinearEstimator for ElasticNet {
         progress: &dyn Progress,
     ) -> Result<LinearFit, ModelError> {
         let width = training.features.shape().len();
-        if width > FEATURES_MAX {
-            return Err(invalid(format!(
-                "{width} features, the elastic net takes at most {FEATURES_MAX}: a smaller `size` or `pca` would be accepted"
-            )));
-        }
         let problem = Problem::new(*training)?;
         let held = problem.validation(validation)?;
         let trials = Trials::new(&problem, held.as_ref(), self.strength.is_none());

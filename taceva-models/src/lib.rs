@@ -28,6 +28,7 @@ mod random;
 mod registry;
 mod ridge;
 mod settings;
+mod size;
 mod split;
 mod standard;
 mod tensors;
@@ -64,6 +65,7 @@ pub use projected::ProjectedRegressor;
 pub use registry::{ALL, ModelInfo, UnknownModel, find};
 pub use ridge::Ridge;
 pub use settings::{SettingError, SettingInfo, Settings, Suggestion};
+pub use size::{SizeCard, SizeTrial};
 pub use split::{
     ColumnSplit, Fractions, Part, Split, SplitCounts, SplitError, SplitInput, SplitKind,
     SplitManifest, SplitSpec,

@@ -19,6 +19,7 @@ use crate::features::{Extractor, FeatureError, FeatureSpec, Pca};
 use crate::fit::{ModelEstimator, ModelRegressor};
 use crate::problem::invalid;
 use crate::settings::Settings;
+use crate::size::SizeCard;
 
 /// All that a model is fitted from.
 pub struct FitInput<'a> {
@@ -98,6 +99,13 @@ impl Model {
     /// What it is and where it comes from.
     pub fn card(&self) -> &ModelCard {
         &self.card
+    }
+
+    /// The same, its card saying how the size of its features was chosen.
+    #[must_use]
+    pub fn with_size_chosen(mut self, how: SizeCard) -> Model {
+        self.card.size = Some(how);
+        self
     }
 
     /// What it predicts.

@@ -2,6 +2,7 @@
 //!
 //! ```text
 //! FOLDER/1/acquire/<key>/     a closed recording, its files linked with those of the run that made it
+//!         /features/<key>     features of frames, in the same way as a model
 //!         /fit/<key>          a model; first its digest on a line, then its bytes
 //!         /predict/<key>      numbers, in the same way
 //!         /partial/           what is being written; it is renamed when it is whole, and left if the run is stopped
@@ -9,6 +10,7 @@
 //!
 //! Scores are no stage: they are formed from kept numbers in less time than it takes to look them up safely.
 
+mod features;
 mod key;
 mod recording;
 mod study;

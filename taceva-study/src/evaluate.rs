@@ -5,23 +5,23 @@ mod passes;
 use std::collections::BTreeSet;
 use std::num::NonZeroUsize;
 
-use taceva_core::{Channels, Field, FieldSet, Progress, SkipReason, Skipped};
+use taceva_core::{Channels, Field, FieldSet, SkipReason, Skipped};
 use taceva_dataset::{Dataset, SensorFile};
 use taceva_metrics::{MetricPlan, catalogue};
 use taceva_models::{Model, SplitManifest};
 
 use crate::error::StudyError;
 use crate::facts;
-use crate::features::Work;
 use crate::fit::{FitPlan, FitRequest};
 use crate::plan::Plan;
 use crate::predict::{self, Predicted, Target};
-use crate::provenance::{ModelProvenance, Provenance};
+use crate::provenance::{ModelProvenance, Provenance, chosen_notes};
 use crate::report::EvaluationReport;
 use crate::rows::{Divided, Part};
 use crate::samples::Samples;
 use crate::state_file::StateFile;
 use crate::subject::Subject;
+use crate::work::Work;
 
 use passes::Passes;
 
@@ -36,8 +36,6 @@ pub struct EvaluateRequest {
     pub part: Option<Part>,
     /// What is known of the sensor beyond the dataset's header.
     pub sensor: Option<SensorFile>,
-    /// Threads.
-    pub jobs: NonZeroUsize,
 }
 
 /// Where the model comes from.
@@ -122,12 +120,8 @@ pub fn evaluate_plan(dataset: &Dataset, request: &EvaluateRequest) -> Result<Pla
 pub fn evaluate(
     dataset: &Dataset,
     request: &EvaluateRequest,
-    progress: &dyn Progress,
+    work: Work<'_>,
 ) -> Result<Evaluated, StudyError> {
-    let work = Work {
-        jobs: request.jobs,
-        progress,
-    };
     match &request.model {
         ModelChoice::Fit(fit) => {
             // Asked before the work: an unknown metric must not cost a fit.
@@ -141,7 +135,7 @@ pub fn evaluate(
                 model.reads_features(),
             )?;
             let predicted = predict::run(dataset, model, &target, work)?;
-            let mut scored = score(dataset, request, model, &target, &predicted)?;
+            let mut scored = score(dataset, request, model, (&target, &predicted), work.jobs)?;
             let report = &mut scored.report;
             report.provenance.frames_decoded += fitted.frames_decoded;
             report
@@ -156,7 +150,7 @@ pub fn evaluate(
         ModelChoice::Fitted(model) => {
             let target = Target::new(dataset, model, request.part)?;
             let predicted = predict::run(dataset, model, &target, work)?;
-            let scored = score(dataset, request, model, &target, &predicted)?;
+            let scored = score(dataset, request, model, (&target, &predicted), work.jobs)?;
             let manifest = target
                 .divided
                 .map(|divided| divided.manifest(dataset.table()))
@@ -181,15 +175,15 @@ pub(crate) fn score(
     dataset: &Dataset,
     request: &EvaluateRequest,
     model: &Model,
-    target: &Target,
-    predicted: &Predicted,
+    (target, predicted): (&Target, &Predicted),
+    jobs: NonZeroUsize,
 ) -> Result<Evaluated, StudyError> {
     let plan = metrics(dataset, predicted.channels(), request)?;
     let points: Option<Vec<&str>> = predicted
         .points()
         .map(|points| points.iter().map(String::as_str).collect());
     let passes = Passes::new(&plan, request.part.is_some());
-    let mut evaluator = passes.run(dataset, predicted, &target.rows, request.jobs)?;
+    let mut evaluator = passes.run(dataset, predicted, &target.rows, jobs)?;
     let divided = target.divided.as_ref();
     let note = divided.and_then(|divided| divided.split.note.clone());
     let provenance = Provenance {
@@ -204,7 +198,7 @@ pub(crate) fn score(
             .chain(few_points_note(points.as_deref()))
             .chain(left_out_note(target.part.name(), predicted.left_out))
             .chain(predicted.bounded_note())
-            .chain(model.card().auto.as_ref().map(ToString::to_string))
+            .chain(chosen_notes(model))
             .chain(passes.note(dataset))
             .collect(),
         ..Provenance::of(dataset)

@@ -1,19 +1,11 @@
 //! Frames of a dataset, turned into features: one decoded frame a worker, only the features stay.
 
-use std::num::NonZeroUsize;
-
-use taceva_core::{FeatureShape, Features, Progress};
+use taceva_core::{FeatureShape, Features};
 use taceva_dataset::{Dataset, Pass};
 use taceva_models::{Extractor, FeatureSpec};
 
 use crate::error::StudyError;
-
-/// Threads and listener of a stage.
-#[derive(Clone, Copy)]
-pub(crate) struct Work<'a> {
-    pub(crate) jobs: NonZeroUsize,
-    pub(crate) progress: &'a dyn Progress,
-}
+use crate::work::Work;
 
 /// The extractor that `spec` asks for on the frames of `dataset`.
 pub(crate) fn extractor(dataset: &Dataset, spec: FeatureSpec) -> Result<Extractor, StudyError> {
@@ -31,11 +23,24 @@ pub(crate) fn extractor(dataset: &Dataset, spec: FeatureSpec) -> Result<Extracto
     Ok(Extractor::new(spec, info, reference.as_ref())?)
 }
 
-/// The features of `rows`, in that order.
+/// The features of `rows`, in that order: those that were kept of them, or made now.
 ///
 /// # Shapes
 /// `[rows, height, width, depth]`; memory is that of the features and a few frames a worker.
 pub(crate) fn extract(
+    dataset: &Dataset,
+    extractor: &Extractor,
+    rows: &[usize],
+    work: Work<'_>,
+) -> Result<Features, StudyError> {
+    let make = || make(dataset, extractor, rows, work);
+    match work.cache {
+        Some(cache) => cache.features((dataset, extractor, rows), make),
+        None => make(),
+    }
+}
+
+fn make(
     dataset: &Dataset,
     extractor: &Extractor,
     rows: &[usize],

@@ -1,19 +1,21 @@
 //! The stage that learns: a dataset and a request in, a model out.
 
-use std::collections::BTreeMap;
-use std::num::NonZeroUsize;
+mod size;
 
-use taceva_core::{Channels, FrameInfo, PixelFormat, Progress, Targets, TrainingSet};
+use std::collections::BTreeMap;
+
+use taceva_core::{Channels, FrameInfo, PixelFormat, Targets, TrainingSet};
 use taceva_dataset::{Dataset, Source};
 use taceva_models::{
     Checkpoints, ChosenModel, FeatureSpec, FitInput, Model, ModelEstimator, Provenance, Settings,
-    SplitCard, SplitManifest,
+    SizeCard, SplitCard, SplitManifest,
 };
 
 use crate::error::StudyError;
-use crate::features::{Work, blank, extract, extractor};
+use crate::features::{blank, extract, extractor};
 use crate::plan::Plan;
 use crate::rows::{Divided, Need, Part, chosen_channels, usable};
+use crate::work::Work;
 
 /// What to fit.
 #[derive(Clone, Debug)]
@@ -40,16 +42,6 @@ impl FitRequest {
     }
 }
 
-/// How a model is fitted; nothing of this changes the model.
-pub struct FitMeans<'a> {
-    /// Worker threads.
-    pub jobs: NonZeroUsize,
-    /// Who listens.
-    pub progress: &'a dyn Progress,
-    /// Where a long training is put aside, and goes on from; models that are fitted in one go put nothing aside.
-    pub checkpoints: Option<Checkpoints>,
-}
-
 /// A fitted model and how its dataset was divided.
 #[derive(Debug)]
 pub struct Fitted {
@@ -69,21 +61,29 @@ pub struct Fitted {
 pub(crate) struct Recipe {
     model: ChosenModel,
     estimator: Box<dyn ModelEstimator>,
+    of_model: Settings,
     features: FeatureSpec,
+    /// Whether the size of the features is to be chosen.
+    is_size_open: bool,
 }
 
 impl Recipe {
     /// Reads the settings of the model and of its features.
     pub(crate) fn of(request: &FitRequest) -> Result<Recipe, StudyError> {
         let model = &request.model;
-        let (of_features, of_model) = request.settings.clone().partition(FeatureSpec::SETTINGS);
+        let sized = SizeCard::left_open(&request.settings);
+        let is_size_open = sized.is_some();
+        let settings = sized.unwrap_or_else(|| request.settings.clone());
+        let (of_features, of_model) = settings.partition(FeatureSpec::SETTINGS);
         let mut known = model.setting_keys();
         known.extend(FeatureSpec::SETTINGS.iter().map(|setting| setting.key));
         request.settings.check_names(&known)?;
         Ok(Recipe {
             model: model.clone(),
             estimator: model.estimator(&of_model)?,
+            of_model,
             features: model.features().changed_by(&of_features)?,
+            is_size_open,
         })
     }
 }
@@ -93,8 +93,12 @@ pub(crate) struct FitPlan<'a> {
     dataset: &'a Dataset,
     model: ChosenModel,
     estimator: Box<dyn ModelEstimator>,
+    /// As typed.
     settings: Settings,
+    /// Those of them that are the model's own.
+    of_model: Settings,
     features: FeatureSpec,
+    is_size_open: bool,
     pub(crate) channels: Channels,
     pub(crate) divided: Divided,
     pub(crate) train: Vec<usize>,
@@ -122,11 +126,14 @@ impl<'a> FitPlan<'a> {
         let Recipe {
             model,
             estimator,
+            of_model,
             features,
+            is_size_open,
         } = recipe;
         let channels = chosen_channels(dataset, &request.channels)?;
+        let model_reads = model.reads_features();
         let need = || Need {
-            frame: model.reads_features(),
+            frame: model_reads,
             labels: Some(&channels),
         };
         let whole = [divided.rows(Part::Train), divided.rows(Part::Validation)];
@@ -136,8 +143,10 @@ impl<'a> FitPlan<'a> {
             dataset,
             model,
             estimator,
+            of_model,
             settings: request.settings.clone(),
             features,
+            is_size_open: is_size_open && model_reads,
             channels,
             divided,
             train,
@@ -163,10 +172,11 @@ impl<'a> FitPlan<'a> {
     pub(crate) fn explain(&self, plan: &mut Plan) {
         let rows = self.train.len() + self.validation.len();
         if self.reads_frames() {
-            plan.step(
-                "decode",
-                format!("{rows} frames to features {}", self.features),
-            );
+            let features = match self.is_size_open {
+                true => format!("{}, at several sizes", self.features),
+                false => self.features.to_string(),
+            };
+            plan.step("decode", format!("{rows} frames to features {features}"));
         }
         let names: Vec<&str> = self.channels.iter().map(|channel| channel.name()).collect();
         plan.step(
@@ -189,44 +199,17 @@ impl<'a> FitPlan<'a> {
         self.estimator.put_aside(checkpoints);
     }
 
-    pub(crate) fn run(self, work: Work<'_>) -> Result<Fitted, StudyError> {
-        let rows = [self.train.clone(), self.validation.clone()].concat();
-        let (features, frame) = if self.reads_frames() {
-            let extractor = extractor(self.dataset, self.features)?;
-            (
-                extract(self.dataset, &extractor, &rows, work)?,
-                extractor.frame_info(),
-            )
-        } else {
-            (blank(self.features.shape(), rows.len())?, self.any_frame())
+    pub(crate) fn run(mut self, work: Work<'_>) -> Result<Fitted, StudyError> {
+        let size = match self.is_size_open {
+            true => Some(self.choose_size(work)?),
+            false => None,
         };
-        let positions = |rows: std::ops::Range<usize>| rows.collect::<Vec<usize>>();
-        let train_features = features.select(&positions(0..self.train.len()));
-        let held_features = features.select(&positions(self.train.len()..rows.len()));
-        drop(features);
-        let (train_labels, held_labels) = (self.labels(&self.train), self.labels(&self.validation));
-        let groups = groups(self.dataset, &self.train);
-        let set = |features, values, groups| TrainingSet {
-            features,
-            targets: Targets {
-                channels: &self.channels,
-                values,
-            },
-            groups,
+        let whole: Vec<usize> = (0..self.train.len()).collect();
+        let learnt = self.learn(&*self.estimator, self.features, &whole, work)?;
+        let model = match size {
+            Some(size) => learnt.with_size_chosen(size),
+            None => learnt,
         };
-        let model = Model::fit(
-            FitInput {
-                estimator: self.estimator.as_ref(),
-                settings: &self.settings,
-                features: self.features,
-                frame,
-                training: set(&train_features, &train_labels, groups.as_deref()),
-                validation: (!self.validation.is_empty())
-                    .then(|| set(&held_features, &held_labels, None)),
-                provenance: self.provenance(),
-            },
-            work.progress,
-        )?;
         let frames_decoded = self.frames_to_decode();
         let manifest = self.divided.manifest(self.dataset.table())?;
         Ok(Fitted {
@@ -236,6 +219,53 @@ impl<'a> FitPlan<'a> {
             frames_decoded,
             left_out: self.left_out,
         })
+    }
+
+    /// A model of `features`, fitted on the rows at `positions` of the training part and on the validation part.
+    fn learn(
+        &self,
+        estimator: &dyn ModelEstimator,
+        features: FeatureSpec,
+        positions: &[usize],
+        work: Work<'_>,
+    ) -> Result<Model, StudyError> {
+        // Of both parts whatever is learnt from: what is kept of features is found by its rows.
+        let rows = [&self.train[..], &self.validation].concat();
+        let (seen, frame) = if self.reads_frames() {
+            let extractor = extractor(self.dataset, features)?;
+            (
+                extract(self.dataset, &extractor, &rows, work)?,
+                extractor.frame_info(),
+            )
+        } else {
+            (blank(features.shape(), rows.len())?, self.any_frame())
+        };
+        let train: Vec<usize> = positions.iter().map(|&at| self.train[at]).collect();
+        let train_features = seen.select(positions);
+        let held: Vec<usize> = (self.train.len()..rows.len()).collect();
+        let held_features = seen.select(&held);
+        drop(seen);
+        let (train_labels, held_labels) = (self.labels(&train), self.labels(&self.validation));
+        let groups = groups(self.dataset, &train);
+        let set = |features, values, groups| TrainingSet {
+            features,
+            targets: Targets {
+                channels: &self.channels,
+                values,
+            },
+            groups,
+        };
+        let input = FitInput {
+            estimator,
+            settings: &self.settings,
+            features,
+            frame,
+            training: set(&train_features, &train_labels, groups.as_deref()),
+            validation: (!self.validation.is_empty())
+                .then(|| set(&held_features, &held_labels, None)),
+            provenance: self.provenance(),
+        };
+        Ok(Model::fit(input, work.progress)?)
     }
 
     fn labels(&self, rows: &[usize]) -> Vec<f64> {
@@ -291,23 +321,21 @@ impl<'a> FitPlan<'a> {
 
 /// Fits a model on the training part of `dataset`.
 ///
+/// A long training is put aside in `checkpoints` and goes on from there; models that are fitted in one go put nothing aside.
+///
 /// # Errors
 /// [`StudyError`] if the request cannot be meant, the dataset cannot be read, or nothing can be learnt from it.
 pub fn fit(
     dataset: &Dataset,
     request: &FitRequest,
-    means: FitMeans<'_>,
+    checkpoints: Option<Checkpoints>,
+    work: Work<'_>,
 ) -> Result<Fitted, StudyError> {
-    let FitMeans {
-        jobs,
-        progress,
-        checkpoints,
-    } = means;
     let mut plan = FitPlan::new(dataset, request)?;
     if let Some(checkpoints) = checkpoints {
         plan.put_aside(checkpoints);
     }
-    plan.run(Work { jobs, progress })
+    plan.run(work)
 }
 
 /// A number a row for its contact location, if every row has one.

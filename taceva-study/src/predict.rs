@@ -1,15 +1,15 @@
 //! The stage that predicts, and the tables it can be written as.
 
 use std::io::{self, Write};
-use std::num::NonZeroUsize;
 
-use taceva_core::{Channels, Column, Field, Progress};
+use taceva_core::{Channels, Column, Field};
 use taceva_dataset::Dataset;
 use taceva_models::Model;
 
 use crate::error::StudyError;
-use crate::features::{Work, blank, extract};
+use crate::features::{blank, extract};
 use crate::rows::{Divided, Need, Part, usable};
+use crate::work::Work;
 
 /// Predictions of some rows of a dataset, beside what is true of them.
 #[derive(Debug)]
@@ -123,11 +123,10 @@ pub fn predict(
     dataset: &Dataset,
     model: &Model,
     part: Option<Part>,
-    jobs: NonZeroUsize,
-    progress: &dyn Progress,
+    work: Work<'_>,
 ) -> Result<Predicted, StudyError> {
     let target = Target::new(dataset, model, part)?;
-    run(dataset, model, &target, Work { jobs, progress })
+    run(dataset, model, &target, work)
 }
 
 /// The rows that are predicted, and how that was decided.

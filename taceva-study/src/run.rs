@@ -12,10 +12,10 @@ use taceva_protocol::{Cancel, StopCause};
 use crate::acquire::{Workshop, acquire, key};
 use crate::cache::StudyCache;
 use crate::error::StudyError;
-use crate::features::Work;
 use crate::report::EvaluationReport;
 use crate::scene::{PlannedScene, PlannedStudy, StudySource};
 use crate::stage::{Means, assess};
+use crate::work::Work;
 pub use folder::{Existing, RunFolder};
 
 /// The reports of the studies of `scene`, in order; what is acquired is recorded in `folder`, several studies at a time.
@@ -36,6 +36,7 @@ pub fn run_scene(
     let work = Work {
         jobs,
         progress: workshop.progress,
+        cache: workshop.cache,
     };
     let studies = scene.studies.iter().zip(&datasets);
     let assessed = studies.enumerate().map(|(number, (study, dataset))| {

@@ -12,15 +12,15 @@ use taceva_protocol::PhaseKind;
 
 use crate::cache::{Key, Stage, StudyCache};
 use crate::error::StudyError;
-use crate::features::Work;
 use crate::fit::{FitPlan, FitRequest, Recipe};
 use crate::predict::{self, Predicted, Target};
-use crate::provenance::{ModelProvenance, Provenance};
+use crate::provenance::{ModelProvenance, Provenance, chosen_notes};
 use crate::report::EvaluationReport;
 use crate::rows::{Divided, Need, Part, usable};
 use crate::samples::Samples;
 use crate::scene::{PlannedScene, PlannedStudy};
 use crate::subject::Subject;
+use crate::work::Work;
 
 use deal::{Deal, seen};
 use gratings::ToldSpacings;
@@ -71,6 +71,7 @@ pub(crate) fn assess(
             .iter()
             .filter_map(|(predicted, _)| predicted.bounded_note()),
     );
+    notes.extend(learnt.iter().flat_map(|learnt| chosen_notes(&learnt.model)));
     let divided = learnt.as_ref().and_then(|learnt| learnt.divided.as_ref());
     let frames_decoded = [
         learnt.as_ref().map(|learnt| learnt.frames_decoded),

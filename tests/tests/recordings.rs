@@ -6,11 +6,15 @@ use std::path::Path;
 use taceva_core::Silent;
 use taceva_dataset::{Dataset, ImportMap, ImportPlan, ImportReport};
 use taceva_models::Settings;
-use taceva_study::{EvaluateRequest, Evaluated, FitRequest, ModelChoice, evaluate};
+use taceva_study::{EvaluateRequest, Evaluated, FitRequest, ModelChoice, Work, evaluate};
 use taceva_tests::{recording, root};
 use tempfile::TempDir;
 
-const JOBS: NonZeroUsize = NonZeroUsize::new(2).expect("two");
+const WORK: Work<'_> = Work {
+    jobs: NonZeroUsize::new(2).expect("two"),
+    progress: &Silent,
+    cache: None,
+};
 
 /// The set `folder`, imported by the map called `map` into a temporary folder.
 fn import(folder: &str, map: &str) -> Option<(TempDir, Dataset, ImportReport)> {
@@ -24,7 +28,7 @@ fn import(folder: &str, map: &str) -> Option<(TempDir, Dataset, ImportReport)> {
     let plan = ImportPlan::new(&source, &map).expect("the map fits the set");
     let target = tempfile::tempdir().expect("a temporary folder");
     let path: &Path = &target.path().join("data");
-    let report = plan.run(path, JOBS, &Silent).expect("imported");
+    let report = plan.run(path, WORK.jobs, &Silent).expect("imported");
     let dataset = Dataset::open(path).expect("a dataset");
     Some((target, dataset, report))
 }
@@ -41,9 +45,8 @@ fn evaluated(dataset: &Dataset, model: &str, split: &str, seed: u64) -> Evaluate
         metrics: vec!["r2".to_owned()],
         part: None,
         sensor: None,
-        jobs: JOBS,
     };
-    evaluate(dataset, &request, &Silent).expect("evaluated")
+    evaluate(dataset, &request, WORK).expect("evaluated")
 }
 
 fn r2(evaluated: &Evaluated, channel: &str) -> f64 {

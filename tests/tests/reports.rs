@@ -9,10 +9,14 @@ use taceva_report::catalogue::Sensor;
 use taceva_report::{
     CompareRequest, Need, Report, Samples, Study, choose, compare, figures, report,
 };
-use taceva_study::{EvaluateRequest, FitRequest, ModelChoice, evaluate};
+use taceva_study::{EvaluateRequest, FitRequest, ModelChoice, Work, evaluate};
 use taceva_tests::{recording, root};
 
-const JOBS: NonZeroUsize = NonZeroUsize::new(2).expect("two");
+const WORK: Work<'_> = Work {
+    jobs: NonZeroUsize::new(2).expect("two"),
+    progress: &Silent,
+    cache: None,
+};
 
 /// What `model` makes of the set `name`, with its samples.
 fn study(name: &str, model: &str, split: &str) -> Option<Study> {
@@ -25,7 +29,7 @@ fn study(name: &str, model: &str, split: &str) -> Option<Study> {
     let target = tempfile::tempdir().expect("a temporary folder");
     let path = target.path().join("data");
     let plan = ImportPlan::new(&source, &map).expect("the map fits the set");
-    plan.run(&path, JOBS, &Silent).expect("imported");
+    plan.run(&path, WORK.jobs, &Silent).expect("imported");
     let dataset = Dataset::open(&path).expect("a dataset");
     let request = EvaluateRequest {
         model: ModelChoice::Fit(FitRequest {
@@ -38,9 +42,8 @@ fn study(name: &str, model: &str, split: &str) -> Option<Study> {
         metrics: vec!["all".to_owned()],
         part: None,
         sensor: None,
-        jobs: JOBS,
     };
-    let written = evaluate(&dataset, &request, &Silent)
+    let written = evaluate(&dataset, &request, WORK)
         .expect("evaluated")
         .report;
     let text = serde_json::to_string(&written).expect("JSON");

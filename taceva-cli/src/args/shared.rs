@@ -7,7 +7,7 @@ use clap::{Args, ValueEnum};
 /// A model to fit, and its settings.
 #[derive(Debug, Args)]
 pub(crate) struct ModelArgs {
-    /// The model: baseline, ridge, pls, elastic-net, kernel-ridge, svr, gaussian-process, knn, random-forest,
+    /// The model: baseline, ridge, pls, elastic-net, kernel-ridge, svr, gaussian-process, knn, lda, random-forest,
     /// gradient-boosting, cnn, resnet10, resnet18, resnet34; auto: the one that does best on groups left out; or that of a plugin, ID/KEY
     #[arg(long = "model", value_name = "NAME")]
     pub(crate) name: String,
@@ -18,7 +18,7 @@ pub(crate) struct ModelArgs {
 /// As [`ModelArgs`], where a fitted model may stand instead.
 #[derive(Debug, Args)]
 pub(crate) struct OptionalModelArgs {
-    /// The model to fit: baseline, ridge, pls, elastic-net, kernel-ridge, svr, gaussian-process, knn, random-forest,
+    /// The model to fit: baseline, ridge, pls, elastic-net, kernel-ridge, svr, gaussian-process, knn, lda, random-forest,
     /// gradient-boosting, cnn, resnet10, resnet18, resnet34; auto: the one that does best on groups left out; or that of a plugin, ID/KEY
     #[arg(long = "model", value_name = "NAME")]
     pub(crate) name: Option<String>,
@@ -46,6 +46,17 @@ pub(crate) struct SplitArgs {
     /// The seed of everything that is drawn
     #[arg(long, value_name = "N", default_value_t = 0)]
     pub(crate) seed: u64,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct CacheArgs {
+    /// Where finished stages of simulated studies, features, fits and predictions are found and kept [default: taceva in the user's cache
+    /// folder]
+    #[arg(long, value_name = "DIR", conflicts_with = "no_cache")]
+    pub(crate) cache: Option<PathBuf>,
+    /// Carry out every stage, and keep none
+    #[arg(long)]
+    pub(crate) no_cache: bool,
 }
 
 #[derive(Debug, Args)]

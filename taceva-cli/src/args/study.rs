@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 
-use super::Format;
+use super::{CacheArgs, Format};
 
 /// A scene, and what may be said otherwise than it is written there.
 #[derive(Debug, Args)]
@@ -32,12 +32,8 @@ pub(crate) struct Run {
     /// Remove the run in that folder, or the last one, and begin anew
     #[arg(long)]
     pub(crate) force: bool,
-    /// Where finished stages of simulated studies, fits and predictions are found and kept [default: taceva in the user's cache folder]
-    #[arg(long, value_name = "DIR", conflicts_with = "no_cache")]
-    pub(crate) cache: Option<PathBuf>,
-    /// Carry out every stage, and keep none
-    #[arg(long)]
-    pub(crate) no_cache: bool,
+    #[command(flatten)]
+    pub(crate) cache: CacheArgs,
     /// The form of the reports on standard output
     #[arg(long, value_enum, default_value_t = Format::Text)]
     pub(crate) format: Format,

@@ -3,7 +3,7 @@
 use taceva_dataset::SensorFile;
 use taceva_study::{EvaluateRequest, ModelChoice, Part, evaluate, evaluate_plan};
 
-use super::{Context, Usage, fit_request, open};
+use super::{Context, Usage, cache, fit_request, open};
 use crate::args::Evaluate;
 use crate::{exit, output, report};
 
@@ -44,7 +44,6 @@ pub(crate) fn run(args: &Evaluate, context: &Context) -> anyhow::Result<u8> {
         metrics: args.metrics.clone(),
         part: args.part.map(Part::from),
         sensor: args.sensor.as_deref().map(SensorFile::read).transpose()?,
-        jobs: context.jobs,
     };
     if args.explain {
         let plan = evaluate_plan(&dataset, &request)?;
@@ -52,7 +51,9 @@ pub(crate) fn run(args: &Evaluate, context: &Context) -> anyhow::Result<u8> {
         return Ok(exit::DONE);
     }
     context.tell(|| evaluate_plan(&dataset, &request))?;
-    let evaluated = evaluate(&dataset, &request, &context.progress)?;
+    let cache = cache::of(&args.cache);
+    let evaluated = evaluate(&dataset, &request, context.work(cache.as_ref()))?;
+    cache::note(cache.as_ref(), context);
     output::write(args.output.path.as_deref(), |out| {
         report::evaluation(&evaluated.report, args.output.format, out)
     })?;

@@ -5,9 +5,9 @@ use std::time::Duration;
 
 use anyhow::Context as _;
 use taceva_models::{Checkpoints, Foreign};
-use taceva_study::{FitMeans, Fitted, fit};
+use taceva_study::{Fitted, fit};
 
-use super::{Context, fit_request, open};
+use super::{Context, cache, fit_request, open};
 use crate::args::Fit;
 use crate::{exit, output};
 
@@ -20,12 +20,10 @@ pub(crate) fn run(args: &Fit, context: &Context) -> anyhow::Result<u8> {
     let models = context.models()?;
     let request = fit_request(&args.model.name, &args.model.settings, &args.split, &models)?;
     let checkpoints = checkpoints(args);
-    let means = FitMeans {
-        jobs: context.jobs,
-        progress: &context.progress,
-        checkpoints: Some(checkpoints.clone()),
-    };
-    let fitted = fit(&dataset, &request, means)?;
+    let cache = cache::of(&args.cache);
+    let work = context.work(cache.as_ref());
+    let fitted = fit(&dataset, &request, Some(checkpoints.clone()), work)?;
+    cache::note(cache.as_ref(), context);
     fitted.model.save(&args.out)?;
     checkpoints.remove().with_context(|| {
         let path = checkpoints.path.display();
@@ -37,8 +35,13 @@ pub(crate) fn run(args: &Fit, context: &Context) -> anyhow::Result<u8> {
             writeln!(out)
         })?;
     }
-    if let Some(auto) = &fitted.model.card().auto {
-        context.say(format_args!("{auto}"));
+    let card = fitted.model.card();
+    let chosen = [
+        card.size.as_ref().map(ToString::to_string),
+        card.auto.as_ref().map(ToString::to_string),
+    ];
+    for how in chosen.into_iter().flatten() {
+        context.say(format_args!("{how}"));
     }
     output::write(None, |out| summary(&fitted, args, out))?;
     Ok(exit::DONE)

@@ -2,7 +2,7 @@
 
 use taceva_study::{Part, predict};
 
-use super::{Context, open};
+use super::{Context, cache, open};
 use crate::args::Predict;
 use crate::{exit, output};
 
@@ -13,13 +13,10 @@ pub(crate) fn run(args: &Predict, context: &Context) -> anyhow::Result<u8> {
     }
     let dataset = open(&args.dataset)?;
     let model = context.models()?.open(&args.with)?;
-    let predicted = predict(
-        &dataset,
-        &model,
-        args.part.map(Part::from),
-        context.jobs,
-        &context.progress,
-    )?;
+    let cache = cache::of(&args.cache);
+    let work = context.work(cache.as_ref());
+    let predicted = predict(&dataset, &model, args.part.map(Part::from), work)?;
+    cache::note(cache.as_ref(), context);
     output::write(Some(&args.out), |out| predicted.write_predictions(out))?;
     if let Some(path) = &args.truth_out {
         output::write(Some(path), |out| predicted.write_truth(out))?;

@@ -1,7 +1,7 @@
 //! `taceva run`.
 
 pub(super) mod bench;
-mod cache;
+mod stages;
 
 use std::path::{Path, PathBuf};
 
@@ -9,7 +9,7 @@ use anyhow::Context as _;
 use taceva_report::escape_csv;
 use taceva_study::{EvaluationReport, Existing, PlannedScene, RunFolder, Workshop, run_scene};
 
-use super::{Context, Usage, scene};
+use super::{Context, Usage, cache, scene};
 use crate::args::{Format, Run};
 use crate::{exit, output, progress, report};
 
@@ -42,7 +42,7 @@ pub(crate) fn run(args: &Run, context: &Context) -> anyhow::Result<u8> {
         .unwrap_or_else(|| RunFolder::numbered(Path::new(RUNS), &planned.scene.name, existing));
     let folder = RunFolder::open(&path, &planned, existing)?;
     context.say(format_args!("run in {}", path.display()));
-    let cache = cache::of(args);
+    let cache = cache::of(&args.cache);
     let workshop = Workshop {
         drivers: &drivers,
         models: &models,
@@ -59,8 +59,9 @@ pub(crate) fn run(args: &Run, context: &Context) -> anyhow::Result<u8> {
         ),
         false => format!("run in {}", path.display()),
     })?;
+    cache::note(cache.as_ref(), context);
     if let Some(cache) = &cache {
-        cache::tell(cache, &folder, context)?;
+        stages::tell(cache, &folder, context)?;
     }
     write_files(&planned, &folder, &reports, &formats)?;
     let page = folder.path().join(PAGE);

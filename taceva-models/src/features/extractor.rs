@@ -88,6 +88,11 @@ impl Extractor {
         self.spec.shape()
     }
 
+    /// What it takes of a frame.
+    pub fn spec(&self) -> &FeatureSpec {
+        &self.spec
+    }
+
     /// The kind of frame it takes.
     pub fn frame_info(&self) -> FrameInfo {
         self.info

@@ -67,11 +67,11 @@ const KINDS: SettingInfo = SettingInfo {
     default: "pixels",
     about: "what is taken of every cell: brightness, displacements of markers, slopes by three lamps, or mean, spread and quantiles",
 };
-const SIZE: SettingInfo = SettingInfo {
+pub(crate) const SIZE: SettingInfo = SettingInfo {
     key: "size",
-    accepts: "WIDTHxHEIGHT or one number for both, from 1 to 1024",
+    accepts: "WIDTHxHEIGHT or one number for both, from 1 to 1024; auto where a model is fitted",
     default: "32x32, 128x96 for networks; 16x16 with markers, 8x8 with statistics",
-    about: "how many cells every frame is divided into",
+    about: "how many cells every frame is divided into; auto tries grids from a quarter as fine to twice, and takes the coarsest that costs no accuracy",
 };
 const COLOR: SettingInfo = SettingInfo {
     key: "color",

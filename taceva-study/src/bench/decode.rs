@@ -9,10 +9,10 @@ use taceva_metrics::{ClusterSums, Sides, SignFlip};
 
 use super::models::{Raced, TrialError, unfitted};
 use crate::error::StudyError;
-use crate::features::Work;
-use crate::fit::{FitMeans, FitRequest};
+use crate::fit::FitRequest;
 use crate::predict::Predicted;
 use crate::rows::{Divided, Part};
+use crate::work::Work;
 
 /// Frames that are decoded one by one.
 const SINGLES: usize = 50;
@@ -58,19 +58,20 @@ pub struct DecodeTrials {
 
 /// Fits and scores the model of `request` on the recording at `path`, its frames decoded at full size, 1/2, 1/4 and 1/8.
 ///
-/// A scale at which frames are too small for the features is a row that says so. Checkpoints of `means` are not used.
+/// A scale at which frames are too small for the features is a row that says so.
 ///
 /// # Errors
-/// [`StudyError`] if the request cannot be meant, the recording has frames that are no JPEG or cannot be read, or `means` asks to stop.
+/// [`StudyError`] if the request cannot be meant, the recording has frames that are no JPEG or cannot be read, or `work` asks to stop.
 pub fn decode(
     path: &Path,
     request: &FitRequest,
-    means: &FitMeans<'_>,
+    work: Work<'_>,
 ) -> Result<DecodeTrials, StudyError> {
     request.check()?;
+    // A dataset has one digest, however its frames are decoded.
     let work = Work {
-        jobs: means.jobs,
-        progress: means.progress,
+        cache: None,
+        ..work
     };
     // Before the work: whether frames are JPEG.
     let smallest = Dataset::open_scaled(path, DecodeScale::Eighth)?;

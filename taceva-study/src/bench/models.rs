@@ -9,10 +9,10 @@ use taceva_models::Model;
 
 use crate::error::StudyError;
 use crate::evaluate::{EvaluateRequest, ModelChoice, score};
-use crate::features::Work;
-use crate::fit::{FitMeans, FitRequest, fit};
+use crate::fit::{FitRequest, fit};
 use crate::predict::{self, Predicted, Target, extractor};
 use crate::rows::{Divided, Part};
+use crate::work::Work;
 
 /// The error that models are compared by.
 const METRIC: &str = "mae";
@@ -71,12 +71,11 @@ pub struct ModelTrials {
 /// A model that cannot be fitted on this recording is a row that says why.
 ///
 /// # Errors
-/// [`StudyError`] if a request cannot be meant, requests differ in split or seed, the dataset cannot be read, or `progress` asks to stop.
+/// [`StudyError`] if a request cannot be meant, requests differ in split or seed, the dataset cannot be read, or `work` asks to stop.
 pub fn models(
     dataset: &Dataset,
     requests: &[FitRequest],
-    jobs: NonZeroUsize,
-    progress: &dyn Progress,
+    work: Work<'_>,
 ) -> Result<ModelTrials, StudyError> {
     let Some(first) = requests.first() else {
         return Err(StudyError::Request("no model to race".to_owned()));
@@ -92,17 +91,22 @@ pub fn models(
         request.check()?;
     }
     let divided = Divided::new(dataset.table(), first.split.as_deref(), first.seed)?;
-    let work = Work { jobs, progress };
-    progress.begin("models raced", Some(requests.len() as u64));
+    // What is kept would count for the models that come second.
+    let work = Work {
+        cache: None,
+        ..work
+    };
+    work.progress
+        .begin("models raced", Some(requests.len() as u64));
     let rows: Result<Vec<ModelTrial>, StudyError> = requests
         .iter()
         .map(|request| {
             let row = trial(dataset, request, work);
-            progress.advance(1);
+            work.progress.advance(1);
             row
         })
         .collect();
-    progress.end();
+    work.progress.end();
     Ok(ModelTrials {
         split: format!("{}, seed {}", divided.spec, divided.seed),
         train: divided.rows(Part::Train).len(),
@@ -175,12 +179,7 @@ impl Raced {
         work: Work<'_>,
     ) -> Result<Raced, StudyError> {
         let start = Instant::now();
-        let means = FitMeans {
-            jobs: work.jobs,
-            progress: work.progress,
-            checkpoints: None,
-        };
-        let fitted = fit(dataset, request, means)?;
+        let fitted = fit(dataset, request, None, work)?;
         let fit_s = start.elapsed().as_secs_f64();
         let model = fitted.model;
         let target = Target::of(dataset, Some(fitted.divided), None, model.reads_features())?;
@@ -192,9 +191,8 @@ impl Raced {
             metrics: vec![METRIC.to_owned()],
             part: None,
             sensor: None,
-            jobs: work.jobs,
         };
-        let scored = score(dataset, &asked, &model, &target, &predicted)?;
+        let scored = score(dataset, &asked, &model, (&target, &predicted), work.jobs)?;
         let evaluation = &scored.report.evaluation;
         let errors = model.channels().iter().filter_map(|channel| {
             let score = evaluation.score(METRIC, channel.name())?;

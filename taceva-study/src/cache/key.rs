@@ -11,6 +11,8 @@ use taceva_dataset::Digest;
 pub enum Stage {
     /// The presses of a study: a recording.
     Acquire,
+    /// What a model sees of their frames.
+    Features,
     /// What is learnt of them: a model.
     Fit,
     /// What the model says of the presses that it has not seen.
@@ -24,6 +26,7 @@ impl Stage {
     pub const fn name(self) -> &'static str {
         match self {
             Stage::Acquire => "acquire",
+            Stage::Features => "features",
             Stage::Fit => "fit",
             Stage::Predict => "predict",
             Stage::Tell => "tell",
@@ -35,7 +38,7 @@ impl Stage {
         match self {
             // 2: the recording says how its presses ended.
             Stage::Acquire => 2,
-            Stage::Fit | Stage::Predict | Stage::Tell => 1,
+            Stage::Features | Stage::Fit | Stage::Predict | Stage::Tell => 1,
         }
     }
 }

@@ -4,8 +4,8 @@ use std::path::Path;
 
 use taceva_dataset::{Dataset, write_as_jpeg};
 use taceva_report::{DecodeBench, DecodeRow, ScaledError, decode_bench};
+use taceva_study::FitRequest;
 use taceva_study::bench::{DecodeTrial, DecodeTrials, ErrorChange, TrialError, decode};
-use taceva_study::{FitMeans, FitRequest};
 
 use super::super::{Context, open, results};
 use super::models::{error, machine, recording, request};
@@ -56,17 +56,12 @@ fn race(
     request: &FitRequest,
     context: &Context,
 ) -> anyhow::Result<DecodeBench> {
-    let means = FitMeans {
-        jobs: context.jobs,
-        progress: &context.progress,
-        checkpoints: None,
-    };
     let DecodeTrials {
         split,
         train,
         test,
         rows,
-    } = decode(dataset.path(), request, &means)?;
+    } = decode(dataset.path(), request, context.work(None))?;
     let recording = recording(dataset, name, (split, train, test));
     let model = request.model.name().to_owned();
     let mut bench = DecodeBench::new(machine(context), recording, model);

@@ -98,7 +98,7 @@ fn race(
     requests: &[FitRequest],
     context: &Context,
 ) -> anyhow::Result<ModelBench> {
-    let trials = models(dataset, requests, context.jobs, &context.progress)?;
+    let trials = models(dataset, requests, context.work(None))?;
     let ModelTrials {
         rows,
         split,

@@ -33,7 +33,7 @@ fn unless_gone(done: Result<(), DriverError>) {
 }
 
 /// What the bench is a model of: its version and the parameters that are built in.
-pub(super) fn models() -> String {
+pub(in crate::cmd) fn models() -> String {
     let digests = Model::ALL.map(|model| model.parameters().digest().to_string());
     format!("bench {MODEL_VERSION}: {}", digests.join(" "))
 }

@@ -5,8 +5,9 @@ use taceva_dataset::Dataset;
 
 use super::{FOLDS, Told, folds};
 use crate::error::StudyError;
-use crate::features::{Work, extract, extractor};
+use crate::features::{extract, extractor};
 use crate::teller::NetworkTeller;
+use crate::work::Work;
 
 /// Tells `presses`, whose pictures are in `dataset`, fold by fold.
 pub(super) fn tell(

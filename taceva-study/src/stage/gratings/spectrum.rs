@@ -6,7 +6,7 @@ use taceva_models::{Discriminant, FourierPlane, RadialSpectrum};
 
 use super::{FOLDS, Told, folds};
 use crate::error::StudyError;
-use crate::features::Work;
+use crate::work::Work;
 
 /// Tells `presses`, whose pictures are in `dataset`, fold by fold.
 pub(super) fn tell(

@@ -1,0 +1,34 @@
+//! The cache that a command was asked to use, and what is to be said of it.
+
+use std::path::PathBuf;
+
+use taceva_study::Cache;
+
+use super::{Context, run::bench};
+use crate::args::CacheArgs;
+
+/// The cache that was asked for; `None` if none is wanted, or if the user has no folder for one.
+pub(super) fn of(args: &CacheArgs) -> Option<Cache> {
+    if args.no_cache {
+        return None;
+    }
+    let folder = args.cache.clone().or_else(of_user)?;
+    Some(Cache::new(folder, bench::models()))
+}
+
+/// Says what went wrong with it.
+pub(super) fn note(cache: Option<&Cache>, context: &Context) {
+    for note in cache.into_iter().flat_map(Cache::notes) {
+        context.say(format_args!("{note}"));
+    }
+}
+
+/// The folder `taceva` in the user's cache folder; a relative one is not to be followed.
+fn of_user() -> Option<PathBuf> {
+    let folder = |variable| std::env::var_os(variable).map(PathBuf::from);
+    let caches = folder("XDG_CACHE_HOME").filter(|path| path.is_absolute());
+    let caches = caches.or_else(|| Some(folder("HOME")?.join(".cache")));
+    caches
+        .filter(|path| path.is_absolute())
+        .map(|path| path.join("taceva"))
+}

@@ -1,0 +1,149 @@
+//! Features of frames that are kept for the next model, the oldest of them dropped where they come to too much.
+
+use std::fs::{self, File};
+use std::io;
+use std::path::Path;
+use std::time::SystemTime;
+
+use taceva_core::{FeatureShape, Features};
+use taceva_dataset::Dataset;
+use taceva_models::{Extractor, FeatureSpec};
+
+use super::value::Kept;
+use super::{Cache, Key, Stage};
+use crate::error::StudyError;
+
+/// What is kept of features altogether, in bytes.
+const ALL_MAX: u64 = 2 << 30;
+/// What is kept of one set of them.
+const ONE_MAX: u64 = ALL_MAX / 4;
+
+impl Cache {
+    /// The features of `rows` of `dataset` by `extractor`: those kept, or what `make` gives, which is kept from then on.
+    ///
+    /// Features are a function of frames and reference frame, which the digest of a dataset covers.
+    pub(crate) fn features(
+        &self,
+        (dataset, extractor, rows): (&Dataset, &Extractor, &[usize]),
+        make: impl FnOnce() -> Result<Features, StudyError>,
+    ) -> Result<Features, StudyError> {
+        let bytes = rows.len() as u64 * extractor.shape().len() as u64 * 4;
+        if bytes > ONE_MAX {
+            return make();
+        }
+        // Principal components are found by the model, of all features.
+        let spec = FeatureSpec {
+            pca: None,
+            ..*extractor.spec()
+        };
+        let key = Key::of(Stage::Features)
+            .part("dataset", &dataset.digest().to_string())
+            .whole("frame", &extractor.frame_info())
+            .whole("features", &spec)
+            .whole("rows", &rows)
+            .finish();
+        if let Some(found) = self.take_value(&key) {
+            let entry = File::open(self.entry(&key));
+            // Of those that are not looked at any more the oldest goes first; a folder that may only be read is as good.
+            drop(entry.and_then(|entry| entry.set_modified(SystemTime::now())));
+            return Ok(found);
+        }
+        let made = make()?;
+        self.keep_value(&key, &made);
+        if let Some(folder) = self.entry(&key).parent() {
+            // What cannot be dropped now is when the next is kept.
+            drop(trim(folder, ALL_MAX));
+        }
+        Ok(made)
+    }
+}
+
+/// Removes the files of `folder` that were not looked at for longest, until the others come to no more than `most` bytes.
+fn trim(folder: &Path, most: u64) -> io::Result<()> {
+    let mut files = Vec::new();
+    for entry in fs::read_dir(folder)? {
+        let entry = entry?;
+        let facts = entry.metadata()?;
+        files.push((facts.modified()?, facts.len(), entry.path()));
+    }
+    let mut sum: u64 = files.iter().map(|(_, length, _)| length).sum();
+    files.sort();
+    for (_, length, path) in files {
+        if sum <= most {
+            break;
+        }
+        fs::remove_file(path)?;
+        sum -= length;
+    }
+    Ok(())
+}
+
+/// Height, width and depth as 32-bit numbers, then the features as they are in memory, all with the least byte first.
+impl Kept for Features {
+    fn to_kept(&self) -> Option<Vec<u8>> {
+        let FeatureShape {
+            height,
+            width,
+            depth,
+        } = self.shape();
+        let mut bytes = Vec::with_capacity(12 + 4 * self.values().len());
+        for side in [height, width, depth] {
+            bytes.extend(u32::try_from(side).ok()?.to_le_bytes());
+        }
+        bytes.extend(self.values().iter().flat_map(|value| value.to_le_bytes()));
+        Some(bytes)
+    }
+
+    fn from_kept(bytes: &[u8]) -> Option<Features> {
+        let (words, []) = bytes.as_chunks::<4>() else {
+            return None;
+        };
+        let ([height, width, depth], values) = words.split_first_chunk()?;
+        let side = |bytes: &[u8; 4]| usize::try_from(u32::from_le_bytes(*bytes)).ok();
+        let shape = FeatureShape {
+            height: side(height)?,
+            width: side(width)?,
+            depth: side(depth)?,
+        };
+        let values = values.iter().map(|bytes| f32::from_le_bytes(*bytes));
+        Features::new(shape, values.collect()).ok()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::time::Duration;
+
+    #[test]
+    fn features_are_kept_with_their_shape_and_every_bit() {
+        let shape = FeatureShape {
+            height: 2,
+            width: 1,
+            depth: 3,
+        };
+        let values = vec![0.1, -0.0, 1e-30, 3.0, f32::MIN_POSITIVE, -7.5];
+        let features = Features::new(shape, values).expect("one sample");
+        let kept = features.to_kept().expect("small");
+        assert_eq!(Features::from_kept(&kept), Some(features));
+        assert_eq!(Features::from_kept(&kept[..kept.len() - 4]), None);
+        assert_eq!(Features::from_kept(&kept[..8]), None);
+    }
+
+    #[test]
+    fn those_not_looked_at_for_longest_are_dropped_first() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let now = SystemTime::now();
+        for (name, age_s) in [("old", 30), ("newest", 0), ("older", 60), ("new", 10)] {
+            let path = folder.path().join(name);
+            fs::write(&path, [0; 100]).expect("written");
+            let file = File::options().append(true).open(path).expect("there");
+            let then = now - Duration::from_secs(age_s);
+            file.set_modified(then).expect("dated");
+        }
+        trim(folder.path(), 250).expect("trimmed");
+        let is_there = |name: &str| folder.path().join(name).exists();
+        assert!(is_there("newest") && is_there("new"));
+        assert!(!is_there("old") && !is_there("older"));
+    }
+}

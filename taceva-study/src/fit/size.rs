@@ -1,0 +1,107 @@
+//! The size of the features, chosen by what it costs on samples of the training part that are left out.
+
+use taceva_models::{FeatureSpec, Model, SizeCard};
+
+use super::{FitPlan, groups};
+use crate::error::StudyError;
+use crate::features::{extract, extractor};
+use crate::work::Work;
+
+/// One group of so many is left out.
+const LEFT_OUT_OF: usize = 5;
+/// Groups that neighbouring samples are taken as, where no contact point tells.
+const RUNS: usize = 10;
+
+/// The training part in two: positions that are learnt from, and those that are scored with the groups that they are independent by.
+struct Parts {
+    learnt: Vec<usize>,
+    left_out: Vec<usize>,
+    groups: Vec<usize>,
+}
+
+impl FitPlan<'_> {
+    /// Tries sizes from the coarsest on, and takes one; beyond the default only where the default was worth its price.
+    pub(super) fn choose_size(&mut self, work: Work<'_>) -> Result<SizeCard, StudyError> {
+        let info = extractor(self.dataset, self.features)?.frame_info();
+        let candidates = SizeCard::candidates(&self.features, info);
+        let parts = self.parts()?;
+        // One that puts nothing aside: a checkpoint is of one size.
+        let estimator = self.model.estimator(&self.of_model)?;
+        let mut tried: Vec<(FeatureSpec, Vec<f64>)> = Vec::new();
+        let count = candidates.len() as u64;
+        work.progress.begin("sizes tried", Some(count));
+        for spec in candidates {
+            let is_finer = spec.width > self.features.width;
+            if is_finer && !SizeCard::new(&tried, &parts.groups).may_gain() {
+                break;
+            }
+            let model = self.learn(&*estimator, spec, &parts.learnt, work)?;
+            tried.push((spec, self.losses(&model, &parts, work)?));
+            work.progress.advance(1);
+        }
+        work.progress.end();
+        let card = SizeCard::new(&tried, &parts.groups);
+        if let Some(chosen) = card.chosen() {
+            (self.features.width, self.features.height) = (chosen.width, chosen.height);
+        }
+        Ok(card)
+    }
+
+    /// Every fifth contact point is left out; without points, the last fifth of the samples.
+    fn parts(&self) -> Result<Parts, StudyError> {
+        let samples = self.train.len();
+        if samples < RUNS * LEFT_OUT_OF {
+            return Err(StudyError::Request(format!(
+                "size=auto: {samples} training samples, at least {} are needed to try sizes on",
+                RUNS * LEFT_OUT_OF
+            )));
+        }
+        let of_point = |number: u32| number as usize % LEFT_OUT_OF == LEFT_OUT_OF - 1;
+        let points = groups(self.dataset, &self.train);
+        let points = points.filter(|points| points.iter().any(|&number| of_point(number)));
+        let first = samples - samples / LEFT_OUT_OF;
+        let (left_out, learnt): (Vec<usize>, Vec<usize>) =
+            (0..samples).partition(|&at| match &points {
+                Some(points) => of_point(points[at]),
+                None => at >= first,
+            });
+        let run = |at: usize| (at - first) * RUNS / (samples - first);
+        let group = |&at: &usize| match &points {
+            Some(points) => points[at] as usize,
+            None => run(at),
+        };
+        Ok(Parts {
+            groups: left_out.iter().map(group).collect(),
+            learnt,
+            left_out,
+        })
+    }
+
+    /// The squared error of each sample that was left out, relative to the variance of the labels, mean over the channels that vary.
+    fn losses(&self, model: &Model, parts: &Parts, work: Work<'_>) -> Result<Vec<f64>, StudyError> {
+        let rows: Vec<usize> = parts.left_out.iter().map(|&at| self.train[at]).collect();
+        let extractor = extractor(self.dataset, model.card().features)?;
+        let found = model.predict(&extract(self.dataset, &extractor, &rows, work)?)?;
+        let (labels, all) = (self.labels(&rows), self.labels(&self.train));
+        let channels = self.channels.len();
+        let mut losses = vec![0.0; rows.len()];
+        let mut varying = 0.0;
+        for channel in 0..channels {
+            let own = || all.iter().skip(channel).step_by(channels);
+            let mean = own().sum::<f64>() / self.train.len() as f64;
+            let squares: f64 = own().map(|label| (label - mean).powi(2)).sum();
+            if squares <= 0.0 {
+                continue;
+            }
+            varying += 1.0;
+            for (row, loss) in losses.iter_mut().enumerate() {
+                let at = row * channels + channel;
+                *loss += (found[at] - labels[at]).powi(2) * self.train.len() as f64 / squares;
+            }
+        }
+        losses
+            .iter_mut()
+            .for_each(|loss| *loss /= f64::max(varying, 1.0));
+        Ok(losses)
+    }
+}
