@@ -2,6 +2,9 @@
 
 mod support;
 
+use std::fs;
+use std::path::PathBuf;
+
 use support::Bench;
 
 #[test]
@@ -28,4 +31,88 @@ fn kinds_of_features_are_chosen_by_a_setting() {
             "needs a no-contact reference frame, and the recording names none",
         );
     }
+}
+
+/// Features that were kept, in the order of their names.
+fn kept(bench: &Bench) -> Vec<PathBuf> {
+    let folder = bench.path("user-cache/taceva/1/features");
+    let entries = fs::read_dir(folder).into_iter().flatten();
+    let mut entries: Vec<PathBuf> = entries
+        .map(|entry| entry.expect("readable").path())
+        .collect();
+    entries.sort();
+    entries
+}
+
+#[test]
+fn features_are_made_once_for_every_model_and_found_by_what_they_are_made_of() {
+    let bench = Bench::new();
+    bench.record("data", 64);
+    let evaluate = |words: &str| bench.json(&format!("evaluate data --metrics mae {words}"));
+    let bare = evaluate("--model knn --no-cache");
+    assert!(kept(&bench).is_empty());
+    evaluate("--model ridge");
+    let of_ridge = kept(&bench);
+    // What is learnt from, and what is scored.
+    assert_eq!(of_ridge.len(), 2);
+    assert_eq!(evaluate("--model knn"), bare);
+    assert_eq!(
+        evaluate("--model ridge --set pca=4")["provenance"]["frames_decoded"],
+        60
+    );
+    assert_eq!(kept(&bench), of_ridge);
+    bench.ok("fit data --model pls --out pls.model");
+    bench.ok("predict data --with pls.model --out predicted.csv");
+    assert_eq!(kept(&bench), of_ridge);
+    // Others are others.
+    evaluate("--model knn --set size=8");
+    assert_eq!(kept(&bench).len(), 4);
+    // Altered ones are made again.
+    for path in of_ridge {
+        let mut bytes = fs::read(&path).expect("kept");
+        let last = bytes.len() - 1;
+        bytes[last] ^= 1;
+        fs::write(&path, bytes).expect("altered");
+    }
+    let ran = bench.run("evaluate data --metrics mae --model knn --format json");
+    assert!(ran.err.contains("made anew"), "{}", ran.err);
+    let found: serde_json::Value = serde_json::from_str(&ran.out).expect("JSON");
+    assert_eq!(found, bare);
+}
+
+#[test]
+fn the_size_of_features_is_chosen_by_what_it_costs_and_the_model_says_how() {
+    let bench = Bench::new();
+    bench.record("data", 64);
+    let found = bench.json("evaluate data --model ridge --set size=auto --metrics mae");
+    let settings = &found["provenance"]["model"]["settings"];
+    assert_eq!(settings["size"], "auto");
+    let notes = found["provenance"]["notes"].as_array().expect("a list");
+    let mut notes = notes.iter().filter_map(|note| note.as_str());
+    let note = notes.find(|note| note.starts_with("size "));
+    let note = note.expect("it says how");
+    let size = note.trim_start_matches("size ").split(':').next();
+    let features = settings["features"].as_str().expect("text");
+    assert_eq!(size, features.split(' ').next());
+    assert!(note.contains("8×8 ") && note.contains("32×32 "), "{note}");
+    // Nothing to choose for a model that looks at nothing.
+    bench.ok("evaluate data --model baseline --set size=auto --metrics mae");
+    bench.refused(
+        "evaluate data --model ridge --set size=fine",
+        2,
+        "auto where a model is fitted",
+    );
+}
+
+#[test]
+fn a_size_is_not_chosen_on_a_handful_of_samples() {
+    let bench = Bench::new();
+    bench.record("data", 64);
+    let mut command = bench.command("evaluate data --model ridge --set size=auto -q");
+    let ran = command.args(["--split", "random 30/30/40"]).output();
+    let ran = ran.expect("the program starts");
+    assert_eq!(ran.status.code(), Some(2));
+    let error = String::from_utf8(ran.stderr).expect("UTF-8");
+    let expected = "size=auto: 18 training samples, at least 30 are needed to try sizes on";
+    assert!(error.contains(expected), "{error}");
 }

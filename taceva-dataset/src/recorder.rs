@@ -222,6 +222,11 @@ impl Recorder {
         Ok(sequence)
     }
 
+    /// Whether a frame without contact was recorded.
+    pub fn has_reference(&self) -> bool {
+        self.reference.is_some()
+    }
+
     /// Records the frame without contact; the last one counts.
     ///
     /// # Errors

@@ -180,6 +180,12 @@ impl<'a> Run<'a> {
     fn all(&mut self, spec: &RunSpec<'_>, log: &mut dyn PressLog) -> Result<RunReport, RunError> {
         let of_unit = |press: &&PlannedPress| press.press.unit == spec.unit;
         let presses: Vec<&PlannedPress> = self.plan.presses.iter().filter(of_unit).collect();
+        let reference_scene = self.plan.lights.first();
+        let is_seen = |press: &&&PlannedPress| {
+            let light = press.press.light.as_ref();
+            press.frames && (light.is_none() || light == reference_scene)
+        };
+        let first_seen = presses.iter().find(is_seen).map(|press| press.id);
         let mut report = RunReport::default();
         if let Mode::Acquire = spec.mode {
             report.resumed = presses
@@ -207,8 +213,9 @@ impl<'a> Run<'a> {
                         press: planned.id,
                         number: position + 1,
                     });
+                    let is_first = first_seen == Some(planned.id);
                     let record = self
-                        .acquire(planned)
+                        .acquire(planned, is_first.then_some(&mut *log))
                         .map_err(|cause| self.abandoned(Some(planned.id), cause))?;
                     log.append(&record).map_err(|error| RunError {
                         press: Some(planned.id),
@@ -244,9 +251,20 @@ impl<'a> Run<'a> {
         RunError { press, cause, left }
     }
 
-    /// One press, from the height of travel and back to it.
-    fn acquire(&mut self, planned: &PlannedPress) -> Step<PressRecord> {
+    /// One press, from the height of travel and back to it. Before it, what is seen there goes to `untouched`, where somebody asks.
+    fn acquire(
+        &mut self,
+        planned: &PlannedPress,
+        untouched: Option<&mut dyn PressLog>,
+    ) -> Step<PressRecord> {
         self.prepare(planned)?;
+        if let (Some(log), Some(camera)) = (untouched, &mut self.camera) {
+            let now_s = self.tip.clock.now_s();
+            let (frame, _) = camera.frame(now_s, &self.tip, self.events)?;
+            log.untouched(&frame).map_err(StopCause::Log)?;
+            // The force has been silent for as long as the picture took.
+            self.tip.look()?;
+        }
         let mut gathered = Gathered::default();
         let outcome = match self.press(planned, &mut gathered) {
             Ok(outcome) => outcome,

@@ -1,6 +1,6 @@
 //! What a run writes to: it learns what is finished, and waits until what it hands over is durable.
 
-use taceva_core::{PressOutcome, Sample, SinkError};
+use taceva_core::{Frame, PressOutcome, Sample, SinkError};
 
 use crate::digest::Digest;
 
@@ -14,6 +14,13 @@ pub trait PressLog {
     /// # Errors
     /// Whatever keeps it from being durable; the run stops, and the press counts as not made.
     fn append(&mut self, record: &PressRecord) -> Result<(), SinkError>;
+
+    /// Takes what the sensor sees while nothing touches it, in the light that others are compared with. It comes before the first press with
+    /// pictures of each unit, and again whenever that press is made again.
+    ///
+    /// # Errors
+    /// Whatever keeps it from being durable; the run stops.
+    fn untouched(&mut self, frame: &Frame) -> Result<(), SinkError>;
 }
 
 /// A finished press.

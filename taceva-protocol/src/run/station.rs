@@ -32,7 +32,7 @@ impl<'a> Camera<'a> {
     }
 
     /// The first frame that was true no earlier than `from_s`.
-    fn frame(
+    pub(super) fn frame(
         &mut self,
         from_s: f64,
         tip: &Tip<'_>,

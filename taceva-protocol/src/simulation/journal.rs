@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use taceva_core::{PressOutcome, SinkError};
+use taceva_core::{Frame, PressOutcome, SinkError};
 
 use super::disk::Disk;
 use crate::digest::{Digest, fnv_1a};
@@ -64,6 +64,11 @@ impl PressLog for Journal<'_> {
         self.disk.sync();
         self.finished.insert(record.press);
         self.acknowledged.push(record.press);
+        Ok(())
+    }
+
+    /// The simulated disk keeps presses alone: what is seen of an untouched gel is no part of what is judged.
+    fn untouched(&mut self, _: &Frame) -> Result<(), SinkError> {
         Ok(())
     }
 }

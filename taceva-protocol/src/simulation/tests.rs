@@ -5,7 +5,7 @@ mod seeds;
 use std::collections::BTreeSet;
 
 use taceva_core::{
-    Deadline, DriverError, ErrorKind, Limit, Millimetre, Phase, Sample, SinkError, Specimen,
+    Deadline, DriverError, ErrorKind, Frame, Limit, Millimetre, Phase, Sample, SinkError, Specimen,
 };
 
 use super::devices::{SimulatedForce, SimulatedRobot, SimulatedSensor};
@@ -37,6 +37,7 @@ const HARD: Gel = Gel {
 
 #[derive(Default)]
 struct Memory {
+    untouched: Vec<Frame>,
     records: Vec<PressRecord>,
     full_after: Option<usize>,
 }
@@ -53,6 +54,10 @@ impl PressLog for Memory {
             return Err("no space left".into());
         }
         self.records.push(record.clone());
+        Ok(())
+    }
+    fn untouched(&mut self, frame: &Frame) -> Result<(), SinkError> {
+        self.untouched.push(frame.clone());
         Ok(())
     }
 }
@@ -142,6 +147,25 @@ fn a_whole_run_makes_every_press_once_and_leaves_the_tip_above_the_gel() {
         (0.5..2.0).contains(&(seconds / estimate)),
         "{seconds} s, estimated {estimate} s"
     );
+}
+
+#[test]
+fn the_untouched_gel_is_seen_before_the_first_press_and_again_only_if_that_is_made_again() {
+    let mut bench = Bench::new(SOFT);
+    let mut log = Memory::default();
+    bench.run(Mode::Acquire, &mut log).expect("no faults");
+    assert_eq!(log.untouched.len(), 1);
+    bench.run(Mode::Acquire, &mut log).expect("nothing to do");
+    assert_eq!(log.untouched.len(), 1);
+    log.records.remove(0);
+    bench.run(Mode::Acquire, &mut log).expect("the first again");
+    assert_eq!(log.untouched.len(), 2);
+    let rehearsal = Mode::Rehearse {
+        height: Millimetre(20.0),
+    };
+    let mut nothing = Memory::default();
+    bench.run(rehearsal, &mut nothing).expect("in the air");
+    assert!(nothing.untouched.is_empty());
 }
 
 #[test]

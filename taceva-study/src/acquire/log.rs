@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use taceva_core::{Nanometre, Sample, SinkError};
+use taceva_core::{Frame, Nanometre, Sample, SinkError};
 use taceva_dataset::Recorder;
 use taceva_protocol::{Digest, Plan, PlannedPress, PressLog, PressRecord};
 
@@ -89,6 +89,14 @@ impl PressLog for RecordedPresses {
         let name = record.press.to_string();
         self.recorder
             .append_press(&name, record.outcome, &record.samples)?;
+        Ok(())
+    }
+
+    /// A recording has one: that of its first unit.
+    fn untouched(&mut self, frame: &Frame) -> Result<(), SinkError> {
+        if !self.recorder.has_reference() {
+            self.recorder.append_reference(frame)?;
+        }
         Ok(())
     }
 }

@@ -8,7 +8,7 @@ use crate::features::{extract, extractor};
 use crate::work::Work;
 
 /// One group of so many is left out.
-const LEFT_OUT_OF: usize = 5;
+const LEFT_OUT_OF: usize = 3;
 /// Groups that neighbouring samples are taken as, where no contact point tells.
 const RUNS: usize = 10;
 
@@ -47,7 +47,7 @@ impl FitPlan<'_> {
         Ok(card)
     }
 
-    /// Every fifth contact point is left out; without points, the last fifth of the samples.
+    /// Every third contact point is left out; without points, the last third of the samples.
     fn parts(&self) -> Result<Parts, StudyError> {
         let samples = self.train.len();
         if samples < RUNS * LEFT_OUT_OF {

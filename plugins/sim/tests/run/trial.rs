@@ -3,7 +3,9 @@
 use std::collections::BTreeSet;
 use std::time::Duration;
 
-use taceva_core::{Deadline, Device, DriverError, Factory, Rig, SimulatedBench, SinkError, Stamp};
+use taceva_core::{
+    Deadline, Device, DriverError, Factory, Frame, Rig, SimulatedBench, SinkError, Stamp,
+};
 use taceva_protocol::{
     Cancel, Controls, Devices, Digest, Event, Mode, Plan, PressLog, PressRecord, RigInfo, RunSpec,
     Scene, SourceInfo, Specimen, SpecimenChanger, StopCause, Timekeeper, plan, run,
@@ -36,6 +38,7 @@ impl SpecimenChanger for Hands {
 pub(crate) struct Log {
     finished: BTreeSet<Digest>,
     pub(crate) records: Vec<PressRecord>,
+    pub(crate) untouched: Vec<Frame>,
 }
 
 impl PressLog for Log {
@@ -46,6 +49,11 @@ impl PressLog for Log {
     fn append(&mut self, record: &PressRecord) -> Result<(), SinkError> {
         self.finished.insert(record.press);
         self.records.push(record.clone());
+        Ok(())
+    }
+
+    fn untouched(&mut self, frame: &Frame) -> Result<(), SinkError> {
+        self.untouched.push(frame.clone());
         Ok(())
     }
 }
