@@ -234,6 +234,9 @@ pub(crate) struct Predict {
     /// The table of predictions to write; `score --pred` reads it
     #[arg(long, value_name = "PRED.csv")]
     pub(crate) out: PathBuf,
+    /// Also write the standard deviation of each prediction, of a model that knows it: gaussian-process
+    #[arg(long, value_name = "DEVIATIONS.csv")]
+    pub(crate) deviations_out: Option<PathBuf>,
     /// Also write what is true of the same samples; `score --truth` reads it
     #[arg(long, value_name = "TRUTH.csv")]
     pub(crate) truth_out: Option<PathBuf>,

@@ -149,6 +149,15 @@ impl ModelRegressor {
         }
     }
 
+    /// Whether it knows the standard deviations of its predictions.
+    pub fn knows_deviations(&self) -> bool {
+        match self {
+            ModelRegressor::Kernel(kernel) => kernel.knows_deviations(),
+            ModelRegressor::Projected(projected) => projected.inner().knows_deviations(),
+            _ => false,
+        }
+    }
+
     /// The standard deviation of every prediction; `None` for a model that does not know it.
     ///
     /// # Shapes

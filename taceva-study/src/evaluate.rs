@@ -10,6 +10,7 @@ use taceva_dataset::{Dataset, SensorFile};
 use taceva_metrics::{MetricPlan, catalogue};
 use taceva_models::{Model, SplitManifest};
 
+use crate::calibration::calibration_note;
 use crate::error::StudyError;
 use crate::facts;
 use crate::fit::{FitPlan, FitRequest};
@@ -198,6 +199,7 @@ pub(crate) fn score(
             .chain(few_points_note(points.as_deref()))
             .chain(left_out_note(target.part.name(), predicted.left_out))
             .chain(predicted.bounded_note())
+            .chain(calibration_note(dataset, (predicted, &target.rows), jobs)?)
             .chain(chosen_notes(model))
             .chain(passes.note(dataset))
             .collect(),

@@ -3,6 +3,7 @@
 mod acquire;
 pub mod bench;
 mod cache;
+mod calibration;
 pub mod check;
 mod durable;
 mod error;

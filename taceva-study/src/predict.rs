@@ -22,6 +22,8 @@ pub struct Predicted {
     beside: Vec<(&'static str, Vec<Option<String>>)>,
     truth: Vec<Column>,
     prediction: Vec<Column>,
+    /// The standard deviation of each prediction, of a model that knows it.
+    deviation: Option<Vec<Column>>,
     /// Predictions of each channel that lie on the bound of the model.
     bounded: Vec<usize>,
     pub(crate) frames_decoded: u64,
@@ -70,6 +72,10 @@ impl Predicted {
         &self.prediction
     }
 
+    pub(crate) fn deviation(&self) -> Option<&[Column]> {
+        self.deviation.as_deref()
+    }
+
     pub(crate) fn points(&self) -> Option<&[String]> {
         self.points.as_deref()
     }
@@ -80,6 +86,17 @@ impl Predicted {
     /// Those of `out`.
     pub fn write_predictions(&self, out: &mut dyn Write) -> io::Result<()> {
         self.write(&self.prediction, false, out)
+    }
+
+    /// Writes the standard deviation of each prediction, where the model knows it: `id` and a column a channel; says whether it does.
+    ///
+    /// # Errors
+    /// Those of `out`.
+    pub fn write_deviations(&self, out: &mut dyn Write) -> io::Result<bool> {
+        match &self.deviation {
+            Some(deviation) => self.write(deviation, false, out).map(|()| true),
+            None => Ok(false),
+        }
     }
 
     /// Writes the truth of the same samples: `id`, `point_id` where every sample has one, what else is known of them (`scene`,
@@ -209,10 +226,10 @@ pub(crate) fn run(
     table(dataset, model, target, &numbers)
 }
 
-/// What `model` says of the rows of `target`.
+/// What `model` says of the rows of `target`, and, where it knows, by how much each prediction may be off.
 ///
 /// # Shapes
-/// `[rows, channels]`, row after row.
+/// `[rows, channels]`, row after row; behind it standard deviations in the same order, or nothing.
 pub(crate) fn numbers(
     dataset: &Dataset,
     model: &Model,
@@ -225,7 +242,9 @@ pub(crate) fn numbers(
     } else {
         blank(model.card().features.shape(), rows.len())?
     };
-    Ok(Column::full(model.predict(&features)?))
+    let mut numbers = model.predict(&features)?;
+    numbers.extend(model.deviations(&features)?.into_iter().flatten());
+    Ok(Column::full(numbers))
 }
 
 /// `numbers` beside what the table of `dataset` says of the same rows.
@@ -238,17 +257,12 @@ pub(crate) fn table(
     let rows = &target.rows;
     let channels = model.channels().clone();
     let width = channels.len();
-    let column = |position: usize| {
-        Column::full(
-            numbers
-                .values()
-                .iter()
-                .skip(position)
-                .step_by(width)
-                .copied()
-                .collect(),
-        )
+    let columns = |numbers: &[f64]| -> Vec<Column> {
+        let column = |position: usize| numbers.iter().skip(position).step_by(width).copied();
+        let columns = (0..width).map(|position| Column::full(column(position).collect()));
+        columns.collect()
     };
+    let (numbers, deviations) = numbers.values().split_at(rows.len() * width);
     let points: Option<Vec<String>> = rows
         .iter()
         .map(|&row| dataset.table().point_id()[row].clone())
@@ -265,8 +279,9 @@ pub(crate) fn table(
             .iter()
             .map(|channel| truth(dataset, channel, rows))
             .collect::<Result<_, _>>()?,
-        prediction: (0..width).map(column).collect(),
-        bounded: model.bounded(numbers.values()),
+        prediction: columns(numbers),
+        deviation: (!deviations.is_empty()).then(|| columns(deviations)),
+        bounded: model.bounded(numbers),
         frames_decoded: if model.reads_features() {
             rows.len() as u64
         } else {

@@ -11,6 +11,7 @@ use taceva_models::{Checkpoints, Model, Models};
 use taceva_protocol::PhaseKind;
 
 use crate::cache::{Key, Stage, StudyCache};
+use crate::calibration::calibration_note;
 use crate::error::StudyError;
 use crate::fit::{FitPlan, FitRequest, Recipe};
 use crate::predict::{self, Predicted, Target};
@@ -66,11 +67,11 @@ pub(crate) fn assess(
     let (evaluation, mut notes) = score(&input)?;
     notes.extend(told.as_ref().map(|_| teller.note().to_owned()));
     notes.extend(deal.shortfall());
-    notes.extend(
-        predicted
-            .iter()
-            .filter_map(|(predicted, _)| predicted.bounded_note()),
-    );
+    if let Some((predicted, rows)) = &predicted {
+        notes.extend(predicted.bounded_note());
+        let jobs = means.work.jobs;
+        notes.extend(calibration_note(dataset, (predicted, rows), jobs)?);
+    }
     notes.extend(learnt.iter().flat_map(|learnt| chosen_notes(&learnt.model)));
     let divided = learnt.as_ref().and_then(|learnt| learnt.divided.as_ref());
     let frames_decoded = [

@@ -2,17 +2,23 @@
 
 use taceva_study::{Part, predict};
 
-use super::{Context, cache, open};
+use super::{Context, Usage, cache, open};
 use crate::args::Predict;
 use crate::{exit, output};
 
 pub(crate) fn run(args: &Predict, context: &Context) -> anyhow::Result<u8> {
     output::check_free(&args.out, args.force)?;
-    for path in args.truth_out.iter() {
+    for path in args.truth_out.iter().chain(&args.deviations_out) {
         output::check_free(path, args.force)?;
     }
     let dataset = open(&args.dataset)?;
     let model = context.models()?.open(&args.with)?;
+    if args.deviations_out.is_some() && !model.regressor().knows_deviations() {
+        return Err(Usage::error(format!(
+            "--deviations-out: a model of {} does not know how sure it is; gaussian-process does",
+            model.card().model
+        )));
+    }
     let cache = cache::of(&args.cache);
     let work = context.work(cache.as_ref());
     let predicted = predict(&dataset, &model, args.part.map(Part::from), work)?;
@@ -20,6 +26,9 @@ pub(crate) fn run(args: &Predict, context: &Context) -> anyhow::Result<u8> {
     output::write(Some(&args.out), |out| predicted.write_predictions(out))?;
     if let Some(path) = &args.truth_out {
         output::write(Some(path), |out| predicted.write_truth(out))?;
+    }
+    if let Some(path) = &args.deviations_out {
+        output::write(Some(path), |out| predicted.write_deviations(out).map(drop))?;
     }
     output::write(None, |out| {
         writeln!(

@@ -37,8 +37,11 @@ impl Stage {
     const fn version(self) -> u32 {
         match self {
             // 2: the recording says how its presses ended.
-            Stage::Acquire => 2,
-            Stage::Features | Stage::Fit | Stage::Predict | Stage::Tell => 1,
+            // 3: the recording has a picture of the untouched gel.
+            Stage::Acquire => 3,
+            // 2: standard deviations follow the predictions.
+            Stage::Predict => 2,
+            Stage::Features | Stage::Fit | Stage::Tell => 1,
         }
     }
 }
