@@ -135,7 +135,7 @@ fn nothing_is_written_over_without_force() {
     assert_eq!(
         leftovers(
             &bench.path("."),
-            &["lab", "map.toml", "drawn", "data", "model"]
+            &["lab", "map.toml", "drawn", "data", "model", "user-cache"]
         ),
         Vec::<String>::new()
     );
