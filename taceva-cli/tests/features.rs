@@ -7,6 +7,33 @@ use std::path::PathBuf;
 
 use support::Bench;
 
+/// A gel without markers, on which light moves little.
+const PRESSED: &str = r#"
+scene_version = 1
+name = "press"
+seed = 1
+metrics = { want = ["r2"] }
+report = { formats = [] }
+[robot]
+driver = "sim/robot"
+[force]
+driver = "sim/force-transducer"
+[protocol.contact]
+threshold_N = 0.02
+step_mm = 0.1
+[protocol.calibration]
+points = 60
+indentations = 4
+[model]
+name = "baseline"
+[[study]]
+name = "wm"
+limits = { Pz_max_mm = 1.0, Fz_max_N = 1.83 }
+[study.sensor]
+driver = "sim/gelsight-wm"
+units = ["0"]
+"#;
+
 #[test]
 fn kinds_of_features_are_chosen_by_a_setting() {
     let bench = Bench::new();
@@ -89,11 +116,10 @@ fn the_size_of_features_is_chosen_by_what_it_costs_and_the_model_says_how() {
     assert_eq!(settings["size"], "auto");
     let notes = found["provenance"]["notes"].as_array().expect("a list");
     let mut notes = notes.iter().filter_map(|note| note.as_str());
-    let note = notes.find(|note| note.starts_with("size "));
+    let note = notes.find(|note| note.starts_with("features "));
     let note = note.expect("it says how");
-    let size = note.trim_start_matches("size ").split(':').next();
-    let features = settings["features"].as_str().expect("text");
-    assert_eq!(size, features.split(' ').next());
+    let chosen = note.trim_start_matches("features ").split(':').next();
+    assert_eq!(chosen, settings["features"].as_str());
     assert!(note.contains("8×8 ") && note.contains("32×32 "), "{note}");
     // Nothing to choose for a model that looks at nothing.
     bench.ok("evaluate data --model baseline --set size=auto --metrics mae");
@@ -105,6 +131,35 @@ fn the_size_of_features_is_chosen_by_what_it_costs_and_the_model_says_how() {
 }
 
 #[test]
+fn a_difference_is_tried_beside_the_picture_itself_and_taken_only_if_it_shows_more() {
+    let bench = Bench::new();
+    bench.write("press.toml", PRESSED);
+    bench.ok("run press.toml --out run -q");
+    let evaluate = |words: &str| {
+        let command = format!("evaluate run/recordings/1-wm --model ridge --metrics r2 {words}");
+        bench.json(&command)
+    };
+    // To a linear model what is constant is nothing.
+    let found = evaluate("--set difference=auto");
+    let features = &found["provenance"]["model"]["settings"]["features"];
+    assert_eq!(features, "32×32 gray");
+    let notes = found["provenance"]["notes"].to_string();
+    let error = |name: &str| {
+        let after = notes.split(&format!("{name} ")).last().expect("some");
+        after.chars().take(5).collect::<String>()
+    };
+    assert_eq!(
+        error("32×32 gray"),
+        error("32×32 gray, difference from the reference"),
+        "{notes}"
+    );
+    // What was pressed here keeps its untouched gel, so slopes are seen too.
+    let found = evaluate("--set features=gradients");
+    let features = &found["provenance"]["model"]["settings"]["features"];
+    assert_eq!(features, "32×32 gray gradients");
+}
+
+#[test]
 fn a_size_is_not_chosen_on_a_handful_of_samples() {
     let bench = Bench::new();
     bench.record("data", 64);
@@ -113,6 +168,6 @@ fn a_size_is_not_chosen_on_a_handful_of_samples() {
     let ran = ran.expect("the program starts");
     assert_eq!(ran.status.code(), Some(2));
     let error = String::from_utf8(ran.stderr).expect("UTF-8");
-    let expected = "size=auto: 18 training samples, at least 30 are needed to try sizes on";
+    let expected = "18 training samples, at least 30 are needed to choose features by `auto`";
     assert!(error.contains(expected), "{error}");
 }

@@ -19,5 +19,5 @@ pub use extractor::Extractor;
 pub use kinds::{FeatureKind, FeatureKinds};
 pub use markers::{Marker, MarkerTracker, Polarity, Tracked};
 pub use pca::Pca;
-pub(crate) use spec::SIZE;
 pub use spec::{Color, FeatureSpec};
+pub(crate) use spec::{DIFFERENCE, SIZE};

@@ -7,6 +7,7 @@ mod discriminant;
 mod distance;
 mod durable;
 mod elastic_net;
+mod feature_choice;
 mod features;
 mod fit;
 mod gratings;
@@ -28,7 +29,6 @@ mod random;
 mod registry;
 mod ridge;
 mod settings;
-mod size;
 mod split;
 mod standard;
 mod tensors;
@@ -40,6 +40,7 @@ pub use baseline::Baseline;
 pub use choice::{ChannelChoice, Choice, ChosenBy};
 pub use discriminant::{ClassRegressor, Discriminant, LinearDiscriminant};
 pub use elastic_net::ElasticNet;
+pub use feature_choice::{FeatureChoice, FeatureTrial, OpenFeatures};
 pub use features::{
     Color, Extractor, FeatureError, FeatureKind, FeatureKinds, FeatureSpec, Marker, MarkerTracker,
     Pca, Polarity, Tracked,
@@ -65,7 +66,6 @@ pub use projected::ProjectedRegressor;
 pub use registry::{ALL, ModelInfo, UnknownModel, find};
 pub use ridge::Ridge;
 pub use settings::{SettingError, SettingInfo, Settings, Suggestion};
-pub use size::{SizeCard, SizeTrial};
 pub use split::{
     ColumnSplit, Fractions, Part, Split, SplitCounts, SplitError, SplitInput, SplitKind,
     SplitManifest, SplitSpec,

@@ -15,11 +15,11 @@ pub use self::bytes::FormatError;
 pub use self::card::{ChannelCard, Form, ModelCard, Provenance, SampleCounts, Source, SplitCard};
 pub use self::disk::ModelFileError;
 pub(crate) use self::of_plugin::plugin_tensor;
+use crate::feature_choice::FeatureChoice;
 use crate::features::{Extractor, FeatureError, FeatureSpec, Pca};
 use crate::fit::{ModelEstimator, ModelRegressor};
 use crate::problem::invalid;
 use crate::settings::Settings;
-use crate::size::SizeCard;
 
 /// All that a model is fitted from.
 pub struct FitInput<'a> {
@@ -101,10 +101,10 @@ impl Model {
         &self.card
     }
 
-    /// The same, its card saying how the size of its features was chosen.
+    /// The same, its card saying how its features were chosen.
     #[must_use]
-    pub fn with_size_chosen(mut self, how: SizeCard) -> Model {
-        self.card.size = Some(how);
+    pub fn with_features_chosen(mut self, how: FeatureChoice) -> Model {
+        self.card.feature_choice = Some(how);
         self
     }
 

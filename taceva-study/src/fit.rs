@@ -1,14 +1,14 @@
 //! The stage that learns: a dataset and a request in, a model out.
 
-mod size;
+mod features;
 
 use std::collections::BTreeMap;
 
 use taceva_core::{Channels, FrameInfo, PixelFormat, Targets, TrainingSet};
 use taceva_dataset::{Dataset, Source};
 use taceva_models::{
-    Checkpoints, ChosenModel, FeatureSpec, FitInput, Model, ModelEstimator, Provenance, Settings,
-    SizeCard, SplitCard, SplitManifest,
+    Checkpoints, ChosenModel, FeatureSpec, FitInput, Model, ModelEstimator, OpenFeatures,
+    Provenance, Settings, SplitCard, SplitManifest,
 };
 
 use crate::error::StudyError;
@@ -63,17 +63,18 @@ pub(crate) struct Recipe {
     estimator: Box<dyn ModelEstimator>,
     of_model: Settings,
     features: FeatureSpec,
-    /// Whether the size of the features is to be chosen.
-    is_size_open: bool,
+    /// What of the features is to be chosen.
+    open: Option<OpenFeatures>,
 }
 
 impl Recipe {
     /// Reads the settings of the model and of its features.
     pub(crate) fn of(request: &FitRequest) -> Result<Recipe, StudyError> {
         let model = &request.model;
-        let sized = SizeCard::left_open(&request.settings);
-        let is_size_open = sized.is_some();
-        let settings = sized.unwrap_or_else(|| request.settings.clone());
+        let (open, settings) = match OpenFeatures::of(&request.settings) {
+            Some((open, settings)) => (Some(open), settings),
+            None => (None, request.settings.clone()),
+        };
         let (of_features, of_model) = settings.partition(FeatureSpec::SETTINGS);
         let mut known = model.setting_keys();
         known.extend(FeatureSpec::SETTINGS.iter().map(|setting| setting.key));
@@ -83,7 +84,7 @@ impl Recipe {
             estimator: model.estimator(&of_model)?,
             of_model,
             features: model.features().changed_by(&of_features)?,
-            is_size_open,
+            open,
         })
     }
 }
@@ -98,7 +99,7 @@ pub(crate) struct FitPlan<'a> {
     /// Those of them that are the model's own.
     of_model: Settings,
     features: FeatureSpec,
-    is_size_open: bool,
+    open: Option<OpenFeatures>,
     pub(crate) channels: Channels,
     pub(crate) divided: Divided,
     pub(crate) train: Vec<usize>,
@@ -128,7 +129,7 @@ impl<'a> FitPlan<'a> {
             estimator,
             of_model,
             features,
-            is_size_open,
+            open,
         } = recipe;
         let channels = chosen_channels(dataset, &request.channels)?;
         let model_reads = model.reads_features();
@@ -146,7 +147,7 @@ impl<'a> FitPlan<'a> {
             of_model,
             settings: request.settings.clone(),
             features,
-            is_size_open: is_size_open && model_reads,
+            open: open.filter(|_| model_reads),
             channels,
             divided,
             train,
@@ -172,9 +173,9 @@ impl<'a> FitPlan<'a> {
     pub(crate) fn explain(&self, plan: &mut Plan) {
         let rows = self.train.len() + self.validation.len();
         if self.reads_frames() {
-            let features = match self.is_size_open {
-                true => format!("{}, at several sizes", self.features),
-                false => self.features.to_string(),
+            let features = match self.open {
+                Some(_) => format!("{} and others, of which some are chosen", self.features),
+                None => self.features.to_string(),
             };
             plan.step("decode", format!("{rows} frames to features {features}"));
         }
@@ -200,14 +201,14 @@ impl<'a> FitPlan<'a> {
     }
 
     pub(crate) fn run(mut self, work: Work<'_>) -> Result<Fitted, StudyError> {
-        let size = match self.is_size_open {
-            true => Some(self.choose_size(work)?),
-            false => None,
+        let choice = match self.open {
+            Some(open) => Some(self.choose_features(open, work)?),
+            None => None,
         };
         let whole: Vec<usize> = (0..self.train.len()).collect();
         let learnt = self.learn(&*self.estimator, self.features, &whole, work)?;
-        let model = match size {
-            Some(size) => learnt.with_size_chosen(size),
+        let model = match choice {
+            Some(choice) => learnt.with_features_chosen(choice),
             None => learnt,
         };
         let frames_decoded = self.frames_to_decode();

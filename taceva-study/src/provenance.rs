@@ -170,7 +170,8 @@ impl ModelProvenance {
 /// What was chosen where a person left it open, and why.
 pub(crate) fn chosen_notes(model: &Model) -> impl Iterator<Item = String> {
     let card = model.card();
-    let size = card.size.as_ref().map(ToString::to_string);
-    size.into_iter()
+    let features = card.feature_choice.as_ref().map(ToString::to_string);
+    features
+        .into_iter()
         .chain(card.auto.as_ref().map(ToString::to_string))
 }

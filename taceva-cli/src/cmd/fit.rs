@@ -37,7 +37,7 @@ pub(crate) fn run(args: &Fit, context: &Context) -> anyhow::Result<u8> {
     }
     let card = fitted.model.card();
     let chosen = [
-        card.size.as_ref().map(ToString::to_string),
+        card.feature_choice.as_ref().map(ToString::to_string),
         card.auto.as_ref().map(ToString::to_string),
     ];
     for how in chosen.into_iter().flatten() {

@@ -71,7 +71,7 @@ pub(crate) const SIZE: SettingInfo = SettingInfo {
     key: "size",
     accepts: "WIDTHxHEIGHT or one number for both, from 1 to 1024; auto where a model is fitted",
     default: "32x32, 128x96 for networks; 16x16 with markers, 8x8 with statistics",
-    about: "how many cells every frame is divided into; auto tries grids from a quarter as fine to twice, and takes the coarsest that costs no accuracy",
+    about: "how many cells every frame is divided into; auto tries grids from a quarter as fine to twice as fine, and takes the coarsest that costs no accuracy",
 };
 const COLOR: SettingInfo = SettingInfo {
     key: "color",
@@ -79,9 +79,9 @@ const COLOR: SettingInfo = SettingInfo {
     default: "gray",
     about: "whether colour is kept",
 };
-const DIFFERENCE: SettingInfo = SettingInfo {
+pub(crate) const DIFFERENCE: SettingInfo = SettingInfo {
     key: "difference",
-    accepts: "true or false",
+    accepts: "true or false; auto where a model is fitted",
     default: "false",
     about: "whether the no-contact reference frame is subtracted from pixels and statistics; markers and gradients always compare with it",
 };

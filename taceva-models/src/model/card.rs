@@ -6,11 +6,11 @@ use taceva_core::{FrameInfo, Unit};
 use super::FitInput;
 use crate::auto::AutoCard;
 use crate::choice::Choice;
+use crate::feature_choice::FeatureChoice;
 use crate::features::FeatureSpec;
 use crate::fit::{ModelFit, ModelRegressor};
 use crate::network::NetworkCard;
 use crate::plugin::PluginCard;
-use crate::size::SizeCard;
 
 /// The description kept in a model file.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -48,9 +48,9 @@ pub struct ModelCard {
     /// How the model was chosen, where a person left that open.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub auto: Option<AutoCard>,
-    /// How the size of its features was chosen, where a person left that open.
+    /// How its features were chosen, where a person left that open.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub size: Option<SizeCard>,
+    pub feature_choice: Option<FeatureChoice>,
     /// The network, where the model is one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub network: Option<NetworkCard>,
@@ -212,7 +212,7 @@ impl ModelCard {
             },
             provenance: input.provenance.clone(),
             auto,
-            size: None,
+            feature_choice: None,
             form: Form::of(&fit.regressor),
             network: match &fit.regressor {
                 ModelRegressor::Network(network) => Some(network.card().clone()),

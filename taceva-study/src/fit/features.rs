@@ -1,6 +1,6 @@
-//! The size of the features, chosen by what it costs on samples of the training part that are left out.
+//! The features, chosen by what they cost on samples of the training part that are left out.
 
-use taceva_models::{FeatureSpec, Model, SizeCard};
+use taceva_models::{FeatureChoice, FeatureSpec, Model, OpenFeatures};
 
 use super::{FitPlan, groups};
 use crate::error::StudyError;
@@ -20,19 +20,24 @@ struct Parts {
 }
 
 impl FitPlan<'_> {
-    /// Tries sizes from the coarsest on, and takes one; beyond the default only where the default was worth its price.
-    pub(super) fn choose_size(&mut self, work: Work<'_>) -> Result<SizeCard, StudyError> {
-        let info = extractor(self.dataset, self.features)?.frame_info();
-        let candidates = SizeCard::candidates(&self.features, info);
+    /// Tries features from the plainest on, and takes some; grids finer than the default only where the default was worth its price.
+    pub(super) fn choose_features(
+        &mut self,
+        open: OpenFeatures,
+        work: Work<'_>,
+    ) -> Result<FeatureChoice, StudyError> {
+        let frames = self.dataset.header().frames.as_ref();
+        let has_reference = frames.is_some_and(|frames| frames.reference.is_some());
+        let candidates = open.candidates(&self.features, self.any_frame(), has_reference);
         let parts = self.parts()?;
-        // One that puts nothing aside: a checkpoint is of one size.
+        // One that puts nothing aside: a checkpoint is of one kind of features.
         let estimator = self.model.estimator(&self.of_model)?;
         let mut tried: Vec<(FeatureSpec, Vec<f64>)> = Vec::new();
         let count = candidates.len() as u64;
-        work.progress.begin("sizes tried", Some(count));
+        work.progress.begin("features tried", Some(count));
         for spec in candidates {
             let is_finer = spec.width > self.features.width;
-            if is_finer && !SizeCard::new(&tried, &parts.groups).may_gain() {
+            if is_finer && !FeatureChoice::new(&tried, &parts.groups).may_gain() {
                 break;
             }
             let model = self.learn(&*estimator, spec, &parts.learnt, work)?;
@@ -40,11 +45,11 @@ impl FitPlan<'_> {
             work.progress.advance(1);
         }
         work.progress.end();
-        let card = SizeCard::new(&tried, &parts.groups);
-        if let Some(chosen) = card.chosen() {
-            (self.features.width, self.features.height) = (chosen.width, chosen.height);
+        let choice = FeatureChoice::new(&tried, &parts.groups);
+        if let Some(chosen) = choice.chosen() {
+            self.features = chosen.features;
         }
-        Ok(card)
+        Ok(choice)
     }
 
     /// Every third contact point is left out; without points, the last third of the samples.
@@ -52,7 +57,7 @@ impl FitPlan<'_> {
         let samples = self.train.len();
         if samples < RUNS * LEFT_OUT_OF {
             return Err(StudyError::Request(format!(
-                "size=auto: {samples} training samples, at least {} are needed to try sizes on",
+                "{samples} training samples, at least {} are needed to choose features by `auto`",
                 RUNS * LEFT_OUT_OF
             )));
         }

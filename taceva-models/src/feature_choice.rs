@@ -1,0 +1,263 @@
+//! What is taken of a frame where a person left that open: the plainest features that cost no accuracy.
+
+use std::collections::BTreeMap;
+use std::fmt;
+
+use serde::{Deserialize, Serialize};
+use taceva_core::FrameInfo;
+
+use crate::features::{DIFFERENCE, FeatureSpec, SIZE};
+use crate::settings::Settings;
+
+/// What a person writes to have a setting chosen.
+const CHOSEN: &str = "auto";
+
+/// Which settings of the features were left open.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct OpenFeatures {
+    size: bool,
+    difference: bool,
+}
+
+impl OpenFeatures {
+    /// What `settings` leave open, and the settings without it; `None` where they say everything.
+    pub fn of(settings: &Settings) -> Option<(OpenFeatures, Settings)> {
+        let is_open = |key: &str| settings.get(key) == Some(CHOSEN);
+        let open = OpenFeatures {
+            size: is_open(SIZE.key),
+            difference: is_open(DIFFERENCE.key),
+        };
+        let mut rest = settings.clone();
+        for (is_open, setting) in [(open.size, SIZE), (open.difference, DIFFERENCE)] {
+            if is_open {
+                rest = rest.partition(&[setting]).1;
+            }
+        }
+        (open.size || open.difference).then_some((open, rest))
+    }
+
+    /// The features to try around `spec`, the plainest first: grids a quarter, half, as fine and twice as fine, as far as frames of `info`
+    /// allow, each without and with the difference from the reference frame, where there is one.
+    ///
+    /// ```
+    /// use taceva_core::{FrameInfo, PixelFormat};
+    /// use taceva_models::{FeatureSpec, OpenFeatures, Settings};
+    /// let frame = FrameInfo { width: 160, height: 48, format: PixelFormat::Gray8 };
+    /// let (open, _) = OpenFeatures::of(&Settings::parse(["size=auto"])?).expect("the size is open");
+    /// let tried = open.candidates(&FeatureSpec::DEFAULT, frame, true);
+    /// let widths: Vec<u32> = tried.iter().map(|spec| spec.width).collect();
+    /// assert_eq!(widths, [8, 16, 32]);
+    /// # Ok::<(), taceva_models::SettingError>(())
+    /// ```
+    pub fn candidates(
+        self,
+        spec: &FeatureSpec,
+        info: FrameInfo,
+        has_reference: bool,
+    ) -> Vec<FeatureSpec> {
+        let scales: &[(u32, u32)] = match self.size {
+            true => &[(1, 4), (1, 2), (1, 1), (2, 1)],
+            false => &[(1, 1)],
+        };
+        let differences: &[bool] = match (self.difference, has_reference) {
+            (true, true) => &[false, true],
+            (true, false) => &[false],
+            (false, _) => &[spec.difference],
+        };
+        let mut candidates = Vec::new();
+        for (times, parts) in scales {
+            let (width, height) = (spec.width * times / parts, spec.height * times / parts);
+            candidates.extend(differences.iter().map(|&difference| FeatureSpec {
+                width,
+                height,
+                difference,
+                ..*spec
+            }));
+        }
+        // A frame that is too small for what was asked for says so itself.
+        candidates.retain(|candidate| {
+            let fits = candidate.width <= info.width && candidate.height <= info.height;
+            candidate.is_valid() && (fits || !self.size)
+        });
+        candidates
+    }
+}
+
+/// How the features were chosen.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct FeatureChoice {
+    /// Samples of the training part that were not learnt from, and scored.
+    pub samples: usize,
+    /// How many independent groups they are.
+    pub groups: usize,
+    /// The features that were tried, the plainest first.
+    pub tried: Vec<FeatureTrial>,
+}
+
+/// Features that were tried.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct FeatureTrial {
+    /// The features.
+    pub features: FeatureSpec,
+    /// Root mean square error relative to the deviation of labels, over the channels that vary.
+    pub error: f64,
+    /// How much more of the labels' variance is missed than with those of least error; 0 there.
+    pub excess: f64,
+    /// The standard error of that difference, by group.
+    pub standard_error: f64,
+}
+
+impl FeatureTrial {
+    /// Whether its error exceeds the least by no more than one standard error of the difference.
+    fn is_enough(&self) -> bool {
+        self.excess <= self.standard_error
+    }
+
+    fn cells(&self) -> u64 {
+        u64::from(self.features.width) * u64::from(self.features.height)
+    }
+}
+
+impl FeatureChoice {
+    /// The choice among features with the loss of each scored sample: squared errors relative to the variance of labels, mean over channels.
+    ///
+    /// # Shapes
+    /// `tried`, the plainest first: `[samples]` each; `groups`: `[samples]`, a number for each independent group.
+    pub fn new(tried: &[(FeatureSpec, Vec<f64>)], groups: &[usize]) -> FeatureChoice {
+        let losses = tried.iter().map(|(_, losses)| of_groups(losses, groups));
+        let losses: Vec<Vec<f64>> = losses.collect();
+        let mean = |values: &[f64]| values.iter().sum::<f64>() / values.len() as f64;
+        let least = losses
+            .iter()
+            .min_by(|left, right| mean(left).total_cmp(&mean(right)));
+        let trial = |((features, _), own): (&(FeatureSpec, Vec<f64>), &Vec<f64>)| {
+            let least = least.expect("one of them");
+            let excess = own.iter().zip(least).map(|(own, least)| own - least);
+            let excess: Vec<f64> = excess.collect();
+            let centre = mean(&excess);
+            let squares: f64 = excess.iter().map(|value| (value - centre).powi(2)).sum();
+            let freedom = excess.len() * excess.len().saturating_sub(1);
+            FeatureTrial {
+                features: *features,
+                error: mean(own).sqrt(),
+                excess: centre,
+                standard_error: (squares / freedom.max(1) as f64).sqrt(),
+            }
+        };
+        FeatureChoice {
+            samples: groups.len(),
+            groups: losses.first().map_or(0, Vec::len),
+            tried: tried.iter().zip(&losses).map(trial).collect(),
+        }
+    }
+
+    /// The plainest whose error exceeds the least by no more than one standard error of the difference.
+    pub fn chosen(&self) -> Option<&FeatureTrial> {
+        self.tried.iter().find(|trial| trial.is_enough())
+    }
+
+    /// Whether no grid but the finest tried is enough: then a finer one may be better still.
+    pub fn may_gain(&self) -> bool {
+        let finest = self.tried.iter().map(FeatureTrial::cells).max();
+        let enough = self.tried.iter().filter(|trial| trial.is_enough());
+        enough
+            .into_iter()
+            .all(|trial| Some(trial.cells()) == finest)
+    }
+}
+
+/// The mean of each group, so that a group counts once however many samples it has.
+fn of_groups(losses: &[f64], groups: &[usize]) -> Vec<f64> {
+    let mut sums = BTreeMap::<usize, (f64, f64)>::new();
+    for (loss, group) in losses.iter().zip(groups) {
+        let (sum, count) = sums.entry(*group).or_default();
+        *sum += loss;
+        *count += 1.0;
+    }
+    sums.into_values().map(|(sum, count)| sum / count).collect()
+}
+
+impl fmt::Display for FeatureChoice {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Some(chosen) = self.chosen() else {
+            return f.write_str("no features were tried");
+        };
+        write!(
+            f,
+            "features {}: the plainest within a standard error of the least on {} samples of {} groups left out; errors relative to the \
+             deviation of labels:",
+            chosen.features, self.samples, self.groups
+        )?;
+        for (position, trial) in self.tried.iter().enumerate() {
+            let before = if position == 0 { " " } else { "; " };
+            write!(f, "{before}{} {:.3}", trial.features, trial.error)?;
+        }
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use taceva_core::PixelFormat;
+
+    fn of_sides<const N: usize>(losses: [(u32, [f64; 6]); N]) -> FeatureChoice {
+        let tried = losses.map(|(side, losses)| {
+            let features = FeatureSpec {
+                width: side,
+                height: side,
+                ..FeatureSpec::DEFAULT
+            };
+            (features, losses.to_vec())
+        });
+        FeatureChoice::new(&tried, &[0, 0, 1, 1, 2, 2])
+    }
+
+    #[test]
+    fn the_plainest_are_taken_that_no_finer_ones_beat_beyond_chance() {
+        let coarse = [0.9, 0.9, 0.8, 0.8, 0.9, 0.9];
+        let middle = [0.2, 0.2, 0.1, 0.1, 0.3, 0.3];
+        let fine = [0.1, 0.1, 0.15, 0.15, 0.3, 0.3];
+        let width = |choice: &FeatureChoice| choice.chosen().map(|trial| trial.features.width);
+        let choice = of_sides([(8, coarse), (16, middle), (32, fine)]);
+        assert_eq!(width(&choice), Some(16));
+        assert!(!choice.may_gain(), "{choice:?}");
+        let choice = of_sides([(8, coarse), (16, middle), (32, fine.map(|loss| loss / 4.0))]);
+        assert_eq!(width(&choice), Some(32));
+        assert!(choice.may_gain());
+    }
+
+    #[test]
+    fn a_choice_says_what_each_costs() {
+        let text = of_sides([(8, [0.25; 6]), (16, [0.04; 6]), (32, [0.04; 6])]).to_string();
+        assert_eq!(
+            text,
+            "features 16×16 gray: the plainest within a standard error of the least on 6 samples of 3 groups left out; errors relative to \
+             the deviation of labels: 8×8 gray 0.500; 16×16 gray 0.200; 32×32 gray 0.200"
+        );
+    }
+
+    #[test]
+    fn differences_are_tried_where_there_is_something_to_differ_from() {
+        let parse = |words: &[&str]| Settings::parse(words.iter().copied()).expect("pairs");
+        let settings = parse(&["difference=auto", "color=rgb"]);
+        let (open, rest) = OpenFeatures::of(&settings).expect("open");
+        assert_eq!(rest, parse(&["color=rgb"]));
+        let info = FrameInfo {
+            width: 64,
+            height: 64,
+            format: PixelFormat::Gray8,
+        };
+        let tried = |has_reference| open.candidates(&FeatureSpec::DEFAULT, info, has_reference);
+        let differences = |has_reference: bool| -> Vec<bool> {
+            let tried = tried(has_reference).into_iter();
+            tried.map(|spec| spec.difference).collect()
+        };
+        assert_eq!(differences(true), [false, true]);
+        assert_eq!(differences(false), [false]);
+        let both = parse(&["size=auto", "difference=auto"]);
+        let (open, _) = OpenFeatures::of(&both).expect("open");
+        assert_eq!(open.candidates(&FeatureSpec::DEFAULT, info, true).len(), 8);
+        assert_eq!(OpenFeatures::of(&parse(&["size=32", "budget=auto"])), None);
+    }
+}
