@@ -7,6 +7,7 @@
 mod gaussian_process;
 mod landmarks;
 mod nystrom;
+mod reach;
 mod regressor;
 mod ridge;
 mod support_vector;

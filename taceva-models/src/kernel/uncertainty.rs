@@ -58,6 +58,13 @@ impl Uncertainty {
         }
     }
 
+    /// The same, its deviations times `reaches`, channel by channel.
+    pub(super) fn reaching(mut self, reaches: &[f64]) -> Uncertainty {
+        let signals = self.signal.iter_mut().zip(reaches);
+        signals.for_each(|(signal, reach)| *signal *= reach * reach);
+        self
+    }
+
     pub(super) fn tensors(&self) -> Vec<Raw> {
         let list = |name, values: &[f64]| Raw::doubles(name, vec![values.len()], values);
         let shape = vec![self.eigenvalues.len(), self.centre.len()];
