@@ -22,9 +22,9 @@ def main(dataset, model):
 
     with tempfile.TemporaryDirectory() as folder:
         truth_csv, pred_csv = pathlib.Path(folder, "truth.csv"), pathlib.Path(folder, "pred.csv")
-        run("predict", dataset, "--with", model, "--out", pred_csv, "--truth-out", truth_csv, "--quiet")
+        run("predict", dataset, "--no-cache", "--with", model, "--out", pred_csv, "--truth-out", truth_csv, "--quiet")
         scored = evaluation("score", "--truth", truth_csv, "--pred", pred_csv)["metrics"]
-        evaluated = evaluation("evaluate", dataset, "--with", model)["metrics"]
+        evaluated = evaluation("evaluate", dataset, "--no-cache", "--with", model)["metrics"]
         truth = pandas.read_csv(truth_csv, dtype={"id": str, "point_id": str})
         pred = pandas.read_csv(pred_csv, dtype={"id": str})
 

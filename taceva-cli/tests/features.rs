@@ -126,7 +126,7 @@ fn the_size_of_features_is_chosen_by_what_it_costs_and_the_model_says_how() {
     bench.refused(
         "evaluate data --model ridge --set size=fine",
         2,
-        "auto where a model is fitted",
+        "auto in fit, evaluate and models of scenes",
     );
 }
 
@@ -170,4 +170,26 @@ fn a_size_is_not_chosen_on_a_handful_of_samples() {
     let error = String::from_utf8(ran.stderr).expect("UTF-8");
     let expected = "18 training samples, at least 30 are needed to choose features by `auto`";
     assert!(error.contains(expected), "{error}");
+}
+
+#[test]
+fn features_that_no_model_can_be_fitted_to_are_told_beside_those_that_were_tried() {
+    let bench = Bench::new();
+    bench.record("data", 64);
+    let mut command = bench.command("evaluate data --model ridge --set size=auto --metrics mae -q");
+    // A grid of 2×2 has 28 statistics, and thirty components are asked for.
+    let command = command.args(["--set", "features=statistics", "--set", "pca=30"]);
+    let ran = command.args(["--split", "random 80/10/10"]).output();
+    let ran = ran.expect("the program starts");
+    let text = String::from_utf8(ran.stdout).expect("UTF-8");
+    assert_eq!(
+        ran.status.code(),
+        Some(0),
+        "{}",
+        String::from_utf8_lossy(&ran.stderr)
+    );
+    assert!(
+        text.contains("2×2 gray statistics, 30 principal components not fitted (`pca=30`"),
+        "{text}"
+    );
 }

@@ -52,6 +52,11 @@ fn deviations_are_not_made_up_for_a_model_that_knows_none() {
         2,
         "does not know how sure it is",
     );
+    bench.refused(
+        "predict data --with ridge.model --out found.csv --truth-out found.csv",
+        2,
+        "name one file",
+    );
     assert!(!bench.path("found.csv").exists());
     let report = bench.json("evaluate data --with ridge.model --metrics mae");
     assert!(!report["provenance"]["notes"].to_string().contains("1.96"));

@@ -1,14 +1,14 @@
 //! Least squares with a penalty that leaves most weights at nothing.
 
 mod descent;
-mod form;
+mod predictors;
 
 use faer::Mat;
 use rayon::prelude::*;
 use taceva_core::{Estimator, Features, ModelError, Progress, Regressor, TrainingSet};
 
 use self::descent::{Penalty, path};
-use self::form::Form;
+use self::predictors::{Predictors, Target};
 use crate::features::FeatureSpec;
 use crate::linalg::{Design, FeatureScale};
 use crate::linear::{LinearEstimator, LinearFit, LinearRegressor};
@@ -91,7 +91,7 @@ impl ElasticNet {
         progress: &dyn Progress,
     ) -> Result<(Vec<f64>, Vec<Path>), ModelError> {
         let (shift, labels) = centred(labels);
-        let form = Form::of(design, progress)?;
+        let predictors = Predictors::of(design, progress)?;
         let products = design.transpose_times(labels.as_ref());
         let strengths = self.strengths();
         let channels: Result<Vec<_>, ModelError> = (0..labels.ncols())
@@ -102,9 +102,11 @@ impl ElasticNet {
                     strengths: &strengths,
                     mix: self.mix,
                 };
-                let labels = labels.col_as_slice(channel);
-                let products = products.col_as_slice(channel);
-                path(&form, (labels, products), penalty, progress)
+                let target = Target {
+                    labels: labels.col_as_slice(channel),
+                    products: products.col_as_slice(channel),
+                };
+                path(&predictors, target, penalty, progress)
             })
             .collect();
         Ok((shift, channels?))

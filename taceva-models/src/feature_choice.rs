@@ -59,7 +59,9 @@ impl OpenFeatures {
             true => &[(1, 4), (1, 2), (1, 1), (2, 1)],
             false => &[(1, 1)],
         };
-        let differences: &[bool] = match (self.difference, has_reference) {
+        // Markers and gradients compare with the reference by themselves.
+        let may_differ = has_reference && spec.kinds.iter().any(|kind| !kind.needs_reference());
+        let differences: &[bool] = match (self.difference, may_differ) {
             (true, true) => &[false, true],
             (true, false) => &[false],
             (false, _) => &[spec.difference],
@@ -92,6 +94,18 @@ pub struct FeatureChoice {
     pub groups: usize,
     /// The features that were tried, the plainest first.
     pub tried: Vec<FeatureTrial>,
+    /// Those that no model could be fitted to.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub failed: Vec<FailedFeatures>,
+}
+
+/// Features that no model could be fitted to.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct FailedFeatures {
+    /// The features.
+    pub features: FeatureSpec,
+    /// Why not.
+    pub reason: String,
 }
 
 /// Features that were tried.
@@ -148,7 +162,21 @@ impl FeatureChoice {
             samples: groups.len(),
             groups: losses.first().map_or(0, Vec::len),
             tried: tried.iter().zip(&losses).map(trial).collect(),
+            failed: Vec::new(),
         }
+    }
+
+    /// The same, with features that no model could be fitted to, and why.
+    #[must_use]
+    pub fn with_failed(
+        mut self,
+        failed: impl IntoIterator<Item = (FeatureSpec, String)>,
+    ) -> FeatureChoice {
+        let failed = failed.into_iter();
+        self.failed = failed
+            .map(|(features, reason)| FailedFeatures { features, reason })
+            .collect();
+        self
     }
 
     /// The plainest whose error exceeds the least by no more than one standard error of the difference.
@@ -191,6 +219,9 @@ impl fmt::Display for FeatureChoice {
         for (position, trial) in self.tried.iter().enumerate() {
             let before = if position == 0 { " " } else { "; " };
             write!(f, "{before}{} {:.3}", trial.features, trial.error)?;
+        }
+        for FailedFeatures { features, reason } in &self.failed {
+            write!(f, "; {features} not fitted ({reason})")?;
         }
         Ok(())
     }

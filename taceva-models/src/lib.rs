@@ -40,14 +40,14 @@ pub use baseline::Baseline;
 pub use choice::{ChannelChoice, Choice, ChosenBy};
 pub use discriminant::{ClassRegressor, Discriminant, LinearDiscriminant};
 pub use elastic_net::ElasticNet;
-pub use feature_choice::{FeatureChoice, FeatureTrial, OpenFeatures};
+pub use feature_choice::{FailedFeatures, FeatureChoice, FeatureTrial, OpenFeatures};
 pub use features::{
     Color, Extractor, FeatureError, FeatureKind, FeatureKinds, FeatureSpec, Marker, MarkerTracker,
     Pca, Polarity, Tracked,
 };
 pub use fit::{Chosen, ModelEstimator, ModelFit, ModelRegressor};
 pub use gratings::{FourierPlane, RadialSpectrum};
-pub use kernel::{GaussianProcess, KernelRegressor, KernelRidge, SupportVectors};
+pub use kernel::{GaussianProcess, KernelRegressor, KernelRidge, NORMAL_95, SupportVectors};
 pub use label_scaling::LabelScaling;
 pub use linear::{LinearEstimator, LinearFit, LinearRegressor};
 pub use model::{

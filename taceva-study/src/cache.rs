@@ -97,6 +97,11 @@ impl Cache {
         folder.join(key.digits())
     }
 
+    /// Where entries are written before they are whole.
+    fn partial(&self) -> PathBuf {
+        self.folder.join(LAYOUT).join(PARTIAL)
+    }
+
     /// Has `write` write an entry beside its place and moves it there, unless another run was faster.
     ///
     /// `write` makes a file or a folder and refuses one that is there.
@@ -106,14 +111,14 @@ impl Cache {
             && !entry.exists()
         {
             self.note(format!(
-                "the cache {} cannot be written, so this run is not kept there: {error}",
+                "the cache {} cannot be written, so nothing is kept there: {error}",
                 self.folder.display()
             ));
         }
     }
 
     fn try_put(&self, entry: &Path, write: impl Fn(&Path) -> io::Result<()>) -> io::Result<()> {
-        let partial = self.folder.join(LAYOUT).join(PARTIAL);
+        let partial = self.partial();
         for folder in entry.parent().into_iter().chain([partial.as_path()]) {
             fs::create_dir_all(folder)?;
         }

@@ -5,19 +5,20 @@ use std::num::NonZeroUsize;
 use taceva_core::{Column, Field, FieldSet};
 use taceva_dataset::Dataset;
 use taceva_metrics::{MetricPlan, catalogue};
+use taceva_models::NORMAL_95;
 
 use crate::error::StudyError;
 use crate::predict::Predicted;
 use crate::tally::{Columns, tally};
 
-/// Within so many standard deviations lie 95 of 100 normal errors.
-const REACH: f64 = 1.959_963_984_540_054;
-
 /// What part of `predicted`, the rows `rows` of `dataset`, lies within 1.96 of its own standard deviations of the truth, channel by channel
 /// with an interval by contact point; `None` of a model that does not know how sure it is.
+///
+/// Of the rows those count that are pressed as what was learnt from: nobody promises anything of another light.
 pub(crate) fn calibration_note(
     dataset: &Dataset,
     (predicted, rows): (&Predicted, &[usize]),
+    counts: impl Fn(usize) -> bool,
     jobs: NonZeroUsize,
 ) -> Result<Option<String>, StudyError> {
     let Some(deviations) = predicted.deviation() else {
@@ -31,13 +32,13 @@ pub(crate) fn calibration_note(
             &predicted.prediction()[channel],
         );
         let (mut own, mut zero) = (Column::default(), Column::default());
-        for row in 0..predicted.rows() {
-            let pair = truth.get(row).zip(found.get(row));
-            let inside = pair
-                .zip(deviations.get(row))
-                .map(|((truth, found), deviation)| {
-                    f64::from((found - truth).abs() <= REACH * deviation)
-                });
+        for (at, row) in rows.iter().enumerate() {
+            let pair = truth.get(at).zip(found.get(at));
+            let inside = pair.filter(|_| counts(*row)).zip(deviations.get(at)).map(
+                |((truth, found), deviation)| {
+                    f64::from((found - truth).abs() <= NORMAL_95 * deviation)
+                },
+            );
             own.push(inside);
             zero.push(inside.map(|_| 0.0));
         }

@@ -199,7 +199,12 @@ pub(crate) fn score(
             .chain(few_points_note(points.as_deref()))
             .chain(left_out_note(target.part.name(), predicted.left_out))
             .chain(predicted.bounded_note())
-            .chain(calibration_note(dataset, (predicted, &target.rows), jobs)?)
+            .chain(calibration_note(
+                dataset,
+                (predicted, &target.rows),
+                |_| true,
+                jobs,
+            )?)
             .chain(chosen_notes(model))
             .chain(passes.note(dataset))
             .collect(),

@@ -4,7 +4,7 @@ mod features;
 
 use std::collections::BTreeMap;
 
-use taceva_core::{Channels, FrameInfo, PixelFormat, Targets, TrainingSet};
+use taceva_core::{Channels, Features, FrameInfo, PixelFormat, Targets, TrainingSet};
 use taceva_dataset::{Dataset, Source};
 use taceva_models::{
     Checkpoints, ChosenModel, FeatureSpec, FitInput, Model, ModelEstimator, OpenFeatures,
@@ -87,6 +87,13 @@ impl Recipe {
             open,
         })
     }
+}
+
+/// Features of the training part and then of the validation part, what they are, and the kind of frame they are of.
+struct Seen {
+    spec: FeatureSpec,
+    features: Features,
+    frame: FrameInfo,
 }
 
 /// A request made definite.
@@ -206,7 +213,8 @@ impl<'a> FitPlan<'a> {
             None => None,
         };
         let whole: Vec<usize> = (0..self.train.len()).collect();
-        let learnt = self.learn(&*self.estimator, self.features, &whole, work)?;
+        let seen = self.see(self.features, work)?;
+        let learnt = self.learn(&*self.estimator, seen, &whole, work)?;
         let model = match choice {
             Some(choice) => learnt.with_features_chosen(choice),
             None => learnt,
@@ -222,28 +230,41 @@ impl<'a> FitPlan<'a> {
         })
     }
 
-    /// A model of `features`, fitted on the rows at `positions` of the training part and on the validation part.
+    /// What `spec` takes of the frames of the training part, then of the validation part.
+    fn see(&self, spec: FeatureSpec, work: Work<'_>) -> Result<Seen, StudyError> {
+        // Of both parts whatever is learnt from: what is kept of features is found by its rows.
+        let rows = [&self.train[..], &self.validation].concat();
+        if !self.reads_frames() {
+            return Ok(Seen {
+                spec,
+                features: blank(spec.shape(), rows.len())?,
+                frame: self.any_frame(),
+            });
+        }
+        let extractor = extractor(self.dataset, spec)?;
+        Ok(Seen {
+            spec,
+            features: extract(self.dataset, &extractor, &rows, work)?,
+            frame: extractor.frame_info(),
+        })
+    }
+
+    /// A model of what was `seen`, fitted on the rows at `positions` of the training part and on the validation part.
     fn learn(
         &self,
         estimator: &dyn ModelEstimator,
-        features: FeatureSpec,
+        seen: Seen,
         positions: &[usize],
         work: Work<'_>,
     ) -> Result<Model, StudyError> {
-        // Of both parts whatever is learnt from: what is kept of features is found by its rows.
-        let rows = [&self.train[..], &self.validation].concat();
-        let (seen, frame) = if self.reads_frames() {
-            let extractor = extractor(self.dataset, features)?;
-            (
-                extract(self.dataset, &extractor, &rows, work)?,
-                extractor.frame_info(),
-            )
-        } else {
-            (blank(features.shape(), rows.len())?, self.any_frame())
-        };
+        let Seen {
+            spec,
+            features: seen,
+            frame,
+        } = seen;
         let train: Vec<usize> = positions.iter().map(|&at| self.train[at]).collect();
         let train_features = seen.select(positions);
-        let held: Vec<usize> = (self.train.len()..rows.len()).collect();
+        let held: Vec<usize> = (self.train.len()..seen.samples()).collect();
         let held_features = seen.select(&held);
         drop(seen);
         let (train_labels, held_labels) = (self.labels(&train), self.labels(&self.validation));
@@ -259,7 +280,7 @@ impl<'a> FitPlan<'a> {
         let input = FitInput {
             estimator,
             settings: &self.settings,
-            features,
+            features: spec,
             frame,
             training: set(&train_features, &train_labels, groups.as_deref()),
             validation: (!self.validation.is_empty())

@@ -41,7 +41,7 @@ pub struct Provenance {
     /// How the presses of each recording ended, by its digest, where a protocol pressed: all of them, scored or not.
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     pub presses: BTreeMap<String, BTreeMap<PressOutcome, u64>>,
-    /// Frames decoded for it.
+    /// Frames that it rests on, each once for learning and once for predicting, decoded now or when their features were kept.
     pub frames_decoded: u64,
     /// Third-party code that took part.
     pub plugins: Vec<String>,

@@ -69,8 +69,10 @@ pub(crate) fn assess(
     notes.extend(deal.shortfall());
     if let Some((predicted, rows)) = &predicted {
         notes.extend(predicted.bounded_note());
+        let calibration = deal.rows(PhaseKind::Calibration);
+        let counts = |row: usize| calibration.binary_search(&row).is_ok();
         let jobs = means.work.jobs;
-        notes.extend(calibration_note(dataset, (predicted, rows), jobs)?);
+        notes.extend(calibration_note(dataset, (predicted, rows), counts, jobs)?);
     }
     notes.extend(learnt.iter().flat_map(|learnt| chosen_notes(&learnt.model)));
     let divided = learnt.as_ref().and_then(|learnt| learnt.divided.as_ref());

@@ -40,7 +40,15 @@ impl Bench {
     fn fit(&self, model: &str, settings: &[&str]) -> Command {
         let mut command = Command::new(taceva());
         command
-            .args(["fit", "--quiet", "--model", "cnn", "--split", "random"])
+            .args([
+                "fit",
+                "--quiet",
+                "--no-cache",
+                "--model",
+                "cnn",
+                "--split",
+                "random",
+            ])
             .args(["--checkpoint-every", "0"])
             .args([&self.path("set"), Path::new("--out"), &self.path(model)]);
         for setting in ["size=16x16", "batch=8"].iter().chain(settings) {

@@ -50,11 +50,11 @@ pub(crate) struct SplitArgs {
 
 #[derive(Debug, Args)]
 pub(crate) struct CacheArgs {
-    /// Where finished stages of simulated studies, features, fits and predictions are found and kept [default: taceva in the user's cache
-    /// folder]
+    /// Where what was made before is found and kept: features of frames, and of a run its simulated recordings, models and predictions
+    /// [default: taceva in the user's cache folder]
     #[arg(long, value_name = "DIR", conflicts_with = "no_cache")]
     pub(crate) cache: Option<PathBuf>,
-    /// Carry out every stage, and keep none
+    /// Make everything anew, and keep nothing
     #[arg(long)]
     pub(crate) no_cache: bool,
 }

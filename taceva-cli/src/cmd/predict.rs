@@ -1,5 +1,7 @@
 //! `taceva predict`.
 
+use std::collections::BTreeSet;
+
 use taceva_study::{Part, predict};
 
 use super::{Context, Usage, cache, open};
@@ -8,6 +10,18 @@ use crate::{exit, output};
 
 pub(crate) fn run(args: &Predict, context: &Context) -> anyhow::Result<u8> {
     output::check_free(&args.out, args.force)?;
+    let files = [
+        Some(&args.out),
+        args.truth_out.as_ref(),
+        args.deviations_out.as_ref(),
+    ];
+    let files: Vec<_> = files.into_iter().flatten().collect();
+    let distinct: BTreeSet<_> = files.iter().collect();
+    if distinct.len() < files.len() {
+        return Err(Usage::error(
+            "two of --out, --truth-out and --deviations-out name one file",
+        ));
+    }
     for path in args.truth_out.iter().chain(&args.deviations_out) {
         output::check_free(path, args.force)?;
     }

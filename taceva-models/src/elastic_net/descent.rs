@@ -2,7 +2,7 @@
 
 use taceva_core::{ModelError, Progress};
 
-use super::form::{Form, Rest};
+use super::predictors::{Predictors, Residual, Target};
 use crate::progress::interrupted;
 
 /// What weights cost.
@@ -21,16 +21,17 @@ const SWEEPS: usize = 1000;
 /// the reference.
 const ENOUGH: f64 = 3e-4;
 
-/// The weights at each strength; `labels` are the centred y of the samples of `form`, `products` Xᵀy.
+/// The weights at each strength.
 ///
 /// The strongest penalty comes first and every other starts from the weights before it. A strength ends where no weight of a
 /// sweep changes predictions by more than three ten-thousandths of the typical label, or after 1,000 sweeps.
 pub(super) fn path(
-    form: &Form,
-    (labels, products): (&[f64], &[f64]),
+    predictors: &Predictors,
+    target: Target<'_>,
     penalty: Penalty<'_>,
     progress: &dyn Progress,
 ) -> Result<Vec<Vec<f64>>, ModelError> {
+    let products = target.products;
     let width = products.len();
     let largest = products
         .iter()
@@ -40,7 +41,7 @@ pub(super) fn path(
     // What a weight that explained a channel alone would change: the unit of `ENOUGH`.
     let alone = products
         .iter()
-        .zip(&form.squares)
+        .zip(&predictors.squares)
         .filter(|(_, square)| **square > 0.0);
     let unit = alone.fold(0.0_f64, |most, (product, square)| {
         most.max(product.abs() / square.sqrt())
@@ -49,24 +50,24 @@ pub(super) fn path(
         // λn α = strength × the largest product.
         let size = strength * largest;
         let square = size * (1.0 - penalty.mix) / penalty.mix;
-        let mut rest = Rest::new(form, (labels, products), &weights);
+        let mut residual = Residual::new(predictors, target, &weights);
         let mut active: Vec<usize> = Vec::new();
         let mut whole = true;
         for _ in 0..SWEEPS {
             interrupted(progress)?;
             let mut change = 0.0_f64;
             let mut step = |feature: usize| {
-                let own = form.squares[feature];
+                let own = predictors.squares[feature];
                 if own <= 0.0 {
                     return;
                 }
                 let before = weights[feature];
-                let pull = rest.along(feature) + own * before;
+                let pull = residual.along(feature) + own * before;
                 let after = pull.signum() * (pull.abs() - size).max(0.0) / (own + square);
                 let moved = after - before;
                 if moved.abs() > 0.0 {
                     weights[feature] = after;
-                    rest.follow(feature, moved);
+                    residual.follow(feature, moved);
                     change = change.max(moved.abs() * own.sqrt());
                 }
             };
@@ -126,16 +127,20 @@ mod tests {
     };
 
     #[test]
-    fn every_weight_meets_the_conditions_of_the_least_in_either_form() {
+    fn every_weight_meets_the_conditions_of_the_least_in_either_layout() {
         let (features, labels) = problem(60);
         let design = Design::new(&features, FeatureScale::None);
         let products = products(&features, &design, &labels);
         let largest = products
             .iter()
             .fold(0.0_f64, |most, value| most.max(value.abs()));
-        let gram = Form::of_products(&design, &Silent).expect("not cancelled");
-        for form in [&gram, &Form::of_columns(&design)] {
-            let found = path(form, (&labels, &products), HALF, &Silent).expect("not cancelled");
+        let target = Target {
+            labels: &labels,
+            products: &products,
+        };
+        let gram = Predictors::of_products(&design, &Silent).expect("not cancelled");
+        for predictors in [&gram, &Predictors::of_columns(&design)] {
+            let found = path(predictors, target, HALF, &Silent).expect("not cancelled");
             assert!(
                 found[3]
                     .iter()
@@ -144,9 +149,9 @@ mod tests {
             assert!(found[2].iter().filter(|weight| weight.abs() > 0.0).count() < 4);
             for (strength, weights) in STRENGTHS.iter().zip(&found) {
                 let size = strength * largest;
-                let rest = Rest::new(&gram, (&labels, &products), weights);
+                let residual = Residual::new(&gram, target, weights);
                 for (feature, weight) in weights.iter().enumerate() {
-                    let gradient = rest.along(feature);
+                    let gradient = residual.along(feature);
                     // ∂/∂w = 0 where w is not; within the penalty where it is.
                     let slack = if weight.abs() > 0.0 {
                         (gradient - size * weight - size * weight.signum()).abs()
@@ -164,12 +169,14 @@ mod tests {
         let (features, labels) = problem(5);
         let design = Design::new(&features, FeatureScale::Unit);
         let products = products(&features, &design, &labels);
-        let chosen = Form::of(&design, &Silent).expect("not cancelled");
-        let [ours, other] = [
-            &chosen,
-            &Form::of_products(&design, &Silent).expect("not cancelled"),
-        ]
-        .map(|form| path(form, (&labels, &products), HALF, &Silent).expect("not cancelled"));
+        let target = Target {
+            labels: &labels,
+            products: &products,
+        };
+        let chosen = Predictors::of(&design, &Silent).expect("not cancelled");
+        let products = Predictors::of_products(&design, &Silent).expect("not cancelled");
+        let [ours, other] = [&chosen, &products]
+            .map(|predictors| path(predictors, target, HALF, &Silent).expect("not cancelled"));
         assert!(format!("{chosen:?}").contains("Columns"));
         for (ours, other) in ours.iter().flatten().zip(other.iter().flatten()) {
             assert!((ours - other).abs() < 1e-4, "{ours} against {other}");

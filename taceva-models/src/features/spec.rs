@@ -69,9 +69,9 @@ const KINDS: SettingInfo = SettingInfo {
 };
 pub(crate) const SIZE: SettingInfo = SettingInfo {
     key: "size",
-    accepts: "WIDTHxHEIGHT or one number for both, from 1 to 1024; auto where a model is fitted",
+    accepts: "WIDTHxHEIGHT or one number for both, from 1 to 1024; auto in fit, evaluate and models of scenes",
     default: "32x32, 128x96 for networks; 16x16 with markers, 8x8 with statistics",
-    about: "how many cells every frame is divided into; auto tries grids from a quarter as fine to twice as fine, and takes the coarsest that costs no accuracy",
+    about: "how many cells every frame is divided into; auto tries grids from a quarter as fine to twice as fine, and takes the coarsest whose error is within a standard error of the least",
 };
 const COLOR: SettingInfo = SettingInfo {
     key: "color",
@@ -81,7 +81,7 @@ const COLOR: SettingInfo = SettingInfo {
 };
 pub(crate) const DIFFERENCE: SettingInfo = SettingInfo {
     key: "difference",
-    accepts: "true or false; auto where a model is fitted",
+    accepts: "true or false; auto in fit, evaluate and models of scenes",
     default: "false",
     about: "whether the no-contact reference frame is subtracted from pixels and statistics; markers and gradients always compare with it",
 };

@@ -1,7 +1,7 @@
 //! By how much deviations must grow or shrink to hold what they promise.
 
-/// Within so many standard deviations lie 95 of 100 normal errors.
-const REACH: f64 = 1.959_963_984_540_054;
+/// Within so many standard deviations lie 95 % of normal errors: the quantile of 97.5 %.
+pub const NORMAL_95: f64 = 1.959_963_984_540_054;
 
 /// Errors of which 95 % can be counted.
 const ENOUGH: usize = 19;
@@ -20,7 +20,7 @@ pub(super) fn reach(mut misses: Vec<f64>) -> f64 {
     misses.sort_by(f64::total_cmp);
     // The 95 % quantile of one sample more than there are.
     let rank = ((misses.len() + 1) * 19).div_ceil(20).min(misses.len());
-    let factor = misses[rank - 1] / REACH;
+    let factor = misses[rank - 1] / NORMAL_95;
     if factor > 0.0 && factor.is_finite() {
         factor
     } else {
@@ -36,10 +36,10 @@ mod tests {
     fn nineteen_of_twenty_lie_within_what_is_told() {
         let misses: Vec<f64> = (1..=100).map(|number| -0.1 * f64::from(number)).collect();
         let factor = reach(misses.clone());
-        let inside = |miss: &&f64| miss.abs() <= factor * REACH;
+        let inside = |miss: &&f64| miss.abs() <= factor * NORMAL_95;
         assert_eq!(misses.iter().filter(inside).count(), 96);
         // One of the nineteen that there must be, and none where there is nothing to count.
-        assert!((reach(vec![3.0; 19]) - 3.0 / REACH).abs() < 1e-12);
+        assert!((reach(vec![3.0; 19]) - 3.0 / NORMAL_95).abs() < 1e-12);
         for nothing in [vec![3.0; 18], vec![0.0; 40], vec![f64::NAN; 40]] {
             assert!((reach(nothing) - 1.0).abs() < 1e-12);
         }

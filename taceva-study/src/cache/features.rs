@@ -3,20 +3,22 @@
 use std::fs::{self, File};
 use std::io;
 use std::path::Path;
-use std::time::SystemTime;
+use std::time::{Duration, SystemTime};
 
 use taceva_core::{FeatureShape, Features};
 use taceva_dataset::Dataset;
 use taceva_models::{Extractor, FeatureSpec};
 
 use super::value::Kept;
-use super::{Cache, Key, Stage};
+use super::{Cache, Key, Stage, remove};
 use crate::error::StudyError;
 
 /// What is kept of features altogether, in bytes.
 const ALL_MAX: u64 = 2 << 30;
 /// What is kept of one set of them.
 const ONE_MAX: u64 = ALL_MAX / 4;
+/// Nobody writes a result for so long.
+const ABANDONED: Duration = Duration::from_secs(24 * 60 * 60);
 
 impl Cache {
     /// The features of `rows` of `dataset` by `extractor`: those kept, or what `make` gives, which is kept from then on.
@@ -53,8 +55,23 @@ impl Cache {
         if let Some(folder) = self.entry(&key).parent() {
             // What cannot be dropped now is when the next is kept.
             drop(trim(folder, ALL_MAX));
+            drop(self.sweep());
         }
         Ok(made)
+    }
+}
+
+impl Cache {
+    /// Removes what was being written by runs that were stopped long ago.
+    fn sweep(&self) -> io::Result<()> {
+        for entry in fs::read_dir(self.partial())? {
+            let entry = entry?;
+            let age = entry.metadata()?.modified()?.elapsed();
+            if age.is_ok_and(|age| age > ABANDONED) {
+                remove(&entry.path())?;
+            }
+        }
+        Ok(())
     }
 }
 
@@ -113,7 +130,6 @@ impl Kept for Features {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use std::time::Duration;
 
     #[test]
     fn features_are_kept_with_their_shape_and_every_bit() {
@@ -128,6 +144,23 @@ mod tests {
         assert_eq!(Features::from_kept(&kept), Some(features));
         assert_eq!(Features::from_kept(&kept[..kept.len() - 4]), None);
         assert_eq!(Features::from_kept(&kept[..8]), None);
+    }
+
+    #[test]
+    fn what_a_stopped_run_left_half_written_is_swept_away_a_day_later() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let cache = Cache::new(folder.path().to_owned(), String::new());
+        fs::create_dir_all(cache.partial()).expect("created");
+        let left = |name: &str, hours: u64| {
+            let path = cache.partial().join(name);
+            let file = File::create(&path).expect("created");
+            let age = Duration::from_secs(hours * 60 * 60);
+            file.set_modified(SystemTime::now() - age).expect("dated");
+            path
+        };
+        let (fresh, old) = (left("1-1", 1), left("2-1", 25));
+        cache.sweep().expect("swept");
+        assert!(fresh.exists() && !old.exists());
     }
 
     #[test]

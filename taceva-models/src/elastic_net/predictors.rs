@@ -1,4 +1,4 @@
-//! Centred features in the form in which a step along one weight costs least.
+//! Centred features, laid out so that a step along one weight costs least.
 
 use faer::Mat;
 use taceva_core::{ModelError, Progress};
@@ -8,14 +8,14 @@ use crate::problem::invalid;
 
 /// Features X of all samples, a column a feature.
 #[derive(Debug)]
-pub(super) struct Form {
-    kept: Kept,
+pub(super) struct Predictors {
+    layout: Layout,
     /// The squared length of each column.
     pub(super) squares: Vec<f64>,
 }
 
 #[derive(Debug)]
-enum Kept {
+enum Layout {
     /// XᵀX: a step reads as many numbers as there are features.
     Gram(Mat<f64>),
     /// X: a step reads as many numbers as there are samples, twice.
@@ -25,87 +25,100 @@ enum Kept {
 /// Features that a Gram matrix is kept of: 134 MB.
 const FEATURES_MAX: usize = 4096;
 
-impl Form {
-    /// Columns where there are fewer than half as many samples as features, else products of features.
+impl Predictors {
+    /// Columns where there are fewer than half as many samples as features, or where products are more than can be kept; else products.
     ///
     /// # Errors
-    /// [`ModelError`] where products are too many to keep, or if `progress` was cancelled.
-    pub(super) fn of(design: &Design<'_>, progress: &dyn Progress) -> Result<Form, ModelError> {
+    /// [`ModelError`] where there are too many of both, or if `progress` was cancelled.
+    pub(super) fn of(
+        design: &Design<'_>,
+        progress: &dyn Progress,
+    ) -> Result<Predictors, ModelError> {
         let (samples, width) = (design.samples(), design.width());
-        if 2 * samples < width {
-            return Ok(Form::of_columns(design));
+        let is_wide = samples < width;
+        if 2 * samples < width || (is_wide && width > FEATURES_MAX) {
+            return Ok(Predictors::of_columns(design));
         }
         if width > FEATURES_MAX {
             return Err(invalid(format!(
                 "{width} features, the elastic net takes at most {FEATURES_MAX} of {samples} samples: a smaller `size` or `pca` would be accepted"
             )));
         }
-        Form::of_products(design, progress)
+        Predictors::of_products(design, progress)
     }
 
-    pub(super) fn of_columns(design: &Design<'_>) -> Form {
+    pub(super) fn of_columns(design: &Design<'_>) -> Predictors {
         let (samples, width) = (design.samples(), design.width());
         let columns = design.block(0..samples, 0..width).transpose().to_owned();
         let own = |feature| columns.col_as_slice(feature);
-        Form {
+        Predictors {
             squares: (0..width)
                 .map(|feature| dot(own(feature), own(feature)))
                 .collect(),
-            kept: Kept::Columns(columns),
+            layout: Layout::Columns(columns),
         }
     }
 
     pub(super) fn of_products(
         design: &Design<'_>,
         progress: &dyn Progress,
-    ) -> Result<Form, ModelError> {
+    ) -> Result<Predictors, ModelError> {
         let gram = feature_gram(design, progress)?;
-        Ok(Form {
+        Ok(Predictors {
             squares: (0..design.width())
                 .map(|feature| gram[(feature, feature)])
                 .collect(),
-            kept: Kept::Gram(gram),
+            layout: Layout::Gram(gram),
         })
     }
 }
 
-/// What is left of the labels y once Xw is taken from them, seen through the form: Xᵀ(y − Xw), or y − Xw itself.
+/// What is to be explained.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Target<'a> {
+    /// The centred labels y of the samples.
+    pub(super) labels: &'a [f64],
+    /// Xᵀy.
+    pub(super) products: &'a [f64],
+}
+
+/// What is left of the labels y once Xw is taken from them, seen through the layout: Xᵀ(y − Xw), or y − Xw itself.
 #[derive(Debug)]
-pub(super) struct Rest<'a> {
-    form: &'a Form,
+pub(super) struct Residual<'a> {
+    predictors: &'a Predictors,
     values: Vec<f64>,
 }
 
-impl<'a> Rest<'a> {
-    /// Formed anew: roundings of the steps before do not add up. `labels` are y, `products` Xᵀy.
+impl<'a> Residual<'a> {
+    /// Formed anew: roundings of the steps before do not add up.
     pub(super) fn new(
-        form: &'a Form,
-        (labels, products): (&[f64], &[f64]),
+        predictors: &'a Predictors,
+        target: Target<'_>,
         weights: &[f64],
-    ) -> Rest<'a> {
-        let values = match &form.kept {
-            Kept::Gram(_) => products.to_vec(),
-            Kept::Columns(_) => labels.to_vec(),
+    ) -> Residual<'a> {
+        let values = match &predictors.layout {
+            Layout::Gram(_) => target.products.to_vec(),
+            Layout::Columns(_) => target.labels.to_vec(),
         };
-        let mut rest = Rest { form, values };
+        let mut residual = Residual { predictors, values };
         let moved = weights.iter().enumerate();
         for (feature, weight) in moved.filter(|(_, weight)| weight.abs() > 0.0) {
-            rest.follow(feature, *weight);
+            residual.follow(feature, *weight);
         }
-        rest
+        residual
     }
 
     /// Its product with a feature.
     pub(super) fn along(&self, feature: usize) -> f64 {
-        match &self.form.kept {
-            Kept::Gram(_) => self.values[feature],
-            Kept::Columns(columns) => dot(columns.col_as_slice(feature), &self.values),
+        match &self.predictors.layout {
+            Layout::Gram(_) => self.values[feature],
+            Layout::Columns(columns) => dot(columns.col_as_slice(feature), &self.values),
         }
     }
 
     /// Takes in that the weight of `feature` grew by `step`.
     pub(super) fn follow(&mut self, feature: usize, step: f64) {
-        let (Kept::Gram(columns) | Kept::Columns(columns)) = &self.form.kept;
+        let (Layout::Gram(columns) | Layout::Columns(columns)) = &self.predictors.layout;
         let places = self.values.iter_mut().zip(columns.col_as_slice(feature));
         places.for_each(|(place, value)| *place -= step * value);
     }
