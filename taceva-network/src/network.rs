@@ -191,7 +191,8 @@ impl Network {
         for position in 0..self.stages.len() {
             let (before, rest) = space.stages.split_at_mut(position);
             let input = before.last().map_or(&space.input, StageSpace::output);
-            self.stages[position].forward(self.machine, &mut rest[0], (input, count));
+            let (stage, scratch) = (&mut self.stages[position], &mut space.scratch);
+            stage.forward(self.machine, &mut rest[0], (input, count), scratch);
         }
         let last = space.stages.last().expect("an architecture has stages");
         self.head.see((last.output(), count), &mut space.features);

@@ -133,16 +133,14 @@ impl Normed {
             scratch,
             update,
         } = back;
+        let room = &mut scratch.weights[..self.weights.values().len()];
         if let (Some(pass), Some(into)) = (&space.input_gradient, into) {
-            let exchanged = &mut scratch.exchanged;
-            pass.run(*machine, &self.weights, (gradient, *count), exchanged, into);
+            pass.run(*machine, &self.weights, (gradient, *count), room, into);
         }
-        let length = self.weights.values().len();
-        let into = &mut scratch.weight_gradient[..length];
         space
             .weight_gradient
-            .run(*machine, input, gradient, *count, into);
-        update.update(self.slot, self.weights.values_mut(), into);
+            .run(*machine, input, gradient, *count, room);
+        update.update(self.slot, self.weights.values_mut(), room);
     }
 
     /// The weights with the running moments worked in, and the bias that is left.

@@ -118,6 +118,31 @@ impl Planes {
         Planes { layout, values }
     }
 
+    /// `batch` pictures of anything with a border of zeros, in `room`, which may be longer.
+    pub(crate) fn within(room: Aligned, layout: Layout, batch: usize) -> Planes {
+        let mut planes = Planes {
+            layout,
+            values: room,
+        };
+        let (row, border) = (layout.row(), layout.border * layout.picture.channels);
+        for image in planes.first_mut(batch).chunks_exact_mut(layout.len()) {
+            let last = image.len() - layout.border * row;
+            image[..layout.border * row].fill(0.0);
+            image[last..].fill(0.0);
+            for row in image[layout.border * row..last].chunks_exact_mut(row) {
+                let right = row.len() - border;
+                row[..border].fill(0.0);
+                row[right..].fill(0.0);
+            }
+        }
+        planes
+    }
+
+    /// The room that they lay in.
+    pub(crate) fn into_room(self) -> Aligned {
+        self.values
+    }
+
     pub(crate) fn layout(&self) -> Layout {
         self.layout
     }
