@@ -3,9 +3,11 @@
 
 mod backward;
 mod forward;
+mod greatest;
 
 pub(crate) use backward::{Pooled, gradient_sums, input_gradient};
-pub(crate) use forward::{pool, pool_normalised};
+pub(crate) use forward::pool_normalised;
+pub(crate) use greatest::pool;
 
 use crate::planes::Picture;
 

@@ -179,7 +179,7 @@ impl Network {
             stages,
             features: Vec::new(),
             outputs: Vec::new(),
-            scratch: Scratch::new(batch, largest.unwrap_or(0)),
+            scratch: Scratch::new(largest.unwrap_or(0)),
         }
     }
 
@@ -217,10 +217,10 @@ impl Network {
             scratch,
             ..
         } = space;
-        let last = stages.last().expect("an architecture has stages");
-        let mut passed = scratch.take(last.output().layout().picture, 0);
-        self.head.backward(features, gradient, &mut passed, update);
         let count = gradient.len() / self.head.outputs();
+        let last = stages.last().expect("an architecture has stages");
+        let mut passed = scratch.take(last.output().layout().bare(), count);
+        self.head.backward(features, gradient, &mut passed, update);
         let mut back = Back {
             machine: self.machine,
             count,

@@ -81,6 +81,11 @@ pub(crate) struct Layout {
 }
 
 impl Layout {
+    /// The same pictures without a border.
+    pub(crate) const fn bare(self) -> Layout {
+        Layout { border: 0, ..self }
+    }
+
     /// Numbers a row, border included.
     pub(crate) const fn row(&self) -> usize {
         (self.picture.width + 2 * self.border) * self.picture.channels
@@ -118,14 +123,14 @@ impl Planes {
         Planes { layout, values }
     }
 
-    /// `batch` pictures of anything with a border of zeros, in `room`, which may be longer.
-    pub(crate) fn within(room: Aligned, layout: Layout, batch: usize) -> Planes {
+    /// `count` pictures of anything with a border of zeros, in `room`, which may be longer.
+    pub(crate) fn within(room: Aligned, layout: Layout, count: usize) -> Planes {
         let mut planes = Planes {
             layout,
             values: room,
         };
         let (row, border) = (layout.row(), layout.border * layout.picture.channels);
-        for image in planes.first_mut(batch).chunks_exact_mut(layout.len()) {
+        for image in planes.first_mut(count).chunks_exact_mut(layout.len()) {
             let last = image.len() - layout.border * row;
             image[..layout.border * row].fill(0.0);
             image[last..].fill(0.0);
@@ -149,7 +154,12 @@ impl Planes {
 
     /// The first `count` pictures, borders included.
     pub(crate) fn first(&self, count: usize) -> &[f32] {
-        &self.values[..count * self.layout.len()]
+        self.from(0, count)
+    }
+
+    /// `count` pictures from picture `first` on, borders included.
+    pub(crate) fn from(&self, first: usize, count: usize) -> &[f32] {
+        &self.values[first * self.layout.len()..][..count * self.layout.len()]
     }
 
     /// The first `count` pictures, borders included; whoever writes leaves the borders zero.

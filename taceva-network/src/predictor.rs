@@ -9,6 +9,7 @@ use crate::max_pool;
 use crate::network::Network;
 use crate::normed::Normed;
 use crate::planes::{Layout, Picture, Planes};
+use crate::scratch::Scratch;
 use crate::stage::Stage;
 
 /// A network ready to predict, and the room that it needs.
@@ -17,6 +18,7 @@ pub struct Predictor {
     machine: Machine,
     input: Planes,
     stages: Vec<Folded>,
+    scratch: Scratch,
     head: Head,
     features: Vec<f32>,
     outputs: Vec<f64>,
@@ -32,13 +34,14 @@ struct Layer {
     weights: ConvolutionWeights,
     bias: crate::panel::Aligned,
     forward: Forward,
-    output: Planes,
+    output: Layout,
 }
 
 /// A part of the network.
 #[derive(Debug)]
 enum Folded {
-    Stem(Layer, Planes),
+    /// A convolution, and how what is pooled of it lies.
+    Stem(Layer, Layout),
     Plain(Layer),
     Block(Box<FoldedBlock>),
 }
@@ -68,7 +71,7 @@ impl Network {
             // At least one even behind the last, so that a block's output lies as its input does.
             let next = plans.get(position + 1);
             let border = next.map_or(1, |next| next.input_layout(output).border);
-            stages.push(Folded::new(stage, layout, border, batch));
+            stages.push(Folded::new(stage, layout, border));
             layout = Layout {
                 picture: output,
                 border,
@@ -78,6 +81,7 @@ impl Network {
             machine: self.machine,
             input,
             stages,
+            scratch: Scratch::new(0),
             head: self.head.clone(),
             features: Vec::new(),
             outputs: Vec::new(),
@@ -118,72 +122,76 @@ impl Predictor {
 
     /// The outputs of the first `count` pictures of the input.
     fn pass(&mut self, count: usize) -> &[f64] {
-        let machine = self.machine;
-        for position in 0..self.stages.len() {
-            let (before, rest) = self.stages.split_at_mut(position);
-            let input = before.last().map_or(&self.input, Folded::output);
-            rest[0].pass(machine, (input, count));
+        let mut seen: Option<Planes> = None;
+        for stage in &self.stages {
+            let pass = Pass {
+                machine: self.machine,
+                input: seen.as_ref().unwrap_or(&self.input),
+                count,
+            };
+            let output = stage.pass(pass, &mut self.scratch);
+            if let Some(passed) = seen.replace(output) {
+                self.scratch.put(passed);
+            }
         }
-        let last = self.stages.last().expect("an architecture has stages");
-        self.head.see((last.output(), count), &mut self.features);
+        let last = seen.expect("an architecture has stages");
+        self.head.see((&last, count), &mut self.features);
+        self.scratch.put(last);
         self.head.forward(&self.features, &mut self.outputs);
         &self.outputs
     }
 }
 
+/// What a part passes on.
+#[derive(Clone, Copy)]
+struct Pass<'a> {
+    machine: Machine,
+    input: &'a Planes,
+    /// How many pictures.
+    count: usize,
+}
+
 impl Folded {
-    fn new(stage: &Stage, input: Layout, border: usize, batch: usize) -> Folded {
+    fn new(stage: &Stage, input: Layout, border: usize) -> Folded {
         match stage {
             Stage::Stem(normed) => {
-                let layer = Layer::new(normed, input, 0, batch);
-                let pooled = max_pool::output(layer.output.layout().picture);
-                Folded::Stem(layer, Planes::zeros(pooled, border, batch))
+                let layer = Layer::new(normed, input, 0);
+                let picture = max_pool::output(layer.output.picture);
+                Folded::Stem(layer, Layout { picture, border })
             }
-            Stage::Plain(normed) => Folded::Plain(Layer::new(normed, input, border, batch)),
+            Stage::Plain(normed) => Folded::Plain(Layer::new(normed, input, border)),
             Stage::Block(block) => {
-                let first = Layer::new(&block.first, input, 1, batch);
-                let middle = first.output.layout();
+                let first = Layer::new(&block.first, input, 1);
                 // What leads past lies as the output does, so that the two can be added.
                 let past = block.shortcut.as_ref();
                 Folded::Block(Box::new(FoldedBlock {
-                    second: Layer::new(&block.second, middle, border, batch),
-                    shortcut: past.map(|past| Layer::new(past, input, border, batch)),
+                    second: Layer::new(&block.second, first.output, border),
+                    shortcut: past.map(|past| Layer::new(past, input, border)),
                     first,
                 }))
             }
         }
     }
 
-    fn output(&self) -> &Planes {
+    /// Passes pictures on, into room of `scratch`.
+    fn pass(&self, pass: Pass<'_>, scratch: &mut Scratch) -> Planes {
         match self {
-            Folded::Stem(_, output) => output,
-            Folded::Plain(layer) => &layer.output,
-            Folded::Block(block) => &block.second.output,
-        }
-    }
-
-    fn pass(&mut self, machine: Machine, input: (&Planes, usize)) {
-        match self {
-            Folded::Stem(layer, pooled) => {
-                layer.pass(machine, input, Ending::Relu);
-                max_pool::pool(machine, (&layer.output, input.1), pooled);
-            }
-            Folded::Plain(layer) => layer.pass(machine, input, Ending::Relu),
+            Folded::Stem(layer, pooled) => layer.pass_pooled(pass, *pooled, scratch),
+            Folded::Plain(layer) => layer.pass(pass, Ending::Relu, scratch),
             Folded::Block(block) => {
-                let FoldedBlock {
-                    first,
-                    second,
-                    shortcut,
-                } = &mut **block;
-                first.pass(machine, input, Ending::Relu);
-                let past = match shortcut {
-                    Some(layer) => {
-                        layer.pass(machine, input, Ending::Keep);
-                        &layer.output
-                    }
-                    None => input.0,
+                let middle = block.first.pass(pass, Ending::Relu, scratch);
+                let layer = block.shortcut.as_ref();
+                let past = layer.map(|layer| layer.pass(pass, Ending::Keep, scratch));
+                let ending = Ending::AddThenRelu(past.as_ref().unwrap_or(pass.input));
+                let second = Pass {
+                    input: &middle,
+                    ..pass
                 };
-                second.pass(machine, (&first.output, input.1), Ending::AddThenRelu(past));
+                let output = block.second.pass(second, ending, scratch);
+                for passed in past.into_iter().chain([middle]) {
+                    scratch.put(passed);
+                }
+                output
             }
         }
     }
@@ -198,33 +206,66 @@ enum Ending<'a> {
 }
 
 impl Layer {
-    fn new(normed: &Normed, input: Layout, border: usize, batch: usize) -> Layer {
+    fn new(normed: &Normed, input: Layout, border: usize) -> Layer {
         let convolution = normed.convolution();
-        let output = Planes::zeros(convolution.output(input.picture), border, batch);
+        let output = Layout {
+            picture: convolution.output(input.picture),
+            border,
+        };
         let (weights, bias) = normed.fold();
-        let forward = Forward::new(convolution, input, output.layout());
         Layer {
             weights,
             bias,
-            forward,
+            forward: Forward::new(convolution, input, output),
             output,
         }
     }
 
-    fn pass(&mut self, machine: Machine, (input, count): (&Planes, usize), ending: Ending<'_>) {
-        let source = Source {
-            weights: &self.weights,
-            input,
-            count,
-        };
+    fn pass(&self, pass: Pass<'_>, ending: Ending<'_>, scratch: &mut Scratch) -> Planes {
+        let mut output = scratch.take(self.output, pass.count);
+        let source = self.source(pass, 0, pass.count);
         let epilogue = match ending {
             Ending::Keep => Epilogue::Bias(&self.bias),
             Ending::Relu => Epilogue::BiasRelu(&self.bias),
             Ending::AddThenRelu(other) => Epilogue::BiasAddRelu(&self.bias, other),
         };
         // Nobody looks at the outputs on the way.
-        let each = (&mut vec![(); count][..], |(): &mut (), _: &[f32]| {});
+        let each = (&mut vec![(); pass.count][..], |(): &mut (), _: &[f32]| {});
         self.forward
-            .run(machine, source, &mut self.output, epilogue, each);
+            .run(pass.machine, source, &mut output, epilogue, each);
+        output
+    }
+
+    /// Passes a few pictures at a time and pools each while it is in a cache: what lies between is the largest of a network, and
+    /// never needed whole.
+    fn pass_pooled(&self, pass: Pass<'_>, layout: Layout, scratch: &mut Scratch) -> Planes {
+        let machine = pass.machine;
+        let at_once = rayon::current_num_threads().min(pass.count);
+        let mut pooled = scratch.take(layout, pass.count);
+        let mut raw = scratch.take(self.output, at_once);
+        let mut images: Vec<&mut [f32]> = pooled
+            .first_mut(pass.count)
+            .chunks_exact_mut(layout.len())
+            .collect();
+        for (group, images) in images.chunks_mut(at_once).enumerate() {
+            let source = self.source(pass, group * at_once, images.len());
+            let pool = |into: &mut &mut [f32], raw: &[f32]| {
+                max_pool::pool(machine, (raw, self.output), (into, layout));
+            };
+            let epilogue = Epilogue::BiasRelu(&self.bias);
+            self.forward
+                .run(machine, source, &mut raw, epilogue, (images, pool));
+        }
+        scratch.put(raw);
+        pooled
+    }
+
+    fn source<'a>(&'a self, pass: Pass<'a>, first: usize, count: usize) -> Source<'a> {
+        Source {
+            weights: &self.weights,
+            input: pass.input,
+            first,
+            count,
+        }
     }
 }

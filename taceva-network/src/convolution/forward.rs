@@ -27,6 +27,8 @@ pub(crate) struct Forward {
 pub(crate) struct Source<'a> {
     pub(crate) weights: &'a ConvolutionWeights,
     pub(crate) input: &'a Planes,
+    /// The first picture that is read.
+    pub(crate) first: usize,
     /// How many pictures.
     pub(crate) count: usize,
 }
@@ -68,7 +70,7 @@ impl Forward {
         }
     }
 
-    /// Runs it; `each` of a picture sees its output while that is still in a cache.
+    /// Runs it, into the first pictures of `output`; `each` of a picture sees its output while that is still in a cache.
     pub(crate) fn run<E: Send>(
         &self,
         machine: Machine,
@@ -84,7 +86,8 @@ impl Forward {
         let are_many = are_weights_many(self.rows, panels);
         let group = images_at_once(self.pixels.len(), count, are_many);
         let (each, see) = each;
-        let inputs = source.input.first(count).par_chunks(group * input_image);
+        let inputs = source.input.from(source.first, count);
+        let inputs = inputs.par_chunks(group * input_image);
         let outputs = output.first_mut(count).par_chunks_mut(group * output_image);
         let groups = outputs.zip(inputs).zip(each.par_chunks_mut(group));
         groups

@@ -147,6 +147,7 @@ fn passes(case: &Case, machine: Machine) -> [Vec<f32>; 3] {
         Source {
             weights: &weights,
             input: &pictures,
+            first: 0,
             count: batch,
         },
         &mut outputs,
@@ -292,6 +293,7 @@ fn epilogues_add_bias_and_pictures_and_cut_at_zero() {
                 Source {
                     weights: &weights,
                     input: &pictures,
+                    first: 0,
                     count: batch,
                 },
                 &mut outputs,

@@ -40,14 +40,6 @@ pub(crate) fn pool_normalised(
         });
 }
 
-/// Pools the first `count` pictures, none of whose numbers is below zero.
-pub(crate) fn pool(machine: Machine, (pictures, count): (&Planes, usize), into: &mut Planes) {
-    let mut identity = Moments::zeros(pictures.layout().picture.channels);
-    identity.scale.fill(1.0);
-    let mut choices = vec![0; into.layout().picture.len() * count];
-    pool_normalised(machine, (pictures, count), &identity, into, &mut choices);
-}
-
 /// One picture.
 struct Pool<'a> {
     raw: &'a [f32],

@@ -5,11 +5,8 @@ use crate::batch_norm::{Gate, Shortcut, apply};
 use crate::convolution::{Convolution, Onto};
 use crate::machine::Machine;
 use crate::normed::{Back, Normed, NormedSpace};
-use crate::planes::{Layout, Picture, Planes};
+use crate::planes::{Layout, Planes};
 use crate::scratch::Scratch;
-
-/// Zeros around the pictures that the second convolution reads.
-const MIDDLE_BORDER: usize = 1;
 
 /// The weights of a block.
 #[derive(Clone, Debug)]
@@ -27,7 +24,10 @@ pub(crate) struct BlockSpace {
     second: NormedSpace,
     shortcut: Option<NormedSpace>,
     pub(crate) output: Planes,
-    input: Picture,
+    /// How what the second convolution reads lies.
+    middle: Layout,
+    /// How the gradient of the input lies.
+    input: Layout,
 }
 
 impl Block {
@@ -84,17 +84,15 @@ impl BlockSpace {
             ..
         } = standing;
         let picture = block.first.convolution().output(input.picture);
-        let middle = Layout {
-            picture,
-            border: MIDDLE_BORDER,
-        };
+        let middle = Layout { picture, border: 1 };
         let past = block.shortcut.as_ref().map(Normed::convolution);
         BlockSpace {
             first: NormedSpace::new(block.first.convolution(), input, batch, true),
             second: NormedSpace::new(block.second.convolution(), middle, batch, true),
             shortcut: past.map(|past| NormedSpace::new(past, input, batch, true)),
             output: Planes::zeros(picture, border, batch),
-            input: input.picture,
+            middle,
+            input: input.bare(),
         }
     }
 
@@ -102,7 +100,7 @@ impl BlockSpace {
     /// hundredth of the time that the convolution took.
     fn middle(&self, machine: Machine, count: usize, scratch: &mut Scratch) -> Planes {
         let raw = &self.first.raw;
-        let mut middle = scratch.take(raw.layout().picture, MIDDLE_BORDER);
+        let mut middle = scratch.take(self.middle, count);
         let nothing = Shortcut::Nothing;
         apply(
             machine,
@@ -156,7 +154,7 @@ impl BlockSpace {
             .second
             .norm_backward(&mut self.second, cut, &mut gradient, back);
         let middle = self.middle(back.machine, back.count, back.scratch);
-        let mut inner = back.scratch.take(middle.layout().picture, 0);
+        let mut inner = back.scratch.take(self.middle.bare(), back.count);
         let into = Some((&mut inner, Onto::Nothing));
         block
             .second
@@ -171,7 +169,7 @@ impl BlockSpace {
         back.scratch.put(inner);
         match (&mut block.shortcut, &mut self.shortcut) {
             (Some(past), Some(space)) => {
-                let mut passed = back.scratch.take(self.input, 0);
+                let mut passed = back.scratch.take(self.input, back.count);
                 let into = Some((&mut passed, Onto::Nothing));
                 block
                     .first
