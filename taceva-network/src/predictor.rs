@@ -18,6 +18,8 @@ pub struct Predictor {
     machine: Machine,
     input: Planes,
     stages: Vec<Folded>,
+    /// How many of them are passed by a few pictures at a time.
+    light: usize,
     scratch: Scratch,
     head: Head,
     features: Vec<f32>,
@@ -27,6 +29,15 @@ pub struct Predictor {
 
 /// Pictures that are passed at once.
 const BATCH: usize = 32;
+
+/// Bytes of pictures between two parts that stay in a thread's second-level cache beside those that they are made of.
+const PICTURES_IN_CACHE: usize = 256 << 10;
+
+/// Bytes of weights that stay there too.
+const WEIGHTS_IN_CACHE: usize = 256 << 10;
+
+/// Pixels of a picture that are enough to be worth reading the weights for.
+const PIXELS_WORTH_WEIGHTS: usize = 128;
 
 /// One convolution with a bias.
 #[derive(Debug)]
@@ -80,6 +91,7 @@ impl Network {
         Predictor {
             machine: self.machine,
             input,
+            light: stages.iter().take_while(|stage| stage.is_light()).count(),
             stages,
             scratch: Scratch::new(0),
             head: self.head.clone(),
@@ -122,24 +134,70 @@ impl Predictor {
 
     /// The outputs of the first `count` pictures of the input.
     fn pass(&mut self, count: usize) -> &[f64] {
-        let mut seen: Option<Planes> = None;
-        for stage in &self.stages {
-            let pass = Pass {
-                machine: self.machine,
-                input: seen.as_ref().unwrap_or(&self.input),
-                count,
-            };
-            let output = stage.pass(pass, &mut self.scratch);
-            if let Some(passed) = seen.replace(output) {
-                self.scratch.put(passed);
-            }
+        let (light, heavy) = self.stages.split_at(self.light);
+        let pass = Pass {
+            machine: self.machine,
+            input: &self.input,
+            first: 0,
+            count,
+        };
+        let scratch = &mut self.scratch;
+        let halfway = (!light.is_empty()).then(|| pass_few_at_a_time(light, pass, scratch));
+        let input = halfway.as_ref().unwrap_or(&self.input);
+        let seen = pass_all(heavy, Pass { input, ..pass }, scratch);
+        let last = seen.as_ref().unwrap_or(input);
+        self.head.see((last, count), &mut self.features);
+        for passed in seen.into_iter().chain(halfway) {
+            scratch.put(passed);
         }
-        let last = seen.expect("an architecture has stages");
-        self.head.see((&last, count), &mut self.features);
-        self.scratch.put(last);
         self.head.forward(&self.features, &mut self.outputs);
         &self.outputs
     }
+}
+
+/// Passes pictures through `stages`, all through one and then all through the next; nothing where there are none.
+fn pass_all(stages: &[Folded], pass: Pass<'_>, scratch: &mut Scratch) -> Option<Planes> {
+    let mut seen: Option<Planes> = None;
+    for stage in stages {
+        let pass = match &seen {
+            None => pass,
+            Some(input) => Pass {
+                input,
+                first: 0,
+                ..pass
+            },
+        };
+        let output = stage.pass(pass, scratch);
+        if let Some(passed) = seen.replace(output) {
+            scratch.put(passed);
+        }
+    }
+    seen
+}
+
+/// Passes pictures through `stages`, a few through all of them and then the next few: what lies between large pictures and few weights
+/// never leaves a cache.
+fn pass_few_at_a_time(stages: &[Folded], pass: Pass<'_>, scratch: &mut Scratch) -> Planes {
+    let layout = stages.last().map_or(pass.input.layout(), Folded::output);
+    let few = (PICTURES_IN_CACHE / (layout.len() * size_of::<f32>())).max(1);
+    let few = few * rayon::current_num_threads();
+    let mut all = scratch.take(layout, pass.count);
+    let groups = all
+        .first_mut(pass.count)
+        .chunks_mut(few * layout.len())
+        .enumerate();
+    for (group, into) in groups {
+        let pass = Pass {
+            first: group * few,
+            count: into.len() / layout.len(),
+            ..pass
+        };
+        if let Some(seen) = pass_all(stages, pass, scratch) {
+            into.copy_from_slice(seen.first(pass.count));
+            scratch.put(seen);
+        }
+    }
+    all
 }
 
 /// What a part passes on.
@@ -147,6 +205,8 @@ impl Predictor {
 struct Pass<'a> {
     machine: Machine,
     input: &'a Planes,
+    /// The first picture of the input.
+    first: usize,
     /// How many pictures.
     count: usize,
 }
@@ -173,6 +233,23 @@ impl Folded {
         }
     }
 
+    /// How what it gives lies.
+    fn output(&self) -> Layout {
+        match self {
+            Folded::Stem(_, pooled) => *pooled,
+            Folded::Plain(layer) => layer.output,
+            Folded::Block(block) => block.second.output,
+        }
+    }
+
+    /// Whether its weights are few and its pictures large.
+    fn is_light(&self) -> bool {
+        match self {
+            Folded::Stem(layer, _) | Folded::Plain(layer) => layer.is_light(),
+            Folded::Block(block) => block.first.is_light() && block.second.is_light(),
+        }
+    }
+
     /// Passes pictures on, into room of `scratch`.
     fn pass(&self, pass: Pass<'_>, scratch: &mut Scratch) -> Planes {
         match self {
@@ -182,9 +259,14 @@ impl Folded {
                 let middle = block.first.pass(pass, Ending::Relu, scratch);
                 let layer = block.shortcut.as_ref();
                 let past = layer.map(|layer| layer.pass(pass, Ending::Keep, scratch));
-                let ending = Ending::AddThenRelu(past.as_ref().unwrap_or(pass.input));
+                let past_pictures = match &past {
+                    Some(past) => past.first(pass.count),
+                    None => pass.input.from(pass.first, pass.count),
+                };
+                let ending = Ending::AddThenRelu(past_pictures);
                 let second = Pass {
                     input: &middle,
+                    first: 0,
                     ..pass
                 };
                 let output = block.second.pass(second, ending, scratch);
@@ -202,7 +284,8 @@ impl Folded {
 enum Ending<'a> {
     Keep,
     Relu,
-    AddThenRelu(&'a Planes),
+    /// These pictures lie as the output does.
+    AddThenRelu(&'a [f32]),
 }
 
 impl Layer {
@@ -223,7 +306,7 @@ impl Layer {
 
     fn pass(&self, pass: Pass<'_>, ending: Ending<'_>, scratch: &mut Scratch) -> Planes {
         let mut output = scratch.take(self.output, pass.count);
-        let source = self.source(pass, 0, pass.count);
+        let source = self.source(pass);
         let epilogue = match ending {
             Ending::Keep => Epilogue::Bias(&self.bias),
             Ending::Relu => Epilogue::BiasRelu(&self.bias),
@@ -236,36 +319,71 @@ impl Layer {
         output
     }
 
-    /// Passes a few pictures at a time and pools each while it is in a cache: what lies between is the largest of a network, and
-    /// never needed whole.
+    /// Pools each picture while it is in a cache.
     fn pass_pooled(&self, pass: Pass<'_>, layout: Layout, scratch: &mut Scratch) -> Planes {
-        let machine = pass.machine;
-        let at_once = rayon::current_num_threads().min(pass.count);
-        let mut pooled = scratch.take(layout, pass.count);
-        let mut raw = scratch.take(self.output, at_once);
-        let mut images: Vec<&mut [f32]> = pooled
-            .first_mut(pass.count)
-            .chunks_exact_mut(layout.len())
-            .collect();
-        for (group, images) in images.chunks_mut(at_once).enumerate() {
-            let source = self.source(pass, group * at_once, images.len());
-            let pool = |into: &mut &mut [f32], raw: &[f32]| {
-                max_pool::pool(machine, (raw, self.output), (into, layout));
-            };
-            let epilogue = Epilogue::BiasRelu(&self.bias);
-            self.forward
-                .run(machine, source, &mut raw, epilogue, (images, pool));
-        }
+        let (machine, count) = (pass.machine, pass.count);
+        let mut raw = scratch.take(self.output, count);
+        let mut pooled = scratch.take(layout, count);
+        let images = pooled.first_mut(count).chunks_exact_mut(layout.len());
+        let mut images: Vec<&mut [f32]> = images.collect();
+        let pool = |into: &mut &mut [f32], raw: &[f32]| {
+            max_pool::pool(machine, (raw, self.output), (into, layout));
+        };
+        let (source, epilogue) = (self.source(pass), Epilogue::BiasRelu(&self.bias));
+        self.forward
+            .run(machine, source, &mut raw, epilogue, (&mut images, pool));
         scratch.put(raw);
         pooled
     }
 
-    fn source<'a>(&'a self, pass: Pass<'a>, first: usize, count: usize) -> Source<'a> {
+    fn source<'a>(&'a self, pass: Pass<'a>) -> Source<'a> {
         Source {
             weights: &self.weights,
             input: pass.input,
-            first,
-            count,
+            first: pass.first,
+            count: pass.count,
         }
+    }
+
+    /// Whether its weights are few and its pictures large.
+    fn is_light(&self) -> bool {
+        size_of_val(self.weights.values()) <= WEIGHTS_IN_CACHE
+            && self.output.picture.pixels() >= PIXELS_WORTH_WEIGHTS
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::architecture::{Architecture, Depth};
+
+    #[test]
+    fn pictures_that_pass_a_few_at_a_time_are_predicted_as_each_alone() {
+        let input = Picture {
+            height: 48,
+            width: 44,
+            channels: 3,
+        };
+        let architecture = Architecture::residual(Depth::Ten, input, 2);
+        let mut predictor = Network::new(&architecture, 1)
+            .expect("a network")
+            .predictor();
+        let few = PICTURES_IN_CACHE / (predictor.stages[1].output().len() * size_of::<f32>());
+        assert_eq!(predictor.light, 2, "the stem and the first block");
+        assert!((2..8).contains(&few), "{few} at a time");
+        let pictures: Vec<f32> = (0_u16..)
+            .map(|at| f32::from(at % 251) / 251.0)
+            .take(8 * input.len())
+            .collect();
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build();
+        pool.expect("a thread").install(|| {
+            let (mut all, mut alone) = ([0.0; 16], [0.0; 16]);
+            predictor.predict(&pictures, &mut all).expect("finite");
+            let each = pictures.chunks_exact(input.len());
+            for (picture, into) in each.zip(alone.chunks_exact_mut(2)) {
+                predictor.predict(picture, into).expect("finite");
+            }
+            assert_eq!(all.map(f64::to_bits), alone.map(f64::to_bits));
+        });
     }
 }

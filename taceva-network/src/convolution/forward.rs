@@ -40,8 +40,8 @@ pub(crate) enum Epilogue<'a> {
     Raw,
     /// A bias, and zero below zero.
     BiasRelu(&'a [f32]),
-    /// A bias, pictures that lie as the output does, and zero below zero.
-    BiasAddRelu(&'a [f32], &'a Planes),
+    /// A bias, as many pictures that lie as the output does, and zero below zero.
+    BiasAddRelu(&'a [f32], &'a [f32]),
     /// A bias alone.
     Bias(&'a [f32]),
 }
@@ -99,12 +99,7 @@ impl Forward {
                     Epilogue::Bias(bias) => (Start::Bias(bias), Finish::Keep),
                     Epilogue::BiasRelu(bias) => (Start::Bias(bias), Finish::Relu),
                     Epilogue::BiasAddRelu(bias, other) => {
-                        assert_eq!(
-                            other.layout(),
-                            layout,
-                            "what is added lies as the output does"
-                        );
-                        let other = &other.first(count)[start..][..output.len()];
+                        let other = &other[start..][..output.len()];
                         (Start::Bias(bias), Finish::AddThenRelu(other))
                     }
                 };

@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 
-use super::{KERNEL, window, windows};
+use super::{PLACES, place, window, windows};
 use crate::batch_norm::{ChannelSums, GradientSums, Moments};
 use crate::machine::Machine;
 use crate::panel::PANEL;
@@ -120,6 +120,8 @@ impl Job for Sums<'_> {
             .chunks_exact_mut(row);
         for (y, (choices, gradients)) in choices.zip(gradients).enumerate() {
             let output = self.output[self.layout.row_range(y)].as_chunks::<PANEL>().0;
+            let lines = window(y, self.from.picture.height)
+                .map(|y| self.raw[self.from.row_range(y)].as_chunks::<PANEL>().0);
             for panel in 0..panels {
                 let (mut sum, mut product) = ([0.0_f32; PANEL], [0.0_f32; PANEL]);
                 for x in 0..self.layout.picture.width {
@@ -131,10 +133,9 @@ impl Job for Sums<'_> {
                     }
                     let chosen = choices[at].map(u32::from);
                     let mut value = [0.0_f32; PANEL];
-                    for (row, from_y) in window(y, self.from.picture.height) {
-                        let start = self.from.start_of_row(from_y);
-                        let (line, _) = self.raw[start..].as_chunks::<PANEL>();
-                        for (column, from_x) in window(x, self.from.picture.width) {
+                    let columns = window(x, self.from.picture.width);
+                    for (row, line) in PLACES.into_iter().zip(lines) {
+                        for (column, from_x) in PLACES.into_iter().zip(columns) {
                             let raw = &line[from_x * panels + panel];
                             let place = place(row, column);
                             for lane in 0..PANEL {
@@ -185,13 +186,15 @@ impl Job for Apply<'_> {
         let (gradient, _) = self.gradient.as_chunks::<PANEL>();
         let (input, output) = (self.from.picture, self.layout.picture);
         for y in 0..input.height {
+            let rows = windows(y, output.height);
             let range = self.from.row_range(y);
             let (row_of_raw, _) = self.raw[range].as_chunks_mut::<PANEL>();
             for x in 0..input.width {
+                let columns = windows(x, output.width);
                 for panel in 0..panels {
                     let mut passed = [0.0_f32; PANEL];
-                    for (row, window_y) in windows(y, output.height) {
-                        for (column, window_x) in windows(x, output.width) {
+                    for (row, window_y) in rows {
+                        for (column, window_x) in columns {
                             let at = (window_y * output.width + window_x) * panels + panel;
                             let (chosen, place) = (choices[at].map(u32::from), place(row, column));
                             for lane in 0..PANEL {
@@ -210,11 +213,4 @@ impl Job for Apply<'_> {
             }
         }
     }
-}
-
-/// The number of a place in a window.
-#[inline(always)]
-#[expect(clippy::cast_possible_truncation, reason = "one of nine places")]
-fn place(row: usize, column: usize) -> u32 {
-    (row * KERNEL + column) as u32
 }

@@ -1,6 +1,6 @@
 //! Pooling alone, in prediction: of one picture, while that is still in a cache.
 
-use super::STRIDE;
+use super::window;
 use crate::machine::Machine;
 use crate::panel::PANEL;
 use crate::planes::Layout;
@@ -57,18 +57,6 @@ impl Job for Greatest<'_> {
             }
         }
     }
-}
-
-/// The rows (or columns) that window `position` compares, of a picture that has `length`; one beside the picture is replaced by one
-/// within it, which the window has already.
-#[inline(always)]
-fn window(position: usize, length: usize) -> [usize; 3] {
-    let middle = position * STRIDE;
-    [
-        middle.saturating_sub(1),
-        middle,
-        (middle + 1).min(length - 1),
-    ]
 }
 
 #[cfg(test)]
