@@ -179,7 +179,7 @@ impl Network {
             stages,
             features: Vec::new(),
             outputs: Vec::new(),
-            scratch: Scratch::new(batch, largest.unwrap_or(0)),
+            scratch: Scratch::new(largest.unwrap_or(0)),
         }
     }
 
@@ -191,7 +191,8 @@ impl Network {
         for position in 0..self.stages.len() {
             let (before, rest) = space.stages.split_at_mut(position);
             let input = before.last().map_or(&space.input, StageSpace::output);
-            self.stages[position].forward(self.machine, &mut rest[0], (input, count));
+            let (stage, scratch) = (&mut self.stages[position], &mut space.scratch);
+            stage.forward(self.machine, &mut rest[0], (input, count), scratch);
         }
         let last = space.stages.last().expect("an architecture has stages");
         self.head.see((last.output(), count), &mut space.features);
@@ -216,10 +217,10 @@ impl Network {
             scratch,
             ..
         } = space;
-        let last = stages.last().expect("an architecture has stages");
-        let mut passed = scratch.take(last.output().layout().picture, 0);
-        self.head.backward(features, gradient, &mut passed, update);
         let count = gradient.len() / self.head.outputs();
+        let last = stages.last().expect("an architecture has stages");
+        let mut passed = scratch.take(last.output().layout().bare(), count);
+        self.head.backward(features, gradient, &mut passed, update);
         let mut back = Back {
             machine: self.machine,
             count,

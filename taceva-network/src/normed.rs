@@ -8,7 +8,7 @@ use crate::convolution::{
 };
 use crate::machine::Machine;
 use crate::panel::{Aligned, PANEL};
-use crate::planes::{Layout, Picture, Planes};
+use crate::planes::{Layout, Planes};
 use crate::scratch::Scratch;
 use crate::update::Update;
 
@@ -37,6 +37,8 @@ pub(crate) struct NormedSpace {
     pub(crate) raw: Planes,
     pub(crate) moments: Moments,
     pub(crate) sums: Vec<ChannelSums>,
+    /// How the gradient of the convolution's output lies: with a border, where the gradient of the input reads it.
+    gradient: Layout,
     forward: Forward,
     weight_gradient: WeightGradient,
     /// None where nobody asks for the gradient of the input.
@@ -69,6 +71,7 @@ impl Normed {
         let source = Source {
             weights: &self.weights,
             input,
+            first: 0,
             count,
         };
         let measure = |sums: &mut ChannelSums, raw: &[f32]| sums.measure(machine, raw);
@@ -105,7 +108,7 @@ impl Normed {
             gradient,
             &mut space.sums,
         );
-        let mut into = space.gradient(self.convolution(), back.scratch);
+        let mut into = back.scratch.take(space.gradient, back.count);
         input_gradient(
             machine,
             raw,
@@ -133,16 +136,14 @@ impl Normed {
             scratch,
             update,
         } = back;
+        let room = &mut scratch.weights[..self.weights.values().len()];
         if let (Some(pass), Some(into)) = (&space.input_gradient, into) {
-            let exchanged = &mut scratch.exchanged;
-            pass.run(*machine, &self.weights, (gradient, *count), exchanged, into);
+            pass.run(*machine, &self.weights, (gradient, *count), room, into);
         }
-        let length = self.weights.values().len();
-        let into = &mut scratch.weight_gradient[..length];
         space
             .weight_gradient
-            .run(*machine, input, gradient, *count, into);
-        update.update(self.slot, self.weights.values_mut(), into);
+            .run(*machine, input, gradient, *count, room);
+        update.update(self.slot, self.weights.values_mut(), room);
     }
 
     /// The weights with the running moments worked in, and the bias that is left.
@@ -168,7 +169,7 @@ impl Normed {
 }
 
 impl NormedSpace {
-    /// Room for `batch` pictures of layout `input`; `gradient_border` is that of the gradients of the output.
+    /// Room for `batch` pictures of layout `input`.
     pub(crate) fn new(
         convolution: Convolution,
         input: Layout,
@@ -177,37 +178,21 @@ impl NormedSpace {
     ) -> NormedSpace {
         let picture = convolution.output(input.picture);
         let raw = Planes::zeros(picture, 0, batch);
-        let gradient = NormedSpace::gradient_layout(convolution, picture, asks_for_input_gradient);
-        let bare = Layout {
-            picture: input.picture,
-            border: 0,
-        };
-        NormedSpace {
-            forward: Forward::new(convolution, input, raw.layout()),
-            weight_gradient: WeightGradient::new(convolution, input, gradient),
-            input_gradient: asks_for_input_gradient
-                .then(|| InputGradient::new(convolution, gradient, bare)),
-            moments: Moments::zeros(picture.channels),
-            sums: vec![ChannelSums::zeros(picture.channels); batch],
-            raw,
-        }
-    }
-
-    /// How the gradient of the convolution's output lies: with a border, where the gradient of the input reads it.
-    fn gradient_layout(convolution: Convolution, picture: Picture, is_read: bool) -> Layout {
-        let border = if is_read {
+        let border = if asks_for_input_gradient {
             convolution.padding().max(1)
         } else {
             0
         };
-        Layout { picture, border }
-    }
-
-    /// Room for the gradient of the convolution's output.
-    pub(crate) fn gradient(&self, convolution: Convolution, scratch: &mut Scratch) -> Planes {
-        let picture = self.raw.layout().picture;
-        let is_read = self.input_gradient.is_some();
-        let layout = NormedSpace::gradient_layout(convolution, picture, is_read);
-        scratch.take(picture, layout.border)
+        let gradient = Layout { picture, border };
+        NormedSpace {
+            forward: Forward::new(convolution, input, raw.layout()),
+            weight_gradient: WeightGradient::new(convolution, input, gradient),
+            input_gradient: asks_for_input_gradient
+                .then(|| InputGradient::new(convolution, gradient, input.bare())),
+            gradient,
+            moments: Moments::zeros(picture.channels),
+            sums: vec![ChannelSums::zeros(picture.channels); batch],
+            raw,
+        }
     }
 }

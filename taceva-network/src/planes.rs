@@ -51,6 +51,15 @@ impl Picture {
                 expected,
             });
         }
+        // Without a way out in the middle, which would keep the compiler from vectors.
+        let all = |picture: &[f32]| {
+            picture
+                .iter()
+                .fold(true, |all, value| all & value.is_finite())
+        };
+        if pictures.chunks_exact(self.len()).all(all) {
+            return Ok(());
+        }
         match pictures.iter().position(|value| !value.is_finite()) {
             None => Ok(()),
             Some(position) => Err(NetworkError::PictureNotFinite {
@@ -81,6 +90,11 @@ pub(crate) struct Layout {
 }
 
 impl Layout {
+    /// The same pictures without a border.
+    pub(crate) const fn bare(self) -> Layout {
+        Layout { border: 0, ..self }
+    }
+
     /// Numbers a row, border included.
     pub(crate) const fn row(&self) -> usize {
         (self.picture.width + 2 * self.border) * self.picture.channels
@@ -118,13 +132,43 @@ impl Planes {
         Planes { layout, values }
     }
 
+    /// `count` pictures of anything with a border of zeros, in `room`, which may be longer.
+    pub(crate) fn within(room: Aligned, layout: Layout, count: usize) -> Planes {
+        let mut planes = Planes {
+            layout,
+            values: room,
+        };
+        let (row, border) = (layout.row(), layout.border * layout.picture.channels);
+        for image in planes.first_mut(count).chunks_exact_mut(layout.len()) {
+            let last = image.len() - layout.border * row;
+            image[..layout.border * row].fill(0.0);
+            image[last..].fill(0.0);
+            for row in image[layout.border * row..last].chunks_exact_mut(row) {
+                let right = row.len() - border;
+                row[..border].fill(0.0);
+                row[right..].fill(0.0);
+            }
+        }
+        planes
+    }
+
+    /// The room that they lay in.
+    pub(crate) fn into_room(self) -> Aligned {
+        self.values
+    }
+
     pub(crate) fn layout(&self) -> Layout {
         self.layout
     }
 
     /// The first `count` pictures, borders included.
     pub(crate) fn first(&self, count: usize) -> &[f32] {
-        &self.values[..count * self.layout.len()]
+        self.from(0, count)
+    }
+
+    /// `count` pictures from picture `first` on, borders included.
+    pub(crate) fn from(&self, first: usize, count: usize) -> &[f32] {
+        &self.values[first * self.layout.len()..][..count * self.layout.len()]
     }
 
     /// The first `count` pictures, borders included; whoever writes leaves the borders zero.

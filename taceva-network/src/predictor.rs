@@ -9,6 +9,7 @@ use crate::max_pool;
 use crate::network::Network;
 use crate::normed::Normed;
 use crate::planes::{Layout, Picture, Planes};
+use crate::scratch::Scratch;
 use crate::stage::Stage;
 
 /// A network ready to predict, and the room that it needs.
@@ -17,6 +18,9 @@ pub struct Predictor {
     machine: Machine,
     input: Planes,
     stages: Vec<Folded>,
+    /// How many of them are passed by a few pictures at a time.
+    light: usize,
+    scratch: Scratch,
     head: Head,
     features: Vec<f32>,
     outputs: Vec<f64>,
@@ -26,19 +30,29 @@ pub struct Predictor {
 /// Pictures that are passed at once.
 const BATCH: usize = 32;
 
+/// Bytes of pictures between two parts that stay in a thread's second-level cache beside those that they are made of.
+const PICTURES_IN_CACHE: usize = 256 << 10;
+
+/// Bytes of weights that stay there too.
+const WEIGHTS_IN_CACHE: usize = 256 << 10;
+
+/// Pixels of a picture that are enough to be worth reading the weights for.
+const PIXELS_WORTH_WEIGHTS: usize = 128;
+
 /// One convolution with a bias.
 #[derive(Debug)]
 struct Layer {
     weights: ConvolutionWeights,
     bias: crate::panel::Aligned,
     forward: Forward,
-    output: Planes,
+    output: Layout,
 }
 
 /// A part of the network.
 #[derive(Debug)]
 enum Folded {
-    Stem(Layer, Planes),
+    /// A convolution, and how what is pooled of it lies.
+    Stem(Layer, Layout),
     Plain(Layer),
     Block(Box<FoldedBlock>),
 }
@@ -68,7 +82,7 @@ impl Network {
             // At least one even behind the last, so that a block's output lies as its input does.
             let next = plans.get(position + 1);
             let border = next.map_or(1, |next| next.input_layout(output).border);
-            stages.push(Folded::new(stage, layout, border, batch));
+            stages.push(Folded::new(stage, layout, border));
             layout = Layout {
                 picture: output,
                 border,
@@ -77,7 +91,9 @@ impl Network {
         Predictor {
             machine: self.machine,
             input,
+            light: stages.iter().take_while(|stage| stage.is_light()).count(),
             stages,
+            scratch: Scratch::new(0),
             head: self.head.clone(),
             features: Vec::new(),
             outputs: Vec::new(),
@@ -118,72 +134,146 @@ impl Predictor {
 
     /// The outputs of the first `count` pictures of the input.
     fn pass(&mut self, count: usize) -> &[f64] {
-        let machine = self.machine;
-        for position in 0..self.stages.len() {
-            let (before, rest) = self.stages.split_at_mut(position);
-            let input = before.last().map_or(&self.input, Folded::output);
-            rest[0].pass(machine, (input, count));
+        let (light, heavy) = self.stages.split_at(self.light);
+        let pass = Pass {
+            machine: self.machine,
+            input: &self.input,
+            first: 0,
+            count,
+        };
+        let scratch = &mut self.scratch;
+        let halfway = (!light.is_empty()).then(|| pass_few_at_a_time(light, pass, scratch));
+        let input = halfway.as_ref().unwrap_or(&self.input);
+        let seen = pass_all(heavy, Pass { input, ..pass }, scratch);
+        let last = seen.as_ref().unwrap_or(input);
+        self.head.see((last, count), &mut self.features);
+        for passed in seen.into_iter().chain(halfway) {
+            scratch.put(passed);
         }
-        let last = self.stages.last().expect("an architecture has stages");
-        self.head.see((last.output(), count), &mut self.features);
         self.head.forward(&self.features, &mut self.outputs);
         &self.outputs
     }
 }
 
+/// Passes pictures through `stages`, all through one and then all through the next; nothing where there are none.
+fn pass_all(stages: &[Folded], pass: Pass<'_>, scratch: &mut Scratch) -> Option<Planes> {
+    let mut seen: Option<Planes> = None;
+    for stage in stages {
+        let pass = match &seen {
+            None => pass,
+            Some(input) => Pass {
+                input,
+                first: 0,
+                ..pass
+            },
+        };
+        let output = stage.pass(pass, scratch);
+        if let Some(passed) = seen.replace(output) {
+            scratch.put(passed);
+        }
+    }
+    seen
+}
+
+/// Passes pictures through `stages`, a few through all of them and then the next few: what lies between large pictures and few weights
+/// never leaves a cache.
+fn pass_few_at_a_time(stages: &[Folded], pass: Pass<'_>, scratch: &mut Scratch) -> Planes {
+    let layout = stages.last().map_or(pass.input.layout(), Folded::output);
+    let few = (PICTURES_IN_CACHE / (layout.len() * size_of::<f32>())).max(1);
+    let few = few * rayon::current_num_threads();
+    let mut all = scratch.take(layout, pass.count);
+    let groups = all
+        .first_mut(pass.count)
+        .chunks_mut(few * layout.len())
+        .enumerate();
+    for (group, into) in groups {
+        let pass = Pass {
+            first: group * few,
+            count: into.len() / layout.len(),
+            ..pass
+        };
+        if let Some(seen) = pass_all(stages, pass, scratch) {
+            into.copy_from_slice(seen.first(pass.count));
+            scratch.put(seen);
+        }
+    }
+    all
+}
+
+/// What a part passes on.
+#[derive(Clone, Copy)]
+struct Pass<'a> {
+    machine: Machine,
+    input: &'a Planes,
+    /// The first picture of the input.
+    first: usize,
+    /// How many pictures.
+    count: usize,
+}
+
 impl Folded {
-    fn new(stage: &Stage, input: Layout, border: usize, batch: usize) -> Folded {
+    fn new(stage: &Stage, input: Layout, border: usize) -> Folded {
         match stage {
             Stage::Stem(normed) => {
-                let layer = Layer::new(normed, input, 0, batch);
-                let pooled = max_pool::output(layer.output.layout().picture);
-                Folded::Stem(layer, Planes::zeros(pooled, border, batch))
+                let layer = Layer::new(normed, input, 0);
+                let picture = max_pool::output(layer.output.picture);
+                Folded::Stem(layer, Layout { picture, border })
             }
-            Stage::Plain(normed) => Folded::Plain(Layer::new(normed, input, border, batch)),
+            Stage::Plain(normed) => Folded::Plain(Layer::new(normed, input, border)),
             Stage::Block(block) => {
-                let first = Layer::new(&block.first, input, 1, batch);
-                let middle = first.output.layout();
+                let first = Layer::new(&block.first, input, 1);
                 // What leads past lies as the output does, so that the two can be added.
                 let past = block.shortcut.as_ref();
                 Folded::Block(Box::new(FoldedBlock {
-                    second: Layer::new(&block.second, middle, border, batch),
-                    shortcut: past.map(|past| Layer::new(past, input, border, batch)),
+                    second: Layer::new(&block.second, first.output, border),
+                    shortcut: past.map(|past| Layer::new(past, input, border)),
                     first,
                 }))
             }
         }
     }
 
-    fn output(&self) -> &Planes {
+    /// How what it gives lies.
+    fn output(&self) -> Layout {
         match self {
-            Folded::Stem(_, output) => output,
-            Folded::Plain(layer) => &layer.output,
-            Folded::Block(block) => &block.second.output,
+            Folded::Stem(_, pooled) => *pooled,
+            Folded::Plain(layer) => layer.output,
+            Folded::Block(block) => block.second.output,
         }
     }
 
-    fn pass(&mut self, machine: Machine, input: (&Planes, usize)) {
+    /// Whether its weights are few and its pictures large.
+    fn is_light(&self) -> bool {
         match self {
-            Folded::Stem(layer, pooled) => {
-                layer.pass(machine, input, Ending::Relu);
-                max_pool::pool(machine, (&layer.output, input.1), pooled);
-            }
-            Folded::Plain(layer) => layer.pass(machine, input, Ending::Relu),
+            Folded::Stem(layer, _) | Folded::Plain(layer) => layer.is_light(),
+            Folded::Block(block) => block.first.is_light() && block.second.is_light(),
+        }
+    }
+
+    /// Passes pictures on, into room of `scratch`.
+    fn pass(&self, pass: Pass<'_>, scratch: &mut Scratch) -> Planes {
+        match self {
+            Folded::Stem(layer, pooled) => layer.pass_pooled(pass, *pooled, scratch),
+            Folded::Plain(layer) => layer.pass(pass, Ending::Relu, scratch),
             Folded::Block(block) => {
-                let FoldedBlock {
-                    first,
-                    second,
-                    shortcut,
-                } = &mut **block;
-                first.pass(machine, input, Ending::Relu);
-                let past = match shortcut {
-                    Some(layer) => {
-                        layer.pass(machine, input, Ending::Keep);
-                        &layer.output
-                    }
-                    None => input.0,
+                let middle = block.first.pass(pass, Ending::Relu, scratch);
+                let layer = block.shortcut.as_ref();
+                let past = layer.map(|layer| layer.pass(pass, Ending::Keep, scratch));
+                let past_pictures = match &past {
+                    Some(past) => past.first(pass.count),
+                    None => pass.input.from(pass.first, pass.count),
                 };
-                second.pass(machine, (&first.output, input.1), Ending::AddThenRelu(past));
+                let ending = Ending::AddThenRelu(past_pictures);
+                let second = Pass {
+                    input: &middle,
+                    first: 0,
+                    ..pass
+                };
+                let output = block.second.pass(second, ending, scratch);
+                for passed in past.into_iter().chain([middle]) {
+                    scratch.put(passed);
+                }
+                output
             }
         }
     }
@@ -194,37 +284,106 @@ impl Folded {
 enum Ending<'a> {
     Keep,
     Relu,
-    AddThenRelu(&'a Planes),
+    /// These pictures lie as the output does.
+    AddThenRelu(&'a [f32]),
 }
 
 impl Layer {
-    fn new(normed: &Normed, input: Layout, border: usize, batch: usize) -> Layer {
+    fn new(normed: &Normed, input: Layout, border: usize) -> Layer {
         let convolution = normed.convolution();
-        let output = Planes::zeros(convolution.output(input.picture), border, batch);
+        let output = Layout {
+            picture: convolution.output(input.picture),
+            border,
+        };
         let (weights, bias) = normed.fold();
-        let forward = Forward::new(convolution, input, output.layout());
         Layer {
             weights,
             bias,
-            forward,
+            forward: Forward::new(convolution, input, output),
             output,
         }
     }
 
-    fn pass(&mut self, machine: Machine, (input, count): (&Planes, usize), ending: Ending<'_>) {
-        let source = Source {
-            weights: &self.weights,
-            input,
-            count,
-        };
+    fn pass(&self, pass: Pass<'_>, ending: Ending<'_>, scratch: &mut Scratch) -> Planes {
+        let mut output = scratch.take(self.output, pass.count);
+        let source = self.source(pass);
         let epilogue = match ending {
             Ending::Keep => Epilogue::Bias(&self.bias),
             Ending::Relu => Epilogue::BiasRelu(&self.bias),
             Ending::AddThenRelu(other) => Epilogue::BiasAddRelu(&self.bias, other),
         };
         // Nobody looks at the outputs on the way.
-        let each = (&mut vec![(); count][..], |(): &mut (), _: &[f32]| {});
+        let each = (&mut vec![(); pass.count][..], |(): &mut (), _: &[f32]| {});
         self.forward
-            .run(machine, source, &mut self.output, epilogue, each);
+            .run(pass.machine, source, &mut output, epilogue, each);
+        output
+    }
+
+    /// Pools each picture while it is in a cache.
+    fn pass_pooled(&self, pass: Pass<'_>, layout: Layout, scratch: &mut Scratch) -> Planes {
+        let (machine, count) = (pass.machine, pass.count);
+        let mut raw = scratch.take(self.output, count);
+        let mut pooled = scratch.take(layout, count);
+        let images = pooled.first_mut(count).chunks_exact_mut(layout.len());
+        let mut images: Vec<&mut [f32]> = images.collect();
+        let pool = |into: &mut &mut [f32], raw: &[f32]| {
+            max_pool::pool(machine, (raw, self.output), (into, layout));
+        };
+        let (source, epilogue) = (self.source(pass), Epilogue::BiasRelu(&self.bias));
+        self.forward
+            .run(machine, source, &mut raw, epilogue, (&mut images, pool));
+        scratch.put(raw);
+        pooled
+    }
+
+    fn source<'a>(&'a self, pass: Pass<'a>) -> Source<'a> {
+        Source {
+            weights: &self.weights,
+            input: pass.input,
+            first: pass.first,
+            count: pass.count,
+        }
+    }
+
+    /// Whether its weights are few and its pictures large.
+    fn is_light(&self) -> bool {
+        size_of_val(self.weights.values()) <= WEIGHTS_IN_CACHE
+            && self.output.picture.pixels() >= PIXELS_WORTH_WEIGHTS
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::architecture::{Architecture, Depth};
+
+    #[test]
+    fn pictures_that_pass_a_few_at_a_time_are_predicted_as_each_alone() {
+        let input = Picture {
+            height: 48,
+            width: 44,
+            channels: 3,
+        };
+        let architecture = Architecture::residual(Depth::Ten, input, 2);
+        let mut predictor = Network::new(&architecture, 1)
+            .expect("a network")
+            .predictor();
+        let few = PICTURES_IN_CACHE / (predictor.stages[1].output().len() * size_of::<f32>());
+        assert_eq!(predictor.light, 2, "the stem and the first block");
+        assert!((2..8).contains(&few), "{few} at a time");
+        let pictures: Vec<f32> = (0_u16..)
+            .map(|at| f32::from(at % 251) / 251.0)
+            .take(8 * input.len())
+            .collect();
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build();
+        pool.expect("a thread").install(|| {
+            let (mut all, mut alone) = ([0.0; 16], [0.0; 16]);
+            predictor.predict(&pictures, &mut all).expect("finite");
+            let each = pictures.chunks_exact(input.len());
+            for (picture, into) in each.zip(alone.chunks_exact_mut(2)) {
+                predictor.predict(picture, into).expect("finite");
+            }
+            assert_eq!(all.map(f64::to_bits), alone.map(f64::to_bits));
+        });
     }
 }

@@ -1,43 +1,73 @@
 //! Memory that passes lend each other.
 
 use crate::panel::Aligned;
-use crate::planes::{Picture, Planes};
+use crate::planes::{Layout, Planes};
 
 /// Room that is used for a while and then by others.
 #[derive(Debug)]
 pub(crate) struct Scratch {
-    batch: usize,
-    spare: Vec<Planes>,
-    /// Exchanged weights.
-    pub(crate) exchanged: Aligned,
-    /// The gradient of one convolution's weights.
-    pub(crate) weight_gradient: Aligned,
+    spare: Vec<Aligned>,
+    /// For the weights of one convolution: exchanged, and then their gradient.
+    pub(crate) weights: Aligned,
 }
 
 impl Scratch {
-    /// Room for batches of `batch` pictures and convolutions of up to `weights` weights.
-    pub(crate) fn new(batch: usize, weights: usize) -> Scratch {
+    /// Room for convolutions of up to `weights` weights; that for pictures comes as it is asked for.
+    pub(crate) fn new(weights: usize) -> Scratch {
         Scratch {
-            batch,
             spare: Vec::new(),
-            exchanged: Aligned::zeros(weights),
-            weight_gradient: Aligned::zeros(weights),
+            weights: Aligned::zeros(weights),
         }
     }
 
-    /// A batch of pictures with a border of zeros and anything within.
-    pub(crate) fn take(&mut self, picture: Picture, border: usize) -> Planes {
-        let fits = |planes: &Planes| {
-            planes.layout().picture == picture && planes.layout().border == border
-        };
-        match self.spare.iter().position(fits) {
-            Some(position) => self.spare.swap_remove(position),
-            None => Planes::zeros(picture, border, self.batch),
+    /// `count` pictures with a border of zeros and anything within, in room that pictures of any size had before.
+    pub(crate) fn take(&mut self, layout: Layout, count: usize) -> Planes {
+        let length = layout.len() * count;
+        // The latest that was given back is the likeliest to be in a cache.
+        match self.spare.iter().rposition(|room| length <= room.len()) {
+            Some(position) => Planes::within(self.spare.remove(position), layout, count),
+            None => {
+                // Pictures grow towards the input: what is too small now is in a moment too small for all.
+                self.spare.pop();
+                Planes::zeros(layout.picture, layout.border, count)
+            }
         }
     }
 
-    /// Gives a batch back; its border is still zero.
+    /// Gives the room of pictures back.
     pub(crate) fn put(&mut self, planes: Planes) {
-        self.spare.push(planes);
+        self.spare.push(planes.into_room());
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::planes::Picture;
+
+    #[test]
+    fn room_goes_round_between_sizes_and_borders_are_zero_again() {
+        let mut scratch = Scratch::new(0);
+        let layout = |side, border| Layout {
+            picture: Picture {
+                height: side,
+                width: side + 1,
+                channels: 16,
+            },
+            border,
+        };
+        let mut large = scratch.take(layout(5, 0), 2);
+        large.first_mut(2).fill(7.0);
+        let place = large.first(2).as_ptr();
+        scratch.put(large);
+
+        let inner = layout(2, 1);
+        let mut small = scratch.take(inner, 2);
+        assert_eq!(small.first(2).as_ptr(), place);
+        assert_eq!(small.first(2).len(), 2 * 4 * 5 * 16);
+        for image in 0..2 {
+            small.set(image, &vec![0.0; inner.picture.len()]);
+        }
+        assert!(small.first(2).iter().all(|value| *value == 0.0));
     }
 }

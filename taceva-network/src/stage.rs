@@ -12,6 +12,7 @@ use crate::architecture::StagePlan;
 use crate::machine::Machine;
 use crate::normed::{Back, Normed};
 use crate::planes::{Layout, Planes};
+use crate::scratch::Scratch;
 
 /// The weights of a part.
 #[derive(Clone, Debug)]
@@ -78,19 +79,22 @@ impl Stage {
         }
     }
 
-    /// Passes the first `count` pictures.
+    /// Passes the first `count` pictures; `scratch` lends room on the way.
     pub(crate) fn forward(
         &mut self,
         machine: Machine,
         space: &mut StageSpace,
         input: (&Planes, usize),
+        scratch: &mut Scratch,
     ) {
         match (self, space) {
             (Stage::Stem(normed), StageSpace::Stem(space)) => space.forward(normed, machine, input),
             (Stage::Plain(normed), StageSpace::Plain(space)) => {
                 space.forward(normed, machine, input)
             }
-            (Stage::Block(block), StageSpace::Block(space)) => space.forward(block, machine, input),
+            (Stage::Block(block), StageSpace::Block(space)) => {
+                space.forward(block, machine, input, scratch)
+            }
             _ => unreachable!("a space is made by its stage"),
         }
     }

@@ -142,6 +142,7 @@ impl Correlation<'_> {
             }
             _ => Tile::load(proof, self.output, outputs, PANEL),
         };
+        self.prefetch::<V, ROWS, VECTORS>(proof, round, outputs, first + ROWS);
         let stride = self.rows * PANEL;
         let panels = &self.weights[round.panel * stride..];
         for tap in round.taps {
@@ -164,6 +165,29 @@ impl Correlation<'_> {
             };
         }
         tile.store(self.output, outputs, PANEL);
+    }
+
+    /// Asks for what these sums need at their end, and for what the next ones are the first to read: the end of the last run of each
+    /// pixel. All comes while these are summed.
+    #[inline(always)]
+    fn prefetch<V: Vector, const ROWS: usize, const VECTORS: usize>(
+        &self,
+        proof: V::Proof,
+        round: Round<'_>,
+        outputs: [usize; ROWS],
+        next: usize,
+    ) {
+        Tile::<V, ROWS, VECTORS>::prefetch(proof, self.output, outputs, PANEL);
+        if let Finish::AddThenRelu(other) = self.finish {
+            Tile::<V, ROWS, VECTORS>::prefetch(proof, other, outputs, PANEL);
+        }
+        let is_next = next + ROWS <= self.images * self.pixels.len();
+        if let (Some(last), 0, true) = (round.taps.last(), round.panel, is_next) {
+            let end = last.offset + self.run;
+            let ends = std::array::from_fn(|row| self.place(next + row).0 + end);
+            let starts = ends.map(|end| end.saturating_sub(VECTORS * V::LANES));
+            Tile::<V, ROWS, VECTORS>::prefetch(proof, self.input, starts, PANEL);
+        }
     }
 
     /// Where pixel `position`, counted over all pictures, begins in the input and lies in the output.

@@ -27,6 +27,8 @@ pub(crate) struct Forward {
 pub(crate) struct Source<'a> {
     pub(crate) weights: &'a ConvolutionWeights,
     pub(crate) input: &'a Planes,
+    /// The first picture that is read.
+    pub(crate) first: usize,
     /// How many pictures.
     pub(crate) count: usize,
 }
@@ -38,8 +40,8 @@ pub(crate) enum Epilogue<'a> {
     Raw,
     /// A bias, and zero below zero.
     BiasRelu(&'a [f32]),
-    /// A bias, pictures that lie as the output does, and zero below zero.
-    BiasAddRelu(&'a [f32], &'a Planes),
+    /// A bias, as many pictures that lie as the output does, and zero below zero.
+    BiasAddRelu(&'a [f32], &'a [f32]),
     /// A bias alone.
     Bias(&'a [f32]),
 }
@@ -68,7 +70,7 @@ impl Forward {
         }
     }
 
-    /// Runs it; `each` of a picture sees its output while that is still in a cache.
+    /// Runs it, into the first pictures of `output`; `each` of a picture sees its output while that is still in a cache.
     pub(crate) fn run<E: Send>(
         &self,
         machine: Machine,
@@ -84,7 +86,8 @@ impl Forward {
         let are_many = are_weights_many(self.rows, panels);
         let group = images_at_once(self.pixels.len(), count, are_many);
         let (each, see) = each;
-        let inputs = source.input.first(count).par_chunks(group * input_image);
+        let inputs = source.input.from(source.first, count);
+        let inputs = inputs.par_chunks(group * input_image);
         let outputs = output.first_mut(count).par_chunks_mut(group * output_image);
         let groups = outputs.zip(inputs).zip(each.par_chunks_mut(group));
         groups
@@ -96,12 +99,7 @@ impl Forward {
                     Epilogue::Bias(bias) => (Start::Bias(bias), Finish::Keep),
                     Epilogue::BiasRelu(bias) => (Start::Bias(bias), Finish::Relu),
                     Epilogue::BiasAddRelu(bias, other) => {
-                        assert_eq!(
-                            other.layout(),
-                            layout,
-                            "what is added lies as the output does"
-                        );
-                        let other = &other.first(count)[start..][..output.len()];
+                        let other = &other[start..][..output.len()];
                         (Start::Bias(bias), Finish::AddThenRelu(other))
                     }
                 };

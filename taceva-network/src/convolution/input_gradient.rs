@@ -8,7 +8,7 @@ use super::forward::images_at_once;
 use super::weights::ConvolutionWeights;
 use super::{Convolution, offset};
 use crate::machine::Machine;
-use crate::panel::{Aligned, PANEL};
+use crate::panel::PANEL;
 use crate::planes::{Layout, Planes};
 use crate::simd::Pixels;
 
@@ -51,20 +51,19 @@ impl InputGradient {
         }
     }
 
-    /// Runs it on the first `count` pictures; `exchanged` is room for the exchanged weights.
+    /// Runs it on the first `count` pictures; `exchanged` is room for as many numbers as there are weights.
     pub(crate) fn run(
         &self,
         machine: Machine,
         weights: &ConvolutionWeights,
         gradient: (&Planes, usize),
-        exchanged: &mut Aligned,
+        exchanged: &mut [f32],
         into: (&mut Planes, Onto),
     ) {
         let Convolution {
             inputs, outputs, ..
         } = self.convolution;
         let rows = self.convolution.taps() * outputs;
-        let exchanged = &mut exchanged[..rows * inputs];
         weights.exchange(machine, exchanged);
         let exchanged = &*exchanged;
 

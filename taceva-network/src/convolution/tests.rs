@@ -147,6 +147,7 @@ fn passes(case: &Case, machine: Machine) -> [Vec<f32>; 3] {
         Source {
             weights: &weights,
             input: &pictures,
+            first: 0,
             count: batch,
         },
         &mut outputs,
@@ -292,6 +293,7 @@ fn epilogues_add_bias_and_pictures_and_cut_at_zero() {
                 Source {
                     weights: &weights,
                     input: &pictures,
+                    first: 0,
                     count: batch,
                 },
                 &mut outputs,
@@ -301,7 +303,7 @@ fn epilogues_add_bias_and_pictures_and_cut_at_zero() {
             values(&outputs, batch)
         };
         let (plain, relu) = (pass(Epilogue::Bias(&bias)), pass(Epilogue::BiasRelu(&bias)));
-        let sum = pass(Epilogue::BiasAddRelu(&bias, &other));
+        let sum = pass(Epilogue::BiasAddRelu(&bias, other.first(batch)));
         for place in 0..raw.len() {
             let biased = raw[place] + bias[place % output.channels];
             // The bias is where sums begin, so that roundings differ: as many as there are terms.

@@ -2,17 +2,16 @@
 
 use rayon::prelude::*;
 
-use super::{KERNEL, window, windows};
+use super::{PLACES, place, window, windows};
 use crate::batch_norm::{ChannelSums, GradientSums, Moments};
 use crate::machine::Machine;
 use crate::panel::PANEL;
 use crate::planes::{Layout, Planes};
 use crate::simd::{Job, Vector};
 
-/// What the forward pass read and wrote.
+/// What the forward pass wrote.
 #[derive(Clone, Copy)]
 pub(crate) struct Pooled<'a> {
-    pub(crate) raw: &'a Planes,
     pub(crate) output: &'a Planes,
     pub(crate) choices: &'a [u8],
     pub(crate) count: usize,
@@ -22,13 +21,13 @@ pub(crate) struct Pooled<'a> {
 /// was cut.
 pub(crate) fn gradient_sums(
     machine: Machine,
+    raw: &Planes,
     pooled: Pooled<'_>,
     moments: &Moments,
     gradient: &mut Planes,
     sums: &mut [ChannelSums],
 ) -> GradientSums {
     let Pooled {
-        raw,
         output,
         choices,
         count,
@@ -55,30 +54,26 @@ pub(crate) fn gradient_sums(
     GradientSums::over(&sums[..count], moments, count * from.picture.pixels())
 }
 
-/// Writes the gradient of what was normalised; `gradient` is that of the output, cut.
+/// Turns what was normalised into its gradient, in place: these are the largest pictures of a network, and nobody reads them any
+/// more. `gradient` is that of the output, cut.
 pub(crate) fn input_gradient(
     machine: Machine,
+    raw: &mut Planes,
     pooled: Pooled<'_>,
     (moments, sums): (&Moments, &GradientSums),
     gradient: &Planes,
-    into: &mut Planes,
 ) {
     let Pooled {
-        raw,
         output,
         choices,
         count,
     } = pooled;
-    let (from, to, layout) = (raw.layout(), into.layout(), output.layout());
+    let (from, layout) = (raw.layout(), output.layout());
     let length = layout.picture.len();
-    let raws = raw.first(count).par_chunks_exact(from.len());
+    let raws = raw.first_mut(count).par_chunks_exact_mut(from.len());
     let gradients = gradient.first(count).par_chunks_exact(length);
-    let images = into
-        .first_mut(count)
-        .par_chunks_exact_mut(to.len())
-        .zip(raws);
-    let images = images.zip(gradients).zip(choices.par_chunks_exact(length));
-    images.for_each(|(((into, raw), gradient), choices)| {
+    let images = raws.zip(gradients).zip(choices.par_chunks_exact(length));
+    images.for_each(|((raw, gradient), choices)| {
         machine.run(Apply {
             raw,
             from,
@@ -87,8 +82,6 @@ pub(crate) fn input_gradient(
             layout,
             choices,
             gradient,
-            into,
-            to,
         });
     });
 }
@@ -127,6 +120,8 @@ impl Job for Sums<'_> {
             .chunks_exact_mut(row);
         for (y, (choices, gradients)) in choices.zip(gradients).enumerate() {
             let output = self.output[self.layout.row_range(y)].as_chunks::<PANEL>().0;
+            let lines = window(y, self.from.picture.height)
+                .map(|y| self.raw[self.from.row_range(y)].as_chunks::<PANEL>().0);
             for panel in 0..panels {
                 let (mut sum, mut product) = ([0.0_f32; PANEL], [0.0_f32; PANEL]);
                 for x in 0..self.layout.picture.width {
@@ -138,10 +133,9 @@ impl Job for Sums<'_> {
                     }
                     let chosen = choices[at].map(u32::from);
                     let mut value = [0.0_f32; PANEL];
-                    for (row, from_y) in window(y, self.from.picture.height) {
-                        let start = self.from.start_of_row(from_y);
-                        let (line, _) = self.raw[start..].as_chunks::<PANEL>();
-                        for (column, from_x) in window(x, self.from.picture.width) {
+                    let columns = window(x, self.from.picture.width);
+                    for (row, line) in PLACES.into_iter().zip(lines) {
+                        for (column, from_x) in PLACES.into_iter().zip(columns) {
                             let raw = &line[from_x * panels + panel];
                             let place = place(row, column);
                             for lane in 0..PANEL {
@@ -166,15 +160,13 @@ impl Job for Sums<'_> {
 
 /// The gradient of one picture.
 struct Apply<'a> {
-    raw: &'a [f32],
+    raw: &'a mut [f32],
     from: Layout,
     moments: &'a Moments,
     sums: &'a GradientSums,
     layout: Layout,
     choices: &'a [u8],
     gradient: &'a [f32],
-    into: &'a mut [f32],
-    to: Layout,
 }
 
 impl Job for Apply<'_> {
@@ -194,13 +186,15 @@ impl Job for Apply<'_> {
         let (gradient, _) = self.gradient.as_chunks::<PANEL>();
         let (input, output) = (self.from.picture, self.layout.picture);
         for y in 0..input.height {
-            let raw = self.raw[self.from.row_range(y)].as_chunks::<PANEL>().0;
-            let into = self.into[self.to.row_range(y)].as_chunks_mut::<PANEL>().0;
+            let rows = windows(y, output.height);
+            let range = self.from.row_range(y);
+            let (row_of_raw, _) = self.raw[range].as_chunks_mut::<PANEL>();
             for x in 0..input.width {
+                let columns = windows(x, output.width);
                 for panel in 0..panels {
                     let mut passed = [0.0_f32; PANEL];
-                    for (row, window_y) in windows(y, output.height) {
-                        for (column, window_x) in windows(x, output.width) {
+                    for (row, window_y) in rows {
+                        for (column, window_x) in columns {
                             let at = (window_y * output.width + window_x) * panels + panel;
                             let (chosen, place) = (choices[at].map(u32::from), place(row, column));
                             for lane in 0..PANEL {
@@ -209,21 +203,14 @@ impl Job for Apply<'_> {
                             }
                         }
                     }
-                    let (raw, into) = (&raw[x * panels + panel], &mut into[x * panels + panel]);
+                    let raw = &mut row_of_raw[x * panels + panel];
                     for lane in 0..PANEL {
                         let distance = raw[lane] - mean[panel][lane];
-                        into[lane] = scale[panel][lane]
+                        raw[lane] = scale[panel][lane]
                             * (passed[lane] - offset[panel][lane] - distance * slope[panel][lane]);
                     }
                 }
             }
         }
     }
-}
-
-/// The number of a place in a window.
-#[inline(always)]
-#[expect(clippy::cast_possible_truncation, reason = "one of nine places")]
-fn place(row: usize, column: usize) -> u32 {
-    (row * KERNEL + column) as u32
 }

@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 
-use super::{KERNEL, window};
+use super::{PLACES, place, window};
 use crate::batch_norm::{Moments, relu};
 use crate::machine::Machine;
 use crate::panel::PANEL;
@@ -40,14 +40,6 @@ pub(crate) fn pool_normalised(
         });
 }
 
-/// Pools the first `count` pictures, none of whose numbers is below zero.
-pub(crate) fn pool(machine: Machine, (pictures, count): (&Planes, usize), into: &mut Planes) {
-    let mut identity = Moments::zeros(pictures.layout().picture.channels);
-    identity.scale.fill(1.0);
-    let mut choices = vec![0; into.layout().picture.len() * count];
-    pool_normalised(machine, (pictures, count), &identity, into, &mut choices);
-}
-
 /// One picture.
 struct Pool<'a> {
     raw: &'a [f32],
@@ -66,13 +58,16 @@ impl Job for Pool<'_> {
         let (scale, _) = self.moments.scale.as_chunks::<PANEL>();
         let (shift, _) = self.moments.shift.as_chunks::<PANEL>();
         let panels = scale.len();
-        let (width, output) = (self.from.picture.width, self.layout.picture);
+        let (input, output) = (self.from.picture, self.layout.picture);
         let rows = self
             .choices
             .as_chunks_mut::<PANEL>()
             .0
             .chunks_exact_mut(output.width * panels);
         for (y, choices) in rows.enumerate() {
+            let lines = window(y, input.height)
+                .map(|y| self.raw[self.from.row_range(y)].as_chunks::<PANEL>().0);
+            let first_row = u32::from(y == 0);
             let into = self.into[self.layout.row_range(y)]
                 .as_chunks_mut::<PANEL>()
                 .0;
@@ -80,27 +75,25 @@ impl Job for Pool<'_> {
                 .chunks_exact_mut(panels)
                 .zip(choices.chunks_exact_mut(panels));
             for (x, (into, choices)) in pixels.enumerate() {
+                let columns = window(x, input.width).map(|x| x * panels);
+                let first_column = u32::from(x == 0);
                 for panel in 0..panels {
-                    // The first candidate always wins, so that a NaN is kept; none is greater than it.
+                    // The first place of the window always wins, so that a NaN is kept; none is greater than it. What is beside the
+                    // picture never does: above and to the left by what follows, and below and to the right as it is no greater than
+                    // what it repeats.
                     let (mut best, mut choice) = ([0.0_f32; PANEL], [0_u32; PANEL]);
-                    let mut is_first = true;
-                    for (row, from_y) in window(y, self.from.picture.height) {
-                        let start = self.from.start_of_row(from_y);
-                        let (line, _) = self.raw[start..].as_chunks::<PANEL>();
-                        for (column, from_x) in window(x, width) {
-                            let raw = &line[from_x * panels + panel];
-                            #[expect(
-                                clippy::cast_possible_truncation,
-                                reason = "one of nine places"
-                            )]
-                            let place = (row * KERNEL + column) as u32;
+                    for (row, line) in PLACES.into_iter().zip(lines) {
+                        for (column, start) in PLACES.into_iter().zip(columns) {
+                            let is_in = (row >= first_row) & (column >= first_column);
+                            let is_first = (row == first_row) & (column == first_column);
+                            let raw = &line[start + panel];
+                            let place = place(row, column);
                             for lane in 0..PANEL {
                                 let value = raw[lane] * scale[panel][lane] + shift[panel][lane];
-                                let wins = is_first | (value > best[lane]);
+                                let wins = is_first | (is_in & (value > best[lane]));
                                 best[lane] = if wins { value } else { best[lane] };
                                 choice[lane] = if wins { place } else { choice[lane] };
                             }
-                            is_first = false;
                         }
                     }
                     into[panel] = best.map(relu);

@@ -3,8 +3,8 @@
 #![expect(unsafe_code, reason = "vector instructions, loads and stores")]
 
 use std::arch::x86_64::{
-    __m256, _mm256_add_ps, _mm256_broadcast_ss, _mm256_fmadd_ps, _mm256_loadu_ps, _mm256_max_ps,
-    _mm256_setzero_ps, _mm256_storeu_ps,
+    __m256, _MM_HINT_T0, _mm_prefetch, _mm256_add_ps, _mm256_broadcast_ss, _mm256_fmadd_ps,
+    _mm256_loadu_ps, _mm256_max_ps, _mm256_setzero_ps, _mm256_storeu_ps,
 };
 
 use super::vector::{Job, Vector};
@@ -69,6 +69,11 @@ impl Vector for Eight {
     unsafe fn store(self, place: *mut f32) {
         // SAFETY: the machine has the instruction, and the caller promises room for a number a lane at `place`.
         unsafe { _mm256_storeu_ps(place, self.0) }
+    }
+
+    #[inline(always)]
+    fn prefetch(_proof: Avx2, place: *const f32) {
+        proven!(_mm_prefetch::<_MM_HINT_T0>(place.cast()));
     }
 
     #[inline(always)]

@@ -3,8 +3,8 @@
 #![expect(unsafe_code, reason = "vector instructions, loads and stores")]
 
 use std::arch::x86_64::{
-    __m512, _mm512_add_ps, _mm512_fmadd_ps, _mm512_loadu_ps, _mm512_max_ps, _mm512_set1_ps,
-    _mm512_setzero_ps, _mm512_storeu_ps,
+    __m512, _MM_HINT_T0, _mm_prefetch, _mm512_add_ps, _mm512_fmadd_ps, _mm512_loadu_ps,
+    _mm512_max_ps, _mm512_set1_ps, _mm512_setzero_ps, _mm512_storeu_ps,
 };
 
 use super::vector::{Job, Vector};
@@ -70,6 +70,11 @@ impl Vector for Sixteen {
     unsafe fn store(self, place: *mut f32) {
         // SAFETY: the machine has the instruction, and the caller promises room for a number a lane at `place`.
         unsafe { _mm512_storeu_ps(place, self.0) }
+    }
+
+    #[inline(always)]
+    fn prefetch(_proof: Avx512, place: *const f32) {
+        proven!(_mm_prefetch::<_MM_HINT_T0>(place.cast()));
     }
 
     #[inline(always)]

@@ -86,6 +86,18 @@ impl<V: Vector, const ROWS: usize, const VECTORS: usize> Tile<V, ROWS, VECTORS> 
         tile
     }
 
+    /// Asks for the numbers that [`load`](Tile::load) would read; those outside `values` are left out.
+    #[inline(always)]
+    pub(crate) fn prefetch(proof: V::Proof, values: &[f32], starts: [usize; ROWS], stride: usize) {
+        for start in starts {
+            for vector in (0..VECTORS).step_by((PANEL / V::LANES).max(1)) {
+                if let Some(value) = values.get(start + place::<V>(vector, stride)) {
+                    V::prefetch(proof, value);
+                }
+            }
+        }
+    }
+
     /// Writes the sums to `values` at `starts`, panels `stride` apart.
     ///
     /// # Panics

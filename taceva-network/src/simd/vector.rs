@@ -32,6 +32,8 @@ pub(crate) trait Vector: Copy {
     /// # Safety
     /// As many numbers as there are lanes may be written at `place`.
     unsafe fn store(self, place: *mut f32);
+    /// Asks for the cache line of `place`, which is needed soon and may be anywhere; changes nothing but time.
+    fn prefetch(_proof: Self::Proof, _place: *const f32) {}
 
     /// self × factor + addend, rounded once where the machine can.
     fn times_plus(self, factor: Self, addend: Self) -> Self;

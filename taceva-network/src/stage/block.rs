@@ -5,7 +5,8 @@ use crate::batch_norm::{Gate, Shortcut, apply};
 use crate::convolution::{Convolution, Onto};
 use crate::machine::Machine;
 use crate::normed::{Back, Normed, NormedSpace};
-use crate::planes::{Picture, Planes};
+use crate::planes::{Layout, Planes};
+use crate::scratch::Scratch;
 
 /// The weights of a block.
 #[derive(Clone, Debug)]
@@ -20,12 +21,13 @@ pub(crate) struct Block {
 #[derive(Debug)]
 pub(crate) struct BlockSpace {
     first: NormedSpace,
-    /// What the first convolution gave, normalised and cut.
-    middle: Planes,
     second: NormedSpace,
     shortcut: Option<NormedSpace>,
     pub(crate) output: Planes,
-    input: Picture,
+    /// How what the second convolution reads lies.
+    middle: Layout,
+    /// How the gradient of the input lies.
+    input: Layout,
 }
 
 impl Block {
@@ -82,16 +84,32 @@ impl BlockSpace {
             ..
         } = standing;
         let picture = block.first.convolution().output(input.picture);
-        let middle = Planes::zeros(picture, 1, batch);
+        let middle = Layout { picture, border: 1 };
         let past = block.shortcut.as_ref().map(Normed::convolution);
         BlockSpace {
             first: NormedSpace::new(block.first.convolution(), input, batch, true),
-            second: NormedSpace::new(block.second.convolution(), middle.layout(), batch, true),
+            second: NormedSpace::new(block.second.convolution(), middle, batch, true),
             shortcut: past.map(|past| NormedSpace::new(past, input, batch, true)),
             output: Planes::zeros(picture, border, batch),
             middle,
-            input: input.picture,
+            input: input.bare(),
         }
+    }
+
+    /// What the first convolution gave, normalised and cut: needed in both passes and not kept between them, as it is made in a
+    /// hundredth of the time that the convolution took.
+    fn middle(&self, machine: Machine, count: usize, scratch: &mut Scratch) -> Planes {
+        let raw = &self.first.raw;
+        let mut middle = scratch.take(self.middle, count);
+        let nothing = Shortcut::Nothing;
+        apply(
+            machine,
+            (raw, count),
+            &self.first.moments,
+            nothing,
+            &mut middle,
+        );
+        middle
     }
 
     pub(super) fn forward(
@@ -99,24 +117,19 @@ impl BlockSpace {
         block: &mut Block,
         machine: Machine,
         (input, count): (&Planes, usize),
+        scratch: &mut Scratch,
     ) {
+        let first = &mut self.first;
+        block.first.forward(machine, first, (input, count));
+        let middle = self.middle(machine, count, scratch);
         let BlockSpace {
-            first,
-            middle,
             second,
             shortcut,
             output,
             ..
         } = self;
-        block.first.forward(machine, first, (input, count));
-        apply(
-            machine,
-            (&first.raw, count),
-            &first.moments,
-            Shortcut::Nothing,
-            middle,
-        );
-        block.second.forward(machine, second, (middle, count));
+        block.second.forward(machine, second, (&middle, count));
+        scratch.put(middle);
         let past = match (&mut block.shortcut, shortcut) {
             (Some(normed), Some(space)) => {
                 normed.forward(machine, space, (input, count));
@@ -140,11 +153,13 @@ impl BlockSpace {
         let raw_gradient = block
             .second
             .norm_backward(&mut self.second, cut, &mut gradient, back);
-        let mut inner = back.scratch.take(self.middle.layout().picture, 0);
+        let middle = self.middle(back.machine, back.count, back.scratch);
+        let mut inner = back.scratch.take(self.middle.bare(), back.count);
         let into = Some((&mut inner, Onto::Nothing));
         block
             .second
-            .backward(&self.second, &self.middle, &raw_gradient, into, back);
+            .backward(&self.second, &middle, &raw_gradient, into, back);
+        back.scratch.put(middle);
         back.scratch.put(raw_gradient);
 
         let cut = Gate::Normalised;
@@ -152,13 +167,14 @@ impl BlockSpace {
             .first
             .norm_backward(&mut self.first, cut, &mut inner, back);
         back.scratch.put(inner);
-        let passed = match (&mut block.shortcut, &mut self.shortcut) {
+        match (&mut block.shortcut, &mut self.shortcut) {
             (Some(past), Some(space)) => {
-                let mut passed = back.scratch.take(self.input, 0);
+                let mut passed = back.scratch.take(self.input, back.count);
                 let into = Some((&mut passed, Onto::Nothing));
                 block
                     .first
                     .backward(&self.first, input, &raw_gradient, into, back);
+                back.scratch.put(raw_gradient);
                 let past_gradient = past.norm_backward(space, Gate::Open, &mut gradient, back);
                 let into = Some((&mut passed, Onto::Sum));
                 past.backward(space, input, &past_gradient, into, back);
@@ -171,10 +187,9 @@ impl BlockSpace {
                 block
                     .first
                     .backward(&self.first, input, &raw_gradient, into, back);
+                back.scratch.put(raw_gradient);
                 gradient
             }
-        };
-        back.scratch.put(raw_gradient);
-        passed
+        }
     }
 }

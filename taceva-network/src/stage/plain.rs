@@ -5,15 +5,15 @@ use crate::batch_norm::{Gate, Shortcut, apply};
 use crate::convolution::Onto;
 use crate::machine::Machine;
 use crate::normed::{Back, Normed, NormedSpace};
-use crate::planes::{Picture, Planes};
+use crate::planes::{Layout, Planes};
 
 /// What training keeps between the passes.
 #[derive(Debug)]
 pub(crate) struct PlainSpace {
     normed: NormedSpace,
     pub(crate) output: Planes,
-    /// Pictures whose gradient is asked for.
-    input: Option<Picture>,
+    /// How the gradient of the input lies, where it is asked for.
+    input: Option<Layout>,
 }
 
 impl PlainSpace {
@@ -28,7 +28,7 @@ impl PlainSpace {
         PlainSpace {
             normed: NormedSpace::new(convolution, input, batch, !is_first),
             output: Planes::zeros(convolution.output(input.picture), border, batch),
-            input: (!is_first).then_some(input.picture),
+            input: (!is_first).then_some(input.bare()),
         }
     }
 
@@ -60,7 +60,7 @@ impl PlainSpace {
         let space = &mut self.normed;
         let raw_gradient = normed.norm_backward(space, Gate::Normalised, &mut gradient, back);
         back.scratch.put(gradient);
-        let mut passed = self.input.map(|picture| back.scratch.take(picture, 0));
+        let mut passed = self.input.map(|input| back.scratch.take(input, back.count));
         let into = passed.as_mut().map(|passed| (passed, Onto::Nothing));
         normed.backward(space, input, &raw_gradient, into, back);
         back.scratch.put(raw_gradient);

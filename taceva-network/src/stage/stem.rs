@@ -53,25 +53,17 @@ impl StemSpace {
     ) {
         let space = &mut self.normed;
         let pooled = Pooled {
-            raw: &space.raw,
             output: &self.output,
             choices: &self.choices,
             count: back.count,
         };
         let machine = back.machine;
         let (moments, room) = (&space.moments, &mut space.sums);
-        let sums = max_pool::gradient_sums(machine, pooled, moments, &mut gradient, room);
-        let mut raw_gradient = space.gradient(normed.convolution(), back.scratch);
-        max_pool::input_gradient(
-            machine,
-            pooled,
-            (moments, &sums),
-            &gradient,
-            &mut raw_gradient,
-        );
+        let raw = &mut space.raw;
+        let sums = max_pool::gradient_sums(machine, raw, pooled, moments, &mut gradient, room);
+        max_pool::input_gradient(machine, raw, pooled, (moments, &sums), &gradient);
         back.scratch.put(gradient);
         normed.update_norm(&sums, back.update);
-        normed.backward(space, input, &raw_gradient, None, back);
-        back.scratch.put(raw_gradient);
+        normed.backward(space, input, &space.raw, None, back);
     }
 }
