@@ -170,6 +170,7 @@ fn a_run_that_was_interrupted_records_what_an_uninterrupted_one_does() {
     let scene = scene(Model::ViTacTip);
     let log = interrupted_and_whole(&Trial::new(Model::ViTacTip, &scene));
     assert!(!log.records.is_empty());
+    assert!(!log.untouched.is_empty());
 }
 
 #[test]
@@ -202,6 +203,14 @@ fn interrupted_and_whole(trial: &Trial) -> Log {
     trial.run("1", &mut whole, usize::MAX);
     for most in [3, 8, 10, usize::MAX] {
         trial.run("1", &mut pieces, most);
+    }
+    // One picture of the untouched gel, however often a run begins; no press resembles it.
+    let pressed = whole.records.iter().flat_map(|record| &record.samples);
+    let mut pressed = pressed.filter_map(|sample| sample.frame.as_ref());
+    if let Some(first) = pressed.next() {
+        assert_eq!(whole.untouched.len(), 1);
+        assert_eq!(whole.untouched, pieces.untouched);
+        assert_ne!(&whole.untouched[0], first);
     }
     assert_eq!(whole.records.len(), pieces.records.len());
     for (one, other) in whole.records.iter().zip(&pieces.records) {
