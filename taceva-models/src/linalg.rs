@@ -4,11 +4,13 @@
 //! one order, so threads only decide when a block is computed.
 
 mod design;
+mod dot;
 mod gram;
 mod least_squares;
 mod spectrum;
 
 pub(crate) use design::{Design, FeatureScale};
+pub(crate) use dot::dot;
 pub(crate) use gram::{feature_gram, multiply};
 pub(crate) use least_squares::{Wide, least_squares};
 pub(crate) use spectrum::{Spectrum, symmetric_eigen};

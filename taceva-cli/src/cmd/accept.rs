@@ -30,12 +30,7 @@ pub(crate) fn run(args: &Accept, _context: &Context) -> anyhow::Result<u8> {
         study,
         findings: &findings,
     };
-    let text = results::rendered(&acceptance.listing(), args.output.format, || {
-        acceptance.json()
-    });
-    output::write(args.output.path.as_deref(), |out| {
-        out.write_all(text.as_bytes())
-    })?;
+    results::write(&acceptance.listing(), &args.output, || acceptance.json())?;
     if let Some(path) = &args.html {
         let page = acceptance.page();
         output::write(Some(path), |out| out.write_all(page.as_bytes()))?;

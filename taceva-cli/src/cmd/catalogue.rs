@@ -35,8 +35,7 @@ fn write(args: &Output, listing: &taceva_report::Listing) -> anyhow::Result<u8> 
     if let Some(path) = &args.path {
         output::check_free(path, args.force)?;
     }
-    let text = results::rendered(listing, args.format, || listing.json("taceva.catalogue/1"));
-    output::write(args.path.as_deref(), |out| out.write_all(text.as_bytes()))?;
+    results::write(listing, args, || listing.json("taceva.catalogue/1"))?;
     Ok(exit::DONE)
 }
 

@@ -33,10 +33,7 @@ pub(crate) fn run(args: &Choose, _context: &Context) -> anyhow::Result<u8> {
         }
     };
     let choice = choose(&sensors, &needs);
-    let text = results::rendered(&choice.listing(), args.output.format, || choice.json());
-    output::write(args.output.path.as_deref(), |out| {
-        out.write_all(text.as_bytes())
-    })?;
+    results::write(&choice.listing(), &args.output, || choice.json())?;
     if let Some(path) = &args.html {
         let words: Vec<&str> = needs.iter().map(|need| need.words.as_str()).collect();
         let page = choice.page(&words.join(", "));

@@ -31,12 +31,7 @@ pub(crate) fn run(args: &Compare, context: &Context) -> anyhow::Result<u8> {
         seed: args.seed,
     };
     let comparison = compare(&studies, &request);
-    let text = results::rendered(&comparison.listing(), args.output.format, || {
-        comparison.json()
-    });
-    output::write(args.output.path.as_deref(), |out| {
-        out.write_all(text.as_bytes())
-    })?;
+    results::write(&comparison.listing(), &args.output, || comparison.json())?;
     if let Some(path) = &args.html {
         let page = comparison.page(&studies);
         output::write(Some(path), |out| out.write_all(page.as_bytes()))?;

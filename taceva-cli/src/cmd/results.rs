@@ -9,7 +9,8 @@ use anyhow::Context as _;
 use taceva_report::{Listing, Study, catalogue, escape_terminal};
 
 use super::Usage;
-use crate::args::Format;
+use crate::args::{Format, Output};
+use crate::output;
 
 /// Every number of a run, in its folder.
 const RESULTS: &str = "results.json";
@@ -74,13 +75,18 @@ fn find(path: &Path) -> anyhow::Result<Found> {
     samples::beside(&file, studies)
 }
 
-/// Rows in the form asked for; `json` makes the one that is no table.
-pub(super) fn rendered(listing: &Listing, format: Format, json: impl FnOnce() -> String) -> String {
-    match format {
+/// Writes rows where and in the form that was asked for; `json` makes the one that is no table.
+pub(super) fn write(
+    listing: &Listing,
+    to: &Output,
+    json: impl FnOnce() -> String,
+) -> anyhow::Result<()> {
+    let text = match to.format {
         Format::Text => listing.text(),
         Format::Json => json(),
         Format::Csv => listing.csv(),
         Format::Md => listing.markdown(),
         Format::Tex => listing.latex(),
-    }
+    };
+    output::write(to.path.as_deref(), |out| out.write_all(text.as_bytes()))
 }

@@ -3,7 +3,7 @@
 use faer::Mat;
 use taceva_core::{ModelError, Progress};
 
-use crate::linalg::{Design, feature_gram};
+use crate::linalg::{Design, dot, feature_gram};
 use crate::problem::invalid;
 
 /// Features X of all samples, a column a feature.
@@ -122,18 +122,4 @@ impl<'a> Residual<'a> {
         let places = self.values.iter_mut().zip(columns.col_as_slice(feature));
         places.for_each(|(place, value)| *place -= step * value);
     }
-}
-
-/// Eight partial sums, so that the additions do not wait for each other; always in the same order.
-fn dot(left: &[f64], right: &[f64]) -> f64 {
-    let (left, last_left) = left.as_chunks::<8>();
-    let (right, last_right) = right.as_chunks::<8>();
-    let mut sums = [0.0; 8];
-    for (left, right) in left.iter().zip(right) {
-        for ((sum, left), right) in sums.iter_mut().zip(left).zip(right) {
-            *sum += left * right;
-        }
-    }
-    let last = last_left.iter().zip(last_right);
-    sums.iter().sum::<f64>() + last.map(|(left, right)| left * right).sum::<f64>()
 }

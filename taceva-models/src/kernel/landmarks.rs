@@ -4,7 +4,7 @@ use rayon::prelude::*;
 use taceva_core::{Features, ModelError, Progress};
 
 use crate::distance::from_all;
-use crate::linalg::FeatureScale;
+use crate::linalg::{FeatureScale, dot};
 use crate::progress::{Stage, interrupted};
 use crate::standard::Standard;
 
@@ -123,20 +123,6 @@ pub(super) fn rate(length: f64, variance: f64) -> f64 {
 
 pub(super) fn kernel(squared_distance: f32, rate: f64) -> f64 {
     (-f64::from(squared_distance) * rate).exp()
-}
-
-/// Eight partial sums, so that the additions do not wait for each other; always in the same order.
-pub(super) fn dot(a: &[f64], b: &[f64]) -> f64 {
-    let (a, last_a) = a.as_chunks::<8>();
-    let (b, last_b) = b.as_chunks::<8>();
-    let mut sums = [0.0; 8];
-    for (a, b) in a.iter().zip(b) {
-        for ((sum, a), b) in sums.iter_mut().zip(a).zip(b) {
-            *sum += a * b;
-        }
-    }
-    let last = last_a.iter().zip(last_b).map(|(a, b)| a * b);
-    sums.iter().sum::<f64>() + last.sum::<f64>()
 }
 
 /// The first position that no other is `better` than.

@@ -3,8 +3,9 @@
 use rayon::prelude::*;
 use taceva_core::{FeatureShape, Features};
 
-use super::landmarks::{EXPLAINED, Landmarks, dot, kernel, rate};
+use super::landmarks::{EXPLAINED, Landmarks, kernel, rate};
 use crate::distance::squared_distance;
+use crate::linalg::dot;
 use crate::standard::Standard;
 
 /// φ(x) = L⁻¹ k(x) with L Lᵀ the kernel between the landmarks and k(x) that from them to x; φ(x)ᵀφ(x') is Nyström's kernel.

@@ -1,6 +1,6 @@
 //! How sure a Gaussian process is of a prediction.
 
-use super::landmarks::dot;
+use crate::linalg::dot;
 use crate::model::FormatError;
 use crate::tensors::{Raw, Tensors};
 

@@ -5,7 +5,7 @@ use crate::figure::{
     extent, short,
 };
 use crate::number::numeral;
-use crate::results::{ChannelError, DecodeBench, DecodeRow, ModelBench, ModelRow};
+use crate::results::{BenchRecording, ChannelError, DecodeBench, DecodeRow, ModelBench, ModelRow};
 
 /// Errors further apart than this are drawn by logarithm: else the small ones cannot be told apart.
 const FAR: f64 = 8.0;
@@ -37,13 +37,7 @@ pub fn decode_bench(bench: &DecodeBench) -> Option<Figure> {
     raced.rows = bench.rows.iter().map(as_model).collect();
     let (canvas, fronts) = draw(&raced, "time to decode a frame (ms)")?;
     let recording = &bench.recording;
-    let simulated = match bench.is_simulated() {
-        true => format!(
-            " Nothing here was measured: the samples are {}.",
-            recording.source
-        ),
-        false => String::new(),
-    };
+    let simulated = simulated(bench.is_simulated(), recording);
     Some(Figure {
         id: "decode".to_owned(),
         title: "Decode time against error".to_owned(),
@@ -100,15 +94,20 @@ fn draw(bench: &ModelBench, time: &str) -> Option<(Canvas, String)> {
     Some((canvas, fronts.join("; ")))
 }
 
-fn caption(bench: &ModelBench) -> String {
-    let recording = &bench.recording;
-    let simulated = match bench.is_simulated() {
+/// What a caption says of samples that nobody measured.
+fn simulated(is_simulated: bool, recording: &BenchRecording) -> String {
+    match is_simulated {
         true => format!(
             " Nothing here was measured: the samples are {}.",
             recording.source
         ),
         false => String::new(),
-    };
+    }
+}
+
+fn caption(bench: &ModelBench) -> String {
+    let recording = &bench.recording;
+    let simulated = simulated(bench.is_simulated(), recording);
     let machine = &bench.machine;
     let threads = match machine.threads {
         1 => "one thread".to_owned(),
@@ -249,7 +248,7 @@ mod tests {
     use taceva_core::Unit;
 
     use super::*;
-    use crate::results::{BenchMachine, BenchRecording};
+    use crate::results::BenchMachine;
 
     /// Three models: fast, right, and neither.
     fn bench() -> ModelBench {

@@ -40,10 +40,7 @@ pub(super) fn run(args: &BenchDecode, context: &Context) -> anyhow::Result<u8> {
             bench
         }
     };
-    let text = results::rendered(&bench.listing(), args.output.format, || bench.json());
-    output::write(args.output.path.as_deref(), |out| {
-        out.write_all(text.as_bytes())
-    })?;
+    results::write(&bench.listing(), &args.output, || bench.json())?;
     if let Some(path) = &args.svg {
         draw(&bench, path)?;
     }

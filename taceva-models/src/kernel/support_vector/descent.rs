@@ -2,7 +2,7 @@
 
 use faer::Mat;
 
-use crate::kernel::landmarks::dot;
+use crate::linalg::dot;
 use crate::random::SplitMix64;
 
 /// Errors that cost nothing, and what those beyond cost.

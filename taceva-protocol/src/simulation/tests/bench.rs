@@ -1,0 +1,121 @@
+//! A simulated rig that a test runs a plan on, and a log in memory.
+
+use taceva_core::{Frame, SinkError};
+
+use crate::digest::Digest;
+use crate::draw::Draws;
+use crate::plan::Plan;
+use crate::run::{
+    Cancel, Controls, Devices, Event, Mode, PressLog, PressRecord, RunError, RunReport, RunSpec,
+    run,
+};
+use crate::simulation::devices::{SimulatedForce, SimulatedRobot, SimulatedSensor};
+use crate::simulation::fault::Faults;
+use crate::simulation::judge::{Judge, Stated};
+use crate::simulation::scenario::scenario_plan;
+use crate::simulation::world::{Gel, Shared};
+
+pub(super) const SOFT: Gel = Gel {
+    stiffness_n_mm: 0.5,
+    noise_n: 0.003,
+    saturation_n: 20.0,
+    normal_max_n: 1.5,
+};
+
+/// A gel so hard that every press ends at the limit of force.
+pub(super) const HARD: Gel = Gel {
+    stiffness_n_mm: 5.0,
+    ..SOFT
+};
+
+#[derive(Default)]
+pub(super) struct Memory {
+    pub(super) untouched: Vec<Frame>,
+    pub(super) records: Vec<PressRecord>,
+    pub(super) full_after: Option<usize>,
+}
+
+impl PressLog for Memory {
+    fn is_finished(&self, press: Digest) -> bool {
+        self.records.iter().any(|record| record.press == press)
+    }
+    fn append(&mut self, record: &PressRecord) -> Result<(), SinkError> {
+        if self
+            .full_after
+            .is_some_and(|most| self.records.len() >= most)
+        {
+            return Err("no space left".into());
+        }
+        self.records.push(record.clone());
+        Ok(())
+    }
+    fn untouched(&mut self, frame: &Frame) -> Result<(), SinkError> {
+        self.untouched.push(frame.clone());
+        Ok(())
+    }
+}
+
+pub(super) struct Bench {
+    pub(super) shared: Shared,
+    pub(super) plan: Plan,
+    pub(super) cancel: Cancel,
+    pub(super) events: Vec<Event>,
+}
+
+impl Bench {
+    pub(super) fn new(gel: Gel) -> Bench {
+        let plan = scenario_plan(1, &gel).expect("a plan");
+        let limits = plan.limits.as_ref().expect("limits");
+        let stated = Stated::new(limits, gel.stiffness_n_mm, gel.noise_n, 0.1, 0.02);
+        let faultless = Faults::none();
+        Bench {
+            shared: Shared::new(gel, Judge::new(stated), faultless, Draws::new(1, "test")),
+            plan,
+            cancel: Cancel::new(),
+            events: Vec::new(),
+        }
+    }
+
+    pub(super) fn run(&mut self, mode: Mode, log: &mut Memory) -> Result<RunReport, RunError> {
+        let unit = self.plan.units[0].clone();
+        self.run_unit(&unit, mode, log)
+    }
+
+    pub(super) fn run_unit(
+        &mut self,
+        unit: &str,
+        mode: Mode,
+        log: &mut Memory,
+    ) -> Result<RunReport, RunError> {
+        let (mut robot, mut force, mut sensor) = (
+            SimulatedRobot(self.shared.clone()),
+            SimulatedForce(self.shared.clone()),
+            SimulatedSensor(self.shared.clone()),
+        );
+        let mut clock = self.shared.clone();
+        let (events, cancel) = (&mut self.events, &self.cancel);
+        let spec = RunSpec {
+            plan: &self.plan,
+            unit,
+            mode,
+        };
+        let devices = Devices {
+            robot: &mut robot,
+            force: &mut force,
+            sensor: Some(&mut sensor),
+            lighting: None,
+            specimens: None,
+        };
+        let mut note = |event: &Event| events.push(event.clone());
+        let controls = Controls {
+            clock: &mut clock,
+            cancel,
+            events: &mut note,
+        };
+        run(&spec, devices, log, controls)
+    }
+
+    pub(super) fn height(&self) -> f64 {
+        self.shared.world().tip[2]
+    }
+}
