@@ -1,6 +1,7 @@
 //! What was typed. Meaning is given to it in `cmd/`; nothing here has a side effect.
 
 mod bench;
+mod cache;
 mod plugin;
 mod results;
 mod shared;
@@ -12,6 +13,7 @@ use clap::{ArgGroup, Args, Parser, Subcommand};
 use taceva_models::Checkpoints;
 
 pub(crate) use self::bench::{Bench, BenchDecode, BenchKernels, BenchModels, BenchSubject};
+pub(crate) use self::cache::{CacheCommand, CacheList, CachePrune, CacheSubject};
 pub(crate) use self::plugin::{
     Plugin, PluginArgs, PluginCheck, PluginHeaders, PluginInfo, PluginList, PluginNew,
     PluginRelease,
@@ -76,6 +78,8 @@ pub(crate) enum Command {
     Score(Score),
     /// Join what shards have kept; the scores equal those of one unsharded run, bit for bit
     Merge(Merge),
+    /// Accept a deliberate edit of a sealed file, and write it with its reason into the file's history
+    Reseal(Reseal),
     /// Say which of several sensors or models is better, by how much, and how sure that is
     Compare(Compare),
     /// Find sensors for a task, with the numbers that decided
@@ -84,6 +88,8 @@ pub(crate) enum Command {
     Accept(Accept),
     /// What was published of sensors, each number with its source
     Catalogue(CatalogueArgs),
+    /// List what is kept for later runs, or remove what is old or too much
+    Cache(CacheCommand),
     /// Run time against error, with the Pareto front marked
     Bench(Bench),
     /// Plan, acquire, fit, evaluate and report a scene; without one, four sensors on the simulated bench
@@ -122,6 +128,18 @@ pub(crate) struct Import {
     /// Replace a dataset that stands there already
     #[arg(long)]
     pub(crate) force: bool,
+}
+
+/// Files that decide a number or a claim are sealed: dataset.toml, results, states and models. One that was changed is refused until the edit
+/// is accepted here; reports show the history. A model is not edited but fitted again.
+#[derive(Debug, Args)]
+pub(crate) struct Reseal {
+    /// The dataset, or the file: dataset.toml, results or a state
+    #[arg(value_name = "FILE|DATASET")]
+    pub(crate) file: PathBuf,
+    /// Why it was changed; reports show it
+    #[arg(long, value_name = "TEXT")]
+    pub(crate) reason: String,
 }
 
 /// Every finding has a stable code and a hint. Exit code 1 if there is an error among them.
@@ -234,6 +252,9 @@ pub(crate) struct Predict {
     /// The table of predictions to write; `score --pred` reads it
     #[arg(long, value_name = "PRED.csv")]
     pub(crate) out: PathBuf,
+    /// Write predictions as the model gives them, not brought back to its bounds: what robustness is formed from
+    #[arg(long)]
+    pub(crate) unbounded: bool,
     /// Also write the standard deviation of each prediction, of a model that knows it: gaussian-process
     #[arg(long, value_name = "DEVIATIONS.csv")]
     pub(crate) deviations_out: Option<PathBuf>,

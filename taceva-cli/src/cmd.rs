@@ -2,7 +2,7 @@
 
 pub(crate) mod accept;
 pub(crate) mod bench;
-mod cache;
+pub(crate) mod cache;
 pub(crate) mod catalogue;
 pub(crate) mod check;
 pub(crate) mod choose;
@@ -18,6 +18,7 @@ pub(crate) mod plan;
 pub(crate) mod plugin;
 mod plugins;
 pub(crate) mod predict;
+pub(crate) mod reseal;
 mod results;
 pub(crate) mod run;
 mod scene;
@@ -33,7 +34,7 @@ use taceva_study::{Cache, EvaluationReport, FitRequest, Part, Plan, StudyError, 
 use crate::args::{Everywhere, PartArg, PluginArgs, SettingArgs, SplitArgs};
 use crate::exit;
 use crate::progress::Terminal;
-use crate::{output, report};
+use crate::{output, report, stderr};
 
 /// What every command works with.
 pub(crate) struct Context {
@@ -69,13 +70,9 @@ impl Context {
     }
 
     /// Says where results will be, unless nothing is to be said.
-    #[expect(
-        clippy::print_stderr,
-        reason = "what is no result is for standard error"
-    )]
     pub(crate) fn say(&self, words: std::fmt::Arguments<'_>) {
         if !self.quiet {
-            eprintln!("taceva: {words}");
+            stderr::say(words);
         }
     }
 
@@ -87,16 +84,12 @@ impl Context {
     }
 
     /// With `-v`, says what is going to be done.
-    #[expect(
-        clippy::print_stderr,
-        reason = "plans that were not asked for are for standard error"
-    )]
     pub(crate) fn tell(
         &self,
         plan: impl FnOnce() -> Result<Plan, StudyError>,
     ) -> anyhow::Result<()> {
         if self.verbose {
-            eprint!("{}", plan()?);
+            stderr::write(&plan()?.to_string());
         }
         Ok(())
     }
@@ -166,6 +159,16 @@ impl Beside<'_> {
         }
         Ok(())
     }
+}
+
+/// Notes in a result the digest of the table of its samples, so that whoever reads both knows that they belong together.
+fn note_samples(written: &mut EvaluationReport) -> anyhow::Result<()> {
+    if let Some(samples) = &written.samples {
+        let mut table = Vec::new();
+        samples.write(&mut table, taceva_report::escape_csv)?;
+        written.provenance.samples_table = Some(taceva_seal::digest_of_bytes(&table));
+    }
+    Ok(())
 }
 
 /// The fit that was asked for.

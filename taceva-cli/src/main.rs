@@ -5,10 +5,14 @@
 
 mod args;
 mod cmd;
+mod date;
+mod ends;
 mod exit;
 mod output;
 mod progress;
 mod report;
+mod room;
+mod stderr;
 
 // Its drivers are found by being linked, and what is only named in Cargo.toml is not linked.
 use taceva_sim as _;
@@ -28,8 +32,18 @@ fn main() -> ExitCode {
     // Before anything else: the program runs itself again to keep a plugin in a process of its own.
     #[cfg(target_os = "linux")]
     taceva_host::main_if_child();
-    let cli = Cli::parse();
+    if ends::standard_output_is_closed() {
+        stderr::say(format_args!(
+            "standard output is closed, and the result would be lost: nothing was done; open it, or send it to a file or to /dev/null"
+        ));
+        return ExitCode::from(exit::BAD_INPUT);
+    }
+    let cli = match typed() {
+        Ok(cli) => cli,
+        Err(code) => return code,
+    };
     progress::listen_for_signals();
+    ends::refuse_to_end_at_the_limit_of_file_sizes();
     let context = Context::new(&cli.everywhere);
     let done = cmd::check_isa().and_then(|()| run(&cli.command, &context));
     let code = done.unwrap_or_else(|error| {
@@ -48,10 +62,12 @@ fn run(command: &Command, context: &Context) -> anyhow::Result<u8> {
         Command::Predict(args) => cmd::predict::run(args, context),
         Command::Score(args) => cmd::score::run(args, context),
         Command::Merge(args) => cmd::merge::run(args, context),
+        Command::Reseal(args) => cmd::reseal::run(args, context),
         Command::Compare(args) => cmd::compare::run(args, context),
         Command::Choose(args) => cmd::choose::run(args, context),
         Command::Accept(args) => cmd::accept::run(args, context),
         Command::Catalogue(args) => cmd::catalogue::run(args, context),
+        Command::Cache(args) => cmd::cache::run(args, context),
         Command::Bench(args) => cmd::bench::run(args, context),
         Command::Run(args) => cmd::run::run(args, context),
         Command::Plan(args) => cmd::plan::run(args, context),
@@ -63,7 +79,6 @@ fn run(command: &Command, context: &Context) -> anyhow::Result<u8> {
 }
 
 /// One line: what could not be done, on what, and why.
-#[expect(clippy::print_stderr, reason = "errors are for standard error")]
 fn complain(error: &Error) {
     let mut text = String::new();
     for cause in error.chain().map(ToString::to_string) {
@@ -73,17 +88,21 @@ fn complain(error: &Error) {
             text.push_str(&cause);
         }
     }
-    let shown: String = text.chars().flat_map(visible).collect();
-    eprintln!("taceva: {shown}");
+    stderr::say(format_args!("{text}"));
 }
 
-/// Control characters of foreign text must not reach the terminal.
-fn visible(letter: char) -> Vec<char> {
-    match letter {
-        '\n' | '\t' => vec![letter],
-        _ if letter.is_control() => letter.escape_unicode().collect(),
-        _ => vec![letter],
-    }
+/// What was typed; help goes to standard output, and arguments that cannot be meant end the program.
+fn typed() -> Result<Cli, ExitCode> {
+    Cli::try_parse().map_err(|error| {
+        if error.use_stderr() {
+            // Quotes what was typed, so that its own colours go with whatever else a terminal obeys.
+            stderr::write(&error.render().to_string());
+            return ExitCode::from(exit::USAGE);
+        }
+        // Whoever asked for help has left if this fails.
+        drop(error.print());
+        ExitCode::from(exit::DONE)
+    })
 }
 
 /// The exit code that a script may rely on.

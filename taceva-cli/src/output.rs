@@ -1,34 +1,99 @@
 //! Where results go: standard output, or a file that appears whole.
 
+mod guard;
+
 use std::fs::{self, File};
-use std::io::{self, BufWriter, Write};
+use std::io::{self, BufWriter, IsTerminal, Write};
 use std::path::{Path, PathBuf};
+use taceva_core::shown;
 
 use anyhow::{Context as _, bail};
+
+use crate::args::{Format, ListFormat};
+
+pub(crate) use guard::Form;
+use guard::Guard;
+
+impl From<Format> for Form {
+    fn from(format: Format) -> Form {
+        match format {
+            Format::Text | Format::Md => Form::Words,
+            Format::Json => Form::Json,
+            Format::Csv | Format::Tex => Form::Table,
+        }
+    }
+}
+
+impl From<ListFormat> for Form {
+    fn from(format: ListFormat) -> Form {
+        match format {
+            ListFormat::Text => Form::Words,
+            ListFormat::Json => Form::Json,
+        }
+    }
+}
 
 /// Refuses to write over `path` unless told to, before any work is done for it.
 pub(crate) fn check_free(path: &Path, force: bool) -> anyhow::Result<()> {
     if path.exists() && !force {
-        bail!("{} exists already; --force replaces it", path.display());
+        bail!("{} exists already; --force replaces it", shown(path));
     }
     Ok(())
 }
 
-/// Writes a result to `path`, or to standard output.
+/// Writes words to standard output, or a file of any kind to `path` as it is rendered.
 ///
 /// A file is written beside its place and renamed, so that it is absent or whole, and stays when the power is cut afterwards.
 pub(crate) fn write(
     path: Option<&Path>,
     render: impl FnOnce(&mut dyn Write) -> io::Result<()>,
 ) -> anyhow::Result<()> {
-    let Some(path) = path else {
-        let mut out = BufWriter::new(io::stdout().lock());
-        return match render(&mut out).and_then(|()| out.flush()) {
-            // Whoever reads us has read enough.
-            Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Ok(()),
-            result => result.context("cannot write to standard output"),
-        };
+    match path {
+        None => write_as(Form::Words, None, render),
+        Some(path) => write_file(path, render),
+    }
+}
+
+/// Writes a result in `form` to `path`, or to standard output: what terminals obey in it is written out as the form wants it.
+pub(crate) fn write_as(
+    form: impl Into<Form>,
+    path: Option<&Path>,
+    render: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+) -> anyhow::Result<()> {
+    let form = form.into();
+    if let Some(path) = path {
+        return write_file(path, |out| guarded(form, out, render));
+    }
+    let out = io::stdout().lock();
+    let form = match form {
+        Form::Table if out.is_terminal() => Form::Words,
+        form => form,
     };
+    let mut out = BufWriter::new(out);
+    match guarded(form, &mut out, render).and_then(|()| out.flush()) {
+        // Whoever reads us has read enough.
+        Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Ok(()),
+        result => result.context("cannot write to standard output"),
+    }
+}
+
+fn guarded(
+    form: Form,
+    out: &mut dyn Write,
+    render: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+) -> io::Result<()> {
+    if form == Form::Table {
+        return render(out);
+    }
+    let mut guard = Guard::new(out, form);
+    render(&mut guard)?;
+    guard.finish().map(drop)
+}
+
+fn write_file(
+    path: &Path,
+    render: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+) -> anyhow::Result<()> {
     let beside = beside(path)?;
     let written = write_whole(&beside, render)
         .and_then(|()| fs::rename(&beside, path))
@@ -37,7 +102,7 @@ pub(crate) fn write(
         // The error that counts is the one reported below.
         drop(fs::remove_file(&beside));
     }
-    written.with_context(|| format!("cannot write {}", path.display()))
+    written.with_context(|| format!("cannot write {}", shown(path)))
 }
 
 fn write_whole(
@@ -63,7 +128,7 @@ fn sync_parent(path: &Path) -> io::Result<()> {
 fn beside(path: &Path) -> anyhow::Result<PathBuf> {
     let name = path
         .file_name()
-        .with_context(|| format!("{} names no file", path.display()))?;
+        .with_context(|| format!("{} names no file", shown(path)))?;
     let mut hidden = std::ffi::OsString::from(".");
     hidden.push(name);
     hidden.push(format!(".{}.partial", std::process::id()));

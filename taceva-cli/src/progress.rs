@@ -3,10 +3,12 @@
 use std::io::IsTerminal;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
-use taceva_core::Progress;
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
+use taceva_core::{Progress, shown};
+
+use crate::stderr;
 
 /// Set once by a signal, read by all work.
 static STOPPED: AtomicBool = AtomicBool::new(false);
@@ -31,6 +33,74 @@ pub(crate) fn is_stopped() -> bool {
 pub(crate) struct Terminal {
     mode: Mode,
     bar: Mutex<Option<ProgressBar>>,
+    pace: Mutex<Option<Pace>>,
+}
+
+/// How often plain lines say where long work is.
+const EVERY: Duration = Duration::from_secs(30);
+
+/// A stage without a terminal: what is done of it, and since when.
+struct Pace {
+    stage: String,
+    steps: Option<u64>,
+    done: u64,
+    begun: Instant,
+    said: Instant,
+}
+
+impl Pace {
+    fn new(stage: &str, steps: Option<u64>) -> Pace {
+        let now = Instant::now();
+        Pace {
+            stage: stage.to_owned(),
+            steps,
+            done: 0,
+            begun: now,
+            said: now,
+        }
+    }
+
+    /// Counts `steps` more; what to say of it, if it is time.
+    fn advance(&mut self, steps: u64, now: Instant) -> Option<String> {
+        self.done = self.done.saturating_add(steps);
+        if now.duration_since(self.said) < EVERY {
+            return None;
+        }
+        self.said = now;
+        let stage = &self.stage;
+        let Some(all) = self.steps else {
+            return Some(format!("{stage}: {}", self.done));
+        };
+        let left = left(self.done, all, now.duration_since(self.begun));
+        let left = left.map_or_else(String::new, |left| format!(", about {} left", spoken(left)));
+        Some(format!("{stage}: {} of {all}{left}", self.done))
+    }
+}
+
+/// How long the rest takes at the pace of what is done so far; `None` where too little is done to tell.
+fn left(done: u64, all: u64, elapsed: Duration) -> Option<Duration> {
+    if done == 0 || done > all || elapsed < Duration::from_secs(1) {
+        return None;
+    }
+    #[expect(
+        clippy::cast_precision_loss,
+        reason = "a ratio of counts; nothing is decided by it"
+    )]
+    let share = (all - done) as f64 / done as f64;
+    Duration::try_from_secs_f64(elapsed.as_secs_f64() * share).ok()
+}
+
+/// `40 s`, `12 min`, `3 h 5 min`.
+fn spoken(time: Duration) -> String {
+    let seconds = time.as_secs();
+    match seconds {
+        0..=89 => format!("{seconds} s"),
+        90..=5399 => format!("{} min", seconds.div_ceil(60)),
+        _ => {
+            let minutes = seconds.div_ceil(60);
+            format!("{} h {} min", minutes / 60, minutes % 60)
+        }
+    }
 }
 
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -50,6 +120,14 @@ impl Terminal {
         Terminal {
             mode,
             bar: Mutex::new(None),
+            pace: Mutex::new(None),
+        }
+    }
+
+    /// Does `act` with the stage that plain lines tell of.
+    fn with_pace(&self, act: impl FnOnce(&mut Option<Pace>)) {
+        if let Ok(mut pace) = self.pace.lock() {
+            act(&mut pace);
         }
     }
 
@@ -61,24 +139,30 @@ impl Terminal {
 }
 
 impl Progress for Terminal {
-    #[expect(
-        clippy::print_stderr,
-        reason = "plain progress lines are for standard error"
-    )]
     fn begin(&self, stage: &str, steps: Option<u64>) {
         match self.mode {
             Mode::Quiet => {}
-            Mode::Lines => match steps {
-                Some(steps) => eprintln!("taceva: {stage} ({steps})"),
-                None => eprintln!("taceva: {stage}"),
-            },
+            Mode::Lines => {
+                self.with_pace(|pace| *pace = Some(Pace::new(stage, steps)));
+                match steps {
+                    Some(steps) => stderr::say(format_args!("{stage} ({steps})")),
+                    None => stderr::say(format_args!("{stage}")),
+                }
+            }
             Mode::Bar => self.with_bar(|bar| *bar = Some(draw(stage, steps))),
         }
     }
 
     fn advance(&self, steps: u64) {
-        if self.mode == Mode::Bar {
-            self.with_bar(|bar| bar.iter().for_each(|bar| bar.inc(steps)));
+        match self.mode {
+            Mode::Quiet => {}
+            Mode::Bar => self.with_bar(|bar| bar.iter().for_each(|bar| bar.inc(steps))),
+            Mode::Lines => self.with_pace(|pace| {
+                let now = Instant::now();
+                if let Some(words) = pace.as_mut().and_then(|pace| pace.advance(steps, now)) {
+                    stderr::say(format_args!("{words}"));
+                }
+            }),
         }
     }
 
@@ -97,15 +181,53 @@ fn draw(stage: &str, steps: Option<u64>) -> ProgressBar {
     let (bar, template) = match steps {
         Some(steps) => (
             ProgressBar::new(steps),
-            "{msg:<28} {wide_bar} {pos}/{len}  {eta}",
+            "{msg:<28} {wide_bar} {pos}/{len}  {left}",
         ),
         None => (ProgressBar::new_spinner(), "{msg:<28} {spinner} {elapsed}"),
     };
     bar.set_draw_target(ProgressDrawTarget::stderr_with_hz(10));
     if let Ok(style) = ProgressStyle::with_template(template) {
-        bar.set_style(style);
+        // Of what is not known yet nothing is said, where a bar of its own would say 0 s.
+        let left = |state: &ProgressState, out: &mut dyn std::fmt::Write| {
+            let all = state.len().unwrap_or(0);
+            let words = left(state.pos(), all, state.elapsed()).map(spoken);
+            let words = words.unwrap_or_else(|| "…".to_owned());
+            // What cannot be written is no reason to stop.
+            let _ = write!(out, "{words} left");
+        };
+        bar.set_style(style.with_key("left", left));
     }
-    bar.set_message(stage.to_owned());
+    bar.set_message(shown(stage).to_string());
     bar.enable_steady_tick(Duration::from_millis(200));
     bar
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_left_follows_from_what_was_measured_and_nothing_is_said_before() {
+        let minute = Duration::from_secs(60);
+        assert_eq!(left(0, 10, minute), None);
+        assert_eq!(left(5, 10, Duration::from_millis(10)), None);
+        assert_eq!(left(5, 10, minute), Some(minute));
+        assert_eq!(left(10, 10, minute), Some(Duration::ZERO));
+        assert_eq!(left(1, u64::MAX, Duration::MAX), None);
+        let said = [0, 89, 90, 5399, 5400].map(|seconds| spoken(Duration::from_secs(seconds)));
+        assert_eq!(said, ["0 s", "89 s", "2 min", "90 min", "1 h 30 min"]);
+    }
+
+    #[test]
+    fn plain_lines_come_every_half_minute_and_say_how_long_the_rest_takes() {
+        let mut pace = Pace::new("press", Some(100));
+        let begun = pace.begun;
+        assert_eq!(pace.advance(10, begun + Duration::from_secs(10)), None);
+        let said = pace.advance(10, begun + Duration::from_secs(40));
+        assert_eq!(said.as_deref(), Some("press: 20 of 100, about 3 min left"));
+        assert_eq!(pace.advance(1, begun + Duration::from_secs(41)), None);
+        let mut open = Pace::new("train", None);
+        let said = open.advance(3, open.begun + EVERY);
+        assert_eq!(said.as_deref(), Some("train: 3"));
+    }
 }

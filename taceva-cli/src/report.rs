@@ -18,6 +18,7 @@ pub(crate) mod plugin_check;
 mod profile;
 mod text;
 mod thumbnail;
+pub(crate) mod triple;
 
 use std::io::{self, Write};
 
@@ -34,7 +35,7 @@ pub(crate) fn evaluation(
 ) -> io::Result<()> {
     match format {
         Format::Text => text::write(report, out),
-        Format::Json => json::write(report, out),
+        Format::Json => json::write_sealed(report, out),
         Format::Csv => csv::write(report, out),
         Format::Md => markdown::write(report, out),
         Format::Tex => latex::write(report, out),
@@ -48,7 +49,7 @@ pub(crate) fn profiles(
     out: &mut dyn Write,
 ) -> io::Result<()> {
     if format == Format::Json {
-        return json::write(
+        return json::write_sealed(
             &Profiles {
                 schema: taceva_report::RUN_SCHEMA,
                 studies: reports,

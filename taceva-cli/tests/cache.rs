@@ -76,7 +76,7 @@ fn reused(bench: &Bench, run: &str) -> Vec<String> {
 
 /// The only entry of a stage in the cache in `cache`.
 fn entry(cache: &Path, stage: &str) -> PathBuf {
-    let entries = fs::read_dir(cache.join("1").join(stage)).expect("a folder");
+    let entries = fs::read_dir(cache.join("2").join(stage)).expect("a folder");
     let mut entries: Vec<PathBuf> = entries
         .map(|entry| entry.expect("readable").path())
         .collect();
@@ -100,7 +100,8 @@ fn an_unchanged_run_finds_every_stage_and_gives_the_bytes_of_one_without_a_cache
         assert!(second.err.contains(&line), "{}", second.err);
     }
     let bare = written(&bench, "bare");
-    assert!(bare.len() > 30, "{}", bare.len());
+    // Of reports three files, of the recording header, table, pack and reference.
+    assert_eq!(bare.len(), 7);
     assert_eq!(written(&bench, "first"), bare);
     assert_eq!(written(&bench, "second"), bare);
     // Not even where others have kept everything.
@@ -167,19 +168,22 @@ fn a_damaged_entry_is_removed_and_made_again() {
     assert_eq!(run("first").code, 0);
     let whole = written(&bench, "first");
     let cache = bench.path("kept");
-    let recording = entry(&cache, "acquire");
-    let frame = files(&recording.join("frames")).remove(3);
+    let of_run = |file: &str| PathBuf::from(format!("recordings/1-small/{file}"));
     let damages = [
-        ("acquire", recording.join("dataset.toml")),
-        ("acquire", recording.join("samples.parquet")),
-        ("acquire", frame),
+        ("acquire", of_run("dataset.toml")),
+        ("acquire", of_run("samples.parquet")),
+        ("acquire", of_run("frames/0000.pack")),
+        ("acquire", of_run("frames/reference.png")),
         ("fit", entry(&cache, "fit")),
         ("predict", entry(&cache, "predict")),
         ("tell", entry(&cache, "tell")),
     ];
+    let mut last = "first".to_owned();
     for (number, (stage, file)) in damages.iter().enumerate() {
         for way in ["cut", "gone"] {
             let name = format!("{way}-{number}");
+            // An entry of the cache, or a file of the only run that is left.
+            let file = &bench.path(&last).join(file);
             let bytes = fs::read(file).expect("kept");
             // A file that is linked is left as it is by those who remove it first.
             fs::remove_file(file).expect("removed");
@@ -194,7 +198,38 @@ fn a_damaged_entry_is_removed_and_made_again() {
             let expected = STAGES.iter().filter(|other| *other != stage);
             assert_eq!(reused(&bench, &name), expected.copied().collect::<Vec<_>>());
             assert_eq!(written(&bench, &name), whole, "{name}");
+            fs::remove_dir_all(bench.path(&last)).expect("removed");
+            last = name;
         }
+    }
+}
+
+#[test]
+fn a_recording_that_its_run_took_along_or_exchanged_is_pressed_again() {
+    let bench = with_small();
+    bench.ok("run small.toml --out first --cache kept -q");
+    let whole = written(&bench, "first");
+    fs::rename(bench.path("first"), bench.path("elsewhere")).expect("moved");
+    let gone = bench.run("run small.toml --out second --cache kept");
+    assert!(!gone.err.contains("made anew"), "{}", gone.err);
+    assert_eq!(reused(&bench, "second"), ["fit", "predict", "tell"]);
+    assert_eq!(written(&bench, "second"), whole);
+    // Another recording, whole in itself, where the one that was noted lay.
+    bench.ok("run small.toml --out second --force --seed 8 --cache kept -q");
+    let exchanged = bench.run("run small.toml --out third --cache kept");
+    assert!(exchanged.err.contains("made anew"), "{}", exchanged.err);
+    assert_eq!(reused(&bench, "third"), ["fit", "predict", "tell"]);
+    assert_eq!(written(&bench, "third"), whole);
+    // The same file, not a second one.
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::MetadataExt;
+        bench.ok("run small.toml --out fourth --cache kept -q");
+        assert_eq!(reused(&bench, "fourth"), STAGES);
+        let pack =
+            |run: &str| fs::metadata(bench.path(run).join("recordings/1-small/frames/0000.pack"));
+        let inode = |run: &str| MetadataExt::ino(&pack(run).expect("there"));
+        assert_eq!(inode("third"), inode("fourth"));
     }
 }
 
@@ -202,12 +237,12 @@ fn a_damaged_entry_is_removed_and_made_again() {
 fn an_entry_of_another_layout_and_a_half_written_one_are_never_read() {
     let bench = with_small();
     bench.ok("run small.toml --out first --cache kept -q");
-    fs::rename(bench.path("kept/1"), bench.path("kept/2")).expect("moved");
+    fs::rename(bench.path("kept/2"), bench.path("kept/1")).expect("moved");
     bench.ok("run small.toml --out second --cache kept -q");
     assert_eq!(reused(&bench, "second"), [""; 0]);
-    // What a run leaves that is stopped while it keeps a recording.
+    // What a run leaves that is stopped while it notes a recording.
     let recording = entry(&bench.path("kept"), "acquire");
-    fs::rename(recording, bench.path("kept/1/partial/1-0")).expect("moved");
+    fs::rename(recording, bench.path("kept/2/partial/1-0")).expect("moved");
     bench.ok("run small.toml --out third --cache kept -q");
     assert_eq!(reused(&bench, "third"), ["fit", "predict", "tell"]);
     assert_eq!(written(&bench, "first"), written(&bench, "third"));
@@ -246,7 +281,7 @@ fn runs_at_once_with_one_cache_do_not_disturb_each_other() {
     }
     let first = written(&bench, "a");
     assert!(runs.iter().all(|run| written(&bench, run) == first));
-    assert!(files(&bench.path("kept/1/partial")).is_empty());
+    assert!(files(&bench.path("kept/2/partial")).is_empty());
     bench.ok("run small.toml --out d --cache kept -q");
     assert_eq!(reused(&bench, "d"), STAGES);
 }

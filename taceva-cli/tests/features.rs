@@ -62,7 +62,7 @@ fn kinds_of_features_are_chosen_by_a_setting() {
 
 /// Features that were kept, in the order of their names.
 fn kept(bench: &Bench) -> Vec<PathBuf> {
-    let folder = bench.path("user-cache/taceva/1/features");
+    let folder = bench.path("user-cache/taceva/2/features");
     let entries = fs::read_dir(folder).into_iter().flatten();
     let mut entries: Vec<PathBuf> = entries
         .map(|entry| entry.expect("readable").path())

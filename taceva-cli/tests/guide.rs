@@ -7,6 +7,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
+use taceva_needs::{Need, skip};
+
 const GUIDE: &str = include_str!("../../plugins/README.md");
 
 /// A fenced block: what stands behind its fence, and its lines.
@@ -95,19 +97,18 @@ fn a_plugin_in_rust_is_made_as_the_guide_says() {
     assert!(is_listed(&project, "org.example.my-scale"));
 }
 
-/// Whether there is such a compiler.
-#[expect(clippy::print_stderr, reason = "a skipped test must say why")]
-fn has(compiler: &str) -> bool {
+/// Whether there is such a compiler, which is what the test `need`s.
+fn has(compiler: &str, need: Need) -> bool {
     let found = Command::new(compiler).arg("--version").output();
     if let Err(error) = &found {
-        eprintln!("skipped: `{compiler}`: {error}");
+        skip(need, format!("`{compiler}`: {error}"));
     }
     found.is_ok()
 }
 
 #[test]
 fn a_plugin_in_c_is_made_as_the_guide_says() {
-    if !has("cc") {
+    if !has("cc", Need::CCompiler) {
         return;
     }
     let folder = tempfile::tempdir().expect("a folder");
@@ -117,7 +118,7 @@ fn a_plugin_in_c_is_made_as_the_guide_says() {
 
 #[test]
 fn a_plugin_in_cpp_is_made_as_the_guide_says() {
-    if !has("c++") {
+    if !has("c++", Need::CppCompiler) {
         return;
     }
     let folder = tempfile::tempdir().expect("a folder");

@@ -7,9 +7,9 @@ use std::path::Path;
 use std::process::Command;
 
 use support::Bench;
+use taceva_needs::{Need, skip};
 
 /// A bench with the plugin in `plugins/fixture`, built with `macros`; `None`, with a word about it, where there is no compiler of C.
-#[expect(clippy::print_stdout, reason = "a test that is skipped says so")]
 fn with_plugin(macros: &[&str]) -> Option<Bench> {
     let bench = Bench::new();
     let plugins = Path::new(env!("CARGO_MANIFEST_DIR")).join("../plugins");
@@ -35,7 +35,7 @@ fn with_plugin(macros: &[&str]) -> Option<Bench> {
     match built {
         Ok(status) => assert!(status.success()),
         Err(error) => {
-            println!("skipped: no compiler of C: {error}");
+            skip(Need::CCompiler, format!("`cc`: {error}"));
             return None;
         }
     }

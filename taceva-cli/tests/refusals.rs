@@ -172,8 +172,9 @@ fn tables_of_different_channels_are_refused() {
     );
     bench.refused("score --truth pred.csv --pred truth.csv", 3, "Fx");
     bench.write("none.csv", "id,point_id\n1,1\n");
+    bench.write("none-too.csv", "id,point_id\n1,1\n");
     bench.refused(
-        "score --truth none.csv --pred none.csv",
+        "score --truth none.csv --pred none-too.csv",
         3,
         "no column is a channel",
     );
@@ -222,7 +223,8 @@ fn samples_without_points_get_no_interval_rather_than_a_narrow_one() {
     let bench = Bench::new();
     let rows: String = (0..50).map(|row| format!("{row}\n")).collect();
     bench.write("truth.csv", &format!("Fz\n{rows}"));
-    let report = bench.json("score --truth truth.csv --pred truth.csv --metrics mae,r2");
+    bench.write("pred.csv", &format!("Fz\n{rows}"));
+    let report = bench.json("score --truth truth.csv --pred pred.csv --metrics mae,r2");
     assert_eq!(
         report["metrics"]["mae"]["Fz"]["ci95"]["undefined"],
         "samples without point_id"
@@ -238,7 +240,7 @@ fn a_folder_that_is_no_dataset_or_a_newer_one_is_refused() {
     let header = std::fs::read_to_string(bench.path("data/dataset.toml")).expect("there");
     bench.write(
         "data/dataset.toml",
-        &header.replace("format = \"1.2\"", "format = \"2.0\""),
+        &header.replace("format = \"1.3\"", "format = \"2.0\""),
     );
     bench.refused(
         "evaluate data --model ridge",
@@ -280,7 +282,9 @@ fn a_pipe_in_place_of_any_file_is_refused_and_not_waited_for() {
     assert!(pipe.is_ok_and(|status| status.success()), "mkfifo is there");
     bench.refused("evaluate data --with pipe", 3, "not a regular file");
     bench.refused("import lab --map pipe --to new", 3, "pipe");
-    bench.refused("score --truth pipe --pred pipe", 3, "pipe");
+    bench.write("truth.csv", "Fz\n1\n");
+    bench.refused("score --truth pipe --pred truth.csv", 3, "pipe");
+    bench.refused("score --truth truth.csv --pred pipe", 3, "pipe");
     bench.refused("check pipe", 3, "pipe is no dataset");
 }
 
@@ -299,10 +303,12 @@ fn the_first_bad_cell_is_the_same_for_any_number_of_jobs() {
             .map(|row| format!("{},{}\n", row, cell(row)))
             .collect()
     };
-    bench.write("truth.csv", &format!("Fx,Fz\n{}", rows([25_000, 9_000])));
+    let table = format!("Fx,Fz\n{}", rows([25_000, 9_000]));
+    bench.write("truth.csv", &table);
+    bench.write("pred.csv", &table);
     for jobs in 1..=3 {
         bench.refused(
-            &format!("score --truth truth.csv --pred truth.csv --jobs {jobs}"),
+            &format!("score --truth truth.csv --pred pred.csv --jobs {jobs}"),
             3,
             "line 9002, column `Fz`",
         );

@@ -18,8 +18,8 @@ seed = 7
 robot = { driver = "sim/robot" }
 force = { driver = "sim/force-transducer" }
 lighting = { driver = "sim/lighting" }
-model = { name = "ridge", set = { size = "8x8" } }
-protocol = { calibration = { points = 30, indentations = 2 }, spatial = { points = 12 }, gratings = { step_mm = 0.75, presses = 2 }, lighting = { points = 3 }, repeatability = { points = 3, trials = 3, depth_step_mm = 0.5 }, hysteresis = { points = 3, depth_step_mm = 0.25 }, surface = { points = 8 }, idle = { frames = 6 } }
+model = { name = "ridge", set = { size = "16x16" } }
+protocol = { calibration = { points = 90, indentations = 2 }, spatial = { points = 12 }, gratings = { step_mm = 0.75, presses = 2 }, lighting = { points = 3 }, repeatability = { points = 3, trials = 3, depth_step_mm = 0.5 }, hysteresis = { points = 3, depth_step_mm = 0.25 }, surface = { points = 8 }, idle = { frames = 6 } }
 [[study]]
 name = "dome"
 sensor = { driver = "sim/vitactip:reduction=16", units = ["0", "1"] }
@@ -84,7 +84,7 @@ fn json(text: &str) -> Value {
 fn predictions_of_the_same_samples_are_compared_one_by_one() {
     let bench = Bench::new();
     bench.record("data", 40);
-    for (model, name) in [("ridge", "a"), ("baseline", "b")] {
+    for (model, name) in [("ridge", "a"), ("pls", "b")] {
         let out = format!("--format json --out {name}.json --samples-out {name}.samples.csv");
         bench.ok(&format!("evaluate data --model {model} --split random --part all {out} --html {name}.html --figures {name} -q"));
         schema::check(
@@ -139,7 +139,7 @@ sensor = {{ driver = "sim/vitactip:reduction=16" }}
 #[test]
 fn runs_are_compared_by_their_folders_and_what_is_missing_is_named() {
     let bench = Bench::new();
-    for (model, folder) in [("ridge", "one"), ("baseline", "two")] {
+    for (model, folder) in [("ridge", "one"), ("pls", "two")] {
         bench.write(&format!("{folder}.toml"), &small(model));
         bench.ok(&format!("run {folder}.toml --out {folder} -q"));
     }
@@ -155,7 +155,7 @@ fn runs_are_compared_by_their_folders_and_what_is_missing_is_named() {
     let by_file = bench.json("compare one/results.json two/reports/1-dome.json --metrics mae");
     assert_eq!(by_file, by_folder);
     fs::remove_file(bench.path("two/reports/1-dome.samples.csv")).expect("it was there");
-    let ran = bench.run("compare one two --metrics mae");
+    let ran = bench.run("compare one two --metrics mae --all");
     assert_eq!(ran.code, 0, "{}", ran.err);
     let told = "two/results.json: no samples of dome, looked for two/reports/1-*.samples.csv: compared without pairs, by Welch's test";
     assert!(ran.err.contains(told), "{}", ran.err);
@@ -326,6 +326,63 @@ fn published_numbers_are_compared_and_chosen_from() {
         2,
         "expected METRIC[.CHANNEL]=NUMBER",
     );
+}
+
+/// A result of one channel.
+fn scored(bench: &Bench) {
+    bench.write(
+        "t.csv",
+        "id,point_id,Fz\n1,a,0.1\n2,b,0.2\n3,c,0.3\n4,d,0.4\n5,e,0.5\n6,f,0.6\n",
+    );
+    bench.write(
+        "p.csv",
+        "id,Fz\n1,0.11\n2,0.21\n3,0.32\n4,0.41\n5,0.52\n6,0.61\n",
+    );
+    bench.ok("score --truth t.csv --pred p.csv --metrics mae,r2 --format json --out r.json -q");
+}
+
+#[test]
+fn limits_as_the_help_shows_them_are_taken_as_they_are_typed() {
+    let bench = Bench::new();
+    scored(&bench);
+    let help = bench.ok("accept --help");
+    let limits = help.split("Limits:\n").nth(1).expect("an example");
+    let limits = limits.split("\n\n").next().expect("an end");
+    assert!(limits.contains("[[limit]]"), "{limits}");
+    bench.write("limits.toml", limits);
+    bench.ok("accept r.json --limits limits.toml -q");
+}
+
+#[test]
+fn limits_of_a_result_are_kept_by_it() {
+    let bench = Bench::new();
+    scored(&bench);
+    let limits = bench.ok("accept --template r.json -q");
+    assert!(
+        limits.contains("# measured: ") && limits.contains("metric = \"mae\""),
+        "{limits}"
+    );
+    bench.ok("accept --template r.json --out limits.toml -q");
+    let accepted =
+        bench.json("accept r.json --limits limits.toml --date 2024-02-29 --html sheet.html");
+    schema::check("acceptance", &accepted);
+    assert_eq!(
+        (&accepted["passed"], &accepted["date"]),
+        (&Value::Bool(true), &Value::String("2024-02-29".to_owned()))
+    );
+    let sheet = fs::read_to_string(bench.path("sheet.html")).expect("there");
+    assert!(sheet.contains("<dt>date</dt><dd>2024-02-29</dd>"));
+    bench.refused(
+        "accept --template r.json --out limits.toml",
+        3,
+        "exists already",
+    );
+    bench.refused(
+        "accept r.json --limits limits.toml --date 2026-02-30",
+        2,
+        "--date `2026-02-30`: expected a day such as 2026-11-22",
+    );
+    bench.refused("accept r.json", 2, "--limits");
 }
 
 #[test]

@@ -82,12 +82,58 @@ fn states_that_do_not_belong_together_are_refused_by_name() {
     bench.refused(
         "merge new.state",
         3,
-        "its schema is `taceva.state/9`, expected `taceva.state/1`",
+        "its schema is `taceva.state/9`, expected `taceva.state/1.1`",
     );
     bench.refused("merge nowhere.state", 3, "nowhere.state: ");
     let text = std::fs::read_to_string(bench.path("a.state")).expect("written");
-    bench.write("bad.state", &text.replacen("\"n_min\":1", "\"n_min\":0", 1));
+    let (body, _) = text.split_once(",\"seal\":").expect("a seal");
+    let older = format!("{body}}}").replacen("taceva.state/1.1", "taceva.state/1", 1);
+    bench.write(
+        "bad.state",
+        &older.replacen("\"n_min\":1", "\"n_min\":0", 1),
+    );
     bench.refused("merge bad.state", 3, "setting `n_min`");
+}
+
+#[test]
+fn a_state_that_was_changed_is_refused_by_its_key_and_an_older_one_marked() {
+    let bench = bench();
+    bench.ok(&score("a", "--state-out a.state -q"));
+    let text = std::fs::read_to_string(bench.path("a.state")).expect("written");
+    bench.write("bad.state", &text.replacen("\"seed\":", "\"seed\":1", 1));
+    bench.refused(
+        "merge bad.state",
+        3,
+        "`plan.seed` was changed after it was sealed",
+    );
+    let (body, _) = text.split_once(",\"seal\":").expect("a seal");
+    bench.write("bare.state", &format!("{body}}}"));
+    bench.refused("merge bare.state", 3, "the seal is gone");
+    let older = format!("{body}}}").replacen("taceva.state/1.1", "taceva.state/1", 1);
+    bench.write("older.state", &older);
+    let merged = bench.json("merge older.state");
+    assert_eq!(merged["provenance"]["unsealed"][0], "state older.state");
+}
+
+#[test]
+fn rows_that_were_taken_already_are_refused_by_name() {
+    let bench = bench();
+    bench.ok(&score("a", "--state-out a.state -q"));
+    bench.ok(&score("b", "--state-out b.state -q"));
+    bench.refused(
+        "merge a.state a.state",
+        3,
+        "a.state: the same state as a.state",
+    );
+    bench.ok("merge a.state b.state --state-out ab.state -q");
+    bench.refused("merge ab.state b.state", 3, "269 rows of sha256:");
+    bench.refused(
+        "merge ab.state b.state",
+        3,
+        "were taken already by ab.state",
+    );
+    bench.ok(&score("a", "--state-out again.state -q"));
+    bench.refused("merge a.state again.state", 3, "again.state: ");
 }
 
 #[test]

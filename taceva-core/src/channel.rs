@@ -197,7 +197,8 @@ impl fmt::Display for ChannelError {
         match self {
             ChannelError::Name { name } => write!(
                 f,
-                "`{name}` is no channel name: a letter, then letters, digits or `_`, at most {} bytes",
+                "`{}` is no channel name: a letter, then letters, digits or `_`, at most {} bytes",
+                crate::shown(name),
                 Channel::NAME_MAX
             ),
             ChannelError::Unit {
@@ -205,9 +206,12 @@ impl fmt::Display for ChannelError {
                 expected,
                 found,
             } => {
+                let name = crate::shown(name);
                 write!(f, "channel `{name}` is kept in {expected}, not in {found}")
             }
-            ChannelError::Twice { name } => write!(f, "channel `{name}` is given twice"),
+            ChannelError::Twice { name } => {
+                write!(f, "channel `{}` is given twice", crate::shown(name))
+            }
         }
     }
 }

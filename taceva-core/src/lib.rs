@@ -13,6 +13,7 @@ mod geometry;
 mod grating;
 mod id;
 mod isa;
+mod magnitude;
 mod model;
 mod nanometre;
 mod needs;
@@ -22,6 +23,7 @@ mod progress;
 mod quantity;
 mod registry;
 mod sample;
+mod shown;
 mod si;
 mod skip;
 mod specimen;
@@ -47,6 +49,7 @@ pub use geometry::{Point, Pose, Rotation};
 pub use grating::GratingKind;
 pub use id::{DriverKey, DriverKeyError};
 pub use isa::{Isa, IsaError};
+pub use magnitude::{MAGNITUDE_MAX, is_scorable};
 pub use model::{
     Estimator, FeatureShape, Features, ModelError, Regressor, Saved, SavedRegressor, Targets,
     TrainingSet,
@@ -63,6 +66,7 @@ pub use registry::{
     Workspace,
 };
 pub use sample::{Readings, Sample};
+pub use shown::{Shown, is_obeyed, shown, shown_lines};
 pub use si::SiPose;
 pub use skip::{SkipReason, Skipped};
 pub use specimen::Specimen;

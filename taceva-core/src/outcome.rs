@@ -112,7 +112,8 @@ impl TryFrom<String> for PressOutcome {
         let names = || PressOutcome::ALL.map(PressOutcome::name).join(", ");
         PressOutcome::from_name(&name).ok_or_else(|| {
             format!(
-                "`{name}` is no way a press ends, expected one of {}",
+                "`{}` is no way a press ends, expected one of {}",
+                crate::shown(&name),
                 names()
             )
         })

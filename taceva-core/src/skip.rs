@@ -27,6 +27,8 @@ pub enum SkipReason {
     GelIsOpaque,
     /// Nothing that was asked for reads it.
     NothingReadsIt,
+    /// The samples cannot be divided into training and test parts; the text says why.
+    NoSplit(String),
     /// The user asked for something else.
     NotWanted,
     /// A finished result was given, so it need not be made.
@@ -42,6 +44,7 @@ impl SkipReason {
             SkipReason::FactAbsent("footprint"),
             SkipReason::GelIsOpaque,
             SkipReason::NothingReadsIt,
+            SkipReason::NoSplit("2 points are too few".to_owned()),
             SkipReason::NotWanted,
             SkipReason::AlreadyThere,
         ]
@@ -52,12 +55,21 @@ impl fmt::Display for SkipReason {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             SkipReason::FieldAbsent(field) => write!(f, "no sample carries `{field}`"),
-            SkipReason::ChannelAbsent(channel) => write!(f, "there is no channel `{channel}`"),
+            SkipReason::ChannelAbsent(channel) => {
+                write!(f, "there is no channel `{}`", crate::shown(channel))
+            }
             SkipReason::FactAbsent(fact) => write!(f, "the sensor's `{fact}` is not declared"),
             SkipReason::GelIsOpaque => {
                 f.write_str("the gel is opaque: ambient light cannot reach the camera")
             }
             SkipReason::NothingReadsIt => f.write_str("nothing that was asked for reads it"),
+            SkipReason::NoSplit(why) => {
+                write!(
+                    f,
+                    "the samples cannot be divided into parts: {}",
+                    crate::shown(why)
+                )
+            }
             SkipReason::NotWanted => f.write_str("not asked for"),
             SkipReason::AlreadyThere => f.write_str("a finished one was given"),
         }
@@ -79,6 +91,7 @@ mod tests {
                 "the sensor's `footprint` is not declared",
                 "the gel is opaque: ambient light cannot reach the camera",
                 "nothing that was asked for reads it",
+                "the samples cannot be divided into parts: 2 points are too few",
                 "not asked for",
                 "a finished one was given",
             ]

@@ -235,7 +235,11 @@ pub struct UnitError {
 
 impl fmt::Display for UnitError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "unknown unit `{}`, expected one of ", self.symbol)?;
+        write!(
+            f,
+            "unknown unit `{}`, expected one of ",
+            crate::shown(&self.symbol)
+        )?;
         for (position, symbol) in SourceUnit::symbols().enumerate() {
             let separator = if position == 0 { "" } else { ", " };
             write!(f, "{separator}{symbol}")?;

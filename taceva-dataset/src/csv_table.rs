@@ -18,8 +18,6 @@ use crate::text::{nearest, shown};
 use number::parse_number;
 use split::Block;
 
-pub(crate) use number::number_hint;
-
 /// A CSV file with a header, in memory.
 ///
 /// Commas, semicolons and tabs are told apart by the header; a byte order mark, CRLF, blank lines and quoted cells are
@@ -185,7 +183,7 @@ impl CsvTable {
         let cell = self.cell(row, column);
         DatasetError::Table {
             place: self.place(row, column),
-            problem: format!("`{}` is no finite number{}", shown(cell), number_hint(cell)),
+            problem: format!("`{}` {}", shown(cell), number::not_a_number(cell)),
         }
     }
 

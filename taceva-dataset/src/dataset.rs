@@ -1,18 +1,24 @@
 //! A recording on disk, opened for reading.
 
+use std::collections::BTreeMap;
 use std::io::{Seek, SeekFrom};
 use std::num::NonZeroUsize;
-use std::path::{Path, PathBuf};
+use std::path::Path;
+use std::sync::{Arc, Mutex, PoisonError};
 
 use taceva_core::{Field, Frame, Progress, SampleSink, SinkError};
 
-use crate::decode::decode;
+use crate::decode::{check_to_the_end, decode, kind_of_whole};
+use crate::difference;
 use crate::digest::{Digest, PartsDigest};
 use crate::error::DatasetError;
-use crate::file::{check_relative, open_regular, read_capped};
+use crate::file::check_relative;
 use crate::header::{FramesInfo, Header};
+use crate::held::HeldFolder;
+use crate::import::advice;
 use crate::layout;
 use crate::limits;
+use crate::pack::read_span;
 use crate::parallel::ordered_map;
 use crate::samples::from_parquet;
 use crate::scaled::{DecodeScale, decode_scaled};
@@ -22,10 +28,12 @@ use crate::table::{FrameEntry, Table};
 /// A recording: its header, its labels in memory, and its frames on disk, decoded when asked for.
 #[derive(Debug)]
 pub struct Dataset {
-    path: PathBuf,
+    folder: HeldFolder,
     header: Header,
     table: Table,
     scale: DecodeScale,
+    /// The first frame of each pack that was looked into.
+    firsts: Mutex<BTreeMap<String, Arc<Frame>>>,
 }
 
 /// Which rows to go through, how, and who listens.
@@ -55,25 +63,26 @@ impl Dataset {
     /// [`DatasetError::NoDataset`] if there is none or the recording was not closed; [`DatasetError::Version`] if it is newer;
     /// [`DatasetError::Digest`] or [`DatasetError::Damaged`] if it is not what was written; [`DatasetError::Io`].
     pub fn open(path: &Path) -> Result<Dataset, DatasetError> {
-        let header_path = path.join(layout::HEADER);
-        if !header_path.exists() {
-            let problem = if path.join(layout::JOURNAL).exists() {
-                "the recording was not closed; resume and close it"
+        let folder = HeldFolder::open(path)?;
+        if !folder.has(layout::HEADER) {
+            let problem = if folder.has(layout::JOURNAL) {
+                "the recording was not closed; resume and close it".to_owned()
             } else {
-                "it has no `dataset.toml`"
+                advice(path)
             };
             return Err(DatasetError::NoDataset {
                 path: path.to_owned(),
-                problem: problem.to_owned(),
+                problem,
             });
         }
-        let header = Header::read(&header_path)?;
-        let table = read_table(&path.join(layout::SAMPLES), &header)?;
+        let header = Header::read(&folder)?;
+        let table = read_table(&folder, &header)?;
         let dataset = Dataset {
-            path: path.to_owned(),
+            folder,
             header,
             table,
             scale: DecodeScale::Full,
+            firsts: Mutex::default(),
         };
         dataset.check_consistency()?;
         Ok(dataset)
@@ -109,7 +118,7 @@ impl Dataset {
 
     /// The folder.
     pub fn path(&self) -> &Path {
-        &self.path
+        self.folder.path()
     }
 
     /// What is known about the recording as a whole.
@@ -145,6 +154,23 @@ impl Dataset {
         }
     }
 
+    /// What is wrong inside the picture of a row although it decodes, in words; `None` if nothing is, or the row has no frame.
+    ///
+    /// A JPEG is read to its end, code by code. Imports refuse what is found so; datasets of before they did may hold it.
+    ///
+    /// # Errors
+    /// [`DatasetError::Digest`] if its file is not the one recorded; [`DatasetError::Request`] if there is no such row;
+    /// [`DatasetError::Io`].
+    pub fn damage_inside(&self, row: usize) -> Result<Option<String>, DatasetError> {
+        self.check_row(row)?;
+        let Some(entry) = &self.table.frames()[row] else {
+            return Ok(None);
+        };
+        let bytes = self.frame_bytes(entry)?;
+        let whole = kind_of_whole(&bytes).and_then(|kind| check_to_the_end(&bytes, kind));
+        Ok(whole.err())
+    }
+
     /// The frame without contact, if the lab knew one.
     ///
     /// # Errors
@@ -153,14 +179,9 @@ impl Dataset {
         let Some(info) = &self.header.frames else {
             return Ok(None);
         };
-        let Some(reference) = &info.reference else {
-            return Ok(None);
-        };
-        let entry = FrameEntry {
-            path: reference.path.clone(),
-            digest: reference.sha256,
-        };
-        self.read_frame(&entry, info).map(Some)
+        let entry = self.reference_entry();
+        let frame = entry.map(|entry| self.read_frame(&entry, info));
+        frame.transpose()
     }
 
     /// Decodes the frame of each row, calls `work` with it on one of the threads and `take` with the results, in order, on this one.
@@ -178,7 +199,7 @@ impl Dataset {
     ) -> Result<(), DatasetError> {
         let decode_and_work = |row| {
             let frame = self.frame(row)?.ok_or_else(|| DatasetError::Request {
-                path: self.path.clone(),
+                path: self.path().to_owned(),
                 problem: format!("row {row} has no frame"),
             })?;
             Ok(work(row, frame))
@@ -186,6 +207,20 @@ impl Dataset {
         self.pass(pass, "decode", decode_and_work, |row, result| {
             take(row, result).map_err(|source| DatasetError::Sink { row, source })
         })
+    }
+
+    /// Calls `work` with each row on one of the threads and `take` with the results, in order, on this one; `stage` is what the progress hears.
+    ///
+    /// # Errors
+    /// Those of `work` and `take`, for the first row in order that has one; [`DatasetError::Cancelled`].
+    pub fn map_rows<T: Send>(
+        &self,
+        pass: Pass<'_>,
+        stage: &str,
+        work: impl Fn(usize) -> Result<T, DatasetError> + Sync,
+        take: impl FnMut(usize, T) -> Result<(), DatasetError>,
+    ) -> Result<(), DatasetError> {
+        self.pass(pass, stage, work, take)
     }
 
     /// Pushes the sample of each row into `sink`, in order; frames are decoded only if the sink reads them.
@@ -256,9 +291,12 @@ impl Dataset {
     }
 
     fn read_frame(&self, entry: &FrameEntry, info: &FramesInfo) -> Result<Frame, DatasetError> {
-        let path = self.path.join(&entry.path);
-        let bytes = read_capped(&path, limits::IMAGE_BYTES)?;
-        check_digest(&path, entry.digest, Digest::of(&bytes))?;
+        let path = self.path().join(&entry.path);
+        let bytes = self.frame_bytes(entry)?;
+        let first = match entry.is_difference() {
+            true => Some(self.first_of_pack(entry, info)?),
+            false => None,
+        };
         let wrong = |problem| DatasetError::Image {
             place: None,
             path: path.clone(),
@@ -268,7 +306,10 @@ impl Dataset {
             DecodeScale::Full => decode(&bytes, info.channel_order).map(|(_, frame)| frame),
             scale => decode_scaled(&bytes, info.channel_order, scale),
         };
-        let frame = frame.map_err(wrong)?;
+        let mut frame = frame.map_err(wrong)?;
+        if let Some(first) = first.filter(|first| first.info() == frame.info()) {
+            frame = difference::plus(&frame, &first).map_err(|error| wrong(error.to_string()))?;
+        }
         if frame.info() != info.info {
             return Err(wrong(format!(
                 "{}, expected {} as in the header",
@@ -279,12 +320,80 @@ impl Dataset {
         Ok(frame)
     }
 
+    /// The bytes of a frame as they were recorded, verified.
+    ///
+    /// # Errors
+    /// [`DatasetError::Digest`] if they are not those recorded; [`DatasetError::Io`].
+    pub fn frame_bytes(&self, entry: &FrameEntry) -> Result<Vec<u8>, DatasetError> {
+        let path = self.path().join(&entry.path);
+        let bytes = match entry.span {
+            Some(span) => {
+                let (file, _) = self.folder.file(&entry.path, u64::MAX)?;
+                read_span(file, &path, span)?
+            }
+            None => self.folder.read(&entry.path, limits::IMAGE_BYTES)?,
+        };
+        let found = match entry.is_difference() {
+            true => difference::digest(self.first_entry(entry)?.digest, &bytes),
+            false => Digest::of(&bytes),
+        };
+        check_digest(&path, entry.digest, found)?;
+        Ok(bytes)
+    }
+
+    /// The first frame of the pack that `entry` is in.
+    fn first_entry(&self, entry: &FrameEntry) -> Result<&FrameEntry, DatasetError> {
+        let is_first = |first: &&FrameEntry| first.begins(&entry.path) && !first.is_difference();
+        let mut frames = self.table.frames().iter().flatten();
+        frames.find(is_first).ok_or_else(|| DatasetError::Damaged {
+            path: self.path().join(&entry.path),
+            problem: "no row names its first frame, which others are differences to".to_owned(),
+        })
+    }
+
+    /// The same decoded, once a pack.
+    fn first_of_pack(
+        &self,
+        entry: &FrameEntry,
+        info: &FramesInfo,
+    ) -> Result<Arc<Frame>, DatasetError> {
+        let lock = || self.firsts.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(first) = lock().get(&entry.path) {
+            return Ok(Arc::clone(first));
+        }
+        let first = Arc::new(self.read_frame(self.first_entry(entry)?, info)?);
+        lock().insert(entry.path.clone(), Arc::clone(&first));
+        Ok(first)
+    }
+
+    /// Reads every frame, and the one without contact, and checks that it is the one recorded; nothing is decoded.
+    ///
+    /// # Errors
+    /// As [`frame_bytes`](Dataset::frame_bytes), for the first that is not.
+    pub fn verify_frames(&self) -> Result<(), DatasetError> {
+        let reference = self.reference_entry();
+        let frames = self.table.frames().iter().flatten().chain(&reference);
+        for entry in frames {
+            self.frame_bytes(entry)?;
+        }
+        Ok(())
+    }
+
+    fn reference_entry(&self) -> Option<FrameEntry> {
+        let reference = self.header.frames.as_ref()?.reference.as_ref()?;
+        Some(FrameEntry {
+            path: reference.path.clone(),
+            span: None,
+            digest: reference.sha256,
+        })
+    }
+
     fn check_row(&self, row: usize) -> Result<(), DatasetError> {
         if row < self.table.rows() {
             return Ok(());
         }
         Err(DatasetError::Request {
-            path: self.path.clone(),
+            path: self.path().to_owned(),
             problem: format!("no row {row}, there are {}", self.table.rows()),
         })
     }
@@ -292,7 +401,7 @@ impl Dataset {
     /// Whether header and table tell one story. Paths are checked here once, so that reading a frame only joins them.
     fn check_consistency(&self) -> Result<(), DatasetError> {
         let damaged = |name: &str, problem: String| DatasetError::Damaged {
-            path: self.path.join(name),
+            path: self.path().join(name),
             problem,
         };
         let rows = self.table.rows() as u64;
@@ -306,7 +415,7 @@ impl Dataset {
         let digest = self.table.digest();
         if digest != self.header.table.digest {
             return Err(DatasetError::Digest {
-                path: self.path.join(layout::SAMPLES),
+                path: self.path().join(layout::SAMPLES),
                 expected: self.header.table.digest,
                 found: digest,
             });
@@ -314,7 +423,7 @@ impl Dataset {
         let digest = dataset_digest(digest, self.header.frames.as_ref());
         if digest != self.header.digest {
             return Err(DatasetError::Digest {
-                path: self.path.join(layout::HEADER),
+                path: self.path().join(layout::HEADER),
                 expected: self.header.digest,
                 found: digest,
             });
@@ -350,8 +459,9 @@ impl Dataset {
     }
 }
 
-fn read_table(path: &Path, header: &Header) -> Result<Table, DatasetError> {
-    let (mut file, _) = open_regular(path, limits::TABLE_BYTES)?;
+fn read_table(folder: &HeldFolder, header: &Header) -> Result<Table, DatasetError> {
+    let path = &folder.path().join(layout::SAMPLES);
+    let (mut file, _) = folder.file(layout::SAMPLES, limits::TABLE_BYTES)?;
     let found = Digest::of_reader(&mut file).map_err(DatasetError::io("read", path))?;
     check_digest(path, header.table.sha256, found)?;
     file.seek(SeekFrom::Start(0))

@@ -12,6 +12,7 @@ use zune_core::options::DecoderOptions;
 use zune_jpeg::JpegDecoder;
 
 use crate::guard::guarded;
+use crate::jpeg::check_whole;
 use crate::limits;
 
 /// In which order the colours of a pixel are stored in the image files.
@@ -96,15 +97,27 @@ pub(crate) fn decode(bytes: &[u8], order: ChannelOrder) -> Result<(ImageKind, Fr
     Ok((kind, frame))
 }
 
+/// Whether an image file of `kind` that decodes is whole: decoders of PNG check every part, those of JPEG fill what is missing with gray.
+pub(crate) fn check_to_the_end(bytes: &[u8], kind: ImageKind) -> Result<(), String> {
+    match kind {
+        ImageKind::Png => Ok(()),
+        ImageKind::Jpeg => guarded(|| check_whole(bytes))?
+            .map_err(|problem| format!("cut short or damaged inside: {problem}")),
+    }
+}
+
 /// The kind of an image file that is there to its end.
 pub(crate) fn kind_of_whole(bytes: &[u8]) -> Result<ImageKind, String> {
     let kind = ImageKind::of(bytes)
         .ok_or("neither PNG nor JPEG: its first bytes are those of another format")?;
-    let end = match kind {
-        ImageKind::Png => PNG_END,
-        ImageKind::Jpeg => JPEG_END,
+    let is_ended = match kind {
+        ImageKind::Png => bytes.ends_with(PNG_END),
+        // What some cameras write behind it is no part of the picture.
+        ImageKind::Jpeg => {
+            bytes.ends_with(JPEG_END) || bytes.windows(2).rev().any(|pair| pair == JPEG_END)
+        }
     };
-    if bytes.ends_with(end) {
+    if is_ended {
         Ok(kind)
     } else {
         Err(

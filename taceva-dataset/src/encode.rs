@@ -1,9 +1,10 @@
 //! Frames to PNG files, without loss, and to JPEG files, with.
 
+mod png;
+
 use std::borrow::Cow;
 
 use image::codecs::jpeg::JpegEncoder;
-use image::codecs::png::{CompressionType, FilterType, PngEncoder};
 use image::{ExtendedColorType, ImageEncoder};
 use taceva_core::{Frame, PixelFormat};
 
@@ -11,24 +12,7 @@ use crate::guard::guarded;
 
 /// The PNG file of `frame`.
 pub(crate) fn encode_png(frame: &Frame) -> Result<Vec<u8>, String> {
-    let info = frame.info();
-    let color = match info.format {
-        PixelFormat::Gray8 => ExtendedColorType::L8,
-        PixelFormat::Gray16 => ExtendedColorType::L16,
-        PixelFormat::Rgb8 => ExtendedColorType::Rgb8,
-        PixelFormat::Rgb16 => ExtendedColorType::Rgb16,
-        other => return Err(format!("frames of type {} are not written", other.name())),
-    };
-    let mut file = Vec::new();
-    guarded(|| {
-        let encoder =
-            PngEncoder::new_with_quality(&mut file, CompressionType::Fast, FilterType::Adaptive);
-        let pixels = native_endian(frame);
-        encoder
-            .write_image(&pixels, info.width, info.height, color)
-            .map_err(|error| error.to_string())
-    })??;
-    Ok(file)
+    guarded(|| png::file(frame))?
 }
 
 /// The JPEG file of `frame`, of a quality from 1 to 100; numbers of 16 bits are rounded to the 8 that JPEG holds.
@@ -64,13 +48,4 @@ fn eight_bits(frame: &Frame) -> Cow<'_, [u8]> {
     // 65535 is 255 times 257.
     let rounded = |value: u16| u8::try_from((u32::from(value) + 128) / 257).expect("at most 255");
     frame.samples().map(rounded).collect()
-}
-
-/// The encoder takes 16-bit numbers in the order of the machine.
-fn native_endian(frame: &Frame) -> Cow<'_, [u8]> {
-    if frame.info().format.bytes_per_sample() == 2 && cfg!(target_endian = "big") {
-        frame.samples().flat_map(u16::to_ne_bytes).collect()
-    } else {
-        frame.bytes().into()
-    }
 }

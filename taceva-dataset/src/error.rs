@@ -5,6 +5,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use taceva_core::{ErrorKind, SinkError};
+use taceva_seal::SealError;
 
 use crate::digest::Digest;
 use crate::text::{shown, shown_path};
@@ -105,6 +106,14 @@ pub enum DatasetError {
         /// The digest of what is there.
         found: Digest,
     },
+    /// A header that is not what it was when it was sealed.
+    #[error("{}: {source}", shown_path(path))]
+    Seal {
+        /// The header.
+        path: PathBuf,
+        /// What is wrong.
+        source: SealError,
+    },
     /// A file of a dataset that contradicts itself or its header.
     #[error("{}: damaged: {problem}", shown_path(path))]
     Damaged {
@@ -174,6 +183,7 @@ impl DatasetError {
             | DatasetError::Image { .. }
             | DatasetError::Digest { .. }
             | DatasetError::Damaged { .. }
+            | DatasetError::Seal { .. }
             | DatasetError::Journal { .. } => ErrorKind::Protocol,
             DatasetError::Cancelled => ErrorKind::Interrupted,
             DatasetError::Sink { .. } => ErrorKind::Internal,

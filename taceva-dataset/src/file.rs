@@ -1,6 +1,6 @@
 //! Files of strangers, opened with care, and files of ours, written to stay.
 
-use std::fs::{self, File};
+use std::fs::{self, File, Metadata};
 use std::io::{Read, Write};
 use std::path::{Component, Path, PathBuf};
 
@@ -11,6 +11,17 @@ use crate::error::DatasetError;
 /// The kind is looked at before the file is opened: opening a FIFO would wait for ever.
 pub(crate) fn open_regular(path: &Path, cap: u64) -> Result<(File, u64), DatasetError> {
     let metadata = fs::metadata(path).map_err(DatasetError::io("read", path))?;
+    check_regular(path, &metadata, cap)?;
+    let file = File::open(path).map_err(DatasetError::io("open", path))?;
+    Ok((file, metadata.len()))
+}
+
+/// Whether what `metadata` tell of `path` is a regular file of at most `cap` bytes.
+pub(crate) fn check_regular(
+    path: &Path,
+    metadata: &Metadata,
+    cap: u64,
+) -> Result<(), DatasetError> {
     if !metadata.is_file() {
         return Err(DatasetError::Path {
             place: None,
@@ -28,8 +39,7 @@ pub(crate) fn open_regular(path: &Path, cap: u64) -> Result<(File, u64), Dataset
             ),
         });
     }
-    let file = File::open(path).map_err(DatasetError::io("open", path))?;
-    Ok((file, metadata.len()))
+    Ok(())
 }
 
 /// The bytes of the regular file at `path`.

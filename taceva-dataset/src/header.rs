@@ -11,8 +11,12 @@ use taceva_core::{Channel, Channels, Clock, FrameInfo, PressOutcome, Unit};
 use crate::decode::ChannelOrder;
 use crate::digest::Digest;
 use crate::error::DatasetError;
-use crate::toml_file::{parse_toml, read_toml_text, toml_error};
+use crate::held::HeldFolder;
+use crate::layout;
+use crate::limits;
+use crate::toml_file::{parse_toml, toml_error, utf8};
 use crate::version::Version;
+use taceva_seal::{Opened, SealError};
 
 pub use footprint::{Footprint, Shape};
 
@@ -163,6 +167,8 @@ pub struct Header {
     pub table: TableInfo,
     /// The digest of the dataset.
     pub digest: Digest,
+    /// Whether the header is sealed, and the edits of it that were accepted.
+    pub seal: Opened,
 }
 
 /// The header in the order in which TOML wants it: plain keys before tables.
@@ -185,14 +191,20 @@ struct Written {
 }
 
 impl Header {
-    /// The header at `path`.
-    pub(crate) fn read(path: &Path) -> Result<Header, DatasetError> {
+    /// The header of the dataset in `folder`.
+    pub(crate) fn read(folder: &HeldFolder) -> Result<Header, DatasetError> {
+        let bytes = folder.read(layout::HEADER, limits::TOML_BYTES)?;
+        Header::parse(&folder.path().join(layout::HEADER), bytes)
+    }
+
+    /// The header that `bytes`, the content of the file at `path`, say.
+    fn parse(path: &Path, bytes: Vec<u8>) -> Result<Header, DatasetError> {
         #[derive(Deserialize)]
         struct OnlyFormat {
             format: Version,
         }
 
-        let text = read_toml_text(path)?;
+        let text = utf8(path, bytes)?;
         let OnlyFormat { format } = parse_toml(path, &text)?;
         if !format.is_readable() {
             return Err(DatasetError::Version {
@@ -200,6 +212,17 @@ impl Header {
                 found: format,
             });
         }
+        let version = match format >= Version::SEALED {
+            true => taceva_seal::Version::Sealed,
+            false => taceva_seal::Version::BeforeSeals,
+        };
+        // TOML that is none is told by its line.
+        parse_toml::<toml::Table>(path, &text)?;
+        let seal =
+            taceva_seal::toml_text::check(&text, version).map_err(|source| DatasetError::Seal {
+                path: path.to_owned(),
+                source,
+            })?;
         let written: Written = parse_toml(path, &text)?;
         let channels = written
             .channels
@@ -220,11 +243,17 @@ impl Header {
             presses: written.presses,
             table: written.table,
             digest: written.digest,
+            seal,
         })
     }
 
-    /// The text of the header.
+    /// The text of the header, sealed.
     pub(crate) fn to_toml(&self) -> String {
+        taceva_seal::toml_text::seal(&self.body()).expect("what was just written is TOML")
+    }
+
+    /// What the text says.
+    fn body(&self) -> String {
         let written = Written {
             format: self.format,
             source: self.source,
@@ -247,6 +276,29 @@ impl Header {
         };
         toml::to_string(&written).expect("text, numbers and tables of them can be written as TOML")
     }
+}
+
+/// The text of an edited `dataset.toml`, accepted: sealed, with the edit in its history, and of a version that has seals.
+///
+/// # Errors
+/// [`SealError`] if it is no TOML, or nothing but a seal.
+pub fn reseal_header(text: &str, date: &str, reason: &str) -> Result<String, SealError> {
+    #[derive(Deserialize)]
+    struct OnlyFormat {
+        format: Version,
+    }
+
+    // A description of before seals would not be missed one: it becomes one of the version that has them.
+    let older = toml::from_str::<OnlyFormat>(text).ok();
+    let text = match older.filter(|older| older.format < Version::SEALED) {
+        Some(older) => text.replacen(
+            &format!("format = \"{}\"", older.format),
+            &format!("format = \"{}\"", Version::SEALED),
+            1,
+        ),
+        None => text.to_owned(),
+    };
+    taceva_seal::toml_text::reseal(&text, date, reason)
 }
 
 #[cfg(test)]
@@ -294,23 +346,29 @@ mod tests {
                 sha256: Digest::of(b"f"),
             },
             digest: Digest::of(b"d"),
+            seal: Opened::default(),
         }
     }
 
     #[test]
     fn a_header_reads_back_as_it_was_written() {
         let folder = tempfile::tempdir().expect("a folder");
-        let path = folder.path().join("dataset.toml");
-        std::fs::write(&path, header().to_toml()).expect("written");
-        assert_eq!(Header::read(&path).expect("reads"), header());
+        std::fs::write(folder.path().join("dataset.toml"), header().to_toml()).expect("written");
+        let held = HeldFolder::open(folder.path()).expect("a folder");
+        let read = Header::read(&held).expect("reads");
+        assert!(read.seal.is_sealed);
+        let unread = Header {
+            seal: Opened::default(),
+            ..read
+        };
+        assert_eq!(unread, header());
     }
 
     #[test]
     fn a_newer_major_is_refused_before_anything_else_is_understood() {
-        let folder = tempfile::tempdir().expect("a folder");
-        let path = folder.path().join("dataset.toml");
-        std::fs::write(&path, "format = \"2.0\"\nnews = 1\n").expect("written");
-        let message = Header::read(&path).expect_err("newer").to_string();
+        let text = b"format = \"2.0\"\nnews = 1\n".to_vec();
+        let message = Header::parse(Path::new("dataset.toml"), text);
+        let message = message.expect_err("newer").to_string();
         assert!(
             message.ends_with("format 2.0 needs a newer TacEva; this one reads up to 1.x"),
             "{message}"
@@ -319,14 +377,36 @@ mod tests {
 
     #[test]
     fn a_newer_minor_may_say_more() {
-        let folder = tempfile::tempdir().expect("a folder");
-        let path = folder.path().join("dataset.toml");
         let current = format!("\"{}\"", Version::CURRENT);
-        let text = header().to_toml().replace(&current, "\"1.9\"");
-        std::fs::write(&path, format!("humidity = 40\n{text}")).expect("written");
+        let text = header().body().replace(&current, "\"1.9\"");
+        let text = taceva_seal::toml_text::seal(&format!("humidity = 40\n{text}"));
+        let text = text.expect("TOML").into_bytes();
+        let header = Header::parse(Path::new("dataset.toml"), text);
         assert_eq!(
-            Header::read(&path).expect("reads").format,
+            header.expect("reads").format,
             Version { major: 1, minor: 9 }
         );
+    }
+
+    #[test]
+    fn an_edited_header_is_refused_by_its_key_and_an_older_one_is_read_unsealed() {
+        let parse = |text: &str| Header::parse(Path::new("dataset.toml"), text.as_bytes().to_vec());
+        let sealed = header().to_toml();
+        let edited = sealed.replace("radius_mm = 10.0", "radius_mm = 9.0");
+        let message = parse(&edited).expect_err("edited").to_string();
+        assert!(
+            message
+                .starts_with("dataset.toml: `footprint.radius_mm` was changed after it was sealed"),
+            "{message}"
+        );
+        let body = header().body();
+        let message = parse(&body).expect_err("no seal").to_string();
+        assert!(message.contains("the seal is gone"), "{message}");
+        let current = format!("\"{}\"", Version::CURRENT);
+        let older = parse(&body.replace(&current, "\"1.2\"")).expect("older");
+        assert!(!older.seal.is_sealed);
+        let (_, alone) = sealed.split_once("\n[seal]").expect("sealed");
+        let alone = format!("format = {current}\n[seal]{alone}");
+        assert!(parse(&alone).is_err());
     }
 }

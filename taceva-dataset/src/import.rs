@@ -1,5 +1,6 @@
 //! A lab's folder becomes a dataset, by a map that says what its columns are.
 
+mod advice;
 mod copy;
 mod explain;
 mod map;
@@ -10,6 +11,7 @@ mod rows;
 mod source;
 mod suspicion;
 
+pub(crate) use advice::advice;
 pub use copy::ImportReport;
 pub use map::{
     ArrayFrames, ColumnMap, DropRules, FrameMap, FrameNames, IdMap, ImportMap, Placeholder, TimeMap,

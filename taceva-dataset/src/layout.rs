@@ -5,6 +5,9 @@ pub(crate) const SAMPLES: &str = "samples.parquet";
 pub(crate) const FRAMES: &str = "frames";
 pub(crate) const JOURNAL: &str = "journal";
 
+/// Every name that stands in the folder of a dataset or of a recording.
+pub(crate) const ALL: [&str; 4] = [HEADER, SAMPLES, FRAMES, JOURNAL];
+
 /// Frames in one folder: some file systems slow down beyond a few thousand.
 const FRAMES_A_FOLDER: usize = 1_000;
 
@@ -16,6 +19,17 @@ pub(crate) fn frame_folder(number: usize) -> String {
 /// The file of frame `number`, relative to the dataset.
 pub(crate) fn frame_path(number: usize, extension: &str) -> String {
     format!("{}/{number:06}.{extension}", frame_folder(number))
+}
+
+/// The pack `number`, relative to the dataset.
+pub(crate) fn pack_path(number: usize) -> String {
+    format!("{FRAMES}/{number:04}.pack")
+}
+
+/// The number of the pack at `path`, if that is one.
+pub(crate) fn pack_number(path: &str) -> Option<usize> {
+    let name = path.strip_prefix(FRAMES)?.strip_prefix('/')?;
+    name.strip_suffix(".pack")?.parse().ok()
 }
 
 /// The file of the frame without contact, relative to the dataset.
@@ -47,5 +61,12 @@ mod tests {
         let folders: Vec<String> = frame_folders(1_001).collect();
         assert_eq!(folders, ["frames/0000", "frames/0001"]);
         assert_eq!(frame_folders(0).count(), 0);
+    }
+
+    #[test]
+    fn a_pack_is_known_by_its_name() {
+        assert_eq!(pack_path(3), "frames/0003.pack");
+        assert_eq!(pack_number("frames/0003.pack"), Some(3));
+        assert_eq!(pack_number("frames/0000/000003.png"), None);
     }
 }

@@ -3,6 +3,7 @@
 mod csv_table;
 mod dataset;
 mod decode;
+mod difference;
 mod digest;
 mod encode;
 mod error;
@@ -10,12 +11,16 @@ mod export;
 mod file;
 mod guard;
 mod header;
+mod held;
 mod import;
 mod journal;
+mod jpeg;
 mod layout;
 mod limits;
+mod pack;
 mod parallel;
 mod recorder;
+mod replaced;
 mod samples;
 mod scaled;
 mod sensor_file;
@@ -33,6 +38,7 @@ pub use decode::ChannelOrder;
 pub use digest::{Digest, DigestError};
 pub use error::{DatasetError, Place};
 pub use export::export_csv;
+pub use header::reseal_header;
 pub use header::{
     Footprint, FramesInfo, Header, Known, ReferenceInfo, SensorFacts, Shape, Source, TableInfo,
 };
@@ -41,7 +47,9 @@ pub use import::{
     ImportPlan, ImportReport, ImportSummary, Placeholder, Preset, Suspicion, TimeMap,
     magnitude_suspicion,
 };
+pub use pack::Span;
 pub use recorder::{Recorder, RecordingSpec};
+pub use replaced::settle;
 pub use scaled::DecodeScale;
 pub use sensor_file::SensorFile;
 pub use store::RecordingFacts;

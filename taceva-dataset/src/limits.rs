@@ -8,6 +8,8 @@ pub(crate) const TABLE_BYTES: u64 = u32::MAX as u64 - 1;
 pub(crate) const TABLE_COLUMNS: usize = 4_096;
 /// An image file.
 pub(crate) const IMAGE_BYTES: u64 = 256 << 20;
+/// A pack that no further frame is appended to.
+pub(crate) const PACK_BYTES: u64 = 1 << 30;
 /// Pixels along one side of an image.
 pub(crate) const IMAGE_SIDE: u32 = 16_384;
 /// A decoded image.

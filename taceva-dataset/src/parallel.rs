@@ -109,7 +109,7 @@ mod tests {
     #[test]
     fn nothing_to_do_is_done() {
         assert_eq!(ordered_map(0, jobs(2), |_| (), |_, ()| Err(())), Ok(()));
-        assert_eq!(each_part(Vec::<u8>::new(), |part| part), []);
+        assert_eq!(each_part(Vec::<u8>::new(), |part| part), Vec::<u8>::new());
     }
 
     #[test]

@@ -8,11 +8,13 @@ use taceva_core::{
     Channels, Field, FieldSet, Frame, FrameInfo, PressOutcome, Sample, SampleSink, SinkError,
 };
 
+use crate::digest::Digest;
 use crate::error::DatasetError;
 use crate::file::{parent_of, sync_folder};
 use crate::header::{Header, ReferenceInfo};
 use crate::journal::{Journal, Record, RecordKind};
 use crate::layout;
+use crate::pack::{PackEnd, PackWriter, cut_behind};
 use crate::samples::from_parquet;
 use crate::staged::lock_folder;
 use crate::store::{RecordingFacts, write_table_and_header};
@@ -80,8 +82,12 @@ pub struct Recorder {
     frame_info: Option<FrameInfo>,
     reference: Option<ReferenceInfo>,
     cut_bytes: u64,
-    /// Of frames, the one whose name is known to be durable.
-    synced_folder: Option<PathBuf>,
+    /// What frames are appended to, once there is one.
+    pack: Option<PackWriter>,
+    /// Behind the last frame that the journal names.
+    pack_end: PackEnd,
+    /// The first frame of the pack, and its digest.
+    first: Option<(Digest, Frame)>,
     /// Frames without contact recorded so far.
     references: usize,
 }
@@ -142,6 +148,7 @@ impl Recorder {
                 }
             })?;
         }
+        cut_behind(path, recorder.pack_end)?;
         Ok(recorder)
     }
 
@@ -180,7 +187,9 @@ impl Recorder {
             frame_info: None,
             reference: None,
             cut_bytes: 0,
-            synced_folder: None,
+            pack: None,
+            pack_end: PackEnd::default(),
+            first: None,
             references: 0,
         }
     }
@@ -207,12 +216,8 @@ impl Recorder {
     /// its frame is unlike the first; [`DatasetError::Io`], after which the recording must be resumed.
     pub fn append(&mut self, sample: &Sample) -> Result<u64, DatasetError> {
         self.check(sample)?;
-        let frame = sample
-            .frame
-            .as_ref()
-            .map(|frame| self.write_frame(self.table.rows(), frame))
-            .transpose()?;
-        let row = self.row(sample, frame);
+        let mut entries = self.write_frames(std::slice::from_ref(sample))?;
+        let row = self.row(sample, entries.pop().flatten());
         let info = sample.frame.as_ref().map(Frame::info);
         let written = WrittenSample::new(&row, self.table.channels(), info).to_toml();
         let sequence = self
@@ -287,6 +292,9 @@ impl Recorder {
     }
 
     fn take(&mut self, row: Row, info: Option<FrameInfo>) {
+        if let Some(frame) = &row.frame {
+            self.pack_end = self.pack_end.behind(&frame.path, frame.span);
+        }
         self.frame_info = self.frame_info.or(info);
         self.finished.insert(row.sample.clone());
         self.table.push(row);

@@ -13,7 +13,7 @@ use parquet::file::properties::WriterProperties;
 use parquet::file::reader::{FileReader, SerializedFileReader};
 use parquet::file::writer::{SerializedFileWriter, SerializedRowGroupWriter};
 use parquet::schema::types::Type;
-use taceva_core::{Channels, GratingKind, Limit, Nanometre, Phase};
+use taceva_core::{Channels, GratingKind, Limit, MAGNITUDE_MAX, Nanometre, Phase, is_scorable};
 
 use crate::digest::Digest;
 use crate::guard::guarded;
@@ -225,8 +225,8 @@ impl Columns {
         match self.0.get(name) {
             None => Ok(None),
             Some(Stored::Number(cells)) => match cells[row] {
-                Some(number) if !number.is_finite() => Err(format!(
-                    "column `{name}`, row {row}: {number} is not finite"
+                Some(number) if !is_scorable(number) => Err(format!(
+                    "column `{name}`, row {row}: {number:e} is no finite number up to {MAGNITUDE_MAX:.3e}"
                 )),
                 cell => Ok(cell),
             },
@@ -326,7 +326,7 @@ fn frame_entry(
             let digest: Digest = digest
                 .parse()
                 .map_err(|error| format!("row {row}: {error}"))?;
-            Ok(Some(FrameEntry { path, digest }))
+            Ok(Some(FrameEntry::at(path, digest)))
         }
         _ => Err(format!(
             "row {row} has a frame without digest or a digest without frame"

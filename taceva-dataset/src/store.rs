@@ -12,6 +12,7 @@ use crate::header::{Footprint, FramesInfo, Header, SensorFacts, Source, TableInf
 use crate::samples::to_parquet;
 use crate::table::Table;
 use crate::version::Version;
+use taceva_seal::Opened;
 
 /// What is known about a recording before its first sample.
 #[derive(Clone, Debug, PartialEq)]
@@ -40,7 +41,7 @@ pub(crate) fn write_table_and_header(
     })?;
     write_durable(samples, &bytes)?;
     let table_digest = table.digest();
-    let written = Header {
+    let mut written = Header {
         format: Version::CURRENT,
         source: facts.source,
         clock: facts.clock,
@@ -56,8 +57,17 @@ pub(crate) fn write_table_and_header(
             digest: table_digest,
             sha256: Digest::of(&bytes),
         },
+        seal: Opened::default(),
     };
-    write_durable(header, written.to_toml().as_bytes())?;
+    let text = written.to_toml();
+    written.seal =
+        taceva_seal::toml_text::check(&text, taceva_seal::Version::Sealed).map_err(|source| {
+            DatasetError::Seal {
+                path: header.to_owned(),
+                source,
+            }
+        })?;
+    write_durable(header, text.as_bytes())?;
     Ok(written)
 }
 

@@ -1,29 +1,20 @@
-//! Foreign text in messages: no control character reaches a terminal, and nothing runs on for ever.
+//! Foreign text in messages: by the rule of [`taceva_core::shown`], and nothing runs on for ever.
 
 use std::path::Path;
 
 const SHOWN_CHARACTERS: usize = 80;
 
-/// `text` with control characters written out, cut after 80 characters.
+/// `text` with what a terminal would obey written out, cut after 80 characters.
 pub(crate) fn shown(text: &str) -> String {
-    let mut result: String = text.chars().take(SHOWN_CHARACTERS).map(harmless).collect();
-    if text.chars().nth(SHOWN_CHARACTERS).is_some() {
-        result.push('…');
+    match text.char_indices().nth(SHOWN_CHARACTERS) {
+        Some((end, _)) => format!("{}…", taceva_core::shown(&text[..end])),
+        None => taceva_core::shown(text).to_string(),
     }
-    result
 }
 
-/// `path` with control characters written out.
+/// `path` with what a terminal would obey written out.
 pub(crate) fn shown_path(path: &Path) -> String {
-    path.to_string_lossy().chars().map(harmless).collect()
-}
-
-fn harmless(character: char) -> String {
-    if character.is_control() {
-        character.escape_default().to_string()
-    } else {
-        character.to_string()
-    }
+    taceva_core::shown(path).to_string()
 }
 
 /// The candidate most like `wrong`, if one is like it at all.

@@ -19,7 +19,11 @@ pub fn read_toml<T: DeserializeOwned>(path: &Path) -> Result<T, DatasetError> {
 }
 
 pub(crate) fn read_toml_text(path: &Path) -> Result<String, DatasetError> {
-    let bytes = read_capped(path, limits::TOML_BYTES)?;
+    utf8(path, read_capped(path, limits::TOML_BYTES)?)
+}
+
+/// The text that `bytes`, the content of the file at `path`, are.
+pub(crate) fn utf8(path: &Path, bytes: Vec<u8>) -> Result<String, DatasetError> {
     String::from_utf8(bytes).map_err(|error| {
         let valid = error.utf8_error().valid_up_to();
         toml_error(path, Some(line_of(error.as_bytes(), valid)), "not UTF-8")
@@ -65,9 +69,13 @@ fn explained(message: &str) -> String {
                 .replace("unknown key known", "unknown key; known")
         }
         [missing] if message.starts_with("missing field") => {
-            format!("the key `{missing}` is missing{}", hint_for(missing))
+            format!(
+                "the key `{}` is missing{}",
+                shown(missing),
+                hint_for(missing)
+            )
         }
-        _ => message.trim_end().replace('\n', "; "),
+        _ => taceva_core::shown(&message.trim_end().replace('\n', "; ")).to_string(),
     }
 }
 

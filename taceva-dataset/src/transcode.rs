@@ -12,7 +12,7 @@ use crate::error::DatasetError;
 use crate::file::write_durable;
 use crate::header::{FramesInfo, Header, ReferenceInfo};
 use crate::layout;
-use crate::staged::StagedFolder;
+use crate::staged::{Place, StagedFolder};
 use crate::store::{RecordingFacts, write_table_and_header};
 use crate::table::FrameEntry;
 
@@ -28,7 +28,7 @@ pub fn write_as_jpeg(
     quality: u8,
     progress: &dyn Progress,
 ) -> Result<Header, DatasetError> {
-    let staged = StagedFolder::create(path)?;
+    let staged = StagedFolder::create(path, Place::Free)?;
     let rows = dataset.table().rows();
     let mut folders = vec![layout::FRAMES.to_owned()];
     folders.extend(layout::frame_folders(rows));
@@ -45,6 +45,7 @@ pub fn write_as_jpeg(
         write_durable(&path, &bytes)?;
         Ok(FrameEntry {
             path: relative,
+            span: None,
             digest: Digest::of(&bytes),
         })
     };

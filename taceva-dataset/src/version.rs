@@ -18,7 +18,10 @@ pub struct Version {
 
 impl Version {
     /// What this crate writes.
-    pub const CURRENT: Version = Version { major: 1, minor: 2 };
+    pub const CURRENT: Version = Version { major: 1, minor: 3 };
+
+    /// The first version whose headers are sealed.
+    pub const SEALED: Version = Version { major: 1, minor: 3 };
 
     /// Whether this crate can read it.
     pub fn is_readable(self) -> bool {

@@ -7,6 +7,7 @@ mod common;
 
 use common::{doubles, filled, singles};
 use taceva_gpu::{Gpu, GpuKind};
+use taceva_needs::{Need, skip};
 use taceva_network::{
     Architecture, Augmentation, Depth, Jitter, LabelScaling, Labels, Loss, NamedTensor, Network,
     NetworkError, Optimizer, Picture, Recipe, Samples, Schedule, Snapshot, Trainer,
@@ -19,7 +20,7 @@ const PICTURE: Picture = Picture {
 };
 
 /// Every GPU that this program can reach.
-#[expect(clippy::print_stderr, reason = "a test says why it skips")]
+#[expect(clippy::print_stderr, reason = "a test says where it ran")]
 fn gpus() -> Vec<Gpu> {
     let built = GpuKind::ALL
         .into_iter()
@@ -30,7 +31,7 @@ fn gpus() -> Vec<Gpu> {
             Some(gpu)
         }
         Err(reason) => {
-            eprintln!("skipped: {reason}");
+            skip(Need::Gpu, reason);
             None
         }
     });

@@ -8,23 +8,30 @@ mod simulated;
 use std::ops::Range;
 use std::thread;
 
-use simulated::{CORRELATION, Coverage, Design, METRICS, Method, coverage, expected};
+use simulated::{CORRELATION, Coverage, Design, Each, METRICS, Method, coverage, expected};
 use taceva_metrics::BootstrapEnds;
 
-const DESIGNS: [Design; 3] = [
-    Design {
-        locations: 400,
-        presses: 4,
-    },
-    Design {
-        locations: 46,
-        presses: 1,
-    },
-    Design {
-        locations: 12,
-        presses: 20,
-    },
+/// Locations and presses at each, from few to many.
+const DESIGNS: [(u32, u32); 16] = [
+    (5, 4),
+    (6, 4),
+    (8, 4),
+    (10, 1),
+    (10, 4),
+    (10, 20),
+    (12, 1),
+    (12, 4),
+    (12, 20),
+    (20, 1),
+    (20, 4),
+    (32, 1),
+    (32, 4),
+    (46, 1),
+    (46, 4),
+    (400, 4),
 ];
+/// Those for which every other way to an interval is tried too.
+const COMPARED: [(u32, u32); 3] = [(12, 20), (46, 1), (400, 4)];
 const RUNS: u32 = 1500;
 
 fn main() {
@@ -35,24 +42,22 @@ fn main() {
     let expected: Vec<String> = METRICS
         .iter()
         .zip(expected())
-        .map(|(metric, value)| format!("{metric} {value:.5}"))
+        .map(|((metric, _), value)| format!("{metric} {value:.5}"))
         .collect();
     println!("Expected of infinitely many: {}.\n", expected.join(", "));
-    println!(
-        "| locations × presses | interval | {} |",
-        METRICS.join(" | ")
-    );
+    let names = METRICS.map(|(metric, _)| metric);
+    println!("| locations × presses | interval | {} |", names.join(" | "));
     println!("|---|---|{}", "---|".repeat(METRICS.len()));
-    for design in DESIGNS {
-        for method in Method::ALL {
+    for (locations, presses) in DESIGNS {
+        let design = Design { locations, presses };
+        let is_compared = COMPARED.contains(&(locations, presses));
+        let methods = Method::ALL.into_iter();
+        for method in methods.filter(|method| is_compared || *method == Method::Jackknife) {
             let found = in_parallel(threads, |runs| coverage(design, method, runs));
-            let cells: Vec<String> = found.into_iter().map(cell).collect();
             println!(
-                "| {} × {} | {} | {} |",
-                design.locations,
-                design.presses,
+                "| {locations} × {presses} | {} | {} |",
                 name(method),
-                cells.join(" | ")
+                found.map(cell).join(" | ")
             );
         }
     }
@@ -61,8 +66,8 @@ fn main() {
 /// The sum over all runs; it is the same for any number of threads.
 fn in_parallel(
     threads: usize,
-    coverage: impl Fn(Range<u32>) -> [Coverage; 3] + Sync,
-) -> [Coverage; 3] {
+    coverage: impl Fn(Range<u32>) -> Each<Coverage> + Sync,
+) -> Each<Coverage> {
     let share = RUNS.div_ceil(u32::try_from(threads).unwrap_or(RUNS).max(1));
     let starts = (0..RUNS).step_by(share as usize);
     let coverage = &coverage;
@@ -70,7 +75,7 @@ fn in_parallel(
         let threads: Vec<_> = starts
             .map(|start| scope.spawn(move || coverage(start..(start + share).min(RUNS))))
             .collect();
-        let mut sum = [Coverage::default(); 3];
+        let mut sum = Each::<Coverage>::default();
         for thread in threads {
             let part = thread.join().expect("a run does not panic");
             sum.iter_mut()
@@ -93,6 +98,7 @@ fn name(method: Method) -> &'static str {
 fn cell(coverage: Coverage) -> String {
     match RUNS - coverage.intervals {
         0 => format!("{:.3}", coverage.share()),
+        RUNS => "–".to_owned(),
         without => format!("{:.3} ({without} without an interval)", coverage.share()),
     }
 }

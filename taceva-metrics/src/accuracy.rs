@@ -6,6 +6,7 @@ mod mae;
 mod mae_euclid;
 mod r2;
 mod rmse;
+mod skill;
 mod smape;
 
 pub(crate) use bias::BIAS;
@@ -14,6 +15,7 @@ pub(crate) use mae::MAE;
 pub(crate) use mae_euclid::MAE_EUCLID;
 pub(crate) use r2::R2;
 pub(crate) use rmse::RMSE;
+pub(crate) use skill::{Axis, SKILL, STREAMS as SKILL_STREAMS, constant, skill};
 pub(crate) use smape::{SMAPE, SMAPE_GATED};
 
 use taceva_core::{Field, FieldSet, Needs, Unit};

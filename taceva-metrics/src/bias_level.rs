@@ -11,6 +11,7 @@ use crate::exact::{Dyadic, ExactSum};
 use crate::level::{from_millionths, millionths, step};
 use crate::merge::{Merge, merge_cells};
 use crate::metric::{Better, Formula, Metric, ScoreUnit};
+use crate::range::Range;
 use crate::score::{Count, Parameter, Variant};
 use crate::state::Record;
 use crate::value::{InapplicableReason, UndefinedReason, Value};
@@ -23,6 +24,7 @@ pub(crate) static BIAS_LEVEL: Metric = Metric {
     title: "greatest mean error over the range",
     better: Better::Lower,
     unit: ScoreUnit::OfChannel,
+    range: Range::Positive,
     definition: "bias_level/1",
     reference: "mean of truth − prediction in steps of the truth",
     documentation: "The greatest magnitude of mean error over the levels of the truth with five samples or more: what is left \

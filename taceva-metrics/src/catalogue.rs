@@ -1,6 +1,6 @@
 //! Every metric there is: the only source of names, units, directions, definitions and texts.
 
-use crate::accuracy::{BIAS, MAE, MAE_EUCLID, R2, RMSE, SMAPE, SMAPE_GATED};
+use crate::accuracy::{BIAS, MAE, MAE_EUCLID, R2, RMSE, SKILL, SMAPE, SMAPE_GATED};
 use crate::bias_level::BIAS_LEVEL;
 use crate::crosstalk::CROSSTALK;
 use crate::detection::MINIMUM_DETECTABLE_FORCE;
@@ -19,7 +19,8 @@ use crate::surface::{SENSITIVITY, UNIFORMITY};
 use crate::tolerance::TOLERANCE;
 
 /// Every metric, in the order of reports.
-pub static ALL: [&Metric; 23] = [
+pub static ALL: [&Metric; 24] = [
+    &SKILL,
     &MAE,
     &RMSE,
     &BIAS,
@@ -128,7 +129,13 @@ mod tests {
         names.dedup();
         assert_eq!(names.len(), count);
         for metric in ALL {
-            assert_eq!(metric.definition, format!("{}/1", metric.id));
+            let version = metric.definition.strip_prefix(metric.id);
+            let version = version.and_then(|rest| rest.strip_prefix('/')?.parse::<u32>().ok());
+            assert!(
+                version.is_some_and(|version| version > 0),
+                "{}",
+                metric.definition
+            );
             assert!(metric.documentation.ends_with('.') && !metric.title.is_empty());
         }
     }

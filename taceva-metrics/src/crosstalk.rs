@@ -13,6 +13,7 @@ use crate::matrix::Matrix;
 use crate::metric::{Better, Formula, Metric, ScoreUnit};
 use crate::paired::Paired;
 use crate::plan::MetricPlan;
+use crate::range::Range;
 use crate::score::{Parameter, Variant};
 use crate::state::Record;
 use crate::value::{UndefinedReason, Value};
@@ -24,6 +25,7 @@ pub(crate) static CROSSTALK: Metric = Metric {
     title: "cross-talk between channels",
     better: Better::Lower,
     unit: ScoreUnit::One,
+    range: Range::Positive,
     definition: "crosstalk/1",
     reference: "joint least-squares slopes of each prediction on all truths, as shares of full scale",
     documentation: "How far the prediction of one channel moves, as a share of its full scale, when another channel alone moves \

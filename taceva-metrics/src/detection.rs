@@ -9,6 +9,7 @@ use crate::metric::{Better, Formula, Metric, ScoreUnit};
 use crate::moments::Moments;
 use crate::paired::is_valid;
 use crate::plan::MetricPlan;
+use crate::range::Range;
 use crate::score::Parameter;
 use crate::state::Record;
 use crate::value::UndefinedReason;
@@ -25,6 +26,7 @@ pub(crate) static MINIMUM_DETECTABLE_FORCE: Metric = Metric {
     title: "minimum detectable force",
     better: Better::Lower,
     unit: ScoreUnit::OfChannel,
+    range: Range::Positive,
     definition: "minimum_detectable_force/1",
     reference: "Currie 1968, Analytical Chemistry 40: detection limit 3.29 σ₀ for risks of 5 %",
     documentation: "The least force that is told from none, with 5 % of false alarms and 5 % of misses: 3.29 times the standard \

@@ -8,6 +8,7 @@ use crate::exact::{Dyadic, ExactSum};
 use crate::merge::Merge;
 use crate::metric::{Better, Formula, Metric, ScoreUnit};
 use crate::paired::is_valid;
+use crate::range::Range;
 use crate::score::Parameter;
 use crate::state::Record;
 use crate::value::UndefinedReason;
@@ -20,6 +21,7 @@ pub(crate) static DRIFT: Metric = Metric {
     title: "drift of the error",
     better: Better::NearZero,
     unit: ScoreUnit::PerHour,
+    range: Range::Any,
     definition: "drift/1",
     reference: "least-squares slope of truth − prediction over time",
     documentation: "By how much the mean error changes an hour: the slope of the line that fits truth − prediction over time best. \

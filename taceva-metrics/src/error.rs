@@ -3,6 +3,8 @@
 use std::error::Error;
 use std::fmt;
 
+use taceva_core::shown;
+
 /// Why columns, batches or states do not fit.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
@@ -66,23 +68,32 @@ impl fmt::Display for MetricError {
                 "{estimate} estimates beside {reference} references, expected as many"
             ),
             MetricError::Channels { expected, found } => {
-                write!(f, "channels {found}, expected {expected}")
+                write!(f, "channels {}, expected {}", shown(found), shown(expected))
             }
             MetricError::Schema { expected, found } => {
-                write!(f, "state of schema `{found}`, expected {expected}")
+                write!(f, "state of schema `{}`, expected {expected}", shown(found))
             }
             MetricError::Parameter {
                 name,
                 expected,
                 found,
-            } => write!(f, "state with {name} `{found}`, expected `{expected}`"),
+            } => write!(
+                f,
+                "state with {name} `{}`, expected `{expected}`",
+                shown(found)
+            ),
             MetricError::Setting {
                 name,
                 expected,
                 found,
             } => write!(f, "setting `{name}` is {found}, expected {expected}"),
             MetricError::Malformed { schema, what } => {
-                write!(f, "broken state of schema `{schema}`: {what}")
+                write!(
+                    f,
+                    "broken state of schema `{}`: {}",
+                    shown(schema),
+                    shown(what)
+                )
             }
         }
     }
@@ -101,7 +112,7 @@ pub struct UnknownMetric {
 
 impl fmt::Display for UnknownMetric {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "`{}`: unknown metric", self.name)?;
+        write!(f, "`{}`: unknown metric", shown(&self.name))?;
         match self.nearest {
             Some(nearest) => write!(f, ", did you mean `{nearest}`?"),
             None => {

@@ -14,15 +14,18 @@ pub enum Flag {
     ImprovedError,
     /// The truths of some channels move together, so that nobody can tell what leaks from which.
     CollinearTruths,
+    /// The labels that the model was fitted on are not known: skill is measured by the mean of the evaluated truth.
+    MeanOfTruth,
 }
 
 impl Flag {
     /// Every flag.
-    pub const ALL: [Flag; 4] = [
+    pub const ALL: [Flag; 5] = [
         Flag::OneBin,
         Flag::LowStimulus,
         Flag::ImprovedError,
         Flag::CollinearTruths,
+        Flag::MeanOfTruth,
     ];
 }
 
@@ -33,6 +36,7 @@ impl fmt::Display for Flag {
             Flag::LowStimulus => "low stimulus",
             Flag::ImprovedError => "improved error",
             Flag::CollinearTruths => "collinear truths",
+            Flag::MeanOfTruth => "constant is the mean of truth",
         })
     }
 }

@@ -9,6 +9,7 @@ pub(crate) use loops::Loops;
 use taceva_core::{Field, FieldSet, Needs, Unit};
 
 use crate::metric::{Better, Formula, Metric, ScoreUnit};
+use crate::range::Range;
 use crate::score::Parameter;
 
 pub(crate) static HYSTERESIS: Metric = Metric {
@@ -16,6 +17,7 @@ pub(crate) static HYSTERESIS: Metric = Metric {
     title: "hysteresis area",
     better: Better::Lower,
     unit: ScoreUnit::Fixed(Unit::NewtonMillimetre),
+    range: Range::Positive,
     definition: "hysteresis/1",
     reference: "TacEva, project page",
     documentation: "The area between force over depth on the way in and on the way out, averaged over points; 1 N mm is 1 mJ. At \

@@ -11,6 +11,7 @@ use taceva_core::{Batch, Field, FieldSet, Needs, Unit};
 use crate::accumulator::{Details, Family, Numbers, Output, each_row};
 use crate::metric::{Better, Formula, Metric, ScoreUnit};
 use crate::plan::MetricPlan;
+use crate::range::Range;
 use crate::score::{Count, Parameter, Variant};
 use crate::state::Record;
 use crate::value::Value;
@@ -25,6 +26,7 @@ pub(crate) static INTER_SENSOR: Metric = Metric {
     title: "gap between the surfaces of units",
     better: Better::Lower,
     unit: ScoreUnit::Fixed(Unit::Millimetre),
+    range: Range::Positive,
     definition: "inter_sensor/1",
     reference: "TacEva, project page",
     documentation: "How far apart the untouched surfaces of two units are once one is laid onto the other, averaged over all pairs \
@@ -130,8 +132,18 @@ impl Family for InterSensor {
                 .and_then(|gaps| gaps.mean(number))
         };
         Numbers::of(mean(|gap| gap.both()))
-            .with("forward", Unit::Millimetre, mean(|gap| gap.forward))
-            .with("backward", Unit::Millimetre, mean(|gap| gap.backward))
+            .with(
+                "forward",
+                Unit::Millimetre,
+                Range::Positive,
+                mean(|gap| gap.forward),
+            )
+            .with(
+                "backward",
+                Unit::Millimetre,
+                Range::Positive,
+                mean(|gap| gap.backward),
+            )
     }
 
     fn details(&self, _metric: &Metric, _output: &Output, parts: &[&SurfaceClouds]) -> Details {

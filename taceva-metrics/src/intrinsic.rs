@@ -11,6 +11,7 @@ use taceva_core::{Batch, Field, FieldSet, Labels, Needs, SkipReason, Unit};
 use crate::accumulator::{Details, Family, Finished, Numbers, Output, each_row};
 use crate::metric::{Better, Formula, Metric, ScoreUnit};
 use crate::plan::MetricPlan;
+use crate::range::Range;
 use crate::score::{Count, Parameter};
 use crate::state::Record;
 use crate::value::UndefinedReason;
@@ -22,9 +23,11 @@ pub(crate) static INTRINSIC: Metric = Metric {
     title: "properties of the sensor",
     better: Better::Described,
     unit: ScoreUnit::OfChannel,
-    definition: "intrinsic/1",
+    range: Range::NotNegative,
+    definition: "intrinsic/2",
     reference: "TacEva, intrinsic properties; measured from the recording",
-    documentation: "`frame_rate`: one over the median interval between successive times; samples at one time are one frame. \
+    documentation: "`frame_rate`: one over the median interval between successive times; samples at one time are one frame; where \
+                    that interval is above 1 s, single pictures were taken, and rate, jitter and gaps are not defined. \
                     `jitter`: standard deviation (over n − 1) of the intervals that are no gap. `dropped`: share of intervals that \
                     are a gap, longer than 1.5 medians. `duplicated`: share of frames that are bit for bit the one before. \
                     `field_of_view`: area of the convex hull of the true places with |true Fz| ≥ 0.02 N, or with true Pz > 0 \
@@ -197,8 +200,8 @@ impl Family for Intrinsic {
             "field_of_view" => {
                 let extent = |axis| sums.extent(axis);
                 Numbers::of(sums.field_of_view())
-                    .with("width", Unit::Millimetre, extent(0))
-                    .with("height", Unit::Millimetre, extent(1))
+                    .with("width", Unit::Millimetre, Range::NotNegative, extent(0))
+                    .with("height", Unit::Millimetre, Range::NotNegative, extent(1))
             }
             _ => {
                 let sides = self
@@ -206,8 +209,8 @@ impl Family for Intrinsic {
                     .ok_or(UndefinedReason::NotDeclared("frame_size"));
                 let side = |at: usize| sides.map(|sides| f64::from(sides[at]));
                 Numbers::of(self.resolution())
-                    .with("width", Unit::Pixel, side(0))
-                    .with("height", Unit::Pixel, side(1))
+                    .with("width", Unit::Pixel, Range::NotNegative, side(0))
+                    .with("height", Unit::Pixel, Range::NotNegative, side(1))
             }
         }
     }

@@ -38,12 +38,14 @@ mod paired;
 mod parallel;
 mod plan;
 mod plane_sums;
+mod range;
 mod repeatability;
 mod resolution;
 mod score;
 mod settings;
 mod spatial;
 mod spread;
+mod standing;
 mod state;
 mod stats;
 mod streams;
@@ -67,12 +69,15 @@ pub use pair_sums::{PairSpec, PairSums};
 pub use paired::{GREATEST, Paired};
 pub use plan::MetricPlan;
 pub use plane_sums::PlaneSums;
+pub use range::Range;
 pub use score::{Count, Interval, Parameter, Score, Variant};
 pub use settings::Settings;
+pub use standing::{GREATEST_BOUNDED_SHARE, Standing};
 pub use state::{Record, State};
 pub use stats::{
     BootstrapEnds, ClusterSum, ClusterSums, ComparisonError, Difference, DifferenceTest, Estimate,
-    IntervalMethod, PoissonBootstrap, Question, Side, Sides, SignFlip, Verdict, holm, welch,
+    IntervalMethod, PoissonBootstrap, Question, Repeats, Scale, Side, Sides, SignFlip, Verdict,
+    decide, holm, welch,
 };
 pub use streams::{Stream, Streams};
 pub use taceva_core::{Isa, IsaError};

@@ -7,6 +7,7 @@ use taceva_core::{Batch, Field, FieldSet, Needs, Unit};
 use crate::accumulator::{Numbers, Output};
 use crate::channelwise::{Channelwise, each_pair};
 use crate::metric::{Better, Formula, Metric, ScoreUnit};
+use crate::range::Range;
 use crate::score::Parameter;
 use crate::state::Record;
 use line::{LEAST_SAMPLES, Line, LineSums};
@@ -16,6 +17,7 @@ pub(crate) static LINEARITY: Metric = Metric {
     title: "linearity error",
     better: Better::Lower,
     unit: ScoreUnit::One,
+    range: Range::Positive,
     definition: "linearity/1",
     reference: "independent linearity: greatest deviation from the least-squares line, as a share of full scale",
     documentation: "The greatest distance of a prediction from the line that fits predictions to the truth best, as a share of \
@@ -75,9 +77,10 @@ impl Channelwise for Lines {
             .with(
                 "greatest_deviation",
                 output.unit,
+                Range::Positive,
                 of(|line| line.greatest_deviation),
             )
-            .with("slope", Unit::One, of(|line| line.slope))
-            .with("offset", output.unit, of(|line| line.offset))
+            .with("slope", Unit::One, Range::Any, of(|line| line.slope))
+            .with("offset", output.unit, Range::Any, of(|line| line.offset))
     }
 }

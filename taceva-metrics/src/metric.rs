@@ -5,6 +5,7 @@ use taceva_core::{Needs, Unit};
 use crate::facts::Fact;
 use crate::pair_sums::PairSums;
 use crate::plane_sums::PlaneSums;
+use crate::range::Range;
 use crate::repeatability::RepeatMetric;
 use crate::score::Parameter;
 use crate::streams::Streams;
@@ -23,6 +24,8 @@ pub struct Metric {
     pub better: Better,
     /// The unit of its values.
     pub unit: ScoreUnit,
+    /// Which values there can be: what no interval leaves.
+    pub range: Range,
     /// The definition and its version; another number means another meaning.
     pub definition: &'static str,
     /// Where it is defined.
@@ -49,6 +52,31 @@ pub enum Better {
     NearZero,
     /// None: they describe.
     Described,
+}
+
+impl Better {
+    /// The sign that stands beside a metric wherever it is printed: `↑` where larger is better, `↓` where smaller is, `→0` where nearness to
+    /// zero is, `–` where values only describe.
+    #[must_use]
+    pub fn arrow(self) -> &'static str {
+        match self {
+            Better::Lower => "↓",
+            Better::Higher => "↑",
+            Better::NearZero => "→0",
+            Better::Described => "–",
+        }
+    }
+
+    /// The word for it in files: `lower`, `higher`, `near zero` or `none`.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Better::Lower => "lower",
+            Better::Higher => "higher",
+            Better::NearZero => "near zero",
+            Better::Described => "none",
+        }
+    }
 }
 
 /// The unit of a metric's values.
@@ -95,6 +123,8 @@ pub(crate) enum Formula {
         /// How it is finished.
         finish: Finish<PairSums>,
     },
+    /// From the sums of each channel's pairs and the constant that its model is measured by.
+    Skill,
     /// From the distances in a plane of two channels.
     Plane(Finish<PlaneSums>),
     /// From the compliance of the surface, by place.
@@ -134,4 +164,22 @@ pub(crate) struct Finish<S> {
     pub(crate) count: fn(&S) -> u64,
     /// The value.
     pub(crate) evaluate: fn(&S) -> Result<f64, UndefinedReason>,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_direction_has_a_sign_and_a_word_of_its_own() {
+        let all = [
+            Better::Lower,
+            Better::Higher,
+            Better::NearZero,
+            Better::Described,
+        ];
+        assert_eq!(all.map(Better::arrow), ["↓", "↑", "→0", "–"]);
+        let words = ["lower", "higher", "near zero", "none"];
+        assert_eq!(all.map(Better::name), words);
+    }
 }

@@ -6,7 +6,7 @@ use crate::accuracy::EPSILON;
 use crate::error::MetricError;
 
 /// Greatest magnitude of a value that is a sample: sums, differences and means of two such values stay finite.
-pub const GREATEST: f64 = f64::from_bits(0x7fc0_0000_0000_0000);
+pub const GREATEST: f64 = taceva_core::MAGNITUDE_MAX;
 
 /// An estimate and its reference: two values, or two columns.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

@@ -1,5 +1,7 @@
 //! Which metrics are computed, which are not and why, and what that takes.
 
+use std::collections::BTreeMap;
+
 use taceva_core::{Channels, Field, FieldSet, SkipReason, Skipped};
 
 use crate::accumulator::{Accumulator, Clustered, Family, Pairs, Plane};
@@ -16,6 +18,7 @@ use crate::intrinsic::{self, Intrinsic};
 use crate::lighting::Lighting;
 use crate::linearity::Lines;
 use crate::metric::{Formula, Metric};
+use crate::paired::is_valid;
 use crate::repeatability::Repeats;
 use crate::resolution::Resolution;
 use crate::settings::Settings;
@@ -46,6 +49,7 @@ pub struct MetricPlan {
     fields: FieldSet,
     seed: u64,
     interval_method: IntervalMethod,
+    constants: BTreeMap<String, f64>,
 }
 
 impl MetricPlan {
@@ -64,6 +68,7 @@ impl MetricPlan {
             fields: FieldSet::EMPTY,
             seed: 0,
             interval_method: IntervalMethod::default(),
+            constants: BTreeMap::new(),
         };
         plan.decided()
     }
@@ -143,6 +148,25 @@ impl MetricPlan {
         }
     }
 
+    /// The same plan for a model whose best constant answers are known: by channel the mean of the labels it was fitted on, in the unit of
+    /// the channel. Skill is measured by them; of channels that are not named, by the mean of the evaluated truth.
+    ///
+    /// # Errors
+    /// [`MetricError::Setting`] for a constant that is no usable number.
+    pub fn with_constants(
+        self,
+        constants: BTreeMap<String, f64>,
+    ) -> Result<MetricPlan, MetricError> {
+        if let Some((channel, constant)) = constants.iter().find(|(_, value)| !is_valid(**value)) {
+            return Err(MetricError::Setting {
+                name: "constant",
+                expected: "a finite number".to_owned(),
+                found: format!("{constant} of `{channel}`"),
+            });
+        }
+        Ok(MetricPlan { constants, ..self })
+    }
+
     /// The metrics that were asked for.
     pub fn wanted(&self) -> &[&'static Metric] {
         &self.wanted
@@ -193,6 +217,16 @@ impl MetricPlan {
         &self.settings
     }
 
+    /// The best constant answers of the model, by channel, as far as they are known.
+    pub fn constants(&self) -> &BTreeMap<String, f64> {
+        &self.constants
+    }
+
+    /// The best constant answer of the model for the channel called `channel`.
+    pub(crate) fn constant(&self, channel: &str) -> Option<f64> {
+        self.constants.get(channel).copied()
+    }
+
     /// Whether samples may carry `field`.
     pub(crate) fn carries(&self, field: Field) -> bool {
         self.available.contains(field)
@@ -239,7 +273,7 @@ impl MetricPlan {
     /// One accumulator for all metrics that share what is kept.
     pub(crate) fn accumulators(&self) -> Vec<Box<dyn Accumulator>> {
         let families = [
-            Pairs::for_metrics(&self.kept, &self.channels).map(|family| self.clustered(family)),
+            Pairs::for_plan(self).map(|family| self.clustered(family)),
             Plane::for_metrics(&self.kept, &self.channels).map(|family| self.clustered(family)),
             Resolution::for_plan(self).map(|family| self.clustered(family)),
             Surface::for_plan(self).map(|family| self.clustered(family)),

@@ -12,6 +12,7 @@ use taceva_core::{Field, FieldSet, Needs, Unit};
 use crate::accumulator::Numbers;
 use crate::exact::{Dyadic, ExactSum};
 use crate::metric::{Better, Formula, Metric, ScoreUnit};
+use crate::range::Range;
 use crate::score::Parameter;
 use crate::value::UndefinedReason;
 use spread::SpreadSums;
@@ -45,6 +46,7 @@ pub(crate) static REPEATABILITY: Metric = Metric {
     title: "repeatability standard deviation",
     better: Better::Lower,
     unit: ScoreUnit::OfChannel,
+    range: Range::Positive,
     definition: "repeatability/1",
     reference: "TacEva, equation (9); ISO 5725",
     documentation: "How far predictions scatter when the same point is pressed to the same depth again: the standard deviation \
@@ -71,10 +73,16 @@ fn repeatability(spreads: &SpreadSums, unit: Unit) -> Numbers {
         .with(
             "population",
             unit,
+            Range::Positive,
             spreads.mean(|spread| spread.population_deviation),
         )
-        .with("pooled", unit, pooled)
-        .with("limit", unit, pooled.map(|pooled| LIMIT_FACTOR * pooled))
+        .with("pooled", unit, Range::Positive, pooled)
+        .with(
+            "limit",
+            unit,
+            Range::Positive,
+            pooled.map(|pooled| LIMIT_FACTOR * pooled),
+        )
 }
 
 /// RN of the mean of exact values.

@@ -3,7 +3,7 @@
 mod histogram;
 mod success_rate;
 
-pub(crate) use success_rate::SR;
+pub(crate) use success_rate::{OF_CONSTANT, SR};
 
 use std::borrow::Cow;
 use std::collections::BTreeMap;
@@ -81,7 +81,7 @@ impl Family for Resolution {
                 return;
             };
             match (spacing(truth), spacing(estimate)) {
-                (Some(truth), Some(estimate)) => sums[position].add(truth.abs_diff(estimate)),
+                (Some(truth), Some(estimate)) => sums[position].add(truth, estimate),
                 _ => sums[position].n_invalid += 1,
             }
         });

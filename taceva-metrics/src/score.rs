@@ -5,7 +5,9 @@ use std::borrow::Cow;
 use taceva_core::Unit;
 
 use crate::flag::Flag;
-use crate::stats::BootstrapEnds;
+use crate::range::Range;
+use crate::standing::Standing;
+use crate::stats::{BootstrapEnds, Scale};
 use crate::value::{UndefinedReason, Value};
 
 /// What share of intervals should cover the truth.
@@ -33,6 +35,11 @@ pub struct Score {
     pub counts: Vec<Count>,
     /// What a reader must know before trusting it.
     pub flags: Vec<Flag>,
+    /// Whether it takes part in verdicts.
+    pub standing: Standing,
+    /// Which share of the predictions it was formed with lie beyond the bounds of the model, of its worst channel; `None` where no
+    /// prediction enters it or no bounds are known.
+    pub bounded_share: Option<f64>,
     /// The channels it is made of, if it is not one channel's own.
     pub of: Vec<String>,
     /// What else the metric says there: other readings of its definition, maps and curves.
@@ -62,6 +69,8 @@ pub struct Variant {
     pub value: Value,
     /// The unit of value and interval.
     pub unit: Unit,
+    /// Which values it can have.
+    pub range: Range,
     /// Where the value would lie with other contact locations, at 95 %; `None` where the question makes no sense, as for maps.
     pub interval: Option<Interval>,
 }
@@ -73,6 +82,7 @@ impl Variant {
             name: Cow::Borrowed(name),
             value,
             unit,
+            range: Range::Any,
             interval: None,
         }
     }
@@ -106,10 +116,12 @@ pub enum Interval {
         low: f64,
         /// Upper end.
         high: f64,
-        /// The root of the jackknife's variance.
+        /// The root of the jackknife's variance, on the score's own scale.
         standard_error: f64,
         /// Number of clusters with samples.
         clusters: usize,
+        /// On which scale the ends lie about the value.
+        scale: Scale,
     },
     /// By counting each contact location a random number of times.
     Bootstrap {
@@ -117,8 +129,10 @@ pub enum Interval {
         low: f64,
         /// Upper end.
         high: f64,
-        /// The standard deviation of the replicates.
+        /// The standard deviation of the replicates, on the score's own scale.
         standard_error: f64,
+        /// On which scale the ends lie about the value; percentiles need none.
+        scale: Scale,
         /// How the ends were read off the replicates.
         ends: BootstrapEnds,
         /// Number of clusters with samples.
@@ -136,10 +150,12 @@ pub enum Interval {
         low: f64,
         /// Upper end.
         high: f64,
-        /// The root of the variance.
+        /// The root of the variance, on the score's own scale.
         standard_error: f64,
         /// Number of clusters with samples, of the part that has the fewest.
         clusters: usize,
+        /// On which scale the ends lie about the value.
+        scale: Scale,
     },
     /// As if all samples were independent: what the interval of a share would be at best.
     Wilson {
@@ -164,7 +180,8 @@ impl Interval {
         }
     }
 
-    /// The standard error that it was made from, in the unit of the score; none where samples are taken as independent.
+    /// The standard error that it was made from, in the unit of the score and on its own scale, whichever scale the ends were
+    /// formed on: what comparisons are made of. None where samples are taken as independent.
     pub fn standard_error(&self) -> Option<f64> {
         match *self {
             Interval::Jackknife { standard_error, .. }
@@ -184,19 +201,20 @@ impl Interval {
         }
     }
 
-    /// How it was found, in words: `jackknife by point_id, G=32` or
+    /// How it was found, in words: `jackknife by point_id, G=32`, `jackknife by point_id, G=32, logarithmic` or
     /// `Poisson bootstrap by point_id (percentile), G=32, B=1000, seed=0`.
     pub fn method(&self) -> Option<String> {
         match self {
-            Interval::Jackknife { clusters, .. } => {
-                Some(format!("jackknife by point_id, G={clusters}"))
-            }
-            Interval::Delta { clusters, .. } => {
-                Some(format!("delta method by point_id, G={clusters}"))
-            }
+            Interval::Jackknife {
+                clusters, scale, ..
+            } => Some(format!("jackknife by point_id, G={clusters}{scale}")),
+            Interval::Delta {
+                clusters, scale, ..
+            } => Some(format!("delta method by point_id, G={clusters}{scale}")),
             Interval::Wilson { .. } => Some("Wilson, samples taken as independent".to_owned()),
             Interval::Bootstrap {
                 ends,
+                scale,
                 clusters,
                 replicates,
                 seed,
@@ -208,7 +226,7 @@ impl Interval {
                     undefined => format!(" ({undefined} without a value)"),
                 };
                 Some(format!(
-                    "Poisson bootstrap by point_id ({ends}), G={clusters}, B={replicates}{left_out}, seed={seed}"
+                    "Poisson bootstrap by point_id ({ends}), G={clusters}, B={replicates}{left_out}, seed={seed}{scale}"
                 ))
             }
             Interval::Undefined(_) => None,

@@ -9,6 +9,7 @@ use crate::exact::Dyadic;
 use crate::level::{from_millionths, millionths, step};
 use crate::merge::Merge;
 use crate::metric::{Better, Formula, Metric, ScoreUnit};
+use crate::range::Range;
 use crate::score::{Parameter, Variant};
 use crate::state::Record;
 use crate::value::{InapplicableReason, UndefinedReason, Value};
@@ -23,6 +24,7 @@ pub(crate) static TOLERANCE: Metric = Metric {
     title: "share within tolerance",
     better: Better::Higher,
     unit: ScoreUnit::One,
+    range: Range::Share,
     definition: "tolerance/1",
     reference: "distribution of |truth − prediction|",
     documentation: "Which share of predictions is within 0.05 mm or 0.05 N of the truth, 0.5 for degrees and N mm; `curve` has the \

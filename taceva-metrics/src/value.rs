@@ -112,10 +112,14 @@ pub enum UndefinedReason {
     EqualTimes,
     /// No two successive frames have a digest.
     NoDigests,
+    /// Single pictures, taken more than a second apart, have no rate.
+    NoStream,
     /// Nobody has declared a fact about the sensor.
     NotDeclared(&'static str),
     /// No interval is defined for this score.
     NoInterval,
+    /// The value is at the end of its range in every cluster, so that nothing says how far it would move with others.
+    AtEnd,
     /// The mean is zero, and nothing relates to it.
     ZeroMean,
     /// No sample of the scene that the others are compared with.
@@ -174,11 +178,15 @@ impl fmt::Display for UndefinedReason {
             UndefinedReason::OpenTurn => f.write_str("points on one line leave a turn open"),
             UndefinedReason::NoTimes => f.write_str("no time stamps"),
             UndefinedReason::EqualTimes => f.write_str("equal time stamps"),
+            UndefinedReason::NoStream => {
+                f.write_str("single pictures and no stream: the median interval is above 1 s")
+            }
             UndefinedReason::NoDigests => f.write_str("no successive digests of frames"),
             UndefinedReason::NotDeclared(fact) => {
                 write!(f, "the sensor's `{fact}` is not declared")
             }
             UndefinedReason::NoInterval => f.write_str("no interval is defined"),
+            UndefinedReason::AtEnd => f.write_str("at the end of its range in every cluster"),
             UndefinedReason::ZeroMean => f.write_str("the mean is zero"),
             UndefinedReason::NoReferenceScene => f.write_str("no sample of the reference scene"),
             UndefinedReason::OneScene => f.write_str("no scene but the reference scene"),
@@ -221,7 +229,9 @@ impl fmt::Display for InapplicableReason {
         match self {
             InapplicableReason::NoGate(unit) => write!(f, "no gate is defined for {unit}"),
             InapplicableReason::NoStep(unit) => write!(f, "no step is defined for {unit}"),
-            InapplicableReason::ChannelAbsent(name) => write!(f, "there is no channel `{name}`"),
+            InapplicableReason::ChannelAbsent(name) => {
+                write!(f, "there is no channel `{}`", taceva_core::shown(name))
+            }
             InapplicableReason::NotOneNumber => f.write_str("not one number but many"),
         }
     }

@@ -133,7 +133,7 @@ fn a_report_says_how_the_interval_was_found() {
         ..BOOTSTRAP
     };
     let interval = score(&finish(evaluator(normal, &uneven(60))), "mae").interval;
-    let expected = "Poisson bootstrap by point_id (normal), G=60, B=200, seed=1";
+    let expected = "Poisson bootstrap by point_id (normal), G=60, B=200, seed=1, logarithmic";
     assert_eq!(interval.method().as_deref(), Some(expected));
 }
 

@@ -6,7 +6,7 @@ use support::{Row, evaluate};
 use taceva_core::Unit;
 use taceva_metrics::{
     Better, ClusterSums, ComparisonError, Difference, Estimate, Question, Side, Sides, SignFlip,
-    Verdict, holm, welch,
+    Verdict, decide, welch,
 };
 
 /// Hours of sleep that ten patients gained with each of two drugs (Student 1908, after Cushny and Peebles).
@@ -65,12 +65,13 @@ fn welch_s_test_meets_the_published_example() {
 
 #[test]
 fn the_paired_test_meets_the_published_interval_and_its_p_is_counted() {
-    // The paired interval of the same example. No difference is positive and one is 0, so that of the 2¹⁰ patterns only
+    // No difference is positive and one is 0, so that of the 2¹⁰ patterns only
     // 2 × 2 give a sum as large.
     let difference = sleep_of_patients();
     near(difference.value, -1.58);
-    near(difference.interval[0], -2.459_885_8);
-    near(difference.interval[1], -0.700_114_2);
+    // The 52nd of the 1,024 means of halves from below and from above, counted apart from this program.
+    near(difference.interval[0], -7.4 / 3.0);
+    near(difference.interval[1], -2.5 / 3.0);
     near(difference.p, 4.0 / 1024.0);
     let test = difference.test.to_string();
     assert_eq!(test, "paired sign flip by cluster, G=10, all 1024 flips");
@@ -112,7 +113,7 @@ fn verdicts_are_sentences() {
     };
     assert_eq!(
         say(sleep_of_patients(), None),
-        "A lower by 1.6 N (95 % 0.7…2.5, p = 0.004)"
+        "A better by 1.6 N (95 % 0.8…2.5, p = 0.004)"
     );
     assert_eq!(
         say(sleep_of_strangers(), None),
@@ -130,39 +131,49 @@ fn verdicts_are_sentences() {
         unit: Unit::One,
         ..question(Better::Higher, None)
     };
-    let sure = sleep_of_patients().with_adjusted_p(1e-4);
+    let sure = welch(Sides {
+        a: Estimate::try_new(0.75, 0.2, 32).expect("an estimate"),
+        b: Estimate::try_new(2.33, 0.2, 32).expect("an estimate"),
+    });
     assert_eq!(
-        Verdict::of(Ok(sure), ratio).to_string(),
-        "A lower by 1.6 (95 % 0.7…2.5, p < 0.001)"
+        Verdict::of(sure, ratio).to_string(),
+        "A worse by 1.6 (95 % 1.0…2.1, p < 0.001)"
+    );
+    let apart = Verdict::of(Ok(sleep_of_patients()), question(Better::Described, None));
+    assert_eq!(
+        apart.to_string(),
+        "A and B differ by −1.6 N (95 % −2.5…−0.8, p = 0.004)"
     );
 }
 
 #[test]
 fn which_side_is_better_follows_from_the_metric() {
     let difference = sleep_of_patients();
-    let better = |difference, better| Verdict::of(Ok(difference), question(better, None)).better();
-    assert_eq!(better(difference, Better::Lower), Some(Side::A));
-    assert_eq!(better(difference, Better::Higher), Some(Side::B));
+    let better = |difference: &Difference, better| {
+        Verdict::of(Ok(difference.clone()), question(better, None)).better()
+    };
+    assert_eq!(better(&difference, Better::Lower), Some(Side::A));
+    assert_eq!(better(&difference, Better::Higher), Some(Side::B));
     // Means 0.75 and 2.33: both above 0.
-    assert_eq!(better(difference, Better::NearZero), Some(Side::A));
+    assert_eq!(better(&difference, Better::NearZero), Some(Side::A));
     let (a, b) = (
         by_patient(&SLEEP.a.map(|hours| hours - 1.0)),
         by_patient(&SLEEP.b),
     );
     let apart = SignFlip::default().test(Sides { a: &a, b: &b });
     let apart = apart.expect("ten patients");
-    assert_eq!(better(apart, Better::NearZero), None);
-    assert_eq!(better(sleep_of_strangers(), Better::Lower), None);
+    assert_eq!(better(&apart, Better::NearZero), None);
+    assert_eq!(better(&sleep_of_strangers(), Better::Lower), None);
 }
 
 #[test]
 fn a_difference_that_is_one_of_many_needs_more_to_be_shown() {
-    let raw = sleep_of_patients();
-    let family = holm(&[raw.p; 20]).expect("p values");
-    let verdict = Verdict::of(
-        Ok(raw.with_adjusted_p(family[0])),
-        question(Better::Lower, None),
-    );
+    let mut family: Vec<Difference> = (0..20).map(|_| sleep_of_patients()).collect();
+    decide(&mut family);
+    let one = family.remove(0);
+    assert!(one.interval[0] <= 0.0 && one.interval[1] >= 0.0, "{one:?}");
+    assert!(one.confidence > 0.997 && one.adjusted_p > 0.05 && one.p < 0.05);
+    let verdict = Verdict::of(Ok(one), question(Better::Lower, None));
     assert!(
         matches!(verdict, Verdict::NoDifferenceShown { .. }),
         "{verdict}"

@@ -2,7 +2,11 @@
 
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
-use taceva_metrics::{ClusterSums, Difference, Sides, SignFlip, holm};
+use taceva_core::Unit;
+use taceva_metrics::{
+    Better, ClusterSums, Difference, DifferenceTest, Estimate, Question, Side, Sides, SignFlip,
+    Verdict, decide, holm, welch,
+};
 
 /// Errors of both models, by cluster.
 type Samples = Vec<(u32, f64, f64)>;
@@ -81,7 +85,7 @@ proptest! {
         cut in 0_usize..150,
     ) {
         let expected = test(&sums(&samples), 500);
-        prop_assert_eq!(test(&sums(&shuffled), 500), expected);
+        prop_assert_eq!(&test(&sums(&shuffled), 500), &expected);
         let (left, right) = shuffled.split_at(cut.min(shuffled.len()));
         let (left, mut right) = (sums(left), sums(right));
         right.a.merge(&left.a);
@@ -90,15 +94,15 @@ proptest! {
     }
 
     #[test]
+    #[expect(clippy::float_cmp, reason = "the law holds to the bit, but for the sign of zero")]
     fn exchanging_the_sides_reverses_the_difference_and_keeps_its_p(samples in samples()) {
         let sums = sums(&samples);
         let there = test(&sums, 500);
         let back = test(&Sides { a: sums.b, b: sums.a }, 500);
-        let mut reversed = there;
-        reversed.value = -there.value;
-        reversed.scores = Sides { a: there.scores.b, b: there.scores.a };
-        reversed.interval = [-there.interval[1], -there.interval[0]];
-        prop_assert_eq!(back, reversed);
+        prop_assert_eq!(back.value, -there.value);
+        prop_assert_eq!(back.scores, Sides { a: there.scores.b, b: there.scores.a });
+        prop_assert_eq!(back.interval, [-there.interval[1], -there.interval[0]]);
+        prop_assert_eq!((back.p, back.test, back.is_shown), (there.p, there.test, there.is_shown));
     }
 
     #[test]
@@ -113,6 +117,88 @@ proptest! {
             .collect();
         let whole: Vec<i64> = differences.iter().copied().map(i64::from).collect();
         prop_assert_eq!(test(&sums(&samples), 10_000).p.to_bits(), counted(&whole).to_bits());
+    }
+
+    #[test]
+    fn verdict_p_and_interval_of_a_family_never_contradict_each_other(
+        welches in prop::collection::vec((-4.0..4.0, 0.0..1.0, 0.01..1.0, 5_usize..70, 5_usize..70), 0..12),
+        flips in prop::collection::vec(prop::collection::vec((-9_i8..12, 1_u32..4), 5..16), 0..6),
+        margin in prop_oneof![Just(None), (0.01..4.0).prop_map(Some)],
+    ) {
+        let of_strangers = welches.iter().map(|&(apart, own, other, many, few)| {
+            let a = Estimate::try_new(apart, own, many).expect("an estimate");
+            let b = Estimate::try_new(0.0, other, few).expect("an estimate");
+            welch(Sides { a, b }).expect("one varies")
+        });
+        let of_the_same = flips.iter().map(|clusters| {
+            let samples: Samples = (0..)
+                .zip(clusters)
+                .flat_map(|(cluster, &(difference, times))| {
+                    (0..times).map(move |_| (cluster, f64::from(difference) / 8.0, 0.0))
+                })
+                .collect();
+            test(&sums(&samples), 4000)
+        });
+        let mut family: Vec<Difference> = of_strangers.chain(of_the_same).collect();
+        let raw = family.clone();
+        decide(&mut family);
+        let p_values: Vec<f64> = raw.iter().map(|difference| difference.p).collect();
+        let adjusted = holm(&p_values).expect("p values");
+        for ((decided, raw), adjusted_p) in family.iter().zip(&raw).zip(adjusted) {
+            let [low, high] = decided.interval;
+            prop_assert_eq!((decided.p, decided.adjusted_p), (raw.p, adjusted_p));
+            prop_assert_eq!(decided.is_shown, adjusted_p <= 0.05);
+            prop_assert!(low <= decided.value && decided.value <= high);
+            prop_assert!(decided.confidence >= raw.confidence);
+            // An end at 0 is the p value at the level itself.
+            let excludes = low >= 0.0 || high <= 0.0;
+            let includes = low <= 0.0 && high >= 0.0;
+            prop_assert!(if decided.is_shown { excludes } else { includes }, "{:?}", decided);
+            let question = Question { unit: Unit::Newton, better: Better::Lower, margin };
+            match Verdict::of(Ok(decided.clone()), question) {
+                Verdict::Differs { better, .. } => {
+                    prop_assert!(decided.is_shown);
+                    let lower = if decided.value < 0.0 { Side::A } else { Side::B };
+                    prop_assert_eq!(better, Some(lower));
+                }
+                Verdict::NoDifferenceShown { .. } => prop_assert!(!decided.is_shown),
+                Verdict::Equivalent { margin, .. } => {
+                    prop_assert!(-margin < low && high < margin);
+                }
+                other => prop_assert!(false, "{other}"),
+            }
+        }
+        // The clamp at 0 hides nothing: of t tests, p at the level of the interval says the same to nine digits.
+        for difference in &family {
+            let [low, high] = difference.interval;
+            if difference.test == DifferenceTest::Welch && low.abs() > 0.0 && high.abs() > 0.0 {
+                let half = (high - low) / 2.0;
+                let is_centred = (low + half - difference.value).abs() <= 1e-9 * (1.0 + half);
+                prop_assert!(is_centred, "{:?}", difference);
+            }
+        }
+    }
+
+    #[test]
+    fn a_sign_flip_interval_ends_where_the_test_of_shifted_samples_changes_its_mind(
+        clusters in prop::collection::vec(-40_i8..40, 6..10),
+    ) {
+        let shifted = |shift: f64| {
+            let samples: Samples = (0..)
+                .zip(&clusters)
+                .map(|(cluster, &difference)| (cluster, f64::from(difference) - shift, 0.0))
+                .collect();
+            test(&sums(&samples), 10_000).p
+        };
+        let [low, high] = test(&sums(&(0..).zip(&clusters).map(|(cluster, &difference)| {
+            (cluster, f64::from(difference), 0.0)
+        }).collect::<Samples>()), 10_000).interval;
+        let width = high - low;
+        if low.is_finite() && high.is_finite() && width > 0.0 && low.abs() > 0.0 && high.abs() > 0.0 {
+            let step = 1e-6 * width;
+            prop_assert!(shifted(low + step) > 0.05 && shifted(high - step) > 0.05);
+            prop_assert!(shifted(low - step) <= 0.05 && shifted(high + step) <= 0.05);
+        }
     }
 
     #[test]

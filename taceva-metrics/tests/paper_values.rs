@@ -100,8 +100,9 @@ fn a_report_has_the_keys_that_scripts_rely_on() {
         report["metrics"]["mae"]["Fxy"],
         serde_json::json!({
             "value": 0.25, "unit": "N", "of": ["Fx", "Fy"], "n": 5, "n_invalid": 0,
-            "ci95": [0.25, 0.25], "method": "jackknife by point_id, G=5",
-            "standard_error": 0.0, "clusters": 5, "definition": "mae/1"
+            "ci95": [0.25, 0.25], "method": "jackknife by point_id, G=5, logarithmic",
+            "standard_error": 0.0, "clusters": 5, "definition": "mae/1", "better": "lower",
+            "standing": "skill unknown"
         })
     );
     assert_eq!(
@@ -113,7 +114,8 @@ fn a_report_has_the_keys_that_scripts_rely_on() {
     assert_eq!(
         undefined["metrics"]["r2"]["Fx"],
         serde_json::json!({
-            "undefined": "fewer than 2 samples", "n": 1, "n_invalid": 0, "definition": "r2/1"
+            "undefined": "fewer than 2 samples", "n": 1, "n_invalid": 0, "definition": "r2/1",
+            "better": "higher", "standing": "no skill"
         })
     );
     assert_eq!(

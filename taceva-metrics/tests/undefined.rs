@@ -155,7 +155,7 @@ fn an_angle_has_no_gate() {
     let json = serde_json::to_value(&evaluation).expect("a report");
     assert_eq!(
         json["metrics"]["smape_gated"]["Rx"],
-        serde_json::json!({"not_applicable": "no gate is defined for deg"})
+        serde_json::json!({"better": "lower", "not_applicable": "no gate is defined for deg"})
     );
 }
 

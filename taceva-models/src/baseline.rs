@@ -3,6 +3,7 @@
 use taceva_core::{Estimator, ModelError, Progress, Regressor, TrainingSet};
 
 use crate::choice::{Choice, rmse};
+use crate::label_scaling::means;
 use crate::linear::{LinearEstimator, LinearFit, LinearRegressor};
 use crate::problem::Problem;
 use crate::registry::ModelInfo;
@@ -43,11 +44,8 @@ impl LinearEstimator for Baseline {
         let validation = problem.validation(validation)?;
         let channels = problem.channels();
         let spans = problem.scaling.span();
-        let bias: Vec<f64> = (0..channels)
-            .map(|channel| {
-                problem.scaling.minimum()[channel] + spans[channel] * problem.mean[channel]
-            })
-            .collect();
+        // The constant of the model card, to the last bit: no skill is shown by rounding.
+        let bias = means(training.targets);
         let error = |channel: usize| {
             let labels = validation.as_ref()?.labels.col_as_slice(channel);
             let squares: f64 = labels.iter().map(|label| label * label).sum();

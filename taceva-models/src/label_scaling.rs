@@ -65,6 +65,20 @@ impl LabelScaling {
     }
 }
 
+/// The mean label of each channel, in the unit of the channel: the best constant answer that `targets`, which hold a sample, teach.
+pub(crate) fn means(targets: Targets<'_>) -> Vec<f64> {
+    let channels = targets.channels.len();
+    let mean = |channel: usize| {
+        let own = || targets.values.iter().skip(channel).step_by(channels.max(1));
+        let (sum, count) = own().fold((0.0, 0.0), |(sum, count), label| (sum + label, count + 1.0));
+        // Rounding takes no mean beyond its labels: of equal ones it is their value.
+        let least = own().copied().fold(f64::INFINITY, f64::min);
+        let greatest = own().copied().fold(f64::NEG_INFINITY, f64::max);
+        (sum / count).max(least).min(greatest)
+    };
+    (0..channels).map(mean).collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

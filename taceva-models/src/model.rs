@@ -108,6 +108,11 @@ impl Model {
         self
     }
 
+    /// Whether files of its format carry a seal, so that a change of them is noticed.
+    pub fn is_sealed(&self) -> bool {
+        bytes::is_sealed(&self.card.format)
+    }
+
     /// What it predicts.
     pub fn channels(&self) -> &Channels {
         self.regressor.channels()
@@ -150,9 +155,22 @@ impl Model {
     /// # Errors
     /// [`ModelError`] if the features are of another shape, or a prediction is not finite.
     pub fn predict(&self, features: &Features) -> Result<Vec<f64>, ModelError> {
+        let mut predictions = self.predict_unbounded(features)?;
+        self.bound(&mut predictions);
+        Ok(predictions)
+    }
+
+    /// The prediction for every sample of `features` as the model gives it, however far from what it was taught.
+    ///
+    /// # Shapes
+    /// `[samples, channels]`.
+    /// # Units
+    /// Those of the channels.
+    /// # Errors
+    /// As [`predict`](Model::predict).
+    pub fn predict_unbounded(&self, features: &Features) -> Result<Vec<f64>, ModelError> {
         let mut predictions = vec![0.0; features.samples() * self.channels().len()];
         self.regressor.predict(features, &mut predictions)?;
-        self.bound(&mut predictions);
         Ok(predictions)
     }
 

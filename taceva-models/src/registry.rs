@@ -80,7 +80,7 @@ pub fn find(name: &str) -> Result<&'static ModelInfo, UnknownModel> {
 
 /// A name that no model has.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("{} `{name}`, {suggestion}", if name.contains('/') { "no plugin that was found has the model" } else { "no model is called" })]
+#[error("{} `{}`, {suggestion}", if name.contains('/') { "no plugin that was found has the model" } else { "no model is called" }, taceva_core::shown(name))]
 pub struct UnknownModel {
     name: String,
     suggestion: Suggestion,

@@ -188,19 +188,19 @@ impl fmt::Display for Suggestion {
 #[non_exhaustive]
 pub enum SettingError {
     /// A word without `=`.
-    #[error("`{word}`: expected key=value")]
+    #[error("`{word}`: expected key=value", word = taceva_core::shown(word))]
     Form {
         /// The word as typed.
         word: String,
     },
     /// A key given twice.
-    #[error("`{key}`: given twice")]
+    #[error("`{key}`: given twice", key = taceva_core::shown(key))]
     Twice {
         /// The key.
         key: String,
     },
     /// A key that nobody reads.
-    #[error("`{key}`: unknown key, {suggestion}")]
+    #[error("`{key}`: unknown key, {suggestion}", key = taceva_core::shown(key))]
     Unknown {
         /// The key as typed.
         key: String,
@@ -208,7 +208,7 @@ pub enum SettingError {
         suggestion: Suggestion,
     },
     /// A value outside what its key accepts.
-    #[error("`{key}={found}`: expected {accepts}")]
+    #[error("`{key}={found}`: expected {accepts}", found = taceva_core::shown(found))]
     Value {
         /// The key.
         key: &'static str,

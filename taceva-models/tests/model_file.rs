@@ -243,17 +243,47 @@ fn a_path_that_cannot_be_is_named() {
     ));
 }
 
-/// A model's bytes with its card rewritten.
+/// A card with a seal that holds, over the tensors of the file as well.
+fn sealed(card: &str, bytes: &[u8]) -> String {
+    use sha2::Digest as _;
+    let file = safetensors::SafeTensors::deserialize(bytes).expect("a whole file");
+    let told = |(name, tensor): (String, safetensors::tensor::TensorView<'_>)| {
+        let mut hasher = sha2::Sha256::new();
+        hasher.update(format!("{:?} {:?} ", tensor.dtype(), tensor.shape()).as_bytes());
+        hasher.update(tensor.data());
+        (format!("tensor {name}"), hasher.finalize().to_vec())
+    };
+    let mut told: Vec<_> = file.tensors().into_iter().map(told).collect();
+    told.sort();
+    let attached: Vec<(&str, &[u8])> = told
+        .iter()
+        .map(|(name, digest)| (name.as_str(), digest.as_slice()))
+        .collect();
+    taceva_seal::json::seal_with(card, &attached).expect("a card")
+}
+
+/// A model's bytes with its card rewritten, and a seal that holds where its version has one.
 fn with_card(bytes: &[u8], change: impl Fn(&mut serde_json::Value)) -> Vec<u8> {
+    with_card_text(bytes, |card| {
+        let mut card: serde_json::Value = serde_json::from_str(card).expect("a card");
+        change(&mut card);
+        card.as_object_mut().expect("an object").remove("seal");
+        match card["format"].as_str() {
+            Some("1.0") => card.to_string(),
+            _ => sealed(&card.to_string(), bytes),
+        }
+    })
+}
+
+/// A model's bytes with the text of its card rewritten.
+fn with_card_text(bytes: &[u8], change: impl Fn(&str) -> String) -> Vec<u8> {
     let length = u64::from_le_bytes(*bytes.first_chunk().expect("a header"));
     let end = 8 + usize::try_from(length).expect("small");
     let mut header: serde_json::Value = serde_json::from_slice(&bytes[8..end]).expect("a header");
     let text = header["__metadata__"]["taceva.model"]
         .as_str()
         .expect("a card");
-    let mut card: serde_json::Value = serde_json::from_str(text).expect("a card");
-    change(&mut card);
-    header["__metadata__"]["taceva.model"] = card.to_string().into();
+    header["__metadata__"]["taceva.model"] = change(text).into();
     let mut text = header.to_string();
     while !text.len().is_multiple_of(8) {
         text.push(' ');
@@ -262,6 +292,38 @@ fn with_card(bytes: &[u8], change: impl Fn(&mut serde_json::Value)) -> Vec<u8> {
     changed.extend(text.bytes());
     changed.extend(&bytes[end..]);
     changed
+}
+
+#[test]
+fn a_number_a_setting_or_a_seal_that_is_another_one_is_refused_by_its_key() {
+    let bytes = fit("ridge", &[], SPEC).0.to_bytes().expect("small");
+    let refused = |bytes: &[u8]| {
+        let error = Model::from_bytes(bytes).expect_err("changed");
+        error.to_string()
+    };
+    let setting = with_card_text(&bytes, |card| {
+        assert!(card.contains("\"difference\":false"), "{card}");
+        card.replace("\"difference\":false", "\"difference\":true")
+    });
+    let message = refused(&setting);
+    assert!(
+        message.contains("`features.difference` was changed"),
+        "{message}"
+    );
+    let mut weight = bytes.clone();
+    *weight.last_mut().expect("a weight") ^= 1;
+    let message = refused(&weight);
+    assert!(message.contains("`tensor "), "{message}");
+    let without = with_card_text(&bytes, |card| {
+        let (card, _) = card.split_once(",\"seal\"").expect("a seal");
+        format!("{card}}}")
+    });
+    assert!(refused(&without).contains("the seal is gone"));
+    let older = with_card(&bytes, |card| card["format"] = "1.0".into());
+    assert!(
+        Model::from_bytes(&older).is_ok(),
+        "files of before seals are read"
+    );
 }
 
 #[test]
@@ -300,7 +362,9 @@ fn a_card_that_does_not_fit_its_tensors_is_refused() {
 
 #[test]
 fn numbers_that_are_not_finite_are_refused() {
-    let mut bytes = fit("ridge", &[], SPEC).0.to_bytes().expect("small");
+    let sealed = fit("ridge", &[], SPEC).0.to_bytes().expect("small");
+    // Where a seal would tell already, the number is never looked at.
+    let mut bytes = with_card(&sealed, |card| card["format"] = "1.0".into());
     let end = bytes.len();
     bytes[end - 8..].copy_from_slice(&f64::NAN.to_le_bytes());
     let error = Model::from_bytes(&bytes).expect_err("refused");

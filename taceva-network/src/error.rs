@@ -13,19 +13,19 @@ pub enum NetworkError {
         reason: String,
     },
     /// A tensor that the architecture has and that did not come.
-    #[error("no tensor `{name}`, which the architecture has")]
+    #[error("no tensor `{name}`, which the architecture has", name = taceva_core::shown(name))]
     MissingTensor {
         /// Its name.
         name: String,
     },
     /// A tensor that the architecture does not have.
-    #[error("unexpected tensor `{name}`: the architecture has none of that name")]
+    #[error("unexpected tensor `{name}`: the architecture has none of that name", name = taceva_core::shown(name))]
     UnexpectedTensor {
         /// Its name.
         name: String,
     },
     /// A tensor of another shape than the architecture says.
-    #[error("tensor `{name}` has the shape {found:?} and {values} numbers, expected {expected:?}")]
+    #[error("tensor `{name}` has the shape {found:?} and {values} numbers, expected {expected:?}", name = taceva_core::shown(name))]
     TensorShape {
         /// Its name.
         name: String,
@@ -37,7 +37,7 @@ pub enum NetworkError {
         expected: Vec<usize>,
     },
     /// A tensor with a number that is not finite.
-    #[error("tensor `{name}`: number {position} is not finite")]
+    #[error("tensor `{name}`: number {position} is not finite", name = taceva_core::shown(name))]
     TensorNotFinite {
         /// Its name.
         name: String,

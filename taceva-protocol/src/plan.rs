@@ -14,7 +14,7 @@ mod reason;
 mod share;
 mod supply;
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;
 
 pub use cost::Cost;
 pub use draft::{Fit, PlannedMetric, PlannedPress};

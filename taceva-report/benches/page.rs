@@ -19,6 +19,7 @@ fn page(bencher: Bencher<'_, '_>, samples: usize) {
             title: "drawn",
             studies: black_box(&studies),
             pictures: &[],
+            triples: &[],
         })
         .len()
     });

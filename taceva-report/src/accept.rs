@@ -1,20 +1,28 @@
 //! Whether results keep to limits, one by one.
 
 mod sheet;
+mod template;
 
 pub use sheet::{ACCEPTANCE_SCHEMA, Acceptance};
+pub use template::limits_template;
 
 use serde::Deserialize;
 use taceva_core::Unit;
+use taceva_core::shown;
+use taceva_metrics::Standing;
 
 use crate::number::numeral;
 use crate::results::{Interval, Study};
+
+/// The version of limits that is written, and the only one that is read.
+const LIMITS_VERSION: u32 = 1;
 
 /// The limits that a sensor is accepted by.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct LimitsFile {
-    /// 1.
+    /// 1, also where the file does not say.
+    #[serde(default = "limits_version")]
     limits_version: u32,
     /// What they are for.
     #[serde(default)]
@@ -75,6 +83,12 @@ pub struct Finding {
     pub is_kept: bool,
     /// Why it is not kept, in words.
     pub reason: Option<String>,
+    /// Which part the score takes in verdicts: one that takes none keeps no limit.
+    pub standing: Standing,
+}
+
+fn limits_version() -> u32 {
+    LIMITS_VERSION
 }
 
 impl LimitsFile {
@@ -83,7 +97,6 @@ impl LimitsFile {
     /// ```
     /// use taceva_report::LimitsFile;
     /// let limits = LimitsFile::read(r#"
-    ///     limits_version = 1
     ///     [[limit]]
     ///     metric = "mae"
     ///     channel = "Fz"
@@ -99,10 +112,13 @@ impl LimitsFile {
     pub fn read(text: &str) -> Result<LimitsFile, LimitsError> {
         let file: LimitsFile = toml::from_str(text)?;
         let refuse = |number: usize, problem: String| Err(LimitsError::Limit { number, problem });
-        if file.limits_version != 1 {
+        if file.limits_version != LIMITS_VERSION {
             return refuse(
                 0,
-                format!("limits_version {}: expected 1", file.limits_version),
+                format!(
+                    "limits_version {}: expected {LIMITS_VERSION}",
+                    file.limits_version
+                ),
             );
         }
         if file.limits.is_empty() {
@@ -117,7 +133,7 @@ impl LimitsFile {
                     at + 1,
                     format!(
                         "unit `{}`: expected mm, N, 1 or the like",
-                        limit.unit.escape_debug()
+                        shown(&limit.unit)
                     ),
                 );
             }
@@ -151,6 +167,7 @@ fn hold(study: &Study, limit: &Limit) -> Finding {
         n: 0,
         is_kept: false,
         reason: None,
+        standing: Standing::Counts,
     };
     let (metric, variant) = match limit.metric.split_once('.') {
         Some((metric, variant)) => (metric, Some(variant)),
@@ -161,6 +178,7 @@ fn hold(study: &Study, limit: &Limit) -> Finding {
         return finding;
     };
     finding.n = score.n;
+    finding.standing = score.standing;
     let (value, unit, interval) = match variant {
         None => (&score.value, score.unit, &score.interval),
         Some(name) => match score.variant(name) {
@@ -179,7 +197,8 @@ fn hold(study: &Study, limit: &Limit) -> Finding {
     };
     finding.value = Some(number);
     finding.ends = interval.as_ref().and_then(Interval::ends);
-    finding.reason = broken(limit, unit, number, finding.ends);
+    let barred = score.standing.reason().map(str::to_owned);
+    finding.reason = barred.or_else(|| broken(limit, unit, number, finding.ends));
     finding.is_kept = finding.reason.is_none();
     finding
 }

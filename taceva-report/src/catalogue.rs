@@ -1,11 +1,13 @@
 //! Sensors as data: what they are built of, what they stand, and what was published of them, each number with its source.
 
+mod alike;
 mod builtin;
+mod definition;
 mod entry;
 mod list;
 mod site;
 
-pub use entry::{CatalogueError, Intrinsic, Limits, Published, Sensor, Source};
+pub use entry::{CatalogueError, Intrinsic, Kind, Limits, Published, Roughly, Sensor, Source};
 pub use list::{details, list};
 pub use site::{SitePage, site};
 
@@ -34,6 +36,32 @@ pub fn find(name: &str) -> Option<Sensor> {
     all()
         .into_iter()
         .find(|sensor| sensor.name.to_lowercase() == wanted)
+}
+
+/// What to say to whoever asked for `name`, which is not there.
+pub fn hint(name: &str) -> String {
+    match nearest(name) {
+        Some(nearest) => format!("did you mean `{nearest}`? `taceva catalogue list` shows all"),
+        None => "`taceva catalogue list` shows all".to_owned(),
+    }
+}
+
+/// The name of the catalogue that is most like `name`, if one is like it at all.
+///
+/// ```
+/// assert_eq!(taceva_report::catalogue::nearest("gelsigt").as_deref(), Some("GelSight"));
+/// assert_eq!(taceva_report::catalogue::nearest("banana"), None);
+/// ```
+pub fn nearest(name: &str) -> Option<String> {
+    let wanted = name.to_lowercase();
+    let likeness = |entry: &Sensor| strsim::jaro_winkler(&wanted, &entry.name.to_lowercase());
+    let known = all()
+        .into_iter()
+        .map(|entry| (likeness(&entry), entry.name));
+    let alike = known.filter(|(likeness, _)| *likeness > 0.8);
+    alike
+        .max_by(|left, right| left.0.total_cmp(&right.0))
+        .map(|(_, name)| name)
 }
 
 #[cfg(test)]
@@ -91,6 +119,38 @@ mod tests {
             }
             assert!(sensor.limits.is_some() && sensor.intrinsic.is_some());
         }
+    }
+
+    #[test]
+    fn at_least_twelve_sensors_have_a_number_with_its_source() {
+        let known = all()
+            .into_iter()
+            .filter(|entry| entry.kind == Kind::Sensor && entry.known() > 0);
+        let names: Vec<String> = known.map(|sensor| sensor.name).collect();
+        assert!(names.len() >= 12, "{names:?}");
+    }
+
+    #[test]
+    fn a_number_of_another_definition_cannot_take_the_name_of_a_metric() {
+        let entry = |metric: &str, definition: &str| {
+            let text = format!(
+                "catalogue_version = 1\nname = \"x\"\nkind = \"sensor\"\nmechanism = []\n[[result]]\nmetric = \"{metric}\"\nchannel = \"Fz\"\n\
+                 value = 0.1\nunit = \"N\"\nsource = \"s\"\nread_from = \"text\"\nconditions = \"c\"\ndefinition = \"{definition}\"\n"
+            );
+            Sensor::read("x.toml", &text)
+        };
+        let error = entry("mae", "median error").expect_err("another definition");
+        assert!(error.to_string().contains("median error"), "{error}");
+        assert!(entry("drift", "per day").is_err());
+        assert!(entry("median_error", "median error").is_ok());
+    }
+
+    #[test]
+    fn what_is_only_about_a_number_is_shown_and_not_compared() {
+        let thin = find("ThinTact").expect("there");
+        assert_eq!(thin.field_of_view_mm2(), None);
+        assert_eq!(thin.results[0].shown(), "> 200");
+        assert!(thin.as_study().scores.is_empty());
     }
 
     #[test]

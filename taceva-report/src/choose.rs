@@ -9,15 +9,21 @@ pub use need::{Bound, Need, NeedError};
 pub use property::Property;
 pub use render::CHOICE_SCHEMA;
 
-use crate::catalogue::Sensor;
+use taceva_metrics::Standing;
+
+use crate::catalogue::{Kind, Sensor};
 
 /// A shortlist and how it came about.
 #[derive(Clone, Debug)]
 pub struct Choice {
     /// Those that remain, the best first.
     pub ranked: Vec<Candidate>,
+    /// Those that would remain, but of which it is not known whether they meet a hard need; in the order of their names.
+    pub open: Vec<Open>,
     /// Those that a need dropped.
     pub dropped: Vec<Dropped>,
+    /// Those that are not ranked, because a number that a need looks at takes no part in verdicts.
+    pub barred: Vec<Dropped>,
     /// Those of which not a single number is known that a need asks for.
     pub unknown: Vec<String>,
 }
@@ -42,22 +48,34 @@ pub struct Step {
     pub property: Property,
     /// The number; none if it is not known.
     pub value: Option<f64>,
+    /// Which part the number takes in verdicts.
+    pub standing: Standing,
     /// Its share of the best of those that remain; none for hard needs and unknown numbers.
     pub share: Option<f64>,
 }
 
-/// A sensor that a hard need dropped.
+/// A sensor of which a hard need asks what is not known.
+#[derive(Clone, Debug)]
+pub struct Open {
+    /// What it is called.
+    pub name: String,
+    /// The need, and what is not known.
+    pub reason: String,
+}
+
+/// A sensor that is not ranked.
 #[derive(Clone, Debug)]
 pub struct Dropped {
     /// What it is called.
     pub name: String,
-    /// The need that it does not meet, with the number that decided.
+    /// The need that it does not meet, with the number that decided, or why its number takes no part.
     pub reason: String,
 }
 
 /// Chooses among `sensors` for `needs`.
 ///
-/// A hard need drops every sensor whose number is known not to meet it. A soft need ranks those that remain: a sensor has the share of
+/// A hard need drops every sensor whose number is known not to meet it, and sets those apart of which that number is not known: what nobody
+/// knows recommends nothing. A sensor of which a need looks at a score that takes no part in verdicts is not ranked. Studies of sensors are no sensors. A soft need ranks those that remain: a sensor has the share of
 /// the best that its number has, the mean over the numbers of the need; a number that is not known counts as a share of 0, since it
 /// recommends nothing. The rank is the mean over soft needs; equals stay in the order of their names.
 ///
@@ -70,16 +88,28 @@ pub struct Dropped {
 pub fn choose(sensors: &[Sensor], needs: &[Need]) -> Choice {
     let mut choice = Choice {
         ranked: Vec::new(),
+        open: Vec::new(),
         dropped: Vec::new(),
+        barred: Vec::new(),
         unknown: Vec::new(),
     };
     let mut remaining: Vec<&Sensor> = Vec::new();
-    for sensor in sensors {
+    for sensor in sensors.iter().filter(|entry| entry.kind == Kind::Sensor) {
         let mut properties = needs.iter().flat_map(Need::properties);
         if !properties.any(|property| property.of(sensor).is_some()) {
             choice.unknown.push(sensor.name.clone());
+        } else if let Some(reason) = barred(sensor, needs) {
+            choice.barred.push(Dropped {
+                name: sensor.name.clone(),
+                reason,
+            });
         } else if let Some(reason) = unmet(sensor, needs) {
             choice.dropped.push(Dropped {
+                name: sensor.name.clone(),
+                reason,
+            });
+        } else if let Some(reason) = unproven(sensor, needs) {
+            choice.open.push(Open {
                 name: sensor.name.clone(),
                 reason,
             });
@@ -94,6 +124,18 @@ pub fn choose(sensors: &[Sensor], needs: &[Need]) -> Choice {
     let by_share = |left: &Candidate, right: &Candidate| right.share.total_cmp(&left.share);
     choice.ranked.sort_by(by_share);
     choice
+}
+
+/// The first number of `sensor` that a need looks at and that takes no part in verdicts.
+fn barred(sensor: &Sensor, needs: &[Need]) -> Option<String> {
+    let properties = needs
+        .iter()
+        .flat_map(|need| need.properties().map(move |property| (need, property)));
+    let mut barred = properties.filter_map(|(need, property)| {
+        let reason = property.standing(sensor).reason()?;
+        Some(format!("`{}` looks at {property}: {reason}", need.words))
+    });
+    barred.next()
 }
 
 /// The first hard need that `sensor` is known not to meet.
@@ -115,6 +157,20 @@ fn unmet(sensor: &Sensor, needs: &[Need]) -> Option<String> {
     failed.next()
 }
 
+/// The first hard need of which it is not known whether `sensor` meets it.
+fn unproven(sensor: &Sensor, needs: &[Need]) -> Option<String> {
+    let bounds = needs
+        .iter()
+        .flat_map(|need| need.bounds.iter().map(move |bound| (need, bound)));
+    let mut unknown = bounds.filter(|(_, bound)| bound.property.of(sensor).is_none());
+    unknown.next().map(|(need, bound)| {
+        format!(
+            "`{}` needs {bound}, and its {} is not known",
+            need.words, bound.property
+        )
+    })
+}
+
 fn candidate(sensor: &Sensor, remaining: &[&Sensor], needs: &[Need]) -> Candidate {
     let (mut steps, mut shares) = (Vec::new(), Vec::new());
     for need in needs {
@@ -123,6 +179,7 @@ fn candidate(sensor: &Sensor, remaining: &[&Sensor], needs: &[Need]) -> Candidat
                 need: need.words.clone(),
                 property: bound.property,
                 value: bound.property.of(sensor),
+                standing: bound.property.standing(sensor),
                 share: None,
             });
         }
@@ -135,6 +192,7 @@ fn candidate(sensor: &Sensor, remaining: &[&Sensor], needs: &[Need]) -> Candidat
                 need: need.words.clone(),
                 property: *property,
                 value,
+                standing: property.standing(sensor),
                 share,
             });
         }
@@ -188,6 +246,60 @@ mod tests {
     }
 
     #[test]
+    fn results_of_a_sensor_are_held_to_what_it_is_known_to_stand() {
+        let named = |name: &str| {
+            let study = crate::Study {
+                sensor: name.to_owned(),
+                scores: catalogue::find("ViTacTip")
+                    .expect("there")
+                    .as_study()
+                    .scores,
+                ..crate::Study::default()
+            };
+            Sensor::of_study(&study)
+        };
+        let needs = Need::parse("normal force, force 1 N").expect("needs");
+        let choice = choose(
+            &[named("ViTacTip"), named("MagicTac"), named("mine")],
+            &needs,
+        );
+        let names: Vec<&str> = choice
+            .ranked
+            .iter()
+            .map(|candidate| candidate.name.as_str())
+            .collect();
+        assert_eq!(names, ["MagicTac"]);
+        assert!(
+            choice.dropped[0].reason.contains("0.7 N"),
+            "{:?}",
+            choice.dropped
+        );
+        assert_eq!(choice.open[0].name, "mine");
+        assert!(
+            choice.open[0].reason.contains("not known"),
+            "{:?}",
+            choice.open
+        );
+    }
+
+    #[test]
+    fn no_study_of_sensors_is_ever_chosen_or_set_aside() {
+        let choice = choose(&catalogue::all(), &Need::parse("fast").expect("a need"));
+        let listed = format!("{choice:?}");
+        for study in ["Eval", "Sparsh", "TacEva", "VT-Review", "PBR-Design"] {
+            assert!(!listed.contains(&format!("\"{study}\"")), "{study}");
+        }
+    }
+
+    #[test]
+    fn numbers_have_the_digits_that_people_read() {
+        let shown = |value: f64| Property::Error("Fz").shown(value);
+        assert_eq!(shown(0.031_415_926_535_897_9), "0.03142 N");
+        assert_eq!(shown(25.0), "25 N");
+        assert_eq!(shown(0.0361), "0.0361 N");
+    }
+
+    #[test]
     fn what_no_sensor_meets_says_who_fails_by_which_number() {
         let needs =
             Need::parse("shear, force <= 1 N, ambient light, rate >= 50 Hz, localisation 0.3 mm")
@@ -203,6 +315,12 @@ mod tests {
             gelsight.reason,
             "`rate >= 50 Hz` needs frame rate ≥ 50 Hz, and its frame rate is 25 Hz"
         );
-        assert!(choice.unknown.contains(&"DIGIT".to_owned()));
+        assert!(choice.unknown.contains(&"GelForce".to_owned()));
+        let digit = choice.open.iter().find(|open| open.name == "DIGIT");
+        let reason = &digit.expect("its rate is known, and no more").reason;
+        assert!(
+            reason.contains("greatest normal force is not known"),
+            "{reason}"
+        );
     }
 }

@@ -1,16 +1,19 @@
 //! Whether sensors or models differ: every pair, every score, with intervals and in words.
 
 mod estimate;
+mod footing;
+mod overview;
 mod paired;
 mod render;
 
+pub use overview::{Decision, OVERVIEW_LINES};
 pub use render::COMPARISON_SCHEMA;
 
 use std::collections::BTreeMap;
 
 use taceva_core::Unit;
 use taceva_metrics::{
-    Better, ComparisonError, Difference, Question, Side, Sides, Verdict, holm, welch,
+    Better, ComparisonError, Difference, Question, Side, Sides, Standing, Verdict, decide, welch,
 };
 
 use crate::results::{Score, Study};
@@ -33,6 +36,8 @@ pub struct Comparison {
     pub names: Vec<String>,
     /// Every pair of studies that have the same score.
     pub answers: Vec<Answer>,
+    /// What a reader must know before comparing them.
+    pub notes: Vec<String>,
 }
 
 /// One score of two studies.
@@ -42,31 +47,54 @@ pub struct Answer {
     pub metric: String,
     /// The channel or plane.
     pub channel: String,
+    /// Which scores are good.
+    pub direction: Better,
     /// The unit of both scores.
     pub unit: Unit,
     /// Both scores, where they are numbers.
     pub scores: Sides<Option<f64>>,
     /// The positions of both studies.
     pub sides: Sides<usize>,
-    /// What it says, with p values adjusted over all pairs and channels of the metric.
+    /// What it says: decided by Holm's procedure among all pairs and channels of the metric.
     pub verdict: Verdict,
-    /// The difference behind it, if there is one.
+    /// The difference behind it, if there is one, with both p values and the interval of the same decision.
     pub difference: Option<Difference>,
     /// Why there is no answer.
     pub reason: Option<String>,
+    /// Which part each score takes in verdicts.
+    pub standings: Sides<Standing>,
 }
 
 impl Answer {
-    /// What it says with the names of the studies in the place of A and B: `MagicTac lower by …`.
+    /// What it says with the names of the studies in the place of A and B: `MagicTac better by …`.
     pub fn words(&self, names: &[String]) -> String {
-        let text = match &self.reason {
+        match &self.reason {
             Some(reason) => format!("no answer: {reason}"),
-            None => self.verdict.to_string(),
-        };
-        match text.strip_prefix("A ") {
-            Some(rest) => format!("{} {rest}", names[self.sides.a]),
-            None => text,
+            None => {
+                let words = self.verdict.words(Sides {
+                    a: &names[self.sides.a],
+                    b: &names[self.sides.b],
+                });
+                let unknown = self.unknown(names);
+                if unknown.is_empty() {
+                    words
+                } else {
+                    format!("{words}; skill unknown of {}", unknown.join(" and "))
+                }
+            }
         }
+    }
+
+    /// The studies of which nothing says whether their model has skill.
+    fn unknown<'n>(&self, names: &'n [String]) -> Vec<&'n str> {
+        let sides = [
+            (self.standings.a, self.sides.a),
+            (self.standings.b, self.sides.b),
+        ];
+        let unknown = sides
+            .into_iter()
+            .filter(|(standing, _)| *standing == Standing::SkillUnknown);
+        unknown.map(|(_, at)| names[at].as_str()).collect()
     }
 
     /// The position of the study that is shown to be better.
@@ -88,17 +116,19 @@ struct Pair<'a> {
 /// Compares every pair of `studies`.
 ///
 /// The mean absolute error is compared sample by sample where both studies predict the same samples (the sign-flip test, by contact point);
-/// everything else by Welch's test on the standard errors behind the intervals. The p values of one metric, over all its pairs and channels,
-/// are adjusted by Holm's method.
+/// everything else by Welch's test on the standard errors behind the intervals. The pairs and channels of one metric are a family, about which
+/// Holm's procedure decides: verdict, p value and interval of an answer come from that one decision.
 pub fn compare(studies: &[Study], request: &CompareRequest) -> Comparison {
+    let names = crate::figures::names(studies);
     let mut answers = Vec::new();
     for metric in metrics(studies, request) {
-        let mut pairs = pairs(studies, &metric, request);
-        adjust(&mut pairs);
+        let mut pairs = pairs((studies, &names), &metric, request);
+        decide_together(&mut pairs);
         answers.extend(pairs.into_iter().map(|pair| answer(pair, request)));
     }
     Comparison {
-        names: crate::figures::names(studies),
+        notes: footing::notes(studies, &names).into_iter().collect(),
+        names,
         answers,
     }
 }
@@ -119,7 +149,11 @@ fn metrics(studies: &[Study], request: &CompareRequest) -> Vec<String> {
     metrics
 }
 
-fn pairs<'a>(studies: &'a [Study], metric: &str, request: &CompareRequest) -> Vec<Pair<'a>> {
+fn pairs<'a>(
+    (studies, names): (&'a [Study], &[String]),
+    metric: &str,
+    request: &CompareRequest,
+) -> Vec<Pair<'a>> {
     let mut pairs = Vec::new();
     for (a, study) in studies.iter().enumerate() {
         for score in study.scores.iter().filter(|score| score.metric == metric) {
@@ -131,7 +165,14 @@ fn pairs<'a>(studies: &'a [Study], metric: &str, request: &CompareRequest) -> Ve
                     a: score,
                     b: of_other,
                 };
-                let difference = difference(scores, Sides { a: study, b: other }, request.seed);
+                let of_both = Sides {
+                    a: names[a].as_str(),
+                    b: &names[b],
+                };
+                let difference = match footing::barred(scores, of_both) {
+                    Some(reason) => Err(reason),
+                    None => difference(scores, Sides { a: study, b: other }, request.seed),
+                };
                 pairs.push(Pair {
                     scores,
                     sides: Sides { a, b },
@@ -159,21 +200,19 @@ fn difference(
     welch(estimates).map_err(|error| error.to_string())
 }
 
-/// Holm's adjustment over those pairs that have a p value.
-fn adjust(pairs: &mut [Pair<'_>]) {
-    let tested = || {
-        let differences = pairs
-            .iter()
-            .filter_map(|pair| pair.difference.as_ref().ok());
-        differences.map(|difference| difference.p)
-    };
-    let p_values: Vec<f64> = tested().collect();
-    let adjusted = holm(&p_values).expect("p values of tests lie between 0 and 1");
-    let mut adjusted = adjusted.into_iter();
-    for pair in pairs {
-        if let Ok(difference) = &mut pair.difference {
-            let p = adjusted.next().expect("one for each");
-            *difference = difference.with_adjusted_p(p);
+/// Decides about those pairs that were tested.
+fn decide_together(pairs: &mut [Pair<'_>]) {
+    let tested = pairs.iter();
+    let tested = tested.filter_map(|pair| pair.difference.as_ref().ok().cloned());
+    let mut family: Vec<Difference> = tested.collect();
+    decide(&mut family);
+    let mut family = family.into_iter();
+    for difference in pairs
+        .iter_mut()
+        .filter_map(|pair| pair.difference.as_mut().ok())
+    {
+        if let Some(decided) = family.next() {
+            *difference = decided;
         }
     }
 }
@@ -190,7 +229,7 @@ fn answer(pair: Pair<'_>, request: &CompareRequest) -> Answer {
         margin: margin.copied(),
     };
     let (verdict, reason) = match &pair.difference {
-        Ok(difference) => (Verdict::of(Ok(*difference), question), None),
+        Ok(difference) => (Verdict::of(Ok(difference.clone()), question), None),
         Err(reason) => (
             Verdict::Undefined(ComparisonError::NoSpread),
             Some(reason.clone()),
@@ -199,6 +238,7 @@ fn answer(pair: Pair<'_>, request: &CompareRequest) -> Answer {
     Answer {
         metric: metric.clone(),
         channel: channel.clone(),
+        direction: question.better,
         unit: question.unit,
         scores: Sides {
             a: pair.scores.a.value.number(),
@@ -208,5 +248,9 @@ fn answer(pair: Pair<'_>, request: &CompareRequest) -> Answer {
         verdict,
         difference: pair.difference.ok(),
         reason,
+        standings: Sides {
+            a: pair.scores.a.standing,
+            b: pair.scores.b.standing,
+        },
     }
 }

@@ -1,5 +1,7 @@
 //! Foreign text where it cannot do harm: names of sensors, ids of samples and reasons may hold anything.
 
+use taceva_core::is_obeyed;
+
 /// Text that HTML and SVG print as it stands, in elements and in quoted attributes; what they cannot print is shown as `U+FFFD`.
 ///
 /// ```
@@ -15,7 +17,7 @@ pub fn html(text: &str) -> String {
             '"' => escaped.push_str("&quot;"),
             '\'' => escaped.push_str("&#39;"),
             '\n' | '\t' => escaped.push(letter),
-            _ if is_unprintable(letter) => escaped.push('\u{fffd}'),
+            _ if is_obeyed(letter) => escaped.push('\u{fffd}'),
             _ => escaped.push(letter),
         }
     }
@@ -46,12 +48,16 @@ pub fn latex(text: &str) -> String {
             '−' => escaped.push_str("$-$"),
             '≤' => escaped.push_str("$\\leq$"),
             '≥' => escaped.push_str("$\\geq$"),
+            '↑' => escaped.push_str("$\\uparrow$"),
+            '↓' => escaped.push_str("$\\downarrow$"),
+            '∞' => escaped.push_str("$\\infty$"),
+            '≈' => escaped.push_str("$\\approx$"),
             '→' => escaped.push_str("$\\to$"),
             'µ' | 'μ' => escaped.push_str("$\\mu$"),
             'σ' => escaped.push_str("$\\sigma$"),
             'ε' => escaped.push_str("$\\varepsilon$"),
             '\n' | '\r' | '\t' => escaped.push(' '),
-            _ if is_unprintable(character) => {}
+            _ if is_obeyed(character) => {}
             _ => escaped.push(character),
         }
     }
@@ -69,7 +75,7 @@ pub fn markdown(text: &str) -> String {
             '\\' | '|' | '*' | '_' | '`' | '[' | ']' | '~' | '#' | '!' => {
                 escaped.extend(['\\', letter]);
             }
-            _ if is_unprintable(letter) => {}
+            _ if is_obeyed(letter) => {}
             _ => escaped.push(letter),
         }
     }
@@ -106,24 +112,9 @@ fn begins_like_a_formula(text: &str) -> bool {
         .starts_with(['=', '+', '-', '@', '\t', '\r', '\n', '＝', '＋', '－', '＠'])
 }
 
-/// Text for a terminal: control characters, and those that turn the direction of writing, are shown and not obeyed.
+/// Text for a terminal: by the one rule for foreign names, [`taceva_core::shown`].
 pub fn terminal(text: &str) -> String {
-    let mut escaped = String::with_capacity(text.len());
-    for letter in text.chars() {
-        if is_unprintable(letter) || letter == '\n' || letter == '\t' {
-            escaped.extend(letter.escape_unicode());
-        } else {
-            escaped.push(letter);
-        }
-    }
-    escaped
-}
-
-/// Controls, what is no character in XML, and what turns the direction of all that follows.
-fn is_unprintable(letter: char) -> bool {
-    letter.is_control()
-        || matches!(letter,
-            '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}' | '\u{feff}' | '\u{fffe}' | '\u{ffff}')
+    taceva_core::shown(text).to_string()
 }
 
 #[cfg(test)]

@@ -18,7 +18,7 @@ pub(crate) use palette::{diverging, sequential};
 pub(crate) use panel::{Area, Axes, Panel};
 pub(crate) use scale::{Scale, extent};
 pub use svg::STYLE;
-pub(crate) use words::{axis_label, middle_cut, short};
+pub(crate) use words::{axis_label, directed, middle_cut, short, sign};
 
 /// A finished figure.
 #[derive(Clone, Debug)]

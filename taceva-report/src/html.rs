@@ -3,17 +3,33 @@
 mod base64;
 mod document;
 mod figures;
+mod fold;
+mod glance;
+mod glossary;
 mod left_out;
+mod methods;
+mod picks;
 mod pictures;
+mod place;
 mod provenance;
+mod published;
+mod studied;
 mod summary;
 mod tables;
+mod themes;
+mod triple;
 
 pub use document::Document;
 pub(crate) use figures::one as figure;
-pub use pictures::{Pick, Picture, picks};
-pub(crate) use summary::lead;
+pub(crate) use fold::fold;
+pub(crate) use glossary::{glossary, metric_link};
+pub use picks::{Pick, picks};
+pub use pictures::Picture;
+pub(crate) use summary::{QUESTIONS, badge, lead};
+pub use triple::Triple;
+pub(crate) use triple::cards as triples;
 
+use crate::escape::html;
 use crate::figures::figures as all_figures;
 use crate::results::Study;
 use crate::table::ScoreTable;
@@ -27,6 +43,8 @@ pub struct Report<'a> {
     pub studies: &'a [Study],
     /// Pictures of samples, as [`picks`] asked for them; may be empty.
     pub pictures: &'a [Picture],
+    /// What each sensor sees, untouched and pressed; may be empty.
+    pub triples: &'a [Triple],
 }
 
 /// The report as one HTML file.
@@ -46,22 +64,66 @@ pub fn report(report: &Report<'_>) -> String {
     }
     let table = ScoreTable::of(studies);
     let figures = all_figures(studies);
-    document.lead(&summary::lead(studies));
-    document.section("summary", "Summary", &summary::section(studies, &table));
-    document.section("scores", "Scores", &tables::section(&table));
-    document.section("figures", "Figures", &figures::section(&figures));
-    if let Some(section) = pictures::section(report) {
-        document.section("samples", "Worst and best samples", &section);
+    document.lead(badge(studies));
+    let summary = format!(
+        "<p class=\"studied\">{}</p>\n{}{}",
+        html(&studied::studied(studies)),
+        triples(studies, report.triples),
+        summary::section(studies, &table)
+    );
+    document.section("summary", "Summary", &summary);
+    if let Some(section) = glance::section(&table, &figures) {
+        document.section("glance", "At a glance", &section);
     }
     document.section(
-        "left-out",
-        "Left out, and to be minded",
-        &left_out::section(studies),
+        "themes",
+        "Scores and figures",
+        &themes::section(&table, &figures),
     );
-    document.section(
-        "provenance",
-        "Where it comes from",
-        &provenance::section(studies, &table),
-    );
+    if let Some((count, section)) = published::section(studies) {
+        let holds = fold::counted(count, "number");
+        let title = "Scores beside what was published of the same sensor";
+        let section = fold("published-all", title, &holds, &section);
+        document.section("published", "Published", &section);
+    }
+    if let Some((count, section)) = pictures::section(report) {
+        let holds = fold::counted(count, "sample");
+        let section = fold(
+            "samples-all",
+            "The samples predicted worst and best",
+            &holds,
+            &section,
+        );
+        document.section("samples", "Samples", &section);
+    }
+    document.section("methods", "Methods", &methods::section(studies, &table));
+    document.section("details", "Details", &details(studies, &table));
     document.finish()
+}
+
+/// What only some readers look for: what metrics mean, what was left out, and where all comes from.
+fn details(studies: &[Study], table: &ScoreTable) -> String {
+    let named = table.rows.iter().map(|row| row.metric.as_str());
+    let (count, left_out) = left_out::section(studies);
+    [
+        fold(
+            "glossary",
+            "Glossary",
+            "what each metric means, its unit and its definition",
+            &glossary(named),
+        ),
+        fold(
+            "left-out",
+            "Left out, and to be minded",
+            &fold::counted(count, "entry").replace("entrys", "entries"),
+            &left_out,
+        ),
+        fold(
+            "provenance",
+            "Where it comes from",
+            "digests, settings, seeds, and how intervals were found",
+            &provenance::section(studies, table),
+        ),
+    ]
+    .concat()
 }

@@ -16,26 +16,30 @@ mod results;
 mod samples;
 mod table;
 
-pub use accept::{ACCEPTANCE_SCHEMA, Acceptance, Finding, Limit, LimitsError, LimitsFile, accept};
+pub use accept::{
+    ACCEPTANCE_SCHEMA, Acceptance, Finding, Limit, LimitsError, LimitsFile, accept, limits_template,
+};
 pub use choose::{
     Bound, CHOICE_SCHEMA, Candidate, Choice, Dropped, Need, NeedError, Property, Step, choose,
 };
-pub use compare::{Answer, COMPARISON_SCHEMA, CompareRequest, Comparison, compare};
+pub use compare::{
+    Answer, COMPARISON_SCHEMA, CompareRequest, Comparison, Decision, OVERVIEW_LINES, compare,
+};
 pub use escape::{
     csv as escape_csv, from_csv as unescape_csv, html as escape_html, latex as escape_latex,
     markdown as escape_markdown, terminal as escape_terminal,
 };
 pub use figure::{DARK, Figure, LIGHT, SERIES, STYLE};
 pub use figures::{Contender, Race, decode_bench, figures, model_bench, names, race};
-pub use html::{Document, Pick, Picture, Report, picks, report};
+pub use html::{Document, Pick, Picture, Report, Triple, picks, report};
 pub use listing::Listing;
 pub use number::{Printed, spaced, with_interval};
 pub use results::{
     BENCH_SCHEMA, BenchMachine, BenchRecording, ChannelError, DecodeBench, DecodeRow,
-    EVALUATION_SCHEMA, Interval, ModelBench, ModelRow, RUN_SCHEMA, ResultsError, ScaledError,
+    EVALUATION_SCHEMA, Interval, Made, ModelBench, ModelRow, RUN_SCHEMA, ResultsError, ScaledError,
     Score, Skip, Study, Value, Variant,
 };
 pub use samples::{SampleChannel, Samples, SamplesError};
 pub use table::{
-    ScoreCell, ScoreRow, ScoreTable, csv, latex, latex_number, latex_symbol, markdown,
+    ScoreCell, ScoreRow, ScoreTable, csv, latex, latex_column, latex_number, latex_symbol, markdown,
 };

@@ -1,6 +1,7 @@
 //! Words and numbers in rows: one content, and a form for people, programs, pages and papers each.
 
 use crate::escape;
+use crate::html::metric_link;
 use crate::table::latex_number;
 
 /// Letters of a cell that is broken into lines on a page.
@@ -149,6 +150,25 @@ impl Listing {
 
     /// As a table of a page, that sorts.
     pub fn html(&self) -> String {
+        self.table(|_, cell| escape::html(cell))
+    }
+
+    /// As a table of a page whose glossary says what the metrics of the column `metric` mean; in the column `verdict` what is not `pass` stands
+    /// out.
+    pub(crate) fn html_with_metrics(&self) -> String {
+        self.table(|name, cell| match name {
+            "metric" => metric_link(cell),
+            "verdict" => format!(
+                "<span class=\"{}\">{}</span>",
+                if cell == "pass" { "pass" } else { "fail" },
+                escape::html(cell)
+            ),
+            _ => escape::html(cell),
+        })
+    }
+
+    /// A table whose cells are HTML as `written` makes it of the name of the column and the text.
+    fn table(&self, written: impl Fn(&str, &str) -> String) -> String {
         let caption = escape::html(&self.caption);
         if self.rows.is_empty() {
             return format!("<p>{caption}: none.</p>\n{}", self.html_notes());
@@ -179,7 +199,8 @@ impl Listing {
         for row in &self.rows {
             out += "<tr>";
             for (column, cell) in row.iter().enumerate() {
-                out += &format!("<td{}>{}</td>", classes[column], escape::html(cell));
+                let cell = written(&self.head[column], cell);
+                out += &format!("<td{}>{cell}</td>", classes[column]);
             }
             out += "</tr>\n";
         }

@@ -2,23 +2,28 @@
 
 mod decode_bench;
 mod error;
+mod made;
 mod model_bench;
 mod read;
 mod score;
+mod standing;
 
 pub use decode_bench::{DecodeBench, DecodeRow, ScaledError};
 pub use error::ResultsError;
+pub use made::Made;
 pub use model_bench::{
     BENCH_SCHEMA, BenchMachine, BenchRecording, ChannelError, ModelBench, ModelRow,
 };
 pub use score::{Interval, Score, Value, Variant};
+pub(crate) use standing::by_published_r2;
 
 use crate::samples::Samples;
 
 /// The schema of one evaluation. A minor version only adds keys, so every `taceva.evaluation/1.N` is read.
-pub const EVALUATION_SCHEMA: &str = "taceva.evaluation/1.1";
+/// Since 1.2 they are sealed.
+pub const EVALUATION_SCHEMA: &str = "taceva.evaluation/1.2";
 /// The schema of the evaluations of a scene, in versions as [`EVALUATION_SCHEMA`].
-pub const RUN_SCHEMA: &str = "taceva.run/1.1";
+pub const RUN_SCHEMA: &str = "taceva.run/1.2";
 
 /// The results of one sensor: what was evaluated, every score, what was left out, and where it all comes from.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -37,6 +42,8 @@ pub struct Study {
     pub skipped: Vec<Skip>,
     /// From what, and how: names and texts, in the order they were written.
     pub provenance: Vec<(String, String)>,
+    /// What of it a paragraph of methods needs in parts.
+    pub made: Made,
     /// What a reader should know.
     pub notes: Vec<String>,
     /// The samples themselves, where they are at hand; figures that need them are left out otherwise.

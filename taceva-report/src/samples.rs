@@ -1,6 +1,7 @@
 //! The samples behind scores: what was true, what was predicted, and what is known beside.
 
 use std::collections::BTreeMap;
+use taceva_core::shown;
 
 use taceva_core::{Channel, Unit};
 
@@ -224,7 +225,7 @@ fn number(cell: &str, column: &str, line: u64) -> Result<Option<f64>, SamplesErr
         _ => Err(SamplesError::Cell {
             line,
             column: column.to_owned(),
-            found: cell.escape_debug().to_string(),
+            found: shown(cell).to_string(),
         }),
     }
 }

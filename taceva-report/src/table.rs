@@ -1,18 +1,22 @@
 //! The scores of studies side by side: a row a score, a column a study; and its forms for papers and programs.
 
+mod column;
 mod csv;
 mod latex;
+mod main;
 mod markdown;
+mod notation;
 
+pub use column::latex_column;
 pub use csv::csv;
 pub use latex::{latex, number as latex_number, symbol as latex_symbol};
 pub use markdown::markdown;
 
 use taceva_core::Unit;
-use taceva_metrics::catalogue;
+use taceva_metrics::{Standing, catalogue};
 
 use crate::compare::{Answer, CompareRequest, compare};
-use crate::number::Printed;
+use crate::number::{Printed, fixed};
 use crate::results::{Interval, Score, Study, Value};
 
 /// The scores of studies side by side.
@@ -56,7 +60,11 @@ pub struct ScoreCell {
     pub n: u64,
     /// Samples left out because a value was no usable number.
     pub n_invalid: u64,
-    /// Whether it is shown to be better than every other cell of its row, at a level of 5 % after Holm's adjustment.
+    /// Whether it takes part in verdicts.
+    pub standing: Standing,
+    /// Which share of its predictions lie beyond the bounds of the model, where that is known.
+    pub bounded_share: Option<f64>,
+    /// Whether it is shown to be better than every other cell of its row that takes part, at a level of 5 % after Holm's adjustment.
     pub is_best: bool,
 }
 
@@ -178,6 +186,8 @@ impl Line<'_> {
             method: self.interval.and_then(Interval::method).map(str::to_owned),
             n: self.score.n,
             n_invalid: self.score.n_invalid,
+            standing: self.score.standing,
+            bounded_share: self.score.bounded_share,
             is_best: false,
         });
     }
@@ -190,22 +200,37 @@ impl ScoreRow {
     }
 }
 
-/// Marks the cell of each row that is shown to be better than all others that have a value.
+impl ScoreCell {
+    /// Whether it has a value that takes part in verdicts.
+    pub fn takes_part(&self) -> bool {
+        self.value.is_some() && self.standing.takes_part()
+    }
+
+    /// What a reader must know of its standing, in words: `no skill`, `bounded (12 %)`; none of a cell that simply counts.
+    pub fn remark(&self) -> Option<String> {
+        let words = self.standing.words().filter(|_| self.value.is_some())?;
+        let share = self
+            .bounded_share
+            .filter(|_| self.standing == Standing::Bounded);
+        Some(match share {
+            Some(share) => format!("{words} ({} %)", fixed(100.0 * share, 0)),
+            None => words.to_owned(),
+        })
+    }
+}
+
+/// Marks the cell of each row that is shown to be better than all others that take part.
 fn mark_best(rows: &mut [ScoreRow], answers: &[Answer]) {
     for row in rows.iter_mut().filter(|row| row.is_headline) {
         let is_of_row =
             |answer: &&Answer| answer.metric == row.metric && answer.channel == row.channel;
         let of_row: Vec<&Answer> = answers.iter().filter(is_of_row).collect();
-        let valued = row
-            .cells
-            .iter()
-            .flatten()
-            .filter(|cell| cell.value.is_some());
+        let valued = row.cells.iter().flatten().filter(|cell| cell.takes_part());
         let rivals = valued.count().saturating_sub(1);
         for (at, cell) in row.cells.iter_mut().enumerate() {
             let wins = of_row.iter().filter(|answer| answer.better() == Some(at));
             if let Some(cell) = cell {
-                cell.is_best = rivals > 0 && wins.count() == rivals;
+                cell.is_best = rivals > 0 && cell.takes_part() && wins.count() == rivals;
             }
         }
     }

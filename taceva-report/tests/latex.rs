@@ -4,7 +4,7 @@
 mod latex;
 mod support;
 
-use latex::assert_compiles;
+use latex::{assert_compiles, assert_fits_a_column};
 use support::drawn;
 use taceva_core::Unit;
 use taceva_report::{
@@ -28,6 +28,22 @@ fn scores_compile() {
         "headlines",
         &taceva_report::latex(&table.headlines(), "Drawn"),
     );
+}
+
+#[test]
+fn the_main_scores_fit_a_column() {
+    let four = ["ViTacTip", "MagicTac", "GelSight", "GelSightWM"].map(|name| drawn(name, 60, 1.0));
+    let table = taceva_report::latex_column(&ScoreTable::of(&four), "Drawn");
+    for part in [
+        "MAE $F_{xy}$ (N) $\\downarrow$",
+        "$R^2$ $P_{z}$ $\\uparrow$",
+        "\\columnwidth",
+    ] {
+        assert!(table.contains(part), "{part}: {table}");
+    }
+    assert_fits_a_column("main scores", &table);
+    let odd = taceva_report::latex_column(&ScoreTable::of(&studies()), NAME);
+    assert_compiles("main scores of odd names", &odd);
 }
 
 #[test]
@@ -70,6 +86,8 @@ fn data_sheets_compile() {
         name: &limits.name,
         study: &study,
         findings: &findings,
+        date: Some("2026-11-22"),
+        pictures: None,
     };
     assert_compiles("acceptance", &acceptance.listing().latex());
 }

@@ -3,6 +3,7 @@
 mod devices;
 mod key;
 mod log;
+pub(crate) mod retried;
 mod schedule;
 mod workshop;
 
@@ -38,14 +39,15 @@ pub(crate) fn acquire(
     match Dataset::open(path) {
         Err(DatasetError::NoDataset { .. }) => {}
         closed_before => {
-            let dataset = closed_before?;
+            // Whoever reads holds the folder, which nobody may write to meanwhile.
+            drop(closed_before?);
             // A power cut may have spared the journal of what was closed; asking to go on removes it.
             match Recorder::resume(path) {
                 Err(DatasetError::TargetExists { .. }) => {}
                 other => drop(other?),
             }
             workshop.progress.advance(plan.presses.len() as u64);
-            return Ok(dataset);
+            return Ok(Dataset::open(path)?);
         }
     }
     let mut log: Option<RecordedPresses> = None;
@@ -58,7 +60,7 @@ pub(crate) fn acquire(
                 log.insert(RecordedPresses::new(Recorder::open(path, &spec)?))
             }
         };
-        acquire_unit(study, (unit, &mut open), log, (workshop, cancel))?;
+        acquire_unit(study, (unit, &mut open, path), log, (workshop, cancel))?;
     }
     if let Some(log) = log {
         log.into_recorder().close()?;
@@ -69,7 +71,7 @@ pub(crate) fn acquire(
 /// The presses of one unit.
 fn acquire_unit(
     study: &PlannedStudy,
-    (unit, open): (&str, &mut OpenRig),
+    (unit, open, path): (&str, &mut OpenRig, &Path),
     log: &mut RecordedPresses,
     (workshop, cancel): (Workshop<'_>, &Cancel),
 ) -> Result<(), StudyError> {
@@ -78,6 +80,7 @@ fn acquire_unit(
         log.relive(plan, unit);
     }
     let schedule = Schedule::of(plan);
+    let mut retried = 0_u64;
     let mut upcoming = open.surroundings.upcoming.take();
     let mut events = |event: &Event| {
         match event {
@@ -91,6 +94,7 @@ fn acquire_unit(
                 }
             }
             Event::Finished { .. } => progress.advance(1),
+            Event::FrameRetried => retried += 1,
             _ => {}
         }
         if progress.is_cancelled() {
@@ -112,7 +116,10 @@ fn acquire_unit(
         study: plan.name.clone(),
         source: Box::new(source),
     };
-    run(&spec, devices, log, controls).map(drop).map_err(failed)
+    let done = run(&spec, devices, log, controls).map(drop).map_err(failed);
+    // A count that cannot be written is no reason to lose a recording.
+    drop(retried::add(path, retried));
+    done
 }
 
 /// What the recording of `study` is of.

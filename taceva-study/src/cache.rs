@@ -1,7 +1,7 @@
 //! Finished stages of runs, each kept under the digest of everything that it was made from.
 //!
 //! ```text
-//! FOLDER/1/acquire/<key>/     a closed recording, its files linked with those of the run that made it
+//! FOLDER/2/acquire/<key>      a line a folder of a run that holds the closed recording, the last one first
 //!         /features/<key>     features of frames, in the same way as a model
 //!         /fit/<key>          a model; first its digest on a line, then its bytes
 //!         /predict/<key>      numbers, in the same way
@@ -11,6 +11,7 @@
 //! Scores are no stage: they are formed from kept numbers in less time than it takes to look them up safely.
 
 mod features;
+mod inventory;
 mod key;
 mod recording;
 mod study;
@@ -18,12 +19,16 @@ mod tree;
 mod value;
 
 use std::collections::BTreeSet;
-use std::fs;
-use std::io;
+use std::fs::{self, File};
+use std::io::{self, Write as _};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Mutex, PoisonError};
+use std::time::Duration;
 
+use taceva_core::shown;
+
+pub use inventory::{CacheEntry, Pruning, cache_entries, pruned, remove_entry};
 pub(crate) use key::Key;
 pub use key::Stage;
 pub use study::StageRecord;
@@ -31,9 +36,13 @@ pub(crate) use study::StudyCache;
 pub(crate) use tree::remove;
 
 /// How entries are laid out; another layout is another folder, so that no version reads what it cannot know.
-const LAYOUT: &str = "1";
+const LAYOUT: &str = "2";
+/// The layout before, which kept recordings whole.
+const BEFORE: &str = "1";
 /// Where entries are written before they are whole.
 const PARTIAL: &str = "partial";
+/// Nobody writes a result for so long.
+const ABANDONED: Duration = Duration::from_secs(24 * 60 * 60);
 
 /// A folder in which runs find what others have finished, and what was found there by one run.
 ///
@@ -110,11 +119,28 @@ impl Cache {
         if let Err(error) = self.try_put(&entry, write)
             && !entry.exists()
         {
-            self.note(format!(
-                "the cache {} cannot be written, so nothing is kept there: {error}",
-                self.folder.display()
-            ));
+            self.note_unwritable(&error);
         }
+    }
+
+    /// Has the file `bytes` stand for `key` from now on, whatever stood there.
+    fn put_anew(&self, key: &Key, bytes: &[u8]) {
+        let entry = self.entry(key);
+        let write = |beside: &Path| {
+            let mut file = File::options().write(true).create_new(true).open(beside)?;
+            file.write_all(bytes)?;
+            file.sync_all()
+        };
+        if let Err(error) = self.try_put(&entry, write) {
+            self.note_unwritable(&error);
+        }
+    }
+
+    fn note_unwritable(&self, error: &io::Error) {
+        self.note(format!(
+            "the cache {} cannot be written, so nothing is kept there: {error}",
+            shown(&self.folder)
+        ));
     }
 
     fn try_put(&self, entry: &Path, write: impl Fn(&Path) -> io::Result<()>) -> io::Result<()> {
@@ -139,7 +165,7 @@ impl Cache {
     }
 
     fn note_unreadable(&self, entry: &Path, error: &io::Error) {
-        self.note(format!("{} cannot be used: {error}", entry.display()));
+        self.note(format!("{} cannot be used: {error}", shown(entry)));
     }
 
     /// Removes an entry that is not what was written; what it was is made again.
@@ -148,7 +174,7 @@ impl Cache {
         let removed = remove(&entry);
         self.note(format!(
             "{}: {problem}; it is {} and made anew",
-            entry.display(),
+            shown(&entry),
             match removed {
                 Ok(()) => "removed".to_owned(),
                 Err(error) => format!("left, because it cannot be removed ({error}),"),

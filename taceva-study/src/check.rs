@@ -4,10 +4,12 @@
 
 mod channel_order;
 mod clusters;
+mod damaged_frames;
 mod duplicate_frames;
 mod evidence;
 mod facts;
 mod finding;
+mod label_outliers;
 mod leakage;
 mod missing_labels;
 mod placeholder;
@@ -23,7 +25,7 @@ pub use finding::{Check, CheckReport, Finding, Severity};
 pub use run::{CheckRequest, check, check_plan};
 
 /// Every check, in the order of its code.
-pub static ALL: [&Check; 12] = [
+pub static ALL: [&Check; 14] = [
     &units::CHECK,
     &duplicate_frames::CHECK,
     &channel_order::CHECK,
@@ -36,4 +38,6 @@ pub static ALL: [&Check; 12] = [
     &clusters::CHECK,
     &missing_labels::CHECK,
     &facts::CHECK,
+    &damaged_frames::CHECK,
+    &label_outliers::CHECK,
 ];

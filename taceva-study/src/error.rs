@@ -43,8 +43,14 @@ pub enum StudyError {
     /// Samples that a metric cannot take.
     #[error("cannot score: {0}")]
     Scores(#[from] MetricError),
+    /// A recording that holds nothing.
+    #[error("{}: no sample: the dataset has 0 rows", taceva_core::shown(path))]
+    NoSamples {
+        /// The dataset.
+        path: PathBuf,
+    },
     /// Two tables that do not belong together.
-    #[error("{}: {problem}", path.display())]
+    #[error("{}: {problem}", taceva_core::shown(path))]
     Tables {
         /// The table that does not fit the other.
         path: PathBuf,
@@ -52,7 +58,7 @@ pub enum StudyError {
         problem: String,
     },
     /// A state file that cannot be read, or not be joined with the others.
-    #[error("{}: {problem}", path.display())]
+    #[error("{}: {problem}", taceva_core::shown(path))]
     State {
         /// The file.
         path: PathBuf,
@@ -63,7 +69,7 @@ pub enum StudyError {
     #[error(transparent)]
     Scene(Box<SceneError>),
     /// A device that did not open.
-    #[error("study `{study}`: {source}")]
+    #[error("study `{study}`: {source}", study = taceva_core::shown(study))]
     Open {
         /// The study.
         study: String,
@@ -71,7 +77,7 @@ pub enum StudyError {
         source: Box<OpenError>,
     },
     /// A rig that stopped before its end; every press before is recorded, and the same study goes on from there.
-    #[error("study `{study}`: {source}")]
+    #[error("study `{study}`: {source}", study = taceva_core::shown(study))]
     Acquisition {
         /// The study.
         study: String,
@@ -79,7 +85,7 @@ pub enum StudyError {
         source: Box<RunError>,
     },
     /// A folder of a run that cannot be made, read or gone on with.
-    #[error("{}: {problem}", path.display())]
+    #[error("{}: {problem}", taceva_core::shown(path))]
     RunFolder {
         /// The folder or a file in it.
         path: PathBuf,

@@ -4,6 +4,7 @@ mod passes;
 
 use std::collections::BTreeSet;
 use std::num::NonZeroUsize;
+use taceva_core::shown;
 
 use taceva_core::{Channels, Field, FieldSet, SkipReason, Skipped};
 use taceva_dataset::{Dataset, SensorFile};
@@ -20,8 +21,10 @@ use crate::provenance::{ModelProvenance, Provenance, chosen_notes};
 use crate::report::EvaluationReport;
 use crate::rows::{Divided, Part};
 use crate::samples::Samples;
+use crate::skill::with_skill;
 use crate::state_file::StateFile;
 use crate::subject::Subject;
+use crate::taken::Taken;
 use crate::work::Work;
 
 use passes::Passes;
@@ -66,10 +69,7 @@ pub struct Evaluated {
 pub fn evaluate_plan(dataset: &Dataset, request: &EvaluateRequest) -> Result<Plan, StudyError> {
     let mut plan = Plan::default();
     let rows = dataset.table().rows();
-    plan.step(
-        "read",
-        format!("{rows} rows of {}", dataset.path().display()),
-    );
+    plan.step("read", format!("{rows} rows of {}", shown(&dataset.path())));
     let (target, channels, reads_frames) = match &request.model {
         ModelChoice::Fit(fit) => {
             let fit = FitPlan::new(dataset, fit)?;
@@ -127,7 +127,11 @@ pub fn evaluate(
         ModelChoice::Fit(fit) => {
             // Asked before the work: an unknown metric must not cost a fit.
             catalogue::select(request.metrics.iter().map(String::as_str))?;
-            let fitted = FitPlan::new(dataset, fit)?.run(work)?;
+            let plan = FitPlan::new(dataset, fit)?;
+            if request.part.is_none() {
+                plan.divided.require_test()?;
+            }
+            let fitted = plan.run(work)?;
             let model = &fitted.model;
             let target = Target::of(
                 dataset,
@@ -169,7 +173,7 @@ fn metrics(
     let wanted = catalogue::select(request.metrics.iter().map(String::as_str))?;
     let available: FieldSet = dataset.table().fields().with(Field::Prediction);
     let facts = facts::of_dataset(dataset, request.sensor.as_ref())?;
-    Ok(MetricPlan::new(&wanted, channels.clone(), available).with_facts(facts))
+    Ok(MetricPlan::new(&with_skill(wanted), channels.clone(), available).with_facts(facts))
 }
 
 pub(crate) fn score(
@@ -179,7 +183,8 @@ pub(crate) fn score(
     (target, predicted): (&Target, &Predicted),
     jobs: NonZeroUsize,
 ) -> Result<Evaluated, StudyError> {
-    let plan = metrics(dataset, predicted.channels(), request)?;
+    let plan = metrics(dataset, predicted.channels(), request)?
+        .with_constants(predicted.constants().clone())?;
     let points: Option<Vec<&str>> = predicted
         .points()
         .map(|points| points.iter().map(String::as_str).collect());
@@ -197,6 +202,7 @@ pub(crate) fn score(
         notes: note
             .into_iter()
             .chain(few_points_note(points.as_deref()))
+            .chain(seen_note(target))
             .chain(left_out_note(target.part.name(), predicted.left_out))
             .chain(predicted.bounded_note())
             .chain(calibration_note(
@@ -209,10 +215,14 @@ pub(crate) fn score(
             .chain(passes.note(dataset))
             .collect(),
         ..Provenance::of(dataset)
-    };
+    }
+    .with_model_seal(model);
     let subject = Subject::of(dataset);
-    let state = StateFile::of(&mut evaluator, &subject, &provenance)?;
-    let evaluation = evaluator.finish()?;
+    let bounded = predicted.bounded(0..predicted.rows());
+    let state = StateFile::of(&mut evaluator, &subject, &provenance, bounded)?.with_taken(vec![
+        Taken::rows_of(dataset.digest().to_string(), &target.rows),
+    ]);
+    let evaluation = state.finish(evaluator)?;
     let samples = Samples::of(dataset, &target.rows)?
         .with_predictions(&target.rows, (predicted, &target.rows));
     Ok(Evaluated {
@@ -234,6 +244,21 @@ fn divided_as(divided: &Divided) -> String {
         divided.seed,
         counts.join(", ")
     )
+}
+
+/// That scores are no measure of what a model has not seen.
+fn seen_note(target: &Target) -> Option<String> {
+    let divided = target.divided.as_ref()?;
+    let is_seen = match target.part {
+        Part::Train | Part::Validation | Part::All => true,
+        Part::Test => false,
+    };
+    (is_seen && !divided.rows(Part::Train).is_empty()).then(|| {
+        format!(
+            "scored on the part `{}`, which the model has seen: this is no test",
+            target.part.name()
+        )
+    })
 }
 
 fn left_out_note(part: &str, count: usize) -> Option<String> {

@@ -14,7 +14,7 @@ use taceva_models::{
 use crate::error::StudyError;
 use crate::features::{blank, extract, extractor};
 use crate::plan::Plan;
-use crate::rows::{Divided, Need, Part, chosen_channels, usable};
+use crate::rows::{Divided, Need, Part, chosen_channels, require_samples, seen_channels, usable};
 use crate::work::Work;
 
 /// What to fit.
@@ -39,6 +39,24 @@ impl FitRequest {
     /// [`StudyError`] for a model that does not exist, or a setting that it does not have.
     pub fn check(&self) -> Result<(), StudyError> {
         Recipe::of(self).map(drop)
+    }
+
+    /// The same with `seed` for whatever the model draws; division and everything else stays.
+    pub(crate) fn with_seed(self, seed: u64) -> Result<FitRequest, StudyError> {
+        const SEED: &str = "seed";
+        if !self.model.setting_keys().contains(&SEED) {
+            return Err(StudyError::Request(format!(
+                "the model {} draws nothing: with every seed it would be the same, so run it without --seeds",
+                self.model.name()
+            )));
+        }
+        let others = self.settings.words();
+        let others = others.filter(|word| !word.starts_with("seed="));
+        let words: Vec<String> = others.chain([format!("{SEED}={seed}")]).collect();
+        Ok(FitRequest {
+            settings: Settings::parse(words.iter().map(String::as_str))?,
+            ..self
+        })
     }
 }
 
@@ -120,7 +138,8 @@ impl<'a> FitPlan<'a> {
         request: &FitRequest,
     ) -> Result<FitPlan<'a>, StudyError> {
         let recipe = Recipe::of(request)?;
-        let divided = Divided::new(dataset.table(), request.split.as_deref(), request.seed)?;
+        require_samples(dataset)?;
+        let divided = Divided::of(dataset, request.split.as_deref(), request.seed)?;
         FitPlan::on(dataset, request, recipe, divided)
     }
 
@@ -138,8 +157,12 @@ impl<'a> FitPlan<'a> {
             features,
             open,
         } = recipe;
-        let channels = chosen_channels(dataset, &request.channels)?;
         let model_reads = model.reads_features();
+        let mut channels = chosen_channels(dataset, &request.channels)?;
+        if request.channels.is_empty() && model_reads {
+            // Of a recording of a run: heights of the surface are met without a picture.
+            channels = seen_channels(dataset, &channels);
+        }
         let need = || Need {
             frame: model_reads,
             labels: Some(&channels),

@@ -2,6 +2,7 @@
 
 mod acquire;
 pub mod bench;
+mod bounded;
 mod cache;
 mod calibration;
 pub mod check;
@@ -11,7 +12,9 @@ mod evaluate;
 mod facts;
 mod features;
 mod fit;
+mod over_seeds;
 mod plan;
+mod planned_rows;
 mod predict;
 mod provenance;
 mod report;
@@ -20,19 +23,24 @@ mod run;
 mod samples;
 mod scene;
 mod score;
+mod skill;
 mod stage;
 mod state_file;
 mod subject;
+mod taken;
 mod tally;
 mod teller;
 mod work;
 
 pub use acquire::{Surroundings, SurroundingsOf, Upcoming, Workshop};
-pub use cache::{Cache, Stage, StageRecord};
+pub use cache::{
+    Cache, CacheEntry, Pruning, Stage, StageRecord, cache_entries, pruned, remove_entry,
+};
 pub use check::{CheckReport, CheckRequest, Finding, Severity, check, check_plan};
 pub use error::StudyError;
 pub use evaluate::{EvaluateRequest, Evaluated, ModelChoice, evaluate, evaluate_plan};
 pub use fit::{FitRequest, Fitted, fit};
+pub use over_seeds::{OverSeeds, SeedScore};
 pub use plan::{Plan, Step};
 pub use predict::{Predicted, predict};
 pub use provenance::{ModelProvenance, Provenance};
@@ -40,7 +48,7 @@ pub use report::{EVALUATION_SCHEMA, EvaluationReport};
 pub use rows::{Divided, Part};
 pub use run::{Existing, RunFolder, run_scene};
 pub use samples::Samples;
-pub use scene::{PlannedScene, PlannedStudy, SceneText};
+pub use scene::{Instead, PlannedScene, PlannedStudy, SceneText};
 pub use score::{ScoreRequest, Scored, Scoring};
 pub use state_file::{STATE_SCHEMA, StateFile, merge};
 pub use subject::Subject;

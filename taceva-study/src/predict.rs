@@ -1,14 +1,16 @@
 //! The stage that predicts, and the tables it can be written as.
 
+use std::collections::BTreeMap;
 use std::io::{self, Write};
 
 use taceva_core::{Channels, Column, Field};
 use taceva_dataset::Dataset;
 use taceva_models::Model;
 
+use crate::bounded::Bounded;
 use crate::error::StudyError;
 use crate::features::{blank, extract};
-use crate::rows::{Divided, Need, Part, usable};
+use crate::rows::{Divided, Need, Part, require_samples, usable};
 use crate::work::Work;
 
 /// Predictions of some rows of a dataset, beside what is true of them.
@@ -21,11 +23,16 @@ pub struct Predicted {
     /// What else the table says of the rows, by the name of its column.
     beside: Vec<(&'static str, Vec<Option<String>>)>,
     truth: Vec<Column>,
+    /// Within the bounds of the model.
     prediction: Vec<Column>,
+    /// As the model gives it.
+    unbounded: Vec<Column>,
     /// The standard deviation of each prediction, of a model that knows it.
     deviation: Option<Vec<Column>>,
-    /// Predictions of each channel that lie on the bound of the model.
-    bounded: Vec<usize>,
+    /// Which predictions lie beyond the bounds of the model, channel by channel; absent of a channel without bounds.
+    beyond: Vec<Option<Vec<bool>>>,
+    /// The best constant answers of the model, by channel, as far as it knows them.
+    constants: BTreeMap<String, f64>,
     pub(crate) frames_decoded: u64,
     pub(crate) left_out: usize,
 }
@@ -48,28 +55,52 @@ impl Predicted {
 
     /// The share of predictions that the model's bounds changed, channel by channel; `None` where there is none.
     pub(crate) fn bounded_note(&self) -> Option<String> {
-        let rows = self.rows() as f64;
-        let shares = self.channels.iter().zip(&self.bounded);
-        let shares: Vec<String> = shares
-            .filter(|(_, count)| **count > 0)
-            .map(|(channel, &count)| {
-                format!("{} {:.1} %", channel.name(), 100.0 * count as f64 / rows)
+        let shares = self.bounded(0..self.rows());
+        let channels = self.channels.iter();
+        let shares: Vec<String> = channels
+            .filter_map(|channel| {
+                let share = shares.share(channel.name()).filter(|share| *share > 0.0)?;
+                Some(format!("{} {:.1} %", channel.name(), 100.0 * share))
             })
             .collect();
         (!shares.is_empty()).then(|| {
             format!(
-                "predictions brought back to the bounds of the model, a quarter of the range of labels beyond them: {}",
+                "predictions that lie beyond the bounds of the model, a quarter of the range of labels on either side: {}; robustness is of \
+                 predictions as they are, every other score of those brought back",
                 shares.join(", ")
             )
         })
+    }
+
+    /// How many predictions of the samples at `positions` lie beyond the bounds of the model, by channel.
+    pub(crate) fn bounded(&self, positions: impl Iterator<Item = usize> + Clone) -> Bounded {
+        let mut bounded = Bounded::default();
+        for (channel, beyond) in self.channels.iter().zip(&self.beyond) {
+            if let Some(beyond) = beyond {
+                let own = positions.clone().map(|position| beyond[position]);
+                bounded.add(channel.name(), own);
+            }
+        }
+        bounded
+    }
+
+    /// The best constant answers of the model, by channel, as far as it knows them.
+    pub(crate) fn constants(&self) -> &BTreeMap<String, f64> {
+        &self.constants
     }
 
     pub(crate) fn truth(&self) -> &[Column] {
         &self.truth
     }
 
+    /// Predictions within the bounds of the model.
     pub(crate) fn prediction(&self) -> &[Column] {
         &self.prediction
+    }
+
+    /// Predictions as the model gives them.
+    pub(crate) fn unbounded(&self) -> &[Column] {
+        &self.unbounded
     }
 
     pub(crate) fn deviation(&self) -> Option<&[Column]> {
@@ -86,6 +117,15 @@ impl Predicted {
     /// Those of `out`.
     pub fn write_predictions(&self, out: &mut dyn Write) -> io::Result<()> {
         self.write(&self.prediction, false, out)
+    }
+
+    /// Writes the predictions as the model gives them, in the form of [`write_predictions`](Predicted::write_predictions): what `score` forms
+    /// robustness from.
+    ///
+    /// # Errors
+    /// Those of `out`.
+    pub fn write_unbounded_predictions(&self, out: &mut dyn Write) -> io::Result<()> {
+        self.write(&self.unbounded, false, out)
     }
 
     /// Writes the standard deviation of each prediction, where the model knows it: `id` and a column a channel; says whether it does.
@@ -161,14 +201,8 @@ impl Target {
         model: &Model,
         part: Option<Part>,
     ) -> Result<Target, StudyError> {
-        let provenance = &model.card().provenance;
-        let is_own = provenance.data.as_deref() == Some(dataset.digest().to_string().as_str());
-        let divided = match &provenance.split {
-            Some(card) if is_own => {
-                Some(Divided::new(dataset.table(), Some(&card.split), card.seed)?)
-            }
-            _ => None,
-        };
+        require_samples(dataset)?;
+        let divided = Divided::by_model(dataset, model)?;
         Target::of(dataset, divided, part, model.reads_features())
     }
 
@@ -178,6 +212,9 @@ impl Target {
         part: Option<Part>,
         reads_frames: bool,
     ) -> Result<Target, StudyError> {
+        if let (Some(divided), None) = (&divided, part) {
+            divided.require_test()?;
+        }
         let part = part.unwrap_or(if divided.is_some() {
             Part::Test
         } else {
@@ -226,7 +263,7 @@ pub(crate) fn run(
     table(dataset, model, target, &numbers)
 }
 
-/// What `model` says of the rows of `target`, and, where it knows, by how much each prediction may be off.
+/// What `model` says of the rows of `target`, however far that lies from what it was taught, and, where it knows, by how much each prediction may be off.
 ///
 /// # Shapes
 /// `[rows, channels]`, row after row; behind it standard deviations in the same order, or nothing.
@@ -242,7 +279,7 @@ pub(crate) fn numbers(
     } else {
         blank(model.card().features.shape(), rows.len())?
     };
-    let mut numbers = model.predict(&features)?;
+    let mut numbers = model.predict_unbounded(&features)?;
     numbers.extend(model.deviations(&features)?.into_iter().flatten());
     Ok(Column::full(numbers))
 }
@@ -263,6 +300,8 @@ pub(crate) fn table(
         columns.collect()
     };
     let (numbers, deviations) = numbers.values().split_at(rows.len() * width);
+    let mut bounded = numbers.to_vec();
+    model.bound(&mut bounded);
     let points: Option<Vec<String>> = rows
         .iter()
         .map(|&row| dataset.table().point_id()[row].clone())
@@ -279,9 +318,16 @@ pub(crate) fn table(
             .iter()
             .map(|channel| truth(dataset, channel, rows))
             .collect::<Result<_, _>>()?,
-        prediction: columns(numbers),
+        prediction: columns(&bounded),
+        unbounded: columns(numbers),
         deviation: (!deviations.is_empty()).then(|| columns(deviations)),
-        bounded: model.bounded(numbers),
+        beyond: (0..width)
+            .map(|position| {
+                let own = numbers.iter().skip(position).step_by(width);
+                own.map(|value| model.is_beyond(position, *value)).collect()
+            })
+            .collect(),
+        constants: constants(model),
         frames_decoded: if model.reads_features() {
             rows.len() as u64
         } else {
@@ -290,6 +336,14 @@ pub(crate) fn table(
         left_out: target.left_out,
         channels,
     })
+}
+
+/// The best constant answers of `model`, by channel, as far as its card says them.
+fn constants(model: &Model) -> BTreeMap<String, f64> {
+    let channels = model.card().channels.iter();
+    channels
+        .filter_map(|channel| Some((channel.name.clone(), channel.mean?)))
+        .collect()
 }
 
 /// What else the table says of `rows`, of the columns that `score` reads.

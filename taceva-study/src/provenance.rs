@@ -8,6 +8,7 @@ use taceva_dataset::Dataset;
 use taceva_models::{ChosenBy, Model};
 
 use crate::error::StudyError;
+use crate::rows::Part;
 
 /// From what, and how, a result was made.
 ///
@@ -45,6 +46,15 @@ pub struct Provenance {
     pub frames_decoded: u64,
     /// Third-party code that took part.
     pub plugins: Vec<String>,
+    /// The digest of the table of samples that was written beside the result.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub samples_table: Option<String>,
+    /// What was changed by hand in what it was made from, and accepted: file, date, reason and digests.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub edits: Vec<String>,
+    /// What it was made from that carries no seal, so that changes of it could not be noticed.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub unsealed: Vec<String>,
     /// What a reader should know.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub notes: Vec<String>,
@@ -56,12 +66,37 @@ impl Provenance {
         let digest = dataset.digest().to_string();
         let presses = &dataset.header().presses;
         let told = (!presses.is_empty()).then(|| (digest.clone(), presses.clone()));
+        let seal = &dataset.header().seal;
+        let edits = seal.history.iter();
         Provenance {
             taceva: env!("CARGO_PKG_VERSION").to_owned(),
             dataset: Some(digest),
             presses: told.into_iter().collect(),
+            edits: edits.map(|edit| format!("dataset.toml, {edit}")).collect(),
+            unsealed: match seal.is_sealed {
+                true => Vec::new(),
+                false => vec![format!(
+                    "dataset.toml of format {}",
+                    dataset.header().format
+                )],
+            },
             ..Provenance::default()
         }
+    }
+
+    /// The same, knowing whether the file of the model is sealed.
+    pub(crate) fn with_model_seal(mut self, model: &Model) -> Provenance {
+        if !model.is_sealed() {
+            self.unsealed
+                .push(format!("model of format {}", model.card().format));
+        }
+        self
+    }
+
+    /// Whether the model was fitted on some of the samples that were scored, so that its skill on others stays unknown.
+    pub(crate) fn is_of_seen_samples(&self) -> bool {
+        let is_test = |part: &str| part == Part::Test.name();
+        self.split.is_some() && self.part.as_deref().is_some_and(|part| !is_test(part))
     }
 
     /// How many presses ended in which way, of all recordings together.
@@ -101,11 +136,24 @@ impl Provenance {
         let presses = other.presses.iter();
         self.presses
             .extend(presses.map(|(digest, counts)| (digest.clone(), counts.clone())));
+        // Nobody writes the samples of several states.
+        self.samples_table = None;
         self.frames_decoded += other.frames_decoded;
         for note in &other.notes {
             if !self.notes.contains(note) {
                 self.notes.push(note.clone());
             }
+        }
+        for (own, other) in [
+            (&mut self.edits, &other.edits),
+            (&mut self.unsealed, &other.unsealed),
+        ] {
+            let new: Vec<String> = other
+                .iter()
+                .filter(|line| !own.contains(line))
+                .cloned()
+                .collect();
+            own.extend(new);
         }
         for plugin in &other.plugins {
             if !self.plugins.contains(plugin) {

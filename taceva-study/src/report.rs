@@ -5,12 +5,13 @@ use serde::{Serialize, Serializer};
 use taceva_core::Skipped;
 use taceva_metrics::Evaluation;
 
+use crate::over_seeds::OverSeeds;
 use crate::provenance::Provenance;
 use crate::samples::Samples;
 use crate::subject::Subject;
 
 /// The schema of [`EvaluationReport`] as JSON.
-pub const EVALUATION_SCHEMA: &str = "taceva.evaluation/1.1";
+pub const EVALUATION_SCHEMA: &str = "taceva.evaluation/1.2";
 
 /// A finished evaluation. Its JSON follows [`EVALUATION_SCHEMA`].
 #[derive(Clone, Debug, Serialize)]
@@ -24,6 +25,9 @@ pub struct EvaluationReport {
     pub evaluation: Evaluation,
     /// From what, and how.
     pub provenance: Provenance,
+    /// The same scores with other seeds of the training, where that was asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub over_seeds: Option<OverSeeds>,
     /// The samples it was made of, where one call has them all; no part of the JSON.
     #[serde(skip)]
     pub samples: Option<Samples>,
@@ -40,6 +44,7 @@ impl EvaluationReport {
             subject,
             evaluation,
             provenance,
+            over_seeds: None,
             samples: None,
         }
     }

@@ -2,11 +2,14 @@
 
 use std::collections::BTreeMap;
 
-use taceva_core::Channels;
+use taceva_core::{Channel, Channels, shown};
 use taceva_dataset::{Dataset, Table};
-use taceva_models::{Part as SplitPart, Split, SplitInput, SplitKind, SplitManifest, SplitSpec};
+use taceva_models::{
+    Model, Part as SplitPart, Split, SplitInput, SplitKind, SplitManifest, SplitSpec,
+};
 
 use crate::error::StudyError;
+use crate::planned_rows::{self, PlannedRows};
 
 /// The part of a dataset that is looked at.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -45,18 +48,78 @@ pub struct Divided {
 }
 
 impl Divided {
+    /// How `dataset` was divided when `model` was fitted on it; `None` if it was fitted on another.
+    ///
+    /// # Errors
+    /// [`StudyError::Split`] as of [`Divided::new`]; [`StudyError::Request`] if a plan divided it that is not beside it.
+    pub(crate) fn by_model(
+        dataset: &Dataset,
+        model: &Model,
+    ) -> Result<Option<Divided>, StudyError> {
+        let provenance = &model.card().provenance;
+        let is_own = provenance.data.as_deref() == Some(dataset.digest().to_string().as_str());
+        let Some(card) = provenance.split.as_ref().filter(|_| is_own) else {
+            return Ok(None);
+        };
+        let is_planned = (provenance.notes.iter()).any(|note| note.contains(planned_rows::NOTE));
+        let divided = match (is_planned, PlannedRows::of(dataset)?) {
+            (true, None) => {
+                return Err(StudyError::Request(format!(
+                    "{}: the model was fitted on what the plan of a run teaches by; name the recording in the folder of that run",
+                    shown(dataset.path())
+                )));
+            }
+            (true, Some(_)) => Divided::of(dataset, Some(&card.split), card.seed),
+            (false, _) => Divided::new(dataset.table(), Some(&card.split), card.seed),
+        };
+        divided.map(Some)
+    }
+
     /// Divides `table` as `text` says, or by point where points have repeats, else at random.
     ///
     /// # Errors
     /// [`StudyError::Split`] if the text means no split, or the table lacks what it needs.
     pub fn new(table: &Table, text: Option<&str>, seed: u64) -> Result<Divided, StudyError> {
-        let points = all_texts(table.point_id());
+        let rows: Vec<usize> = (0..table.rows()).collect();
+        Divided::within(table, &rows, text, seed)
+    }
+
+    /// Divides `dataset` as `text` says; a recording of a run as its plan does, which divides the presses that teach a model, by the seed of
+    /// its scene where nobody says how.
+    ///
+    /// # Errors
+    /// As [`new`](Divided::new), and [`StudyError::RunFolder`] if the plan of the run cannot be read.
+    pub fn of(dataset: &Dataset, text: Option<&str>, seed: u64) -> Result<Divided, StudyError> {
+        let Some(planned) = PlannedRows::of(dataset)? else {
+            return Divided::new(dataset.table(), text, seed);
+        };
+        let seed = if text.is_none() { planned.seed } else { seed };
+        let mut divided = Divided::within(dataset.table(), &planned.rows, text, seed)?;
+        let note = &mut divided.split.note;
+        *note = Some(match note.take() {
+            Some(before) => format!("{}; {before}", planned_rows::NOTE),
+            None => planned_rows::NOTE.to_owned(),
+        });
+        Ok(divided)
+    }
+
+    /// Divides `rows` of `table`, which ascend; all others are in no part.
+    ///
+    /// # Errors
+    /// As [`new`](Divided::new).
+    pub(crate) fn within(
+        table: &Table,
+        rows: &[usize],
+        text: Option<&str>,
+        seed: u64,
+    ) -> Result<Divided, StudyError> {
+        let points = all_texts(table.point_id(), rows);
         let spec = match text {
             Some(text) => text.parse::<SplitSpec>()?,
             None => default_spec(points.as_deref()),
         };
-        let times: Option<Vec<f64>> = table.t_s().iter().copied().collect();
-        let parts = all_texts(table.part());
+        let times: Option<Vec<f64>> = rows.iter().map(|&row| table.t_s()[row]).collect();
+        let parts = all_texts(table.part(), rows);
         let column = match &spec.kind {
             SplitKind::ByColumn(by) => table
                 .as_text(&by.column)
@@ -67,9 +130,8 @@ impl Divided {
         let filled = column.map(|(name, cells)| {
             (
                 name,
-                cells
-                    .into_iter()
-                    .map(Option::unwrap_or_default)
+                rows.iter()
+                    .map(|&row| cells[row].clone().unwrap_or_default())
                     .collect::<Vec<String>>(),
             )
         });
@@ -78,13 +140,16 @@ impl Divided {
             .map(|(name, cells)| (*name, cells.as_slice()))
             .collect();
         let input = SplitInput {
-            rows: table.rows(),
+            rows: rows.len(),
             points: points.as_deref(),
             times_s: times.as_deref(),
             parts: parts.as_deref(),
             columns,
         };
-        let split = spec.assign(&input, seed)?;
+        let mut split = spec.assign(&input, seed)?;
+        if rows.len() < table.rows() {
+            split = split.among(rows, table.rows());
+        }
         Ok(Divided { spec, seed, split })
     }
 
@@ -107,6 +172,20 @@ impl Divided {
                 rows
             }
         }
+    }
+
+    /// Refuses a division that keeps nothing to test on.
+    ///
+    /// # Errors
+    /// [`StudyError::Request`], saying what can be scored instead.
+    pub(crate) fn require_test(&self) -> Result<(), StudyError> {
+        if self.spec.kind != SplitKind::All {
+            return Ok(());
+        }
+        Err(StudyError::Request(
+            "split all: the model is fitted on every sample, and none is left to test on; evaluate it on another recording, or score what it has seen with --part train"
+                .to_owned(),
+        ))
     }
 
     /// The parts by the names of their samples.
@@ -148,9 +227,40 @@ fn default_spec(points: Option<&[String]>) -> SplitSpec {
     }
 }
 
-/// The texts, if every row has one.
-fn all_texts(column: &[Option<String>]) -> Option<Vec<String>> {
-    column.iter().cloned().collect()
+/// The texts of `rows`, if each has one.
+fn all_texts(column: &[Option<String>], rows: &[usize]) -> Option<Vec<String>> {
+    rows.iter().map(|&row| column[row].clone()).collect()
+}
+
+/// Refuses a dataset without a sample.
+///
+/// # Errors
+/// [`StudyError::NoSamples`].
+pub(crate) fn require_samples(dataset: &Dataset) -> Result<(), StudyError> {
+    match dataset.table().rows() {
+        0 => Err(StudyError::NoSamples {
+            path: dataset.path().to_owned(),
+        }),
+        _ => Ok(()),
+    }
+}
+
+/// Of `channels`, those that a sample with a frame carries; all of them where there is none.
+pub(crate) fn seen_channels(dataset: &Dataset, channels: &Channels) -> Channels {
+    let table = dataset.table();
+    let is_seen = |channel: &&Channel| {
+        let position = table.channels().position(channel.name());
+        let seen = |(row, frame): (usize, &Option<_>)| {
+            let truth = position.and_then(|position| table.truth(position).get(row));
+            frame.is_some() && truth.is_some()
+        };
+        table.frames().iter().enumerate().any(seen)
+    };
+    let seen: Vec<Channel> = channels.iter().filter(is_seen).cloned().collect();
+    if seen.is_empty() {
+        return channels.clone();
+    }
+    Channels::new(seen).expect("some of distinct channels are distinct")
 }
 
 /// The channels called `names`, or all of the dataset.
@@ -166,7 +276,8 @@ pub(crate) fn chosen_channels(dataset: &Dataset, names: &[String]) -> Result<Cha
             known.by_name(name).cloned().ok_or_else(|| {
                 let list: Vec<&str> = known.iter().map(|channel| channel.name()).collect();
                 StudyError::Request(format!(
-                    "`{name}`: no such channel, the dataset has {}",
+                    "`{}`: no such channel, the dataset has {}",
+                    shown(name),
                     list.join(", ")
                 ))
             })

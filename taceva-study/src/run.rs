@@ -17,6 +17,7 @@ use crate::scene::{PlannedScene, PlannedStudy, StudySource};
 use crate::stage::{Means, assess};
 use crate::work::Work;
 pub use folder::{Existing, RunFolder};
+pub(crate) use folder::{PLANS, RECORDINGS};
 
 /// The reports of the studies of `scene`, in order; what is acquired is recorded in `folder`, several studies at a time.
 ///
@@ -36,7 +37,8 @@ pub fn run_scene(
     let work = Work {
         jobs,
         progress: workshop.progress,
-        cache: workshop.cache,
+        // Of a run the models and predictions are kept, which are a hundredth of the features they are made from.
+        cache: None,
     };
     let studies = scene.studies.iter().zip(&datasets);
     let assessed = studies.enumerate().map(|(number, (study, dataset))| {

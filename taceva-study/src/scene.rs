@@ -1,5 +1,6 @@
 //! A scene and its plans: what the text says, joined with what drivers and recordings say of themselves. No device is opened.
 
+mod instead;
 mod rig;
 mod text;
 
@@ -19,6 +20,7 @@ use crate::error::StudyError;
 use crate::fit::{FitRequest, Recipe};
 use crate::teller::Teller;
 
+pub use instead::Instead;
 pub(crate) use rig::RigSpec;
 pub use text::SceneText;
 
@@ -31,6 +33,10 @@ pub struct PlannedScene {
     pub text: SceneText,
     /// Its studies, in order.
     pub studies: Vec<PlannedStudy>,
+    /// The seeds that models are fitted with, one after the other; what models have of their own if empty.
+    pub seeds: Vec<u64>,
+    /// Whether the model or settings of it were typed: then no line of the scene is at fault for them.
+    is_model_typed: bool,
 }
 
 /// One sensor of a scene, and what is done with it.
@@ -62,8 +68,27 @@ impl PlannedScene {
         drivers: &Drivers,
         seed: Option<u64>,
     ) -> Result<PlannedScene, StudyError> {
+        let instead = Instead {
+            seed,
+            ..Instead::default()
+        };
+        PlannedScene::with(text, drivers, &instead)
+    }
+
+    /// The same with what `instead` says in the place of what is written.
+    ///
+    /// # Errors
+    /// As [`new`](PlannedScene::new); [`StudyError::Request`] for settings of no model.
+    pub fn with(
+        text: SceneText,
+        drivers: &Drivers,
+        instead: &Instead,
+    ) -> Result<PlannedScene, StudyError> {
         let mut scene = Scene::parse(&text.name, &text.text)?;
-        scene.seed = seed.unwrap_or(scene.seed);
+        scene.seed = instead.seed.unwrap_or(scene.seed);
+        for study in &mut scene.studies {
+            instead.exchange_model(&study.name, &mut study.model)?;
+        }
         rig::check_drivers(&scene, drivers)?;
         let mut sources = Vec::new();
         for study in &scene.studies {
@@ -83,6 +108,8 @@ impl PlannedScene {
             studies: studies.collect(),
             scene,
             text,
+            seeds: instead.seeds.clone(),
+            is_model_typed: instead.model.is_some() || !instead.set.is_empty(),
         })
     }
 
@@ -100,12 +127,19 @@ impl PlannedScene {
             let request = planned.fit_request(self.scene.seed, models);
             if let (Some(name), Some(request)) = (&model.name, request) {
                 let refused = |error: StudyError| {
+                    if self.is_model_typed {
+                        return error;
+                    }
                     let problem = SceneProblem::Contradiction(error.to_string());
                     self.text.error(name.at(), problem)
                 };
                 request
-                    .and_then(|request| Recipe::of(&request).map(drop))
-                    .map_err(refused)?;
+                    .and_then(|request| Recipe::of(&request).map(|_| request))
+                    .map_err(refused)
+                    .and_then(|request| match self.seeds.first() {
+                        Some(seed) => request.with_seed(*seed).map(drop),
+                        None => Ok(()),
+                    })?;
             }
         }
         self.teller().map(drop)
@@ -126,6 +160,8 @@ impl PlannedScene {
 
 impl PlannedStudy {
     /// The fit that the scene asks for, if it asks for one; contact points are kept whole.
+    ///
+    /// `seed` is that of the scene, by which samples are divided; what a model draws it draws from a setting of its own.
     pub(crate) fn fit_request(
         &self,
         seed: u64,

@@ -7,19 +7,23 @@ mod tables;
 use std::collections::BTreeMap;
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
+use taceva_core::shown;
 
 use taceva_core::{Channel, Column, Progress, Unit};
 use taceva_dataset::{CsvTable, SensorFile};
 use taceva_metrics::{MetricPlan, SensorFacts, catalogue};
 
+use crate::bounded::Bounded;
 use crate::error::StudyError;
 use crate::facts;
 use crate::plan::Plan;
 use crate::provenance::Provenance;
 use crate::report::EvaluationReport;
 use crate::samples::Samples;
+use crate::skill::with_skill;
 use crate::state_file::StateFile;
 use crate::subject::Subject;
+use crate::taken::Taken;
 use crate::tally::{self, Rows};
 
 use fields::Place;
@@ -74,7 +78,10 @@ impl Scoring {
     /// [`StudyError`] if a table cannot be read, a channel is in one of them only, ids differ or repeat, or numbers of rows differ.
     pub fn read(request: ScoreRequest) -> Result<Scoring, StudyError> {
         let wanted = catalogue::select(request.metrics.iter().map(String::as_str))?;
+        tables::check_distinct(&request)?;
         let [(truth, of_truth), (prediction, of_prediction)] = tables::read_both(&request)?;
+        tables::check_rows(&truth)?;
+        tables::check_rows(&prediction)?;
         let digests = [("truth", of_truth), ("prediction", of_prediction)];
         let channels = tables::channels(&truth, &prediction, &request.units)?;
         let pairing = tables::pair(&truth, &prediction)?;
@@ -85,7 +92,7 @@ impl Scoring {
             .map(SensorFile::read)
             .transpose()?;
         let sensor = sensor.unwrap_or_default();
-        let metrics = MetricPlan::new(&wanted, channels, fields::stated(&places))
+        let metrics = MetricPlan::new(&with_skill(wanted), channels, fields::stated(&places))
             .with_facts(facts::of_file(&sensor, SensorFacts::default()));
         Ok(Scoring {
             request,
@@ -113,7 +120,7 @@ impl Scoring {
             format!(
                 "{} rows of {}",
                 self.truth.rows(),
-                self.request.truth.display()
+                shown(&self.request.truth)
             ),
         );
         plan.step(
@@ -121,7 +128,7 @@ impl Scoring {
             format!(
                 "{} rows of {}",
                 self.prediction.rows(),
-                self.request.prediction.display()
+                shown(&self.request.prediction)
             ),
         );
         plan.step(
@@ -181,12 +188,16 @@ impl Scoring {
         let mut evaluator = tally::tally(&rows, &self.metrics, self.request.jobs)?;
         let provenance = Provenance {
             taceva: env!("CARGO_PKG_VERSION").to_owned(),
+            notes: tables::same_bytes_note(&self.digests).into_iter().collect(),
             tables: self.digests.clone(),
             ..Provenance::default()
         };
         let subject = Subject::of_file(&self.sensor);
-        let state = StateFile::of(&mut evaluator, &subject, &provenance)?;
-        let evaluation = evaluator.finish()?;
+        let input: Vec<&str> = self.digests.values().map(String::as_str).collect();
+        let taken = Taken::all_of(input.join(" "), self.truth.rows());
+        let state = StateFile::of(&mut evaluator, &subject, &provenance, Bounded::default())?
+            .with_taken(vec![taken]);
+        let evaluation = state.finish(evaluator)?;
         Ok(Scored {
             report: EvaluationReport::new(subject, evaluation, provenance),
             state,

@@ -7,13 +7,16 @@ mod score;
 use std::path::Path;
 
 use taceva_dataset::Dataset;
+use taceva_metrics::Evaluation;
 use taceva_models::{Checkpoints, Model, Models};
 use taceva_protocol::PhaseKind;
 
+use crate::acquire::retried;
 use crate::cache::{Key, Stage, StudyCache};
 use crate::calibration::calibration_note;
 use crate::error::StudyError;
 use crate::fit::{FitPlan, FitRequest, Recipe};
+use crate::over_seeds::OverSeeds;
 use crate::predict::{self, Predicted, Target};
 use crate::provenance::{ModelProvenance, Provenance, chosen_notes};
 use crate::report::EvaluationReport;
@@ -45,7 +48,8 @@ pub(crate) fn assess(
     means: Means<'_>,
 ) -> Result<EvaluationReport, StudyError> {
     let deal = Deal::new(study, dataset);
-    let learnt = Learnt::new(scene, study, dataset, &deal, means)?;
+    let first = scene.seeds.first().copied();
+    let learnt = Learnt::new((scene, study), dataset, &deal, means, first)?;
     let predicted = learnt
         .as_ref()
         .map(|learnt| learnt.predict(study, dataset, &deal, means))
@@ -55,18 +59,33 @@ pub(crate) fn assess(
         .reads_spacings()
         .then(|| ToldSpacings::of(dataset, deal.rows(PhaseKind::Gratings), &teller, means))
         .transpose()?;
-    let input = Scores {
-        scene,
-        study,
-        dataset,
-        deal: &deal,
-        predicted: predicted.as_ref(),
-        told: told.as_ref(),
-        jobs: means.work.jobs,
+    let scores_of = |predicted: Option<&(Predicted, Vec<usize>)>| {
+        score(&Scores {
+            scene,
+            study,
+            dataset,
+            deal: &deal,
+            predicted,
+            told: told.as_ref(),
+            jobs: means.work.jobs,
+        })
     };
-    let (evaluation, mut notes) = score(&input)?;
+    let (evaluation, mut notes) = scores_of(predicted.as_ref())?;
+    let mut others = Vec::new();
+    for seed in scene.seeds.iter().skip(1) {
+        let learnt = Learnt::new((scene, study), dataset, &deal, means, Some(*seed))?;
+        if let Some(learnt) = learnt {
+            let predicted = learnt.predict(study, dataset, &deal, means)?;
+            others.push(scores_of(Some(&predicted))?.0);
+        }
+    }
+    let over_seeds = (!others.is_empty()).then(|| {
+        let evaluations: Vec<&Evaluation> = [&evaluation].into_iter().chain(&others).collect();
+        OverSeeds::of(&scene.seeds, &evaluations)
+    });
     notes.extend(told.as_ref().map(|_| teller.note().to_owned()));
     notes.extend(deal.shortfall());
+    notes.extend(retried::note(dataset.path()));
     if let Some((predicted, rows)) = &predicted {
         notes.extend(predicted.bounded_note());
         let calibration = deal.rows(PhaseKind::Calibration);
@@ -103,7 +122,8 @@ pub(crate) fn assess(
     if let Some((predicted, of_rows)) = &predicted {
         samples = samples.with_predictions(&rows, (predicted, of_rows));
     }
-    let report = EvaluationReport::new(Subject::of(dataset), evaluation, provenance);
+    let mut report = EvaluationReport::new(Subject::of(dataset), evaluation, provenance);
+    report.over_seeds = over_seeds;
     Ok(report.with_samples(samples))
 }
 
@@ -115,13 +135,13 @@ struct Learnt {
 }
 
 impl Learnt {
-    /// Fits or opens the model that the plan needs; `None` where no metric reads a prediction.
+    /// Fits or opens the model that the plan needs, with a seed of its own if one is given; `None` where no metric reads a prediction.
     fn new(
-        scene: &PlannedScene,
-        study: &PlannedStudy,
+        (scene, study): (&PlannedScene, &PlannedStudy),
         dataset: &Dataset,
         deal: &Deal<'_>,
         means: Means<'_>,
+        seed: Option<u64>,
     ) -> Result<Option<Learnt>, StudyError> {
         if !deal.reads_predictions() {
             return Ok(None);
@@ -132,22 +152,28 @@ impl Learnt {
                 .open(&scene.text.folder.join(file))
                 .map_err(|error| StudyError::Request(error.to_string()))?;
             return Ok(Some(Learnt {
+                divided: Divided::by_model(dataset, &model)?,
                 model,
-                divided: None,
                 frames_decoded: 0,
             }));
         }
         let Some(request) = study.fit_request(scene.scene.seed, means.models) else {
             return Ok(None);
         };
-        let request = FitRequest {
+        let mut request = FitRequest {
             channels: deal.predicted_channels(),
             ..request?
         };
+        if let Some(seed) = seed {
+            request = request.with_seed(seed)?;
+        }
         let recipe = Recipe::of(&request)?;
         let divided = deal.divided(&request)?;
         let mut plan = FitPlan::on(dataset, &request, recipe, divided.clone())?;
-        plan.put_aside(Checkpoints::at(means.checkpoint.to_owned()));
+        // One training at a time is put aside: of several seeds those that are finished are in the cache.
+        if seed == scene.seeds.first().copied() {
+            plan.put_aside(Checkpoints::at(means.checkpoint.to_owned()));
+        }
         let key = Key::of(Stage::Fit)
             .part("dataset", &dataset.digest().to_string())
             .whole("request", &request)

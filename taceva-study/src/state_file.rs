@@ -1,22 +1,30 @@
 //! What a shard has kept, as a file: written by one lab, joined by another, with the scores of one unsharded run.
 
+use std::collections::BTreeMap;
 use std::fs::File;
 use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
+use taceva_core::shown;
 
 use serde::{Deserialize, Serialize};
 use taceva_core::{
     Channel, Channels, Field, FieldSet, Footprint, Nanometre, Newton, Outline, Unit,
 };
-use taceva_metrics::{Evaluator, MetricPlan, SensorFacts, Settings, State, catalogue};
+use taceva_metrics::{Evaluation, Evaluator, MetricPlan, SensorFacts, Settings, State, catalogue};
+use taceva_seal::{Edit, Version};
 
+use crate::bounded::Bounded;
 use crate::error::StudyError;
 use crate::provenance::Provenance;
 use crate::report::EvaluationReport;
 use crate::subject::Subject;
+use crate::taken::{AllTaken, Taken};
 
-/// The schema of a state file.
-pub const STATE_SCHEMA: &str = "taceva.state/1";
+/// The schema of a state file. A minor version only adds keys; since 1.1 a state is sealed and says which rows it took.
+pub const STATE_SCHEMA: &str = "taceva.state/1.1";
+
+/// The schema of states of before seals, which are read and marked.
+const UNSEALED_SCHEMA: &str = "taceva.state/1";
 
 /// The largest state file that is read: far above what 64 clusters of every family take.
 const LARGEST: u64 = 1 << 30;
@@ -29,7 +37,25 @@ pub struct StateFile {
     subject: Subject,
     plan: WrittenPlan,
     provenance: Provenance,
+    /// Predictions beyond the bounds of their model, where there are any bounds.
+    #[serde(default, skip_serializing_if = "Bounded::is_empty")]
+    bounded: Bounded,
+    /// Whether the model was fitted on some of the samples.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    seen: bool,
     states: Vec<State>,
+    #[serde(default)]
+    taken: Vec<Taken>,
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    history: Vec<Edit>,
+    #[serde(default, skip_serializing)]
+    seal: Option<serde_json::Value>,
+}
+
+/// A state that was read, and the digest of what it says.
+struct ReadState {
+    file: StateFile,
+    digest: String,
 }
 
 /// A plan as a file says it.
@@ -50,6 +76,9 @@ struct WrittenPlan {
     gate_n: f64,
     smoothing_window: u32,
     resolution_tolerance_nm: i64,
+    /// What skill is measured by, by channel, where it is known and the same of all that was joined.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    constants: BTreeMap<String, f64>,
 }
 
 /// A footprint in whole nanometres: a radius, or half a width and half a height.
@@ -70,21 +99,50 @@ impl StateFile {
         evaluator: &mut Evaluator,
         subject: &Subject,
         provenance: &Provenance,
+        bounded: Bounded,
     ) -> Result<StateFile, StudyError> {
         Ok(StateFile {
             schema: STATE_SCHEMA.to_owned(),
             subject: subject.clone(),
             plan: WrittenPlan::of(evaluator.plan()),
             provenance: provenance.clone(),
+            bounded,
+            seen: provenance.is_of_seen_samples(),
             states: evaluator.states()?,
+            taken: Vec::new(),
+            history: Vec::new(),
+            seal: None,
         })
+    }
+
+    /// The scores of `evaluator`, which has seen what is kept here: with the share of predictions beyond bounds, and told whether the
+    /// model has seen the samples before.
+    ///
+    /// # Errors
+    /// [`StudyError::Scores`] for samples still collected that it cannot take.
+    pub(crate) fn finish(&self, evaluator: Evaluator) -> Result<Evaluation, StudyError> {
+        let evaluation = evaluator.finish()?;
+        let evaluation = evaluation.with_bounded_shares(&self.bounded.shares());
+        Ok(match self.seen {
+            true => evaluation.of_seen_samples(),
+            false => evaluation,
+        })
+    }
+
+    /// The same, having taken these rows.
+    pub(crate) fn with_taken(self, taken: Vec<Taken>) -> StateFile {
+        StateFile { taken, ..self }
     }
 
     /// Reads the file at `path`.
     ///
     /// # Errors
-    /// [`StudyError::State`] for what is no state file, or one of a newer schema.
+    /// [`StudyError::State`] for what is no state file, one of a newer schema, or one that was changed after it was sealed.
     pub fn read(path: &Path) -> Result<StateFile, StudyError> {
+        StateFile::read_whole(path).map(|read| read.file)
+    }
+
+    fn read_whole(path: &Path) -> Result<ReadState, StudyError> {
         let wrong = |problem: String| StudyError::State {
             path: path.to_owned(),
             problem,
@@ -92,22 +150,46 @@ impl StateFile {
         let text = read_capped(path).map_err(|error| wrong(error.to_string()))?;
         let head: Head = serde_json::from_str(&text)
             .map_err(|error| wrong(format!("no state of an evaluation: {error}")))?;
-        if head.schema != STATE_SCHEMA {
-            return Err(wrong(format!(
-                "its schema is `{}`, expected `{STATE_SCHEMA}`",
-                head.schema
-            )));
+        let version = match head.schema.as_str() {
+            STATE_SCHEMA => Version::Sealed,
+            UNSEALED_SCHEMA => Version::BeforeSeals,
+            schema => {
+                return Err(wrong(format!(
+                    "its schema is `{schema}`, expected `{STATE_SCHEMA}`"
+                )));
+            }
+        };
+        let opened =
+            taceva_seal::json::check(&text, version).map_err(|error| wrong(error.to_string()))?;
+        let mut file: StateFile =
+            serde_json::from_str(&text).map_err(|error| wrong(error.to_string()))?;
+        let name = path.file_name().unwrap_or_default().to_string_lossy();
+        if !opened.is_sealed {
+            file.provenance.unsealed.push(format!("state {name}"));
         }
-        serde_json::from_str(&text).map_err(|error| wrong(error.to_string()))
+        let edits = file
+            .history
+            .drain(..)
+            .map(|edit| format!("state {name}, {edit}"));
+        file.provenance.edits.extend(edits);
+        file.seal = None;
+        Ok(ReadState {
+            file,
+            digest: opened.digest,
+        })
     }
 
-    /// Writes the file's content, one line.
+    /// Writes the file's content, one line, sealed.
     ///
     /// # Errors
     /// Those of `out`.
     pub fn write(&self, out: &mut dyn Write) -> io::Result<()> {
-        serde_json::to_writer(&mut *out, self)?;
-        writeln!(out)
+        let text = serde_json::to_string(self)?;
+        writeln!(
+            out,
+            "{}",
+            taceva_seal::json::seal(&text).map_err(io::Error::other)?
+        )
     }
 }
 
@@ -125,20 +207,37 @@ pub fn merge(paths: &[PathBuf]) -> Result<(EvaluationReport, StateFile), StudyEr
     let (first_path, rest) = paths
         .split_first()
         .ok_or_else(|| StudyError::Request("there is no state to join".to_owned()))?;
-    let first = StateFile::read(first_path)?;
-    let mut evaluator = Evaluator::new(&first.plan.to_plan(first_path)?);
+    let mut all_taken = AllTaken::default();
+    let ReadState {
+        file: first,
+        digest,
+    } = StateFile::read_whole(first_path)?;
+    let mut take_rows = |path: &Path, digest: &str, taken: &[Taken]| {
+        all_taken
+            .add(path, digest, taken)
+            .map_err(|problem| StudyError::State {
+                path: path.to_owned(),
+                problem,
+            })
+    };
+    take_rows(first_path, &digest, &first.taken)?;
+    let plan = first.plan.to_plan(first_path)?;
+    let mut constants = first.plan.constants.clone();
+    let mut evaluator = Evaluator::new(&plan);
     let mut provenance = first.provenance.clone();
+    let mut bounded = first.bounded.clone();
+    let mut is_seen = first.seen;
     let mut subject = first.subject.clone();
     let mut take = |path: &Path, file: &StateFile| -> Result<(), StudyError> {
         let wrong = |problem: String| StudyError::State {
             path: path.to_owned(),
             problem,
         };
-        if file.plan != first.plan {
+        if !file.plan.merges_with(&first.plan) {
             let problem = "it was made with another plan: metrics, channels, sensor facts and settings must be equal";
             return Err(wrong(format!(
                 "{problem} to those of {}",
-                first_path.display()
+                shown(first_path)
             )));
         }
         let states = evaluator.merge_states(&file.states);
@@ -146,16 +245,28 @@ pub fn merge(paths: &[PathBuf]) -> Result<(EvaluationReport, StateFile), StudyEr
     };
     take(first_path, &first)?;
     for path in rest {
-        let file = StateFile::read(path)?;
+        let ReadState { file, digest } = StateFile::read_whole(path)?;
+        take_rows(path, &digest, &file.taken)?;
         take(path, &file)?;
+        // Models that were taught otherwise have no common constant: skill is measured by the mean of truth there.
+        constants.retain(|channel, constant| {
+            let other = file.plan.constants.get(channel);
+            other.is_some_and(|other| other.to_bits() == constant.to_bits())
+        });
+        is_seen |= file.seen;
         subject = subject.joined(&file.subject);
         provenance = provenance.joined(&file.provenance);
+        bounded = bounded.joined(&file.bounded);
     }
     provenance
         .notes
         .push(format!("{} states joined", paths.len()));
-    let state = StateFile::of(&mut evaluator, &subject, &provenance)?;
-    let evaluation = evaluator.finish()?;
+    let mut finished = Evaluator::new(&plan.with_constants(constants)?);
+    finished.merge(evaluator)?;
+    let mut state = StateFile::of(&mut finished, &subject, &provenance, bounded)?
+        .with_taken(all_taken.into_taken());
+    state.seen = is_seen;
+    let evaluation = state.finish(finished)?;
     Ok((
         EvaluationReport::new(subject, evaluation, provenance),
         state,
@@ -205,7 +316,17 @@ impl WrittenPlan {
             gate_n: settings.gate.0,
             smoothing_window: settings.smoothing_window,
             resolution_tolerance_nm: settings.resolution_tolerance.0,
+            constants: plan.constants().clone(),
         }
+    }
+
+    /// Whether states of both plans join: what skill is measured by enters when scores are finished, and may differ.
+    fn merges_with(&self, other: &WrittenPlan) -> bool {
+        let without = |plan: &WrittenPlan| WrittenPlan {
+            constants: BTreeMap::new(),
+            ..plan.clone()
+        };
+        without(self) == without(other)
     }
 
     fn to_plan(&self, path: &Path) -> Result<MetricPlan, StudyError> {
@@ -235,6 +356,7 @@ impl WrittenPlan {
                 frame_size: self.frame_size,
             })
             .with_seed(self.seed)
+            .with_constants(self.constants.clone())?
             .with_settings(Settings {
                 bins: self.bins,
                 n_min: self.n_min,

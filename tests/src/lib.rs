@@ -9,6 +9,7 @@ mod workspace;
 
 pub mod power_cut;
 pub mod recorded;
+pub mod renew;
 pub mod toy;
 
 pub use binary::{example, library, taceva};

@@ -2,11 +2,12 @@
 
 use std::path::PathBuf;
 
+use taceva_needs::{Need, skip};
+
 use crate::workspace::root;
 
 /// The folder of the recording called `name`, under `TACEVA_DATA` or beside the workspace; where it is absent, says so
 /// and gives `None`, and the test that asked returns.
-#[expect(clippy::print_stderr, reason = "a skipped test must say why")]
 pub fn recording(name: &str) -> Option<PathBuf> {
     let data = std::env::var_os("TACEVA_DATA")
         .map_or_else(|| root().join("../shared/data"), PathBuf::from);
@@ -14,6 +15,7 @@ pub fn recording(name: &str) -> Option<PathBuf> {
     if folder.is_dir() {
         return Some(folder);
     }
-    eprintln!("skipped: no recording `{name}`; set TACEVA_DATA to the folder that holds it");
+    let reason = format!("no recording `{name}`: TACEVA_DATA names the folder that holds it");
+    skip(Need::Recordings, reason);
     None
 }

@@ -4,6 +4,7 @@
 use std::path::Path;
 use std::process::{Command, Output};
 
+use taceva_needs::{Need, skip};
 use taceva_tests::recorded::{Recorded, open_whole};
 use taceva_tests::{Form, Lab, scratch, taceva};
 
@@ -28,7 +29,6 @@ enum When {
 }
 
 /// Runs `command` on a disk that refuses `calls`; `None` where calls cannot be tampered with.
-#[expect(clippy::print_stderr, reason = "a skipped test must say why")]
 fn refused(command: &Command, calls: &str, error: &str, when: When) -> Option<Output> {
     let when = match when {
         When::Once(number) => number.to_string(),
@@ -45,11 +45,11 @@ fn refused(command: &Command, calls: &str, error: &str, when: When) -> Option<Ou
     match output {
         Ok(output) if !output.stderr.starts_with(b"strace:") => Some(output),
         Ok(output) => {
-            eprintln!("skipped: {}", String::from_utf8_lossy(&output.stderr));
+            skip(Need::Strace, String::from_utf8_lossy(&output.stderr));
             None
         }
         Err(error) => {
-            eprintln!("skipped: strace: {error}");
+            skip(Need::Strace, error);
             None
         }
     }

@@ -12,6 +12,8 @@ const SEED: u64 = 20_261_121;
 const KILLS_OF_RECORDINGS: usize = 100;
 const KILLS_OF_CLOSING: usize = 40;
 const KILLS_OF_IMPORTS: usize = 60;
+const KILLS_OF_REPLACEMENTS: usize = 200;
+const REPLACEMENTS: usize = 40;
 const PICTURES: u32 = 60;
 
 /// What the lines of a killed recorder said.
@@ -163,6 +165,102 @@ fn an_import_killed_at_any_moment_leaves_the_whole_dataset_or_none() {
     );
     assert!(import(&lab, &target).status().expect("built").success());
     assert_eq!(open_whole(&target).expect("whole").digest(), expected);
+    let left: Vec<_> = folder.path().read_dir().expect("there").collect();
+    assert_eq!(left.len(), 1, "{left:?}");
+}
+
+#[test]
+#[expect(clippy::print_stderr, reason = "the counts are the result")]
+fn an_import_that_replaces_a_dataset_can_be_killed_at_any_moment_and_loses_none() {
+    let labs = [Lab::drawn(Form::Png, 4), Lab::drawn(Form::Png, PICTURES)];
+    let folder = scratch();
+    let target = folder.path().join("set");
+    let digests = labs.each_ref().map(|lab| {
+        let imported = import(lab, &target).arg("--force").status().expect("built");
+        assert!(imported.success());
+        open_whole(&target).expect("imported").digest()
+    });
+    let mut random = Random::new(SEED);
+    let (mut before, mut amid, mut after) = (0, 0, 0);
+    for number in 0..KILLS_OF_REPLACEMENTS {
+        let (old, new) = ((number + 1) % 2, number % 2);
+        // Every other kill falls late, where names are exchanged and the old one is removed.
+        let whole = entries_below(&target);
+        let mut child = import(&labs[new], &target)
+            .arg("--force")
+            .spawn()
+            .expect("built");
+        let most = PICTURES as usize;
+        let awaited = whole + random.below(most / 4) + (number / 2 % 2) * (most * 3 / 4);
+        while entries_below(folder.path()) < awaited && is_running(&mut child) {}
+        spin(micros(&mut random, 4_000));
+        kill(&mut child);
+        let is_clean = entries_below(folder.path()) == 1 + entries_below(&target);
+        let found = open_whole(&target).map(|dataset| dataset.digest());
+        let context = format!("seed {SEED}, kill {number}: {found:?}");
+        match found {
+            Ok(found) if found == digests[new] => after += 1,
+            Ok(found) if found == digests[old] && is_clean => before += 1,
+            Ok(found) if found == digests[old] => amid += 1,
+            _ => panic!("lost: {context}"),
+        }
+        // The next turn replaces the other one, whichever is there now.
+        if found != Ok(digests[new]) {
+            let finished = import(&labs[new], &target).arg("--force").status();
+            assert!(finished.expect("built").success(), "{context}");
+        }
+        let left: Vec<_> = folder.path().read_dir().expect("there").collect();
+        assert_eq!(left.len(), 1, "{context}: {left:?}");
+    }
+    eprintln!(
+        "replacements killed: {before} before the first file, {amid} amid, {after} after the exchange"
+    );
+    assert!(amid >= KILLS_OF_REPLACEMENTS / 8 && after >= KILLS_OF_REPLACEMENTS / 8);
+}
+
+#[test]
+#[expect(clippy::print_stderr, reason = "the counts are the result")]
+fn readers_see_the_old_or_the_new_dataset_while_it_is_replaced() {
+    let labs = [Lab::drawn(Form::Png, 5), Lab::drawn(Form::Png, 9)];
+    let folder = scratch();
+    let target = folder.path().join("set");
+    let digests = labs.each_ref().map(|lab| {
+        let imported = import(lab, &target).arg("--force").status().expect("built");
+        assert!(imported.success());
+        open_whole(&target).expect("imported").digest()
+    });
+    let is_done = std::sync::atomic::AtomicBool::new(false);
+    let seen = std::thread::scope(|scope| {
+        let readers: Vec<_> = (0..2)
+            .map(|_| {
+                scope.spawn(|| {
+                    let mut seen = [0; 2];
+                    while !is_done.load(std::sync::atomic::Ordering::Relaxed) {
+                        // Opened, and every frame read.
+                        let found = open_whole(&target).map(|dataset| dataset.digest());
+                        match digests.iter().position(|digest| found == Ok(*digest)) {
+                            Some(which) => seen[which] += 1,
+                            None => return Err(format!("{found:?}")),
+                        }
+                    }
+                    Ok(seen)
+                })
+            })
+            .collect();
+        for number in 0..REPLACEMENTS {
+            let mut import = import(&labs[number % 2], &target);
+            assert!(import.arg("--force").status().expect("built").success());
+        }
+        is_done.store(true, std::sync::atomic::Ordering::Relaxed);
+        readers
+            .into_iter()
+            .map(|reader| reader.join().expect("no panic"))
+            .collect::<Result<Vec<_>, _>>()
+    });
+    let seen = seen.expect("old or new at every moment");
+    eprintln!("datasets read during {REPLACEMENTS} replacements, of each: {seen:?}");
+    assert!(seen.iter().all(|seen| seen.iter().all(|count| *count > 0)));
+    drop(open_whole(&target).expect("whole"));
     let left: Vec<_> = folder.path().read_dir().expect("there").collect();
     assert_eq!(left.len(), 1, "{left:?}");
 }

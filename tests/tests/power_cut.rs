@@ -5,6 +5,7 @@ use std::path::Path;
 use std::process::Command;
 
 use taceva_dataset::{Digest, Recorder};
+use taceva_needs::{Need, skip};
 use taceva_tests::power_cut::{Disk, State, Tally, Trace, TraceError, write_tree};
 use taceva_tests::recorded::{Recorded, open_whole, reference};
 use taceva_tests::{Form, Lab, example, scratch, taceva};
@@ -13,11 +14,10 @@ use taceva_tests::{Form, Lab, example, scratch, taceva};
 const MOST_RESUMED: usize = 80;
 
 /// Runs `command` in the folder at `watched`; `None` where programs cannot be traced.
-#[expect(clippy::print_stderr, reason = "a skipped test must say why")]
 fn traced(command: &Command, watched: &Path, initial: Disk) -> Option<Trace> {
     match Trace::run(command, watched, initial) {
         Err(TraceError::NoStrace(why)) => {
-            eprintln!("skipped: {why}");
+            skip(Need::Strace, why);
             None
         }
         trace => Some(trace.expect("every call can be followed")),
@@ -91,12 +91,8 @@ fn an_import_leaves_the_whole_dataset_or_none() {
     assert_kept("import", &tally, 100);
 }
 
-fn digest_of(path: &Path) -> Option<Digest> {
-    open_whole(path).ok().map(|dataset| dataset.digest())
-}
-
 #[test]
-fn an_import_that_replaces_a_dataset_never_loses_both() {
+fn an_import_that_replaces_a_dataset_leaves_the_old_one_or_the_new_one_in_place() {
     let (old, new) = (Lab::drawn(Form::Png, 2), Lab::drawn(Form::Png, 3));
     let folder = scratch();
     let watched = folder.path();
@@ -113,23 +109,21 @@ fn an_import_that_replaces_a_dataset_never_loses_both() {
     let expected = open_whole(&target).expect("imported").digest();
     let tally = trace.each_state(0..trace.operations.len() + 1, |state| {
         let restarted = scratch();
+        let target = restarted.path().join("set");
         state
             .write_to(restarted.path())
             .expect("room for a small folder");
-        let in_place = digest_of(&restarted.path().join("set"));
-        if in_place == Some(expected) {
-            return Ok(());
-        }
         let was_reported = state.printed.iter().any(|line| line.starts_with("digest"));
-        let entries = restarted.path().read_dir().expect("there").flatten();
-        let set_aside = entries
-            .map(|entry| entry.path())
-            .filter(|path| path.extension().is_some_and(|last| last == "replaced"))
-            .find_map(|path| digest_of(&path));
-        if !was_reported && in_place.or(set_aside) == Some(replaced) {
-            return Ok(());
+        let found = open_whole(&target)?.digest();
+        if found != expected && (was_reported || found != replaced) {
+            return Err(format!("in place {found}, reported: {was_reported}"));
         }
-        Err(format!("in place {in_place:?}, set aside {set_aside:?}"))
+        let left = restarted.path().read_dir().expect("there").flatten();
+        let left: Vec<_> = left.map(|entry| entry.file_name()).collect();
+        match left.as_slice() {
+            [only] if only == "set" => Ok(()),
+            _ => Err(format!("left after it was opened: {left:?}")),
+        }
     });
     assert_kept("import --force", &tally, 100);
 }

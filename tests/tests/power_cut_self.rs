@@ -2,6 +2,7 @@
 
 use std::process::Command;
 
+use taceva_needs::{Need, skip};
 use taceva_tests::power_cut::{Disk, State, Tally, Trace, TraceError};
 use taceva_tests::toy::{HEADER, JOURNAL, Protocol, new_header, old_header, recovered};
 
@@ -48,7 +49,7 @@ fn the_five_planted_faults_are_found_and_the_two_right_protocols_pass() {
     for protocol in Protocol::ALL {
         let tally = match hunt(protocol) {
             Err(TraceError::NoStrace(why)) => {
-                eprintln!("skipped: {why}");
+                skip(Need::Strace, why);
                 return;
             }
             tally => tally.expect("followed"),
@@ -76,7 +77,6 @@ fn followed(program: &str, arguments: &[&str]) -> Result<Trace, TraceError> {
 }
 
 #[test]
-#[expect(clippy::print_stderr, reason = "a skipped test must say why")]
 fn programs_of_the_system_are_followed_to_the_byte() {
     for (program, arguments, left) in [
         ("mv", &["a", "b/d"][..], &["b", "b/c", "b/d"][..]),
@@ -92,7 +92,7 @@ fn programs_of_the_system_are_followed_to_the_byte() {
         // Model and disk are compared at the end of each run.
         let trace = match followed(program, arguments) {
             Err(TraceError::NoStrace(why)) => {
-                eprintln!("skipped: {why}");
+                skip(Need::Strace, why);
                 return;
             }
             trace => trace.unwrap_or_else(|error| panic!("{program}: {error}")),
@@ -104,11 +104,10 @@ fn programs_of_the_system_are_followed_to_the_byte() {
 }
 
 #[test]
-#[expect(clippy::print_stderr, reason = "a skipped test must say why")]
 fn what_cannot_be_followed_is_refused_loudly() {
     match followed("ln", &["-s", "a", "link"]) {
         Err(TraceError::Unfollowed(what)) => assert!(what.contains("symlink"), "{what}"),
-        Err(TraceError::NoStrace(why)) => eprintln!("skipped: {why}"),
+        Err(TraceError::NoStrace(why)) => skip(Need::Strace, why),
         Ok(trace) => panic!("{:?}", trace.operations),
     }
 }

@@ -72,7 +72,7 @@ fn two_models_on_one_recording_are_compared_sample_by_sample() {
         .iter()
         .find(|answer| answer.metric == "mae" && answer.channel == "Fz")
         .expect("both have it");
-    let difference = answer.difference.expect("tested");
+    let difference = answer.difference.as_ref().expect("tested");
     assert!(difference.test.to_string().starts_with("paired sign flip"));
     assert_eq!(
         answer.better(),
@@ -111,6 +111,7 @@ fn two_sensors_of_two_labs_are_shown_compared_and_chosen_from() {
         title: "two labs",
         studies: &studies,
         pictures: &[],
+        triples: &[],
     });
     assert!(page.contains("recorded") && !page.contains("Nothing here was measured"));
     let sensors: Vec<Sensor> = studies.iter().map(Sensor::of_study).collect();

@@ -4,6 +4,7 @@ use std::path::Path;
 use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 
+use taceva_needs::{Need, skip};
 use taceva_tests::power_cut::{Disk, Trace, TraceError, Tree, read_tree};
 use taceva_tests::{Random, scratch, taceva};
 
@@ -124,10 +125,7 @@ fn a_study_killed_at_any_moment_goes_on_to_the_same_bytes() {
 }
 
 #[test]
-#[expect(
-    clippy::print_stderr,
-    reason = "the counts are the result, and a skipped test must say why"
-)]
+#[expect(clippy::print_stderr, reason = "the counts are the result")]
 fn a_study_whose_power_is_cut_goes_on_to_the_same_bytes() {
     let whole = with(FEW);
     let expected = finished(whole.path()).expect("nobody interrupts it");
@@ -135,7 +133,7 @@ fn a_study_whose_power_is_cut_goes_on_to_the_same_bytes() {
     let initial = Disk::load(folder.path()).expect("a scene");
     let trace = match Trace::run(&study(folder.path()), folder.path(), initial) {
         Err(TraceError::NoStrace(why)) => {
-            eprintln!("skipped: {why}");
+            skip(Need::Strace, why);
             return;
         }
         trace => trace.expect("every call can be followed"),

@@ -3,6 +3,8 @@
 use std::path::Path;
 use std::process::Command;
 
+use taceva_needs::{Need, skip};
+
 /// What the host in `cpp/sensor.cpp` prints: a line a call, with the status, the length of the message and how it begins.
 const EXPECTED: &str = "\
 well: 0 0 
@@ -29,7 +31,6 @@ none: -1 3 no
 ";
 
 #[test]
-#[expect(clippy::print_stderr, reason = "a skipped test must say why")]
 fn whatever_a_sensor_in_cpp_throws_is_a_status_with_a_message() {
     let here = Path::new(env!("CARGO_MANIFEST_DIR"));
     let compiler = std::env::var("CXX").unwrap_or_else(|_| "c++".to_owned());
@@ -47,7 +48,7 @@ fn whatever_a_sensor_in_cpp_throws_is_a_status_with_a_message() {
         let built = match built {
             Ok(built) => built,
             Err(error) => {
-                eprintln!("skipped: `{compiler}`: {error}");
+                skip(Need::CppCompiler, format!("`{compiler}`: {error}"));
                 return;
             }
         };

@@ -10,6 +10,8 @@ use std::mem::{offset_of, size_of};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
+use taceva_needs::{Need, skip};
+
 use taceva_abi::ext::{
     BENCH, BenchCalls, GUARDED_MOTION, GuardedMotionCalls, GuardedStop, SENSOR_LIGHTING,
     SensorLightingCalls, Specimen, TARE, TareCalls,
@@ -213,6 +215,7 @@ fn headers() -> Vec<String> {
 /// A compiler, and how it is told what to compile.
 struct Compiler {
     program: String,
+    need: Need,
     language: [&'static str; 3],
     file: &'static str,
 }
@@ -222,11 +225,13 @@ fn compilers() -> [Compiler; 2] {
     [
         Compiler {
             program: named("CC", "cc"),
+            need: Need::CCompiler,
             language: ["-std=c11", "-x", "c"],
             file: "layout.c",
         },
         Compiler {
             program: named("CXX", "c++"),
+            need: Need::CppCompiler,
             language: ["-std=c++17", "-x", "c++"],
             file: "layout.cpp",
         },
@@ -236,7 +241,6 @@ fn compilers() -> [Compiler; 2] {
 const STRICT: [&str; 4] = ["-Wall", "-Wextra", "-Wpedantic", "-Werror"];
 
 /// Runs a compiler on `source`; `None`, with the reason printed, where there is none.
-#[expect(clippy::print_stderr, reason = "a skipped test must say why")]
 fn compile(compiler: &Compiler, source: &str, folder: &Path, extra: &[&str]) -> Option<PathBuf> {
     let file = folder.join(compiler.file);
     let built = folder.join(format!("{}.out", compiler.file));
@@ -251,9 +255,12 @@ fn compile(compiler: &Compiler, source: &str, folder: &Path, extra: &[&str]) -> 
         .arg("-o")
         .arg(&built)
         .output();
-    let Ok(output) = output else {
-        eprintln!("skipped: `{}` is not installed", compiler.program);
-        return None;
+    let output = match output {
+        Ok(output) => output,
+        Err(error) => {
+            skip(compiler.need, format!("`{}`: {error}", compiler.program));
+            return None;
+        }
     };
     let said = String::from_utf8_lossy(&output.stderr);
     assert!(output.status.success(), "{}: {said}", compiler.program);

@@ -157,7 +157,7 @@ impl std::fmt::Display for Delivery {
 #[non_exhaustive]
 pub enum ConfigError {
     /// The file cannot be read.
-    #[error("cannot read {}: {source}", path.display())]
+    #[error("cannot read {}: {source}", taceva_core::shown(path))]
     Read {
         /// The file.
         path: PathBuf,
@@ -165,7 +165,7 @@ pub enum ConfigError {
         source: io::Error,
     },
     /// The file has a mistake.
-    #[error("{}, {source}", path.display())]
+    #[error("{}, {source}", taceva_core::shown(path))]
     Text {
         /// The file.
         path: PathBuf,

@@ -239,6 +239,14 @@ impl PluginHost {
         if let Some(limit) = limit {
             (spec.patience.start, spec.patience.open) = (limit, limit);
         }
+        let log = self.log_of(plugin);
+        spec.ended = Some(Box::new(move |fate| {
+            // Of any other end somebody hears who asked for something.
+            if fate.is_unheard() {
+                let why = format!("closed late: {fate}; what was recorded is not affected");
+                log(Level::Warn, "host", &why);
+            }
+        }));
         spec.confinement.needs = self.config.allowed(plugin).into_iter().collect();
         let session = ChildSession::of_plugin(spec, &plugin.manifest);
         let session = session.map_err(|error| error.of(driver, DOING))?;

@@ -20,6 +20,7 @@ use std::os::fd::{AsRawFd, IntoRawFd};
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
+use taceva_core::shown;
 
 use libloading::os::unix::{Library as Loaded, RTLD_LOCAL, RTLD_NOW};
 use taceva_abi as abi;
@@ -177,7 +178,7 @@ impl Drop for Library {
 
 impl std::fmt::Debug for Library {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        write!(f, "Library({}, {})", self.id, self.path.display())
+        write!(f, "Library({}, {})", self.id, shown(&self.path))
     }
 }
 

@@ -8,6 +8,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fs::{self, File};
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
+use taceva_core::shown;
 
 use taceva_abi::ABI_MAJOR;
 
@@ -94,7 +95,7 @@ impl Plugins {
             let known: Vec<&str> = self.found.keys().map(PluginId::as_str).collect();
             let mut trail = String::new();
             for (place, folder) in self.path.folders() {
-                trail.push_str(&format!("\n  looked in {} ({place})", folder.display()));
+                trail.push_str(&format!("\n  looked in {} ({place})", shown(folder)));
             }
             for rejection in &self.rejections {
                 trail.push_str(&format!("\n  refused {rejection}"));

@@ -1,29 +1,13 @@
-//! Foreign text in messages: no control character reaches a terminal, and nothing runs on for ever.
+//! Foreign text in messages: by the rule of [`taceva_core::shown`], and nothing runs on for ever.
 
 const CHARACTERS_MAX: usize = 200;
 
-/// `text` with control characters written out, cut after 200 characters.
+/// `text` with what a terminal would obey written out, cut after 200 characters.
 pub(crate) fn shown(text: &str) -> String {
-    let mut shown = String::new();
-    for (position, letter) in text.chars().enumerate() {
-        if position == CHARACTERS_MAX {
-            shown.push('…');
-            break;
-        }
-        if is_obeyed(letter) {
-            shown.extend(letter.escape_default());
-        } else {
-            shown.push(letter);
-        }
+    match text.char_indices().nth(CHARACTERS_MAX) {
+        Some((end, _)) => format!("{}…", taceva_core::shown(&text[..end])),
+        None => taceva_core::shown(text).to_string(),
     }
-    shown
-}
-
-/// Whether a terminal obeys a letter in the place of showing it: a control, or one that changes the direction of what follows, so that it is
-/// read as something else.
-pub(crate) fn is_obeyed(letter: char) -> bool {
-    let is_direction = matches!(letter, '\u{200E}' | '\u{200F}' | '\u{202A}'..='\u{202E}' | '\u{2066}'..='\u{2069}');
-    letter.is_control() || is_direction
 }
 
 /// The candidate most like `wrong`, if one is like it at all.

@@ -15,6 +15,7 @@
 
 mod ambient;
 mod band;
+mod bits;
 mod camera;
 mod disc;
 mod error;
@@ -34,6 +35,7 @@ mod texture;
 mod vitactip;
 
 pub use ambient::AmbientLight;
+pub use bits::Bits;
 pub use camera::{Camera, View};
 pub use error::OpticsError;
 pub use gelsight::{GelsightSpec, LampSpec, MarkerGrid};

@@ -23,6 +23,9 @@ pub(crate) struct Compare {
     /// The seed of everything that is drawn
     #[arg(long, value_name = "N", default_value_t = 0)]
     pub(crate) seed: u64,
+    /// Print every pair with both p values and its interval, and not only what decides; the other formats always have them
+    #[arg(long)]
+    pub(crate) all: bool,
     /// Write a page to look at, to print and to send: one file that needs no network
     #[arg(long, value_name = "FILE.html")]
     pub(crate) html: Option<PathBuf>,
@@ -51,18 +54,39 @@ pub(crate) struct Choose {
     pub(crate) output: Output,
 }
 
+/// Limits as they are written in a file, one `[[limit]]` or more.
+const LIMITS_HELP: &str = "\
+Limits:
+  name = \"line 3\"
+  [[limit]]
+  metric = \"mae\"            # or a variant, such as \"hysteresis.ratio\"
+  channel = \"Fz\"
+  unit = \"N\"
+  most = 0.05               # or least; or both
+  whole_interval = false    # true: the whole interval must keep to it, and not the value alone
+
+A file to begin with, with what was measured beside each limit:
+  taceva accept --template RESULT.json --out limits.toml";
+
 /// Exit code 1 if a limit is not kept. A score that is missing or undefined keeps to none.
 #[derive(Debug, Args)]
+#[command(after_help = LIMITS_HELP)]
 pub(crate) struct Accept {
-    /// The result of one sensor, as JSON
-    #[arg(value_name = "RESULT.json")]
-    pub(crate) result: PathBuf,
+    /// The result of one sensor: JSON of evaluate or score, or a report of a run
+    #[arg(value_name = "RESULT.json", required_unless_present = "template")]
+    pub(crate) result: Option<PathBuf>,
     /// The limits: `[[limit]]` with metric, channel, unit, and most or least
-    #[arg(long, value_name = "LIMITS.toml")]
-    pub(crate) limits: PathBuf,
+    #[arg(long, value_name = "LIMITS.toml", required_unless_present = "template")]
+    pub(crate) limits: Option<PathBuf>,
+    /// Write limits that this result keeps, a fifth worse than what was measured, to begin with
+    #[arg(long, value_name = "RESULT.json", conflicts_with_all = ["result", "limits", "html", "date", "format"])]
+    pub(crate) template: Option<PathBuf>,
     /// Write the data sheet: one page to look at, to print and to send
     #[arg(long, value_name = "FILE.html")]
     pub(crate) html: Option<PathBuf>,
+    /// The date of the data sheet [default: today, in UTC]
+    #[arg(long, value_name = "YYYY-MM-DD")]
+    pub(crate) date: Option<String>,
     #[command(flatten)]
     pub(crate) output: Output,
 }

@@ -39,8 +39,8 @@ pub(crate) struct SettingArgs {
 
 #[derive(Debug, Args)]
 pub(crate) struct SplitArgs {
-    /// How samples are divided: random, chronological, by-point, declared, or
-    /// by-column:NAME[=train:1,2;val:3;test:4] [default: by-point where points have repeats, else random]
+    /// How samples are divided: random, chronological, by-point, declared,
+    /// by-column:NAME[=train:1,2;val:3;test:4], or all: every sample is learnt from, for a final model [default: by-point where points have repeats, else random]
     #[arg(long, value_name = "SPLIT")]
     pub(crate) split: Option<String>,
     /// The seed of everything that is drawn

@@ -23,6 +23,16 @@ pub(crate) struct SceneArgs {
 pub(crate) struct Run {
     #[command(flatten)]
     pub(crate) scene: SceneArgs,
+    /// The model of every sensor, in the place of the scene's and without its settings: ridge, cnn and so on, as `taceva fit` has them
+    #[arg(long, value_name = "NAME")]
+    pub(crate) model: Option<String>,
+    /// A setting of the model or of its features, such as epochs=30 or size=32x32, beside those of the scene; may be repeated
+    #[arg(long = "set", value_name = "KEY=VALUE")]
+    pub(crate) set: Vec<String>,
+    /// Seeds that the model is fitted with, such as 1-5 or 1,2,7: how far scores go up and down with the luck of a training. Presses
+    /// and division stay; reports are those of the first, beside means and intervals over all of them
+    #[arg(long, value_name = "SEEDS", value_parser = Seeds::read)]
+    pub(crate) seeds: Option<Seeds>,
     /// The folder of the run [default: runs/SCENE-NUMBER, a new one]
     #[arg(long = "out", value_name = "FOLDER")]
     pub(crate) folder: Option<PathBuf>,
@@ -68,4 +78,64 @@ pub(crate) enum ListFormat {
     Text,
     /// For programs; the key `schema` says which form it has
     Json,
+}
+
+/// Seeds as they are typed.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct Seeds(pub(crate) Vec<u64>);
+
+impl Seeds {
+    /// So many trainings are enough, and more are a slip of the finger.
+    const MOST: usize = 100;
+
+    fn read(text: &str) -> Result<Seeds, String> {
+        let wrong = || {
+            format!(
+                "expected 2 to {} different whole numbers, as 1-5 or 1,2,7",
+                Seeds::MOST
+            )
+        };
+        let mut seeds = Vec::new();
+        for part in text.split(',') {
+            let (first, last) = part.split_once('-').unwrap_or((part, part));
+            let read = |word: &str| word.trim().parse::<u64>().map_err(|_| wrong());
+            let (first, last) = (read(first)?, read(last)?);
+            let room = Seeds::MOST - seeds.len();
+            let count = last.checked_sub(first).ok_or_else(wrong)?;
+            if usize::try_from(count).map_or(true, |count| count >= room) {
+                return Err(wrong());
+            }
+            seeds.extend(first..=last);
+        }
+        let mut different = seeds.clone();
+        different.sort_unstable();
+        different.dedup();
+        if different.len() != seeds.len() || seeds.len() < 2 {
+            return Err(wrong());
+        }
+        Ok(Seeds(seeds))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn seeds_are_numbers_and_ranges_and_never_the_same_twice() {
+        assert_eq!(Seeds::read("1-5"), Ok(Seeds(vec![1, 2, 3, 4, 5])));
+        assert_eq!(Seeds::read("7, 2"), Ok(Seeds(vec![7, 2])));
+        for wrong in [
+            "",
+            "1",
+            "1,1",
+            "1-3,2",
+            "5-1",
+            "1-101",
+            "a-b",
+            "0-18446744073709551615",
+        ] {
+            assert!(Seeds::read(wrong).is_err(), "{wrong}");
+        }
+    }
 }

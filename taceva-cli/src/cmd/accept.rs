@@ -1,34 +1,58 @@
 //! `taceva accept`.
 
 use std::fs;
+use std::path::Path;
 
 use anyhow::Context as _;
-use taceva_report::{Acceptance, LimitsFile, accept};
+use taceva_core::shown;
+use taceva_dataset::Dataset;
+use taceva_report::{Acceptance, LimitsFile, Study, Triple, accept, limits_template};
 
 use super::{Context, Usage, results};
 use crate::args::Accept;
-use crate::{exit, output};
+use crate::report::triple::triple;
+use crate::{date, exit, output};
 
-pub(crate) fn run(args: &Accept, _context: &Context) -> anyhow::Result<u8> {
+pub(crate) fn run(args: &Accept, context: &Context) -> anyhow::Result<u8> {
     for path in args.output.path.iter().chain(&args.html) {
         output::check_free(path, args.output.force)?;
     }
-    let text = fs::read_to_string(&args.limits)
-        .with_context(|| format!("cannot read {}", args.limits.display()))?;
-    let limits = LimitsFile::read(&text).with_context(|| args.limits.display().to_string())?;
-    let studies = results::read(&args.result)?;
-    let [study] = studies.as_slice() else {
-        return Err(Usage::error(format!(
-            "{}: {} sensors, expected the result of one",
-            args.result.display(),
-            studies.len()
-        )));
+    if let Some(result) = &args.template {
+        let text = limits_template(&study_of(result)?);
+        output::write(args.output.path.as_deref(), |out| {
+            out.write_all(text.as_bytes())
+        })?;
+        return Ok(exit::DONE);
+    }
+    let (Some(result), Some(limits)) = (&args.result, &args.limits) else {
+        return Err(Usage::error(
+            "expected RESULT.json and --limits LIMITS.toml",
+        ));
     };
-    let findings = accept(study, &limits);
+    let date = match &args.date {
+        Some(text) => date::read(text).ok_or_else(|| {
+            Usage::error(format!(
+                "--date `{}`: expected a day such as 2026-11-22",
+                taceva_report::escape_terminal(text)
+            ))
+        })?,
+        None => date::today(),
+    };
+    let text =
+        fs::read_to_string(limits).with_context(|| format!("cannot read {}", shown(&limits)))?;
+    let limits = LimitsFile::read(&text).with_context(|| shown(&limits).to_string())?;
+    let study = study_of(result)?;
+    let findings = accept(&study, &limits);
+    let pictures = match &args.html {
+        Some(_) => pictures(result, context),
+        None => None,
+    };
     let acceptance = Acceptance {
         name: &limits.name,
-        study,
+        study: &study,
         findings: &findings,
+        date: Some(&date),
+        pictures: pictures.as_ref(),
     };
     results::write(&acceptance.listing(), &args.output, || acceptance.json())?;
     if let Some(path) = &args.html {
@@ -39,4 +63,38 @@ pub(crate) fn run(args: &Accept, _context: &Context) -> anyhow::Result<u8> {
         true => exit::DONE,
         false => exit::CHECK_FAILED,
     })
+}
+
+/// The one sensor of a result.
+fn study_of(result: &Path) -> anyhow::Result<Study> {
+    let mut studies = results::read(result)?;
+    match (studies.pop(), studies.len()) {
+        (Some(study), 0) => Ok(study),
+        (found, others) => Err(Usage::error(format!(
+            "{}: {} sensors, expected the result of one; a run has one a sensor in its folder reports",
+            shown(&result),
+            others + usize::from(found.is_some())
+        ))),
+    }
+}
+
+/// The pictures of the sensor, where `result` is a report of a run whose recording is there; what cannot be read is said, and no reason to
+/// stop: the limits are held to numbers.
+fn pictures(result: &Path, context: &Context) -> Option<Triple> {
+    let recording = recording_of(result)?;
+    let found = Dataset::open(&recording)
+        .map_err(anyhow::Error::from)
+        .and_then(|dataset| triple(&dataset, 0));
+    found.unwrap_or_else(|error| {
+        context.say(format_args!("no pictures: {error:#}"));
+        None
+    })
+}
+
+/// `recordings/1-gelsight` of the run whose `reports/1-gelsight.json` is `result`.
+fn recording_of(result: &Path) -> Option<std::path::PathBuf> {
+    let reports = result.parent()?;
+    let name = result.file_stem()?;
+    let recording = reports.parent()?.join("recordings").join(name);
+    (reports.file_name()? == "reports" && recording.is_dir()).then_some(recording)
 }

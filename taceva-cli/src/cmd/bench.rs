@@ -28,7 +28,7 @@ fn run_kernels(args: &BenchKernels, context: &Context) -> anyhow::Result<u8> {
         seed: args.seed,
     };
     let bench = kernels(&request, &context.progress)?;
-    output::write(args.output.path.as_deref(), |out| {
+    output::write_as(args.output.format, args.output.path.as_deref(), |out| {
         report::kernel_bench(&bench, args.output.format, out)
     })?;
     if let Some(path) = &args.svg {

@@ -1,11 +1,31 @@
-//! The cache that a command was asked to use, and what is to be said of it.
+//! The cache that a command was asked to use, and what is to be said of it; `taceva cache`.
+
+pub(crate) mod amount;
+mod list;
+mod prune;
 
 use std::path::PathBuf;
 
 use taceva_study::Cache;
 
-use super::{Context, run::bench};
-use crate::args::CacheArgs;
+use super::{Context, Usage, run::bench};
+use crate::args::{CacheArgs, CacheCommand, CacheSubject};
+
+pub(crate) fn run(args: &CacheCommand, context: &Context) -> anyhow::Result<u8> {
+    match &args.subject {
+        CacheSubject::List(args) => list::run(args),
+        CacheSubject::Prune(args) => prune::run(args, context),
+    }
+}
+
+/// The folder that was named, or the user's.
+fn folder_of(named: Option<PathBuf>) -> anyhow::Result<PathBuf> {
+    named.or_else(of_user).ok_or_else(|| {
+        Usage::error(
+            "neither XDG_CACHE_HOME nor HOME is an absolute path; name the cache with --cache DIR",
+        )
+    })
+}
 
 /// The cache that was asked for; `None` if none is wanted, or if the user has no folder for one.
 pub(super) fn of(args: &CacheArgs) -> Option<Cache> {

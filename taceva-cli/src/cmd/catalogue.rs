@@ -1,6 +1,7 @@
 //! `taceva catalogue`.
 
 use std::fs;
+use taceva_core::shown;
 
 use anyhow::Context as _;
 use taceva_report::catalogue;
@@ -24,8 +25,9 @@ fn list(output: &Output) -> anyhow::Result<u8> {
 fn show(args: &CatalogueShow) -> anyhow::Result<u8> {
     let sensor = catalogue::find(&args.name).ok_or_else(|| {
         Usage::error(format!(
-            "`{}`: no such sensor; see taceva catalogue list",
-            taceva_report::escape_terminal(&args.name)
+            "`{}`: no such name in the catalogue; {}",
+            taceva_report::escape_terminal(&args.name),
+            catalogue::hint(&args.name)
         ))
     })?;
     write(&args.output, &catalogue::details(&sensor))
@@ -43,7 +45,7 @@ fn site(args: &CatalogueSite, context: &Context) -> anyhow::Result<u8> {
     let ours = results::read_all(&args.with)?;
     let pages = catalogue::site(&catalogue::all(), &ours);
     fs::create_dir_all(&args.folder)
-        .with_context(|| format!("cannot make {}", args.folder.display()))?;
+        .with_context(|| format!("cannot make {}", shown(&args.folder)))?;
     for page in &pages {
         output::check_free(&args.folder.join(&page.file), args.force)?;
     }
@@ -52,6 +54,6 @@ fn site(args: &CatalogueSite, context: &Context) -> anyhow::Result<u8> {
         output::write(Some(&path), |out| out.write_all(page.text.as_bytes()))?;
     }
     let first = args.folder.join("index.html");
-    context.say(format_args!("look at    {}", first.display()));
+    context.say(format_args!("look at    {}", shown(&first)));
     Ok(exit::DONE)
 }

@@ -23,7 +23,7 @@ pub(crate) fn run(args: &Check, context: &Context) -> anyhow::Result<u8> {
         return Ok(exit::DONE);
     }
     let findings = check(&dataset, &request, &context.progress)?;
-    output::write(args.output.path.as_deref(), |out| {
+    output::write_as(args.output.format, args.output.path.as_deref(), |out| {
         report::findings(&findings, args.output.format, out)
     })?;
     Ok(match findings.worst() {

@@ -1,6 +1,7 @@
 //! `taceva choose`.
 
 use std::fs;
+use taceva_core::shown;
 
 use anyhow::Context as _;
 use taceva_report::catalogue::{self, Sensor};
@@ -16,9 +17,9 @@ pub(crate) fn run(args: &Choose, _context: &Context) -> anyhow::Result<u8> {
     }
     let needs = match &args.needs {
         Some(path) => {
-            let text = fs::read_to_string(path)
-                .with_context(|| format!("cannot read {}", path.display()))?;
-            Need::read(&text).with_context(|| path.display().to_string())?
+            let text =
+                fs::read_to_string(path).with_context(|| format!("cannot read {}", shown(path)))?;
+            Need::read(&text).with_context(|| shown(path).to_string())?
         }
         None => {
             let said = args.need.join(",");

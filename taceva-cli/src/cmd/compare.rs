@@ -5,13 +5,14 @@ use std::collections::BTreeMap;
 use taceva_report::{CompareRequest, compare};
 
 use super::{Context, Usage, results};
-use crate::args::Compare;
+use crate::args::{Compare, Format};
 use crate::{exit, output};
 
 pub(crate) fn run(args: &Compare, context: &Context) -> anyhow::Result<u8> {
     for path in args.output.path.iter().chain(&args.html) {
         output::check_free(path, args.output.force)?;
     }
+    results::check_distinct(&args.results)?;
     let results::Found { studies, missing } = results::find_all(&args.results)?;
     if studies.len() < 2 {
         return Err(Usage::error(
@@ -31,7 +32,17 @@ pub(crate) fn run(args: &Compare, context: &Context) -> anyhow::Result<u8> {
         seed: args.seed,
     };
     let comparison = compare(&studies, &request);
-    results::write(&comparison.listing(), &args.output, || comparison.json())?;
+    let text = match args.output.format {
+        Format::Text if args.all => comparison.text(),
+        Format::Text => comparison.overview(),
+        Format::Json => comparison.json(),
+        Format::Csv => comparison.table().csv(),
+        Format::Md => comparison.listing().markdown(),
+        Format::Tex => comparison.listing().latex(),
+    };
+    output::write(args.output.path.as_deref(), |out| {
+        out.write_all(text.as_bytes())
+    })?;
     if let Some(path) = &args.html {
         let page = comparison.page(&studies);
         output::write(Some(path), |out| out.write_all(page.as_bytes()))?;

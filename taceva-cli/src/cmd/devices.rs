@@ -11,7 +11,7 @@ pub(crate) fn run(args: &Listing, context: &Context) -> anyhow::Result<u8> {
         output::check_free(path, args.force)?;
     }
     let listed = devices(&context.drivers(None)?);
-    output::write(args.path.as_deref(), |out| {
+    output::write_as(args.format, args.path.as_deref(), |out| {
         report::devices::list(&listed, args.format, out)
     })?;
     Ok(exit::DONE)

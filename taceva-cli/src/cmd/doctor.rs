@@ -15,7 +15,7 @@ pub(crate) fn run(args: &Listing, context: &Context) -> anyhow::Result<u8> {
     let drivers = Drivers::builtin()?.with_plugins(&host)?;
     let mut findings = examine(&drivers, &Machine::this());
     findings.extend(examine_plugins(&host));
-    output::write(args.path.as_deref(), |out| {
+    output::write_as(args.format, args.path.as_deref(), |out| {
         report::devices::findings(&findings, args.format, out)
     })?;
     let is_problem = findings

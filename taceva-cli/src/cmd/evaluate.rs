@@ -52,9 +52,12 @@ pub(crate) fn run(args: &Evaluate, context: &Context) -> anyhow::Result<u8> {
     }
     context.tell(|| evaluate_plan(&dataset, &request))?;
     let cache = cache::of(&args.cache);
-    let evaluated = evaluate(&dataset, &request, context.work(cache.as_ref()))?;
+    let mut evaluated = evaluate(&dataset, &request, context.work(cache.as_ref()))?;
+    if args.samples_out.is_some() {
+        super::note_samples(&mut evaluated.report)?;
+    }
     cache::note(cache.as_ref(), context);
-    output::write(args.output.path.as_deref(), |out| {
+    output::write_as(args.output.format, args.output.path.as_deref(), |out| {
         report::evaluation(&evaluated.report, args.output.format, out)
     })?;
     if let Some(path) = &args.state_out {

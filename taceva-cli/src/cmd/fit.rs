@@ -2,6 +2,7 @@
 
 use std::io::{self, Write};
 use std::time::Duration;
+use taceva_core::shown;
 
 use anyhow::Context as _;
 use taceva_models::{Checkpoints, Foreign};
@@ -26,7 +27,7 @@ pub(crate) fn run(args: &Fit, context: &Context) -> anyhow::Result<u8> {
     cache::note(cache.as_ref(), context);
     fitted.model.save(&args.out)?;
     checkpoints.remove().with_context(|| {
-        let path = checkpoints.path.display();
+        let path = shown(&checkpoints.path);
         format!("the model is written; cannot remove {path}")
     })?;
     if let Some(path) = &args.split_out {
@@ -102,5 +103,5 @@ fn summary(fitted: &Fitted, args: &Fit, out: &mut dyn Write) -> io::Result<()> {
             fitted.left_out
         )?;
     }
-    writeln!(out, "wrote    {}", args.out.display())
+    writeln!(out, "wrote    {}", shown(&args.out))
 }

@@ -1,18 +1,18 @@
 //! `taceva import`.
 
-use std::fs;
-use std::path::{Path, PathBuf};
-
-use anyhow::Context as _;
-use taceva_dataset::{Dataset, ImportMap, ImportPlan, ImportReport, Preset};
+use taceva_core::shown;
+use taceva_dataset::{ImportMap, ImportPlan, Preset, settle};
 
 use super::{Context, Usage};
 use crate::args::Import;
+use crate::room::{self, Need};
 use crate::{exit, output};
 
 pub(crate) fn run(args: &Import, context: &Context) -> anyhow::Result<u8> {
     let target = args.to.as_deref();
     if let Some(target) = target {
+        // What a kill left of an earlier one first: a dataset that was set aside stands in its place again.
+        settle(target)?;
         output::check_free(target, args.force)?;
     }
     let plan = ImportPlan::new(&args.source, &map(args)?)?;
@@ -20,12 +20,21 @@ pub(crate) fn run(args: &Import, context: &Context) -> anyhow::Result<u8> {
         output::write(None, |out| write!(out, "{}", plan.summary()))?;
         return Ok(exit::DONE);
     };
-    let replaced = set_aside(target)?;
-    let report = plan.run(target, context.jobs, &context.progress);
-    let report = settle(target, replaced, report.map_err(Into::into))?;
+    let bytes = plan.frame_bytes();
+    let need = Need {
+        at_least: bytes,
+        at_most: bytes,
+    };
+    if let Some(room) = need.hold_against(room::free(target), target)? {
+        context.say(format_args!("disk: {room}"));
+    }
+    let report = match args.force {
+        true => plan.replace(target, context.jobs, &context.progress),
+        false => plan.run(target, context.jobs, &context.progress),
+    }?;
     output::write(None, |out| {
         write!(out, "{}", report.summary)?;
-        writeln!(out, "wrote    {}", report.path.display())?;
+        writeln!(out, "wrote    {}", shown(&report.path))?;
         writeln!(out, "digest   {}", report.digest)
     })?;
     Ok(exit::DONE)
@@ -42,45 +51,10 @@ fn map(args: &Import) -> anyhow::Result<ImportMap> {
     let preset = Preset::from_name(name).ok_or_else(|| {
         let known: Vec<&str> = Preset::ALL.iter().map(|preset| preset.name()).collect();
         Usage::error(format!(
-            "no preset is called `{name}`, expected one of {}",
+            "no preset is called `{}`, expected one of {}",
+            shown(name),
             known.join(", ")
         ))
     })?;
     Ok(preset.map(&args.source)?)
-}
-
-/// Moves what `--force` replaces out of the way. Only a dataset is ever replaced.
-fn set_aside(target: &Path) -> anyhow::Result<Option<PathBuf>> {
-    if !target.exists() {
-        return Ok(None);
-    }
-    Dataset::open(target)
-        .with_context(|| format!("{}: --force replaces datasets only", target.display()))?;
-    let name = target
-        .file_name()
-        .with_context(|| format!("{} names no folder", target.display()))?;
-    let mut hidden = std::ffi::OsString::from(".");
-    hidden.push(name);
-    hidden.push(format!(".{}.replaced", std::process::id()));
-    let aside = target.with_file_name(hidden);
-    fs::rename(target, &aside).with_context(|| format!("cannot set {} aside", target.display()))?;
-    Ok(Some(aside))
-}
-
-/// Removes what was replaced, or puts it back if the import failed.
-fn settle(
-    target: &Path,
-    replaced: Option<PathBuf>,
-    report: anyhow::Result<ImportReport>,
-) -> anyhow::Result<ImportReport> {
-    let Some(aside) = replaced else {
-        return report;
-    };
-    if report.is_ok() {
-        fs::remove_dir_all(&aside).with_context(|| format!("cannot remove {}", aside.display()))?;
-    } else {
-        fs::rename(&aside, target)
-            .with_context(|| format!("cannot put {} back", aside.display()))?;
-    }
-    report
 }

@@ -9,7 +9,7 @@ pub(crate) fn run(args: &Merge, _context: &Context) -> anyhow::Result<u8> {
         output::check_free(path, args.output.force)?;
     }
     let (report, state) = taceva_study::merge(&args.states)?;
-    output::write(args.output.path.as_deref(), |out| {
+    output::write_as(args.output.format, args.output.path.as_deref(), |out| {
         report::evaluation(&report, args.output.format, out)
     })?;
     if let Some(path) = &args.state_out {

@@ -13,7 +13,8 @@ pub(crate) fn run(args: &PlanArgs, context: &Context) -> anyhow::Result<u8> {
     }
     let drivers = context.drivers(Some(Path::new(&args.scene.scene)))?;
     let planned = scene::planned(&args.scene, &drivers)?;
-    output::write(listing.path.as_deref(), |out| {
+    scene::tell_cost(&planned, Path::new("."), context)?;
+    output::write_as(listing.format, listing.path.as_deref(), |out| {
         report::plan::write(&planned, listing.format, out)
     })?;
     Ok(exit::DONE)

@@ -24,7 +24,7 @@ fn list(args: &PluginList, context: &Context) -> anyhow::Result<u8> {
         output::check_free(path, listing.force)?;
     }
     let host = context.plugins(None)?;
-    output::write(listing.path.as_deref(), |out| {
+    output::write_as(listing.format, listing.path.as_deref(), |out| {
         report::plugin::list(&host, args.all, listing.format, out)
     })?;
     Ok(exit::DONE)
@@ -37,7 +37,7 @@ fn info(args: &PluginInfo, context: &Context) -> anyhow::Result<u8> {
     }
     let host = context.plugins(None)?;
     let plugin = host.plugins().get(&args.id)?;
-    output::write(listing.path.as_deref(), |out| {
+    output::write_as(listing.format, listing.path.as_deref(), |out| {
         report::plugin::info(&host, plugin, listing.format, out)
     })?;
     Ok(exit::DONE)

@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
+use taceva_core::shown;
 
 use anyhow::Context as _;
 use taceva_drivers::Drivers;
@@ -11,6 +12,7 @@ use taceva_host::{
 use taceva_models::Models;
 
 use super::Context;
+use crate::stderr;
 
 impl Context {
     /// Every driver: those linked in, and those of plugins, also beside the scene at `scene`.
@@ -41,7 +43,7 @@ impl Context {
         config.trusted_now.extend(self.plugins.trusted.clone());
         // What somebody typed is meant from where they stand; nothing else is.
         let typed: Vec<PathBuf> = (self.plugins.folders.iter())
-            .map(|folder| std::path::absolute(folder).with_context(|| folder.display().to_string()))
+            .map(|folder| std::path::absolute(folder).with_context(|| shown(folder).to_string()))
             .collect::<Result<_, _>>()?;
         let mut path = SearchPath::of_process().given(typed);
         if let Some(folder) = scene.and_then(folder_of) {
@@ -63,18 +65,10 @@ impl Context {
         };
         Arc::new(move |id, level, target, message| {
             if level <= least {
-                say(format_args!("{id}: {target}: {message}"));
+                stderr::say(format_args!("{id}: {target}: {message}"));
             }
         })
     }
-}
-
-#[expect(
-    clippy::print_stderr,
-    reason = "what is no result is for standard error"
-)]
-fn say(line: std::fmt::Arguments<'_>) {
-    eprintln!("taceva: {line}");
 }
 
 /// The folder of a scene that is a file.

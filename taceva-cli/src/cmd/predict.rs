@@ -1,6 +1,7 @@
 //! `taceva predict`.
 
 use std::collections::BTreeSet;
+use taceva_core::shown;
 
 use taceva_study::{Part, predict};
 
@@ -37,7 +38,10 @@ pub(crate) fn run(args: &Predict, context: &Context) -> anyhow::Result<u8> {
     let work = context.work(cache.as_ref());
     let predicted = predict(&dataset, &model, args.part.map(Part::from), work)?;
     cache::note(cache.as_ref(), context);
-    output::write(Some(&args.out), |out| predicted.write_predictions(out))?;
+    output::write(Some(&args.out), |out| match args.unbounded {
+        true => predicted.write_unbounded_predictions(out),
+        false => predicted.write_predictions(out),
+    })?;
     if let Some(path) = &args.truth_out {
         output::write(Some(path), |out| predicted.write_truth(out))?;
     }
@@ -48,7 +52,7 @@ pub(crate) fn run(args: &Predict, context: &Context) -> anyhow::Result<u8> {
         writeln!(
             out,
             "wrote    {}: {} predictions of the part `{}`",
-            args.out.display(),
+            shown(&args.out),
             predicted.rows(),
             predicted.part()
         )?;
@@ -56,7 +60,7 @@ pub(crate) fn run(args: &Predict, context: &Context) -> anyhow::Result<u8> {
             writeln!(
                 out,
                 "wrote    {}: the truth of the same samples",
-                path.display()
+                shown(path)
             )
         })
     })?;

@@ -4,6 +4,7 @@ mod samples;
 
 use std::fs;
 use std::path::{Path, PathBuf};
+use taceva_core::shown;
 
 use anyhow::Context as _;
 use taceva_report::{Listing, Study, catalogue, escape_terminal};
@@ -22,6 +23,23 @@ pub(super) struct Found {
     pub(super) studies: Vec<Study>,
     /// Where samples were looked for in vain, a line a study.
     pub(super) missing: Vec<String>,
+}
+
+/// Refuses a result that is named twice: nothing differs from itself.
+pub(super) fn check_distinct(named: &[PathBuf]) -> anyhow::Result<()> {
+    let meant = |path: &PathBuf| path.canonicalize().unwrap_or_else(|_| path.clone());
+    for (position, path) in named.iter().enumerate() {
+        if named[..position]
+            .iter()
+            .any(|before| meant(before) == meant(path))
+        {
+            return Err(Usage::error(format!(
+                "{}: given twice; a result is compared with others",
+                shown(path)
+            )));
+        }
+    }
+    Ok(())
 }
 
 /// The studies of every result: of files, of folders of runs, or of the catalogue where nothing has that name.
@@ -50,8 +68,9 @@ fn find(path: &Path) -> anyhow::Result<Found> {
         let name = path.to_string_lossy();
         let sensor = catalogue::find(&name).ok_or_else(|| {
             Usage::error(format!(
-                "`{}`: no such file, and no such name in the catalogue; see taceva catalogue list",
-                escape_terminal(&name)
+                "`{}`: no such file, and no such name in the catalogue; {}",
+                escape_terminal(&name),
+                catalogue::hint(&name)
             ))
         })?;
         return Ok(Found {
@@ -66,12 +85,12 @@ fn find(path: &Path) -> anyhow::Result<Found> {
     if path.is_dir() && !file.is_file() {
         return Err(Usage::error(format!(
             "{}: a folder without {RESULTS}; expected the folder of a run, or the JSON of evaluate, score or run",
-            path.display()
+            shown(path)
         )));
     }
     let text =
-        fs::read_to_string(&file).with_context(|| format!("cannot read {}", file.display()))?;
-    let studies = Study::read(&text).with_context(|| file.display().to_string())?;
+        fs::read_to_string(&file).with_context(|| format!("cannot read {}", shown(&file)))?;
+    let studies = Study::read(&text).with_context(|| shown(&file).to_string())?;
     samples::beside(&file, studies)
 }
 
@@ -88,5 +107,7 @@ pub(super) fn write(
         Format::Md => listing.markdown(),
         Format::Tex => listing.latex(),
     };
-    output::write(to.path.as_deref(), |out| out.write_all(text.as_bytes()))
+    output::write_as(to.format, to.path.as_deref(), |out| {
+        out.write_all(text.as_bytes())
+    })
 }

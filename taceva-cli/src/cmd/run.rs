@@ -4,6 +4,7 @@ pub(super) mod bench;
 mod stages;
 
 use std::path::{Path, PathBuf};
+use taceva_core::shown;
 
 use anyhow::Context as _;
 use taceva_report::escape_csv;
@@ -22,7 +23,7 @@ const RESULTS: &str = "results.json";
 
 pub(crate) fn run(args: &Run, context: &Context) -> anyhow::Result<u8> {
     let (drivers, models) = context.equipment(Path::new(&args.scene.scene))?;
-    let planned = scene::planned(&args.scene, &drivers)?;
+    let planned = scene::to_run(args, &drivers)?;
     planned.check_models(&models)?;
     let formats = formats(&planned)?;
     if args.format == Format::Csv && planned.studies.len() > 1 {
@@ -40,8 +41,9 @@ pub(crate) fn run(args: &Run, context: &Context) -> anyhow::Result<u8> {
         .folder
         .clone()
         .unwrap_or_else(|| RunFolder::numbered(Path::new(RUNS), &planned.scene.name, existing));
+    scene::tell_cost(&planned, &path, context)?;
     let folder = RunFolder::open(&path, &planned, existing)?;
-    context.say(format_args!("run in {}", path.display()));
+    context.say(format_args!("run in {}", shown(&path)));
     let cache = cache::of(&args.cache);
     let workshop = Workshop {
         drivers: &drivers,
@@ -51,35 +53,35 @@ pub(crate) fn run(args: &Run, context: &Context) -> anyhow::Result<u8> {
         progress: &context.progress,
     };
     let reports = run_scene(&planned, &folder, workshop, context.jobs);
-    let reports = reports.with_context(|| match progress::is_stopped() {
+    let mut reports = reports.with_context(|| match progress::is_stopped() {
         true => format!(
             "stopped; taceva run {} --resume --out {} goes on",
             args.scene.scene,
-            path.display()
+            shown(&path)
         ),
-        false => format!("run in {}", path.display()),
+        false => format!("run in {}", shown(&path)),
     })?;
     cache::note(cache.as_ref(), context);
     if let Some(cache) = &cache {
         stages::tell(cache, &folder, context)?;
     }
+    reports.iter_mut().try_for_each(super::note_samples)?;
     write_files(&planned, &folder, &reports, &formats)?;
     let page = folder.path().join(PAGE);
-    let shown = report::page::Page::of(&planned.scene.name, &reports)?;
-    output::write(Some(&page), |out| shown.write(out))?;
-    shown.write_figures(&folder.figures())?;
-    shown.write_scores(folder.path())?;
+    let drawn = report::page::Page::of(&planned.scene.name, &reports)?;
+    output::write(Some(&page), |out| drawn.write(out))?;
+    drawn.write_figures(&folder.figures())?;
+    drawn.write_scores(folder.path())?;
     let results = folder.path().join(RESULTS);
-    output::write(Some(&results), |out| {
+    output::write_as(Format::Json, Some(&results), |out| {
         report::profiles(&reports, Format::Json, out)
     })?;
     folder.close(&planned)?;
-    output::write(None, |out| report::profiles(&reports, args.format, out))?;
-    context.say(format_args!(
-        "reports are in {}",
-        folder.reports().display()
-    ));
-    context.say(format_args!("look at    {}", page.display()));
+    output::write_as(args.format, None, |out| {
+        report::profiles(&reports, args.format, out)
+    })?;
+    context.say(format_args!("reports are in {}", shown(&folder.reports())));
+    context.say(format_args!("look at    {}", shown(&page)));
     Ok(exit::DONE)
 }
 
@@ -96,7 +98,8 @@ fn formats(planned: &PlannedScene) -> anyhow::Result<Vec<(Format, &'static str)>
             "html" => continue,
             other => {
                 return Err(Usage::error(format!(
-                    "[report] formats: this program writes no `{other}`, expected html, text, json, csv, md or tex"
+                    "[report] formats: this program writes no `{}`, expected html, text, json, csv, md or tex",
+                    shown(other)
                 )));
             }
         };
@@ -117,7 +120,9 @@ fn write_files(
     for (number, (study, written)) in planned.studies.iter().zip(reports).enumerate() {
         for (format, extension) in formats {
             let path: PathBuf = folder.report(number, &study.plan.name, extension);
-            output::write(Some(&path), |out| report::evaluation(written, *format, out))?;
+            output::write_as(*format, Some(&path), |out| {
+                report::evaluation(written, *format, out)
+            })?;
         }
         if let Some(samples) = &written.samples {
             let path = folder.report(number, &study.plan.name, "samples.csv");

@@ -4,14 +4,57 @@ use std::path::Path;
 
 use taceva_drivers::Drivers;
 use taceva_protocol::BuiltinScene;
-use taceva_study::{PlannedScene, SceneText};
+use taceva_study::{Instead, PlannedScene, SceneText};
 
-use super::Usage;
-use crate::args::SceneArgs;
+use super::{Context, Usage};
+use crate::args::{Run, SceneArgs};
+use crate::room::{self, Need};
 
 /// The scene of `args`, planned with `drivers`.
 pub(super) fn planned(args: &SceneArgs, drivers: &Drivers) -> anyhow::Result<PlannedScene> {
     Ok(PlannedScene::new(text(&args.scene)?, drivers, args.seed)?)
+}
+
+/// The scene of a run, with the model that was asked for.
+pub(super) fn to_run(args: &Run, drivers: &Drivers) -> anyhow::Result<PlannedScene> {
+    let instead = Instead {
+        seed: args.scene.seed,
+        model: args.model.clone(),
+        set: args.set.clone(),
+        seeds: args.seeds.clone().map_or_else(Vec::new, |seeds| seeds.0),
+    };
+    Ok(PlannedScene::with(
+        text(&args.scene.scene)?,
+        drivers,
+        &instead,
+    )?)
+}
+
+/// Says what a scene is going to take: presses, the time of their motion on a rig, and room where `target` is going to be.
+///
+/// # Errors
+/// If its pictures cannot fit there.
+pub(super) fn tell_cost(
+    planned: &PlannedScene,
+    target: &Path,
+    context: &Context,
+) -> anyhow::Result<()> {
+    let costs = || planned.studies.iter().map(|study| study.plan.cost);
+    let presses: u64 = costs().map(|cost| cost.presses).sum();
+    if presses == 0 {
+        return Ok(());
+    }
+    let minutes: f64 = costs().map(|cost| cost.minutes).sum();
+    context.say(format_args!(
+        "time: {presses} presses, {:.0} min of motion on a rig; a simulated bench does not wait for it",
+        minutes.ceil()
+    ));
+    let bytes = costs().filter_map(|cost| cost.bytes).sum();
+    let need = Need::of_pictures(bytes);
+    if let Some(room) = need.hold_against(room::free(target), target)? {
+        context.say(format_args!("disk: {room}"));
+    }
+    Ok(())
 }
 
 /// A file of that name comes first, so that nobody's scene is hidden by a built-in one.
@@ -26,7 +69,8 @@ fn text(named: &str) -> anyhow::Result<SceneText> {
     if path.extension().is_none() && path.components().count() == 1 {
         let known = BuiltinScene::ALL.map(BuiltinScene::name).join(", ");
         return Err(Usage::error(format!(
-            "`{named}`: no such scene, expected a file or one of {known}"
+            "`{}`: no such scene, expected a file or one of {known}",
+            taceva_core::shown(named)
         )));
     }
     Ok(SceneText::read(path)?)

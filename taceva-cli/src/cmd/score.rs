@@ -41,7 +41,10 @@ pub(crate) fn run(args: &Score, context: &Context) -> anyhow::Result<u8> {
     if beside.is_wanted() {
         scored.report.samples = Some(scoring.samples()?);
     }
-    output::write(args.output.path.as_deref(), |out| {
+    if args.samples_out.is_some() {
+        super::note_samples(&mut scored.report)?;
+    }
+    output::write_as(args.output.format, args.output.path.as_deref(), |out| {
         report::evaluation(&scored.report, args.output.format, out)
     })?;
     beside.write(&scored.report)?;
@@ -55,7 +58,7 @@ pub(crate) fn run(args: &Score, context: &Context) -> anyhow::Result<u8> {
 fn unit(word: &str) -> anyhow::Result<(String, Unit)> {
     let (name, symbol) = word
         .split_once('=')
-        .with_context(|| format!("`{word}`: expected NAME=UNIT"))
+        .with_context(|| format!("`{}`: expected NAME=UNIT", taceva_core::shown(word)))
         .map_err(|error| Usage::error(error.to_string()))?;
     let unit = Unit::from_symbol(symbol).ok_or_else(|| {
         let kept: Vec<&str> = Unit::ALL.iter().map(|unit| unit.symbol()).collect();
@@ -64,7 +67,8 @@ fn unit(word: &str) -> anyhow::Result<(String, Unit)> {
             Err(_) => String::new(),
         };
         Usage::error(format!(
-            "`{word}`: expected a unit among {}{hint}",
+            "`{}`: expected a unit among {}{hint}",
+            taceva_core::shown(word),
             kept.join(", ")
         ))
     })?;

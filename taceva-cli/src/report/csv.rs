@@ -9,7 +9,7 @@ use taceva_study::EvaluationReport;
 use super::line::lines;
 use super::number::{no_interval, reason};
 
-const HEAD: [&str; 11] = [
+const HEAD: [&str; 13] = [
     "metric",
     "channel",
     "value",
@@ -21,6 +21,8 @@ const HEAD: [&str; 11] = [
     "n_invalid",
     "definition",
     "reason",
+    "standing",
+    "bounded_share",
 ];
 
 pub(super) fn write(report: &EvaluationReport, out: &mut dyn Write) -> io::Result<()> {
@@ -50,6 +52,8 @@ pub(super) fn write(report: &EvaluationReport, out: &mut dyn Write) -> io::Resul
             &line.score.n_invalid.to_string(),
             line.score.definition,
             &word(&why),
+            line.score.standing.words().unwrap_or_default(),
+            &number(line.score.bounded_share),
         ])?;
     }
     writer.flush()

@@ -2,7 +2,7 @@
 
 use taceva_study::EvaluationReport;
 
-use super::line::lines;
+use super::line::{lines, standings};
 use super::number::printed;
 
 /// Scores by metric and channel.
@@ -99,8 +99,12 @@ pub(super) fn caption(report: &EvaluationReport) -> String {
         "unknown" => "Scores of two tables".to_owned(),
         source => format!("{} ({source} samples)", subject.sensor),
     };
+    let standings: String = standings(&report.evaluation)
+        .iter()
+        .map(|standing| format!(" No full part in verdicts: {standing}."))
+        .collect();
     format!(
-        "{subject}, n = {n}.{model}{split} {intervals}. TacEva {}.",
+        "{subject}, n = {n}.{model}{split} {intervals}.{standings} TacEva {}.",
         report.provenance.taceva
     )
 }

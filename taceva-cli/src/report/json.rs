@@ -8,3 +8,10 @@ pub(super) fn write(report: &impl Serialize, out: &mut dyn Write) -> io::Result<
     serde_json::to_writer_pretty(&mut *out, report)?;
     writeln!(out)
 }
+
+/// The same, sealed: whoever reads it back notices a change.
+pub(super) fn write_sealed(report: &impl Serialize, out: &mut dyn Write) -> io::Result<()> {
+    let text = serde_json::to_string_pretty(report)?;
+    let sealed = taceva_seal::json::seal(&text).map_err(io::Error::other)?;
+    writeln!(out, "{sealed}")
+}

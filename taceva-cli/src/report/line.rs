@@ -1,7 +1,7 @@
 //! Scores and their variants one after the other: what every table prints a row of.
 
 use taceva_core::Unit;
-use taceva_metrics::{Evaluation, Flag, Interval, Score, Value};
+use taceva_metrics::{Evaluation, Flag, Interval, Score, Standing, Value};
 
 /// One number of a report, or the reason why there is none.
 pub(super) struct Line<'a> {
@@ -61,6 +61,34 @@ pub(super) fn flags(evaluation: &Evaluation) -> Vec<String> {
             flags.map(move |flag| of_score(metric.id, channel, flag))
         })
         .collect()
+}
+
+/// Which scores take no full part in verdicts: `no skill: Pz Fz`, `bounded: r_light Px Py`.
+pub(super) fn standings(evaluation: &Evaluation) -> Vec<String> {
+    let mut said = Vec::new();
+    for standing in Standing::ALL {
+        let Some(words) = standing.words() else {
+            continue;
+        };
+        let mut groups: Vec<(&str, Vec<&str>)> = Vec::new();
+        let of_it = evaluation
+            .scores()
+            .filter(|(_, _, score)| score.standing == standing && score.value.scalar().is_some());
+        for (metric, channel, _) in of_it {
+            match groups.last_mut() {
+                Some((id, channels)) if *id == metric.id => channels.push(channel),
+                _ => groups.push((metric.id, vec![channel])),
+            }
+        }
+        let groups: Vec<String> = groups
+            .into_iter()
+            .map(|(id, channels)| format!("{id} {}", channels.join(" ")))
+            .collect();
+        if !groups.is_empty() {
+            said.push(format!("{words}: {}", groups.join(", ")));
+        }
+    }
+    said
 }
 
 /// The maps, curves and matrices that only JSON holds, a line a metric: `r_spatial Px Py Fz: distance, depth`.

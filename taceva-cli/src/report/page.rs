@@ -3,21 +3,26 @@
 use std::fs;
 use std::io::{self, Write};
 use std::path::Path;
+use taceva_core::shown;
 
 use anyhow::Context as _;
 use taceva_dataset::Dataset;
-use taceva_report::{Picture, Report, Samples, ScoreTable, Study, escape_csv, figures, picks};
+use taceva_report::{
+    Picture, Report, Samples, ScoreTable, Study, Triple, escape_csv, figures, picks,
+};
 use taceva_study::EvaluationReport;
 
 use crate::output;
 
 use super::thumbnail::{MEDIA_TYPE, thumbnail};
+use super::triple::triple;
 
 /// What a page shows, collected.
 pub(crate) struct Page {
     title: String,
     studies: Vec<Study>,
     pictures: Vec<Picture>,
+    triples: Vec<Triple>,
 }
 
 impl Page {
@@ -28,6 +33,7 @@ impl Page {
             title: title.to_owned(),
             studies,
             pictures: Vec::new(),
+            triples: Vec::new(),
         };
         for (at, report) in reports.iter().enumerate() {
             page.take_pictures(at, report)?;
@@ -41,6 +47,7 @@ impl Page {
             return Ok(());
         };
         let dataset = Dataset::open(path)?;
+        self.triples.extend(triple(&dataset, at)?);
         let ids = dataset.table().samples();
         for pick in picks(&self.studies[at]) {
             let row = ids.iter().position(|id| *id == pick.id);
@@ -59,7 +66,7 @@ impl Page {
 
     /// Writes every figure into `folder`, as SVG that stands alone and as PDF.
     pub(crate) fn write_figures(&self, folder: &Path) -> anyhow::Result<()> {
-        fs::create_dir_all(folder).with_context(|| format!("cannot make {}", folder.display()))?;
+        fs::create_dir_all(folder).with_context(|| format!("cannot make {}", shown(folder)))?;
         for figure in figures(&self.studies) {
             let path = folder.join(format!("{}.svg", figure.id));
             output::write(Some(&path), |out| out.write_all(figure.svg().as_bytes()))?;
@@ -86,6 +93,10 @@ impl Page {
                 format!("{caption}\n\n{}", taceva_report::markdown(&headlines)),
             ),
             ("scores.tex", taceva_report::latex(&headlines, &caption)),
+            (
+                "scores-main.tex",
+                taceva_report::latex_column(&table, &format!("{}: main scores.{note}", self.title)),
+            ),
         ] {
             let path = folder.join(name);
             output::write(Some(&path), |out| out.write_all(text.as_bytes()))?;
@@ -98,6 +109,7 @@ impl Page {
             title: &self.title,
             studies: &self.studies,
             pictures: &self.pictures,
+            triples: &self.triples,
         };
         out.write_all(taceva_report::report(&report).as_bytes())
     }
@@ -105,7 +117,8 @@ impl Page {
 
 /// A finished evaluation as its JSON says it, with its samples.
 pub(crate) fn study(report: &EvaluationReport) -> anyhow::Result<Study> {
-    let text = serde_json::to_string(report)?;
+    // As it would be read from a file, so that a page shows what others read.
+    let text = taceva_seal::json::seal(&serde_json::to_string(report)?)?;
     let mut studies = Study::read(&text)?;
     let mut study = studies.pop().context("one evaluation is one study")?;
     if let Some(samples) = &report.samples {

@@ -7,9 +7,9 @@ use taceva_metrics::catalogue;
 use taceva_report::escape_terminal;
 use taceva_study::EvaluationReport;
 
-use super::line::{Line, lines};
+use super::line::{Line, lines, standings};
 use super::number::printed;
-use super::text::presses;
+use super::text::{over_seeds, presses};
 
 /// A channel and the plane that says the same of it and its neighbour.
 const IN_PLANES: [(&str, &str); 4] = [("Px", "Pxy"), ("Py", "Pxy"), ("Fx", "Fxy"), ("Fy", "Fxy")];
@@ -36,19 +36,38 @@ pub(super) fn write(reports: &[EvaluationReport], out: &mut dyn Write) -> io::Re
     }
     writeln!(out)?;
     let lines: Vec<Vec<Line<'_>>> = reports.iter().map(headlines).collect();
-    let mut table = vec![head(reports)];
-    for row in rows(&lines) {
-        let cells = lines.iter().map(|lines| cell(lines, &row));
-        let cells: Vec<String> = cells.collect();
+    let rows = rows(&lines);
+    let published: Vec<Vec<String>> = reports
+        .iter()
+        .zip(&lines)
+        .map(|(report, lines)| published(report, lines, &rows))
+        .collect();
+    let mut table = vec![head(reports, &published)];
+    for (number, row) in rows.into_iter().enumerate() {
+        let mut cells = Vec::new();
+        for (lines, published) in lines.iter().zip(&published) {
+            cells.push(cell(lines, &row));
+            cells.extend(published.get(number).cloned());
+        }
         let [metric, channel, unit] = row;
         table.push([vec![metric, channel], cells, vec![unit]].concat());
     }
     print(&table, out)?;
+    for report in reports.iter().filter(|report| report.over_seeds.is_some()) {
+        writeln!(out, "\n{}", escape_terminal(&report.subject.sensor))?;
+        over_seeds(report, out)?;
+    }
     for report in reports {
         let counts = report.provenance.press_counts();
         let is_as_planned = counts.keys().all(|way| *way == PressOutcome::Complete);
         if let Some(presses) = presses(report).filter(|_| !is_as_planned) {
             writeln!(out, "presses    {}: {presses}", report.subject.sensor)?;
+        }
+    }
+    for report in reports {
+        let sensor = escape_terminal(&report.subject.sensor);
+        for standing in standings(&report.evaluation) {
+            writeln!(out, "standing   {sensor}: {standing}")?;
         }
     }
     for report in reports {
@@ -61,10 +80,35 @@ pub(super) fn write(reports: &[EvaluationReport], out: &mut dyn Write) -> io::Re
     Ok(())
 }
 
-fn head(reports: &[EvaluationReport]) -> Vec<String> {
-    let sensors = reports
-        .iter()
-        .map(|report| escape_terminal(&report.subject.sensor));
+/// What was published of the sensor, a cell a row; nothing at all where no row has any of the same definition.
+fn published(report: &EvaluationReport, lines: &[Line<'_>], rows: &[Row]) -> Vec<String> {
+    let Some(sensor) = taceva_report::catalogue::find(&report.subject.sensor) else {
+        return Vec::new();
+    };
+    let alike = |row: &Row| {
+        let line = lines.iter().find(|line| row_of(line) == *row)?;
+        let definition = (line.score.definition, line.unit);
+        let found = sensor.published_alike((&line.name, line.channel), definition)?;
+        // As it was published: digits that nobody printed are not added.
+        Some(found.value.to_string())
+    };
+    let cells: Vec<Option<String>> = rows.iter().map(alike).collect();
+    if cells.iter().all(Option::is_none) {
+        return Vec::new();
+    }
+    let cells = cells.into_iter();
+    cells
+        .map(|cell| cell.unwrap_or_else(|| "–".to_owned()))
+        .collect()
+}
+
+fn head(reports: &[EvaluationReport], published: &[Vec<String>]) -> Vec<String> {
+    let sensors = reports.iter().zip(published).flat_map(|(report, cells)| {
+        let beside = (!cells.is_empty()).then(|| "published".to_owned());
+        [escape_terminal(&report.subject.sensor)]
+            .into_iter()
+            .chain(beside)
+    });
     ["metric", "channel"]
         .map(str::to_owned)
         .into_iter()

@@ -6,7 +6,7 @@ use taceva_core::{Limit, PressOutcome};
 use taceva_report::escape_terminal;
 use taceva_study::EvaluationReport;
 
-use super::line::{flags, lines, pictures};
+use super::line::{flags, lines, pictures, standings};
 use super::number::printed;
 
 pub(super) fn write(report: &EvaluationReport, out: &mut dyn Write) -> io::Result<()> {
@@ -50,7 +50,49 @@ pub(super) fn write(report: &EvaluationReport, out: &mut dyn Write) -> io::Resul
         &rows,
         out,
     )?;
+    over_seeds(report, out)?;
     footer(report, out)
+}
+
+/// How far scores go up and down with the seed of the training, apart from intervals by contact point.
+pub(super) fn over_seeds(report: &EvaluationReport, out: &mut dyn Write) -> io::Result<()> {
+    let Some(over) = &report.over_seeds else {
+        return Ok(());
+    };
+    let seeds: Vec<String> = over.seeds.iter().map(ToString::to_string).collect();
+    writeln!(
+        out,
+        "\nover the seeds {} of the training, each on the same presses",
+        seeds.join(", ")
+    )?;
+    let number = |value: f64| format!("{value:.3}");
+    let rows: Vec<[String; 6]> = over
+        .scores
+        .iter()
+        .map(|score| {
+            let [low, high] = score.interval.map(number);
+            [
+                score.metric.to_owned(),
+                score.channel.clone(),
+                number(score.mean),
+                unit(score.unit),
+                format!("{low} … {high}"),
+                number(score.standard_deviation),
+            ]
+        })
+        .collect();
+    table(
+        [
+            "metric",
+            "channel",
+            "mean",
+            "unit",
+            "95 % interval of the mean",
+            "standard deviation",
+        ],
+        &rows,
+        out,
+    )
 }
 
 fn heading(report: &EvaluationReport, out: &mut dyn Write) -> io::Result<()> {
@@ -109,6 +151,9 @@ fn footer(report: &EvaluationReport, out: &mut dyn Write) -> io::Result<()> {
     for flag in flags(&report.evaluation) {
         writeln!(out, "mind       {flag}")?;
     }
+    for standing in standings(&report.evaluation) {
+        writeln!(out, "standing   {standing}")?;
+    }
     for picture in pictures(&report.evaluation) {
         writeln!(out, "in JSON    {picture}")?;
     }
@@ -117,6 +162,13 @@ fn footer(report: &EvaluationReport, out: &mut dyn Write) -> io::Result<()> {
     }
     for note in &report.provenance.notes {
         writeln!(out, "note       {}", escape_terminal(note))?;
+    }
+    for edit in &report.provenance.edits {
+        writeln!(out, "edited     {}", escape_terminal(edit))?;
+    }
+    for file in &report.provenance.unsealed {
+        let file = escape_terminal(file);
+        writeln!(out, "unsealed   {file}: a change of it cannot be noticed")?;
     }
     if let Some(presses) = presses(report) {
         writeln!(out, "presses    {presses}")?;

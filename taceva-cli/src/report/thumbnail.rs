@@ -14,38 +14,86 @@ pub(crate) const MEDIA_TYPE: &str = "image/jpeg";
 
 /// `frame` as JPEG of at most 176 pixels a side, each the mean of what it covers, from black at its darkest to white at its brightest.
 pub(crate) fn thumbnail(frame: &Frame) -> anyhow::Result<Vec<u8>> {
-    let info = frame.info();
-    let channels = info.format.samples();
-    let samples: Vec<u16> = frame.samples().collect();
-    let step = info.width.max(info.height).div_ceil(SIDE).max(1);
-    let (width, height) = (info.width / step, info.height / step);
-    let row = usize::try_from(info.width)? * channels;
-    let step = usize::try_from(step)?;
-    let mut means = Vec::new();
-    for y in 0..usize::try_from(height)? {
-        for x in 0..usize::try_from(width)? {
-            for channel in 0..channels {
-                let mut sum = 0_u64;
-                for line in 0..step {
-                    let start = (y * step + line) * row + x * step * channels + channel;
-                    let covered = samples[start..].iter().step_by(channels).take(step);
-                    sum += covered.map(|sample| u64::from(*sample)).sum::<u64>();
+    let small = Small::of(frame);
+    let low = small.means.iter().min().copied().unwrap_or(0);
+    let high = small.means.iter().max().copied().unwrap_or(1).max(low + 1);
+    small.jpeg(|mean| (mean - low) * 255 / (high - low))
+}
+
+/// A frame of at most 176 pixels a side.
+#[derive(Clone, Debug)]
+pub(crate) struct Small {
+    width: u32,
+    height: u32,
+    channels: usize,
+    /// Each pixel the mean of what it covers, row by row, in steps of the camera.
+    pub(crate) means: Vec<i64>,
+}
+
+impl Small {
+    /// `frame`, made smaller by a whole number of times.
+    pub(crate) fn of(frame: &Frame) -> Small {
+        let info = frame.info();
+        let channels = info.format.samples();
+        let samples: Vec<u16> = frame.samples().collect();
+        let step = info.width.max(info.height).div_ceil(SIDE).max(1);
+        let (width, height) = (info.width / step, info.height / step);
+        let row = info.width as usize * channels;
+        let step = step as usize;
+        let mut means = Vec::new();
+        for y in 0..height as usize {
+            for x in 0..width as usize {
+                for channel in 0..channels {
+                    let mut sum = 0_i64;
+                    for line in 0..step {
+                        let start = (y * step + line) * row + x * step * channels + channel;
+                        let covered = samples[start..].iter().step_by(channels).take(step);
+                        sum += covered.map(|sample| i64::from(*sample)).sum::<i64>();
+                    }
+                    means.push(sum / (step * step) as i64);
                 }
-                means.push(sum / (step * step) as u64);
             }
         }
+        Small {
+            width,
+            height,
+            channels,
+            means,
+        }
     }
-    let low = means.iter().min().copied().unwrap_or(0);
-    let high = means.iter().max().copied().unwrap_or(1).max(low + 1);
-    let bytes: Result<Vec<u8>, _> = means
-        .into_iter()
-        .map(|mean| u8::try_from((mean - low) * 255 / (high - low)))
-        .collect();
-    let color = match channels {
-        1 => ExtendedColorType::L8,
-        _ => ExtendedColorType::Rgb8,
-    };
-    let mut jpeg = Vec::new();
-    JpegEncoder::new_with_quality(&mut jpeg, QUALITY).write_image(&bytes?, width, height, color)?;
-    Ok(jpeg)
+
+    /// Other means of as many pixels.
+    pub(crate) fn with_means(&self, means: Vec<i64>) -> Small {
+        Small {
+            means,
+            ..self.clone()
+        }
+    }
+
+    /// Whether both have as many pixels, of the same kind.
+    pub(crate) fn is_like(&self, other: &Small) -> bool {
+        let shape = |small: &Small| (small.width, small.height, small.channels);
+        shape(self) == shape(other)
+    }
+
+    /// As JPEG, each mean as `level` makes it, from 0 to 255.
+    pub(crate) fn jpeg(&self, level: impl Fn(i64) -> i64) -> anyhow::Result<Vec<u8>> {
+        let bytes: Result<Vec<u8>, _> = self
+            .means
+            .iter()
+            .map(|mean| u8::try_from(level(*mean)))
+            .collect();
+        let color = match self.channels {
+            1 => ExtendedColorType::L8,
+            _ => ExtendedColorType::Rgb8,
+        };
+        let mut jpeg = Vec::new();
+        JpegEncoder::new_with_quality(&mut jpeg, QUALITY).write_image(
+            &bytes?,
+            self.width,
+            self.height,
+            color,
+        )?;
+        Ok(jpeg)
+    }
 }

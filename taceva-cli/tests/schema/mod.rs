@@ -13,7 +13,7 @@ pub(crate) fn check(name: &str, found: &Value) {
 }
 
 /// Keywords that are looked at, or that only tell.
-const KNOWN: [&str; 13] = [
+const KNOWN: [&str; 15] = [
     "$schema",
     "$id",
     "$defs",
@@ -23,6 +23,8 @@ const KNOWN: [&str; 13] = [
     "type",
     "const",
     "enum",
+    "minimum",
+    "maximum",
     "anyOf",
     "required",
     "properties",
@@ -68,6 +70,15 @@ fn meets(found: &Value, schema: &Value, root: &Value, at: &str) -> Result<(), St
         .filter(|listed| !listed.contains(found))
     {
         return Err(format!("{at} should be one of {listed:?}, found {found}"));
+    }
+    let is_beyond = |least: bool| {
+        let end = schema[if least { "minimum" } else { "maximum" }].as_f64();
+        let number = found.as_f64();
+        end.zip(number)
+            .is_some_and(|(end, number)| if least { number < end } else { number > end })
+    };
+    if is_beyond(true) || is_beyond(false) {
+        return Err(format!("{at} should be in its range, found {found}"));
     }
     if let Some(choices) = schema["anyOf"].as_array() {
         let problems: Vec<String> = choices

@@ -134,24 +134,16 @@ impl Bench {
         assert!(built.status.success(), "{said}");
     }
 
+    /// A recording at `name` that was closed before its first sample.
+    pub(crate) fn record_nothing(&self, name: &str) {
+        let recorder = Recorder::create(&self.path(name), &spec()).expect("a new recording");
+        recorder.close().expect("closed");
+    }
+
     /// A recording of pictures of `side` pixels at `name`.
     pub(crate) fn record(&self, name: &str, side: u32) -> PathBuf {
         let path = self.path(name);
-        let spec = RecordingSpec {
-            facts: RecordingFacts {
-                source: Source::Synthetic,
-                clock: Clock::Unknown,
-                sensor: SensorFacts {
-                    model: "drawn".into(),
-                    serial: "1".into(),
-                    gel: "1".into(),
-                    opaque: Known::Is(true),
-                },
-                footprint: None,
-            },
-            channels: Channels::new([Channel::PX, Channel::FZ]).expect("two channels"),
-        };
-        let mut recorder = Recorder::create(&path, &spec).expect("a new recording");
+        let mut recorder = Recorder::create(&path, &spec()).expect("a new recording");
         for number in 0..SAMPLES {
             let (place, force) = label(number);
             recorder
@@ -174,10 +166,13 @@ impl Bench {
         let dataset = Dataset::open(&recording).expect("a dataset");
         fs::create_dir_all(self.path("lab/pictures")).expect("created");
         let mut labels = String::from("file,place_mm,force_N,point,sample\n");
-        for (number, entry) in (0..SAMPLES).zip(dataset.table().frames()) {
-            let entry = entry.as_ref().expect("every sample has a frame");
+        for (number, row) in (0..SAMPLES).zip(dataset.all_rows()) {
             let file = format!("pictures/{number:02}.png");
-            fs::copy(recording.join(&entry.path), self.path("lab").join(&file)).expect("copied");
+            let frame = dataset.frame(row).expect("read").expect("there");
+            let FrameInfo { width, height, .. } = frame.info();
+            let gray = image::ExtendedColorType::L8;
+            let path = self.path("lab").join(&file);
+            image::save_buffer(path, frame.bytes(), width, height, gray).expect("written");
             let (place, force) = label(number);
             labels.push_str(&format!(
                 "{file},{place:?},{force:?},p{},s{number:02}\n",
@@ -186,6 +181,24 @@ impl Bench {
         }
         fs::write(self.path("lab/labels.csv"), labels).expect("written");
         fs::write(self.path("map.toml"), MAP).expect("written");
+    }
+}
+
+/// What a drawn recording is of.
+fn spec() -> RecordingSpec {
+    RecordingSpec {
+        facts: RecordingFacts {
+            source: Source::Synthetic,
+            clock: Clock::Unknown,
+            sensor: SensorFacts {
+                model: "drawn".into(),
+                serial: "1".into(),
+                gel: "1".into(),
+                opaque: Known::Is(true),
+            },
+            footprint: None,
+        },
+        channels: Channels::new([Channel::PX, Channel::FZ]).expect("two channels"),
     }
 }
 

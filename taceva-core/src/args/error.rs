@@ -1,5 +1,6 @@
 //! Why an argument was refused.
 
+use crate::shown::shown;
 use std::fmt;
 
 use super::nearest::nearest;
@@ -73,21 +74,21 @@ impl fmt::Display for ArgError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             ArgError::Syntax { text } => {
-                write!(f, "`{}`: expected `key=value`", text.escape_debug())
+                write!(f, "`{}`: expected `key=value`", shown(text))
             }
             ArgError::Unknown {
                 key,
                 nearest,
                 known,
             } => {
-                write!(f, "`{}`: unknown argument, ", key.escape_debug())?;
+                write!(f, "`{}`: unknown argument, ", shown(key))?;
                 match nearest {
                     Some(nearest) => write!(f, "did you mean `{nearest}`?"),
                     None if known.is_empty() => f.write_str("the driver takes none"),
                     None => write!(f, "expected one of `{}`", known.join("`, `")),
                 }
             }
-            ArgError::Twice { key } => write!(f, "`{key}`: given twice"),
+            ArgError::Twice { key } => write!(f, "`{}`: given twice", shown(key)),
             ArgError::Missing {
                 key,
                 expected,
@@ -99,7 +100,7 @@ impl fmt::Display for ArgError {
                 expected,
                 nearest,
             } => {
-                write!(f, "`{key}`: `{}`, ", value.escape_debug())?;
+                write!(f, "`{key}`: `{}`, ", shown(value))?;
                 match nearest {
                     Some(nearest) => write!(f, "did you mean `{nearest}`?"),
                     None => write!(f, "expected {expected}"),

@@ -1,5 +1,6 @@
 //! Why a driver could not be added or found.
 
+use crate::shown::shown;
 use std::fmt;
 
 use super::DescriptorError;
@@ -52,7 +53,7 @@ impl fmt::Display for RegistryError {
                 nearest,
                 known,
             } => {
-                write!(f, "`{}`: unknown {kind} driver, ", key.escape_debug())?;
+                write!(f, "`{}`: unknown {kind} driver, ", shown(key))?;
                 match (nearest, known.as_slice()) {
                     (Some(nearest), _) => write!(f, "did you mean `{nearest}`?"),
                     (None, []) => f.write_str("and none is known"),

@@ -83,7 +83,7 @@ impl CsvTable {
         let shift = unit.decimal_shift().filter(|shift| *shift != 0);
         let shifted = shift.and_then(|shift| parse_shifted(self.cell(row, column), shift));
         let converted = shifted.unwrap_or_else(|| unit.convert(number));
-        if converted.is_finite() {
+        if taceva_core::is_scorable(converted) {
             Ok(Some(converted))
         } else {
             Err(self.refuse(row, column, "too large for its unit"))

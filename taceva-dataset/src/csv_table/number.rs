@@ -2,6 +2,8 @@
 
 use std::ops::Range;
 
+use taceva_core::{MAGNITUDE_MAX, is_scorable};
+
 /// Powers of ten that binary64 holds exactly.
 const EXACT_POWERS: [f64; 23] = [
     1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15, 1e16,
@@ -17,7 +19,7 @@ const PLAIN_BYTES: usize = 17;
 /// The longest cell that is read at once, without its sign.
 const WINDOW: usize = 8;
 
-/// The finite number in a cell of `text`: `Some(None)` if the cell is empty, `None` if it holds something else.
+/// The number in a cell of `text` that can be scored: `Some(None)` if the cell is empty, `None` if it holds something else.
 pub(super) fn parse_number(text: &str, cell: Range<usize>) -> Option<Option<f64>> {
     if let Some(number) = parse_short(text.as_bytes(), cell.clone()) {
         return Some(Some(number));
@@ -31,7 +33,7 @@ pub(super) fn parse_number(text: &str, cell: Range<usize>) -> Option<Option<f64>
         return Some(None);
     }
     let number: f64 = text.parse().ok()?;
-    number.is_finite().then_some(Some(number))
+    is_scorable(number).then_some(Some(number))
 }
 
 /// The decimal text with its point moved by `places` to the right, read and rounded once.
@@ -129,8 +131,17 @@ fn eight_digits(digits: u64) -> u64 {
     fours.wrapping_mul((10_000 << 32) + 1) >> 32
 }
 
-/// What to write instead of `cell`, where that can be guessed.
-pub(crate) fn number_hint(cell: &str) -> &'static str {
+/// Why `cell` holds no number that could be scored, and what to write instead, where that can be guessed.
+pub(crate) fn not_a_number(cell: &str) -> String {
+    match cell.parse::<f64>() {
+        Ok(number) if number.is_finite() => {
+            format!("is too large a number, expected a magnitude up to {MAGNITUDE_MAX:.3e}")
+        }
+        _ => format!("is no finite number{}", number_hint(cell)),
+    }
+}
+
+fn number_hint(cell: &str) -> &'static str {
     let is_numeric = cell
         .bytes()
         .all(|byte| byte.is_ascii_digit() || b"+-.,' ".contains(&byte));
@@ -174,6 +185,8 @@ mod tests {
             "0.16186123299558358",
             "4.940656458412465e-324",
             "1e22",
+            "2.2e307",
+            "-1e200",
             "1.",
             ".5",
             "000.5",
@@ -204,6 +217,8 @@ mod tests {
             "inf",
             "-Infinity",
             "1e400",
+            "1e308",
+            "-2.3e307",
             "0x10",
             "1,5",
             "1 2",
@@ -250,7 +265,7 @@ mod tests {
         #[test]
         fn any_short_text_is_read_as_the_standard_library_reads_it(text in "[-+.0-9eµ: /]{0,17}") {
             let text = text.trim();
-            let expected: Option<f64> = text.parse().ok().filter(|number: &f64| number.is_finite());
+            let expected: Option<f64> = text.parse().ok().filter(|number: &f64| is_scorable(*number));
             let found = read(text).flatten();
             prop_assert_eq!(found.map(f64::to_bits), expected.map(f64::to_bits));
         }

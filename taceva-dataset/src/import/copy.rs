@@ -8,7 +8,7 @@ use taceva_core::{FrameInfo, Progress};
 
 use super::npy::NpyFrames;
 use super::plan::{FrameSource, ImportPlan, ImportSummary, PlannedFrames};
-use crate::decode::{ChannelOrder, ImageKind, decode};
+use crate::decode::{ChannelOrder, ImageKind, check_to_the_end, decode};
 use crate::digest::Digest;
 use crate::encode::encode_png;
 use crate::error::DatasetError;
@@ -17,7 +17,7 @@ use crate::header::{FramesInfo, ReferenceInfo};
 use crate::layout;
 use crate::limits;
 use crate::parallel::ordered_map;
-use crate::staged::StagedFolder;
+use crate::staged::{Place, StagedFolder};
 use crate::store::write_table_and_header;
 use crate::table::{FrameEntry, Table};
 
@@ -37,8 +37,9 @@ pub struct ImportReport {
 impl ImportPlan {
     /// Writes the dataset to `target`, on `jobs` threads. The bytes are the same for any number of threads.
     ///
-    /// Frames are kept as the bytes they came as; those of an array become PNG. A JPEG whose bits were flipped on the way to us
-    /// may decode to other pixels without any error: only what happens from here on is noticed.
+    /// Frames are kept as the bytes they came as; those of an array become PNG. A JPEG is read to its end, so that what was cut, lost or
+    /// changed in it is noticed unless every code is still one of its tables and the last one still ends where it did: a bit that was
+    /// flipped on the way to us may be another picture without any error. What happens from here on is always noticed.
     ///
     /// # Errors
     /// [`DatasetError::Image`] naming the image and the row if a frame does not decode or is unlike the first;
@@ -50,7 +51,31 @@ impl ImportPlan {
         jobs: NonZeroUsize,
         progress: &dyn Progress,
     ) -> Result<ImportReport, DatasetError> {
-        let staged = StagedFolder::create(target)?;
+        self.run_at(target, Place::Free, (jobs, progress))
+    }
+
+    /// As [`run`](ImportPlan::run), in the place of the dataset at `target` if there is one: whoever reads it sees the old one until
+    /// the new one is whole and durable.
+    ///
+    /// # Errors
+    /// As [`run`](ImportPlan::run), after which `target` is what it was; [`DatasetError::Request`] if it is no dataset, or holds what is no
+    /// part of one.
+    pub fn replace(
+        self,
+        target: &Path,
+        jobs: NonZeroUsize,
+        progress: &dyn Progress,
+    ) -> Result<ImportReport, DatasetError> {
+        self.run_at(target, Place::OfDataset, (jobs, progress))
+    }
+
+    fn run_at(
+        self,
+        target: &Path,
+        place: Place,
+        (jobs, progress): (NonZeroUsize, &dyn Progress),
+    ) -> Result<ImportReport, DatasetError> {
+        let staged = StagedFolder::create(target, place)?;
         let mut table = self.table;
         let (frames, folders) = match &self.frames {
             Some(frames) => copy_frames(&staged, frames, &mut table, jobs, progress)?,
@@ -178,6 +203,7 @@ fn copy_element(
         info: frame.info(),
         entry: FrameEntry {
             path: relative,
+            span: None,
             digest: Digest::of(&bytes),
         },
         intensity: frame.mean_luma(),
@@ -192,7 +218,11 @@ fn copy_image(
     place: impl FnOnce(&str) -> String,
 ) -> Result<Copied, DatasetError> {
     let bytes = read_capped(path, limits::IMAGE_BYTES)?;
-    let (kind, frame) = decode(&bytes, order).map_err(|problem| DatasetError::Image {
+    let whole = decode(&bytes, order).and_then(|(kind, frame)| {
+        check_to_the_end(&bytes, kind)?;
+        Ok((kind, frame))
+    });
+    let (kind, frame) = whole.map_err(|problem| DatasetError::Image {
         place: None,
         path: path.to_owned(),
         problem,
@@ -209,6 +239,7 @@ fn copy_image(
         info: frame.info(),
         entry: FrameEntry {
             path: relative,
+            span: None,
             digest: Digest::of(&bytes),
         },
         intensity: frame.mean_luma(),

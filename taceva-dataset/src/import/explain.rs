@@ -29,6 +29,7 @@ impl fmt::Display for ImportSummary {
                 self.rows_kept - conversion.present
             )?;
         }
+        self.write_unmentioned(f)?;
         let Some(order) = self.channel_order else {
             return self.write_suspicions(f);
         };
@@ -52,7 +53,40 @@ impl fmt::Display for ImportSummary {
     }
 }
 
+/// What the name of a column says whose rows may not be what they seem.
+const QUALITY: [&str; 9] = [
+    "quality", "flag", "valid", "status", "error", "outlier", "reject", "bad", "warning",
+];
+
 impl ImportSummary {
+    /// The columns that are left behind; those that judge their rows, one by one.
+    fn write_unmentioned(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if self.unmentioned_columns.is_empty() {
+            return Ok(());
+        }
+        let names: Vec<String> = self
+            .unmentioned_columns
+            .iter()
+            .map(|name| shown(name))
+            .collect();
+        writeln!(
+            f,
+            "columns that the map does not mention: {}",
+            names.join(", ")
+        )?;
+        for name in &self.unmentioned_columns {
+            let folded = name.to_lowercase();
+            if QUALITY.iter().any(|word| folded.contains(word)) {
+                writeln!(
+                    f,
+                    "warning  unmentioned-quality: `{}` may say which rows are bad, and no rule reads it; name it under [drop] or [attributes] of the map",
+                    shown(name)
+                )?;
+            }
+        }
+        Ok(())
+    }
+
     fn write_suspicions(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         self.suspicions
             .iter()

@@ -10,12 +10,13 @@ use super::map::{FrameMap, FrameNames, ImportMap};
 use super::npy::NpyFrames;
 use super::rows::{FrameName, MappedTable};
 use super::source::{matching_files, unnamed_images};
-use super::suspicion::{Suspicion, magnitude_suspicion};
+use super::suspicion::{Suspicion, magnitude_suspicion_in};
 use crate::decode::ChannelOrder;
 use crate::error::{DatasetError, Place};
 use crate::file::SourceFolder;
 use crate::store::RecordingFacts;
 use crate::table::Table;
+use crate::text::shown;
 
 /// How many images that no row names are listed.
 const LISTED_IMAGES: usize = 20;
@@ -50,6 +51,8 @@ pub struct ImportSummary {
     pub unnamed_images: u64,
     /// The first of them.
     pub first_unnamed_images: Vec<PathBuf>,
+    /// Columns of the tables that the map does not mention, sorted.
+    pub unmentioned_columns: BTreeSet<String>,
     /// Numbers that contradict their unit.
     pub suspicions: Vec<Suspicion>,
 }
@@ -107,12 +110,33 @@ impl ImportPlan {
             reading.read(path)?;
         }
         reading.summary.tables = tables;
+        if reading.summary.rows_kept == 0 {
+            return Err(reading.no_row());
+        }
         reading.into_plan()
     }
 
     /// What would be done.
     pub fn summary(&self) -> &ImportSummary {
         &self.summary
+    }
+
+    /// What the pictures will take on disk, in bytes: files as they are, each once. Pictures of an array are encoded, and not counted here.
+    ///
+    /// A file that went away since counts as nothing: the import itself names it.
+    pub fn frame_bytes(&self) -> u64 {
+        let frames = self.frames.iter();
+        let files: BTreeSet<&Path> = frames
+            .clone()
+            .flat_map(|frames| frames.of_rows.iter())
+            .filter_map(|frame| match &frame.from {
+                FrameSource::File(path) => Some(path.as_path()),
+                FrameSource::Array(..) => None,
+            })
+            .chain(frames.filter_map(|frames| frames.reference.as_deref()))
+            .collect();
+        let sizes = files.into_iter().filter_map(|path| path.metadata().ok());
+        sizes.map(|facts| facts.len()).sum()
     }
 }
 
@@ -156,6 +180,7 @@ impl<'a> Reading<'a> {
 
     fn read(&mut self, path: &Path) -> Result<(), DatasetError> {
         let rows = MappedTable::open(self.map, path)?;
+        self.summary.unmentioned_columns.extend(rows.unmentioned());
         let frame = self.map.frame.as_ref();
         let base = match frame.and_then(|frame| frame.folder.as_ref()) {
             Some(folder) => self.folder.path().join(folder),
@@ -220,6 +245,31 @@ impl<'a> Reading<'a> {
         }
     }
 
+    /// That nothing is left to import, and why.
+    fn no_row(&self) -> DatasetError {
+        let summary = &self.summary;
+        let dropped = summary.dropped.iter();
+        let dropped: Vec<String> = dropped
+            .map(|(reason, count)| format!("{} {count}", shown(reason)))
+            .collect();
+        let problem = match summary.rows_read {
+            0 => "no row below the header: there is nothing to import".to_owned(),
+            read => format!(
+                "all {read} rows are left out ({}): there is nothing to import",
+                dropped.join(", ")
+            ),
+        };
+        DatasetError::Table {
+            place: Place::file(
+                summary
+                    .tables
+                    .first()
+                    .map_or(self.folder.path(), PathBuf::as_path),
+            ),
+            problem,
+        }
+    }
+
     fn into_plan(mut self) -> Result<ImportPlan, DatasetError> {
         let frames = match &self.map.frame {
             Some(frame) => Some(self.planned_frames(frame)?),
@@ -273,7 +323,7 @@ impl<'a> Reading<'a> {
             });
             self.summary
                 .suspicions
-                .extend(magnitude_suspicion(channel, values()));
+                .extend(magnitude_suspicion_in(channel, &map.unit, values()));
         }
     }
 }

@@ -36,6 +36,15 @@ impl Preset {
         Preset::ALL.into_iter().find(|preset| preset.name() == name)
     }
 
+    /// Whether the folder at `source` has the table of this layout.
+    pub(crate) fn is_in(self, source: &Path) -> bool {
+        let table = match self {
+            Preset::Bristol => "targets.csv",
+            Preset::Py3dcal => "annotations/probe_data.csv",
+        };
+        source.join(table).is_file()
+    }
+
     /// The map for the folder at `source`: the columns its table has, the folder its images are in, the colours they have.
     ///
     /// # Errors
@@ -137,6 +146,27 @@ mod tests {
             include_str!("presets/py3dcal.toml"),
         ] {
             built_in("preset.toml", text).expect("a map");
+        }
+    }
+
+    #[test]
+    fn a_layout_is_known_by_the_table_that_its_map_reads() {
+        let maps = [
+            (Preset::Bristol, include_str!("presets/bristol.toml")),
+            (
+                Preset::Bristol,
+                include_str!("presets/bristol-numbered.toml"),
+            ),
+            (Preset::Py3dcal, include_str!("presets/py3dcal.toml")),
+        ];
+        for (preset, text) in maps {
+            let folder = tempfile::tempdir().expect("a folder");
+            let map = built_in("preset.toml", text).expect("a map");
+            let table = folder.path().join(map.table);
+            assert!(!preset.is_in(folder.path()));
+            std::fs::create_dir_all(table.parent().expect("inside")).expect("made");
+            std::fs::write(table, "x").expect("written");
+            assert!(preset.is_in(folder.path()));
         }
     }
 

@@ -94,6 +94,44 @@ impl<'a> MappedTable<'a> {
         })
     }
 
+    /// The columns of the table that the map mentions nowhere.
+    pub(super) fn unmentioned(&self) -> impl Iterator<Item = String> {
+        let single = [
+            self.sample,
+            self.unit_id,
+            self.scene,
+            self.depth_step,
+            self.repeat,
+            self.phase,
+            self.part,
+            self.kind,
+            self.spacing,
+            self.time,
+            self.flags,
+        ];
+        let mut mentioned: Vec<usize> = single.into_iter().flatten().collect();
+        mentioned.extend(
+            self.truth
+                .iter()
+                .chain(&self.point_id)
+                .chain(&self.attributes),
+        );
+        match &self.frame {
+            Some(FrameCells::Column(column) | FrameCells::Index(column)) => mentioned.push(*column),
+            Some(FrameCells::Pattern(parts)) => {
+                mentioned.extend(parts.iter().filter_map(|part| match part {
+                    PatternPart::Cell(column) => Some(*column),
+                    PatternPart::Text(_) => None,
+                }));
+            }
+            None => {}
+        }
+        let names = self.table.names().iter().enumerate();
+        names
+            .filter(move |(position, _)| !mentioned.contains(position))
+            .map(|(_, name)| name.clone())
+    }
+
     pub(super) fn rows(&self) -> usize {
         self.table.rows()
     }

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use taceva_core::{Channel, Unit};
+use taceva_core::{Channel, SourceUnit, Unit};
 
 /// A channel whose numbers look like those of another unit.
 #[derive(Clone, Debug, PartialEq)]
@@ -11,12 +11,12 @@ pub struct Suspicion {
     pub code: &'static str,
     /// The channel.
     pub channel: String,
-    /// The magnitude looked at, in the channel's unit: the largest or the median one.
+    /// The magnitude looked at, in the channel's unit: the largest, the median, or the one that 95 % stay below.
     pub magnitude: f64,
     /// The channel's unit.
     pub unit: Unit,
-    /// The unit the numbers may be in.
-    pub perhaps: &'static str,
+    /// The units that the numbers may be in, as they follow `are the numbers in`.
+    pub perhaps: String,
 }
 
 impl fmt::Display for Suspicion {
@@ -28,7 +28,7 @@ impl fmt::Display for Suspicion {
         };
         write!(
             f,
-            "{}: `{}` is {which} {} {}, which no gel shows; are the numbers in {}?",
+            "{}: `{}` is {which} {} {}, which few gels show; are the numbers in {}?",
             self.code, self.channel, self.magnitude, self.unit, self.perhaps
         )
     }
@@ -37,12 +37,15 @@ impl fmt::Display for Suspicion {
 /// Fewest values that are judged.
 const LEAST_VALUES: usize = 3;
 
-/// What contacts of a gel look like in a unit: not all magnitudes are below `small`, the median is not above `large`.
+/// What contacts of a gel look like in a unit: not all magnitudes are below `small`, the median is not above `large`, and 95 % of them not
+/// above `most`; and where a typical one lies if the unit is right.
 struct Plausible {
     small: f64,
-    small_perhaps: &'static str,
     large: f64,
-    large_perhaps: &'static str,
+    most: f64,
+    typical: [f64; 2],
+    /// The units that labs write such numbers in.
+    written: &'static [&'static str],
 }
 
 fn plausible(channel: &Channel) -> Option<Plausible> {
@@ -50,22 +53,25 @@ fn plausible(channel: &Channel) -> Option<Plausible> {
     match channel.unit() {
         Unit::Millimetre => Some(Plausible {
             small: 0.05,
-            small_perhaps: "m",
             // Gripper widths and the like may be larger than any place on a gel.
             large: if is_contact { 150.0 } else { 5_000.0 },
-            large_perhaps: "um",
+            most: f64::INFINITY,
+            typical: [0.05, 50.0],
+            written: &["m", "mm", "um"],
         }),
         Unit::Newton => Some(Plausible {
             small: 0.01,
-            small_perhaps: "kN",
-            large: 150.0,
-            large_perhaps: "mN",
+            // Fingers of a few square centimetres press with some newtons; one of them is about a hundred gram-force.
+            large: if is_contact { 30.0 } else { 150.0 },
+            most: if is_contact { 100.0 } else { f64::INFINITY },
+            typical: [0.05, 30.0],
+            written: &["kN", "N", "gf", "mN"],
         }),
         _ => None,
     }
 }
 
-/// Whether the numbers of `channel` are off by about a thousand: metres said to be millimetres, millinewtons said to be newtons.
+/// Whether the numbers of `channel` are those of another unit: metres said to be millimetres, gram-force said to be newtons.
 ///
 /// # Units
 /// `values`: those of the channel.
@@ -75,7 +81,8 @@ fn plausible(channel: &Channel) -> Option<Plausible> {
 /// use taceva_dataset::magnitude_suspicion;
 /// let metres = [0.0012, 0.0025, 0.0031];
 /// let suspicion = magnitude_suspicion(&Channel::PZ, metres).expect("no press is 3 µm deep");
-/// assert_eq!((suspicion.code, suspicion.perhaps), ("magnitude-small", "m"));
+/// assert_eq!(suspicion.code, "magnitude-small");
+/// assert_eq!(suspicion.perhaps, "m and said to be mm, or in mm and said to be um");
 /// assert_eq!(magnitude_suspicion(&Channel::PZ, [1.2, 2.5, 3.1]), None);
 /// ```
 pub fn magnitude_suspicion(
@@ -83,6 +90,74 @@ pub fn magnitude_suspicion(
     values: impl IntoIterator<Item = f64>,
 ) -> Option<Suspicion> {
     let plausible = plausible(channel)?;
+    let found = odd(&plausible, values)?;
+    // What the map said is not known any more.
+    let pairs = plausible.written.iter().filter_map(|said| {
+        let meant = meant(&plausible, said, found.typical);
+        (!meant.is_empty()).then(|| format!("{} and said to be {said}", meant.join(" or ")))
+    });
+    let perhaps = pairs.collect::<Vec<_>>().join(", or in ");
+    Some(found.suspicion(channel, perhaps))
+}
+
+/// As [`magnitude_suspicion`], of numbers that were converted from the unit `said`: only what they can be is suggested.
+pub(super) fn magnitude_suspicion_in(
+    channel: &Channel,
+    said: &SourceUnit,
+    values: impl IntoIterator<Item = f64>,
+) -> Option<Suspicion> {
+    let plausible = plausible(channel)?;
+    let found = odd(&plausible, values)?;
+    let meant = meant(&plausible, said.symbol(), found.typical);
+    let perhaps = format!("{} and not in {}", meant.join(" or "), said.symbol());
+    Some(found.suspicion(
+        channel,
+        match meant.is_empty() {
+            true => String::new(),
+            false => perhaps,
+        },
+    ))
+}
+
+/// The units that would make the number `typical`, converted from the unit `said`, a usual one.
+fn meant(plausible: &Plausible, said: &str, typical: f64) -> Vec<&'static str> {
+    let in_kept = |symbol: &str| SourceUnit::parse(symbol).ok().map(|unit| unit.convert(1.0));
+    let Some(said_as) = in_kept(said) else {
+        return Vec::new();
+    };
+    let [least, greatest] = plausible.typical;
+    let fits = |symbol: &&str| {
+        in_kept(symbol)
+            .is_some_and(|as_kept| (least..=greatest).contains(&(typical / said_as * as_kept)))
+    };
+    let others = plausible.written.iter().filter(|symbol| **symbol != said);
+    others.copied().filter(fits).collect()
+}
+
+/// Magnitudes that no gel shows.
+struct Odd {
+    code: &'static str,
+    magnitude: f64,
+    /// The median.
+    typical: f64,
+}
+
+impl Odd {
+    fn suspicion(self, channel: &Channel, perhaps: String) -> Suspicion {
+        Suspicion {
+            code: self.code,
+            channel: channel.name().to_owned(),
+            magnitude: self.magnitude,
+            unit: channel.unit(),
+            perhaps: match perhaps.is_empty() {
+                true => "another unit".to_owned(),
+                false => perhaps,
+            },
+        }
+    }
+}
+
+fn odd(plausible: &Plausible, values: impl IntoIterator<Item = f64>) -> Option<Odd> {
     let mut magnitudes: Vec<f64> = values
         .into_iter()
         .map(f64::abs)
@@ -94,28 +169,18 @@ pub fn magnitude_suspicion(
     magnitudes.sort_unstable_by(f64::total_cmp);
     let largest = magnitudes[magnitudes.len() - 1];
     let median = magnitudes[magnitudes.len() / 2];
-    let suspicion = |code, magnitude, perhaps| Suspicion {
-        code,
-        channel: channel.name().to_owned(),
-        magnitude,
-        unit: channel.unit(),
-        perhaps,
+    let most = magnitudes[(magnitudes.len() - 1) * 19 / 20];
+    let (code, magnitude) = match () {
+        () if largest < plausible.small => ("magnitude-small", largest),
+        () if median > plausible.large => ("magnitude-large", median),
+        () if most > plausible.most => ("magnitude-large", most),
+        () => return None,
     };
-    if largest < plausible.small {
-        Some(suspicion(
-            "magnitude-small",
-            largest,
-            plausible.small_perhaps,
-        ))
-    } else if median > plausible.large {
-        Some(suspicion(
-            "magnitude-large",
-            median,
-            plausible.large_perhaps,
-        ))
-    } else {
-        None
-    }
+    Some(Odd {
+        code,
+        magnitude,
+        typical: median,
+    })
 }
 
 #[cfg(test)]
@@ -140,6 +205,44 @@ mod tests {
             code(&Channel::PZ, [300.0, 2_000.0, 900.0]),
             Some("magnitude-large")
         );
+    }
+
+    #[test]
+    fn the_hint_names_the_unit_that_makes_the_numbers_usual_ones() {
+        let perhaps = |channel: &Channel, said: &str, values: [f64; 3]| {
+            let said = SourceUnit::parse(said).expect("a unit");
+            let kept = values.map(|value| said.convert(value));
+            magnitude_suspicion_in(channel, &said, kept).map(|suspicion| suspicion.perhaps)
+        };
+        let hint = |text: &str| Some(text.to_owned());
+        // Millimetres that the map said to be metres, and the other way round.
+        assert_eq!(
+            perhaps(&Channel::PZ, "m", [1.2, 2.5, 3.1]),
+            hint("mm and not in m")
+        );
+        assert_eq!(
+            perhaps(&Channel::PZ, "um", [1.2, 2.5, 3.1]),
+            hint("mm and not in um")
+        );
+        assert_eq!(
+            perhaps(&Channel::PZ, "mm", [0.0012, 0.0025, 0.0031]),
+            hint("m and not in mm")
+        );
+        assert_eq!(
+            perhaps(&Channel::PZ, "mm", [1200.0, 2500.0, 3100.0]),
+            hint("um and not in mm")
+        );
+        // Half a newton to three of them, in gram-force.
+        assert_eq!(
+            perhaps(&Channel::FZ, "N", [50.0, 120.0, 310.0]),
+            hint("gf or mN and not in N")
+        );
+        assert_eq!(
+            perhaps(&Channel::FZ, "N", [5.0, 12.0, 160.0]),
+            None,
+            "one large one is no unit"
+        );
+        assert_eq!(perhaps(&Channel::FZ, "gf", [50.0, 120.0, 310.0]), None);
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! What can be recorded: refused before anything is written.
 
-use taceva_core::{Frame, Sample};
+use taceva_core::{Frame, MAGNITUDE_MAX, Sample, is_scorable};
 
 use super::Recorder;
 use crate::error::DatasetError;
@@ -24,8 +24,10 @@ impl Recorder {
         }
         let times = sample.stamp.iter().map(|stamp| stamp.valid_s);
         let mut numbers = values.iter().copied().flatten().chain(times);
-        if let Some(number) = numbers.find(|number| !number.is_finite()) {
-            return Err(refused(format!("{number} is no finite number")));
+        if let Some(number) = numbers.find(|number| !is_scorable(*number)) {
+            return Err(refused(format!(
+                "{number:e} is no finite number up to {MAGNITUDE_MAX:.3e}"
+            )));
         }
         match &sample.frame {
             Some(frame) => self.check_frame(&sample.id, frame),

@@ -1,54 +1,132 @@
-//! The frames of a recording: each file and its name are durable before the journal names it.
+//! The frames of a recording: each is durable in its pack, with the name of that, before the journal names it.
 
-use std::fs;
-
-use taceva_core::Frame;
+use taceva_core::{Frame, FrameError, Sample};
 
 use super::Recorder;
-use crate::decode::ChannelOrder;
+use crate::decode::{ChannelOrder, decode};
+use crate::difference;
 use crate::digest::Digest;
 use crate::encode::encode_png;
 use crate::error::DatasetError;
-use crate::file::{parent_of, sync_folder, write_durable};
+use crate::file::{open_regular, parent_of, sync_folder, write_durable};
 use crate::header::FramesInfo;
 use crate::layout;
+use crate::pack::{PackWriter, cut_behind, read_span};
 use crate::table::FrameEntry;
 
 impl Recorder {
-    /// Writes the frame of the sample in row `number`.
-    pub(super) fn write_frame(
+    /// Appends the frames of `samples` to the pack, and returns once all of them are durable; an entry a sample.
+    pub(super) fn write_frames(
         &mut self,
-        number: usize,
-        frame: &Frame,
-    ) -> Result<FrameEntry, DatasetError> {
-        let folder = self.path.join(layout::frame_folder(number));
-        if self.synced_folder.as_ref() != Some(&folder) {
-            // Even where it is there: a killed process leaves names that nobody made durable.
-            fs::create_dir_all(&folder).map_err(DatasetError::io("create", &folder))?;
-            sync_folder(parent_of(&folder))?;
-            sync_folder(&self.path)?;
-            self.synced_folder = Some(folder);
+        samples: &[Sample],
+    ) -> Result<Vec<Option<FrameEntry>>, DatasetError> {
+        if samples.iter().all(|sample| sample.frame.is_none()) {
+            return Ok(vec![None; samples.len()]);
         }
-        let path = layout::frame_path(number, "png");
-        let digest = self.write_image(&path, frame)?;
-        Ok(FrameEntry { path, digest })
+        // After an error it is opened anew, and what nobody acknowledged is cut.
+        let mut pack = match self.pack.take() {
+            Some(pack) => pack,
+            None => {
+                cut_behind(&self.path, self.pack_end)?;
+                self.first = self.first_of_pack()?;
+                PackWriter::open(&self.path, self.pack_end)?
+            }
+        };
+        let mut entries = Vec::with_capacity(samples.len());
+        for sample in samples {
+            let entry = sample.frame.as_ref();
+            let entry = entry.map(|frame| self.append_frame(&mut pack, frame));
+            entries.push(entry.transpose()?);
+        }
+        pack.sync()?;
+        self.pack = Some(pack);
+        Ok(entries)
     }
 
-    /// Writes a frame; its bytes and its name are durable.
+    /// Appends a frame, or its difference to the first of the pack where that is smaller.
+    fn append_frame(
+        &mut self,
+        pack: &mut PackWriter,
+        frame: &Frame,
+    ) -> Result<FrameEntry, DatasetError> {
+        pack.roll()?;
+        let whole = self.png(frame, layout::FRAMES)?;
+        let is_first = pack.end().length == 0;
+        let difference = match &self.first {
+            // One that is the first again is stored again: equal frames have equal digests.
+            Some((digest, first)) if !is_first && frame != first => {
+                let damaged = |error: FrameError| self.damaged(error.to_string());
+                let difference = difference::less(frame, first).map_err(damaged)?;
+                let bytes = self.png(&difference, layout::FRAMES)?;
+                let digest = difference::digest(*digest, &bytes);
+                (bytes.len() < whole.len()).then_some((bytes, digest))
+            }
+            _ => None,
+        };
+        let is_difference = difference.is_some();
+        let (bytes, digest) = difference.unwrap_or_else(|| {
+            let digest = Digest::of(&whole);
+            (whole, digest)
+        });
+        let (path, span) = pack.append(&bytes, is_difference)?;
+        if is_first {
+            self.first = Some((digest, frame.clone()));
+        }
+        Ok(FrameEntry {
+            path,
+            span: Some(span),
+            digest,
+        })
+    }
+
+    /// The first frame of the pack that is gone on with, and its digest.
+    fn first_of_pack(&self) -> Result<Option<(Digest, Frame)>, DatasetError> {
+        let path = layout::pack_path(self.pack_end.number);
+        let mut frames = self.table.frames().iter().flatten();
+        let Some((entry, span)) = frames
+            .find(|entry| entry.begins(&path))
+            .and_then(|entry| Some((entry, entry.span?)))
+        else {
+            return Ok(None);
+        };
+        let pack = self.path.join(&path);
+        let (file, _) = open_regular(&pack, u64::MAX)?;
+        let bytes = read_span(file, &pack, span)?;
+        if Digest::of(&bytes) != entry.digest {
+            return Err(self.damaged("its first frame is not the one recorded".to_owned()));
+        }
+        let info = self.frames_info();
+        let order = info.map_or(ChannelOrder::Rgb, |info| info.channel_order);
+        let (_, frame) = decode(&bytes, order).map_err(|problem| self.damaged(problem))?;
+        Ok(Some((entry.digest, frame)))
+    }
+
+    fn damaged(&self, problem: String) -> DatasetError {
+        DatasetError::Damaged {
+            path: self.path.join(layout::pack_path(self.pack_end.number)),
+            problem,
+        }
+    }
+
+    /// Writes a frame as a file of its own; its bytes and its name are durable.
     pub(super) fn write_image(
         &self,
         relative: &str,
         frame: &Frame,
     ) -> Result<Digest, DatasetError> {
         let path = self.path.join(relative);
-        let bytes = encode_png(frame).map_err(|problem| DatasetError::Image {
-            place: None,
-            path: path.clone(),
-            problem,
-        })?;
+        let bytes = self.png(frame, relative)?;
         write_durable(&path, &bytes)?;
         sync_folder(parent_of(&path))?;
         Ok(Digest::of(&bytes))
+    }
+
+    fn png(&self, frame: &Frame, relative: &str) -> Result<Vec<u8>, DatasetError> {
+        encode_png(frame).map_err(|problem| DatasetError::Image {
+            place: None,
+            path: self.path.join(relative),
+            problem,
+        })
     }
 
     /// What all frames recorded so far share.

@@ -36,14 +36,15 @@ impl Recorder {
         samples: &[Sample],
     ) -> Result<u64, DatasetError> {
         self.check_press(press, samples)?;
-        let mut rows = Vec::with_capacity(samples.len());
-        for (position, sample) in samples.iter().enumerate() {
-            let number = self.table.rows() + position;
-            let frame = sample.frame.as_ref();
-            let entry = frame.map(|frame| self.write_frame(number, frame));
-            let row = self.row(sample, entry.transpose()?);
-            rows.push((row, frame.map(Frame::info)));
-        }
+        let entries = self.write_frames(samples)?;
+        let rows: Vec<_> = samples
+            .iter()
+            .zip(entries)
+            .map(|(sample, entry)| {
+                let info = sample.frame.as_ref().map(Frame::info);
+                (self.row(sample, entry), info)
+            })
+            .collect();
         let channels = self.table.channels();
         let written = rows
             .iter()

@@ -166,7 +166,7 @@ impl WrittenSample {
                 .as_ref()
                 .zip(info)
                 .map(|(entry, info)| WrittenFrame {
-                    path: entry.path.clone(),
+                    path: entry.place().into_owned(),
                     sha256: entry.digest,
                     info,
                 }),
@@ -194,9 +194,9 @@ impl WrittenSample {
             .values()
             .chain(&self.t_s)
             .chain(&self.intensity)
-            .any(|number| !number.is_finite())
+            .any(|number| !taceva_core::is_scorable(*number))
         {
-            return Err("a number that is not finite".to_owned());
+            return Err("a number that is not finite, or too large to be scored".to_owned());
         }
         if let Some(frame) = &self.frame {
             check_relative(&frame.path)?;
@@ -221,10 +221,9 @@ impl WrittenSample {
                 .map(|channel| self.truth.get(channel.name()).copied())
                 .collect(),
             attributes: Vec::new(),
-            frame: self.frame.map(|frame| FrameEntry {
-                path: frame.path,
-                digest: frame.sha256,
-            }),
+            frame: self
+                .frame
+                .map(|frame| FrameEntry::at(frame.path, frame.sha256)),
         };
         Ok((row, info))
     }

@@ -88,7 +88,7 @@ impl Cells<'_> {
             Cells::Spacing(_) | Cells::Measured(_) | Cells::Number(_) => {
                 self.number(row).map(|number| format!("{number:?}"))
             }
-            Cells::FramePath(cells) => cells[row].as_ref().map(|entry| entry.path.clone()),
+            Cells::FramePath(cells) => cells[row].as_ref().map(|entry| entry.place().into_owned()),
             Cells::FrameDigest(cells) => cells[row].as_ref().map(|entry| entry.digest.to_string()),
         }
     }

@@ -1,16 +1,57 @@
 //! One row of a table.
 
+use std::borrow::Cow;
+
 use taceva_core::{GratingKind, Limit, Nanometre, Phase};
 
 use crate::digest::Digest;
+use crate::layout;
+use crate::pack::Span;
 
-/// Where the file of a frame lies within the dataset, and what its bytes must be.
+/// Where a frame lies within the dataset, and what its bytes must be.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct FrameEntry {
-    /// Relative to the folder of the dataset, with `/`.
+    /// Its file, or the pack that it is in, relative to the folder of the dataset, with `/`.
     pub path: String,
-    /// Of the bytes of the file.
+    /// Which bytes of that file it is; all of them if absent.
+    pub span: Option<Span>,
+    /// Of its bytes; of a difference with the digest of the frame that it is one to.
     pub digest: Digest,
+}
+
+impl FrameEntry {
+    /// The frame at a place as [`place`](FrameEntry::place) writes it.
+    pub(crate) fn at(place: String, digest: Digest) -> FrameEntry {
+        let found = place.rfind('@').and_then(|at| {
+            let (path, span) = place.split_at(at);
+            // Another file may have such a name.
+            layout::pack_number(path)?;
+            Some((path.to_owned(), span.parse().ok()?))
+        });
+        let (path, span) = match found {
+            Some((path, span)) => (path, Some(span)),
+            None => (place, None),
+        };
+        FrameEntry { path, span, digest }
+    }
+
+    /// Whether it is stored as the difference to the first frame of its pack.
+    pub(crate) fn is_difference(&self) -> bool {
+        self.span.is_some_and(|span| span.is_difference)
+    }
+
+    /// Whether it is the first frame of the pack at `path`.
+    pub(crate) fn begins(&self, path: &str) -> bool {
+        self.path == path && self.span.is_some_and(|span| span.offset == 0)
+    }
+
+    /// Where it lies, as tables and journals write it: a path, and behind that of a pack the bytes.
+    pub(crate) fn place(&self) -> Cow<'_, str> {
+        match self.span {
+            Some(span) => format!("{}{span}", self.path).into(),
+            None => (&self.path).into(),
+        }
+    }
 }
 
 /// One row of a [`Table`](super::Table); what is absent is `None`.
@@ -48,4 +89,30 @@ pub struct Row {
     pub attributes: Vec<Option<String>>,
     /// The picture.
     pub frame: Option<FrameEntry>,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_frame_in_a_pack_is_found_by_the_bytes_behind_its_path() {
+        let digest = Digest::of(b"");
+        for (place, path, span) in [
+            ("frames/0000.pack@5+7", "frames/0000.pack", Some((5, 7))),
+            (
+                "frames/0000.pack@5+7-first",
+                "frames/0000.pack",
+                Some((5, 7)),
+            ),
+            ("frames/0000/000001.png", "frames/0000/000001.png", None),
+            ("frames/0000.pack@5", "frames/0000.pack@5", None),
+            ("a/x.png@5+7", "a/x.png@5+7", None),
+        ] {
+            let entry = FrameEntry::at(place.to_owned(), digest);
+            let found = entry.span.map(|span| (span.offset, span.length));
+            assert_eq!((&*entry.path, found), (path, span));
+            assert_eq!(entry.place(), place);
+        }
+    }
 }

@@ -32,6 +32,7 @@ fn the_digest_does_not_depend_on_where_a_frame_lies() {
     let with = |path: &str, bytes: &[u8]| {
         let entry = FrameEntry {
             path: path.to_owned(),
+            span: None,
             digest: Digest::of(bytes),
         };
         table([Row {

@@ -4,6 +4,7 @@ use std::collections::BTreeSet;
 use std::fs::{self, File};
 use std::io::Read;
 use std::path::{Path, PathBuf};
+use taceva_core::shown;
 
 use taceva_core::{FrameInfo, FrameMut, Hertz};
 
@@ -148,7 +149,7 @@ fn timed(names: Vec<String>, table: &Path) -> Result<(Vec<String>, Vec<f64>), So
     let rows = times::read(table)?;
     for row in &rows {
         if !unnamed.remove(row.name.as_str()) {
-            let name = row.name.escape_debug();
+            let name = shown(&row.name);
             let problem = if names.contains(&row.name) {
                 format!("`{name}` is named a second time")
             } else {
@@ -160,7 +161,7 @@ fn timed(names: Vec<String>, table: &Path) -> Result<(Vec<String>, Vec<f64>), So
     if let Some(name) = unnamed.first() {
         let problem = format!(
             "no time for `{}`, expected every frame of the folder to be named",
-            name.escape_debug()
+            shown(name)
         );
         return Err(fault(None, problem));
     }

@@ -3,6 +3,7 @@
 use std::fs::File;
 use std::io::Read;
 use std::path::Path;
+use taceva_core::shown;
 
 use super::error::SourceError;
 use super::limits;
@@ -39,7 +40,7 @@ pub(super) fn read(path: &Path) -> Result<Vec<TimedName>, SourceError> {
         .from_reader(file.take(limits::TABLE_BYTES));
     let unreadable = |error: csv::Error| {
         let line = error.position().map(csv::Position::line);
-        fault(line, error.to_string().escape_debug().to_string())
+        fault(line, shown(&error.to_string()).to_string())
     };
     let header = table.headers().map_err(unreadable)?.clone();
     let column = |name: &str| {
@@ -62,7 +63,7 @@ pub(super) fn read(path: &Path) -> Result<Vec<TimedName>, SourceError> {
         let written = text(time_column);
         let time_s = written.parse().ok().filter(|time: &f64| time.is_finite());
         let Some(time_s) = time_s else {
-            let problem = format!("`{}` is no time, expected seconds", written.escape_debug());
+            let problem = format!("`{}` is no time, expected seconds", shown(written));
             return Err(fault(Some(line), problem));
         };
         if let Some(before) = rows.last().filter(|before| time_s <= before.time_s) {

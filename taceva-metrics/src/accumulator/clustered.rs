@@ -11,6 +11,7 @@ use crate::evaluation::Entry;
 use crate::metric::Metric;
 use crate::plan::MetricPlan;
 use crate::score::{Interval, Score, Variant};
+use crate::standing::Standing;
 use crate::state::{Shape, State, describe, written};
 use crate::stats::IntervalMethod;
 use crate::value::{UndefinedReason, Value};
@@ -49,8 +50,11 @@ impl<F: Family> Clustered<F> {
         }
     }
 
-    /// The numbers of an output: one part's, or the mean of two.
+    /// The numbers of an output: one part's, the mean of two, or what the family makes of them.
     fn numbers(&self, metric: &Metric, output: &Output, sums: &[F::Sums]) -> Numbers {
+        if let Some(numbers) = self.family.joint(metric, output, sums) {
+            return numbers;
+        }
         let mut parts = output.parts.iter();
         let mut next = || {
             let part = parts.next()?;
@@ -77,7 +81,7 @@ impl<F: Family> Clustered<F> {
             for output in self.family.outputs(metric) {
                 let numbers = self.numbers(metric, &output, total);
                 requests.push(Request {
-                    resampling: Resampling::new(&numbers),
+                    resampling: Resampling::new(&numbers, metric.range),
                     metric,
                     output,
                     numbers,
@@ -110,9 +114,11 @@ impl<F: Family> Clustered<F> {
                         .filter(|(_, cell)| self.samples(metric, output, cell) > 0)
                         .collect();
                     let finish = |sums: &[F::Sums]| self.numbers(metric, output, sums);
-                    let (empty, numbers) = (&self.clustering.empty, &request.numbers);
-                    let resampling = &mut request.resampling;
-                    resampling.weigh(bootstrap, empty, &cells, numbers, finish);
+                    let counts = cells.iter();
+                    let counts = counts.map(|(_, cell)| self.samples(metric, output, cell));
+                    let total = (&request.numbers, counts.fold(0, u64::saturating_add));
+                    let (empty, resampling) = (&self.clustering.empty, &mut request.resampling);
+                    resampling.weigh(bootstrap, empty, &cells, total, finish);
                 }
             }
         }
@@ -165,6 +171,7 @@ impl<F: Family> Clustered<F> {
                     interval: Some(interval(&value, Some(&number.name))),
                     name: number.name.clone(),
                     unit: number.unit,
+                    range: number.range,
                     value,
                 }
             }));
@@ -182,6 +189,8 @@ impl<F: Family> Clustered<F> {
             parameters,
             counts: details.counts,
             flags: details.flags,
+            standing: Standing::default(),
+            bounded_share: None,
             of: output.of,
             variants,
         }

@@ -8,6 +8,7 @@ use taceva_core::{Batch, Labels, Unit};
 use crate::flag::Flag;
 use crate::merge::Merge;
 use crate::metric::Metric;
+use crate::range::Range;
 use crate::score::{Count, Interval, Parameter, Variant};
 use crate::state::Record;
 use crate::value::{InapplicableReason, UndefinedReason};
@@ -50,6 +51,10 @@ pub(crate) trait Family: Send {
     fn invalid(&self, sums: &Self::Sums) -> u64;
     /// The numbers of `metric` that one part gives; an output of two parts is the mean of theirs.
     fn numbers(&self, metric: &Metric, output: &Output, sums: &Self::Sums) -> Numbers;
+    /// The numbers of `metric` where they are no mean of those of its parts; `sums` are those of every part.
+    fn joint(&self, _metric: &Metric, _output: &Output, _sums: &[Self::Sums]) -> Option<Numbers> {
+        None
+    }
     /// Why `metric` has no value there, if so.
     fn inapplicable(&self, _metric: &Metric, _output: &Output) -> Option<InapplicableReason> {
         None
@@ -106,6 +111,7 @@ pub(crate) struct Numbers {
 pub(crate) struct Number {
     pub(crate) name: Cow<'static, str>,
     pub(crate) unit: Unit,
+    pub(crate) range: Range,
     pub(crate) value: Finished,
 }
 
@@ -123,11 +129,13 @@ impl Numbers {
         mut self,
         name: impl Into<Cow<'static, str>>,
         unit: Unit,
+        range: Range,
         value: Finished,
     ) -> Numbers {
         self.variants.push(Number {
             name: name.into(),
             unit,
+            range,
             value: value.and_then(finite),
         });
         self
@@ -200,8 +208,9 @@ mod tests {
 
     #[test]
     fn a_mean_of_numbers_is_undefined_where_either_is() {
-        let left = Numbers::of(Ok(1.0)).with("a", Unit::One, Ok(3.0));
-        let right = Numbers::of(Ok(2.0)).with("a", Unit::One, Err(UndefinedReason::Empty));
+        let left = Numbers::of(Ok(1.0)).with("a", Unit::One, Range::Any, Ok(3.0));
+        let right =
+            Numbers::of(Ok(2.0)).with("a", Unit::One, Range::Any, Err(UndefinedReason::Empty));
         let mean = left.clone().mean(&right);
         assert_eq!(
             (mean.value, mean.variant("a")),
@@ -215,7 +224,7 @@ mod tests {
 
     #[test]
     fn a_number_that_is_not_finite_is_an_overflow() {
-        let numbers = Numbers::of(Ok(f64::INFINITY)).with("a", Unit::One, Ok(f64::NAN));
+        let numbers = Numbers::of(Ok(f64::INFINITY)).with("a", Unit::One, Range::Any, Ok(f64::NAN));
         assert_eq!(numbers.value, Err(UndefinedReason::Overflow));
         assert_eq!(numbers.variant("a"), Err(UndefinedReason::Overflow));
     }

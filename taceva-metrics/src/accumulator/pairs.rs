@@ -4,40 +4,49 @@ use std::collections::BTreeMap;
 
 use taceva_core::{Batch, Channels, Column, Unit};
 
-use super::family::{Family, Numbers, Output};
+use super::family::{Details, Family, Numbers, Output};
 use super::plane::planes;
-use crate::accuracy::{EPSILON, gate};
+use crate::accuracy::{Axis, EPSILON, SKILL_STREAMS, constant, gate, skill};
 use crate::exact::{Counts, Sums};
+use crate::flag::Flag;
 use crate::metric::{Formula, Metric};
 use crate::pair_sums::{PairSpec, PairSums};
 use crate::paired::Paired;
+use crate::plan::MetricPlan;
+use crate::score::Variant;
 use crate::state::Record;
 use crate::streams::{Stream, Streams};
-use crate::value::{InapplicableReason, UndefinedReason};
+use crate::value::{InapplicableReason, UndefinedReason, Value};
 
 /// Sums of the pairs of each channel.
 pub(crate) struct Pairs {
     streams: Streams,
     gated: bool,
     specs: Vec<PairSpec>,
+    /// What the model is measured by, channel by channel; the mean of truth where absent.
+    constants: Vec<Option<f64>>,
     outputs: Vec<Output>,
     scratch: Paired<Vec<f64>>,
 }
 
 impl Pairs {
-    /// What `metrics` need of `channels`; `None` if they need nothing of the kind.
-    pub(crate) fn for_metrics(metrics: &[&Metric], channels: &Channels) -> Option<Pairs> {
+    /// What the kept metrics of `plan` need; `None` if they need nothing of the kind.
+    pub(crate) fn for_plan(plan: &MetricPlan) -> Option<Pairs> {
+        let channels = plan.channels();
         let mut streams = Streams::NONE;
         let mut any_gated = false;
-        for metric in metrics {
-            if let Formula::Pairs {
-                streams: needed,
-                gated,
-                ..
-            } = metric.formula
-            {
-                streams = streams | needed;
-                any_gated |= gated;
+        for metric in plan.kept() {
+            match metric.formula {
+                Formula::Pairs {
+                    streams: needed,
+                    gated,
+                    ..
+                } => {
+                    streams = streams | needed;
+                    any_gated |= gated;
+                }
+                Formula::Skill => streams = streams | SKILL_STREAMS,
+                _ => {}
             }
         }
         let specs = channels.iter().map(|channel| PairSpec {
@@ -48,6 +57,10 @@ impl Pairs {
             streams,
             gated: any_gated,
             specs: specs.collect(),
+            constants: channels
+                .iter()
+                .map(|channel| plan.constant(channel.name()))
+                .collect(),
             outputs: outputs(channels),
             scratch: Paired::default(),
         })
@@ -148,7 +161,7 @@ impl Family for Pairs {
 
     fn outputs(&self, metric: &Metric) -> Vec<Output> {
         match metric.formula {
-            Formula::Pairs { .. } => self.outputs.clone(),
+            Formula::Pairs { .. } | Formula::Skill => self.outputs.clone(),
             _ => Vec::new(),
         }
     }
@@ -156,6 +169,7 @@ impl Family for Pairs {
     fn count(&self, metric: &Metric, sums: &PairSums) -> u64 {
         match &metric.formula {
             Formula::Pairs { finish, .. } => (finish.count)(sums),
+            Formula::Skill => sums.n(),
             _ => 0,
         }
     }
@@ -168,6 +182,36 @@ impl Family for Pairs {
         match &metric.formula {
             Formula::Pairs { finish, .. } => Numbers::of((finish.evaluate)(sums)),
             _ => Numbers::of(Err(UndefinedReason::Empty)),
+        }
+    }
+
+    fn joint(&self, metric: &Metric, output: &Output, sums: &[PairSums]) -> Option<Numbers> {
+        matches!(metric.formula, Formula::Skill).then(|| {
+            let axes: Vec<Axis<'_>> = output
+                .parts
+                .iter()
+                .map(|&part| (&sums[part], self.constants[part]))
+                .collect();
+            Numbers::of(skill(&axes))
+        })
+    }
+
+    fn details(&self, metric: &Metric, output: &Output, parts: &[&PairSums]) -> Details {
+        if !matches!(metric.formula, Formula::Skill) {
+            return Details::default();
+        }
+        let constants = output.parts.iter().map(|&part| self.constants[part]);
+        let axes: Vec<Axis<'_>> = parts.iter().copied().zip(constants).collect();
+        let is_mean = axes.iter().any(|(_, constant)| constant.is_none());
+        let variants = match axes[..] {
+            [axis] => constant(axis)
+                .map(|constant| Variant::plain("constant", output.unit, Value::Scalar(constant))),
+            _ => None,
+        };
+        Details {
+            variants: variants.into_iter().collect(),
+            flags: is_mean.then_some(Flag::MeanOfTruth).into_iter().collect(),
+            ..Details::default()
         }
     }
 

@@ -4,9 +4,10 @@ use std::borrow::Cow;
 
 use super::family::{Finished, Numbers};
 use crate::merge::Merge;
+use crate::range::Range;
 use crate::score::Interval;
-use crate::stats::PoissonBootstrap;
 use crate::stats::jackknife::{self, LeftOut};
+use crate::stats::{Estimated, PoissonBootstrap};
 use crate::value::UndefinedReason;
 
 /// A cluster: a number that stands for its name, and the sums of each part.
@@ -38,7 +39,8 @@ pub(super) fn each_left_out<S: Merge + Clone>(
 
 /// The value and the variants of one score, for other choices of clusters.
 pub(super) struct Resampling {
-    names: Vec<Option<Cow<'static, str>>>,
+    /// The names, and which values there can be.
+    names: Vec<(Option<Cow<'static, str>>, Range)>,
     draws: Draws,
 }
 
@@ -50,12 +52,12 @@ enum Draws {
 }
 
 impl Resampling {
-    /// No choice yet, for the numbers of all clusters.
-    pub(super) fn new(numbers: &Numbers) -> Resampling {
+    /// No choice yet, for the numbers of all clusters, whose value lies in `range`.
+    pub(super) fn new(numbers: &Numbers, range: Range) -> Resampling {
         let variants = numbers.variants.iter();
-        let names = variants.map(|variant| Some(variant.name.clone()));
+        let names = variants.map(|variant| (Some(variant.name.clone()), variant.range));
         Resampling {
-            names: std::iter::once(None).chain(names).collect(),
+            names: std::iter::once((None, range)).chain(names).collect(),
             draws: Draws::LeftOut(Vec::new()),
         }
     }
@@ -68,19 +70,24 @@ impl Resampling {
         }
     }
 
-    /// Finishes the score once a replicate, clusters counting as often as their weights say.
+    /// Finishes the score once a replicate, clusters of `samples` samples counting as often as their weights say.
     pub(super) fn weigh<S: Merge + Clone>(
         &mut self,
         bootstrap: PoissonBootstrap,
         empty: &[S],
         cells: &[Cell<'_, S>],
-        total: &Numbers,
+        (total, samples): (&Numbers, u64),
         finish: impl Fn(&[S]) -> Numbers,
     ) {
         let keys: Vec<u64> = cells.iter().map(|(key, _)| *key).collect();
         let mut replicates: Vec<Vec<Finished>> = Vec::new();
         // The weights depend on clusters and seed alone: the first pass finishes all numbers, later ones look theirs up.
-        bootstrap.interval(0.0, &keys, |weights| {
+        let anything = Estimated {
+            value: 0.0,
+            range: Range::Any,
+            samples,
+        };
+        bootstrap.interval(&anything, &keys, |weights| {
             let mut sums = empty.to_vec();
             for ((_, cell), &weight) in cells.iter().zip(weights) {
                 sums.merge_times(cell, weight);
@@ -93,7 +100,12 @@ impl Resampling {
             Err(reason) => Interval::Undefined(reason),
             Ok(value) => {
                 let mut replicates = replicates.iter();
-                bootstrap.interval(value, &keys, |_| {
+                let estimated = Estimated {
+                    value,
+                    range: self.names[position].1,
+                    samples,
+                };
+                bootstrap.interval(&estimated, &keys, |_| {
                     let replicate = replicates.next().ok_or(UndefinedReason::Empty)?;
                     replicate[position]
                 })
@@ -104,7 +116,8 @@ impl Resampling {
 
     /// The interval about `value`, which is the variant called `name`, or the value itself.
     pub(super) fn interval(&self, value: f64, name: Option<&str>) -> Interval {
-        let position = self.names.iter().position(|known| known.as_deref() == name);
+        let mut names = self.names.iter();
+        let position = names.position(|(known, _)| known.as_deref() == name);
         let Some(position) = position else {
             return Interval::Undefined(UndefinedReason::Empty);
         };
@@ -115,7 +128,8 @@ impl Resampling {
                     count: *count,
                     value: others[position],
                 });
-                jackknife::interval(value, &left_out.collect::<Vec<_>>())
+                let range = self.names[position].1;
+                jackknife::interval(value, range, &left_out.collect::<Vec<_>>())
             }
         }
     }
@@ -123,7 +137,7 @@ impl Resampling {
     fn in_order(&self, numbers: &Numbers) -> Vec<Finished> {
         let names = self.names.iter();
         names
-            .map(|name| match name {
+            .map(|(name, _)| match name {
                 None => numbers.value,
                 Some(name) => numbers.variant(name),
             })

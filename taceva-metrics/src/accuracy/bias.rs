@@ -3,6 +3,7 @@
 use super::{needs, no_constants, not_empty};
 use crate::metric::{Better, Finish, Formula, Metric, ScoreUnit};
 use crate::pair_sums::PairSums;
+use crate::range::Range;
 use crate::streams::{Stream, Streams};
 use crate::value::UndefinedReason;
 
@@ -11,6 +12,7 @@ pub(crate) static BIAS: Metric = Metric {
     title: "mean error",
     better: Better::NearZero,
     unit: ScoreUnit::OfChannel,
+    range: Range::Any,
     definition: "bias/1",
     reference: "mean of truth − prediction",
     documentation: "By how much the truth exceeds the predictions on average: what a constant correction would remove.",

@@ -3,6 +3,7 @@
 use super::{needs, no_constants, not_empty};
 use crate::metric::{Better, Finish, Formula, Metric, ScoreUnit};
 use crate::pair_sums::PairSums;
+use crate::range::Range;
 use crate::streams::{Stream, Streams};
 use crate::value::UndefinedReason;
 
@@ -11,6 +12,7 @@ pub(crate) static MAE: Metric = Metric {
     title: "mean absolute error",
     better: Better::Lower,
     unit: ScoreUnit::OfChannel,
+    range: Range::Positive,
     definition: "mae/1",
     reference: "TacEva, equation (1)",
     documentation: "How far predictions are from the truth on average, in the unit of the channel.",

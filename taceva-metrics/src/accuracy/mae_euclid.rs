@@ -4,6 +4,7 @@ use super::{needs, no_constants};
 use crate::exact::Dyadic;
 use crate::metric::{Better, Finish, Formula, Metric, ScoreUnit};
 use crate::plane_sums::PlaneSums;
+use crate::range::Range;
 use crate::value::UndefinedReason;
 
 pub(crate) static MAE_EUCLID: Metric = Metric {
@@ -11,6 +12,7 @@ pub(crate) static MAE_EUCLID: Metric = Metric {
     title: "mean Euclidean error in the plane",
     better: Better::Lower,
     unit: ScoreUnit::OfChannel,
+    range: Range::Positive,
     definition: "mae_euclid/1",
     reference: "mean of √((x − x̂)² + (y − ŷ)²)",
     documentation: "How far the predicted point is from the true one on average; 1.57 times the mean absolute error of an \

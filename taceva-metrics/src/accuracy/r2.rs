@@ -4,6 +4,7 @@ use super::{needs, no_constants, not_empty};
 use crate::exact::Dyadic;
 use crate::metric::{Better, Finish, Formula, Metric, ScoreUnit};
 use crate::pair_sums::PairSums;
+use crate::range::Range;
 use crate::streams::{Stream, Streams};
 use crate::value::UndefinedReason;
 
@@ -12,6 +13,7 @@ pub(crate) static R2: Metric = Metric {
     title: "coefficient of determination",
     better: Better::Higher,
     unit: ScoreUnit::One,
+    range: Range::BelowOne,
     definition: "r2/1",
     reference: "TacEva, equation (2)",
     documentation: "Which share of the truth's spread the predictions explain: 1 is perfect, 0 is no better than always \

@@ -3,6 +3,7 @@
 use super::{needs, no_constants, not_empty};
 use crate::metric::{Better, Finish, Formula, Metric, ScoreUnit};
 use crate::pair_sums::PairSums;
+use crate::range::Range;
 use crate::streams::{Stream, Streams};
 use crate::value::UndefinedReason;
 
@@ -11,6 +12,7 @@ pub(crate) static RMSE: Metric = Metric {
     title: "root mean square error",
     better: Better::Lower,
     unit: ScoreUnit::OfChannel,
+    range: Range::Positive,
     definition: "rmse/1",
     reference: "square root of the mean squared error",
     documentation: "Like the mean absolute error, but large errors weigh more; 1.25 times as large if errors are Gaussian.",

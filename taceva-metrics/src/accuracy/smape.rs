@@ -6,6 +6,7 @@ use super::{EPSILON, gate, needs, not_empty};
 use crate::exact::Dyadic;
 use crate::metric::{Better, Finish, Formula, Metric, ScoreUnit};
 use crate::pair_sums::PairSums;
+use crate::range::Range;
 use crate::score::Parameter;
 use crate::streams::{Stream, Streams};
 use crate::value::UndefinedReason;
@@ -15,6 +16,7 @@ pub(crate) static SMAPE: Metric = Metric {
     title: "symmetric mean absolute percentage error",
     better: Better::Lower,
     unit: ScoreUnit::One,
+    range: Range::BelowTwo,
     definition: "smape/1",
     reference: "TacEva, equation (3)",
     documentation: "Errors relative to the mean magnitude of truth and prediction, as a fraction from 0 to 2 (the printer \
@@ -38,6 +40,7 @@ pub(crate) static SMAPE_GATED: Metric = Metric {
     title: "symmetric mean absolute percentage error in contact",
     better: Better::Lower,
     unit: ScoreUnit::One,
+    range: Range::BelowTwo,
     definition: "smape_gated/1",
     reference: "TacEva, equation (3), for |truth| ≥ 0.02 N or 0.02 mm",
     documentation: "Like smape, of those samples only whose truth reaches the gate; n says how many those are.",

@@ -37,23 +37,42 @@ struct ByChannel<'a>(&'a [Entry]);
 
 impl Serialize for ByChannel<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        serializer.collect_map(self.0.iter().map(|entry| (&entry.channel, &entry.score)))
+        serializer.collect_map(self.0.iter().map(|entry| (&entry.channel, OfMetric(entry))))
+    }
+}
+
+/// A score, with the direction of its metric.
+struct OfMetric<'a>(&'a Entry);
+
+impl Serialize for OfMetric<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut score = serializer.serialize_map(None)?;
+        self.0.score.serialize_into(&mut score)?;
+        score.serialize_entry("better", self.0.metric.better.name())?;
+        score.end()
     }
 }
 
 impl Serialize for Score {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let mut score = serializer.serialize_map(None)?;
-        serialize_value(&mut score, &self.value, self.unit)?;
+        self.serialize_into(&mut score)?;
+        score.end()
+    }
+}
+
+impl Score {
+    fn serialize_into<M: SerializeMap>(&self, score: &mut M) -> Result<(), M::Error> {
+        serialize_value(score, &self.value, self.unit)?;
         if matches!(self.value, Value::NotApplicable(_)) {
-            return score.end();
+            return Ok(());
         }
         if !self.of.is_empty() {
             score.serialize_entry("of", &self.of)?;
         }
         score.serialize_entry("n", &self.n)?;
         score.serialize_entry("n_invalid", &self.n_invalid)?;
-        serialize_interval(&mut score, &self.value, Some(&self.interval))?;
+        serialize_interval(score, &self.value, Some(&self.interval))?;
         score.serialize_entry("definition", self.definition)?;
         if !self.parameters.is_empty() {
             let parameters = self.parameters.iter();
@@ -68,10 +87,16 @@ impl Serialize for Score {
             let flags: Vec<String> = self.flags.iter().map(ToString::to_string).collect();
             score.serialize_entry("flags", &flags)?;
         }
+        if let Some(standing) = self.standing.words() {
+            score.serialize_entry("standing", standing)?;
+        }
+        if let Some(share) = self.bounded_share {
+            score.serialize_entry("bounded_share", &share)?;
+        }
         for variant in &self.variants {
             score.serialize_entry(&variant.name, variant)?;
         }
-        score.end()
+        Ok(())
     }
 }
 

@@ -15,6 +15,7 @@ use crate::metric::{Formula, Metric};
 use crate::moments::Moments;
 use crate::paired::is_valid;
 use crate::plan::MetricPlan;
+use crate::range::Range;
 use crate::score::{Count, Variant};
 use crate::state::Record;
 use crate::surface::Grid;
@@ -145,12 +146,14 @@ impl Family for Loops {
             .with(
                 "signed_area",
                 Unit::NewtonMillimetre,
+                Range::Any,
                 mean(&|press| Some(press.signed_area)),
             )
-            .with("ratio", Unit::One, mean(&Press::ratio))
+            .with("ratio", Unit::One, Range::Positive, mean(&Press::ratio))
             .with(
                 "greatest_difference",
                 Unit::One,
+                Range::Positive,
                 mean(&Press::relative_difference),
             )
     }

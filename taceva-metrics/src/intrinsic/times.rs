@@ -11,6 +11,8 @@ pub(super) struct Intervals {
     sorted: Vec<f64>,
 }
 
+/// The longest median interval, in s, of frames that are a stream: one picture every few seconds is the pace of a robot, not of a camera.
+const STREAM_S: f64 = 1.0;
 /// Medians beyond which an interval is a gap.
 const GAP: f64 = 1.5;
 
@@ -18,7 +20,7 @@ impl Intervals {
     /// RN of each difference of successive times.
     ///
     /// # Errors
-    /// [`UndefinedReason`] if no sample has a time, or all have the same.
+    /// [`UndefinedReason`] if no sample has a time, all have the same, or single pictures were taken.
     pub(super) fn of(sums: &IntrinsicSums) -> Result<Intervals, UndefinedReason> {
         match sums.times_s()[..] {
             [] => Err(UndefinedReason::NoTimes),
@@ -27,7 +29,11 @@ impl Intervals {
             ref times => {
                 let mut sorted: Vec<f64> = times.windows(2).map(|pair| pair[1] - pair[0]).collect();
                 sorted.sort_by(f64::total_cmp);
-                Ok(Intervals { sorted })
+                let intervals = Intervals { sorted };
+                match intervals.median() > STREAM_S {
+                    true => Err(UndefinedReason::NoStream),
+                    false => Ok(intervals),
+                }
             }
         }
     }
@@ -89,6 +95,17 @@ mod tests {
         assert_eq!(intervals.frame_rate(), Ok(32.0));
         assert_eq!(intervals.jitter(), Ok(0.0));
         assert_eq!(intervals.dropped().to_bits(), (2.0_f64 / 37.0).to_bits());
+    }
+
+    #[test]
+    fn one_press_every_few_seconds_is_no_stream() {
+        let presses: Vec<f64> = (0..40).map(|press| f64::from(press) * 4.375).collect();
+        let reason = Intervals::of(&sums(&presses)).err();
+        assert_eq!(reason, Some(UndefinedReason::NoStream));
+        assert!(
+            Intervals::of(&sums(&[0.0, 1.0, 2.0])).is_ok(),
+            "1 Hz is a stream"
+        );
     }
 
     #[test]

@@ -7,6 +7,7 @@ use super::robustness::{changes, variant_of};
 use super::sums::{LightingSums, SceneSums};
 use crate::accumulator::{Finished, Intervals};
 use crate::merge::Merge;
+use crate::range::Range;
 use crate::score::Interval;
 use crate::stats::jackknife::{self, LeftOut};
 use crate::value::UndefinedReason;
@@ -42,11 +43,13 @@ pub(super) fn intervals(
         }
         if change.robustness().is_ok() {
             let last = terms[0].last().into_iter();
-            let interval = mean_interval(last.copied(), baseline);
+            let interval = mean_interval(last.copied(), baseline, Range::Ratio);
             variants.insert(variant_of(scene), interval);
         }
     }
-    let [plain, plus] = terms.map(|terms| mean_interval(terms.into_iter(), baseline));
+    let [plain, plus] = terms;
+    let plain = mean_interval(plain.into_iter(), baseline, Range::Ratio);
+    let plus = mean_interval(plus.into_iter(), baseline, Range::RatioWithEnds);
     variants.insert("plus".to_owned(), plus);
     Intervals {
         value: plain,
@@ -86,6 +89,7 @@ fn term(
 fn mean_interval(
     terms: impl Iterator<Item = Result<Term, UndefinedReason>>,
     baseline: Result<Variance, UndefinedReason>,
+    range: Range,
 ) -> Interval {
     let sum = || {
         let baseline = baseline?;
@@ -105,7 +109,9 @@ fn mean_interval(
         Ok((value, variance, clusters))
     };
     match sum() {
-        Ok((value, variance, clusters)) => jackknife::delta_interval(value, variance, clusters),
+        Ok((value, variance, clusters)) => {
+            jackknife::delta_interval(value, range, variance, clusters)
+        }
         Err(reason) => Interval::Undefined(reason),
     }
 }

@@ -10,6 +10,7 @@ use crate::facts::Fact;
 use crate::flag::Flag;
 use crate::matrix::Matrix;
 use crate::metric::{Better, Formula, Metric, ScoreUnit};
+use crate::range::Range;
 use crate::score::{Count, Variant};
 use crate::value::{UndefinedReason, Value};
 
@@ -18,6 +19,7 @@ pub(crate) static R_LIGHT: Metric = Metric {
     title: "robustness to lighting",
     better: Better::Higher,
     unit: ScoreUnit::One,
+    range: Range::Ratio,
     definition: "r_light/1",
     reference: "TacEva, equation (8)",
     documentation: "How little the error changes when the light does: the change of brightness over the changes of brightness \
@@ -73,10 +75,16 @@ pub(super) fn robustness(sums: &LightingSums, reference: &str) -> Numbers {
     let all = Numbers::of(mean(Change::robustness)).with(
         "plus",
         Unit::One,
+        Range::RatioWithEnds,
         mean(Change::robustness_plus),
     );
     changes.iter().fold(all, |numbers, (scene, change)| {
-        numbers.with(variant_of(scene), Unit::One, change.robustness())
+        numbers.with(
+            variant_of(scene),
+            Unit::One,
+            Range::Ratio,
+            change.robustness(),
+        )
     })
 }
 

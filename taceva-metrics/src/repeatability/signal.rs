@@ -4,6 +4,7 @@ use super::spread::SpreadSums;
 use super::{NEEDS, RepeatMetric};
 use crate::accumulator::{Finished, Numbers};
 use crate::metric::{Better, Formula, Metric, ScoreUnit};
+use crate::range::Range;
 use crate::score::Parameter;
 use crate::value::UndefinedReason;
 use taceva_core::Unit;
@@ -13,6 +14,7 @@ pub(crate) static SIGNAL_TO_REPEATABILITY: Metric = Metric {
     title: "signal to repeatability",
     better: Better::Higher,
     unit: ScoreUnit::One,
+    range: Range::Positive,
     definition: "signal_to_repeatability/1",
     reference: "standard deviation of the cells' means over the pooled repeatability standard deviation s_r of ISO 5725",
     documentation: "How many times larger the differences between presses are than those between repeats of one press. A \

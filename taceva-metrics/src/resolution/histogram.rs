@@ -6,18 +6,50 @@ use crate::exact::Dyadic;
 use crate::merge::Merge;
 use crate::state::Record;
 
-/// Counts of samples by |r̂ − r| in whole nanometres: every tolerance can be asked afterwards.
+/// Counts of samples by |r̂ − r| in whole nanometres, so that every tolerance can be asked afterwards, and by r, so that it is known how
+/// often one answer for all of them would be right.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Histogram {
     pub(super) n_invalid: u64,
     /// Samples by difference; only differences that came.
     counts: BTreeMap<u64, u64>,
+    /// Samples by their true spacing; not of states of before skill.
+    truths: BTreeMap<u64, u64>,
 }
 
+/// The cell of a record that holds the true spacings.
+const TRUTHS: &str = "truth";
+
 impl Histogram {
-    /// Adds a sample that missed by `difference_nm`.
-    pub(super) fn add(&mut self, difference_nm: u64) {
-        *self.counts.entry(difference_nm).or_default() += 1;
+    /// Adds a sample of the spacing `truth_nm` that was taken for `estimate_nm`.
+    pub(super) fn add(&mut self, truth_nm: i64, estimate_nm: i64) {
+        *self
+            .counts
+            .entry(truth_nm.abs_diff(estimate_nm))
+            .or_default() += 1;
+        if let Ok(truth) = u64::try_from(truth_nm) {
+            *self.truths.entry(truth).or_default() += 1;
+        }
+    }
+
+    /// RN(most / n), most the samples within `tolerance_nm` of the one spacing that suits the most of them: what the best constant answer
+    /// reaches. `None` for no sample, or if the spacing of some is not known.
+    pub(super) fn of_constant(&self, tolerance_nm: u64) -> Option<f64> {
+        let known = self
+            .truths
+            .values()
+            .fold(0, |n: u64, &count| n.saturating_add(count));
+        let n = self.n();
+        if n == 0 || known != n {
+            return None;
+        }
+        let width = tolerance_nm.saturating_mul(2);
+        let within = |&first: &u64| {
+            let own = self.truths.range(first..=first.saturating_add(width));
+            own.fold(0, |hits: u64, (_, &count)| hits.saturating_add(count))
+        };
+        let most = self.truths.keys().map(within).max()?;
+        Some(Dyadic::from(most).over(&Dyadic::from(n)))
     }
 
     /// Number of samples.
@@ -38,50 +70,80 @@ impl Histogram {
         (n > 0).then(|| Dyadic::from(self.hits(tolerance_nm)).over(&Dyadic::from(n)))
     }
 
-    /// As a state holds it: invalid samples, then each difference followed by its count.
+    /// As a state holds it: invalid samples, then each difference followed by its count; in a cell each true spacing followed by its count.
     pub(super) fn to_record(&self) -> Record {
-        let counts = self.counts.iter();
-        let counts = counts.flat_map(|(&difference, &count)| [difference, count]);
+        let flat = |counts: &BTreeMap<u64, u64>| {
+            let counts = counts.iter();
+            let counts = counts.flat_map(|(&number, &count)| [number, count]);
+            counts.collect::<Vec<u64>>()
+        };
+        let truths = (!self.truths.is_empty()).then(|| {
+            let record = Record {
+                counts: flat(&self.truths),
+                ..Record::default()
+            };
+            (TRUTHS.to_owned(), record)
+        });
         Record {
-            counts: std::iter::once(self.n_invalid).chain(counts).collect(),
+            counts: [vec![self.n_invalid], flat(&self.counts)].concat(),
+            cells: truths.into_iter().collect(),
             ..Record::default()
         }
     }
 
     /// Back from a state.
     pub(super) fn read_record(record: &Record) -> Result<Histogram, String> {
-        if !(record.sums.is_empty() && record.values.is_empty() && record.cells.is_empty()) {
-            return Err("sums, values or cells beside counts".to_owned());
+        if !(record.sums.is_empty() && record.values.is_empty()) {
+            return Err("sums or values beside counts".to_owned());
         }
         let Some((&n_invalid, counts)) = record.counts.split_first() else {
             return Err("no counts, expected at least one".to_owned());
         };
-        let mut histogram = Histogram {
-            n_invalid,
-            counts: BTreeMap::new(),
-        };
-        for pair in counts.chunks(2) {
-            let &[difference, count] = pair else {
-                return Err(format!("difference {} without a count", pair[0]));
-            };
-            let last = histogram.counts.last_key_value();
-            if count == 0 || last.is_some_and(|(&last, _)| last >= difference) {
-                return Err(format!(
-                    "difference {difference} with {count} samples, expected ascending ones that came"
-                ));
+        let mut truths = BTreeMap::new();
+        for (name, cell) in &record.cells {
+            let is_bare = cell.sums.is_empty() && cell.values.is_empty() && cell.cells.is_empty();
+            if name != TRUTHS || !is_bare {
+                return Err(format!("`{name}` is no cell of counts of true spacings"));
             }
-            histogram.counts.insert(difference, count);
+            truths = read_counts(&cell.counts, "spacing")?;
         }
-        Ok(histogram)
+        Ok(Histogram {
+            n_invalid,
+            counts: read_counts(counts, "difference")?,
+            truths,
+        })
     }
+}
+
+/// Numbers, ascending, each followed by how often it came; `what` they are.
+fn read_counts(counts: &[u64], what: &str) -> Result<BTreeMap<u64, u64>, String> {
+    let mut read = BTreeMap::new();
+    for pair in counts.chunks(2) {
+        let &[number, count] = pair else {
+            return Err(format!("{what} {} without a count", pair[0]));
+        };
+        let last = read.last_key_value();
+        if count == 0 || last.is_some_and(|(&last, _)| last >= number) {
+            return Err(format!(
+                "{what} {number} with {count} samples, expected ascending ones that came"
+            ));
+        }
+        read.insert(number, count);
+    }
+    Ok(read)
 }
 
 impl Merge for Histogram {
     fn merge(&mut self, other: &Histogram) {
         self.n_invalid = self.n_invalid.saturating_add(other.n_invalid);
-        for (&difference, &count) in &other.counts {
-            let ours = self.counts.entry(difference).or_default();
-            *ours = ours.saturating_add(count);
+        for (ours, others) in [
+            (&mut self.counts, &other.counts),
+            (&mut self.truths, &other.truths),
+        ] {
+            for (&number, &count) in others {
+                let ours = ours.entry(number).or_default();
+                *ours = ours.saturating_add(count);
+            }
         }
     }
 }
@@ -95,7 +157,7 @@ mod tests {
         let mut histogram = Histogram::default();
         [0, 50_000, 50_001]
             .into_iter()
-            .for_each(|difference| histogram.add(difference));
+            .for_each(|difference| histogram.add(0, difference));
         let hits = [0, 49_999, 50_000, u64::MAX].map(|tolerance| histogram.hits(tolerance));
         assert_eq!(hits, [1, 1, 2, 3]);
         assert_eq!(Histogram::default().rate(0), None);
@@ -120,5 +182,31 @@ mod tests {
         }
         let whole = read(&[2, 4, 1, 5, 3]).expect("a histogram");
         assert_eq!(whole.to_record().counts, [2, 4, 1, 5, 3]);
+    }
+
+    #[test]
+    fn the_best_constant_answer_hits_what_lies_in_one_window() {
+        let mut histogram = Histogram::default();
+        for truth in [350_000, 400_000, 450_000, 450_000, 1_000_000] {
+            histogram.add(truth, 0);
+        }
+        let of = |tolerance: u64| histogram.of_constant(tolerance);
+        assert_eq!([of(0), of(25_000), of(49_999)], [0.4, 0.6, 0.6].map(Some));
+        assert_eq!(of(50_000), Some(0.8));
+        assert_eq!(Histogram::default().of_constant(0), None);
+        let again = Histogram::read_record(&histogram.to_record()).expect("a histogram");
+        assert_eq!(again, histogram);
+    }
+
+    #[test]
+    fn a_state_of_before_skill_does_not_say_what_a_constant_would_reach() {
+        let old = Record {
+            counts: vec![0, 0, 4],
+            ..Record::default()
+        };
+        let mut histogram = Histogram::read_record(&old).expect("a histogram");
+        assert_eq!(histogram.of_constant(0), None);
+        histogram.add(1, 1);
+        assert_eq!(histogram.of_constant(0), None);
     }
 }

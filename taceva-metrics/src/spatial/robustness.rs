@@ -7,6 +7,7 @@ use crate::accumulator::{Finished, Numbers, midpoint};
 use crate::facts::Fact;
 use crate::metric::{Better, Formula, Metric, ScoreUnit};
 use crate::moments::Moments;
+use crate::range::Range;
 use crate::settings::Settings;
 use crate::spread::{Bin, Spread};
 use crate::value::UndefinedReason;
@@ -16,6 +17,7 @@ pub(crate) static R_SPATIAL: Metric = Metric {
     title: "spatial robustness",
     better: Better::Lower,
     unit: ScoreUnit::OfChannel,
+    range: Range::Positive,
     definition: "r_spatial/1",
     reference: "TacEva, equation (7)",
     documentation: "How much the mean absolute error differs between places: the standard deviation of the means of a hundred \
@@ -65,13 +67,33 @@ pub(super) fn robustness(sums: &SpatialSums, settings: &Settings, unit: Unit) ->
     let [smooth_distance, smooth_depth] = smooth;
     let smooth = smooth_distance.and_then(|distance| Ok(midpoint(distance, smooth_depth?)));
     Numbers::of(both(&paper, &deviation))
-        .with("std_distance", unit, deviation(&paper[0]))
-        .with("std_depth", unit, deviation(&paper[1]))
-        .with("within", unit, both(&paper, &Spread::within))
-        .with("noise_floor", unit, both(&paper, &Spread::noise_floor))
-        .with("excess", unit, both(&paper, &Spread::excess))
-        .with("smooth", unit, smooth)
-        .with("n_min_5", unit, both(&spread(WELL_SAMPLED), &deviation))
+        .with("std_distance", unit, Range::Positive, deviation(&paper[0]))
+        .with("std_depth", unit, Range::Positive, deviation(&paper[1]))
+        .with(
+            "within",
+            unit,
+            Range::Positive,
+            both(&paper, &Spread::within),
+        )
+        .with(
+            "noise_floor",
+            unit,
+            Range::Positive,
+            both(&paper, &Spread::noise_floor),
+        )
+        .with(
+            "excess",
+            unit,
+            Range::NotNegative,
+            both(&paper, &Spread::excess),
+        )
+        .with("smooth", unit, Range::Positive, smooth)
+        .with(
+            "n_min_5",
+            unit,
+            Range::Positive,
+            both(&spread(WELL_SAMPLED), &deviation),
+        )
 }
 
 /// The centred rolling means of the bins that have samples, each RN of an exact mean; the window is cut off at the ends.

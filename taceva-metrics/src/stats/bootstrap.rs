@@ -2,11 +2,11 @@
 
 use std::fmt;
 
+use super::ends::{Ends, Estimated, Moved, Scale};
 use super::jackknife::LEAST_CLUSTERS;
 use super::poisson::weight;
 use super::random::bits;
-use super::student::quantile;
-use crate::score::{COVERAGE, Interval};
+use crate::score::Interval;
 use crate::value::UndefinedReason;
 
 /// Which share of the replicates may have no value.
@@ -52,7 +52,7 @@ impl Default for PoissonBootstrap {
 pub enum BootstrapEnds {
     /// Of B replicates in their order the k-th and the (B + 1 − k)-th, k = ⌊(B + 1) / 40⌋: skewed where the score is.
     Percentile,
-    /// The value ± t(G − 1) standard deviations of the replicates.
+    /// The value ± t(G − 1) standard deviations of the replicates, on a scale without ends.
     Normal,
 }
 
@@ -66,13 +66,13 @@ impl fmt::Display for BootstrapEnds {
 }
 
 impl PoissonBootstrap {
-    /// The interval about `value`, the score of all clusters.
+    /// The interval of an estimate, which is the score of all clusters.
     ///
     /// `clusters` are the keys of those that have samples; `resampled` is the score if each counts as often as the weight at
     /// its place says.
     pub(crate) fn interval(
         &self,
-        value: f64,
+        estimated: &Estimated,
         clusters: &[u64],
         mut resampled: impl FnMut(&[u32]) -> Result<f64, UndefinedReason>,
     ) -> Interval {
@@ -95,13 +95,21 @@ impl PoissonBootstrap {
             return Interval::Undefined(UndefinedReason::TooFewReplicates { defined, drawn });
         }
         let standard_error = standard_deviation(&replicates);
-        let [low, high] = match self.ends {
-            BootstrapEnds::Percentile => percentiles(&mut replicates),
-            BootstrapEnds::Normal => {
-                let freedom = clusters.iter().fold(-1.0, |freedom, _| freedom + 1.0);
-                let half = quantile(COVERAGE, freedom) * standard_error;
-                [value - half, value + half]
+        let moved = Moved {
+            standard_error,
+            freedom: clusters.iter().fold(-1.0, |freedom, _| freedom + 1.0),
+            clusters: clusters.len(),
+        };
+        // A scale changes no percentile, and replicates lie in the range; where none differs from the value, its end is asked.
+        let ends = match self.ends {
+            BootstrapEnds::Percentile if standard_error > 0.0 => {
+                Ok(estimated.within(percentiles(&mut replicates), Scale::Own))
             }
+            _ => estimated.ends(&moved),
+        };
+        let Ends { low, high, scale } = match ends {
+            Ok(ends) => ends,
+            Err(reason) => return Interval::Undefined(reason),
         };
         if !(low.is_finite() && high.is_finite() && standard_error.is_finite()) {
             return Interval::Undefined(UndefinedReason::Overflow);
@@ -110,6 +118,7 @@ impl PoissonBootstrap {
             low,
             high,
             standard_error,
+            scale,
             ends: self.ends,
             clusters: clusters.len(),
             replicates: drawn,
@@ -140,12 +149,21 @@ fn standard_deviation(values: &[f64]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::range::Range;
 
     const BOOTSTRAP: PoissonBootstrap = PoissonBootstrap {
         replicates: 1000,
         seed: 11,
         ends: BootstrapEnds::Normal,
     };
+
+    fn about(value: f64) -> Estimated {
+        Estimated {
+            value,
+            range: Range::Any,
+            samples: 1000,
+        }
+    }
 
     /// The weighted mean of 0, 1, …, clusters − 1.
     fn mean(weights: &[u32]) -> Result<f64, UndefinedReason> {
@@ -165,7 +183,7 @@ mod tests {
     fn the_standard_error_of_a_mean_is_the_textbook_s() {
         // 0…63: population variance (64² − 1) / 12, over 64 for the mean: √(341.25 / 64) = 2.309. A standard deviation of
         // 1,000 replicates is known to 2.2 %; three of those.
-        let interval = BOOTSTRAP.interval(31.5, &keys(64), mean);
+        let interval = BOOTSTRAP.interval(&about(31.5), &keys(64), mean);
         let Interval::Bootstrap { standard_error, .. } = interval else {
             panic!("64 clusters are enough: {interval:?}");
         };
@@ -200,7 +218,7 @@ mod tests {
                 .iter()
                 .position(|&key| key == 9)
                 .expect("it is there");
-            BOOTSTRAP.interval(0.0, &clusters, |weights| {
+            BOOTSTRAP.interval(&about(0.0), &clusters, |weights| {
                 seen.push(weights[nine]);
                 Ok(0.0)
             });
@@ -212,7 +230,7 @@ mod tests {
     fn more_than_one_undefined_replicate_in_twenty_leaves_no_interval() {
         let failing = |often: u32| {
             let mut asked = 0;
-            BOOTSTRAP.interval(0.0, &keys(5), move |_| {
+            BOOTSTRAP.interval(&about(0.0), &keys(5), move |_| {
                 asked += 1;
                 if asked <= often {
                     return Err(UndefinedReason::Empty);
@@ -242,14 +260,14 @@ mod tests {
             ..BOOTSTRAP
         };
         assert_eq!(
-            few.interval(0.0, &keys(5), |_| Ok(0.0)),
+            few.interval(&about(0.0), &keys(5), |_| Ok(0.0)),
             Interval::Undefined(UndefinedReason::TooFewReplicates {
                 defined: 38,
                 drawn: 38
             })
         );
         assert_eq!(
-            BOOTSTRAP.interval(0.0, &keys(4), |_| Ok(0.0)),
+            BOOTSTRAP.interval(&about(0.0), &keys(4), |_| Ok(0.0)),
             Interval::Undefined(UndefinedReason::TooFewClusters { have: 4 })
         );
     }

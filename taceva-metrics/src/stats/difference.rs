@@ -3,13 +3,19 @@
 use std::fmt;
 
 use super::error::ComparisonError;
+use super::holm::{Step, steps};
 use super::sides::Sides;
 use super::student::{quantile, two_sided, upper};
-use crate::score::COVERAGE;
 use crate::value::UndefinedReason;
 
+/// How seldom chance may look like an answer.
+pub(super) const LEVEL: f64 = 0.05;
+
 /// The score of A less that of B.
-#[derive(Clone, Copy, Debug, PartialEq)]
+///
+/// Verdict, p value and interval rest on one decision: [`decide`] makes it for a family of differences at once, and until then a difference
+/// is a family of its own.
+#[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Difference {
     /// A − B, in the unit of the scores.
@@ -20,12 +26,84 @@ pub struct Difference {
     pub standard_error: f64,
     /// Degrees of freedom of the standard error.
     pub freedom: f64,
-    /// The 95 % interval: value ± t(freedom) × standard error.
+    /// The differences that the test at `1 − confidence` does not reject: 0 is none of them exactly where a difference is shown. An end is
+    /// infinite where so few clusters reject none on that side.
     pub interval: [f64; 2],
-    /// How often a difference as large as this would be seen if there were none; to both sides.
+    /// What the interval is of: 0.95 of one difference alone, more of one in a family.
+    pub confidence: f64,
+    /// How often a difference as large as this would be seen if there were none; to both sides, and of this test alone.
     pub p: f64,
-    /// Which test gave `p`.
+    /// The p value adjusted for the family by [`holm`](crate::holm).
+    pub adjusted_p: f64,
+    /// Whether a difference is shown: whether the adjusted p value is at most 0.05.
+    pub is_shown: bool,
+    /// Which test gave `p` and the interval.
     pub test: DifferenceTest,
+    /// What the test says of other differences than none.
+    inverse: Inverse,
+}
+
+/// What a test says of any difference.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum Inverse {
+    /// Value ± t × standard error.
+    Student,
+    /// The differences from which on each pattern of signs counts, to either side.
+    Flips(Flips),
+}
+
+/// From below and from above, in their order: the differences from which on another pattern of signs gives as large a sum as the one that was
+/// seen. Patterns that always do stand as infinite.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Flips {
+    pub(super) from_below: Vec<f64>,
+    pub(super) from_above: Vec<f64>,
+}
+
+impl Flips {
+    /// The differences whose p value is above `level`.
+    fn interval(&self, level: f64) -> [f64; 2] {
+        // p(δ) is the share of patterns that count; of N patterns more than level × N must.
+        let patterns = self.from_below.iter().fold(0.0, |count, _| count + 1.0);
+        let mut skipped = 0.0;
+        let mut at = 0;
+        while skipped + 1.0 <= level * patterns {
+            skipped += 1.0;
+            at += 1;
+        }
+        [self.from_below[at], self.from_above[at]]
+    }
+}
+
+/// Decides about a family of differences, so that in at most one family in twenty any is shown that is none, and gives each the interval of its
+/// own step.
+///
+/// By Holm's procedure the i-th smallest of m p values is decided at 0.05 / (m − i + 1), and all from the first that is kept at the level of that one.
+///
+/// ```
+/// use taceva_metrics::{Estimate, Sides, decide, welch};
+/// let apart = |b| {
+///     let a = Estimate::try_new(0.041, 0.003, 32)?;
+///     welch(Sides { a, b: Estimate::try_new(b, 0.004, 32)? })
+/// };
+/// let mut family = [apart(0.053)?, apart(0.041)?];
+/// decide(&mut family);
+/// let [near, same] = family;
+/// assert_eq!(near.adjusted_p, 2.0 * near.p);
+/// assert!(near.is_shown && near.interval[1] < 0.0 && near.confidence == 0.975);
+/// assert!(!same.is_shown && same.interval[0] < 0.0 && same.confidence == 0.95);
+/// # Ok::<(), taceva_metrics::ComparisonError>(())
+/// ```
+///
+/// # Reference
+/// Holm, A simple sequentially rejective multiple test procedure, Scandinavian Journal of Statistics 6 (1979).
+pub fn decide(family: &mut [Difference]) {
+    let p_values: Vec<f64> = family.iter().map(|difference| difference.p).collect();
+    // Every p value is a share or a tail, so that there is a step for each.
+    let steps = steps(&p_values, LEVEL).unwrap_or_default();
+    for (difference, step) in family.iter_mut().zip(steps) {
+        difference.take(step);
+    }
 }
 
 /// A test of whether two scores differ.
@@ -68,29 +146,68 @@ impl Spread {
         self,
         test: DifferenceTest,
         p: f64,
+        inverse: Inverse,
     ) -> Result<Difference, ComparisonError> {
-        let half = quantile(COVERAGE, self.freedom) * self.standard_error;
-        let interval = [self.value - half, self.value + half];
-        if !interval.iter().all(|end| end.is_finite()) {
-            return Err(ComparisonError::NoInterval(UndefinedReason::Overflow));
-        }
-        Ok(Difference {
+        let mut difference = Difference {
             value: self.value,
             scores: self.scores,
             standard_error: self.standard_error,
             freedom: self.freedom,
-            interval,
+            interval: [self.value; 2],
+            confidence: 1.0 - LEVEL,
             p,
+            adjusted_p: p,
+            is_shown: p <= LEVEL,
             test,
-        })
+            inverse,
+        };
+        let half = quantile(difference.confidence, self.freedom) * self.standard_error;
+        if !(self.value - half).is_finite() || !(self.value + half).is_finite() {
+            return Err(ComparisonError::NoInterval(UndefinedReason::Overflow));
+        }
+        difference.take(Step {
+            adjusted_p: p,
+            is_rejected: p <= LEVEL,
+            level: LEVEL,
+        });
+        Ok(difference)
     }
 }
 
 impl Difference {
-    /// The same difference with the p value that [`holm`](crate::holm) made of its own and those of its family.
-    #[must_use]
-    pub fn with_adjusted_p(self, p: f64) -> Difference {
-        Difference { p, ..self }
+    /// Takes over what the family decides.
+    fn take(&mut self, step: Step) {
+        self.adjusted_p = step.adjusted_p;
+        self.is_shown = step.is_rejected;
+        self.confidence = 1.0 - step.level;
+        let [low, high] = match &self.inverse {
+            Inverse::Student => {
+                let half = quantile(self.confidence, self.freedom) * self.standard_error;
+                [self.value - half, self.value + half]
+            }
+            Inverse::Flips(flips) => flips.interval(step.level),
+        };
+        let (low, high) = (low.min(self.value), high.max(self.value));
+        // Where p is the level itself the end is 0, but for rounding.
+        self.interval = match (self.is_shown, self.value > 0.0) {
+            (true, true) => [low.max(0.0), high],
+            (true, false) => [low, high.min(0.0)],
+            (false, _) => [low.min(0.0), high.max(0.0)],
+        };
+    }
+
+    /// Whether the scores are shown to be less than `margin` apart: whether the interval lies within it.
+    ///
+    /// # Units
+    /// `margin` is in the unit of the scores.
+    ///
+    /// # Errors
+    /// [`ComparisonError::Margin`] if it is not above 0 and finite.
+    pub fn is_within(&self, margin: f64) -> Result<bool, ComparisonError> {
+        if !(margin > 0.0 && margin.is_finite()) {
+            return Err(ComparisonError::Margin(margin));
+        }
+        Ok(self.interval.iter().all(|end| end.abs() < margin))
     }
 
     /// How often scores that are at least `margin` apart would look as near to each other as these: the larger p value of

@@ -90,6 +90,7 @@ impl fmt::Display for ComparisonError {
                 write!(f, "A is `{a}` and B is `{b}`, expected one meaning")
             }
             ComparisonError::Unpaired { side, cluster } => {
+                let cluster = taceva_core::shown(cluster);
                 write!(
                     f,
                     "cluster `{cluster}` is in {side} only, expected the same samples"
@@ -97,14 +98,17 @@ impl fmt::Display for ComparisonError {
             }
             ComparisonError::Counts { cluster, samples } => write!(
                 f,
-                "cluster `{cluster}` has {} samples in A and {} in B, expected the same samples",
-                samples.a, samples.b
+                "cluster `{}` has {} samples in A and {} in B, expected the same samples",
+                taceva_core::shown(cluster),
+                samples.a,
+                samples.b
             ),
             ComparisonError::NoClusters => f.write_str("samples without point_id"),
             ComparisonError::TooFewClusters { have } => {
                 write!(f, "{have} clusters, {LEAST_CLUSTERS} are needed")
             }
             ComparisonError::Term { cluster, value } => {
+                let cluster = taceva_core::shown(cluster);
                 write!(
                     f,
                     "term {value} in cluster `{cluster}`, expected a finite number"

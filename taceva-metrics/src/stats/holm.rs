@@ -1,5 +1,6 @@
 //! Many tests at once.
 
+use super::difference::LEVEL;
 use super::error::ComparisonError;
 
 /// The p values of a family of tests, adjusted so that all of them together err as rarely as one alone would: in the order
@@ -20,6 +21,29 @@ use super::error::ComparisonError;
 /// # Reference
 /// Holm, A simple sequentially rejective multiple test procedure, Scandinavian Journal of Statistics 6 (1979).
 pub fn holm(p_values: &[f64]) -> Result<Vec<f64>, ComparisonError> {
+    let steps = steps(p_values, LEVEL)?;
+    Ok(steps.iter().map(|step| step.adjusted_p).collect())
+}
+
+/// Where one test of a family stands in Holm's procedure.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Step {
+    /// Its p value, adjusted.
+    pub(super) adjusted_p: f64,
+    /// Whether the family rejects it: the one decision that verdict, p and interval rest on.
+    pub(super) is_rejected: bool,
+    /// The level at which it is decided, and which its interval leaves.
+    pub(super) level: f64,
+}
+
+/// The step of each test, in the order given, where all together may err as often as `level` says.
+///
+/// The i-th smallest of m p values is decided at level / (m − i + 1). The first that is not rejected ends the procedure: all others take its
+/// level, at which their larger p values are not rejected either.
+///
+/// # Errors
+/// As [`holm`].
+pub(super) fn steps(p_values: &[f64], level: f64) -> Result<Vec<Step>, ComparisonError> {
     let outside = |p: &f64| !(0.0..=1.0).contains(p);
     if let Some(position) = p_values.iter().position(outside) {
         return Err(ComparisonError::Probability {
@@ -29,15 +53,30 @@ pub fn holm(p_values: &[f64]) -> Result<Vec<f64>, ComparisonError> {
     }
     let mut order: Vec<usize> = (0..p_values.len()).collect();
     order.sort_by(|&left, &right| p_values[left].total_cmp(&p_values[right]));
-    let mut adjusted = p_values.to_vec();
+    let undecided = Step {
+        adjusted_p: 1.0,
+        is_rejected: false,
+        level,
+    };
+    let mut steps = vec![undecided; p_values.len()];
     let mut least = 0.0_f64;
     let mut tests_left = p_values.iter().fold(0.0, |tests, _| tests + 1.0);
+    let mut level_of_the_first_kept = None;
     for position in order {
         least = least.max(tests_left * p_values[position]).min(1.0);
-        adjusted[position] = least;
+        let is_rejected = least <= level;
+        let own = level / tests_left;
+        if !is_rejected {
+            level_of_the_first_kept.get_or_insert(own);
+        }
+        steps[position] = Step {
+            adjusted_p: least,
+            is_rejected,
+            level: level_of_the_first_kept.unwrap_or(own),
+        };
         tests_left -= 1.0;
     }
-    Ok(adjusted)
+    Ok(steps)
 }
 
 #[cfg(test)]
@@ -55,6 +94,30 @@ mod tests {
         for (found, expected) in adjusted(&[0.01, 0.04, 0.03, 0.005]).iter().zip(expected) {
             assert!((found - expected).abs() < 1e-16, "{found}");
         }
+    }
+
+    #[test]
+    fn each_test_has_the_level_of_its_step_and_the_first_that_is_kept_ends_them() {
+        // .05 / 4, .05 / 3, then .03 > .05 / 2: kept, and .04 with it.
+        let steps = steps(&[0.01, 0.04, 0.03, 0.005], 0.05).expect("p values");
+        let found = steps.iter().map(|step| (step.is_rejected, step.level));
+        let expected = [
+            (true, 0.05 / 3.0),
+            (false, 0.05 / 2.0),
+            (false, 0.05 / 2.0),
+            (true, 0.05 / 4.0),
+        ];
+        assert!(found.eq(expected), "{steps:?}");
+    }
+
+    #[test]
+    fn a_p_value_of_just_the_level_is_rejected() {
+        let found = steps(&[0.05], 0.05).expect("a p value");
+        assert!(found[0].is_rejected);
+        let found = steps(&[0.025, 0.05], 0.05).expect("p values");
+        assert!(found[0].is_rejected && found[1].is_rejected);
+        let above = f64::from_bits(0.05_f64.to_bits() + 1);
+        assert!(!steps(&[above], 0.05).expect("a p value")[0].is_rejected);
     }
 
     #[test]

@@ -1,7 +1,8 @@
 //! How far a score would move with other contact locations: the delete-one-cluster jackknife.
 
-use super::student::quantile;
-use crate::score::{COVERAGE, Interval};
+use super::ends::{Ends, Estimated, Moved};
+use crate::range::Range;
+use crate::score::Interval;
 use crate::value::UndefinedReason;
 
 /// Clusters below which there is no interval.
@@ -16,34 +17,48 @@ pub(crate) struct LeftOut {
     pub(crate) value: Result<f64, UndefinedReason>,
 }
 
-/// The interval about `value`, the score of all clusters: θ ± t(g − 1) × its [`standard_error`].
-pub(crate) fn interval(value: f64, left_out: &[LeftOut]) -> Interval {
-    let standard_error = match standard_error(value, left_out) {
-        Ok(standard_error) => standard_error,
+/// The interval of an estimate, whose score with each cluster left out is known.
+pub(crate) fn interval(value: f64, range: Range, left_out: &[LeftOut]) -> Interval {
+    let moved = match moved(value, left_out) {
+        Ok(moved) => moved,
         Err(reason) => return Interval::Undefined(reason),
     };
-    let freedom = left_out.iter().fold(-1.0, |freedom, _| freedom + 1.0);
-    let half = quantile(COVERAGE, freedom) * standard_error;
-    let (low, high) = (value - half, value + half);
-    if !low.is_finite() || !high.is_finite() {
-        return Interval::Undefined(UndefinedReason::Overflow);
-    }
-    Interval::Jackknife {
-        low,
-        high,
-        standard_error,
-        clusters: left_out.len(),
+    let counts = left_out.iter().map(|cluster| cluster.count);
+    let estimated = Estimated {
+        value,
+        range,
+        samples: counts.fold(0, u64::saturating_add),
+    };
+    match estimated.ends(&moved) {
+        Ok(Ends { low, high, scale }) => Interval::Jackknife {
+            low,
+            high,
+            standard_error: moved.standard_error,
+            clusters: moved.clusters,
+            scale,
+        },
+        Err(reason) => Interval::Undefined(reason),
     }
 }
 
-/// How far `value`, the score of all clusters, would move with others.
+/// How far `value`, the score of all clusters, would move with others, on its own scale.
+pub(crate) fn standard_error(value: f64, left_out: &[LeftOut]) -> Result<f64, UndefinedReason> {
+    moved(value, left_out).map(|moved| moved.standard_error)
+}
+
+/// The standard error of `value`, the score of all clusters, and its degrees of freedom.
 ///
 /// With n samples, m_j of them in cluster j, h_j = n / m_j and θ_(−j) the score without cluster j: the pseudo-values are
-/// h_j θ − (h_j − 1) θ_(−j), and the variance is (1/g) Σ (pseudo_j − mean)² / (h_j − 1).
+/// h_j θ − (h_j − 1) θ_(−j), and the variance is the mean of z_j², z_j² = (pseudo_j − mean)² / (h_j − 1).
+///
+/// A variance that hangs on few clusters is itself not well known: with κ = mean(z⁴) / mean(z²)² it has
+/// 2 g / (κ − (g − 3)/(g − 1)) degrees of freedom, which are g − 1 for the κ = 3 of normal pseudo-values, and never more.
 ///
 /// # Reference
-/// Busing, Meijer and van der Leeden, Delete-m jackknife for unequal m, Statistics and Computing 9 (1999).
-pub(crate) fn standard_error(value: f64, left_out: &[LeftOut]) -> Result<f64, UndefinedReason> {
+/// Busing, Meijer and van der Leeden, Delete-m jackknife for unequal m, Statistics and Computing 9 (1999); Satterthwaite,
+/// An approximate distribution of estimates of variance components, Biometrics Bulletin 2 (1946), with the variance of a
+/// variance of g numbers.
+fn moved(value: f64, left_out: &[LeftOut]) -> Result<Moved, UndefinedReason> {
     let clusters = left_out.len();
     if clusters < LEAST_CLUSTERS {
         return Err(UndefinedReason::TooFewClusters { have: clusters });
@@ -57,33 +72,56 @@ pub(crate) fn standard_error(value: f64, left_out: &[LeftOut]) -> Result<f64, Un
     }
     let g = pseudo_values.iter().fold(0.0, |g, _| g + 1.0);
     let mean = pseudo_values.iter().map(|(_, pseudo)| pseudo).sum::<f64>() / g;
-    let variance = pseudo_values
+    let squares = pseudo_values
         .iter()
-        .map(|(share, pseudo)| (pseudo - mean) * (pseudo - mean) / (share - 1.0))
-        .sum::<f64>()
-        / g;
+        .map(|(share, pseudo)| (pseudo - mean) * (pseudo - mean) / (share - 1.0));
+    let squares: Vec<f64> = squares.collect();
+    let variance = squares.iter().sum::<f64>() / g;
     let standard_error = variance.sqrt();
-    if standard_error.is_finite() {
-        Ok(standard_error)
-    } else {
-        Err(UndefinedReason::Overflow)
+    if !standard_error.is_finite() {
+        return Err(UndefinedReason::Overflow);
     }
+    let freedom = if variance > 0.0 {
+        let relative = squares.iter().map(|square| square / variance);
+        let kurtosis = relative.map(|square| square * square).sum::<f64>() / g;
+        let satterthwaite = 2.0 * g / (kurtosis - (g - 3.0) / (g - 1.0));
+        if satterthwaite > 0.0 {
+            satterthwaite.clamp(1.0, g - 1.0)
+        } else {
+            g - 1.0
+        }
+    } else {
+        g - 1.0
+    };
+    Ok(Moved {
+        standard_error,
+        freedom,
+        clusters,
+    })
 }
 
 /// The interval about `value` whose variance was carried over from the jackknife variances of `clusters` clusters.
-pub(crate) fn delta_interval(value: f64, variance: f64, clusters: usize) -> Interval {
+pub(crate) fn delta_interval(value: f64, range: Range, variance: f64, clusters: usize) -> Interval {
     let freedom = u32::try_from(clusters.saturating_sub(1)).expect("at most 64 clusters");
-    let standard_error = variance.sqrt();
-    let half = quantile(COVERAGE, f64::from(freedom)) * standard_error;
-    let (low, high) = (value - half, value + half);
-    if !low.is_finite() || !high.is_finite() {
-        return Interval::Undefined(UndefinedReason::Overflow);
-    }
-    Interval::Delta {
-        low,
-        high,
-        standard_error,
+    let moved = Moved {
+        standard_error: variance.sqrt(),
+        freedom: f64::from(freedom),
         clusters,
+    };
+    let estimated = Estimated {
+        value,
+        range,
+        samples: 0,
+    };
+    match estimated.ends(&moved) {
+        Ok(Ends { low, high, scale }) => Interval::Delta {
+            low,
+            high,
+            standard_error: moved.standard_error,
+            clusters,
+            scale,
+        },
+        Err(reason) => Interval::Undefined(reason),
     }
 }
 
@@ -124,7 +162,7 @@ mod tests {
             high,
             clusters,
             ..
-        } = interval(mean, &left_out)
+        } = interval(mean, Range::Any, &left_out)
         else {
             panic!("five clusters are enough");
         };
@@ -139,7 +177,7 @@ mod tests {
         // Pseudo-values: 1.5, 3, 4, 5, 1; mean 2.9; squared deviations 1.96, .01, 1.21, 4.41, 3.61.
         // Variance: (1.96/2 + (.01 + 1.21 + 4.41 + 3.61)/5) / 5 = (.98 + 1.848) / 5 = .5656.
         let (mean, left_out) = means(&[&[1.0, 2.0], &[3.0], &[4.0], &[5.0], &[1.0]]);
-        let Interval::Jackknife { low, high, .. } = interval(mean, &left_out) else {
+        let Interval::Jackknife { low, high, .. } = interval(mean, Range::Any, &left_out) else {
             panic!("five clusters are enough");
         };
         let half = 2.776_445_105 * 0.5656_f64.sqrt();
@@ -151,7 +189,7 @@ mod tests {
     fn four_clusters_are_too_few() {
         let (mean, left_out) = means(&[&[1.0], &[2.0], &[3.0], &[4.0]]);
         assert_eq!(
-            interval(mean, &left_out),
+            interval(mean, Range::Any, &left_out),
             Interval::Undefined(UndefinedReason::TooFewClusters { have: 4 })
         );
     }
@@ -161,7 +199,7 @@ mod tests {
         let (mean, mut left_out) = means(&[&[1.0], &[2.0], &[3.0], &[4.0], &[5.0]]);
         left_out[2].value = Err(UndefinedReason::ConstantTruth { perfect: false });
         assert_eq!(
-            interval(mean, &left_out),
+            interval(mean, Range::Any, &left_out),
             Interval::Undefined(UndefinedReason::ConstantTruth { perfect: false })
         );
     }

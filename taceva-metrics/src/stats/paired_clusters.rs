@@ -52,6 +52,11 @@ impl PairedClusters {
         Ok(pairs)
     }
 
+    /// Samples of each cluster in the order of names.
+    pub(super) fn counts(&self) -> &[u64] {
+        &self.counts
+    }
+
     /// Σ of A less Σ of B, of each cluster in the order of names.
     pub(super) fn differences(&self) -> &[ExactSum] {
         &self.differences

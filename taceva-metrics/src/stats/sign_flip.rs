@@ -1,13 +1,13 @@
 //! Two models on the same samples: the paired sign-flip permutation test.
 
 use super::cluster_sums::ClusterSums;
-use super::difference::{Difference, DifferenceTest};
+use super::difference::{Difference, DifferenceTest, Flips, Inverse};
 use super::error::ComparisonError;
 use super::paired_clusters::PairedClusters;
 use super::random::bits;
 use super::sides::Sides;
 use super::signed_sums::SignedSums;
-use crate::exact::ExactSum;
+use crate::exact::Dyadic;
 
 /// A test of whether two models are equally far from the truth, on the same samples.
 ///
@@ -56,7 +56,13 @@ impl Default for SignFlip {
 }
 
 impl SignFlip {
-    /// The difference of the means over all samples; its standard error by leaving out one cluster after the other.
+    /// The difference of the means over all samples; its standard error by leaving out one cluster after the other, its interval by
+    /// the test itself.
+    ///
+    /// The interval holds those differences δ whose p value is above the level: if A were worse by δ everywhere, D_c less δ times the samples
+    /// of c might as well have the other sign. Below the difference that was seen a pattern of signs counts from the smaller of the two mean
+    /// differences on, of the clusters it negates and of those it does not; above it, up to the larger one. So each end is one of those
+    /// means, found by counting.
     ///
     /// # Errors
     /// [`ComparisonError::Unpaired`] or [`ComparisonError::Counts`] if the two do not have the same clusters with as many
@@ -65,35 +71,60 @@ impl SignFlip {
     pub fn test(&self, sums: Sides<&ClusterSums>) -> Result<Difference, ComparisonError> {
         let pairs = PairedClusters::of(sums)?;
         let spread = pairs.spread()?;
-        let (test, p) = self.p(pairs.differences());
-        spread.tested(test, p)
+        let Tried { test, p, flips } = self.tried(&pairs);
+        spread.tested(test, p, Inverse::Flips(flips))
     }
 
-    fn p(&self, differences: &[ExactSum]) -> (DifferenceTest, f64) {
-        let sums = SignedSums::new(differences);
+    fn tried(&self, pairs: &PairedClusters) -> Tried {
+        let sums = SignedSums::new(pairs.differences());
         let observed = sums.magnitude(|_| false);
-        let clusters = differences.len();
+        let halves = Halves::of(pairs);
+        let clusters = pairs.differences().len();
+        let mut as_large = 0.0;
+        let mut flips = Flips {
+            from_below: Vec::new(),
+            from_above: Vec::new(),
+        };
+        let mut try_pattern = |is_negated: &dyn Fn(usize) -> bool| {
+            if sums.magnitude(is_negated) >= observed {
+                as_large += 1.0;
+            }
+            let [below, above] = halves.means(is_negated);
+            flips.from_below.push(below);
+            flips.from_above.push(above);
+        };
         let tried = |flips: u32, exhaustive| DifferenceTest::SignFlip {
             clusters,
             flips,
             exhaustive,
         };
-        if let Some(patterns) = self.all_patterns(clusters) {
-            let as_large = (0..patterns).filter(|pattern| {
-                sums.magnitude(|cluster| pattern >> cluster & 1 == 1) >= observed
-            });
-            let share = count(as_large) / f64::from(patterns);
-            return (tried(patterns, true), share);
-        }
-        let mut signs = vec![0; clusters.div_ceil(64)];
-        let as_large = (0..self.flips).filter(|&flip| {
-            for (word, signs) in (0..).zip(&mut signs) {
-                *signs = bits(self.seed, flip.into(), word);
+        let test = if let Some(patterns) = self.all_patterns(clusters) {
+            for pattern in 0..patterns {
+                try_pattern(&|cluster| pattern >> cluster & 1 == 1);
             }
-            sums.magnitude(|cluster| signs[cluster / 64] >> (cluster % 64) & 1 == 1) >= observed
-        });
-        let share = (1.0 + count(as_large)) / (1.0 + f64::from(self.flips));
-        (tried(self.flips, false), share)
+            tried(patterns, true)
+        } else {
+            // Signs as they were seen are one pattern more than those drawn.
+            try_pattern(&|_| false);
+            let mut signs = vec![0; clusters.div_ceil(64)];
+            for flip in 0..self.flips {
+                for (word, signs) in (0..).zip(&mut signs) {
+                    *signs = bits(self.seed, flip.into(), word);
+                }
+                try_pattern(&|cluster| signs[cluster / 64] >> (cluster % 64) & 1 == 1);
+            }
+            tried(self.flips, false)
+        };
+        flips.from_below.sort_unstable_by(f64::total_cmp);
+        flips
+            .from_above
+            .sort_unstable_by(|left, right| right.total_cmp(left));
+        let patterns = flips.from_below.iter().fold(0.0, |count, _| count + 1.0);
+        Tried {
+            test,
+            p: as_large / patterns,
+            flips,
+        }
     }
 
     /// 2^clusters, if that is not more than the flips to draw.
@@ -103,8 +134,48 @@ impl SignFlip {
     }
 }
 
-fn count(flips: impl Iterator<Item = u32>) -> f64 {
-    flips.fold(0.0, |count, _| count + 1.0)
+/// What all patterns together say.
+struct Tried {
+    test: DifferenceTest,
+    p: f64,
+    flips: Flips,
+}
+
+/// Clusters whose differences are averaged, half by half.
+struct Halves {
+    /// Samples and Σ of A less Σ of B of each cluster.
+    clusters: Vec<[f64; 2]>,
+}
+
+impl Halves {
+    fn of(pairs: &PairedClusters) -> Halves {
+        let clusters = pairs.counts().iter().zip(pairs.differences());
+        let clusters = clusters.map(|(&count, difference)| {
+            let count = Dyadic::from(count).over(&Dyadic::from(1));
+            [count, difference.to_f64()]
+        });
+        Halves {
+            clusters: clusters.collect(),
+        }
+    }
+
+    /// The smaller and the larger of the mean differences of those clusters that are negated and of those that are not; infinite
+    /// where one half is empty.
+    fn means(&self, is_negated: &dyn Fn(usize) -> bool) -> [f64; 2] {
+        let mut halves = [[0.0; 2]; 2];
+        for (at, [count, difference]) in self.clusters.iter().enumerate() {
+            let [samples, sum] = &mut halves[usize::from(is_negated(at))];
+            *samples += count;
+            *sum += difference;
+        }
+        let [[kept, kept_sum], [negated, negated_sum]] = halves;
+        if kept > 0.0 && negated > 0.0 {
+            let [one, other] = [kept_sum / kept, negated_sum / negated];
+            [one.min(other), one.max(other)]
+        } else {
+            [f64::NEG_INFINITY, f64::INFINITY]
+        }
+    }
 }
 
 #[cfg(test)]
@@ -144,9 +215,12 @@ mod tests {
             exhaustive: true,
         };
         assert_eq!(difference.test, expected);
-        // The textbook interval of a mean: variance of the differences 1, …, 5, −6 is (91 − 81/6) / 5 = 15.5.
-        let half = 2.570_581_836 * (15.5_f64 / 6.0).sqrt();
-        assert!((difference.interval[1] - (1.5 + half)).abs() < 1e-8);
+        // A twentieth of 64 patterns is 3.2: the fourth mean from below and from above. Two patterns have an empty half; then
+        // come, each for a half and for the other one, −6 of the last cluster alone, and 5 of the fifth.
+        assert_eq!(
+            difference.interval.map(f64::to_bits),
+            [-6.0, 5.0].map(f64::to_bits)
+        );
     }
 
     #[test]

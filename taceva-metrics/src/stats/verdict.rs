@@ -6,11 +6,8 @@ use taceva_core::Unit;
 
 use super::difference::Difference;
 use super::error::ComparisonError;
-use super::sides::Side;
+use super::sides::{Side, Sides};
 use crate::metric::Better;
-
-/// How seldom chance may look like an answer: what the intervals of 95 % leave.
-const LEVEL: f64 = 0.05;
 
 /// What is asked of a difference.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -23,7 +20,7 @@ pub struct Question {
     pub margin: Option<f64>,
 }
 
-/// What a comparison says, at a level of 5 %.
+/// What a comparison says, at a level of 5 %, of a difference that [`decide`](crate::decide) decided about among those of its family.
 ///
 /// ```
 /// use taceva_core::Unit;
@@ -34,7 +31,7 @@ pub struct Question {
 /// });
 /// let question = Question { unit: Unit::Newton, better: Better::Lower, margin: None };
 /// let verdict = Verdict::of(difference, question);
-/// assert_eq!(verdict.to_string(), "A lower by 0.012 N (95 % 0.004…0.020, p = 0.004)");
+/// assert_eq!(verdict.to_string(), "A better by 0.012 N (95 % 0.004…0.020, p = 0.004)");
 /// assert_eq!(verdict.better(), Some(Side::A));
 /// # Ok::<(), taceva_metrics::ComparisonError>(())
 /// ```
@@ -63,10 +60,8 @@ pub enum Verdict {
         difference: Difference,
         /// The unit of the scores.
         unit: Unit,
-        /// What was allowed.
+        /// What was allowed: the interval lies within it.
         margin: f64,
-        /// The p value of being further apart than that.
-        p: f64,
     },
     /// There is no answer.
     Undefined(ComparisonError),
@@ -88,22 +83,20 @@ impl Verdict {
         question: Question,
     ) -> Result<Verdict, ComparisonError> {
         let unit = question.unit;
-        if let Some(margin) = question.margin {
-            let p = difference.equivalence_p(margin)?;
-            if p < LEVEL {
-                return Ok(Verdict::Equivalent {
-                    difference,
-                    unit,
-                    margin,
-                    p,
-                });
-            }
-        }
-        if difference.p < LEVEL {
-            return Ok(Verdict::Differs {
+        if let Some(margin) = question.margin
+            && difference.is_within(margin)?
+        {
+            return Ok(Verdict::Equivalent {
                 difference,
                 unit,
+                margin,
+            });
+        }
+        if difference.is_shown {
+            return Ok(Verdict::Differs {
                 better: better(&difference, question.better),
+                difference,
+                unit,
             });
         }
         Ok(Verdict::NoDifferenceShown { difference, unit })
@@ -134,41 +127,81 @@ fn better(difference: &Difference, better: Better) -> Option<Side> {
     }
 }
 
-impl fmt::Display for Verdict {
-    /// `A lower by 0.012 N (95 % 0.004…0.020, p = 0.003)`
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+impl Verdict {
+    /// What it says of two that have names: `GelSight better by 0.012 N (95 % 0.004…0.020, p = 0.003)`.
+    ///
+    /// The p value is the adjusted one, and the interval that of the same decision.
+    pub fn words(&self, names: Sides<&str>) -> String {
         match self {
             Verdict::Differs {
-                difference, unit, ..
+                difference,
+                unit,
+                better,
             } => {
+                let p = p_value(difference.adjusted_p);
+                let level = percent(difference.confidence);
                 let [low, high] = difference.interval;
-                let (direction, [low, high]) = if difference.value < 0.0 {
-                    ("lower", [-high, -low])
-                } else {
-                    ("higher", [low, high])
+                let decimals = decimals(&[low, high], difference.value);
+                let said = |value: f64| number(value, decimals);
+                let unit = suffix(*unit);
+                let Some(better) = better else {
+                    let (value, low, high) = (said(difference.value), said(low), said(high));
+                    let Sides { a, b } = names;
+                    return format!(
+                        "{a} and {b} differ by {value}{unit} ({level} {low}…{high}, {p})"
+                    );
                 };
-                let decimals = decimals(high - low);
-                let size = number(difference.value.abs(), decimals);
-                let [low, high] = [low, high].map(|end| number(end, decimals));
-                let (unit, p) = (suffix(*unit), p_value(difference.p));
-                write!(f, "A {direction} by {size}{unit} (95 % {low}…{high}, {p})")
+                let size = said(difference.value.abs());
+                let [low, high] = if difference.value < 0.0 {
+                    [-high, -low]
+                } else {
+                    [low, high]
+                };
+                let (low, high) = (said(low), said(high));
+                let word = match better {
+                    Side::A => "better",
+                    Side::B => "worse",
+                };
+                format!(
+                    "{} {word} by {size}{unit} ({level} {low}…{high}, {p})",
+                    names.a
+                )
             }
             Verdict::NoDifferenceShown { difference, unit } => {
                 let [low, high] = difference.interval;
-                let decimals = decimals(high - low);
+                let decimals = decimals(&[low, high], difference.value);
                 let numbers = [difference.value, low, high].map(|value| number(value, decimals));
                 let ([value, low, high], unit) = (numbers, suffix(*unit));
-                write!(
-                    f,
-                    "no difference shown (difference {value}{unit}, 95 % {low}…{high})"
-                )
+                let level = percent(difference.confidence);
+                format!("no difference shown (difference {value}{unit}, {level} {low}…{high})")
             }
             Verdict::Equivalent { unit, margin, .. } => {
-                write!(f, "equivalent within {margin}{}", suffix(*unit))
+                format!("equivalent within {margin}{}", suffix(*unit))
             }
-            Verdict::Undefined(error) => write!(f, "no answer: {error}"),
+            Verdict::Undefined(error) => format!("no answer: {error}"),
         }
     }
+}
+
+impl fmt::Display for Verdict {
+    /// `A better by 0.012 N (95 % 0.004…0.020, p = 0.003)`
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.words(Sides { a: "A", b: "B" }))
+    }
+}
+
+/// `95 %`, `99.72 %`: with as many digits as tell the rest of 100 to a twentieth of it.
+fn percent(share: f64) -> String {
+    let rest = 100.0 * (1.0 - share);
+    let mut places = 1.0;
+    for decimals in 0..6 {
+        let rounded = (rest * places).round() / places;
+        if (rounded - rest).abs() <= rest / 20.0 {
+            return format!("{:.decimals$} %", 100.0 * share);
+        }
+        places *= 10.0;
+    }
+    format!("{:.6} %", 100.0 * share)
 }
 
 /// ` N`, or nothing for a ratio.
@@ -179,8 +212,13 @@ fn suffix(unit: Unit) -> String {
     }
 }
 
-/// The fewest decimals, up to 12, whose last is at most a tenth of `width`.
-fn decimals(width: f64) -> usize {
+/// The fewest decimals, up to 12, whose last is at most a tenth of the width of an interval; of one without ends, of the value.
+fn decimals([low, high]: &[f64; 2], value: f64) -> usize {
+    let width = if (high - low).is_finite() {
+        high - low
+    } else {
+        value.abs()
+    };
     let mut place = 1.0;
     for decimals in 0..12 {
         if place <= width / 10.0 {
@@ -193,6 +231,9 @@ fn decimals(width: f64) -> usize {
 
 /// With a true minus sign, and none before a zero.
 fn number(value: f64, decimals: usize) -> String {
+    if value.is_infinite() {
+        return if value < 0.0 { "−∞" } else { "∞" }.to_owned();
+    }
     let size = format!("{:.decimals$}", value.abs());
     let zero = size.bytes().all(|byte| matches!(byte, b'0' | b'.'));
     let sign = if value < 0.0 && !zero { "−" } else { "" };

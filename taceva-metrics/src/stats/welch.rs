@@ -1,6 +1,6 @@
 //! Two sensors, each on its own samples: Welch's test.
 
-use super::difference::{Difference, DifferenceTest, Spread};
+use super::difference::{Difference, DifferenceTest, Inverse, Spread};
 use super::error::ComparisonError;
 use super::jackknife::LEAST_CLUSTERS;
 use super::sides::{Side, Sides};
@@ -153,5 +153,5 @@ pub fn welch(estimates: Sides<Estimate>) -> Result<Difference, ComparisonError> 
         standard_error: larger * both.sqrt(),
         freedom: both * both / fourth_powers,
     };
-    spread.tested(DifferenceTest::Welch, spread.p())
+    spread.tested(DifferenceTest::Welch, spread.p(), Inverse::Student)
 }

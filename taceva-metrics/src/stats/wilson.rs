@@ -11,16 +11,21 @@ const Z: f64 = 1.959_963_984_540_054;
 /// Wilson, Probable inference, the law of succession, and statistical inference, JASA 22 (1927).
 pub(crate) fn interval(hits: u64, trials: u64) -> Interval {
     let n = as_f64(trials);
-    let share = as_f64(hits) / n;
-    let scale = 1.0 + Z * Z / n;
-    let centre = (share + Z * Z / (2.0 * n)) / scale;
-    let spread = share * (1.0 - share) / n + Z * Z / (4.0 * n * n);
-    let half = Z * spread.sqrt() / scale;
+    let [low, high] = ends(as_f64(hits) / n, n, Z);
+    Interval::Wilson { low, high }
+}
+
+/// The shares from which `share` of `n` trials, a number that need not be whole, is less than `z` standard errors away.
+pub(super) fn ends(share: f64, n: f64, z: f64) -> [f64; 2] {
+    let scale = 1.0 + z * z / n;
+    let centre = (share + z * z / (2.0 * n)) / scale;
+    let spread = share * (1.0 - share) / n + z * z / (4.0 * n * n);
+    let half = z * spread.sqrt() / scale;
     // At the ends the formula gives 0 and 1 exactly, but for rounding.
-    Interval::Wilson {
-        low: if hits == 0 { 0.0 } else { centre - half },
-        high: if hits == trials { 1.0 } else { centre + half },
-    }
+    [
+        if share <= 0.0 { 0.0 } else { centre - half },
+        if share >= 1.0 { 1.0 } else { centre + half },
+    ]
 }
 
 fn as_f64(count: u64) -> f64 {

@@ -7,6 +7,7 @@ use super::{NORMAL_ONLY, SurfaceMetric};
 use crate::accumulator::{Finished, Numbers};
 use crate::exact::Dyadic;
 use crate::metric::{Better, Formula, Metric, ScoreUnit};
+use crate::range::Range;
 use crate::value::UndefinedReason;
 
 pub(crate) static SENSITIVITY: Metric = Metric {
@@ -14,6 +15,7 @@ pub(crate) static SENSITIVITY: Metric = Metric {
     title: "sensitivity",
     better: Better::Higher,
     unit: ScoreUnit::Fixed(Unit::MillimetrePerNewton),
+    range: Range::Any,
     definition: "sensitivity/1",
     reference: "TacEva, equation (5)",
     documentation: "How far the gel yields a newton of normal force: the mean of indentation over force of all samples in \
@@ -37,8 +39,8 @@ pub(super) fn sensitivity(sums: &SurfaceSums) -> Numbers {
         sums.work.to_dyadic().over(&forces)
     });
     Numbers::of(contact(sums).and_then(|()| mean(&sums.compliance)))
-        .with("slope", unit, slope)
-        .with(NORMAL_ONLY, unit, mean(&sums.normal))
+        .with("slope", unit, Range::Any, slope)
+        .with(NORMAL_ONLY, unit, Range::Any, mean(&sums.normal))
 }
 
 /// The reason for no value if nothing is in contact.

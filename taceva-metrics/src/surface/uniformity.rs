@@ -9,6 +9,7 @@ use crate::accumulator::{Finished, Numbers};
 use crate::exact::Dyadic;
 use crate::facts::Fact;
 use crate::metric::{Better, Formula, Metric, ScoreUnit};
+use crate::range::Range;
 use crate::settings::Settings;
 use crate::spread::{Bin, Spread};
 use crate::value::UndefinedReason;
@@ -18,6 +19,7 @@ pub(crate) static UNIFORMITY: Metric = Metric {
     title: "uniformity of sensitivity",
     better: Better::Higher,
     unit: ScoreUnit::One,
+    range: Range::Ratio,
     definition: "uniformity/1",
     reference: "TacEva, equation (6)",
     documentation: "How alike the gel yields everywhere: 1 / (1 + σ/|μ|) of the mean sensitivities of the cells of the \
@@ -52,15 +54,26 @@ pub(super) fn uniformity(sums: &SurfaceSums, settings: &Settings) -> Numbers {
     let all = Spread::of(&bins, n_min);
     let debiased = all.mean().and_then(|mean| ratio(mean, all.excess()?));
     Numbers::of(plain(&all))
-        .with("debiased", Unit::One, debiased)
+        .with("debiased", Unit::One, Range::RatioWithEnds, debiased)
         .with(
             "n_min_5",
             Unit::One,
+            Range::Ratio,
             plain(&Spread::of(&bins, WELL_SAMPLED)),
         )
-        .with(NORMAL_ONLY, Unit::One, plain(&Spread::of(&normal, n_min)))
-        .with("mean", Unit::MillimetrePerNewton, all.mean())
-        .with("deviation", Unit::MillimetrePerNewton, all.deviation(ddof))
+        .with(
+            NORMAL_ONLY,
+            Unit::One,
+            Range::Ratio,
+            plain(&Spread::of(&normal, n_min)),
+        )
+        .with("mean", Unit::MillimetrePerNewton, Range::Any, all.mean())
+        .with(
+            "deviation",
+            Unit::MillimetrePerNewton,
+            Range::Positive,
+            all.deviation(ddof),
+        )
 }
 
 fn on_surface(sums: &SurfaceSums) -> Result<(), UndefinedReason> {

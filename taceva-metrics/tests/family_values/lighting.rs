@@ -45,12 +45,13 @@ fn robustness_to_lighting_by_hand() {
     assert_eq!(score.value, Value::Scalar(2.0 / 3.0));
     assert_eq!(
         score.interval.method().as_deref(),
-        Some("delta method by point_id, G=5")
+        Some("delta method by point_id, G=5, logit")
     );
     let [low, high] = score.interval.ends().expect("five places are enough");
-    let half = 2.776_445_105 * 4.0 / 27.0;
-    close(low, 2.0 / 3.0 - half);
-    close(high, 2.0 / 3.0 + half);
+    // The odds of 2/3 are 2; R (1 − R) = 2/9.
+    let factor = (2.776_445_105_f64 * 4.0 / 27.0 / (2.0 / 9.0)).exp();
+    close(low, 2.0 / (2.0 + factor));
+    close(high, 2.0 * factor / (1.0 + 2.0 * factor));
     let scene = score.variant("scene:S1").expect("a scene");
     assert_eq!(
         (&scene.value, scene.interval),

@@ -233,7 +233,7 @@ fn boards_without_a_name_are_clusters_by_what_is_on_them() {
     assert_eq!(score.value, Value::Scalar(0.5));
     assert_eq!(
         score.interval.method().as_deref(),
-        Some("jackknife by point_id, G=6")
+        Some("jackknife by point_id, G=6, Wilson with effective samples")
     );
     let wilson = score.variant("wilson").and_then(|wilson| wilson.interval);
     assert!(matches!(wilson, Some(Interval::Wilson { low, high }) if low < 0.5 && 0.5 < high));

@@ -8,20 +8,43 @@
 use std::f64::consts::FRAC_2_PI;
 use std::ops::{AddAssign, Range};
 
-use taceva_core::{Batch, Channel, Channels, Column, FieldSet, Labels};
+use taceva_core::{
+    Channel, Channels, Field, FieldSet, Footprint, GratingKind, Nanometre, Readings, Sample,
+    SampleSink,
+};
 use taceva_metrics::{
-    BootstrapEnds, Evaluator, IntervalMethod, MetricPlan, Paired, PoissonBootstrap, catalogue,
+    BootstrapEnds, Evaluator, IntervalMethod, MetricPlan, Paired, PoissonBootstrap, SensorFacts,
+    catalogue,
 };
 
 /// Correlation of the sizes |d| of two errors at one location.
 pub(crate) const CORRELATION: f64 = 0.3;
-/// The scores whose intervals are tried.
-pub(crate) const METRICS: [&str; 3] = ["mae", "r2", "smape"];
+/// The scores whose intervals are tried, each with its label.
+pub(crate) const METRICS: [(&str, &str); 7] = [
+    ("mae", "Fz"),
+    ("rmse", "Fz"),
+    ("bias", "Fz"),
+    ("r2", "Fz"),
+    ("smape", "Fz"),
+    ("sr", "line"),
+    ("uniformity", "Fz"),
+];
+/// A number for each of [`METRICS`].
+pub(crate) type Each<T> = [T; METRICS.len()];
 
 /// The standard deviation of errors at a location of the mean spread.
 const DEVIATION_N: f64 = 0.1;
 /// Between which true forces lie.
 const FORCES_N: Range<f64> = 0.5..2.0;
+/// The spacing of the grating, and how wrong it is told where a force is wrong by a newton.
+const SPACING_NM: i64 = 1_000_000;
+const SPACING_ERROR_NM: f64 = 350_000.0;
+/// How wrong a spacing may be told: 0.05 mm.
+const TOLERANCE_NM: f64 = 50_000.0;
+/// Between which compliances of locations lie.
+const COMPLIANCES_MM_PER_N: Range<f64> = 0.2..0.4;
+/// Cells along each side of the surface, 1 mm wide; a location has a cell of its own.
+const CELLS: u32 = 20;
 
 /// How many locations are pressed how often.
 #[derive(Clone, Copy, Debug)]
@@ -47,11 +70,27 @@ impl Method {
         Method::Bootstrap(BootstrapEnds::Percentile),
     ];
 
-    fn plan(self) -> MetricPlan {
-        let channels = Channels::new([Channel::FZ]).expect("one channel");
-        let metrics = catalogue::select(METRICS).expect("metrics there are");
-        let plan = MetricPlan::new(&metrics, channels, FieldSet::PAIRS);
-        match self {
+    /// The plan of the scores of one channel, and that of the surface.
+    fn plans(self) -> [MetricPlan; 2] {
+        let force = Channels::new([Channel::FZ]).expect("one channel");
+        let press = [Channel::PX, Channel::PY, Channel::PZ, Channel::FZ];
+        let press = Channels::new(press).expect("four channels");
+        let half_mm = f64::from(CELLS) / 2.0;
+        let facts = SensorFacts {
+            footprint: Some(Footprint::rectangle(half_mm, half_mm, None).expect("lengths")),
+            ..SensorFacts::default()
+        };
+        let fields: FieldSet = Field::ALL.into_iter().collect();
+        let plan = |channels, is_of_surface: bool| {
+            let metrics = METRICS.map(|(metric, _)| metric).into_iter();
+            // A thousand replicates of four hundred cells would take an hour.
+            let is_too_long = is_of_surface && matches!(self, Method::Bootstrap(_));
+            let metrics =
+                metrics.filter(|metric| (*metric == "uniformity") == is_of_surface && !is_too_long);
+            let metrics = catalogue::select(metrics).expect("metrics there are");
+            MetricPlan::new(&metrics, channels, fields).with_facts(facts.clone())
+        };
+        [plan(force, false), plan(press, true)].map(|plan| match self {
             Method::Jackknife | Method::JackknifeBySample => plan,
             Method::Bootstrap(ends) => {
                 let bootstrap = PoissonBootstrap {
@@ -60,7 +99,7 @@ impl Method {
                 };
                 plan.with_interval_method(IntervalMethod::PoissonBootstrap(bootstrap))
             }
-        }
+        })
     }
 }
 
@@ -88,17 +127,29 @@ impl AddAssign for Coverage {
 /// The coverage of each metric's interval, over the given runs of a design.
 ///
 /// A run is a function of its number: whoever computes which of them, the sum over all is the same.
-pub(crate) fn coverage(design: Design, method: Method, runs: Range<u32>) -> [Coverage; 3] {
-    let (plan, expected) = (method.plan(), expected());
-    let mut coverage = [Coverage::default(); 3];
+pub(crate) fn coverage(design: Design, method: Method, runs: Range<u32>) -> Each<Coverage> {
+    let (plans, expected) = (method.plans(), expected());
+    let mut coverage = Each::<Coverage>::default();
     for run in runs {
-        let mut evaluator = Evaluator::new(&plan);
-        let batch = design.batch(run, method == Method::JackknifeBySample);
-        evaluator.update(&batch).expect("the plan's channel");
-        let evaluation = evaluator.finish().expect("the plan's channel");
-        for ((metric, expected), coverage) in METRICS.iter().zip(expected).zip(&mut coverage) {
-            let score = evaluation.score(metric, "Fz").expect("it is in the plan");
-            if let Some([low, high]) = score.interval.ends() {
+        let presses = design.presses(run, method == Method::JackknifeBySample);
+        let evaluations = plans.each_ref().map(|plan| {
+            let is_of_force = plan.channels().len() == 1;
+            let mut evaluator = Evaluator::new(plan);
+            for press in &presses {
+                let sample = if is_of_force {
+                    press.force()
+                } else {
+                    press.surface()
+                };
+                evaluator.accept(&sample).expect("the plan's channels");
+            }
+            evaluator.finish().expect("the plan's channels")
+        });
+        for ((&(metric, label), expected), coverage) in
+            METRICS.iter().zip(expected).zip(&mut coverage)
+        {
+            let mut scores = evaluations.iter().filter_map(|of| of.score(metric, label));
+            if let Some([low, high]) = scores.next().and_then(|score| score.interval.ends()) {
                 coverage.intervals += 1;
                 coverage.held += u32::from(low <= expected && expected <= high);
             }
@@ -107,29 +158,68 @@ pub(crate) fn coverage(design: Design, method: Method, runs: Range<u32>) -> [Cov
     coverage
 }
 
+/// One press of a location.
+struct Press {
+    point: String,
+    cell: u32,
+    compliance_mm_per_n: f64,
+    force_n: f64,
+    error_n: f64,
+}
+
+impl Press {
+    /// Force, its prediction, and the spacing that is told of a grating.
+    fn force(&self) -> Sample {
+        #[expect(clippy::cast_possible_truncation, reason = "a few millimetres")]
+        let told = SPACING_NM + (self.error_n * SPACING_ERROR_NM).round() as i64;
+        Sample {
+            point_id: Some(self.point.clone()),
+            kind: Some(GratingKind::Line),
+            spacing: Some(Nanometre(SPACING_NM)),
+            predicted_spacing: Some(Nanometre(told)),
+            truth: Readings::from_values([self.force_n]),
+            prediction: Some(Readings::from_values([self.force_n - self.error_n])),
+            ..Sample::default()
+        }
+    }
+
+    /// Place, depth and force.
+    fn surface(&self) -> Sample {
+        let place = [self.cell % CELLS, self.cell / CELLS];
+        let [x, y] = place.map(|at| f64::from(at) + 0.5 - f64::from(CELLS) / 2.0);
+        let depth_mm = self.compliance_mm_per_n * self.force_n;
+        Sample {
+            point_id: Some(self.point.clone()),
+            truth: Readings::from_values([x, y, depth_mm, self.force_n]),
+            ..Sample::default()
+        }
+    }
+}
+
 impl Design {
-    /// Forces and predictions of one run: Gaussian errors, whose spread is a location's own.
-    fn batch(self, run: u32, by_sample: bool) -> Batch {
+    /// The presses of one run: Gaussian errors, whose spread is a location's own, as its compliance is.
+    fn presses(self, run: u32, by_sample: bool) -> Vec<Press> {
         let mut random = Random(u64::from(run) << 32 | u64::from(self.locations));
-        let (mut truth, mut prediction) = (Vec::new(), Vec::new());
-        let mut points = Labels::default();
+        let mut presses = Vec::new();
         for location in 0..self.locations {
             let deviation_n = DEVIATION_N * relative_spread(random.unit());
+            let compliance_mm_per_n = between(COMPLIANCES_MM_PER_N, random.unit());
             for press in 0..self.presses {
-                let force_n = between(FORCES_N, random.unit());
-                truth.push(force_n);
-                prediction.push(force_n - deviation_n * random.gaussian());
-                let name = if by_sample {
+                let point = if by_sample {
                     format!("{location} {press}")
                 } else {
                     location.to_string()
                 };
-                points.push(&name);
+                presses.push(Press {
+                    point,
+                    cell: location,
+                    compliance_mm_per_n,
+                    force_n: between(FORCES_N, random.unit()),
+                    error_n: deviation_n * random.gaussian(),
+                });
             }
         }
-        let channels = Channels::new([Channel::FZ]).expect("one channel");
-        let columns = |values| vec![Column::full(values)];
-        Batch::from_columns(channels, columns(truth), columns(prediction), Some(points))
+        presses
     }
 }
 
@@ -150,16 +240,19 @@ fn between(range: Range<f64>, uniform: f64) -> f64 {
     range.start + (range.end - range.start) * uniform
 }
 
-/// The scores of infinitely many samples: σ √(2/π), 1 − σ² (1 + Var S) / (width² / 12), and the mean of sMAPE's terms by the
-/// midpoint rule over forces, spreads, and errors up to 8 σ.
-pub(crate) fn expected() -> [f64; 3] {
+/// The scores of infinitely many samples: σ √(2/π), σ √(1 + Var S), 0, 1 − σ² (1 + Var S) / (width² / 12), the means of sMAPE's
+/// terms and of hits by the midpoint rule over forces, spreads, and errors up to 8 σ, and 1 / (1 + σ/μ) of the compliances.
+pub(crate) fn expected() -> Each<f64> {
     let midpoints = |count: u32| (0..count).map(move |at| (f64::from(at) + 0.5) / f64::from(count));
-    let (mut terms, mut weights) = (0.0, 0.0);
-    for error in midpoints(400).map(|uniform| between(-8.0..8.0, uniform)) {
+    let (mut terms, mut hits, mut weights) = (0.0, 0.0, 0.0);
+    for error in midpoints(1600).map(|uniform| between(-8.0..8.0, uniform)) {
         let weight = (-error * error / 2.0).exp();
-        for spread in midpoints(40).map(relative_spread) {
+        for spread in midpoints(80).map(relative_spread) {
             let residual = DEVIATION_N * spread * error;
-            for truth in midpoints(60).map(|uniform| between(FORCES_N, uniform)) {
+            if (residual * SPACING_ERROR_NM).abs() <= TOLERANCE_NM {
+                hits += weight * 20.0;
+            }
+            for truth in midpoints(20).map(|uniform| between(FORCES_N, uniform)) {
                 let pair = Paired {
                     estimate: truth - residual,
                     reference: truth,
@@ -171,10 +264,16 @@ pub(crate) fn expected() -> [f64; 3] {
     }
     let width_n = FORCES_N.end - FORCES_N.start;
     let mean_square = DEVIATION_N * DEVIATION_N * (1.0 + spread_variance());
+    let Range { start, end } = COMPLIANCES_MM_PER_N;
+    let variation = (end - start) / 12.0_f64.sqrt() / f64::midpoint(start, end);
     [
         DEVIATION_N * FRAC_2_PI.sqrt(),
+        mean_square.sqrt(),
+        0.0,
         1.0 - mean_square * 12.0 / (width_n * width_n),
         terms / weights,
+        hits / weights,
+        1.0 / (1.0 + variation),
     ]
 }
 

@@ -156,7 +156,8 @@ impl TryFrom<String> for FeatureKinds {
     type Error = String;
 
     fn try_from(text: String) -> Result<FeatureKinds, String> {
-        FeatureKinds::parse(&text).ok_or_else(|| format!("`{text}` names no kinds of features"))
+        FeatureKinds::parse(&text)
+            .ok_or_else(|| format!("`{}` names no kinds of features", taceva_core::shown(&text)))
     }
 }
 

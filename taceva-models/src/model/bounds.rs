@@ -23,29 +23,20 @@ impl Model {
         ])
     }
 
-    /// How many of `predictions`, a row a sample, lie on a bound, channel by channel: those that would lie beyond it.
-    pub fn bounded(&self, predictions: &[f64]) -> Vec<usize> {
-        let channels = self.channels().len();
-        let of = |position: usize| {
-            let bounds = self.bounds(position)?;
-            if self.card.channels[position].constant_label {
-                return None;
-            }
-            let own = predictions.iter().skip(position).step_by(channels);
-            let is_bound = |value: &&f64| {
-                bounds
-                    .iter()
-                    .any(|bound| bound.to_bits() == value.to_bits())
-            };
-            Some(own.filter(is_bound).count())
-        };
-        (0..channels)
-            .map(|position| of(position).unwrap_or(0))
-            .collect()
+    /// Whether `prediction`, as the model gives it, lies beyond the bounds of the channel at `position`; `None` where there are none.
+    ///
+    /// A label that never changes bounds nothing that was learnt: no prediction of it counts as beyond.
+    pub fn is_beyond(&self, position: usize, prediction: f64) -> Option<bool> {
+        let [least, greatest] = self.bounds(position)?;
+        let varies = !self.card.channels[position].constant_label;
+        Some(varies && !(least..=greatest).contains(&prediction))
     }
 
     /// Brings `predictions`, a row a sample, within their bounds.
-    pub(super) fn bound(&self, predictions: &mut [f64]) {
+    ///
+    /// # Shapes
+    /// `[samples, channels]`.
+    pub fn bound(&self, predictions: &mut [f64]) {
         let channels = self.channels().len();
         for position in 0..channels {
             let Some([least, greatest]) = self.bounds(position) else {

@@ -4,6 +4,7 @@ use std::collections::HashMap;
 
 use safetensors::tensor::{Dtype, SafeTensors, TensorView};
 use serde::Deserialize;
+use sha2::{Digest as _, Sha256};
 
 use super::card::{Form, ModelCard};
 use super::of_plugin::plugin_from;
@@ -20,6 +21,7 @@ use crate::tensors::Tensors;
 use crate::trees::TreeRegressor;
 use taceva_core::{Channels, FeatureShape, ModelError};
 use taceva_network::{NamedTensor, Network, NetworkError, Picture};
+use taceva_seal::SealError;
 
 /// The key of the card in the metadata.
 const CARD: &str = "taceva.model";
@@ -43,9 +45,18 @@ impl Model {
     /// [`FormatError`] if the card or the weights are larger than a file may be.
     pub fn to_bytes(&self) -> Result<Vec<u8>, FormatError> {
         let card = serde_json::to_string(&self.card)?;
+        let tensors = self.regressor.tensors();
+        let card = match is_sealed(&self.card.format) {
+            true => {
+                let told = tensors
+                    .iter()
+                    .map(|tensor| told(&tensor.name, tensor.kind, (&tensor.shape, &tensor.bytes)));
+                seal_over(&card, &told.collect::<Vec<_>>())?
+            }
+            false => card,
+        };
         // One key only: the order of several would not be defined.
         let metadata = HashMap::from([(CARD.to_owned(), card)]);
-        let tensors = self.regressor.tensors();
         let views: Result<Vec<_>, _> = tensors
             .iter()
             .map(|tensor| {
@@ -81,7 +92,10 @@ impl Models {
             .as_ref()
             .and_then(|metadata| metadata.get(CARD))
             .ok_or(FormatError::NoCard)?;
-        check_version(&serde_json::from_str::<Version>(text)?.format)?;
+        let version = serde_json::from_str::<Version>(text)?.format;
+        check_version(&version)?;
+        let opened = SafeTensors::deserialize(bytes)?;
+        check_seal(text, &opened, &version)?;
         let card: ModelCard = serde_json::from_str(text)?;
         let channels = channels_of(&card)?;
         let margin = card.margin.unwrap_or(0.0);
@@ -95,7 +109,7 @@ impl Models {
         {
             return Err(FormatError::Card);
         }
-        let tensors = Tensors(SafeTensors::deserialize(bytes)?);
+        let tensors = Tensors(opened);
         let regressor = match (&card.network, &card.plugin, card.form) {
             (None, None, None) => {
                 let shape = card.features.shape();
@@ -219,6 +233,52 @@ fn network_from(
     Ok(NetworkRegressor::new(channels, network.clone(), ready)?)
 }
 
+/// A tensor's name, and a digest of its type, its shape and its numbers.
+fn told(name: &str, kind: Dtype, (shape, bytes): (&[usize], &[u8])) -> (String, Vec<u8>) {
+    let mut hasher = Sha256::new();
+    hasher.update(format!("{kind:?} {shape:?} ").as_bytes());
+    hasher.update(bytes);
+    (format!("tensor {name}"), hasher.finalize().to_vec())
+}
+
+/// The card with its seal, over the tensors as well.
+fn seal_over(card: &str, told: &[(String, Vec<u8>)]) -> Result<String, FormatError> {
+    let mut attached = attached(told);
+    attached.sort_unstable();
+    Ok(taceva_seal::json::seal_with(card, &attached)?)
+}
+
+fn attached(told: &[(String, Vec<u8>)]) -> Vec<(&str, &[u8])> {
+    told.iter()
+        .map(|(name, digest)| (name.as_str(), digest.as_slice()))
+        .collect()
+}
+
+/// Whether card and tensors are what they were when they were written.
+fn check_seal(card: &str, tensors: &SafeTensors<'_>, version: &str) -> Result<(), FormatError> {
+    let views = tensors.tensors();
+    let told: Vec<_> = views
+        .iter()
+        .map(|(name, view)| told(name, view.dtype(), (view.shape(), view.data())))
+        .collect();
+    let mut attached = attached(&told);
+    attached.sort_unstable();
+    let version = match is_sealed(version) {
+        true => taceva_seal::Version::Sealed,
+        false => taceva_seal::Version::BeforeSeals,
+    };
+    taceva_seal::json::check_with(card, &attached, version)?;
+    Ok(())
+}
+
+/// Whether files of this version are sealed: all since 1.1.
+pub(super) fn is_sealed(version: &str) -> bool {
+    let minor = version
+        .split_once('.')
+        .and_then(|(_, minor)| minor.parse().ok());
+    minor.is_some_and(|minor: u32| minor >= 1)
+}
+
 fn check_sizes(bytes: &[u8]) -> Result<(), FormatError> {
     let length = bytes.len() as u64;
     if length > FILE_MAX {
@@ -281,6 +341,9 @@ pub enum FormatError {
         "the card contradicts itself: feature sizes out of range, or choices for other channels than it lists"
     )]
     Card,
+    /// A model that is not what it was when it was written.
+    #[error("the model: {0}")]
+    Seal(#[from] SealError),
     /// A version this TacEva cannot read.
     #[error(
         "format {found}: this TacEva reads {}, a newer one may read both",
@@ -298,7 +361,7 @@ pub enum FormatError {
     },
     /// A model of a plugin that is not there.
     #[error(
-        "fitted by `{key}` of the plugin `{id}`, which is not among the plugins that were found"
+        "fitted by `{key}` of the plugin `{id}`, which is not among the plugins that were found", key = taceva_core::shown(key), id = taceva_core::shown(id)
     )]
     NoPlugin {
         /// The plugin.
@@ -307,7 +370,7 @@ pub enum FormatError {
         key: String,
     },
     /// A tensor that does not belong there.
-    #[error("unexpected tensor `{name}`")]
+    #[error("unexpected tensor `{name}`", name = taceva_core::shown(name))]
     Unexpected {
         /// Its name.
         name: String,
@@ -323,7 +386,7 @@ pub enum FormatError {
         expected: String,
     },
     /// A tensor of a network of another type than all have.
-    #[error("tensor `{name}` is {found}, those of a network are F32")]
+    #[error("tensor `{name}` is {found}, those of a network are F32", name = taceva_core::shown(name))]
     Type {
         /// Its name.
         name: String,

@@ -9,6 +9,7 @@ use crate::choice::Choice;
 use crate::feature_choice::FeatureChoice;
 use crate::features::FeatureSpec;
 use crate::fit::{ModelFit, ModelRegressor};
+use crate::label_scaling::means;
 use crate::network::NetworkCard;
 use crate::plugin::PluginCard;
 
@@ -125,6 +126,9 @@ pub struct ChannelCard {
     pub minimum: f64,
     /// Greatest minus least label of the training part; 1 where that is 0.
     pub span: f64,
+    /// The mean label of the training part, the best constant answer, by which skill is measured; absent in files of before skill.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub mean: Option<f64>,
     /// Whether every label of the training part is the same: the channel is predicted as that.
     pub constant_label: bool,
 }
@@ -177,7 +181,7 @@ pub struct SplitCard {
 
 impl ModelCard {
     /// The version of the format that this crate writes.
-    pub const FORMAT: &'static str = "1.0";
+    pub const FORMAT: &'static str = "1.1";
 
     pub(super) fn new(
         input: &FitInput<'_>,
@@ -186,6 +190,7 @@ impl ModelCard {
         pca_variance: Option<f64>,
     ) -> ModelCard {
         let channels = input.training.targets.channels.iter().enumerate();
+        let means = means(input.training.targets);
         ModelCard {
             format: ModelCard::FORMAT.into(),
             taceva: env!("CARGO_PKG_VERSION").into(),
@@ -203,6 +208,7 @@ impl ModelCard {
                     unit: channel.unit(),
                     minimum: fit.scaling.minimum()[position],
                     span: fit.scaling.span()[position],
+                    mean: Some(means[position]),
                     constant_label: fit.scaling.is_constant(position),
                 })
                 .collect(),

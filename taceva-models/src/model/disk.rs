@@ -94,7 +94,7 @@ fn write_whole(path: &Path, bytes: &[u8]) -> io::Result<()> {
 #[non_exhaustive]
 pub enum ModelFileError {
     /// The file cannot be read.
-    #[error("cannot read model {}: {source}", path.display())]
+    #[error("cannot read model {}: {source}", taceva_core::shown(path))]
     Read {
         /// The file.
         path: PathBuf,
@@ -102,7 +102,7 @@ pub enum ModelFileError {
         source: io::Error,
     },
     /// The file cannot be written.
-    #[error("cannot write model {}: {source}", path.display())]
+    #[error("cannot write model {}: {source}", taceva_core::shown(path))]
     Write {
         /// The file.
         path: PathBuf,
@@ -110,7 +110,7 @@ pub enum ModelFileError {
         source: io::Error,
     },
     /// The file holds no model, or the model does not fit a file.
-    #[error("model {}: {source}", path.display())]
+    #[error("model {}: {source}", taceva_core::shown(path))]
     Format {
         /// The file.
         path: PathBuf,

@@ -1,5 +1,6 @@
 //! A training, gone on with where it was interrupted.
 
+use taceva_core::shown;
 use taceva_core::{ErrorKind, ModelError, Progress};
 use taceva_gpu::{Gpu, GpuError};
 use taceva_network::{Architecture, NetworkError, Recipe, Samples, Trained, Trainer};
@@ -89,7 +90,7 @@ fn broken(error: NetworkError, trainer: &Trainer<'_>, shelf: Option<Shelf<'_>>) 
     };
     let epoch = format!("the best epoch until then, {},", best + 1);
     let kept = match shelf.put(trainer) {
-        Ok(()) => format!("{epoch} is kept in {}", shelf.path().display()),
+        Ok(()) => format!("{epoch} is kept in {}", shown(&shelf.path())),
         Err(problem) => format!("{epoch} could not be kept: {problem}"),
     };
     ModelError::new(refusal.kind(), format!("{refusal}; {kept}")).because(refusal)

@@ -102,6 +102,27 @@ impl Split {
         }
     }
 
+    /// The same of a recording of `all` rows of which these were `rows`, ascending: all others are left out.
+    ///
+    /// # Panics
+    /// If the split has a row that `rows` has not.
+    #[must_use]
+    pub fn among(mut self, rows: &[usize], all: usize) -> Split {
+        for part in [
+            &mut self.train,
+            &mut self.validation,
+            &mut self.test,
+            &mut self.left_out,
+        ] {
+            part.iter_mut()
+                .for_each(|position| *position = rows[*position]);
+        }
+        let others = (0..all).filter(|row| rows.binary_search(row).is_err());
+        self.left_out.extend(others);
+        self.left_out.sort_unstable();
+        self
+    }
+
     fn of(parts: impl IntoIterator<Item = Option<Part>>) -> Split {
         let mut split = Split::default();
         for (row, part) in parts.into_iter().enumerate() {
@@ -151,6 +172,11 @@ impl SplitSpec {
             }
             SplitKind::ByColumn(column) => by_column(input, column, self.fractions, seed),
             SplitKind::Declared => declared(input),
+            SplitKind::All => Ok(Split {
+                train: (0..input.rows).collect(),
+                note: Some("every sample is learnt from: nothing is left to test on".to_owned()),
+                ..Split::default()
+            }),
         }?;
         let needed = |part| part != Part::Validation;
         match Part::ALL
@@ -164,6 +190,9 @@ impl SplitSpec {
 
     /// What the person asked for; parts that are named always count as asked for.
     fn share_of(&self, part: Part) -> f64 {
+        if self.kind == SplitKind::All {
+            return if part == Part::Train { 1.0 } else { 0.0 };
+        }
         let named = match &self.kind {
             SplitKind::Declared => true,
             SplitKind::ByColumn(column) => !column.parts.is_empty(),

@@ -8,7 +8,7 @@ use crate::settings::Suggestion;
 #[non_exhaustive]
 pub enum SplitError {
     /// A word that names no split.
-    #[error("no split is called `{given}`, {suggestion}")]
+    #[error("no split is called `{given}`, {suggestion}", given = taceva_core::shown(given))]
     Kind {
         /// The word.
         given: String,
@@ -17,14 +17,14 @@ pub enum SplitError {
     },
     /// Values of a column that are not assigned as they should be.
     #[error(
-        "`{found}`: expected by-column:NAME or by-column:NAME=train:1,2;val:3;test:4, with train and test"
+        "`{found}`: expected by-column:NAME or by-column:NAME=train:1,2;val:3;test:4, with train and test", found = taceva_core::shown(found)
     )]
     Assignment {
         /// What was found instead.
         found: String,
     },
     /// A value in two parts.
-    #[error("value `{value}` is assigned twice")]
+    #[error("value `{value}` is assigned twice", value = taceva_core::shown(value))]
     Twice {
         /// The value.
         value: String,
@@ -72,7 +72,7 @@ pub enum SplitError {
         row: usize,
     },
     /// A column that the recording lacks.
-    #[error("split by-column: no column `{name}`, {suggestion}")]
+    #[error("split by-column: no column `{name}`, {suggestion}", name = taceva_core::shown(name))]
     NoColumn {
         /// The name as given.
         name: String,
@@ -80,7 +80,7 @@ pub enum SplitError {
         suggestion: Suggestion,
     },
     /// A value that no sample has.
-    #[error("split by-column: no sample has `{column}` = `{value}`, {suggestion}")]
+    #[error("split by-column: no sample has `{column}` = `{value}`, {suggestion}", column = taceva_core::shown(column), value = taceva_core::shown(value))]
     NoValue {
         /// The column.
         column: String,
@@ -93,7 +93,7 @@ pub enum SplitError {
     #[error("split declared: the recording declares no parts")]
     NoParts,
     /// A declared part that is none.
-    #[error("row {row}: part `{found}`, expected train, val, validation or test")]
+    #[error("row {row}: part `{found}`, expected train, val, validation or test", found = taceva_core::shown(found))]
     Part {
         /// The row, counted from 0.
         row: usize,

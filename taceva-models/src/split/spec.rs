@@ -31,6 +31,8 @@ pub enum SplitKind {
     ByColumn(ColumnSplit),
     /// The recording itself.
     Declared,
+    /// Nothing: every sample is learnt from, for a final model that other recordings judge.
+    All,
 }
 
 /// A column whose values decide.
@@ -112,18 +114,19 @@ impl fmt::Display for Fractions {
     }
 }
 
-const KINDS: [&str; 5] = [
+const KINDS: [&str; 6] = [
     "random",
     "chronological",
     "by-point",
     "by-column:NAME",
     "declared",
+    "all",
 ];
 
 impl FromStr for SplitSpec {
     type Err = SplitError;
 
-    /// Reads `random`, `chronological`, `by-point`, `by-column:NAME`, `by-column:NAME=train:1,2;val:3;test:4` or `declared`, and
+    /// Reads `random`, `chronological`, `by-point`, `by-column:NAME`, `by-column:NAME=train:1,2;val:3;test:4`, `declared` or `all`, and
     /// after a blank the shares: `random 70/20/10`. What a split is displayed as reads back as the same split.
     fn from_str(text: &str) -> Result<SplitSpec, SplitError> {
         let shares = text
@@ -140,6 +143,7 @@ impl FromStr for SplitSpec {
             "chronological" => SplitKind::Chronological,
             "by-point" => SplitKind::ByPoint,
             "declared" => SplitKind::Declared,
+            "all" => SplitKind::All,
             _ => match text.strip_prefix("by-column:") {
                 Some(rest) => SplitKind::ByColumn(column_split(rest)?),
                 None => {
@@ -203,6 +207,7 @@ impl fmt::Display for SplitSpec {
             SplitKind::Chronological => f.write_str("chronological")?,
             SplitKind::ByPoint => f.write_str("by-point")?,
             SplitKind::Declared => return f.write_str("declared"),
+            SplitKind::All => return f.write_str("all"),
             SplitKind::ByColumn(split) => {
                 write!(f, "by-column:{}", split.column)?;
                 if !split.parts.is_empty() {
@@ -250,6 +255,7 @@ mod tests {
                 "by-column:repeat=train:1;test:2",
             ),
             ("declared", "declared"),
+            ("all", "all"),
         ] {
             let spec: SplitSpec = text.parse().expect(text);
             assert_eq!(spec.to_string(), printed);

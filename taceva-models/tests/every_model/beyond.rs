@@ -1,6 +1,7 @@
 //! What some models promise beyond what all do.
 
 use taceva_core::Features;
+use taceva_models::Model;
 
 use crate::blobs::{Recording, SHAPE, recording};
 use crate::case::{case_of, predict};
@@ -41,8 +42,12 @@ fn what_was_never_seen_is_not_extrapolated_beyond_the_bounds() {
     let glaring = training.features.values().iter().map(|value| 50.0 * value);
     let glaring = Features::new(SHAPE, glaring.collect()).expect("whole samples");
     let found = model.predict(&glaring).expect("finite");
-    let counts = model.bounded(&found);
+    let free = model.predict_unbounded(&glaring).expect("finite");
+    let counts = beyond(&model, &free);
     assert!(counts.iter().sum::<usize>() > 60, "{counts:?}");
+    let mut bounded = free.clone();
+    model.bound(&mut bounded);
+    assert_eq!(bounded, found);
     for (position, count) in counts.into_iter().enumerate() {
         let [least, greatest] = model.bounds(position).expect("a new model");
         let card = &model.card().channels[position];
@@ -51,8 +56,37 @@ fn what_was_never_seen_is_not_extrapolated_beyond_the_bounds() {
         let on_bound = own.filter(|value| **value <= least || **value >= greatest);
         assert_eq!(on_bound.count(), count);
     }
-    let seen = model.predict(&training.features).expect("finite");
-    assert_eq!(model.bounded(&seen), [0, 0]);
+    let seen = model.predict_unbounded(&training.features).expect("finite");
+    assert_eq!(beyond(&model, &seen), [0, 0]);
+}
+
+/// How many of `predictions` lie beyond the bounds, channel by channel.
+fn beyond(model: &Model, predictions: &[f64]) -> Vec<usize> {
+    let channels = model.channels().len();
+    let of = |position: usize| {
+        let own = predictions.iter().skip(position).step_by(channels);
+        own.filter(|value| model.is_beyond(position, **value) == Some(true))
+            .count()
+    };
+    (0..channels).map(of).collect()
+}
+
+#[test]
+fn every_model_knows_the_mean_of_its_labels_and_the_baseline_says_it_to_the_last_bit() {
+    let training = recording(61, 35);
+    for name in ["baseline", "ridge"] {
+        let model = case_of(name).model(&training, None);
+        let found = model.predict(&training.features).expect("finite");
+        for (position, card) in model.card().channels.iter().enumerate() {
+            let own = || training.labels.iter().skip(position).step_by(2);
+            let mean = own().sum::<f64>() / own().count() as f64;
+            let known = card.mean.expect("a new model");
+            assert!((known - mean).abs() < 1e-12, "{name}: {known}, {mean}");
+            if name == "baseline" {
+                assert_eq!(found[position].to_bits(), known.to_bits());
+            }
+        }
+    }
 }
 
 #[test]

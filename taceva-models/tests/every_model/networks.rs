@@ -2,6 +2,7 @@
 
 use taceva_core::{ErrorKind, Frame, Silent};
 use taceva_models::{Model, ModelEstimator, ModelRegressor, Settings, find};
+use taceva_needs::{Need, skip};
 
 use crate::blobs::{FRAME, numbers, recording};
 use crate::case::{case_of, predict, rms};
@@ -125,13 +126,13 @@ fn a_network_of_a_gpu_says_which_and_finds_the_blob_here() {
         let fit = match made {
             Ok(estimator) => estimator.fit_model(&training.set(), Some(&validation.set()), &Silent),
             Err(reason) => {
-                say_skipped(&reason);
+                skip(Need::Gpu, reason);
                 continue;
             }
         };
         let fit = match fit {
             Err(reason) if reason.kind() == ErrorKind::NotFound => {
-                say_skipped(&reason);
+                skip(Need::Gpu, reason);
                 continue;
             }
             fit => fit.expect("fits"),
@@ -144,11 +145,6 @@ fn a_network_of_a_gpu_says_which_and_finds_the_blob_here() {
         let gpu = network.card().gpu.as_deref();
         assert!(gpu.is_some_and(|gpu| gpu.ends_with(&format!("({device})"))));
     }
-}
-
-#[expect(clippy::print_stderr, reason = "a skipped test must say why")]
-fn say_skipped(reason: &dyn std::error::Error) {
-    eprintln!("skipped: {reason}");
 }
 
 #[test]

@@ -1,6 +1,7 @@
 //! The planner on metrics of its own, so that each rule is tried whatever the catalogue holds.
 
-mod bench;
+pub(crate) mod bench;
+mod reached;
 
 use taceva_core::{Axes, FieldSet, Millimetre, SensorFacts};
 use taceva_core::{Channel, Channels, Field};

@@ -52,3 +52,93 @@ impl Bounds {
         })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use taceva_core::{Axes, Millimetre, Phase, Point};
+
+    use super::*;
+    use crate::plan::plan_study;
+    use crate::plan::tests::bench::{SMALL, paper_metrics, rig_of, sensor};
+    use crate::press::{Motion, Station};
+    use crate::scene::Scene;
+    use crate::source::SourceInfo;
+
+    /// Half extents of 8 mm and 10 mm, shears of up to 0.25 mm, 2 mm of clearance, 0.5 mm of search and 1 mm of depth.
+    fn plan() -> Plan {
+        let scene = Scene::parse("small", SMALL).expect("a scene");
+        let source = SourceInfo::Rig(Box::new(rig_of(sensor(), Axes::FORCE)));
+        let plan = plan_study(&scene, &scene.studies[0], &source, &paper_metrics());
+        let mut plan = plan.expect("a plan");
+        plan.footprint = Some(Footprint::rectangle(8.0, 10.0, None).expect("lengths"));
+        plan.contact.clearance_mm.value = 2.0;
+        plan.contact.search_mm.value = 0.5;
+        plan.limits.as_mut().expect("it moves").depth_max = Millimetre(1.0);
+        plan.presses.truncate(1);
+        let sheared = |shear| Station {
+            depth: Nanometre(500_000),
+            shear,
+            phase: Phase::Load,
+        };
+        let stations = [
+            [Nanometre(125_000), Nanometre(0)],
+            [Nanometre(0), Nanometre(-250_000)],
+        ];
+        plan.presses[0].press.motion = Motion::Indent(stations.map(sheared).to_vec());
+        plan
+    }
+
+    fn is_admitted(bounds: &Bounds, [x, y, z]: [f64; 3]) -> bool {
+        let [x, y, z] = [x, y, z].map(Millimetre);
+        let pose = Pose {
+            position: Point { x, y, z },
+            ..Pose::default()
+        };
+        bounds.admit(&pose).is_ok()
+    }
+
+    #[test]
+    fn each_side_of_the_workspace_is_admitted_and_nothing_a_thousandth_of_a_micrometre_beyond_it() {
+        let bounds = Bounds::of(&plan(), 0.75).expect("it moves");
+        // The greatest shear counts along both axes; z points into the gel.
+        for (axis, least, greatest) in [(0, -8.25, 8.25), (1, -10.25, 10.25), (2, -2.75, 1.5)] {
+            let at = |value: f64| {
+                let mut place = [0.0; 3];
+                place[axis] = value;
+                is_admitted(&bounds, place)
+            };
+            assert!(at(least) && at(greatest), "axis {axis}");
+            assert!(!at(least - 1e-6), "axis {axis}");
+            assert!(!at(greatest + 1e-6), "axis {axis}");
+        }
+        assert!(is_admitted(&bounds, [8.25, -10.25, 1.5]));
+    }
+
+    #[test]
+    fn what_lies_outside_along_two_axes_is_refused_with_its_place() {
+        let bounds = Bounds::of(&plan(), 0.0).expect("it moves");
+        for (x, y, z) in [(9.0, 11.0, 0.0), (9.0, 0.0, 2.0), (0.0, 11.0, -9.0)] {
+            let pose = Pose {
+                position: Point {
+                    x: Millimetre(x),
+                    y: Millimetre(y),
+                    z: Millimetre(z),
+                },
+                ..Pose::default()
+            };
+            let cause = bounds.admit(&pose).expect_err("outside");
+            let place = format!("({x:.3}, {y:.3}, {z:.3}) mm");
+            assert!(matches!(&cause, StopCause::Workspace { place: at } if *at == place));
+        }
+    }
+
+    #[test]
+    fn a_plan_without_shears_ends_at_the_footprint() {
+        let mut plan = plan();
+        plan.presses[0].press.motion = Motion::Touch;
+        let bounds = Bounds::of(&plan, 0.0).expect("it moves");
+        assert!(is_admitted(&bounds, [8.0, 10.0, -2.0]));
+        assert!(!is_admitted(&bounds, [8.000_001, 0.0, 0.0]));
+        assert!(!is_admitted(&bounds, [0.0, 10.000_001, 0.0]));
+    }
+}

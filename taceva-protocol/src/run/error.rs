@@ -35,10 +35,12 @@ pub enum StopCause {
     #[error("cannot record the press: {0}")]
     Log(SinkError),
     /// No frame came that was taken after the tip rested.
-    #[error("{attempts} frames in a row were lost or older than the contact")]
+    #[error("{attempts} frames in a row were lost, damaged or older than the contact{}", of_last(.last))]
     Frames {
         /// How many were tried.
         attempts: u32,
+        /// What the sensor said of the last one that it could not give; `None` if it gave them all, too old.
+        last: Option<String>,
     },
     /// A motion that would leave the surface or the limits; none was made.
     #[error("a motion to {place} would leave the workspace of the plan")]
@@ -49,6 +51,11 @@ pub enum StopCause {
     /// The plan needs something that the run was not given.
     #[error("the plan needs {0}")]
     Missing(String),
+}
+
+fn of_last(last: &Option<String>) -> String {
+    last.as_ref()
+        .map_or_else(String::new, |last| format!("; the last: {last}"))
 }
 
 /// Where the tip was left.

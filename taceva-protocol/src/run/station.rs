@@ -40,6 +40,7 @@ impl<'a> Camera<'a> {
     ) -> Step<(Frame, Stamp)> {
         let info = self.sensor.frame_info();
         let too_large = || StopCause::Missing(format!("memory for frames of {info}"));
+        let mut last = None;
         for _ in 0..FRAME_TRIES {
             let mut bytes = vec![0; info.byte_len().ok_or_else(too_large)?];
             let into = FrameMut::new(info, &mut bytes)
@@ -52,6 +53,7 @@ impl<'a> Camera<'a> {
                 }
                 Ok(_) => events(&Event::FrameRetried),
                 Err(error) if [ErrorKind::Timeout, ErrorKind::Protocol].contains(&error.kind()) => {
+                    last = Some(error.to_string());
                     events(&Event::FrameRetried);
                 }
                 Err(error) => return Err(StopCause::Device(error)),
@@ -59,6 +61,7 @@ impl<'a> Camera<'a> {
         }
         Err(StopCause::Frames {
             attempts: FRAME_TRIES,
+            last,
         })
     }
 }

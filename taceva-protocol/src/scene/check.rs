@@ -3,6 +3,7 @@
 mod protocol;
 
 use std::collections::BTreeSet;
+use taceva_core::shown;
 
 use serde::Deserialize;
 use taceva_metrics::{Settings, catalogue};
@@ -109,7 +110,7 @@ impl Check<'_> {
         if is_plain(&name.value) && !name.value.starts_with('.') {
             return Ok(());
         }
-        let shown = name.value.escape_debug();
+        let shown = shown(&name.value);
         let problem = format!(
             "`{shown}` is no name of {what}: expected 1 to 80 bytes without `/`, control characters, a leading `.` or space around"
         );

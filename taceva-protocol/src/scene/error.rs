@@ -71,7 +71,7 @@ pub enum SceneProblem {
         known: String,
     },
     /// A name that is given twice.
-    #[error("`{name}` is the name of two {what}")]
+    #[error("`{name}` is the name of two {what}", name = taceva_core::shown(name))]
     Twice {
         /// What bears it.
         what: &'static str,
@@ -149,7 +149,7 @@ pub enum SceneProblem {
     #[error("{0}")]
     Incomplete(String),
     /// A metric asked for by name that can be computed in no study of the scene.
-    #[error("`{metric}` can never apply: {reason}")]
+    #[error("`{metric}` can never apply: {reason}", metric = taceva_core::shown(metric))]
     NeverApplies {
         /// The metric.
         metric: String,

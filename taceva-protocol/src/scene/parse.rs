@@ -1,6 +1,7 @@
 //! The text of a scene: read strictly, and asked for lines when something is refused.
 
 use serde::de::DeserializeOwned;
+use taceva_core::shown;
 
 use super::error::{SceneError, SceneProblem, nearest};
 
@@ -57,7 +58,7 @@ impl Text {
     ) -> SceneError {
         let problem = SceneProblem::UnknownName {
             what,
-            name: name.escape_debug().to_string(),
+            name: shown(name).to_string(),
             nearest: nearest(name, known.iter().copied()),
             known: known.join(", "),
         };
@@ -75,13 +76,13 @@ fn explained(message: &str) -> SceneProblem {
     let quoted: Vec<&str> = message.split('`').skip(1).step_by(2).collect();
     match quoted.as_slice() {
         [wrong, known @ ..] if message.starts_with("unknown field") => SceneProblem::UnknownKey {
-            key: wrong.escape_debug().to_string(),
+            key: shown(wrong).to_string(),
             nearest: nearest(wrong, known.iter().copied()),
             known: known.join(", "),
         },
         [missing] if message.starts_with("missing field") => {
-            SceneProblem::MissingKey((*missing).to_owned())
+            SceneProblem::MissingKey(shown(*missing).to_string())
         }
-        _ => SceneProblem::Syntax(message.trim_end().replace('\n', "; ")),
+        _ => SceneProblem::Syntax(shown(&message.trim_end().replace('\n', "; ")).to_string()),
     }
 }

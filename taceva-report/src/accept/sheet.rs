@@ -4,16 +4,17 @@ use serde_json::json;
 
 use super::{Finding, Limit};
 use crate::escape::html;
-use crate::html::{Document, lead};
+use crate::html::{Document, Triple, badge, glossary, triples};
 use crate::listing::Listing;
 use crate::number::numeral;
 use crate::results::Study;
+use crate::samples::SampleChannel;
 
 /// The schema of an acceptance as JSON.
 pub const ACCEPTANCE_SCHEMA: &str = "taceva.acceptance/1";
 
 /// Findings with what they are of.
-#[derive(Clone, Debug)]
+#[derive(Clone, Copy, Debug)]
 pub struct Acceptance<'a> {
     /// What the limits are for.
     pub name: &'a str,
@@ -21,6 +22,10 @@ pub struct Acceptance<'a> {
     pub study: &'a Study,
     /// What became of each limit.
     pub findings: &'a [Finding],
+    /// The day it was held to them: `2026-11-22`. Nothing here looks at a clock.
+    pub date: Option<&'a str>,
+    /// What the sensor sees, where pictures are at hand.
+    pub pictures: Option<&'a Triple>,
 }
 
 impl Acceptance<'_> {
@@ -36,8 +41,11 @@ impl Acceptance<'_> {
             "" => String::new(),
             name => format!(" by {name}"),
         };
+        let date = self
+            .date
+            .map_or_else(String::new, |date| format!(", {date}"));
         let caption = format!(
-            "{}, serial {}: {verdict}{name}",
+            "{}, serial {}: {verdict}{name}{date}",
             self.study.sensor, self.study.serial
         );
         let head = [
@@ -66,12 +74,14 @@ impl Acceptance<'_> {
                 "ci95": finding.ends,
                 "n": finding.n,
                 "kept": finding.is_kept,
+                "standing": finding.standing.words(),
                 "reason": finding.reason,
             })
         };
         let findings: Vec<_> = self.findings.iter().map(finding).collect();
         let whole = json!({
             "schema": ACCEPTANCE_SCHEMA,
+            "date": self.date,
             "subject": {"sensor": self.study.sensor, "serial": self.study.serial, "gel": self.study.gel, "source": self.study.source},
             "passed": self.is_passed(),
             "findings": findings,
@@ -83,43 +93,86 @@ impl Acceptance<'_> {
     pub fn page(&self) -> String {
         let study = self.study;
         let mut document = Document::new(&format!("Data sheet: {}", study.sensor));
-        let verdict = match self.is_passed() {
-            true => "<p class=\"pass\">PASS: every limit is kept.</p>".to_owned(),
-            false => {
-                let broken = self
-                    .findings
-                    .iter()
-                    .filter(|finding| !finding.is_kept)
-                    .count();
-                format!(
-                    "<p class=\"fail\">FAIL: {broken} of {} limits are not kept.</p>",
-                    self.findings.len()
-                )
-            }
-        };
-        document.lead(&(lead(std::slice::from_ref(study)) + &verdict));
-        document.section("limits", "Limits", &self.listing().html());
+        document.lead(&format!(
+            "{}{}",
+            badge(std::slice::from_ref(study)),
+            self.verdict()
+        ));
+        let pictures = self.pictures.map(std::slice::from_ref).unwrap_or_default();
+        let unit = format!(
+            "{}{}",
+            self.unit(),
+            triples(std::slice::from_ref(study), pictures)
+        );
+        document.section("unit", "Unit", &unit);
+        document.section("limits", "Limits", &self.listing().html_with_metrics());
+        let named = self
+            .findings
+            .iter()
+            .map(|finding| finding.limit.metric.as_str());
+        document.section("sheet-glossary", "What the metrics mean", &glossary(named));
+        document.finish()
+    }
+
+    fn verdict(&self) -> String {
+        let all = self.findings.len();
+        let broken = self.findings.iter().filter(|finding| !finding.is_kept);
+        match broken.count() {
+            0 => "<p class=\"pass\">PASS: every limit is kept.</p>".to_owned(),
+            broken => format!("<p class=\"fail\">FAIL: {broken} of {all} limits are not kept.</p>"),
+        }
+    }
+
+    /// What was held to the limits, and when.
+    fn unit(&self) -> String {
+        let study = self.study;
         let mut entries = vec![
-            ("serial", study.serial.as_str()),
-            ("gel", &study.gel),
-            ("samples", &study.source),
+            ("sensor", study.sensor.clone()),
+            ("serial", study.serial.clone()),
+            ("gel", study.gel.clone()),
         ];
-        let wanted = ["dataset", "model", "split", "seed", "part", "taceva"];
+        entries.extend(self.date.map(|date| ("date", date.to_owned())));
+        entries.push(("samples", study.source.clone()));
+        let ranges = ranges(study);
+        if !ranges.is_empty() {
+            entries.push(("ranges tried", ranges));
+        }
+        let wanted = ["dataset", "split", "seed", "part", "taceva"];
         let known = study
             .provenance
             .iter()
             .filter(|(name, _)| wanted.contains(&name.as_str()));
-        entries.extend(known.map(|(name, text)| (name.as_str(), text.as_str())));
+        entries.extend(
+            study
+                .made
+                .model
+                .iter()
+                .map(|model| ("model", model.clone())),
+        );
+        entries.extend(known.map(|(name, text)| (name.as_str(), text.clone())));
         let entries = entries
             .iter()
             .map(|(name, text)| format!("<dt>{}</dt><dd>{}</dd>", html(name), html(text)));
-        document.section(
-            "unit",
-            "Unit",
-            &format!("<dl>{}</dl>", entries.collect::<String>()),
-        );
-        document.finish()
+        format!("<dl class=\"two\">{}</dl>\n", entries.collect::<String>())
     }
+}
+
+/// From the least to the greatest truth of each channel, where the samples are at hand: `Pz 0 … 1.2 mm`.
+fn ranges(study: &Study) -> String {
+    let range = |channel: &SampleChannel| {
+        let truth = channel.truth.iter().flatten().copied();
+        let [low, high] = crate::figure::extent(truth)?;
+        let unit = crate::number::spaced(channel.unit());
+        Some(format!(
+            "{} {} … {}{unit}",
+            channel.name,
+            numeral(low),
+            numeral(high)
+        ))
+    };
+    let channels = study.samples.iter().flat_map(|samples| samples.channels());
+    let ranges: Vec<String> = channels.filter_map(range).collect();
+    ranges.join("; ")
 }
 
 fn row(finding: &Finding) -> Vec<String> {

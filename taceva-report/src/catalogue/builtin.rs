@@ -11,6 +11,14 @@ pub(super) const FILES: &[(&str, &str)] = &[
         "densetac-2-0.toml",
         include_str!("../../catalogue/densetac-2-0.toml"),
     ),
+    (
+        "digit-360.toml",
+        include_str!("../../catalogue/digit-360.toml"),
+    ),
+    (
+        "digit-pinki.toml",
+        include_str!("../../catalogue/digit-pinki.toml"),
+    ),
     ("digit.toml", include_str!("../../catalogue/digit.toml")),
     ("dtact.toml", include_str!("../../catalogue/dtact.toml")),
     ("eval.toml", include_str!("../../catalogue/eval.toml")),

@@ -1,11 +1,14 @@
 //! A sensor of the catalogue.
 
 use std::collections::BTreeMap;
+use taceva_core::shown;
 
 use serde::Deserialize;
 use taceva_core::Unit;
+use taceva_metrics::Standing;
 
-use crate::results::{Interval, Score, Study, Value};
+use super::definition;
+use crate::results::{Interval, Made, Score, Study, Value, by_published_r2};
 
 /// A sensor, or a study of sensors, as the catalogue knows it.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
@@ -122,8 +125,44 @@ pub struct Published {
     pub conditions: String,
     /// How it is defined.
     pub definition: String,
+    /// How the number is to be read where it is no measured value: `about` it, `above` or `below` it.
+    pub bound: Option<Roughly>,
     /// What a reader must know.
     pub note: Option<String>,
+    /// Which part it takes in verdicts: by the published R² of its channel.
+    #[serde(skip)]
+    pub standing: Standing,
+}
+
+impl Published {
+    /// The number as it was published, with `≈`, `>` or `<` where its authors said no more.
+    pub fn shown(&self) -> String {
+        let sign = self.bound.map_or("", Roughly::sign);
+        format!("{sign}{}", self.value)
+    }
+}
+
+/// What authors say of a number that they do not state exactly. It is shown, and takes part in no comparison.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Roughly {
+    /// About as much.
+    About,
+    /// More than that.
+    Above,
+    /// Less than that.
+    Below,
+}
+
+impl Roughly {
+    /// The sign before the number.
+    pub const fn sign(self) -> &'static str {
+        match self {
+            Roughly::About => "≈ ",
+            Roughly::Above => "> ",
+            Roughly::Below => "< ",
+        }
+    }
 }
 
 /// A number that was not published.
@@ -168,14 +207,14 @@ impl Sensor {
     /// # Errors
     /// [`CatalogueError`] with file and line.
     pub fn read(file: &str, text: &str) -> Result<Sensor, CatalogueError> {
-        let sensor: Sensor = toml::from_str(text).map_err(|source| CatalogueError::Toml {
+        let mut sensor: Sensor = toml::from_str(text).map_err(|source| CatalogueError::Toml {
             file: file.to_owned(),
             source: Box::new(source),
         })?;
         let refuse = |what, found: &str, expected| CatalogueError::Value {
             file: file.to_owned(),
             what,
-            found: found.escape_debug().to_string(),
+            found: shown(found).to_string(),
             expected,
         };
         if sensor.catalogue_version != 1 {
@@ -190,6 +229,20 @@ impl Sensor {
             return Err(refuse("mechanism", word, "IMM, MDM or MFM"));
         }
         for result in &sensor.results {
+            let expected = definition::of(&result.metric, &result.channel);
+            if let Some(expected) = expected
+                && result.definition != expected
+            {
+                // One column, one definition.
+                return Err(refuse("definition", &result.definition, expected));
+            }
+            if expected.is_none() && definition::is_ours(&result.metric) {
+                return Err(refuse(
+                    "metric",
+                    &result.metric,
+                    "a name that results of this program do not have, since no definition is known here",
+                ));
+            }
             if Unit::from_symbol(&result.unit).is_none() {
                 return Err(refuse("unit", &result.unit, "mm, N, mm/N, N·mm or 1"));
             }
@@ -201,13 +254,38 @@ impl Sensor {
                 ));
             }
         }
+        let judged = sensor.as_study();
+        for result in &mut sensor.results {
+            let score = judged.score(&result.metric, &result.channel);
+            result.standing = score.map_or(Standing::Counts, |score| score.standing);
+        }
         Ok(sensor)
     }
 
-    /// The published number of a metric and channel.
+    /// The published number of a metric and channel, if it is stated exactly.
     pub fn result(&self, metric: &str, channel: &str) -> Option<&Published> {
-        let mut results = self.results.iter();
-        results.find(|result| result.metric == metric && result.channel == channel)
+        let exact = self.results.iter().filter(|result| result.bound.is_none());
+        let mut named = exact.filter(|result| result.metric == metric);
+        named.find(|result| result.channel == channel)
+    }
+
+    /// Pictures a second, in Hz, where that is known.
+    pub fn frame_rate_hz(&self) -> Option<f64> {
+        let built = self.intrinsic.as_ref().map(|of| of.frame_rate_hz);
+        built.or_else(|| Some(self.result("intrinsic", "frame_rate")?.value))
+    }
+
+    /// The area of the sensing surface, in mm², where that is known.
+    pub fn field_of_view_mm2(&self) -> Option<f64> {
+        let built = self.intrinsic.as_ref().map(|of| of.field_of_view_mm2);
+        built.or_else(|| Some(self.result("intrinsic", "field_of_view")?.value))
+    }
+
+    /// How many numbers are known of it.
+    pub fn known(&self) -> usize {
+        let built = if self.intrinsic.is_some() { 4 } else { 0 };
+        let limits = if self.limits.is_some() { 3 } else { 0 };
+        built + limits + self.results.len()
     }
 
     /// The source called `id`.
@@ -227,7 +305,8 @@ impl Sensor {
         letters.collect()
     }
 
-    /// Results as a sensor that can be chosen: its numbers, and whether light is kept out as far as the results say.
+    /// Results as a sensor that can be chosen: its numbers, and whether light is kept out as far as the results say. What a sensor stands is no
+    /// result; it is taken from the sensor of that name in the catalogue, if there is one.
     pub fn of_study(study: &Study) -> Sensor {
         let result = |score: &Score| {
             Some(Published {
@@ -239,7 +318,9 @@ impl Sensor {
                 read_from: study.source.clone(),
                 conditions: "as its provenance says".to_owned(),
                 definition: score.definition.clone(),
+                bound: None,
                 note: None,
+                standing: score.standing,
             })
         };
         let is_opaque = |reason: &str| reason.contains("opaque");
@@ -254,7 +335,7 @@ impl Sensor {
             opaque: (skips || has_light).then_some(skips),
             markers: None,
             intrinsic: None,
-            limits: None,
+            limits: super::find(&study.sensor).and_then(|known| known.limits),
             sources: Vec::new(),
             results: study.scores.iter().filter_map(result).collect(),
             missing: Vec::new(),
@@ -277,11 +358,13 @@ impl Sensor {
             parameters: Vec::new(),
             counts: Vec::new(),
             flags: Vec::new(),
+            standing: Standing::Counts,
+            bounded_share: None,
             of: Vec::new(),
             variants: Vec::new(),
         };
         let is_score =
-            |result: &&Published| taceva_metrics::catalogue::find(&result.metric).is_some();
+            |result: &&Published| definition::is_ours(&result.metric) && result.bound.is_none();
         let published = self.results.iter().filter(is_score);
         let mut scores: Vec<Score> = published
             .map(|result| {
@@ -301,6 +384,7 @@ impl Sensor {
             ];
             scores.extend(camera.map(|(name, value, unit)| score("intrinsic", name, value, unit)));
         }
+        by_published_r2(&mut scores);
         let sources = self
             .sources
             .iter()
@@ -313,6 +397,7 @@ impl Sensor {
             scores,
             skipped: Vec::new(),
             provenance: sources.collect(),
+            made: Made::default(),
             notes: vec![
                 "published numbers; nothing here was measured with this program".to_owned(),
             ],

@@ -1,10 +1,10 @@
 //! The catalogue as rows.
 
-use super::Sensor;
+use super::{Kind, Sensor};
 use crate::listing::Listing;
 use crate::number::numeral;
 
-/// A row a sensor.
+/// A row a sensor; studies of sensors are named below the rows.
 pub fn list(sensors: &[Sensor]) -> Listing {
     let head = [
         "sensor",
@@ -15,18 +15,16 @@ pub fn list(sensors: &[Sensor]) -> Listing {
         "MAE Fxy N",
         "MAE Fz N",
         "rate Hz",
+        "numbers",
     ];
     let mut listing = Listing::new(
         "Catalogue of vision-based tactile sensors, as published",
         &head,
     );
-    for sensor in sensors {
+    let is_sensor = |entry: &&Sensor| entry.kind == Kind::Sensor;
+    for sensor in sensors.iter().filter(is_sensor) {
         let number = |value: Option<f64>| value.map_or_else(|| "–".to_owned(), numeral);
         let mae = |channel| number(sensor.result("mae", channel).map(|result| result.value));
-        let rate = sensor
-            .intrinsic
-            .as_ref()
-            .map(|intrinsic| intrinsic.frame_rate_hz);
         let opaque = sensor
             .opaque
             .map_or("–", |opaque| if opaque { "yes" } else { "no" });
@@ -38,26 +36,47 @@ pub fn list(sensors: &[Sensor]) -> Listing {
             mae("Pz"),
             mae("Fxy"),
             mae("Fz"),
-            number(rate),
+            number(sensor.frame_rate_hz()),
+            sensor.known().to_string(),
         ]);
     }
-    listing.notes.push("A dash: no number is known here. `taceva catalogue show NAME` gives every number with its source.".to_owned());
+    listing.notes.push("A dash: no number of that definition is known here. The last column counts all that are; `taceva catalogue show NAME` gives each with its source, definition and conditions.".to_owned());
+    let studies: Vec<&str> = sensors
+        .iter()
+        .filter(|entry| entry.kind == Kind::Study)
+        .map(|entry| entry.name.as_str())
+        .collect();
+    if !studies.is_empty() {
+        listing.notes.push(format!(
+            "Studies of sensors, which have rows of their own nowhere: {}.",
+            studies.join(", ")
+        ));
+    }
     listing
 }
 
 /// Every published number of a sensor, with source and conditions.
 pub fn details(sensor: &Sensor) -> Listing {
-    let head = ["metric", "channel", "value", "unit", "source", "conditions"];
-    let mut listing = Listing::new(
-        &format!("{} ({})", sensor.name, sensor.mechanism.join("+")),
-        &head,
-    );
-    let entry =
-        |metric: &str, channel: &str, value: String, unit: &str, source: &str, conditions: &str| {
-            [metric, channel, &value, unit, source, conditions]
-                .map(str::to_owned)
-                .to_vec()
-        };
+    let head = [
+        "metric",
+        "channel",
+        "value",
+        "unit",
+        "source",
+        "definition",
+        "conditions",
+    ];
+    let kind = match sensor.kind {
+        Kind::Sensor => sensor.mechanism.join("+"),
+        Kind::Study => "a study of sensors, no sensor".to_owned(),
+    };
+    let mut listing = Listing::new(&format!("{} ({kind})", sensor.name), &head);
+    let built = |metric: &str, channel: &str, value: f64, unit: &str, source: &str| {
+        let value = value.to_string();
+        [metric, channel, &value, unit, source, "", ""]
+            .map(str::to_owned)
+            .to_vec()
+    };
     if let Some(of) = &sensor.intrinsic {
         for (name, value, unit) in [
             ("camera", of.camera_mp, "MP"),
@@ -65,14 +84,9 @@ pub fn details(sensor: &Sensor) -> Listing {
             ("field_of_view", of.field_of_view_mm2, "mm²"),
             ("frame_rate", of.frame_rate_hz, "Hz"),
         ] {
-            listing.rows.push(entry(
-                "intrinsic",
-                name,
-                value.to_string(),
-                unit,
-                &of.source,
-                "",
-            ));
+            listing
+                .rows
+                .push(built("intrinsic", name, value, unit, &of.source));
         }
     }
     if let Some(of) = &sensor.limits {
@@ -81,27 +95,26 @@ pub fn details(sensor: &Sensor) -> Listing {
             ("Fz", of.fz_max_n, "N"),
             ("radius", of.radius_max_mm, "mm"),
         ] {
-            listing.rows.push(entry(
-                "greatest",
-                name,
-                value.to_string(),
-                unit,
-                &of.source,
-                "",
-            ));
+            listing
+                .rows
+                .push(built("greatest", name, value, unit, &of.source));
         }
     }
     for result in &sensor.results {
         let source = format!("{}, {}", result.source, result.read_from);
-        let value = result.value.to_string();
-        listing.rows.push(entry(
+        let note = result.note.as_ref();
+        let note = note.map_or_else(String::new, |note| format!("; {note}"));
+        let conditions = format!("{}{note}", result.conditions);
+        let row = [
             &result.metric,
             &result.channel,
-            value,
+            &result.shown(),
             &result.unit,
             &source,
-            &result.conditions,
-        ));
+            &result.definition,
+            &conditions,
+        ];
+        listing.rows.push(row.map(ToOwned::to_owned).to_vec());
     }
     for missing in &sensor.missing {
         listing.notes.push(format!(

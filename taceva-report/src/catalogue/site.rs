@@ -1,6 +1,6 @@
 //! The catalogue as a static site: a list that filters and sorts, and a page a sensor under a permanent name.
 
-use super::{Published, Sensor};
+use super::{Kind, Published, Sensor};
 use crate::escape::html;
 use crate::figures::figures;
 use crate::html::{Document, figure};
@@ -33,7 +33,8 @@ fn index(sensors: &[Sensor], ours: &[Study]) -> String {
     let mut document = Document::new("Catalogue of vision-based tactile sensors");
     document.lead("<p class=\"lead\">What was published of them, each number with its source.</p>");
     let mut rows = String::new();
-    for sensor in sensors {
+    let of_kind = |kind| sensors.iter().filter(move |entry| entry.kind == kind);
+    for sensor in of_kind(Kind::Sensor) {
         rows += &row(sensor);
     }
     let list = format!(
@@ -48,6 +49,13 @@ fn index(sensors: &[Sensor], ours: &[Study]) -> String {
          <p class=\"note\">A dash: no number is known here. IMM maps intensity, MDM displacements of markers, MFM fuses modalities. The last column counts which of ten properties the work itself reports.</p>"
     );
     document.section("sensors", "Sensors", &list);
+    let studies: String = of_kind(Kind::Study).map(study).collect();
+    if !studies.is_empty() {
+        let studies = format!(
+            "<p>Evaluations, benchmarks and reviews of sensors, with what they report of ten properties.</p>\n<ul>{studies}</ul>"
+        );
+        document.section("studies", "Studies of sensors", &studies);
+    }
     let published: Vec<Study> = sensors
         .iter()
         .filter(|sensor| !sensor.results.is_empty())
@@ -96,21 +104,13 @@ fn row(sensor: &Sensor) -> String {
     );
     let mae = ["Pxy", "Pz", "Fxy", "Fz"]
         .map(|channel| sensor.result("mae", channel).map(|result| result.value));
-    let rate = sensor
-        .intrinsic
-        .as_ref()
-        .map(|intrinsic| intrinsic.frame_rate_hz);
-    for value in mae.into_iter().chain([rate]) {
+    for value in mae.into_iter().chain([sensor.frame_rate_hz()]) {
         out += &match value {
             Some(value) => format!("<td class=\"r\" data-v=\"{value}\">{}</td>", numeral(value)),
             None => "<td class=\"none\" data-v=\"\">–</td>".to_owned(),
         };
     }
-    let yes = sensor
-        .reported
-        .values()
-        .filter(|word| *word == "yes")
-        .count();
+    let yes = properties_reported(sensor);
     let count = match sensor.reported.is_empty() {
         true => "<td class=\"none\" data-v=\"\">–</td>".to_owned(),
         false => format!("<td class=\"r\" data-v=\"{yes}\">{yes}</td>"),
@@ -118,9 +118,30 @@ fn row(sensor: &Sensor) -> String {
     out + &count + "</tr>\n"
 }
 
+/// Of how many properties the work itself says that it reports them.
+fn properties_reported(entry: &Sensor) -> usize {
+    let words = entry.reported.values();
+    words.filter(|word| *word == "yes").count()
+}
+
+fn study(entry: &Sensor) -> String {
+    let count = match entry.reported.is_empty() {
+        true => String::new(),
+        false => format!(": {} of 10", properties_reported(entry)),
+    };
+    format!(
+        "<li><a href=\"{}.html\">{}</a>{count}</li>",
+        entry.slug(),
+        html(&entry.name)
+    )
+}
+
 fn page(sensor: &Sensor) -> String {
     let mut document = Document::new(&sensor.name);
     document.lead("<p class=\"lead\"><a href=\"index.html\">Catalogue of vision-based tactile sensors</a></p>");
+    if sensor.kind == Kind::Study {
+        document.lead("<p>A study of sensors, and no sensor.</p>");
+    }
     document.section("properties", "Properties", &properties(sensor));
     if !sensor.results.is_empty() {
         document.section("results", "Published results", &results(sensor));
@@ -152,15 +173,18 @@ fn properties(sensor: &Sensor) -> String {
             .map_or("unknown", |yes| if yes { "yes" } else { "no" })
             .to_owned()
     };
-    let mut entries = vec![
-        ("mechanism".to_owned(), sensor.mechanism.join(" + ")),
-        (
-            "shape".to_owned(),
-            sensor.shape.clone().unwrap_or_else(|| "unknown".to_owned()),
-        ),
-        ("keeps light out".to_owned(), word(sensor.opaque)),
-        ("markers".to_owned(), word(sensor.markers)),
-    ];
+    let mut entries = match sensor.kind {
+        Kind::Study => Vec::new(),
+        Kind::Sensor => vec![
+            ("mechanism".to_owned(), sensor.mechanism.join(" + ")),
+            (
+                "shape".to_owned(),
+                sensor.shape.clone().unwrap_or_else(|| "unknown".to_owned()),
+            ),
+            ("keeps light out".to_owned(), word(sensor.opaque)),
+            ("markers".to_owned(), word(sensor.markers)),
+        ],
+    };
     if let Some(of) = &sensor.intrinsic {
         entries.extend([
             ("camera".to_owned(), format!("{} MP", of.camera_mp)),
@@ -208,7 +232,7 @@ fn results(sensor: &Sensor) -> String {
             html(&result.metric),
             html(&result.channel),
             result.value,
-            result.value,
+            html(&result.shown()),
             html(unit),
             html(&result.source),
             html(&result.read_from),

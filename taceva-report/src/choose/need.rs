@@ -1,6 +1,7 @@
 //! Needs, as they are said and as they are meant.
 
 use std::fmt;
+use taceva_core::shown;
 
 use super::property::Property;
 use super::words::{QUANTITIES, Quantity, WORDS};
@@ -113,7 +114,7 @@ fn one(words: &str) -> Result<Need, NeedError> {
         .iter()
         .filter(|quantity| lower.starts_with(quantity.name));
     let quantity = named.max_by_key(|quantity| quantity.name.len());
-    let quantity = quantity.ok_or_else(|| NeedError::Unknown(words.escape_debug().to_string()))?;
+    let quantity = quantity.ok_or_else(|| NeedError::Unknown(shown(words).to_string()))?;
     let bound = bound(quantity, words, &words[quantity.name.len()..])?;
     Ok(Need {
         words: words.to_owned(),
@@ -125,7 +126,7 @@ fn one(words: &str) -> Result<Need, NeedError> {
 /// `<= 1 N`, `>= 50 Hz`, or a number alone, which bounds to the side where worse ones lie.
 fn bound(quantity: &Quantity, words: &str, rest: &str) -> Result<Bound, NeedError> {
     let refuse = || NeedError::Number {
-        words: words.escape_debug().to_string(),
+        words: shown(words).to_string(),
         unit: quantity.unit,
     };
     let rest = rest.trim();

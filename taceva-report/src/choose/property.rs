@@ -2,7 +2,10 @@
 
 use std::fmt;
 
+use taceva_metrics::Standing;
+
 use crate::catalogue::Sensor;
+use crate::number::Printed;
 
 /// A number of a sensor that needs ask for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -36,26 +39,50 @@ pub enum Property {
 impl Property {
     /// The number of `sensor`, if it is known.
     pub fn of(self, sensor: &Sensor) -> Option<f64> {
-        let result = |metric, channel| sensor.result(metric, channel).map(|result| result.value);
+        let result = || {
+            let (metric, channel) = self.score()?;
+            sensor.result(metric, channel).map(|result| result.value)
+        };
         let (intrinsic, limits) = (sensor.intrinsic.as_ref(), sensor.limits.as_ref());
         match self {
-            Property::Error(channel) => result("mae", channel),
-            Property::Repeatability(channel) => result("repeatability", channel),
-            Property::Spatial(channel) => result("r_spatial", channel),
-            Property::Resolution(kind) => result("sr", kind),
-            Property::Sensitivity => result("sensitivity", "Fz"),
-            Property::Uniformity => result("uniformity", "Fz"),
-            Property::FrameRate => intrinsic
-                .map(|intrinsic| intrinsic.frame_rate_hz)
-                .or_else(|| result("intrinsic", "frame_rate")),
-            Property::FieldOfView => intrinsic
-                .map(|intrinsic| intrinsic.field_of_view_mm2)
-                .or_else(|| result("intrinsic", "field_of_view")),
+            Property::Error(_)
+            | Property::Repeatability(_)
+            | Property::Spatial(_)
+            | Property::Resolution(_)
+            | Property::Sensitivity
+            | Property::Uniformity => result(),
+            Property::FrameRate => sensor.frame_rate_hz(),
+            Property::FieldOfView => sensor.field_of_view_mm2(),
             Property::Thickness => Some(intrinsic?.thickness_mm),
             Property::GreatestDepth => Some(limits?.pz_max_mm),
             Property::GreatestForce => Some(limits?.fz_max_n),
             Property::Opaque => sensor.opaque.map(|opaque| if opaque { 1.0 } else { 0.0 }),
         }
+    }
+
+    /// The metric and channel of the score that it is, where it is one.
+    fn score(self) -> Option<(&'static str, &'static str)> {
+        match self {
+            Property::Error(channel) => Some(("mae", channel)),
+            Property::Repeatability(channel) => Some(("repeatability", channel)),
+            Property::Spatial(channel) => Some(("r_spatial", channel)),
+            Property::Resolution(kind) => Some(("sr", kind)),
+            Property::Sensitivity => Some(("sensitivity", "Fz")),
+            Property::Uniformity => Some(("uniformity", "Fz")),
+            Property::FrameRate => Some(("intrinsic", "frame_rate")),
+            Property::FieldOfView => Some(("intrinsic", "field_of_view")),
+            Property::Thickness
+            | Property::GreatestDepth
+            | Property::GreatestForce
+            | Property::Opaque => None,
+        }
+    }
+
+    /// Which part the number of `sensor` takes in verdicts; what is no score counts.
+    pub fn standing(self, sensor: &Sensor) -> Standing {
+        let score = self.score();
+        let result = score.and_then(|(metric, channel)| sensor.result(metric, channel));
+        result.map_or(Standing::Counts, |result| result.standing)
     }
 
     /// Whether small numbers are good.
@@ -90,13 +117,21 @@ impl Property {
         }
     }
 
-    /// `value` with its unit.
+    /// `value` with its unit, to four digits.
     pub fn shown(self, value: f64) -> String {
+        let value_shown = Printed::number(value, None).value;
+        // Published numbers have few digits, and keep them as they were printed.
+        let short = value.to_string();
+        let digits = if short.len() <= value_shown.len() {
+            short
+        } else {
+            value_shown
+        };
         match (self, self.unit()) {
             (Property::Opaque, _) if value > 0.0 => "yes".to_owned(),
             (Property::Opaque, _) => "no".to_owned(),
-            (_, "") => value.to_string(),
-            (_, unit) => format!("{value} {unit}"),
+            (_, "") => digits,
+            (_, unit) => format!("{digits} {unit}"),
         }
     }
 

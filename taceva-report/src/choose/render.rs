@@ -2,14 +2,14 @@
 
 use serde_json::json;
 
-use super::{Candidate, Choice, Step};
+use super::{Candidate, Choice, Dropped, Step};
 use crate::escape::html;
 use crate::html::Document;
 use crate::listing::Listing;
 use crate::number::fixed;
 
-/// The schema of a choice as JSON.
-pub const CHOICE_SCHEMA: &str = "taceva.choice/1";
+/// The schema of a choice as JSON. 1.1: `open` lists those of which it is not known whether they meet a hard need.
+pub const CHOICE_SCHEMA: &str = "taceva.choice/1.1";
 
 impl Choice {
     /// A row a sensor, need and number; the best sensor first, those that were dropped last.
@@ -39,10 +39,20 @@ impl Choice {
                 ]);
             }
         }
+        for open in &self.open {
+            listing
+                .notes
+                .push(format!("Open: {}: {}.", open.name, open.reason));
+        }
         for dropped in &self.dropped {
             listing
                 .notes
                 .push(format!("Dropped: {}: {}.", dropped.name, dropped.reason));
+        }
+        for barred in &self.barred {
+            listing
+                .notes
+                .push(format!("Not ranked: {}: {}.", barred.name, barred.reason));
         }
         if !self.unknown.is_empty() {
             listing.notes.push(format!(
@@ -57,6 +67,9 @@ impl Choice {
     pub fn headline(&self) -> String {
         match self.ranked.as_slice() {
             [] => "No sensor meets every need, as far as is known".to_owned(),
+            [best] if !self.barred.is_empty() => {
+                format!("{} alone is ranked; others take no part", best.name)
+            }
             [best] => format!("{} alone meets every need, as far as is known", best.name),
             [best, second, ..] => format!("{} first, {} second", best.name, second.name),
         }
@@ -70,6 +83,7 @@ impl Choice {
                 "looked_at": step.property.to_string(),
                 "value": step.value,
                 "unit": step.property.unit(),
+                "standing": step.standing.words(),
                 "share": step.share,
             })
         };
@@ -78,11 +92,17 @@ impl Choice {
             json!({"name": candidate.name, "share": candidate.share, "steps": steps})
         };
         let ranked: Vec<_> = self.ranked.iter().map(candidate).collect();
-        let dropped = self.dropped.iter();
-        let dropped: Vec<_> = dropped
-            .map(|dropped| json!({"name": dropped.name, "reason": dropped.reason}))
+        let named = |list: &[Dropped]| -> Vec<serde_json::Value> {
+            let list = list.iter();
+            list.map(|dropped| json!({"name": dropped.name, "reason": dropped.reason}))
+                .collect()
+        };
+        let (dropped, barred) = (named(&self.dropped), named(&self.barred));
+        let open = self.open.iter();
+        let open: Vec<_> = open
+            .map(|open| json!({"name": open.name, "reason": open.reason}))
             .collect();
-        let whole = json!({"schema": CHOICE_SCHEMA, "ranked": ranked, "dropped": dropped, "unknown": self.unknown});
+        let whole = json!({"schema": CHOICE_SCHEMA, "ranked": ranked, "open": open, "dropped": dropped, "barred": barred, "unknown": self.unknown});
         format!("{whole:#}\n")
     }
 
@@ -100,8 +120,12 @@ impl Choice {
 }
 
 fn shown(step: &Step) -> String {
-    step.value.map_or_else(
+    let number = step.value.map_or_else(
         || "not known".to_owned(),
         |value| step.property.shown(value),
-    )
+    );
+    match step.standing.words().filter(|_| step.value.is_some()) {
+        Some(words) => format!("{number}, {words}"),
+        None => number,
+    }
 }

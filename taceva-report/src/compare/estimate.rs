@@ -4,13 +4,18 @@ use taceva_metrics::{Estimate, Sides, welch};
 
 use crate::results::{Interval, Score};
 
+/// The flag of a skill that is measured by another constant than that of the training part.
+const MEAN_OF_TRUTH: &str = "constant is the mean of truth";
+
 /// Both scores, if they have one meaning; why not, in words.
 pub(super) fn of_both(scores: Sides<&Score>) -> Result<Sides<Estimate>, String> {
     let Sides { a, b } = scores;
     let meaning = |score: &Score| {
         let constants = score.parameters.iter();
         let constants = constants.map(|(name, value)| format!(", {name} = {value}"));
-        let start = format!("{} in {}", score.definition, score.unit);
+        let mean = score.flags.iter().filter(|flag| **flag == MEAN_OF_TRUTH);
+        let mean: String = mean.map(|flag| format!(", {flag}")).collect();
+        let start = format!("{} in {}{mean}", score.definition, score.unit);
         constants.fold(start, |all, constant| all + &constant)
     };
     if meaning(a) != meaning(b) {

@@ -1,99 +1,191 @@
 //! Comparisons as rows, as JSON and as a page.
 
 use serde_json::json;
+use taceva_metrics::{Better, Difference};
 
-use super::{Answer, Comparison};
-use crate::escape::html;
+use super::overview::WIDTH;
+use super::{Answer, Comparison, Decision};
+use crate::escape::{html, terminal};
 use crate::figures::{figures, listed};
 use crate::html::{Document, figure, lead};
 use crate::listing::Listing;
 use crate::number::{numeral, significant, spaced};
 use crate::results::Study;
 
-/// Answers that a page shows at once.
-const MANY: usize = 80;
-
 /// The schema of a comparison as JSON.
-pub const COMPARISON_SCHEMA: &str = "taceva.comparison/1";
+pub const COMPARISON_SCHEMA: &str = "taceva.comparison/2";
+
+/// The names of the columns of every answer.
+const HEAD: [&str; 14] = [
+    "metric",
+    "better",
+    "channel",
+    "A",
+    "B",
+    "A is",
+    "B is",
+    "A − B",
+    "interval",
+    "level",
+    "p",
+    "p by Holm",
+    "unit",
+    "answer",
+];
 
 impl Comparison {
-    /// A row an answer.
+    /// A row an answer, for people: directions as arrows.
     pub fn listing(&self) -> Listing {
-        let head = [
-            "metric", "channel", "A", "B", "A is", "B is", "A − B", "95 %", "p", "unit", "answer",
-        ];
-        let mut listing = Listing::new("Comparison", &head);
-        listing.rows = self.answers.iter().map(|answer| self.row(answer)).collect();
-        let tests: std::collections::BTreeSet<String> = self
-            .answers
-            .iter()
-            .filter_map(|answer| {
-                answer
-                    .difference
-                    .map(|difference| difference.test.to_string())
-            })
-            .collect();
-        listing.notes = vec![
-            "p values are adjusted by Holm's method over all pairs and channels of a metric; answers are given at a level of 5 %.".to_owned(),
-        ];
-        listing
-            .notes
-            .extend(tests.into_iter().map(|test| format!("Test: {test}.")));
+        self.rows(Better::arrow)
+    }
+
+    /// A row an answer, for programs: directions as words.
+    pub fn table(&self) -> Listing {
+        self.rows(Better::name)
+    }
+
+    fn rows(&self, direction: fn(Better) -> &'static str) -> Listing {
+        let mut listing = Listing::new("Comparison", &HEAD);
+        let answers = self.answers.iter();
+        let rows = answers.map(|answer| self.row(answer, direction(answer.direction)));
+        listing.rows = rows.collect();
+        listing.notes = self.rules();
         listing
     }
 
-    fn row(&self, answer: &Answer) -> Vec<String> {
+    /// How the answers were found.
+    fn rules(&self) -> Vec<String> {
+        let differences = self.answers.iter();
+        let differences = differences.filter_map(|answer| answer.difference.as_ref());
+        let tests: std::collections::BTreeSet<String> = differences
+            .map(|difference| difference.test.to_string())
+            .collect();
+        let rule = "All pairs and channels of a metric are one family, in which Holm's procedure shows a false difference in at most one case of twenty: \
+                    p is that of the pair alone, p by Holm is adjusted for the family, and the interval has the level at which its pair was decided. \
+                    A difference is shown where p by Holm is at most 0.05, and there alone the interval leaves out 0.";
+        let mut notes = vec![rule.to_owned()];
+        notes.extend(self.notes.iter().map(|note| format!("Mind: {note}.")));
+        notes.extend(tests.into_iter().map(|test| format!("Test: {test}.")));
+        notes
+    }
+
+    fn row(&self, answer: &Answer, direction: &str) -> Vec<String> {
         let number = |value: Option<f64>| value.map_or_else(|| "–".to_owned(), numeral);
         let apart = answer.scores.a.zip(answer.scores.b).map(|(a, b)| a - b);
-        let interval = answer.difference.map_or_else(
-            || "–".to_owned(),
-            |difference| {
-                let [low, high] = difference.interval.map(numeral);
-                format!("{low} … {high}")
-            },
-        );
+        let of_difference = |words: &dyn Fn(&Difference) -> String| {
+            let difference = answer.difference.as_ref();
+            difference.map_or_else(|| "–".to_owned(), words)
+        };
         vec![
             answer.metric.clone(),
+            direction.to_owned(),
             answer.channel.clone(),
             self.names[answer.sides.a].clone(),
             self.names[answer.sides.b].clone(),
             number(answer.scores.a),
             number(answer.scores.b),
             number(apart),
-            interval,
-            answer
-                .difference
-                .map_or_else(|| "–".to_owned(), |difference| significant(difference.p)),
+            of_difference(&|difference| {
+                let [low, high] = difference.interval.map(end);
+                format!("{low} … {high}")
+            }),
+            of_difference(&|difference| significant(difference.confidence)),
+            of_difference(&|difference| significant(difference.p)),
+            of_difference(&|difference| significant(difference.adjusted_p)),
             answer.unit.to_string(),
             answer.words(&self.names),
         ]
     }
 
-    /// As JSON of [`COMPARISON_SCHEMA`].
+    /// Every answer, for a terminal: score by score, in lines of at most 100 letters.
+    pub fn text(&self) -> String {
+        let mut out = format!("{}\n", self.tally());
+        let mut last = String::new();
+        for answer in &self.answers {
+            let unit = match spaced(answer.unit).trim() {
+                "" => String::new(),
+                unit => format!(", in {unit}"),
+            };
+            let arrow = answer.direction.arrow();
+            let heading = format!("{} {} {arrow}{unit}", answer.metric, answer.channel);
+            if heading != last {
+                out += &format!("\n{}\n", terminal(&heading));
+                last = heading;
+            }
+            out += &wrapped(&terminal(&self.line(answer)));
+        }
+        for note in self.rules() {
+            out += &format!("\n{}", wrapped(&terminal(&note)));
+        }
+        out
+    }
+
+    /// `GelSight 0.041, TacTip 0.053: GelSight better by 0.012 N (99 % 0.004…0.020, p = 0.004); p = 0.001 alone`
+    fn line(&self, answer: &Answer) -> String {
+        let number = |value: Option<f64>| value.map_or_else(|| "–".to_owned(), numeral);
+        let [a, b] = [answer.sides.a, answer.sides.b].map(|at| self.names[at].as_str());
+        let p = answer
+            .difference
+            .as_ref()
+            .map_or_else(String::new, |difference| {
+                let [alone, adjusted] = [difference.p, difference.adjusted_p].map(significant);
+                format!("; p {alone} alone, {adjusted} by Holm")
+            });
+        format!(
+            "{a} {}, {b} {}: {}{p}",
+            number(answer.scores.a),
+            number(answer.scores.b),
+            answer.words(&self.names)
+        )
+    }
+
+    /// As JSON of [`COMPARISON_SCHEMA`]; an end of an interval that is open is null.
     pub fn json(&self) -> String {
         let answer = |answer: &Answer| {
-            let difference = answer.difference.map(|difference| {
+            let difference = answer.difference.as_ref().map(|difference| {
                 json!({
                     "value": difference.value,
-                    "ci95": difference.interval,
+                    "interval": difference.interval.map(|end| end.is_finite().then_some(end)),
+                    "level": difference.confidence,
                     "p": difference.p,
+                    "p_holm": difference.adjusted_p,
+                    "shown": difference.is_shown,
                     "test": difference.test.to_string(),
                 })
             });
             json!({
                 "metric": answer.metric,
+                "better": answer.direction.name(),
                 "channel": answer.channel,
                 "scores": [answer.scores.a, answer.scores.b],
                 "unit": answer.unit.symbol(),
                 "a": self.names[answer.sides.a],
                 "b": self.names[answer.sides.b],
                 "difference": difference,
-                "better": answer.better().map(|at| &self.names[at]),
+                "standings": [answer.standings.a.words(), answer.standings.b.words()],
+                "winner": answer.better().map(|at| &self.names[at]),
                 "answer": answer.words(&self.names),
             })
         };
+        let decision = |decision: &Decision| {
+            json!({
+                "question": decision.question,
+                "metric": decision.metric,
+                "channel": decision.channel,
+                "better": decision.better.name(),
+                "winner": decision.winner.map(|at| &self.names[at]),
+                "answer": decision.words,
+            })
+        };
         let answers: Vec<_> = self.answers.iter().map(answer).collect();
-        let whole = json!({"schema": COMPARISON_SCHEMA, "of": self.names, "answers": answers});
+        let decisions: Vec<_> = self.decisions().iter().map(decision).collect();
+        let whole = json!({
+            "schema": COMPARISON_SCHEMA,
+            "of": self.names,
+            "notes": self.notes,
+            "decisions": decisions,
+            "answers": answers,
+        });
         format!("{whole:#}\n")
     }
 
@@ -101,15 +193,17 @@ impl Comparison {
     pub fn page(&self, studies: &[Study]) -> String {
         let mut document = Document::new("Comparison");
         document.lead(&lead(studies));
-        let lines: String = self.won().iter().map(|won| won.html(&self.names)).collect();
-        let summary = match lines.is_empty() {
-            true => format!(
-                "<p>No difference is shown between {}.</p>",
-                html(&listed(&self.names))
-            ),
-            false => format!("<ul class=\"verdicts\">{lines}</ul>"),
-        };
-        document.section("summary", "What is shown to differ", &summary);
+        let decisions = self.decisions();
+        let lines: String = decisions
+            .iter()
+            .map(|decision| {
+                let (asked, words) = (html(&decision.asked()), html(&decision.words));
+                format!("<li><strong>{asked}</strong>: {words}</li>\n")
+            })
+            .collect();
+        let tally = html(&self.tally());
+        let summary = format!("<p>{tally}.</p>\n<ul class=\"verdicts\">\n{lines}</ul>\n");
+        document.section("summary", "What is decided", &summary);
         document.section("answers", "Every pair", &self.pairs());
         let radars: String = figures(studies)
             .iter()
@@ -124,15 +218,22 @@ impl Comparison {
 }
 
 impl Comparison {
-    /// Every answer; folded where they are more than a reader goes through.
+    /// What is shown, score by score, and every answer, both folded.
     fn pairs(&self) -> String {
+        let lines: String = self.won().iter().map(|won| won.html(&self.names)).collect();
+        let count = self.answers.len();
+        let shown = if lines.is_empty() {
+            format!(
+                "<p>No difference is shown between {}.</p>\n",
+                html(&listed(&self.names))
+            )
+        } else {
+            format!(
+                "<details><summary>All that is shown to differ</summary>\n<ul class=\"verdicts\">\n{lines}</ul>\n</details>\n"
+            )
+        };
         let table = self.listing().html();
-        match self.answers.len() {
-            0..=MANY => table,
-            count => {
-                format!("<details><summary>All {count} answers</summary>\n{table}</details>\n")
-            }
-        }
+        format!("{shown}<details><summary>All {count} answers</summary>\n{table}</details>\n")
     }
 
     /// What is shown, score by score: who is better, and than whom.
@@ -182,11 +283,40 @@ impl Won<'_> {
         };
         let others: Vec<String> = self.answers.iter().map(than).collect();
         format!(
-            "<li><code>{}</code> {}: <strong>{}</strong> is better than {}</li>\n",
+            "<li><code>{}</code> {} {}: <strong>{}</strong> is better than {}</li>\n",
             html(&of.metric),
             html(&of.channel),
+            of.direction.arrow(),
             html(&names[self.winner]),
             html(&listed(&others))
         )
     }
+}
+
+/// An end of an interval, which may be open.
+fn end(end: f64) -> String {
+    if end.is_finite() {
+        numeral(end)
+    } else if end < 0.0 {
+        "−∞".to_owned()
+    } else {
+        "∞".to_owned()
+    }
+}
+
+/// Words in lines of at most [`WIDTH`] letters, all but the first set in further.
+fn wrapped(text: &str) -> String {
+    let mut out = String::new();
+    let mut line = String::from(" ");
+    for word in text.split(' ').filter(|word| !word.is_empty()) {
+        let is_full = line.chars().count() + 1 + word.chars().count() > WIDTH;
+        if is_full && !line.trim().is_empty() {
+            out += line.trim_end();
+            out.push('\n');
+            line = String::from("     ");
+        }
+        line.push(' ');
+        line += word;
+    }
+    out + line.trim_end() + "\n"
 }

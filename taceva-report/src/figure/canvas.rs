@@ -188,17 +188,46 @@ impl Canvas {
         self.marks.push(Mark::Label(Label { ink, ..label }));
     }
 
-    /// Names beside their lines, from `at` to the right; gives where the last one ends.
-    pub(crate) fn legend(&mut self, at: [f64; 2], names: &[String]) -> f64 {
-        let [mut x, y] = at;
-        for (position, name) in names.iter().enumerate() {
+    /// Names beside their lines, each by the position of its series, from `at` to the right and down where a row is full.
+    pub(crate) fn legend(&mut self, at: [f64; 2], series: &[(usize, String)]) {
+        for ([x, y], position, name) in self.entries(at, series) {
             self.line([x, y - 4.0], [x + 22.0, y - 4.0], Stroke::series(position));
-            let mut label = Label::new([x + 27.0, y], short(name, 24), Anchor::Start);
-            label.ink = Ink::Text;
-            self.label(label);
-            x += 27.0 + width_of(&short(name, 24), 11.0) + 18.0;
+            self.legend_name([x + 27.0, y], name);
         }
-        x
+    }
+
+    /// As [`Canvas::legend`], of dots.
+    pub(crate) fn dot_legend(&mut self, at: [f64; 2], series: &[(usize, String)]) {
+        for ([x, y], position, name) in self.entries(at, series) {
+            let dot = Points {
+                at: vec![[x + 18.0, y - 4.0]],
+                words: Vec::new(),
+            };
+            self.points(dot, Ink::Series(position), 3.6, 1.0);
+            self.legend_name([x + 27.0, y], name);
+        }
+    }
+
+    fn legend_name(&mut self, at: [f64; 2], name: String) {
+        let mut label = Label::new(at, name, Anchor::Start);
+        label.ink = Ink::Text;
+        self.label(label);
+    }
+
+    /// Where each entry of a legend begins, as far to the right as the canvas goes.
+    fn entries(&self, at: [f64; 2], series: &[(usize, String)]) -> Vec<([f64; 2], usize, String)> {
+        let [mut x, mut y] = at;
+        let mut entries = Vec::new();
+        for (position, name) in series {
+            let name = short(name, 24);
+            let width = 27.0 + width_of(&name, 11.0);
+            if x > at[0] && x + width > self.width {
+                (x, y) = (at[0], y + 16.0);
+            }
+            entries.push(([x, y], *position, name));
+            x += width + 18.0;
+        }
+        entries
     }
 }
 

@@ -1,7 +1,8 @@
 //! A plotting area with its two axes.
 
-use super::canvas::{Anchor, Canvas, Ink, Label, Points, Stroke};
+use super::canvas::{Anchor, Canvas, Ink, Label, Points, Stroke, width_of};
 use super::scale::Scale;
+use super::words::short;
 
 /// A place on a canvas, in its own units.
 #[derive(Clone, Copy, Debug)]
@@ -56,14 +57,43 @@ impl Panel {
 
     /// Draws grid, ticks and names; what is measured comes above it.
     pub(crate) fn axes(&self, axes: &Axes, canvas: &mut Canvas) {
-        let Area { left, top, .. } = self.area;
-        let (right, bottom) = (self.area.right(), self.area.bottom());
+        let (top, bottom) = (self.area.top, self.area.bottom());
         let room = (self.area.width / 62.0).clamp(2.0, 8.0);
         for tick in self.x.ticks(room) {
             let x = self.x.at(tick.value);
             canvas.line([x, top], [x, bottom], Stroke::thin(Ink::Grid));
             canvas.label(Label::new([x, bottom + 15.0], tick.label, Anchor::Middle));
         }
+        self.frame(axes, bottom + 32.0, canvas);
+    }
+
+    /// As [`Panel::axes`], where x counts `names`: a column each, its name below it, upright where names are too long for a row.
+    #[expect(clippy::cast_precision_loss, reason = "a handful of names")]
+    pub(crate) fn axes_of_names(&self, axes: &Axes, names: &[String], canvas: &mut Canvas) {
+        let (top, bottom) = (self.area.top, self.area.bottom());
+        let room = self.area.width / names.len().max(1) as f64;
+        let is_narrow = names.iter().any(|name| width_of(name, 11.0) > room - 3.0);
+        for (at, name) in names.iter().enumerate() {
+            if at > 0 {
+                let edge = self.x.at(at as f64 - 0.5);
+                canvas.line([edge, top], [edge, bottom], Stroke::thin(Ink::Grid));
+            }
+            let x = self.x.at(at as f64);
+            let mut label = Label::new([x, bottom + 15.0], short(name, 24), Anchor::Middle);
+            if is_narrow {
+                label = Label::new([x + 4.0, bottom + 5.0], short(name, 10), Anchor::End);
+                label.upwards = true;
+            }
+            canvas.label(label);
+        }
+        let below = if is_narrow { 78.0 } else { 32.0 };
+        self.frame(axes, bottom + below, canvas);
+    }
+
+    /// The y axis, the lines of both, and the names of both; that of x at `below`.
+    fn frame(&self, axes: &Axes, below: f64, canvas: &mut Canvas) {
+        let Area { left, top, .. } = self.area;
+        let (right, bottom) = (self.area.right(), self.area.bottom());
         for tick in self.y.ticks((self.area.height / 34.0).clamp(2.0, 8.0)) {
             let y = self.y.at(tick.value);
             canvas.line([left, y], [right, y], Stroke::thin(Ink::Grid));
@@ -76,11 +106,7 @@ impl Panel {
             canvas.label(title.heading());
         }
         let middle = left + self.area.width / 2.0;
-        canvas.label(Label::new(
-            [middle, bottom + 32.0],
-            axes.x.clone(),
-            Anchor::Middle,
-        ));
+        canvas.label(Label::new([middle, below], axes.x.clone(), Anchor::Middle));
         let mut y = Label::new(
             [left - 44.0, top + self.area.height / 2.0],
             axes.y.clone(),

@@ -1,12 +1,29 @@
 //! Names as figures print them.
 
 use taceva_core::Unit;
+use taceva_metrics::{Better, catalogue};
 
 /// `indentation depth (mm)`; a ratio has no unit to name.
 pub(crate) fn axis_label(name: &str, unit: Unit) -> String {
     match unit {
         Unit::One => name.to_owned(),
         unit => format!("{name} ({unit})"),
+    }
+}
+
+/// A label of an axis with the direction in which the values of `metric` are better: `MAE (mm) ↓`.
+pub(crate) fn directed(label: &str, metric: &str) -> String {
+    let better = catalogue::find(metric).map(|metric| metric.better);
+    format!("{label}{}", better.map_or("", sign))
+}
+
+/// The sign of a direction, behind a space; nothing of what only describes.
+pub(crate) fn sign(better: Better) -> &'static str {
+    match better {
+        Better::Lower => " ↓",
+        Better::Higher => " ↑",
+        Better::NearZero => " →0",
+        _ => "",
     }
 }
 

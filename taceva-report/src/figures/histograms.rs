@@ -31,7 +31,8 @@ pub(super) fn draw(studies: &[Study]) -> Option<Figure> {
     let grid = Grid::new(channels.len(), 3, first, [66.0, 78.0]);
     let mut canvas = grid.canvas([16.0, 42.0]);
     if names.len() > 1 {
-        canvas.legend([first.left, 16.0], &names);
+        let legend: Vec<(usize, String)> = names.iter().cloned().enumerate().collect();
+        canvas.legend([first.left, 16.0], &legend);
     }
     for (position, channel) in channels.iter().enumerate() {
         let area = grid.area(position);

@@ -3,7 +3,7 @@
 use taceva_core::Unit;
 use taceva_metrics::Curve;
 
-use crate::figure::{Figure, axis_label};
+use crate::figure::{Figure, axis_label, directed};
 use crate::results::{Study, Value};
 
 use super::SIX;
@@ -54,7 +54,7 @@ pub(super) fn sheets(
             sheets.push(Sheet {
                 title: channel.to_owned(),
                 x: axis_label(x, units[0]),
-                y: axis_label(y, units[1]),
+                y: directed(&axis_label(y, units[1]), metric),
                 y_unit: units[1],
                 least: Some([0.0, 0.0]),
                 ways,

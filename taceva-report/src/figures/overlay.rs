@@ -41,8 +41,6 @@ pub(super) enum Ways {
     Straight,
     /// By logarithm of x.
     LogarithmicX,
-    /// By logarithm of y.
-    LogarithmicY,
 }
 
 /// What is said of a figure.
@@ -68,8 +66,14 @@ pub(super) fn draw(
     let first = panel_size(columns);
     let grid = Grid::new(sheets.len(), columns, first, [66.0, 78.0]);
     let mut canvas = grid.canvas([16.0, 42.0]);
+    let is_drawn = |at: &usize| {
+        let mut lines = sheets.iter().flat_map(|sheet| &sheet.lines);
+        lines.any(|line| line.study == *at)
+    };
+    let drawn = (0..names.len()).filter(is_drawn);
+    let legend: Vec<(usize, String)> = drawn.map(|at| (at, names[at].clone())).collect();
     if names.len() > 1 {
-        canvas.legend([first.left, 16.0], &names);
+        canvas.legend([first.left, 16.0], &legend);
     }
     for (position, sheet) in sheets.iter().enumerate() {
         let area = grid.area(position);
@@ -119,12 +123,9 @@ impl Sheet {
             area,
             x: match self.ways {
                 Ways::LogarithmicX => Scale::logarithmic(x, area.across()),
-                _ => Scale::linear(x, area.across()),
+                Ways::Straight => Scale::linear(x, area.across()),
             },
-            y: match self.ways {
-                Ways::LogarithmicY => Scale::logarithmic(y, area.upwards()),
-                _ => Scale::round(y, area.upwards()),
-            },
+            y: Scale::round(y, area.upwards()),
         };
         let axes = Axes {
             title: self.title.clone(),

@@ -66,7 +66,9 @@ const ROBUSTNESS: [Axis; 7] = [
     },
 ];
 
-const RADIUS: f64 = 150.0;
+/// Narrow enough for a telephone, with names of axes in two lines.
+const WIDTH: f64 = 440.0;
+const RADIUS: f64 = 130.0;
 
 /// The radars of accuracy, of the sensor itself and of robustness; none of a single sensor, which has nobody to be compared with.
 pub(super) fn draw(studies: &[Study]) -> Vec<Option<Figure>> {
@@ -99,30 +101,42 @@ fn one(studies: &[Study], axes: &[Axis], (id, title): (&str, &str)) -> Option<Fi
     if shares.iter().all(|axis| axis.iter().all(Option::is_none)) {
         return None;
     }
-    let mut canvas = Canvas::new(640.0, 430.0);
-    let end = canvas.legend([20.0, 18.0], &names);
-    canvas.width = canvas.width.max(end);
-    let centre = [320.0, 232.0];
+    let mut canvas = Canvas::new(WIDTH, 400.0);
+    let legend: Vec<(usize, String)> = names.iter().cloned().enumerate().collect();
+    canvas.legend([12.0, 18.0], &legend);
+    let centre = [WIDTH / 2.0, 226.0];
     web(axes, centre, &mut canvas);
     for (at, name) in names.iter().enumerate() {
         let of_one: Vec<Option<(f64, f64)>> = shares.iter().map(|axis| axis[at]).collect();
         outline(&of_one, (axes, centre), (at, name), &mut canvas);
     }
+    let barred: Vec<String> = axes
+        .iter()
+        .flat_map(|axis| axis.barred(studies, &names))
+        .collect();
     let gaps = shares
         .iter()
         .flatten()
         .filter(|share| share.is_none())
-        .count();
+        .count()
+        .saturating_sub(barred.len());
     let gaps = match gaps {
         0 => String::new(),
         1 => " One value is missing and left open.".to_owned(),
         _ => format!(" {gaps} values are missing and left open."),
     };
+    let barred = match barred.is_empty() {
+        true => String::new(),
+        false => format!(
+            " Not drawn, since it takes no part in verdicts: {}.",
+            barred.join("; ")
+        ),
+    };
     Some(Figure {
         id: id.to_owned(),
         title: title.to_owned(),
         caption: format!(
-            "Each axis shows the share of the best sensor shown: value over best where more is better (↑), best over value where less is (↓). The rim is the best.{gaps}"
+            "Each axis shows the share of the best sensor shown: value over best where more is better (↑), best over value where less is (↓). The rim is the best.{gaps}{barred}"
         ),
         description: format!(
             "A radar of {} for {}.",
@@ -137,6 +151,16 @@ fn one(studies: &[Study], axes: &[Axis], (id, title): (&str, &str)) -> Option<Fi
 }
 
 impl Axis {
+    /// Values that are not drawn because they take no part in verdicts: `spatial Pz of GelSightWM (no skill)`.
+    fn barred(&self, studies: &[Study], names: &[String]) -> Vec<String> {
+        let of_one = |(study, name): (&Study, &String)| {
+            let score = study.score(self.metric, self.channel)?;
+            let is_barred = !score.standing.takes_part() && score.value.number().is_some();
+            is_barred.then(|| format!("{} of {name} ({})", self.name, score.standing))
+        };
+        studies.iter().zip(names).filter_map(of_one).collect()
+    }
+
     /// For each study the share of the best and the value itself.
     fn shares(&self, studies: &[Study]) -> Vec<Option<(f64, f64)>> {
         let value = |score: &Score| {
@@ -149,7 +173,10 @@ impl Axis {
         let values: Vec<Option<f64>> = studies
             .iter()
             .map(|study| {
-                let found = study.score(self.metric, self.channel).and_then(value);
+                let found = study.score(self.metric, self.channel);
+                let found = found
+                    .filter(|score| score.standing.takes_part())
+                    .and_then(value);
                 // A share of a negative number says nothing.
                 found.filter(|value| *value >= 0.0)
             })
@@ -200,9 +227,15 @@ fn web(axes: &[Axis], centre: [f64; 2], canvas: &mut Canvas) {
             Better::Higher => "↑",
             _ => "↓",
         };
-        let mut label = Label::new([x, y + 4.0], format!("{} {arrow}", axis.name), anchor);
-        label.ink = Ink::Text;
-        canvas.label(label);
+        let name = format!("{} {arrow}", axis.name);
+        let (first, second) = name.split_once(' ').unwrap_or((&name, ""));
+        // Above the upper half and below the lower one, so that no name lies on the web.
+        let aside = (y - centre[1]) / RADIUS * 8.0;
+        for (line, down) in [(first, -2.0), (second, 11.0)] {
+            let mut label = Label::new([x, y + down + aside], line, anchor);
+            label.ink = Ink::Text;
+            canvas.label(label);
+        }
     }
 }
 

@@ -26,7 +26,7 @@ pub(super) fn curves(studies: &[Study]) -> Option<Figure> {
     let sheets = sheets(
         studies,
         "repeatability",
-        ("step of depth", "spread"),
+        ("step of depth (count)", "spread σ"),
         Ways::Straight,
     );
     overlay(&sheets, studies, 3, words)

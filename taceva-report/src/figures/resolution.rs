@@ -2,7 +2,7 @@
 
 use taceva_core::Unit;
 
-use crate::figure::Figure;
+use crate::figure::{Figure, directed};
 use crate::results::{Study, Value};
 
 use super::levels::levels;
@@ -27,7 +27,7 @@ pub(super) fn draw(studies: &[Study]) -> Option<Figure> {
             sheets.push(Sheet {
                 title: title.to_owned(),
                 x: "tolerance ε (mm)".to_owned(),
-                y: "share told within ε".to_owned(),
+                y: directed("share told within ε", "sr"),
                 y_unit: Unit::One,
                 least: Some([0.0, 1.0]),
                 ways: Ways::Straight,

@@ -3,7 +3,7 @@
 use taceva_core::Unit;
 use taceva_metrics::Curve;
 
-use crate::figure::{Figure, axis_label};
+use crate::figure::{Figure, axis_label, directed};
 use crate::results::{Study, Value};
 
 use super::SIX;
@@ -37,7 +37,7 @@ fn one(studies: &[Study], over: &str) -> Option<Figure> {
             sheets.push(Sheet {
                 title: channel.to_owned(),
                 x: axis_label(over, x_unit),
-                y: axis_label("MAE", unit),
+                y: directed(&axis_label("MAE", unit), "mae"),
                 y_unit: unit,
                 least: Some([0.0, 0.0]),
                 ways: Ways::Straight,

@@ -4,11 +4,13 @@ use crate::escape::html;
 use crate::figures::names;
 use crate::results::Study;
 
-pub(super) fn section(studies: &[Study]) -> String {
-    let mut rows = String::new();
+/// The rows of what was left out, and how many there are.
+pub(super) fn section(studies: &[Study]) -> (usize, String) {
+    let (mut count, mut rows) = (0, String::new());
     for (study, name) in studies.iter().zip(names(studies)) {
         let name = html(&name);
         let mut row = |kind: &str, what: &str, why: &str| {
+            count += 1;
             rows += &format!(
                 "<tr><th scope=\"row\">{name}</th><td>{kind}</td><td class=\"wrap\">{}</td><td class=\"wrap long\">{}</td></tr>\n",
                 html(what),
@@ -32,10 +34,13 @@ pub(super) fn section(studies: &[Study]) -> String {
         }
     }
     if rows.is_empty() {
-        return "<p>Nothing was skipped, every score has a value, and there is nothing to mind.</p>".to_owned();
+        let nothing =
+            "<p>Nothing was skipped, every score has a value, and there is nothing to mind.</p>";
+        return (0, nothing.to_owned());
     }
-    format!(
+    let table = format!(
         "<div class=\"scroll\" tabindex=\"0\" role=\"group\" aria-label=\"What was left out\"><table class=\"sorts\"><thead><tr><th scope=\"col\">sensor</th><th scope=\"col\">kind</th>\
          <th scope=\"col\">what</th><th scope=\"col\">why</th></tr></thead><tbody>\n{rows}</tbody></table></div>"
-    )
+    );
+    (count, table)
 }

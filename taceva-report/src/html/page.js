@@ -70,4 +70,55 @@
     }
   };
   filters.forEach((filter) => filter.addEventListener("input", apply));
+
+  const folds = [...document.querySelectorAll("details")];
+  const reveal = () => {
+    const target = location.hash && document.getElementById(decodeURIComponent(location.hash.slice(1)));
+    if (!target) return;
+    for (let at = target; at; at = at.parentElement) if (at.tagName === "DETAILS") at.open = true;
+    target.scrollIntoView();
+  };
+  addEventListener("hashchange", reveal);
+  reveal();
+  let closed = [];
+  addEventListener("beforeprint", () => {
+    closed = folds.filter((fold) => !fold.open);
+    closed.forEach((fold) => { fold.open = true; });
+  });
+  addEventListener("afterprint", () => { closed.forEach((fold) => { fold.open = false; }); });
+  for (const button of document.querySelectorAll("[data-unfold]")) {
+    button.hidden = false;
+    const words = [button.textContent, "Fold everything"];
+    button.addEventListener("click", () => {
+      const open = folds.some((fold) => !fold.open);
+      folds.forEach((fold) => { fold.open = open; });
+      button.textContent = words[open ? 1 : 0];
+    });
+  }
+
+  for (const button of document.querySelectorAll("[data-copy]")) {
+    button.hidden = false;
+    const words = button.textContent;
+    button.addEventListener("click", async () => {
+      const source = document.getElementById(button.dataset.copy);
+      let done = false;
+      try {
+        await navigator.clipboard.writeText(source.textContent);
+        done = true;
+      } catch {
+        const range = document.createRange();
+        range.selectNodeContents(source);
+        getSelection().removeAllRanges();
+        getSelection().addRange(range);
+        done = document.execCommand("copy");
+      }
+      button.textContent = done ? "Copied" : "Selected: copy it with Ctrl+C";
+      setTimeout(() => { button.textContent = words; }, 2500);
+    });
+  }
+
+  const boxes = document.querySelectorAll(".scroll, main figure");
+  const hint = (box) => { box.toggleAttribute("data-more", box.scrollWidth > box.clientWidth + 2); };
+  const watch = new ResizeObserver((entries) => entries.forEach((entry) => hint(entry.target)));
+  boxes.forEach((box) => watch.observe(box));
 })();

@@ -1,8 +1,6 @@
-//! From what, and how, and what the metrics mean.
+//! From what, and how.
 
 use std::collections::BTreeSet;
-
-use taceva_metrics::{Better, catalogue};
 
 use crate::escape::html;
 use crate::figures::names;
@@ -37,26 +35,7 @@ pub(super) fn section(studies: &[Study], table: &ScoreTable) -> String {
     for method in methods {
         out += &format!("<li>{}</li>", html(method));
     }
-    out += "</ul>\n<h3>What the metrics mean</h3>\n<dl>";
-    for metric in catalogue::ALL {
-        let mut rows = table.rows.iter();
-        if rows.any(|row| row.metric == metric.id) {
-            let better = match metric.better {
-                Better::Lower => "lower is better",
-                Better::Higher => "higher is better",
-                Better::NearZero => "near zero is better",
-                _ => "describes",
-            };
-            out += &format!(
-                "<dt>{} <code>{}</code></dt><dd>{} ({better}; {})</dd>",
-                html(metric.title),
-                metric.id,
-                html(metric.documentation),
-                html(metric.reference)
-            );
-        }
-    }
-    out + "</dl>"
+    out + "</ul>"
 }
 
 fn entry(term: &str, text: &str) -> String {

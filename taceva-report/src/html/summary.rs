@@ -11,18 +11,27 @@ use crate::table::{ScoreCell, ScoreRow, ScoreTable};
 /// What stands below the title.
 pub(crate) fn lead(studies: &[Study]) -> String {
     let names = names(studies);
-    let mut out = format!("<p class=\"lead\">{}</p>", html(&listed(&names)));
+    format!(
+        "<p class=\"lead\">{}</p>{}",
+        html(&listed(&names)),
+        badge(studies)
+    )
+}
+
+/// Whether anything was measured at all; nothing where everything was.
+pub(crate) fn badge(studies: &[Study]) -> &'static str {
     let simulated = studies.iter().filter(|study| study.is_simulated()).count();
     if simulated == studies.len() {
-        out += "<p class=\"badge\">Nothing here was measured: the samples are simulated.</p>";
+        "<p class=\"badge\">Nothing here was measured: the samples are simulated.</p>"
     } else if simulated > 0 {
-        out += "<p class=\"badge\">Not everything here was measured: some of the samples are simulated.</p>";
+        "<p class=\"badge\">Not everything here was measured: some of the samples are simulated.</p>"
+    } else {
+        ""
     }
-    out
 }
 
 /// What is asked of a report first, with how it is answered.
-const QUESTIONS: [(&str, &str, &str); 10] = [
+pub(crate) const QUESTIONS: [(&str, &str, &str); 10] = [
     ("mae", "Pz", "Depth"),
     ("mae", "Pxy", "Position in the plane"),
     ("mae", "Fz", "Normal force"),
@@ -58,8 +67,7 @@ pub(super) fn section(studies: &[Study], table: &ScoreTable) -> String {
             }
         }
     }
-    out += "</ul>\n";
-    out + &sensors(studies)
+    out + "</ul>\n"
 }
 
 fn answer(studies: &[Study], table: &ScoreTable, row: &ScoreRow) -> Option<String> {
@@ -69,6 +77,7 @@ fn answer(studies: &[Study], table: &ScoreTable, row: &ScoreRow) -> Option<Strin
         .enumerate()
         .filter_map(|(at, cell)| cell.as_ref().and_then(|cell| Some((at, cell, cell.value?))))
         .collect();
+    let barred = barred(&known, table);
     let better = studies
         .iter()
         .find_map(|study| study.score(&row.metric, &row.channel))
@@ -76,12 +85,30 @@ fn answer(studies: &[Study], table: &ScoreTable, row: &ScoreRow) -> Option<Strin
     let phrase = |cell: &ScoreCell| phrase(cell, row);
     if studies.len() == 1 {
         return Some(match known.first() {
-            Some((_, cell, _)) => format!("{}, n = {}.", phrase(cell), cell.n),
+            Some((_, cell, _)) => {
+                let why = cell
+                    .standing
+                    .reason()
+                    .map(|why| format!(" It claims nothing: {why}."));
+                format!(
+                    "{}, n = {}.{}",
+                    phrase(cell),
+                    cell.n,
+                    why.unwrap_or_default()
+                )
+            }
             None => {
                 let cell = row.cells.first()?.as_ref()?;
                 format!("no value ({}).", html(cell.printed.reason.as_deref()?))
             }
         });
+    }
+    let known: Vec<(usize, &ScoreCell, f64)> = known
+        .into_iter()
+        .filter(|(_, cell, _)| cell.takes_part())
+        .collect();
+    if known.is_empty() && !barred.is_empty() {
+        return Some(format!("no verdict.{barred}"));
     }
     let best = known.iter().copied().reduce(|best, next| match better {
         Better::Higher if next.2 > best.2 => next,
@@ -98,9 +125,15 @@ fn answer(studies: &[Study], table: &ScoreTable, row: &ScoreRow) -> Option<Strin
         .map(|(_, name)| html(name))
         .collect();
     let verdict = if known.len() < 2 {
-        "alone has a value".to_owned()
+        match barred.is_empty() {
+            true => "alone has a value".to_owned(),
+            false => "alone has a value that takes part".to_owned(),
+        }
     } else if best.1.is_best {
-        "is shown to be better than every other sensor".to_owned()
+        match barred.is_empty() {
+            true => "is shown to be better than every other sensor".to_owned(),
+            false => "is shown to be better than every other sensor that takes part".to_owned(),
+        }
     } else {
         let rivals = rivals(best.0, &known, (table, row));
         format!("has the best value, but is not shown to be better than {rivals}")
@@ -110,9 +143,24 @@ fn answer(studies: &[Study], table: &ScoreTable, row: &ScoreRow) -> Option<Strin
         _ => format!(" No value: {}.", listed(&missing)),
     };
     Some(format!(
-        "{name} {verdict}, with {}.{missing}",
+        "{name} {verdict}, with {}.{missing}{barred}",
         phrase(best.1)
     ))
+}
+
+/// Those whose value claims nothing, and why: ` Takes no part: GelSightWM (no skill).`
+fn barred(known: &[(usize, &ScoreCell, f64)], table: &ScoreTable) -> String {
+    let barred = known.iter().filter(|(_, cell, _)| !cell.takes_part());
+    let barred: Vec<String> = barred
+        .filter_map(|(at, cell, _)| {
+            let remark = cell.remark()?;
+            Some(format!("{} ({})", html(&table.names[*at]), html(&remark)))
+        })
+        .collect();
+    match barred.is_empty() {
+        true => String::new(),
+        false => format!(" No part in verdicts: {}.", listed(&barred)),
+    }
 }
 
 /// Those that the best is not shown to be better than.
@@ -136,37 +184,15 @@ fn rivals(
 fn phrase(cell: &ScoreCell, row: &ScoreRow) -> String {
     let unit = spaced(row.unit);
     let value = minus(&cell.printed.value);
-    match &cell.printed.interval {
+    let value = match &cell.printed.interval {
         Some([low, high]) => {
             let [low, high] = [low, high].map(|end| minus(end));
             format!("{value}{unit} ({low} … {high})")
         }
         None => format!("{value}{unit}"),
+    };
+    match cell.remark() {
+        Some(remark) => format!("{value}, {}", html(&remark)),
+        None => value,
     }
-}
-
-/// The sensors in a table.
-fn sensors(studies: &[Study]) -> String {
-    let mut out = String::from(
-        "<div class=\"scroll\"><table><caption>Sensors</caption><thead><tr><th scope=\"col\">sensor</th><th scope=\"col\">serial</th>\
-         <th scope=\"col\">samples</th><th scope=\"col\">model</th><th scope=\"col\">split</th></tr></thead><tbody>\n",
-    );
-    for (study, name) in studies.iter().zip(names(studies)) {
-        let of = |key: &str| {
-            let found = study.provenance.iter().find(|(name, _)| name == key);
-            found.map_or("–", |(_, text)| text.as_str())
-        };
-        let model = of("model")
-            .strip_prefix("name ")
-            .map_or("–", |model| model.split(',').next().unwrap_or(model));
-        out += &format!(
-            "<tr><th scope=\"row\">{}</th><td class=\"wrap\">{}</td><td>{}</td><td class=\"wrap\">{}</td><td class=\"wrap\">{}</td></tr>\n",
-            html(&name),
-            html(&study.serial),
-            html(&study.source),
-            html(model),
-            html(of("split"))
-        );
-    }
-    out + "</tbody></table></div>\n"
 }

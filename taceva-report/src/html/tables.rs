@@ -1,91 +1,14 @@
-//! The scores as tables that sort, theme by theme.
+//! Scores as tables that sort.
 
 use taceva_core::Unit;
 
+use super::glossary::metric_link;
 use crate::escape::html;
 use crate::number::minus;
-use crate::table::{ScoreCell, ScoreRow, ScoreTable};
+use crate::table::{ScoreCell, ScoreRow};
 
-/// Metrics that are read together.
-const THEMES: [(&str, &str, &[&str]); 5] = [
-    (
-        "accuracy",
-        "Accuracy",
-        &[
-            "mae",
-            "rmse",
-            "bias",
-            "r2",
-            "smape",
-            "smape_gated",
-            "mae_euclid",
-            "tolerance",
-            "linearity",
-            "bias_level",
-            "crosstalk",
-        ],
-    ),
-    (
-        "detail",
-        "Finest detail and least force",
-        &["sr", "minimum_detectable_force", "signal_to_repeatability"],
-    ),
-    ("surface", "Sensitivity", &["sensitivity", "uniformity"]),
-    (
-        "robustness",
-        "Robustness",
-        &[
-            "r_spatial",
-            "r_light",
-            "repeatability",
-            "hysteresis",
-            "inter_sensor",
-            "drift",
-        ],
-    ),
-    ("camera", "Camera and field of view", &["intrinsic"]),
-];
-
-pub(super) fn section(table: &ScoreTable) -> String {
-    let headlines = table.headlines();
-    let mut out = String::from(
-        "<p class=\"note\">Below each value its 95 % interval and n. Bold: better than every other sensor shown, at a level of 5 % after Holm's adjustment over the metric. Columns sort.</p>\n",
-    );
-    if table.rows.is_empty() {
-        out += "<p>There is no score in these results.</p>";
-    }
-    let theme_of = |row: &&ScoreRow| {
-        let metric = row.metric.split('.').next().unwrap_or_default();
-        THEMES
-            .iter()
-            .position(|(_, _, metrics)| metrics.contains(&metric))
-    };
-    for (position, (id, title, _)) in THEMES.iter().enumerate() {
-        let rows: Vec<&ScoreRow> = headlines
-            .rows
-            .iter()
-            .filter(|row| theme_of(row) == Some(position))
-            .collect();
-        out += &one(id, title, &headlines.names, &rows);
-    }
-    let others: Vec<&ScoreRow> = headlines
-        .rows
-        .iter()
-        .filter(|row| theme_of(row).is_none())
-        .collect();
-    out += &one("other", "Other", &headlines.names, &others);
-    let all: Vec<&ScoreRow> = table.rows.iter().collect();
-    if all.len() > headlines.rows.len() {
-        out += &format!(
-            "<details><summary>All {} rows: every channel and every variant</summary>\n{}</details>\n",
-            all.len(),
-            one("all", "Every score", &table.names, &all)
-        );
-    }
-    out
-}
-
-fn one(id: &str, title: &str, names: &[String], rows: &[&ScoreRow]) -> String {
+/// A table that sorts; nothing without rows. `id` is a word, `title` plain text.
+pub(super) fn table(id: &str, title: &str, names: &[String], rows: &[&ScoreRow]) -> String {
     if rows.is_empty() {
         return String::new();
     }
@@ -104,7 +27,7 @@ fn one(id: &str, title: &str, names: &[String], rows: &[&ScoreRow]) -> String {
         };
         out += &format!(
             "<tr><th scope=\"row\">{}</th><td>{}</td><td>{unit}</td>",
-            html(&row.metric),
+            metric_link(&row.metric),
             html(&row.channel)
         );
         for value in &row.cells {
@@ -137,6 +60,10 @@ fn cell(cell: Option<&ScoreCell>) -> String {
             format!("{} … {}, n = {}{invalid}", minus(low), minus(high), cell.n)
         }
         (None, Some(_)) | (None, None) => format!("no interval, n = {}{invalid}", cell.n),
+    };
+    let interval = match cell.remark() {
+        Some(remark) => format!("{interval}, {remark}"),
+        None => interval,
     };
     let why = printed.reason.as_deref().unwrap_or_default();
     let hover = match why {

@@ -1,6 +1,7 @@
 //! Decode time against error, as `taceva bench decode` writes it and figures read it.
 
 use serde::{Deserialize, Serialize};
+use taceva_core::shown;
 
 use super::model_bench::is_simulated;
 use super::{BENCH_SCHEMA, BenchMachine, BenchRecording, ChannelError, ResultsError};
@@ -89,11 +90,7 @@ impl DecodeBench {
         Err(ResultsError::Place {
             place: "schema and subject".to_owned(),
             expected: "`taceva.bench/1` of `decode`",
-            found: format!(
-                "`{}` of `{}`",
-                bench.schema.escape_debug(),
-                bench.subject.escape_debug()
-            ),
+            found: format!("`{}` of `{}`", shown(&bench.schema), shown(&bench.subject)),
         })
     }
 

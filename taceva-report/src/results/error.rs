@@ -7,6 +7,9 @@ pub enum ResultsError {
     /// They are no JSON.
     #[error("not JSON: {0}")]
     Json(#[from] serde_json::Error),
+    /// They are not what they were when they were written.
+    #[error("{0}")]
+    Seal(#[from] taceva_seal::SealError),
     /// They have no schema, or one that is not known here.
     #[error("{found}: expected `taceva.evaluation/1` or `taceva.run/1`")]
     Schema {

@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 use taceva_core::Unit;
+use taceva_core::shown;
 
 use super::ResultsError;
 
@@ -119,11 +120,7 @@ impl ModelBench {
             return Err(ResultsError::Place {
                 place: "schema and subject".to_owned(),
                 expected: "`taceva.bench/1` of `models`",
-                found: format!(
-                    "`{}` of `{}`",
-                    bench.schema.escape_debug(),
-                    bench.subject.escape_debug()
-                ),
+                found: format!("`{}` of `{}`", shown(&bench.schema), shown(&bench.subject)),
             });
         }
         for (at, row) in bench.rows.iter().enumerate() {
@@ -181,7 +178,7 @@ impl ModelRow {
         match below {
             None => Ok(()),
             Some((name, number)) => Err(ResultsError::Place {
-                place: format!("rows[{at}].{}", name.escape_debug()),
+                place: format!("rows[{at}].{}", shown(name)),
                 expected: "a number from 0",
                 found: number.to_string(),
             }),

@@ -1,7 +1,7 @@
 //! A score as it is read back.
 
 use taceva_core::Unit;
-use taceva_metrics::{Better, Curve, Map, Matrix, catalogue};
+use taceva_metrics::{Better, Curve, Map, Matrix, Standing, catalogue};
 
 /// A metric of a channel or plane.
 #[derive(Clone, Debug, PartialEq)]
@@ -28,6 +28,11 @@ pub struct Score {
     pub counts: Vec<(String, u64)>,
     /// What a reader must know before trusting it.
     pub flags: Vec<String>,
+    /// Whether it takes part in verdicts.
+    pub standing: Standing,
+    /// Which share of the predictions it was formed with lie beyond the bounds of the model; `None` where no prediction enters it or nobody
+    /// wrote it down.
+    pub bounded_share: Option<f64>,
     /// The channels it is made of, if it is not one channel's own.
     pub of: Vec<String>,
     /// What else the metric says there.

@@ -3,7 +3,7 @@
 use super::ScoreTable;
 use crate::escape;
 
-const HEAD: [&str; 11] = [
+const HEAD: [&str; 13] = [
     "sensor",
     "metric",
     "channel",
@@ -15,6 +15,8 @@ const HEAD: [&str; 11] = [
     "n",
     "n_invalid",
     "reason",
+    "standing",
+    "bounded_share",
 ];
 
 /// A table as CSV: one row a score and study, numbers in shortest round-trip form; words that begin like a formula are begun with an
@@ -44,6 +46,8 @@ pub fn csv(table: &ScoreTable) -> String {
                 cell.n.to_string(),
                 cell.n_invalid.to_string(),
                 escape::csv(cell.printed.reason.as_deref().unwrap_or_default()),
+                cell.standing.words().unwrap_or_default().to_owned(),
+                number(cell.bounded_share),
             ]);
         }
     }

@@ -1,5 +1,6 @@
 //! For papers: a booktabs table, a row a score, a column a study.
 
+use super::notation::metric;
 use super::{ScoreCell, ScoreTable};
 use crate::escape::latex as escape;
 
@@ -37,7 +38,7 @@ pub fn latex(table: &ScoreTable, caption: &str) -> String {
         };
         out += &format!(
             "    {} & {} & {unit} & {} \\\\\n",
-            escape(metric),
+            self::metric(metric),
             symbol(&row.channel),
             cells.join(" & ")
         );
@@ -52,13 +53,13 @@ pub fn latex(table: &ScoreTable, caption: &str) -> String {
     }
     out += "    \\bottomrule\n  \\end{tabular}\n";
     if columns > 1 {
-        out += "\n  \\footnotesize Bold: better than every other sensor at a level of 5\\,\\% after Holm's adjustment.\n";
+        out += "\n  \\footnotesize Bold: better than every other sensor that takes part in verdicts, at a level of 5\\,\\% after Holm's adjustment.\n";
     }
     out += "\\end{table}\n";
     out
 }
 
-fn cell(cell: Option<&ScoreCell>) -> String {
+pub(super) fn cell(cell: Option<&ScoreCell>) -> String {
     let Some(cell) = cell.filter(|cell| !cell.printed.value.is_empty()) else {
         return "--".to_owned();
     };
@@ -70,9 +71,16 @@ fn cell(cell: Option<&ScoreCell>) -> String {
 }
 
 fn interval(cell: Option<&ScoreCell>) -> String {
-    match cell.and_then(|cell| cell.printed.interval.as_ref()) {
-        Some([low, high]) => format!("\\scriptsize [{}, {}]", number(low), number(high)),
-        None => String::new(),
+    let ends = cell.and_then(|cell| cell.printed.interval.as_ref());
+    let ends = ends.map(|[low, high]| format!("[{}, {}]", number(low), number(high)));
+    let remark = cell.and_then(ScoreCell::remark);
+    let said: Vec<String> = ends
+        .into_iter()
+        .chain(remark.map(|remark| escape(&remark)))
+        .collect();
+    match said.is_empty() {
+        true => String::new(),
+        false => format!("\\scriptsize {}", said.join(", ")),
     }
 }
 

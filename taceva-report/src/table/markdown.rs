@@ -37,8 +37,12 @@ fn cell(cell: Option<&ScoreCell>) -> String {
         true => format!("**{}**", printed.value),
         false => printed.value.clone(),
     };
-    match &printed.interval {
+    let value = match &printed.interval {
         Some([low, high]) => format!("{value} ({low} … {high})"),
+        None => value,
+    };
+    match cell.remark() {
+        Some(remark) => format!("{value}, {remark}"),
         None => value,
     }
 }

@@ -1,6 +1,6 @@
 //! The report in a real browser: no console error, no request, hover, sort and print.
 //!
-//! Skipped, with the reason printed, where no Chromium is installed.
+//! Skipped, and written into the list of skips, where no Chromium is installed.
 
 #[path = "../support/mod.rs"]
 mod support;
@@ -14,6 +14,7 @@ use std::path::Path;
 use cdp::Browser;
 use serde_json::{Value, json};
 use support::drawn;
+use taceva_needs::skip;
 use taceva_report::{
     Acceptance, CompareRequest, LimitsFile, Need, Report, Study, accept, catalogue, choose,
     compare, report,
@@ -34,6 +35,7 @@ fn page_of(studies: &[Study]) -> String {
         title: "drawn",
         studies,
         pictures: &[],
+        triples: &[],
     })
 }
 
@@ -41,7 +43,7 @@ fn page_of(studies: &[Study]) -> String {
 fn open_page(text: &str) -> Option<Opened> {
     let folder = tempfile::tempdir().expect("a folder");
     let Some(browser) = Browser::start(folder.path()) else {
-        print("skipped: no chromium on the path");
+        skip(taceva_needs::Need::Browser, "no chromium on the path");
         return None;
     };
     let mut opened = Opened { browser, folder };
@@ -57,10 +59,7 @@ impl Opened {
     }
 }
 
-#[expect(
-    clippy::print_stderr,
-    reason = "a test says what it skips and what it measures"
-)]
+#[expect(clippy::print_stderr, reason = "a test says what it measures")]
 fn print(words: &str) {
     eprintln!("{words}");
 }
@@ -98,7 +97,7 @@ fn pointing_at_a_mark_shows_its_value_and_arrow_keys_go_on() {
         return;
     };
     let browser = &mut opened.browser;
-    browser.evaluate("document.documentElement.style.scrollBehavior = 'auto'; document.querySelector('#figure-predicted-1').scrollIntoView()");
+    browser.evaluate("document.documentElement.style.scrollBehavior = 'auto'; document.querySelectorAll('details').forEach((fold) => { fold.open = true; }); document.querySelector('#figure-predicted-1').scrollIntoView()");
     // The page hides the tip when it scrolls, which it does with the next frame.
     browser.evaluate(
         "new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(() => done(1))))",
@@ -178,6 +177,118 @@ fn paper_cuts_no_table() {
     browser.assert_quiet();
 }
 
+/// The height of a screen, in pixels.
+const SCREEN: f64 = 900.0;
+
+#[test]
+fn a_report_of_four_sensors_is_at_most_twelve_screens_until_it_is_unfolded() {
+    let four = [1.0, 1.4, 1.8, 2.2].map(|scale| drawn(&format!("sensor {scale}"), 150, scale));
+    let Some(mut opened) = open(&four) else {
+        return;
+    };
+    let browser = &mut opened.browser;
+    browser.call(
+        "Emulation.setDeviceMetricsOverride",
+        json!({"width": 1280, "height": 900, "deviceScaleFactor": 1, "mobile": false}),
+    );
+    let height = "document.documentElement.scrollHeight";
+    let folded = browser.evaluate(height).as_f64().expect("a height") / SCREEN;
+    let first = "(() => { const last = [...document.querySelectorAll('#summary li')].pop(); return last.getBoundingClientRect().bottom; })()";
+    let summary = browser.evaluate(first).as_f64().expect("a height") / SCREEN;
+    let unfold = "document.querySelector('[data-unfold]').click()";
+    browser.evaluate(unfold);
+    let unfolded = browser.evaluate(height).as_f64().expect("a height") / SCREEN;
+    print(&format!(
+        "screens of {SCREEN} px: summary {summary:.1}, folded {folded:.1}, unfolded {unfolded:.1}"
+    ));
+    assert!(
+        folded <= 12.0 && unfolded > folded * 2.0,
+        "{folded} {unfolded}"
+    );
+    browser.assert_quiet();
+}
+
+#[test]
+fn whoever_follows_a_metric_sees_what_it_means() {
+    let Some(mut opened) = open(&two()) else {
+        return;
+    };
+    let browser = &mut opened.browser;
+    browser.evaluate("document.querySelector('#table-main a.metric').click()");
+    browser.evaluate("new Promise((done) => setTimeout(done, 100))");
+    let seen = browser.evaluate(
+        "(() => { const entry = document.querySelector(location.hash); return [entry.id, entry.checkVisibility(), entry.nextElementSibling.textContent]; })()",
+    );
+    assert_eq!([&seen[0], &seen[1]], [&json!("metric-mae"), &json!(true)]);
+    let words = seen[2].as_str().unwrap_or_default();
+    assert!(
+        words.contains("Unit:") && words.contains("lower is better"),
+        "{words}"
+    );
+    browser.assert_quiet();
+}
+
+#[test]
+fn methods_are_copied_by_keyboard() {
+    let Some(mut opened) = open(&two()) else {
+        return;
+    };
+    let browser = &mut opened.browser;
+    browser.evaluate("document.querySelector('[data-copy=methods-text]').focus()");
+    for kind in ["keyDown", "keyUp"] {
+        browser.call(
+            "Input.dispatchKeyEvent",
+            json!({"type": kind, "key": "Enter", "code": "Enter", "windowsVirtualKeyCode": 13, "text": "\r"}),
+        );
+    }
+    browser.evaluate("new Promise((done) => setTimeout(done, 300))");
+    let said = browser.evaluate("document.querySelector('[data-copy=methods-text]').textContent");
+    let said = said.as_str().unwrap_or_default();
+    assert!(
+        said.starts_with("Copied") || said.starts_with("Selected"),
+        "{said}"
+    );
+    browser.assert_quiet();
+}
+
+#[test]
+fn paper_unfolds_everything() {
+    let Some(mut opened) = open(&two()) else {
+        return;
+    };
+    let browser = &mut opened.browser;
+    browser.call("Emulation.setEmulatedMedia", json!({"media": "print"}));
+    let hidden = browser.evaluate(
+        "[...document.querySelectorAll('main figure svg')].filter((one) => one.getBoundingClientRect().height < 10).length",
+    );
+    assert_eq!(hidden, json!(0));
+    browser.assert_quiet();
+}
+
+#[test]
+fn a_phone_says_where_a_table_goes_on_and_cuts_no_radar() {
+    let Some(mut opened) = open(&two()) else {
+        return;
+    };
+    let browser = &mut opened.browser;
+    browser.call(
+        "Emulation.setDeviceMetricsOverride",
+        json!({"width": 390, "height": 844, "deviceScaleFactor": 2, "mobile": true}),
+    );
+    browser.evaluate("document.querySelectorAll('details').forEach((fold) => { fold.open = true; }); new Promise((done) => setTimeout(done, 300))");
+    let silent = browser.evaluate(
+        "[...document.querySelectorAll('.scroll, main figure')].filter((box) => box.scrollWidth > box.clientWidth + 2 && getComputedStyle(box, '::before').content === 'none').length",
+    );
+    assert_eq!(silent, json!(0), "every box that goes on says so");
+    let told = browser.evaluate("document.querySelectorAll('[data-more]').length");
+    assert!(told.as_u64() > Some(3), "{told}");
+    let cut = browser.evaluate(
+        "[...document.querySelectorAll('[id^=figure-radar] svg')].filter((svg) => svg.getBoundingClientRect().right > innerWidth || [...svg.querySelectorAll('text')].some((text) => { const box = text.getBoundingClientRect(); return box.left < 0 || box.right > innerWidth; })).map((svg) => svg.textContent.slice(0, 30))",
+    );
+    assert_eq!(cut, json!([]));
+    browser.assert_quiet();
+}
+
 #[test]
 fn a_phone_scrolls_down_and_squeezes_nothing() {
     let Some(mut opened) = open(&two()) else {
@@ -239,6 +350,8 @@ fn sheet(limits_of: &[&str]) -> String {
         name: &limits.name,
         study: &study,
         findings: &findings,
+        date: Some("2026-11-22"),
+        pictures: None,
     };
     acceptance.page()
 }
@@ -258,7 +371,7 @@ fn a_data_sheet_is_one_page_of_paper() {
 fn no_page_keeps_anybody_out() {
     let axe = match axe::source() {
         Ok(axe) => axe,
-        Err(why) => return print(&format!("skipped: {why}")),
+        Err(why) => return skip(taceva_needs::Need::Axe, why),
     };
     let studies = two();
     let needs = Need::parse("accurate shear, ambient light").expect("needs");

@@ -164,7 +164,9 @@ impl Full {
             Some(match tested {
                 Some(Ok(difference)) => ErrorChange {
                     value: difference.value,
-                    ci95: Some(difference.interval),
+                    // So few points that every difference is possible have no interval.
+                    ci95: Some(difference.interval)
+                        .filter(|ends| ends.iter().all(|end| end.is_finite())),
                 },
                 // Too few points.
                 Some(Err(_)) | None => ErrorChange {

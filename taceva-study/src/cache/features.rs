@@ -3,22 +3,20 @@
 use std::fs::{self, File};
 use std::io;
 use std::path::Path;
-use std::time::{Duration, SystemTime};
+use std::time::SystemTime;
 
 use taceva_core::{FeatureShape, Features};
 use taceva_dataset::Dataset;
 use taceva_models::{Extractor, FeatureSpec};
 
 use super::value::Kept;
-use super::{Cache, Key, Stage, remove};
+use super::{ABANDONED, Cache, Key, Stage, remove};
 use crate::error::StudyError;
 
 /// What is kept of features altogether, in bytes.
 const ALL_MAX: u64 = 2 << 30;
 /// What is kept of one set of them.
 const ONE_MAX: u64 = ALL_MAX / 4;
-/// Nobody writes a result for so long.
-const ABANDONED: Duration = Duration::from_secs(24 * 60 * 60);
 
 impl Cache {
     /// The features of `rows` of `dataset` by `extractor`: those kept, or what `make` gives, which is kept from then on.
@@ -129,6 +127,8 @@ impl Kept for Features {
 
 #[cfg(test)]
 mod tests {
+    use std::time::Duration;
+
     use super::*;
 
     #[test]

@@ -22,6 +22,15 @@ pub enum Stage {
 }
 
 impl Stage {
+    /// Every stage, in the order of a run.
+    pub const ALL: [Stage; 5] = [
+        Stage::Acquire,
+        Stage::Features,
+        Stage::Fit,
+        Stage::Predict,
+        Stage::Tell,
+    ];
+
     /// The word used in files and folders.
     pub const fn name(self) -> &'static str {
         match self {
@@ -40,9 +49,11 @@ impl Stage {
             // 3: the recording has a picture of the untouched gel.
             Stage::Acquire => 3,
             // 2: standard deviations follow the predictions.
-            Stage::Predict => 2,
+            // 3: predictions are as the model gives them, beyond its bounds too.
+            Stage::Predict => 3,
             // 2: elastic nets end their descent earlier, Gaussian processes reach as far as they say.
-            Stage::Fit => 2,
+            // 3: the card says the mean of the labels.
+            Stage::Fit => 3,
             Stage::Features | Stage::Tell => 1,
         }
     }

@@ -1,6 +1,10 @@
-//! Recordings that are kept: folders whose files are shared by links.
+//! Recordings that runs hold: the cache notes where, and keeps no copy.
+//!
+//! A note lists the folders that hold one recording, the last one first, each behind the digest of its header: a folder of that name may
+//! hold another recording by now. Another run links the files of the first that is still what was
+//! recorded; where none is, for its runs were removed or moved, presses are made anew, from the seed to the same bytes.
 
-use std::fs::{self, File};
+use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
@@ -10,32 +14,103 @@ use super::tree::link;
 use super::{Cache, Key, remove};
 use crate::durable::sync_folder;
 
+/// Folders that a note lists.
+const PLACES: usize = 8;
+
 impl Cache {
-    /// The recording kept under `key`, put at `place`, where nothing is; `None` if there is none or it is not what was written.
+    /// The recording noted under `key`, put at `place`, where nothing is; `None` if nobody has it any more as it was written.
     pub(super) fn take_recording(&self, key: &Key, place: &Path) -> Option<Dataset> {
-        let entry = self.entry(key);
         let beside = beside(place)?;
-        let linked = remove(&beside).and_then(|()| link(&entry, &beside));
-        match linked {
-            Err(error) if error.kind() == io::ErrorKind::NotFound && !entry.exists() => {}
-            // Nothing is wrong with the entry where there is no room for links.
-            Err(error) => self.note_unreadable(&entry, &error),
-            Ok(()) => match check(&beside) {
-                Ok(()) => return moved(&beside, place),
-                Err(problem) => self.discard(key, &problem),
-            },
+        for Held {
+            header,
+            folder: held,
+        } in self.held(key)
+        {
+            if held.exists() && header_digest(&held) != Some(header) {
+                self.note(format!(
+                    "{} holds another recording than it did; its presses are made anew",
+                    held.display()
+                ));
+                continue;
+            }
+            // A run that was removed is no reason for a word.
+            let linked = remove(&beside).and_then(|()| link(&held, &beside));
+            match linked {
+                Err(error) if error.kind() == io::ErrorKind::NotFound => {}
+                Err(error) => self.note_unreadable(&held, &error),
+                Ok(()) => match check(&beside) {
+                    Ok(()) => {
+                        let found = moved(&beside, place);
+                        if found.is_some() {
+                            self.keep_recording(key, place);
+                        }
+                        return found;
+                    }
+                    Err(problem) => self.note(format!(
+                        "{}: {problem}; its presses are made anew",
+                        held.display()
+                    )),
+                },
+            }
         }
         // Nobody reads a name that begins with a dot, should it stay.
         drop(remove(&beside));
         None
     }
 
-    /// Keeps the closed recording at `place` under `key`.
+    /// Notes under `key` that the closed recording is at `place`.
     pub(super) fn keep_recording(&self, key: &Key, place: &Path) {
-        if !self.entry(key).exists() {
-            self.put(key, |beside| link(place, beside));
+        let Ok(place) = place.canonicalize() else {
+            return;
+        };
+        let Some(header) = header_digest(&place) else {
+            return;
+        };
+        let own = Held {
+            header,
+            folder: place,
+        };
+        let mut lines = String::new();
+        let before = self.held(key).into_iter();
+        let others = before.filter(|other| {
+            other.folder != own.folder && header_digest(&other.folder) == Some(other.header)
+        });
+        for held in [own.clone()].into_iter().chain(others).take(PLACES) {
+            // A name that is no text, or more than a line, cannot be noted.
+            match held.folder.to_str().filter(|name| !name.contains('\n')) {
+                Some(name) => lines.push_str(&format!("{} {name}\n", held.header)),
+                None if held.folder == own.folder => return,
+                None => {}
+            }
         }
+        self.put_anew(key, lines.as_bytes());
     }
+
+    /// The folders noted under `key`.
+    fn held(&self, key: &Key) -> Vec<Held> {
+        let text = fs::read_to_string(self.entry(key)).unwrap_or_default();
+        let read = |line: &str| {
+            let (header, folder) = line.split_once(' ')?;
+            Some(Held {
+                header: header.parse().ok()?,
+                folder: folder.into(),
+            })
+        };
+        text.lines().filter_map(read).collect()
+    }
+}
+
+/// A folder that holds a recording.
+#[derive(Clone, Debug, PartialEq)]
+struct Held {
+    /// Of the bytes of its header.
+    header: Digest,
+    folder: PathBuf,
+}
+
+fn header_digest(folder: &Path) -> Option<Digest> {
+    let header = fs::read(folder.join("dataset.toml")).ok()?;
+    Some(Digest::of(&header))
 }
 
 /// What is wrong with the recording at `path`, if anything is: header and table as they are opened, and every frame by its digest.
@@ -43,19 +118,7 @@ impl Cache {
 /// Frames would else be read where no stage that reads them is kept, and then it is too late to press again.
 fn check(path: &Path) -> Result<(), String> {
     let dataset = Dataset::open(path).map_err(|error| error.to_string())?;
-    let header = dataset.header().frames.iter();
-    let references = header.filter_map(|frames| frames.reference.as_ref());
-    let references = references.map(|reference| (&reference.path, reference.sha256));
-    let frames = dataset.table().frames().iter().flatten();
-    let frames = frames.map(|frame| (&frame.path, frame.digest));
-    for (name, expected) in references.chain(frames) {
-        let file = File::open(path.join(name));
-        let found = file.and_then(|mut file| Digest::of_reader(&mut file));
-        if found.map_err(|error| format!("{name}: {error}"))? != expected {
-            return Err(format!("{name} is not the frame that was recorded"));
-        }
-    }
-    Ok(())
+    dataset.verify_frames().map_err(|error| error.to_string())
 }
 
 fn moved(beside: &Path, place: &Path) -> Option<Dataset> {

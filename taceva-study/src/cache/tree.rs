@@ -6,7 +6,10 @@ use std::path::Path;
 
 use crate::durable::sync_folder;
 
-/// Makes the folder `to` with all files of `from`: linked, or copied where the file system refuses links.
+/// Files of fewer bytes are copied: they save nothing, and what somebody edits in one folder stays as it was in another.
+const LINKED: u64 = 1 << 16;
+
+/// Makes the folder `to` with all files of `from`: linked if they are large, or copied where the file system refuses links.
 ///
 /// Names in it are durable when this returns; files are as durable as those of `from`.
 pub(super) fn link(from: &Path, to: &Path) -> io::Result<()> {
@@ -16,7 +19,7 @@ pub(super) fn link(from: &Path, to: &Path) -> io::Result<()> {
         let (file, target) = (entry.path(), to.join(entry.file_name()));
         if entry.file_type()?.is_dir() {
             link(&file, &target)?;
-        } else if fs::hard_link(&file, &target).is_err() {
+        } else if entry.metadata()?.len() < LINKED || fs::hard_link(&file, &target).is_err() {
             fs::copy(&file, &target)?;
             File::open(&target)?.sync_all()?;
         }

@@ -17,6 +17,8 @@ pub struct Evidence<'a> {
     pub frames: &'a [Option<FrameFacts>],
     /// The same of the frame without contact.
     pub reference: Option<&'a FrameFacts>,
+    /// The rows whose pictures are damaged inside although they decode, and how.
+    pub damaged: &'a [(usize, String)],
 }
 
 impl Evidence<'_> {

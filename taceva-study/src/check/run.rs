@@ -1,16 +1,19 @@
 //! Gathers the evidence, lets every check look at it, and reports.
 
 use std::num::NonZeroUsize;
+use taceva_core::shown;
 
 use taceva_core::{Field, Progress, SkipReason, Skipped};
 use taceva_dataset::{Dataset, Pass};
 
 use super::ALL;
+use super::damaged_frames;
 use super::evidence::{Evidence, FrameFacts};
 use super::finding::{Check, CheckReport, Finding};
+use super::leakage;
 use crate::error::StudyError;
 use crate::plan::Plan;
-use crate::rows::Divided;
+use crate::rows::{Divided, require_samples};
 
 /// What to look for.
 #[derive(Clone, Debug)]
@@ -40,7 +43,7 @@ pub fn check_plan(dataset: &Dataset, request: &CheckRequest) -> Result<Plan, Stu
         format!(
             "{} rows of {}",
             dataset.table().rows(),
-            dataset.path().display()
+            shown(&dataset.path())
         ),
     );
     if wanted.iter().any(|check| check.reads_frames) {
@@ -70,14 +73,24 @@ pub fn check(
     request: &CheckRequest,
     progress: &dyn Progress,
 ) -> Result<CheckReport, StudyError> {
-    let (wanted, skipped) = wanted(dataset, &request.only)?;
-    let divided = match (&request.split, dataset.table().rows()) {
-        (None, 0..3) => None,
-        (split, _) => Some(Divided::new(
-            dataset.table(),
-            split.as_deref(),
-            request.seed,
-        )?),
+    require_samples(dataset)?;
+    let (mut wanted, mut skipped) = wanted(dataset, &request.only)?;
+    let divided = match Divided::of(dataset, request.split.as_deref(), request.seed) {
+        // Nobody asked for a split, and this recording has none: what looks at one is left out.
+        Err(StudyError::Split(error)) if request.split.is_none() => {
+            wanted.retain(|check| {
+                let reads_split = check.code == leakage::CHECK.code;
+                if reads_split {
+                    skipped.push(Skipped {
+                        what: format!("check:{}", check.code),
+                        reason: SkipReason::NoSplit(error.to_string()),
+                    });
+                }
+                !reads_split
+            });
+            None
+        }
+        divided => Some(divided?),
     };
     let reads_frames = wanted.iter().any(|check| check.reads_frames);
     let (frames, reference) = if reads_frames {
@@ -85,12 +98,20 @@ pub fn check(
     } else {
         Default::default()
     };
+    let damaged = match wanted
+        .iter()
+        .any(|check| check.code == damaged_frames::CHECK.code)
+    {
+        true => damaged(dataset, request.jobs, progress)?,
+        false => Vec::new(),
+    };
     let evidence = Evidence {
         header: dataset.header(),
         table: dataset.table(),
         split: divided.as_ref().map(|divided| &divided.split),
         frames: &frames,
         reference: reference.as_ref(),
+        damaged: &damaged,
     };
     let mut findings: Vec<Finding> = wanted
         .iter()
@@ -124,7 +145,8 @@ fn wanted(dataset: &Dataset, only: &[String]) -> Result<Wanted, StudyError> {
     {
         let known: Vec<&str> = ALL.iter().map(|check| check.code).collect();
         return Err(StudyError::Request(format!(
-            "`{unknown}`: no such check, expected one of {}",
+            "`{}`: no such check, expected one of {}",
+            shown(unknown),
             known.join(", ")
         )));
     }
@@ -148,6 +170,31 @@ fn wanted(dataset: &Dataset, only: &[String]) -> Result<Wanted, StudyError> {
         }
     }
     Ok((kept, skipped))
+}
+
+/// The rows whose pictures are damaged inside although they decode, and how.
+fn damaged(
+    dataset: &Dataset,
+    jobs: NonZeroUsize,
+    progress: &dyn Progress,
+) -> Result<Vec<(usize, String)>, StudyError> {
+    let rows = dataset.all_rows();
+    let pass = Pass {
+        rows: &rows,
+        jobs,
+        progress,
+    };
+    let mut damaged = Vec::new();
+    dataset.map_rows(
+        pass,
+        "read to the end",
+        |row| dataset.damage_inside(row),
+        |row, found| {
+            damaged.extend(found.map(|problem| (row, problem)));
+            Ok(())
+        },
+    )?;
+    Ok(damaged)
 }
 
 type Looked = (Vec<Option<FrameFacts>>, Option<FrameFacts>);

@@ -14,6 +14,8 @@ pub(super) static CHECK: Check = Check {
 
 /// Samples below which a rate says nothing.
 const LEAST: usize = 10;
+/// The longest median step, in s, of frames that are a stream; the metric `intrinsic` has the same limit.
+const STREAM_S: f64 = 1.0;
 /// A step of so many usual steps is a gap.
 const GAP: f64 = 3.0;
 
@@ -79,6 +81,14 @@ fn rate(times: &[(usize, f64)]) -> Found {
             "no two samples have rising times".to_owned(),
         );
     };
+    if usual > STREAM_S {
+        return Found::overall(
+            Severity::Note,
+            format!(
+                "single pictures and no stream: the median step is {usual:.4} s, above {STREAM_S} s, so that there is no frame rate"
+            ),
+        );
+    }
     let gaps = steps.iter().filter(|step| **step > GAP * usual).count();
     let longest = steps.last().copied().unwrap_or(usual);
     if gaps == 0 {

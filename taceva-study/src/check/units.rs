@@ -8,8 +8,8 @@ use super::finding::{Check, Found, Severity};
 pub(super) static CHECK: Check = Check {
     code: "TAC001",
     name: "units-by-magnitude",
-    looks_for: "labels a thousand times too large or too small for their unit",
-    hint: "look up the unit where the labels were written, and state it in the map; N and mN, mm and m are the usual mix-ups",
+    looks_for: "labels too large or too small for their unit",
+    hint: "look up the unit where the labels were written, and state it in the map; N, gf and mN, mm and m are the usual mix-ups",
     reads_frames: false,
     find,
 };

@@ -13,8 +13,10 @@ use crate::tally::{Columns, tally};
 /// The metrics of a plan by the rows they read.
 pub(super) struct Passes<'a> {
     plan: &'a MetricPlan,
-    /// Those that compare predictions with the truth.
+    /// Those that compare predictions within the bounds of the model with the truth.
     of_predictions: Vec<&'static Metric>,
+    /// Those that compare predictions as the model gives them with the truth.
+    of_unbounded: Vec<&'static Metric>,
     /// Those that look at the truth alone.
     of_truth: Vec<&'static Metric>,
 }
@@ -23,11 +25,15 @@ impl<'a> Passes<'a> {
     /// Deals the metrics of `plan`; where a part was asked for, every metric reads that part.
     pub(super) fn new(plan: &'a MetricPlan, is_part_asked_for: bool) -> Passes<'a> {
         let kept = plan.kept().iter().copied();
-        let (of_truth, of_predictions) =
+        let (of_truth, others): (Vec<_>, Vec<_>) =
             kept.partition(|metric| !is_part_asked_for && reads_no_prediction(metric));
+        let (of_unbounded, of_predictions) = others
+            .into_iter()
+            .partition(|metric| metric.reads_unbounded_predictions());
         Passes {
             plan,
             of_predictions,
+            of_unbounded,
             of_truth,
         }
     }
@@ -41,14 +47,20 @@ impl<'a> Passes<'a> {
         jobs: NonZeroUsize,
     ) -> Result<Evaluator, StudyError> {
         let mut total = Evaluator::new(self.plan);
-        let columns = Columns {
-            truth: predicted.truth(),
-            prediction: predicted.prediction(),
-            table: dataset.table(),
-            rows,
-        };
-        let plan = self.restricted(&self.of_predictions)?;
-        total.merge(tally(&columns, &plan, jobs)?)?;
+        let of_both = [
+            (&self.of_predictions, predicted.prediction()),
+            (&self.of_unbounded, predicted.unbounded()),
+        ];
+        for (metrics, prediction) in of_both {
+            let columns = Columns {
+                truth: predicted.truth(),
+                prediction,
+                table: dataset.table(),
+                rows,
+            };
+            let plan = self.restricted(metrics)?;
+            total.merge(tally(&columns, &plan, jobs)?)?;
+        }
         if !self.of_truth.is_empty() {
             let rows = dataset.all_rows();
             let channels = self.plan.channels().iter();
@@ -72,7 +84,8 @@ impl<'a> Passes<'a> {
     /// What a reader must know where two sets of rows were read.
     pub(super) fn note(&self, dataset: &Dataset) -> Option<String> {
         let ids: Vec<&str> = self.of_truth.iter().map(|metric| metric.id).collect();
-        (!ids.is_empty() && !self.of_predictions.is_empty()).then(|| {
+        let reads_predictions = !self.of_predictions.is_empty() || !self.of_unbounded.is_empty();
+        (!ids.is_empty() && reads_predictions).then(|| {
             let rows = dataset.table().rows();
             let ids = ids.join(", ");
             format!("no prediction enters {ids}: all {rows} samples count there, in every part")
@@ -86,6 +99,7 @@ impl<'a> Passes<'a> {
             .with_facts(plan.facts().clone())
             .with_seed(plan.seed())
             .with_interval_method(plan.interval_method())
+            .with_constants(plan.constants().clone())?
             .with_settings(*plan.settings())?;
         Ok(restricted)
     }

@@ -30,10 +30,11 @@ pub struct RunFolder {
 }
 
 /// The plans of the run: the mark by which a folder is known to be one.
-const PLANS: &str = "plans.json";
+pub(crate) const PLANS: &str = "plans.json";
 /// The scene as it was written.
 const SCENE: &str = "scene.toml";
-const RECORDINGS: &str = "recordings";
+/// Where its recordings are.
+pub(crate) const RECORDINGS: &str = "recordings";
 const REPORTS: &str = "reports";
 const FIGURES: &str = "figures";
 const STAGES: &str = "stages.json";

@@ -1,8 +1,9 @@
 //! The two tables of a score: read, brought to common channels, and paired row by row.
 
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap};
 use std::num::NonZeroUsize;
 use std::path::Path;
+use taceva_core::shown;
 
 use taceva_core::{Channel, Channels, Unit};
 use taceva_dataset::{CsvTable, Digest};
@@ -43,6 +44,46 @@ pub(super) fn read_both(request: &ScoreRequest) -> Result<[(CsvTable, Digest); 2
     })
 }
 
+/// Refuses one file as truth and as prediction: every error would be 0, and say nothing.
+///
+/// # Errors
+/// [`StudyError::Request`].
+pub(super) fn check_distinct(request: &ScoreRequest) -> Result<(), StudyError> {
+    let [truth, prediction] =
+        [&request.truth, &request.prediction].map(|path| path.canonicalize().ok());
+    if truth.is_none() || truth != prediction {
+        return Ok(());
+    }
+    Err(StudyError::Request(format!(
+        "{} and {} are one file: nothing is predicted; name a table of what is true and another of what was predicted",
+        shown(&request.truth),
+        shown(&request.prediction)
+    )))
+}
+
+/// Refuses a table without a row.
+///
+/// # Errors
+/// [`StudyError::Tables`].
+pub(super) fn check_rows(table: &CsvTable) -> Result<(), StudyError> {
+    match table.rows() {
+        0 => Err(StudyError::Tables {
+            path: table.path().to_owned(),
+            problem: "no row below the header: there is nothing to score".to_owned(),
+        }),
+        _ => Ok(()),
+    }
+}
+
+/// What a reader must know where both tables hold the same bytes.
+pub(super) fn same_bytes_note(digests: &BTreeMap<String, String>) -> Option<String> {
+    let (truth, prediction) = (digests.get("truth")?, digests.get("prediction")?);
+    (truth == prediction).then(|| {
+        "truth and predictions are the same bytes: every error is 0, which no sensor reaches"
+            .to_owned()
+    })
+}
+
 /// The channels of the prediction; the truth must have each, and no channel of the six that the prediction lacks.
 pub(super) fn channels(
     truth: &CsvTable,
@@ -80,7 +121,7 @@ pub(super) fn channels(
     if let Some(name) = absent {
         let problem = format!(
             "no column `{name}`, which {} has: both must have the same channels",
-            truth.path().display()
+            shown(&truth.path())
         );
         return Err(wrong(prediction, problem));
     }
@@ -108,7 +149,7 @@ pub(super) fn pair(truth: &CsvTable, prediction: &CsvTable) -> Result<Pairing, S
             let problem = format!(
                 "{} rows, but {} has {}; without a column `id` in both, rows are matched by order",
                 prediction.rows(),
-                truth.path().display(),
+                shown(&truth.path()),
                 truth.rows()
             );
             return Err(wrong(prediction, problem));
@@ -119,7 +160,10 @@ pub(super) fn pair(truth: &CsvTable, prediction: &CsvTable) -> Result<Pairing, S
     let mut rows: HashMap<&str, usize> = HashMap::with_capacity(ids.len());
     for (row, id) in ids.iter().enumerate() {
         if rows.insert(id, row).is_some() {
-            return Err(wrong(prediction, format!("id `{id}` comes twice")));
+            return Err(wrong(
+                prediction,
+                format!("id `{}` comes twice", shown(*id)),
+            ));
         }
     }
     let wanted = truth.text("id")?;
@@ -128,11 +172,14 @@ pub(super) fn pair(truth: &CsvTable, prediction: &CsvTable) -> Result<Pairing, S
         // Taken out, so that an id of the truth that comes twice finds nothing the second time.
         match rows.remove(id) {
             Some(row) => paired.push(row),
-            None if ids.contains(id) => return Err(wrong(truth, format!("id `{id}` comes twice"))),
+            None if ids.contains(id) => {
+                return Err(wrong(truth, format!("id `{}` comes twice", shown(*id))));
+            }
             None => {
                 let problem = format!(
-                    "no row with id `{id}`, which {} has",
-                    truth.path().display()
+                    "no row with id `{}`, which {} has",
+                    shown(*id),
+                    shown(&truth.path())
                 );
                 return Err(wrong(prediction, problem));
             }
@@ -140,8 +187,9 @@ pub(super) fn pair(truth: &CsvTable, prediction: &CsvTable) -> Result<Pairing, S
     }
     if let Some(id) = ids.iter().find(|id| rows.contains_key(**id)) {
         let problem = format!(
-            "no row with id `{id}`, which {} has",
-            prediction.path().display()
+            "no row with id `{}`, which {} has",
+            shown(*id),
+            shown(&prediction.path())
         );
         return Err(wrong(truth, problem));
     }

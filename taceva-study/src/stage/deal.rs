@@ -5,7 +5,6 @@ use std::collections::{BTreeMap, BTreeSet};
 use taceva_core::Field;
 use taceva_dataset::Dataset;
 use taceva_metrics::{Metric, catalogue};
-use taceva_models::{SplitInput, SplitKind, SplitSpec};
 use taceva_protocol::{PhaseKind, Plan, PlannedMetric};
 
 use crate::error::StudyError;
@@ -66,11 +65,16 @@ impl<'a> Deal<'a> {
         metrics.any(|(_, metric)| metric.needs.fields.contains(Field::PredictedSpacing))
     }
 
-    /// The parts of the protocol of which predictions are read.
+    /// The parts of the protocol of which predictions are read: those of metrics, and with them the calibration, which says whether the
+    /// model has skill.
     pub(super) fn predicted_phases(&self) -> BTreeSet<PhaseKind> {
         let metrics = self.metrics();
-        let predicted = metrics.filter(|(_, metric)| reads_prediction(metric));
-        predicted.map(|(planned, _)| planned.phase).collect()
+        let predicted = metrics.filter(|(_, metric)| metric.reads_predictions());
+        let mut phases: BTreeSet<PhaseKind> = predicted.map(|(planned, _)| planned.phase).collect();
+        if !phases.is_empty() {
+            phases.insert(PhaseKind::Calibration);
+        }
+        phases
     }
 
     /// The channels of which predictions are read, in the order of the plan: those that samples with a picture carry.
@@ -87,7 +91,7 @@ impl<'a> Deal<'a> {
         let is_predicted = |channel: &&String| {
             let mut metrics = self.metrics();
             metrics.any(|(planned, metric)| {
-                reads_prediction(metric) && planned.channels.contains(channel)
+                metric.reads_predictions() && planned.channels.contains(channel)
             })
         };
         let channels = self.plan.channels.iter();
@@ -105,38 +109,7 @@ impl<'a> Deal<'a> {
             return Divided::new(table, request.split.as_deref(), request.seed);
         }
         let rows = self.rows(PhaseKind::Calibration);
-        let points = rows.iter().map(|&row| table.point_id()[row].clone());
-        let points: Option<Vec<String>> = points.collect();
-        let spec = SplitSpec {
-            kind: SplitKind::ByPoint,
-            fractions: Default::default(),
-        };
-        let input = SplitInput {
-            rows: rows.len(),
-            points: points.as_deref(),
-            times_s: None,
-            parts: None,
-            columns: BTreeMap::new(),
-        };
-        let mut split = spec.assign(&input, request.seed)?;
-        for part in [
-            &mut split.train,
-            &mut split.validation,
-            &mut split.test,
-            &mut split.left_out,
-        ] {
-            part.iter_mut()
-                .for_each(|position| *position = rows[*position]);
-        }
-        let others = self.dataset.all_rows().into_iter();
-        let others = others.filter(|row| rows.binary_search(row).is_err());
-        split.left_out.extend(others);
-        split.left_out.sort_unstable();
-        Ok(Divided {
-            spec,
-            seed: request.seed,
-            split,
-        })
+        Divided::within(table, &rows, Some("by-point"), request.seed)
     }
 
     /// What a reader must know if presses ended early.
@@ -152,11 +125,6 @@ impl<'a> Deal<'a> {
             )
         })
     }
-}
-
-/// Whether a prediction of channels enters `metric`.
-pub(super) fn reads_prediction(metric: &Metric) -> bool {
-    metric.needs.fields.contains(Field::Prediction)
 }
 
 /// The rows that a model was fitted on or whose settings were chosen on, ascending.

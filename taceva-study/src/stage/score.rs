@@ -9,11 +9,12 @@ use taceva_dataset::Dataset;
 use taceva_metrics::{Evaluation, Metric, MetricPlan};
 use taceva_protocol::{PhaseKind, PlanReason, Subject};
 
-use super::deal::{Deal, reads_prediction};
+use super::deal::Deal;
 use super::gratings::ToldSpacings;
 use crate::error::StudyError;
 use crate::predict::{Predicted, truth};
 use crate::scene::{PlannedScene, PlannedStudy};
+use crate::skill::skill;
 use crate::tally::{Columns, Rows, tally};
 
 /// What is scored.
@@ -34,9 +35,31 @@ pub(super) struct Scores<'a> {
 struct Ground {
     phase: PhaseKind,
     channels: Vec<String>,
-    of_predictions: bool,
+    predictions: Option<Within>,
     /// Whether times count in the phase alone and everything else wherever it was recorded.
     of_sensor: bool,
+}
+
+/// Which predictions are read.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum Within {
+    /// Those brought back to the bounds of the model.
+    Bounds,
+    /// Those that the model gives.
+    Nothing,
+}
+
+impl Within {
+    /// Which predictions `metric` reads, if it reads any.
+    fn of(metric: &Metric) -> Option<Within> {
+        metric.reads_predictions().then(|| {
+            if metric.reads_unbounded_predictions() {
+                Within::Nothing
+            } else {
+                Within::Bounds
+            }
+        })
+    }
 }
 
 /// The metric that says how fast a sensor looks and how far: pictures come as fast as they can at rest, where nothing is touched, so that
@@ -50,10 +73,17 @@ pub(super) fn score(scores: &Scores<'_>) -> Result<(Evaluation, Vec<String>), St
         let ground = Ground {
             phase: planned.phase,
             channels: planned.channels.clone(),
-            of_predictions: reads_prediction(metric),
+            predictions: Within::of(metric),
             of_sensor: metric.id == OF_SENSOR,
         };
         grounds.entry(ground).or_default().push(metric);
+    }
+    let is_asked_for = grounds
+        .values()
+        .flatten()
+        .any(|metric| metric.id == skill().id);
+    if let Some(ground) = scores.ground_of_skill().filter(|_| !is_asked_for) {
+        grounds.entry(ground).or_default().push(skill());
     }
     let (mut skipped, notes) = left_out(scores.study);
     let mut parts = Vec::new();
@@ -68,7 +98,11 @@ pub(super) fn score(scores: &Scores<'_>) -> Result<(Evaluation, Vec<String>), St
 impl Scores<'_> {
     fn on(&self, ground: &Ground, metrics: &[&'static Metric]) -> Result<Evaluation, StudyError> {
         let channels = self.channels(ground)?;
-        let (rows, prediction) = self.rows(ground, &channels);
+        let Taken {
+            rows,
+            prediction,
+            shares,
+        } = self.rows(ground, &channels);
         let truth: Vec<Column> = channels
             .iter()
             .map(|channel| truth(self.dataset, channel, &rows))
@@ -83,6 +117,7 @@ impl Scores<'_> {
         let plan = MetricPlan::new(metrics, channels, table.fields() | made)
             .with_facts(self.study.plan.sensor_facts())
             .with_seed(self.scene.scene.seed)
+            .with_constants(self.constants())?
             .with_settings(settings)?;
         let columns = Columns {
             truth: &truth,
@@ -96,7 +131,38 @@ impl Scores<'_> {
             timed: ground.of_sensor.then(|| self.deal.rows(ground.phase)),
             spacings: told.map(|told| &told.spacings),
         };
-        Ok(tally(&samples, &plan, self.jobs)?.finish()?)
+        let evaluation = tally(&samples, &plan, self.jobs)?.finish()?;
+        Ok(evaluation.with_bounded_shares(&shares))
+    }
+
+    /// Where the skill of the model is shown: on the presses of the calibration that it has not seen, or, where there are none, on those of
+    /// the part of the protocol that most predictions are of.
+    fn ground_of_skill(&self) -> Option<Ground> {
+        let (_, predicted) = self.predicted?;
+        let count = |phase: PhaseKind| {
+            let rows = self.deal.rows(phase).into_iter();
+            rows.filter(|row| predicted.binary_search(row).is_ok())
+                .count()
+        };
+        let phase = match count(PhaseKind::Calibration) {
+            0 => {
+                let phases = self.deal.predicted_phases().into_iter();
+                phases.max_by_key(|phase| count(*phase))?
+            }
+            _ => PhaseKind::Calibration,
+        };
+        Some(Ground {
+            phase,
+            channels: self.deal.predicted_channels(),
+            predictions: Some(Within::Bounds),
+            of_sensor: false,
+        })
+    }
+
+    /// What the skill of the model is measured by, by channel, as far as the model says it.
+    fn constants(&self) -> BTreeMap<String, f64> {
+        let predicted = self.predicted.map(|(predicted, _)| predicted);
+        predicted.map_or_else(BTreeMap::new, |predicted| predicted.constants().clone())
     }
 
     /// The channels of the recording that the metrics of `ground` look at.
@@ -111,15 +177,24 @@ impl Scores<'_> {
     }
 
     /// The rows of `ground` and what is predicted of them; where a metric reads predictions, rows without one take no part.
-    fn rows(&self, ground: &Ground, channels: &Channels) -> (Vec<usize>, Vec<Column>) {
+    fn rows(&self, ground: &Ground, channels: &Channels) -> Taken {
         let rows = match ground.of_sensor {
             true => self.dataset.all_rows(),
             false => self.deal.rows(ground.phase),
         };
-        let (true, Some((predicted, of_rows))) = (ground.of_predictions, self.predicted) else {
+        let (Some(within), Some((predicted, of_rows))) = (ground.predictions, self.predicted)
+        else {
             let mut nothing = Column::default();
             rows.iter().for_each(|_| nothing.push(None));
-            return (rows, vec![nothing; channels.len()]);
+            return Taken {
+                rows,
+                prediction: vec![nothing; channels.len()],
+                shares: BTreeMap::new(),
+            };
+        };
+        let of_model = match within {
+            Within::Bounds => predicted.prediction(),
+            Within::Nothing => predicted.unbounded(),
         };
         let found = rows
             .into_iter()
@@ -129,13 +204,25 @@ impl Scores<'_> {
             let at = predicted.channels().position(channel.name());
             let mut column = Column::default();
             for &position in &positions {
-                column.push(at.and_then(|at| predicted.prediction()[at].get(position)));
+                column.push(at.and_then(|at| of_model[at].get(position)));
             }
             column
         };
-        let prediction = channels.iter().map(column).collect();
-        (rows, prediction)
+        Taken {
+            prediction: channels.iter().map(column).collect(),
+            shares: predicted.bounded(positions.iter().copied()).shares(),
+            rows,
+        }
     }
+}
+
+/// The rows that metrics look at.
+struct Taken {
+    rows: Vec<usize>,
+    /// What is predicted of them, channel by channel.
+    prediction: Vec<Column>,
+    /// Which share of the predictions of each channel lies beyond the bounds of the model.
+    shares: BTreeMap<String, f64>,
 }
 
 /// Rows with the spacings that were told of them, if any were.

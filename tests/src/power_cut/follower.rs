@@ -248,12 +248,16 @@ impl<'a> Follower<'a> {
         let [from_at, from, to_at, to] = places;
         match (self.name(from_at, from), self.name(to_at, to)) {
             (None, None) => Ok(()),
-            (Some(from), Some(to)) if !flags.contains("EXCHANGE") => {
+            (Some(one), Some(other)) if flags.contains("EXCHANGE") => {
+                self.act(Operation::Exchange { one, other });
+                Ok(())
+            }
+            (Some(from), Some(to)) => {
                 self.act(Operation::Rename { from, to });
                 Ok(())
             }
             _ => Err(format!(
-                "`{}({})`: an exchange, or over the edge of the watched folder",
+                "`{}({})`: over the edge of the watched folder",
                 call.name,
                 call.arguments.join(", ")
             )),

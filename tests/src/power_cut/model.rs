@@ -18,11 +18,11 @@ pub(super) enum ByteChange {
     Resize(usize),
 }
 
-/// A change of the names in a folder: one that goes, one that comes, or both at once.
+/// A change of the names in a folder: one that goes, those that come, or both at once.
 #[derive(Clone, Debug)]
 pub(super) struct NameChange {
     pub(super) gone: Option<String>,
-    pub(super) come: Option<(String, ObjectId)>,
+    pub(super) come: Vec<(String, ObjectId)>,
 }
 
 /// Something that is partly durable: what is, what it looks like to programs, and the changes between, oldest first.
@@ -133,6 +133,7 @@ impl Disk {
             } => self.rename(*folder, None, Some((name.clone(), *object))),
             Operation::Remove { folder, name } => self.rename(*folder, Some(name.clone()), None),
             Operation::Rename { from, to } => self.move_name(from, to),
+            Operation::Exchange { one, other } => self.exchange(one, other),
             Operation::Write {
                 file,
                 offset,
@@ -164,7 +165,29 @@ impl Disk {
         }
     }
 
-    fn rename(&mut self, id: ObjectId, gone: Option<String>, come: Option<(String, ObjectId)>) {
+    /// Within a folder at once, as a journal of names keeps it; between folders each half by itself.
+    fn exchange(&mut self, one: &(ObjectId, String), other: &(ObjectId, String)) {
+        let (Some(first), Some(second)) =
+            (self.lookup(one.0, &one.1), self.lookup(other.0, &other.1))
+        else {
+            return;
+        };
+        let (one_now, other_now) = ((one.1.clone(), second), (other.1.clone(), first));
+        if one.0 == other.0 {
+            self.rename(one.0, None, [one_now, other_now]);
+        } else {
+            self.rename(one.0, None, [one_now]);
+            self.rename(other.0, None, [other_now]);
+        }
+    }
+
+    fn rename(
+        &mut self,
+        id: ObjectId,
+        gone: Option<String>,
+        come: impl IntoIterator<Item = (String, ObjectId)>,
+    ) {
+        let come = come.into_iter().collect();
         if let Object::Folder(folder) = &mut self.objects[id] {
             let change = NameChange { gone, come };
             change.apply(&mut folder.live);
@@ -254,7 +277,7 @@ impl NameChange {
         if let Some(gone) = &self.gone {
             names.remove(gone);
         }
-        if let Some((name, id)) = &self.come {
+        for (name, id) in &self.come {
             names.insert(name.clone(), *id);
         }
     }

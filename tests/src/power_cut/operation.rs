@@ -41,6 +41,13 @@ pub enum Operation {
         /// Folder and name after.
         to: (ObjectId, String),
     },
+    /// Two names that change places at once.
+    Exchange {
+        /// Folder and name of the one.
+        one: (ObjectId, String),
+        /// Folder and name of the other.
+        other: (ObjectId, String),
+    },
     /// Bytes that a file got.
     Write {
         /// The file.

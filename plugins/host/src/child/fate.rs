@@ -5,6 +5,11 @@ use std::os::unix::process::ExitStatusExt;
 use std::process::ExitStatus;
 use std::time::Duration;
 
+use super::proxy::CLOSING;
+
+/// What a child is asked for last.
+pub(super) const ENDING: &str = "end";
+
 /// How a child ended.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
@@ -44,6 +49,11 @@ impl Fate {
                 code: code.unwrap_or(-1),
             },
         }
+    }
+
+    /// Whether it ended while nobody waited for an answer, so that no error tells of it.
+    pub(crate) fn is_unheard(&self) -> bool {
+        matches!(self, Fate::Late { doing, .. } if doing == CLOSING || doing == ENDING)
     }
 
     /// Whether the plugin is to blame: whatever it did by itself, not what somebody else did to it.

@@ -17,7 +17,7 @@ use rustix::event::{EventfdFlags, PollFd, PollFlags, Timespec, eventfd, poll};
 use rustix::process::{Pid, PidfdFlags, Signal, pidfd_open, pidfd_send_signal};
 
 use super::fate::Fate;
-use crate::shown::is_obeyed;
+use taceva_core::is_obeyed;
 
 /// How much of the last that a child printed is kept.
 const PRINTED_MAX: usize = 4096;

@@ -9,8 +9,10 @@ use std::time::Duration;
 pub struct Patience {
     /// For it to confine itself and load its plugin.
     pub start: Duration,
-    /// For a device to open or to close, and for whatever has no deadline.
+    /// For a device to open, and for whatever has no deadline.
     pub open: Duration,
+    /// For a device to close: nothing of value is lost with one that does not.
+    pub close: Duration,
     /// Beyond the deadline of a call: simulated devices count that on a clock of their own.
     pub grace: Duration,
     /// For a halt, and for a call to end after an interrupt.
@@ -25,6 +27,7 @@ impl Default for Patience {
         Patience {
             start: Duration::from_secs(20),
             open: Duration::from_secs(30),
+            close: Duration::from_secs(5),
             grace: Duration::from_secs(5),
             urgent: Duration::from_secs(1),
             end: Duration::from_secs(2),

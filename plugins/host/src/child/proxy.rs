@@ -9,7 +9,7 @@ mod robot;
 mod sensor;
 
 pub(crate) use bench::BenchProxy;
-pub(crate) use link::Link;
+pub(crate) use link::{CLOSING, Link};
 pub(crate) use model::{ModelProxy, of_failure, of_link};
 
 use taceva_core::{DriverError, ForceTransducer, Lighting, Robot, Sensor};

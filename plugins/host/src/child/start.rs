@@ -7,11 +7,12 @@ use std::path::PathBuf;
 use std::process::{Command, Stdio};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::thread::JoinHandle;
+use taceva_core::shown;
 
 use rustix::pipe::{PipeFlags, pipe_with};
 
 use super::error::ChildError;
-use super::fate::Fate;
+use super::fate::{ENDING, Fate};
 use super::keeper::{Kept, Watch, keep};
 use super::log::listen;
 use super::main_hook::{CHILD_ARGUMENT, can_be_child};
@@ -274,7 +275,7 @@ fn refuse_quarantined(
         }),
         Err(error) => Err(ChildError::Start {
             plugin,
-            why: format!("{}: {error}", quarantine.folder().display()),
+            why: format!("{}: {error}", shown(&quarantine.folder())),
         }),
     }
 }
@@ -303,7 +304,7 @@ impl Drop for Child {
             watch, patience, ..
         } = &*self.life;
         watch.expect_end();
-        let call = watch.begin("end", patience.end);
+        let call = watch.begin(ENDING, patience.end);
         // It answers by ending. One that is gone already cannot be asked.
         let _ = self.orders().ask::<OrderAnswer>(&Order::Shutdown {}, &[]);
         if let Some(keeper) = self.keeper.take() {

@@ -3,6 +3,7 @@
 use std::fmt;
 use std::io;
 use std::path::{Path, PathBuf};
+use taceva_core::shown;
 
 use taceva_core::{DriverError, DriverKey, ErrorKind};
 
@@ -40,7 +41,7 @@ impl LoadError {
 
 impl fmt::Display for LoadError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}: {}", self.path.display(), self.problem)
+        write!(f, "{}: {}", shown(&self.path), self.problem)
     }
 }
 

@@ -3,6 +3,7 @@
 use std::fmt;
 use std::io;
 use std::path::{Path, PathBuf};
+use taceva_core::shown;
 
 use serde::Serialize;
 
@@ -23,7 +24,7 @@ pub struct Rejection {
 
 impl fmt::Display for Rejection {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}: {}", self.path.display(), self.reason)
+        write!(f, "{}: {}", shown(&self.path), self.reason)
     }
 }
 
@@ -172,7 +173,7 @@ impl fmt::Display for Reason {
             Reason::WorldWritable { path } => write!(
                 f,
                 "every user of this machine may write to {}, expected one that only its owner may",
-                path.display()
+                shown(path)
             ),
             Reason::Unreadable(error) => write!(f, "{error}"),
             Reason::NotAFile => f.write_str("no regular file"),
@@ -190,12 +191,12 @@ impl fmt::Display for Reason {
                 write!(f, "no library for {platform}, only for {}", has.join(", "))
             }
             Reason::Library { library, problem } => {
-                write!(f, "its library {}: {problem}", library.display())
+                write!(f, "its library {}: {problem}", shown(library))
             }
             Reason::Duplicate { id, other } => write!(
                 f,
                 "`{id}` is also {}; `prefer = [\"FOLDER\"]` under [plugins] in the settings chooses one",
-                other.display()
+                shown(other)
             ),
         }
     }

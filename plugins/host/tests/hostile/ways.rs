@@ -45,6 +45,7 @@ use Then::{Fails, Gone, Nothing, Refused};
 const SHORT: Patience = Patience {
     start: Duration::from_millis(1500),
     open: Duration::from_millis(400),
+    close: Duration::from_millis(400),
     grace: Duration::from_millis(200),
     urgent: Duration::from_millis(200),
     end: Duration::from_millis(400),

@@ -10,6 +10,7 @@ use taceva_host::{
     Image, InProcess, Level, Library, LoadError, Place, Plugin, PluginConfig, PluginHost, Plugins,
     SearchPath,
 };
+use taceva_needs::{Need, skip};
 use tempfile::TempDir;
 
 pub(crate) const EYE: DriverKey = DriverKey::fixed("org.example.fixture/eye");
@@ -81,7 +82,6 @@ pub(crate) struct Fixture {
 
 impl Fixture {
     /// The plugin built with `macros`; `None`, with a word about it, where there is no compiler of C.
-    #[expect(clippy::print_stdout, reason = "a test that is skipped says so")]
     pub(crate) fn built(macros: &[&str]) -> Option<Fixture> {
         let folder = tempfile::tempdir().expect("a folder");
         let plugins = Path::new(env!("CARGO_MANIFEST_DIR"));
@@ -101,7 +101,7 @@ impl Fixture {
                 String::from_utf8_lossy(&done.stderr)
             ),
             Err(error) => {
-                println!("skipped: no compiler of C: {error}");
+                skip(Need::CCompiler, format!("`cc`: {error}"));
                 return None;
             }
         }

@@ -7,6 +7,7 @@ use std::sync::Arc;
 
 use cargo_metadata::Message;
 use taceva_host::{Children, PluginConfig, PluginHost, Plugins, SearchPath};
+use taceva_needs::{Need, skip};
 
 /// Where the code of plugins runs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -65,11 +66,14 @@ pub(crate) fn lay_bench(folder: &Path, flags: &[&str]) {
 }
 
 /// Builds the example in C as the plugin `org.example.<word>`; `false`, with the reason printed, where a tool for that is missing.
-#[expect(clippy::print_stderr, reason = "a skipped test must say why")]
 pub(crate) fn lay_c(folder: &Path, word: &str, compiler: &str, level: &str) -> bool {
     for tool in [compiler, "make"] {
         if let Err(error) = Command::new(tool).arg("--version").output() {
-            eprintln!("skipped: `{tool}`: {error}");
+            let need = match tool {
+                "clang" => Need::Clang,
+                _ => Need::CCompiler,
+            };
+            skip(need, format!("`{tool}`: {error}"));
             return false;
         }
     }

@@ -14,7 +14,7 @@ use super::rig::{Mounted, SimulatedRig};
 use super::state::State;
 use crate::bench::Bench;
 use crate::contact::BOARD_SIDE_MM;
-use crate::optics::{AmbientLight, Board, Camera, OpticsSpec, Stimulus, View};
+use crate::optics::{AmbientLight, Bits, Board, Camera, OpticsSpec, Stimulus, View};
 use crate::parameters::{Body, Model, Outline, Parameters};
 use crate::specimen::GratingPose;
 
@@ -32,7 +32,7 @@ impl SensorFactory {
     /// [`DescriptorError`] if its description contradicts itself.
     pub fn new(model: Model) -> Result<SensorFactory, DescriptorError> {
         let parameters = model.parameters();
-        let frame = frame(&parameters, default_reduction(&parameters));
+        let frame = frame(&parameters, default_reduction(&parameters), None);
         Ok(SensorFactory {
             model,
             descriptor: describe(model, &parameters, frame).check()?,
@@ -59,7 +59,7 @@ impl Factory<dyn Sensor> for SensorFactory {
         let parameters = self
             .parameters(args)
             .unwrap_or_else(|_| self.model.parameters());
-        let frame = frame(&parameters, reduction(args, &parameters));
+        let frame = frame(&parameters, reduction(args, &parameters), bits(args));
         describe(self.model, &parameters, frame).check()
     }
 
@@ -75,6 +75,10 @@ impl Factory<dyn Sensor> for SensorFactory {
         let reduced = reduced(spec.native, reduction(args, &parameters));
         let camera = Camera::new(&spec, reduced, unit, seed)
             .map_err(|error| failed(ErrorKind::InvalidArgument, &driver, doing, error))?;
+        let camera = match bits(args) {
+            Some(bits) => camera.with_bits(bits),
+            None => camera,
+        };
         let rig = SimulatedRig::of(rig, rig_name(args));
         let period = Duration::from_secs_f64(1.0 / parameters.camera.rate_hz);
         {
@@ -267,6 +271,10 @@ fn describe(model: Model, parameters: &Parameters, frame: Option<FrameInfo>) -> 
             .optional()
             .help("how many pixels of the camera, along x and along y, make one of the frame")
             .changes_facts(),
+        ArgSpec::choice("bits", Bits::ALL.map(Bits::name))
+            .optional()
+            .help("bits of a sample, 8 where the frame has the size of the camera and 16 where it is reduced, if nothing is said")
+            .changes_facts(),
         ArgSpec::text("table")
             .optional()
             .help("a table of parameters in the place of the compiled-in one, its whole text")
@@ -297,10 +305,17 @@ fn reduced(native: [u32; 2], reduction: u32) -> [u32; 2] {
     native.map(|side| (side / reduction).max(1))
 }
 
+/// The bits of a sample that `args` ask for.
+fn bits(args: &Args) -> Option<Bits> {
+    let name = args.get("bits").and_then(ArgValue::as_text)?;
+    Bits::ALL.into_iter().find(|bits| bits.name() == name)
+}
+
 /// The frame of such a sensor; `None` if there is none, which opening it says in detail.
-fn frame(parameters: &Parameters, reduction: u32) -> Option<FrameInfo> {
+fn frame(parameters: &Parameters, reduction: u32, bits: Option<Bits>) -> Option<FrameInfo> {
     let spec = OpticsSpec::new(parameters);
-    spec.frame_info(reduced(spec.native, reduction)).ok()
+    let info = spec.frame_info(reduced(spec.native, reduction)).ok()?;
+    Some(bits.map_or(info, |bits| bits.of(info)))
 }
 
 fn pixels(count: f64) -> u32 {

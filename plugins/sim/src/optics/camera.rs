@@ -4,6 +4,7 @@ use taceva_core::{FrameInfo, FrameMut};
 
 use super::ambient::AmbientLight;
 use super::band::Band;
+use super::bits::Bits;
 use super::error::OpticsError;
 use super::gel::Gel;
 use super::luma::Luma;
@@ -92,6 +93,12 @@ impl Camera {
             band_rows,
             light: vec![0.0; band_rows * row],
         })
+    }
+
+    /// The same camera with samples of so many bits: what it sees and its noise stay, only the step of its numbers is another.
+    pub fn with_bits(mut self, bits: Bits) -> Camera {
+        self.info = bits.of(self.info);
+        self
     }
 
     /// Size and format of its frames.
@@ -242,6 +249,25 @@ mod tests {
             assert!(camera.gel.is_some(), "{model}");
             camera.prepare();
             assert!(take(&mut camera, &view) == unprepared, "{model}");
+        }
+    }
+
+    #[test]
+    fn in_eight_bits_a_picture_is_the_one_in_sixteen_rounded() {
+        for model in Model::ALL {
+            let (mut camera, view) = pressed(model);
+            let fine = take(&mut camera, &view);
+            let mut coarse = camera.with_bits(Bits::Eight);
+            let coarse = take(&mut coarse, &view);
+            let (fine, []) = fine.as_chunks::<2>() else {
+                panic!("16 bits a sample");
+            };
+            for (fine, coarse) in fine.iter().zip(&coarse) {
+                let fine = f64::from(u16::from_le_bytes(*fine)) / 256.0;
+                // A half, and what the finer step was rounded by.
+                let off = (fine.min(255.0) - f64::from(*coarse)).abs();
+                assert!(off <= 0.5 + 1.0 / 256.0, "{model}: {fine} {coarse}");
+            }
         }
     }
 

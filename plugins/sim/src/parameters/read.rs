@@ -1,6 +1,7 @@
 //! From TOML to sections: every word is known, every number in its unit and range, and whatever is not is blamed on a line.
 
 use std::ops::Range;
+use taceva_core::shown;
 
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
@@ -215,7 +216,7 @@ impl<'t> Document<'t> {
         let separator = if within.is_empty() { "" } else { "." };
         let kind = ParameterErrorKind::Unknown {
             what,
-            key: format!("{within}{separator}{}", unknown.get_ref().escape_debug()),
+            key: format!("{within}{separator}{}", shown(unknown.get_ref().as_ref())),
             nearest,
         };
         Err(ParameterError::new(

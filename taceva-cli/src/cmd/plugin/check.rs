@@ -50,7 +50,7 @@ pub(super) fn run(args: &PluginCheck, context: &Context) -> anyhow::Result<u8> {
             args.only.join(",")
         )));
     }
-    output::write(listing.path.as_deref(), |out| {
+    output::write_as(listing.format, listing.path.as_deref(), |out| {
         report::plugin_check::write(
             &args.id,
             args.seed,

@@ -3,6 +3,7 @@
 use std::fs;
 use std::io;
 use std::path::Path;
+use taceva_core::shown;
 
 use anyhow::{Context as _, bail};
 use taceva_template::{File, Sources};
@@ -22,26 +23,26 @@ pub(super) fn project(args: &PluginNew, context: &Context) -> anyhow::Result<u8>
     write_folder(folder, "", &files)?;
     context.say(format_args!(
         "{}: build it with `cargo build --release`, then `taceva devices --plugin-dir {}`",
-        folder.display(),
-        folder.display()
+        shown(folder),
+        shown(folder)
     ));
     Ok(exit::DONE)
 }
 
 pub(super) fn headers(args: &PluginHeaders, context: &Context) -> anyhow::Result<u8> {
     write_folder(&args.to, "include/", &taceva_template::headers())?;
-    context.say(format_args!("{}: for `cc -I`", args.to.display()));
+    context.say(format_args!("{}: for `cc -I`", shown(&args.to)));
     Ok(exit::DONE)
 }
 
 /// Makes `folder` with `files`, whose paths begin with `above`: beside its place first, so that it is absent or whole.
 fn write_folder(folder: &Path, above: &str, files: &[File]) -> anyhow::Result<()> {
     if folder.symlink_metadata().is_ok() {
-        bail!("{} exists already", folder.display());
+        bail!("{} exists already", shown(folder));
     }
     let name = folder
         .file_name()
-        .with_context(|| format!("{} names no folder", folder.display()))?;
+        .with_context(|| format!("{} names no folder", shown(folder)))?;
     let partial = format!(".{}.{}.partial", name.display(), std::process::id());
     let beside = folder.with_file_name(partial);
     let written = write_files(&beside, above, files).and_then(|()| fs::rename(&beside, folder));
@@ -49,7 +50,7 @@ fn write_folder(folder: &Path, above: &str, files: &[File]) -> anyhow::Result<()
         // The error that counts is the one reported below.
         drop(fs::remove_dir_all(&beside));
     }
-    written.with_context(|| format!("cannot write {}", folder.display()))
+    written.with_context(|| format!("cannot write {}", shown(folder)))
 }
 
 fn write_files(folder: &Path, above: &str, files: &[File]) -> io::Result<()> {

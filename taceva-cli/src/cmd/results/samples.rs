@@ -2,8 +2,9 @@
 
 use std::fs;
 use std::path::{Path, PathBuf};
+use taceva_core::shown;
 
-use anyhow::Context as _;
+use anyhow::{Context as _, bail};
 use taceva_report::{Samples, Study, escape_terminal};
 
 use super::{Found, RESULTS};
@@ -33,12 +34,12 @@ pub(super) fn beside(file: &Path, mut studies: Vec<Study>) -> anyhow::Result<Fou
             ),
         };
         match found {
-            Some(path) => study.samples = Some(read(&path)?),
+            Some(path) => study.samples = Some(read(&path, study)?),
             None => missing.push(format!(
                 "{}: no samples of {}, looked for {}: compared without pairs, by Welch's test",
-                file.display(),
+                shown(file),
                 escape_terminal(&study.sensor),
-                wanted.display()
+                shown(&wanted)
             )),
         }
     }
@@ -54,7 +55,7 @@ fn of_run(reports: &Path, number: u32) -> anyhow::Result<Option<PathBuf>> {
     let of_study = |name: &str| name.starts_with(&start) && name.ends_with(&format!(".{SAMPLES}"));
     let mut names = Vec::new();
     let entries =
-        fs::read_dir(reports).with_context(|| format!("cannot read {}", reports.display()))?;
+        fs::read_dir(reports).with_context(|| format!("cannot read {}", shown(reports)))?;
     for entry in entries {
         let name = entry?.file_name().to_string_lossy().into_owned();
         if of_study(&name) {
@@ -65,8 +66,17 @@ fn of_run(reports: &Path, number: u32) -> anyhow::Result<Option<PathBuf>> {
     Ok(names.first().map(|name| reports.join(name)))
 }
 
-fn read(path: &Path) -> anyhow::Result<Samples> {
-    let table =
-        fs::read_to_string(path).with_context(|| format!("cannot read {}", path.display()))?;
-    Samples::read(&table).with_context(|| path.display().to_string())
+/// The table of samples at `path`, which must be the one that was written with the results of `study`.
+fn read(path: &Path, study: &Study) -> anyhow::Result<Samples> {
+    let table = fs::read_to_string(path).with_context(|| format!("cannot read {}", shown(path)))?;
+    let mut told = study.provenance.iter();
+    let expected = told.find_map(|(name, text)| (name == "samples_table").then_some(text));
+    let found = taceva_seal::digest_of_bytes(table.as_bytes());
+    if let Some(expected) = expected.filter(|expected| **expected != found) {
+        bail!(
+            "{}: damaged or of other results: expected {expected}, found {found}",
+            shown(path)
+        );
+    }
+    Samples::read(&table).with_context(|| shown(path).to_string())
 }

@@ -83,7 +83,8 @@ pub(super) fn read(bytes: &[u8]) -> Result<(Origin, Checkpoint), String> {
     for (name, tensor) in found.tensors() {
         if tensor.dtype() != Dtype::F32 {
             return Err(format!(
-                "tensor `{name}` is {:?}, expected F32",
+                "tensor `{}` is {:?}, expected F32",
+                taceva_core::shown(&name),
                 tensor.dtype()
             ));
         }

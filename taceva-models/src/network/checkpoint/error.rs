@@ -13,7 +13,7 @@ pub enum CheckpointError {
     /// The file cannot be written.
     #[error(
         "cannot write checkpoint {}: {source}; what was there before stands, and the same training goes on from it",
-        path.display()
+        taceva_core::shown(path)
     )]
     Write {
         /// The file.
@@ -25,7 +25,7 @@ pub enum CheckpointError {
     #[error("cannot put the training aside: {0}")]
     Unread(NetworkError),
     /// The file cannot be read.
-    #[error("cannot read checkpoint {}: {source}", path.display())]
+    #[error("cannot read checkpoint {}: {source}", taceva_core::shown(path))]
     Read {
         /// The file.
         path: PathBuf,
@@ -33,7 +33,10 @@ pub enum CheckpointError {
         source: io::Error,
     },
     /// The file is not what was written.
-    #[error("checkpoint {}: {problem}; remove it to begin anew", path.display())]
+    #[error(
+        "checkpoint {}: {problem}; remove it to begin anew",
+        taceva_core::shown(path)
+    )]
     Damaged {
         /// The file.
         path: PathBuf,
@@ -41,7 +44,10 @@ pub enum CheckpointError {
         problem: String,
     },
     /// The file is of another training.
-    #[error("checkpoint {} is of another training, with other {what}; remove it to begin anew", path.display())]
+    #[error(
+        "checkpoint {} is of another training, with other {what}; remove it to begin anew",
+        taceva_core::shown(path)
+    )]
     Foreign {
         /// The file.
         path: PathBuf,

@@ -15,7 +15,7 @@ fn descriptor(key: &'static str, facts: Facts) -> Descriptor {
         .expect("no contradiction")
 }
 
-pub(super) fn sensor() -> SensorFacts {
+pub(crate) fn sensor() -> SensorFacts {
     SensorFacts {
         frame: Some(FrameInfo {
             width: 64,
@@ -31,7 +31,7 @@ pub(super) fn sensor() -> SensorFacts {
     }
 }
 
-pub(super) fn rig_of(sensor: SensorFacts, axes: Axes) -> RigInfo {
+pub(crate) fn rig_of(sensor: SensorFacts, axes: Axes) -> RigInfo {
     RigInfo {
         sensor: Some(descriptor("test/gel", Facts::Sensor(Box::new(sensor)))),
         robot: Some(descriptor(
@@ -56,7 +56,7 @@ pub(super) fn rig_of(sensor: SensorFacts, axes: Axes) -> RigInfo {
 }
 
 /// The metrics of the paper as the planner sees them.
-pub(super) fn paper_metrics() -> Vec<MetricNeeds> {
+pub(crate) fn paper_metrics() -> Vec<MetricNeeds> {
     let truth = FieldSet::EMPTY.with(Field::Truth);
     let cells = FieldSet::EMPTY.with(Field::Prediction).with(Field::Point);
     let spacing = FieldSet::EMPTY
@@ -84,7 +84,7 @@ pub(super) fn paper_metrics() -> Vec<MetricNeeds> {
     ]
 }
 
-pub(super) const SMALL: &str = r#"
+pub(crate) const SMALL: &str = r#"
 scene_version = 1
 name = "small"
 [sensor]

@@ -1,5 +1,8 @@
 //! Every reading that must halt, and those that must not.
 
+mod boundaries;
+mod signals;
+
 use std::sync::atomic::{AtomicU32, Ordering};
 
 use taceva_core::{DriverError, Millimetre, Newton, Point};

@@ -2,6 +2,7 @@
 
 use super::super::ResultsError;
 use crate::json::Json;
+use taceva_core::shown;
 
 /// A value with the way to it.
 pub(super) struct Place<'a> {
@@ -109,7 +110,7 @@ impl<'a> Place<'a> {
     }
 
     fn below(&self, key: &str) -> String {
-        let key = key.escape_debug();
+        let key = shown(key);
         if self.path.is_empty() {
             key.to_string()
         } else {

@@ -1,13 +1,14 @@
 //! Scores, values and intervals.
 
 use taceva_core::Unit;
-use taceva_metrics::{Band, Curve, Map, Matrix};
+use taceva_core::shown;
+use taceva_metrics::{Band, Curve, Map, Matrix, Standing};
 
 use super::super::{Interval, ResultsError, Score, Value, Variant};
 use super::place::Place;
 
 /// Keys of a score that are no variants.
-const OWN: [&str; 22] = [
+const OWN: [&str; 24] = [
     "value",
     "unit",
     "undefined",
@@ -23,6 +24,8 @@ const OWN: [&str; 22] = [
     "parameters",
     "counts",
     "flags",
+    "standing",
+    "bounded_share",
     "x",
     "x_unit",
     "x_mm",
@@ -79,8 +82,26 @@ pub(super) fn score(metric: &str, channel: &str, place: &Place<'_>) -> Result<Sc
             .map(|(name, at)| Ok(((*name).to_owned(), at.count()?)))
             .collect::<Result<_, ResultsError>>()?,
         flags: texts("flags")?,
+        standing: match place.optional("standing") {
+            Some(at) => standing(&at)?,
+            None => Standing::Counts,
+        },
+        bounded_share: place
+            .optional("bounded_share")
+            .map(|at| at.number())
+            .transpose()?,
         of: texts("of")?,
         variants,
+    })
+}
+
+fn standing(place: &Place<'_>) -> Result<Standing, ResultsError> {
+    let words = place.text()?;
+    Standing::from_words(words).ok_or_else(|| {
+        place.refuse_found(
+            "`skill unknown`, `bounded` or `no skill`",
+            format!("`{}`", words.escape_debug()),
+        )
     })
 }
 
@@ -114,7 +135,7 @@ fn value(place: &Place<'_>) -> Result<(Value, Unit), ResultsError> {
 fn unit(place: &Place<'_>) -> Result<Unit, ResultsError> {
     let symbol = place.text()?;
     Unit::from_symbol(symbol)
-        .ok_or_else(|| place.refuse_found("a unit", format!("`{}`", symbol.escape_debug())))
+        .ok_or_else(|| place.refuse_found("a unit", format!("`{}`", shown(symbol))))
 }
 
 fn interval(place: &Place<'_>) -> Result<Option<Interval>, ResultsError> {

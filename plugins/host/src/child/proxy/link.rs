@@ -13,6 +13,9 @@ use crate::child::socket::{Caller, LinkError, Socket, send_now};
 use crate::child::start::{Child, Life};
 use crate::child::wire::{Answer, Call, Urgent};
 
+/// What a device is asked for that nobody waits for any more.
+pub(crate) const CLOSING: &str = "close the device";
+
 /// The connection to one open device: its calls, and what goes round them. Dropping it closes the device.
 pub(crate) struct Link {
     child: Arc<Child>,
@@ -137,8 +140,9 @@ impl Link {
 impl Drop for Link {
     fn drop(&mut self) {
         self.urgent.is_closed.store(true, Ordering::Release);
-        // A child that is gone has closed everything.
-        let _ = self.call_without_deadline(&Call::Close {}, &[], "close the device");
+        let after = self.child.life().patience.close;
+        // A child that is gone has closed everything; one that hangs is ended, which its host tells.
+        let _ = self.ask(&Call::Close {}, &[], CLOSING, after);
     }
 }
 

@@ -1,0 +1,160 @@
+//! What is typed of what is kept for later runs.
+
+use std::path::PathBuf;
+use std::time::Duration;
+
+use clap::{ArgGroup, Args, Subcommand, ValueEnum};
+use taceva_study::Stage;
+
+use super::Output;
+
+#[derive(Debug, Args)]
+pub(crate) struct CacheCommand {
+    #[command(subcommand)]
+    pub(crate) subject: CacheSubject,
+}
+
+/// What to do with the cache.
+#[derive(Debug, Subcommand)]
+pub(crate) enum CacheSubject {
+    /// List what is kept: by kind, how much of it, how old, and which runs use it
+    List(CacheList),
+    /// Remove what is old or too much; runs that are under way are not harmed
+    Prune(CachePrune),
+}
+
+/// A run is told by its stages.json: the runs in the folder `runs` are looked at, and those of --run.
+#[derive(Debug, Args)]
+pub(crate) struct CacheList {
+    /// The cache [default: taceva in the user's cache folder]
+    #[arg(long, value_name = "DIR")]
+    pub(crate) cache: Option<PathBuf>,
+    /// A row for every entry, not only for every kind
+    #[arg(long)]
+    pub(crate) entries: bool,
+    /// The folder of a run whose entries are to be named; may be repeated
+    #[arg(long = "run", value_name = "FOLDER")]
+    pub(crate) runs: Vec<PathBuf>,
+    #[command(flatten)]
+    pub(crate) output: Output,
+}
+
+/// What is removed is made again when it is asked for.
+#[derive(Debug, Args)]
+#[command(group = ArgGroup::new("what").required(true).multiple(true).args(["older_than", "keep"]))]
+pub(crate) struct CachePrune {
+    /// The cache [default: taceva in the user's cache folder]
+    #[arg(long, value_name = "DIR")]
+    pub(crate) cache: Option<PathBuf>,
+    /// Remove what nobody has looked at for longer: 12h, 30d, 8w
+    #[arg(long, value_name = "AGE", value_parser = age)]
+    pub(crate) older_than: Option<Duration>,
+    /// Remove the longest unused until no more than this is left: 2GiB, 500MB, 0
+    #[arg(long, value_name = "SIZE", value_parser = size)]
+    pub(crate) keep: Option<u64>,
+    /// Only these kinds, separated by commas [default: all]
+    #[arg(long, value_enum, value_name = "KINDS", value_delimiter = ',')]
+    pub(crate) kind: Vec<StageArg>,
+    /// Say what would go, and remove nothing
+    #[arg(long)]
+    pub(crate) dry_run: bool,
+}
+
+/// A kind of what is kept.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum StageArg {
+    /// Recordings of the simulated bench
+    Acquire,
+    /// What models see of frames
+    Features,
+    /// Models
+    Fit,
+    /// Predictions
+    Predict,
+    /// Told spacings of gratings
+    Tell,
+}
+
+impl From<StageArg> for Stage {
+    fn from(kind: StageArg) -> Stage {
+        match kind {
+            StageArg::Acquire => Stage::Acquire,
+            StageArg::Features => Stage::Features,
+            StageArg::Fit => Stage::Fit,
+            StageArg::Predict => Stage::Predict,
+            StageArg::Tell => Stage::Tell,
+        }
+    }
+}
+
+/// A number and the letters behind it.
+fn parts(text: &str) -> Option<(f64, &str)> {
+    let text = text.trim();
+    let end = text
+        .find(|letter: char| !(letter.is_ascii_digit() || letter == '.'))
+        .unwrap_or(text.len());
+    let number: f64 = text[..end].parse().ok()?;
+    Some((number, text[end..].trim()))
+}
+
+/// A length of time: a number of hours, days or weeks.
+fn age(text: &str) -> Result<Duration, String> {
+    let expected = || "expected a number of hours, days or weeks: 12h, 30d, 8w".to_owned();
+    let (number, unit) = parts(text).ok_or_else(expected)?;
+    let hours = match unit {
+        "h" => 1.0,
+        "d" => 24.0,
+        "w" => 7.0 * 24.0,
+        _ => return Err(expected()),
+    };
+    Duration::try_from_secs_f64(number * hours * 3600.0).map_err(|_| expected())
+}
+
+/// A number of bytes.
+fn size(text: &str) -> Result<u64, String> {
+    let expected = || "expected a number of bytes: 2GiB, 500MB, 0".to_owned();
+    let (number, unit) = parts(text).ok_or_else(expected)?;
+    let bytes = match unit.to_ascii_lowercase().as_str() {
+        "" | "b" => 1.0,
+        "kb" => 1e3,
+        "mb" => 1e6,
+        "gb" => 1e9,
+        "tb" => 1e12,
+        "kib" => 1024.0,
+        "mib" => 1024.0 * 1024.0,
+        "gib" => 1024.0 * 1024.0 * 1024.0,
+        "tib" => 1024.0 * 1024.0 * 1024.0 * 1024.0,
+        _ => return Err(expected()),
+    };
+    let bytes = (number * bytes).round();
+    // Below 2⁵³ every whole number is one.
+    if !(0.0..9e15).contains(&bytes) {
+        return Err(expected());
+    }
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "a whole number between 0 and 9e15"
+    )]
+    Ok(bytes as u64)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sizes_and_ages_are_numbers_with_a_unit() {
+        assert_eq!(size("2GiB"), Ok(2 << 30));
+        assert_eq!(size("1.5 MB"), Ok(1_500_000));
+        assert_eq!(size("0"), Ok(0));
+        assert_eq!(age("36h"), age("1.5d"));
+        assert_eq!(age("1w"), Ok(Duration::from_secs(7 * 24 * 3600)));
+        for wrong in ["", "much", "-1", "1e99GB", "2 cats", "99999TB"] {
+            assert!(size(wrong).is_err(), "{wrong}");
+        }
+        for wrong in ["", "30", "1y", "-1d", "99999999999999999999w"] {
+            assert!(age(wrong).is_err(), "{wrong}");
+        }
+    }
+}

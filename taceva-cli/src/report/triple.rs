@@ -1,0 +1,91 @@
+//! A sensor in three small pictures, from its recording: untouched, pressed, and what is different.
+
+use taceva_dataset::{Dataset, Table};
+use taceva_report::Triple;
+
+use super::thumbnail::{MEDIA_TYPE, Small};
+
+/// How many times a faint difference is enlarged at most.
+const MOST_GAIN: i64 = 8;
+/// Mid-grey: no difference.
+const MIDDLE: i64 = 128;
+
+/// The pictures of the hardest press of `dataset`, for the study at `study`; `None` where no press has a frame.
+pub(crate) fn triple(dataset: &Dataset, study: usize) -> anyhow::Result<Option<Triple>> {
+    let Some((row, words)) = hardest(dataset.table()) else {
+        return Ok(None);
+    };
+    let Some(frame) = dataset.frame(row)? else {
+        return Ok(None);
+    };
+    let pressed = Small::of(&frame);
+    let untouched = dataset.reference()?.map(|frame| Small::of(&frame));
+    let untouched = untouched.filter(|untouched| untouched.is_like(&pressed));
+    let all = untouched.iter().chain([&pressed]);
+    let ends = all.flat_map(|small| &small.means);
+    let scale = [ends.clone().min(), ends.max()].map(|end| end.copied().unwrap_or(0));
+    let bytes = |small: &Small| small.jpeg(|mean| stretched(mean, scale));
+    let (difference, gain) = match &untouched {
+        Some(untouched) => difference(&pressed, untouched, scale)?,
+        None => (None, 1.0),
+    };
+    Ok(Some(Triple {
+        study,
+        media_type: MEDIA_TYPE,
+        untouched: untouched.as_ref().map(bytes).transpose()?,
+        pressed: bytes(&pressed)?,
+        difference,
+        gain,
+        words,
+    }))
+}
+
+/// The row with the greatest normal force, or depth where no force is known; and its labels in words. Presses of gratings show a relief, not
+/// the tip that everything else is pressed with.
+fn hardest(table: &Table) -> Option<(usize, String)> {
+    let channels = table.channels();
+    let place = |name: &str| channels.iter().position(|channel| channel.name() == name);
+    let chosen = place("Fz").or_else(|| place("Pz"))?;
+    let is_shown = |row: &usize| table.frames()[*row].is_some() && table.kind()[*row].is_none();
+    let row = (0..table.rows())
+        .filter(is_shown)
+        .filter_map(|row| Some((row, table.truth(chosen).get(row)?)))
+        .max_by(|a, b| a.1.total_cmp(&b.1).then(b.0.cmp(&a.0)))?
+        .0;
+    let words: Vec<String> = ["Fz", "Pz"]
+        .into_iter()
+        .filter_map(|name| {
+            let at = place(name)?;
+            let value = table.truth(at).get(row)?;
+            let unit = channels.iter().nth(at)?.unit();
+            Some(format!(
+                "{name} {}",
+                taceva_report::Printed::number(value, None).phrase(&format!(" {unit}"))
+            ))
+        })
+        .collect();
+    Some((row, format!("pressed with {}", words.join(", "))))
+}
+
+/// From the darkest of all pictures to the brightest, as 0 to 255.
+fn stretched(mean: i64, [low, high]: [i64; 2]) -> i64 {
+    (mean - low) * 255 / (high - low).max(1)
+}
+
+/// Pressed less untouched in the scale of both, enlarged as far as the strongest stays whole.
+#[expect(clippy::cast_precision_loss, reason = "a factor from 1 to 8")]
+fn difference(
+    pressed: &Small,
+    untouched: &Small,
+    scale: [i64; 2],
+) -> anyhow::Result<(Option<Vec<u8>>, f64)> {
+    let pairs = pressed.means.iter().zip(&untouched.means);
+    let apart: Vec<i64> = pairs
+        .map(|(one, other)| stretched(*one, scale) - stretched(*other, scale))
+        .collect();
+    let most = apart.iter().map(|apart| apart.abs()).max().unwrap_or(0);
+    let gain = ((MIDDLE - 1) / most.max(1)).clamp(1, MOST_GAIN);
+    let small = pressed.with_means(apart);
+    let bytes = small.jpeg(|apart| (MIDDLE + apart * gain).clamp(0, 255))?;
+    Ok((Some(bytes), gain as f64))
+}

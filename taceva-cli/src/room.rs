@@ -1,0 +1,148 @@
+//! Whether what a command is going to write has room where it is going to be, told before the work begins.
+
+use std::path::Path;
+
+use crate::cmd::cache::amount::bytes;
+
+/// Pictures of a run are packed without loss: one is refused for want of room only where a fiftieth of them would not fit.
+const PACKED: u64 = 50;
+
+/// What a command is going to write, in bytes.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) struct Need {
+    /// It is never less.
+    pub(crate) at_least: u64,
+    /// It is never more.
+    pub(crate) at_most: u64,
+}
+
+/// Why a command does not begin.
+#[derive(Debug)]
+pub(crate) struct NoRoom {
+    need: Need,
+    free: u64,
+    folder: String,
+}
+
+impl std::fmt::Display for NoRoom {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(
+            f,
+            "at least {} are going to be written and {} are free in {}; nothing was begun: make room, or write elsewhere with another path",
+            bytes(self.need.at_least),
+            bytes(self.free),
+            self.folder
+        )
+    }
+}
+
+impl std::error::Error for NoRoom {}
+
+impl Need {
+    /// Of a run whose pictures have so many bytes before they are packed.
+    pub(crate) fn of_pictures(bytes: u64) -> Need {
+        Need {
+            at_least: bytes / PACKED,
+            at_most: bytes,
+        }
+    }
+
+    /// What is going to be written beside what is free, in words; nothing where nothing is going to be written.
+    ///
+    /// # Errors
+    /// [`NoRoom`] if it cannot fit.
+    pub(crate) fn hold_against(
+        self,
+        free: Option<u64>,
+        target: &Path,
+    ) -> Result<Option<String>, NoRoom> {
+        if self.at_most == 0 {
+            return Ok(None);
+        }
+        let most = if self.at_most == self.at_least {
+            ""
+        } else {
+            "at most "
+        };
+        let needs = format!("{most}{} of pictures", bytes(self.at_most));
+        match free {
+            Some(free) if free < self.at_least => Err(NoRoom {
+                need: self,
+                free,
+                folder: holder(target).display().to_string(),
+            }),
+            Some(free) if free < self.at_most => Ok(Some(format!(
+                "{needs}, {} are free: it may not fit",
+                bytes(free)
+            ))),
+            Some(free) => Ok(Some(format!("{needs}, {} are free", bytes(free)))),
+            None => Ok(Some(needs)),
+        }
+    }
+}
+
+/// The nearest folder above `target` that is there.
+fn holder(target: &Path) -> &Path {
+    let above = target.ancestors().find(|folder| folder.is_dir());
+    above.unwrap_or(Path::new("."))
+}
+
+/// What is free where `target` is going to be, in bytes, for those who are not the administrator; `None` where that is not known.
+pub(crate) fn free(target: &Path) -> Option<u64> {
+    #[cfg(unix)]
+    {
+        let facts = rustix::fs::statvfs(holder(target)).ok()?;
+        facts.f_bavail.checked_mul(facts.f_frsize)
+    }
+    #[cfg(not(unix))]
+    {
+        let _ = target;
+        None
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_cannot_fit_is_refused_and_what_may_not_is_said() {
+        let need = Need {
+            at_least: 10_000,
+            at_most: 200_000,
+        };
+        let said = |free| need.hold_against(free, Path::new("/nowhere/at/all"));
+        let refused = said(Some(9_999)).expect_err("it cannot fit").to_string();
+        assert!(
+            refused.starts_with("at least 10.0 kB are going to be written"),
+            "{refused}"
+        );
+        assert!(refused.contains("are free in /;"), "{refused}");
+        let said = |free| {
+            said(free)
+                .expect("it may fit")
+                .expect("there is something to write")
+        };
+        assert_eq!(
+            said(Some(50_000)),
+            "at most 200 kB of pictures, 50.0 kB are free: it may not fit"
+        );
+        assert_eq!(
+            said(Some(200_000)),
+            "at most 200 kB of pictures, 200 kB are free"
+        );
+        assert_eq!(said(None), "at most 200 kB of pictures");
+        let nothing = Need::default().hold_against(Some(0), Path::new("."));
+        assert_eq!(nothing.expect("nothing fits everywhere"), None);
+    }
+
+    #[test]
+    #[cfg(unix)]
+    fn what_is_free_is_known_for_folders_that_are_still_to_be_made() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let deep = folder.path().join("a/b/c");
+        let ratio = |left: u64, right: u64| left.abs_diff(right) < 1 << 30;
+        let (here, there) = (free(folder.path()), free(&deep));
+        assert!(ratio(here.expect("known"), there.expect("known")));
+    }
+}

@@ -1,0 +1,125 @@
+//! Foreign text where a person reads it: names, ids and paths come from anywhere, and a terminal obeys what they contain.
+
+use std::ffi::OsStr;
+use std::fmt;
+
+/// A foreign name as it is printed: on one line, and with nothing in it that a terminal or a reader's eye obeys.
+///
+/// Every message of every crate writes ids, names of files and models, keys of maps and what else came from outside through this.
+/// Values that programs read (JSON, CSV, journals, headers) keep the text as it is.
+///
+/// ```
+/// use taceva_core::shown;
+/// assert_eq!(shown("gel\u{1b}[2J\u{202e}7\n").to_string(), "gel\\u{1b}[2J\\u{202e}7\\n");
+/// assert_eq!(shown("µ-Geräte 触覚").to_string(), "µ-Geräte 触覚");
+/// ```
+#[derive(Clone, Copy, Debug)]
+pub struct Shown<'a>(&'a OsStr);
+
+/// `text`, be it a name or a path, as it is printed in a message.
+pub fn shown<T: AsRef<OsStr> + ?Sized>(text: &T) -> Shown<'_> {
+    Shown(text.as_ref())
+}
+
+impl fmt::Display for Shown<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let text = self.0.to_string_lossy();
+        if !text.contains(is_obeyed) {
+            return f.pad(&text);
+        }
+        let mut written = String::with_capacity(text.len() + 8);
+        for letter in text.chars() {
+            push_shown(&mut written, letter);
+        }
+        f.pad(&written)
+    }
+}
+
+/// Text of several lines as it is printed: lines stay lines, and tabs tabs.
+///
+/// The last guard before a terminal, for text that was put together elsewhere.
+pub fn shown_lines(text: &str) -> String {
+    let mut written = String::with_capacity(text.len());
+    for letter in text.chars() {
+        match letter {
+            '\n' | '\t' => written.push(letter),
+            _ => push_shown(&mut written, letter),
+        }
+    }
+    written
+}
+
+fn push_shown(written: &mut String, letter: char) {
+    match is_obeyed(letter) {
+        false => written.push(letter),
+        true if matches!(letter, '\n' | '\r' | '\t') => written.extend(letter.escape_default()),
+        true => written.extend(letter.escape_unicode()),
+    }
+}
+
+/// Whether a letter is obeyed rather than read: controls of both sets, marks that turn the direction of writing, breaks of lines,
+/// and what has no width and so makes two names look like one.
+pub fn is_obeyed(letter: char) -> bool {
+    letter.is_control()
+        || matches!(letter,
+            // A soft hyphen, an Arabic mark of direction, a Mongolian mark without width.
+            '\u{ad}' | '\u{61c}' | '\u{180e}'
+            // Zero width, and marks of direction.
+            | '\u{200b}'..='\u{200f}'
+            // Separators of lines and paragraphs, and what turns the direction of all that follows.
+            | '\u{2028}'..='\u{202e}'
+            // Invisible operators, isolates of direction, and older shaping controls.
+            | '\u{2060}'..='\u{206f}'
+            // The mark of byte order, annotations, and what is no character.
+            | '\u{feff}' | '\u{fff9}'..='\u{fffb}' | '\u{fffe}' | '\u{ffff}'
+            // Tags, which spell words that nobody sees.
+            | '\u{e0000}'..='\u{e007f}')
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::path::Path;
+
+    #[test]
+    fn nothing_that_a_terminal_obeys_is_left_of_any_letter() {
+        for letter in '\0'..=char::MAX {
+            let text = letter.to_string();
+            let written = shown(&text).to_string();
+            assert!(!written.contains(is_obeyed), "{letter:?}");
+            assert_eq!(written == text, !is_obeyed(letter), "{letter:?}");
+        }
+    }
+
+    #[test]
+    fn letters_of_every_writing_are_left_alone() {
+        for text in ["µ-Geräte", "触覚センサ", "חיישן", "مستشعر", "a\u{301}", "𝒻"]
+        {
+            assert_eq!(shown(text).to_string(), text);
+        }
+    }
+
+    #[test]
+    fn the_marks_that_turn_writing_are_each_written_out() {
+        let marks = [
+            '\u{61c}', '\u{200e}', '\u{200f}', '\u{202a}', '\u{202e}', '\u{2066}', '\u{2069}',
+        ];
+        for mark in marks {
+            let text = format!("a{mark}b");
+            let written = format!("a\\u{{{:x}}}b", u32::from(mark));
+            assert_eq!(shown(&text).to_string(), written);
+        }
+    }
+
+    #[test]
+    fn a_name_stays_on_its_line_and_a_text_keeps_its_lines() {
+        assert_eq!(shown("a\nb\tc\r").to_string(), "a\\nb\\tc\\r");
+        assert_eq!(shown_lines("a\nb\tc\r\u{9b}"), "a\nb\tc\\r\\u{9b}");
+    }
+
+    #[test]
+    fn paths_are_shown_by_the_same_rule_and_fill_their_columns() {
+        assert_eq!(shown(Path::new("a\u{1b}/b")).to_string(), "a\\u{1b}/b");
+        assert_eq!(format!("{:<4}|", shown("ab")), "ab  |");
+    }
+}

@@ -1,0 +1,79 @@
+//! A frame as the difference to another: what both show takes no room.
+
+use taceva_core::{Frame, FrameError};
+
+use crate::digest::{Digest, PartsDigest};
+
+/// `frame` less `first`, number by number, wrapping; both are of one kind.
+pub(crate) fn less(frame: &Frame, first: &Frame) -> Result<Frame, FrameError> {
+    mixed(frame, first, u8::wrapping_sub, u16::wrapping_sub)
+}
+
+/// The frame of which `difference` was [`less`].
+pub(crate) fn plus(difference: &Frame, first: &Frame) -> Result<Frame, FrameError> {
+    mixed(difference, first, u8::wrapping_add, u16::wrapping_add)
+}
+
+fn mixed(
+    frame: &Frame,
+    first: &Frame,
+    bytes: fn(u8, u8) -> u8,
+    words: fn(u16, u16) -> u16,
+) -> Result<Frame, FrameError> {
+    let mixed = match frame.info().format.bytes_per_sample() {
+        1 => {
+            let pairs = frame.bytes().iter().zip(first.bytes());
+            pairs.map(|(own, other)| bytes(*own, *other)).collect()
+        }
+        _ => {
+            let pairs = frame.samples().zip(first.samples());
+            let words = pairs.map(|(own, other)| words(own, other));
+            words.flat_map(u16::to_le_bytes).collect()
+        }
+    };
+    Frame::new(frame.info(), mixed)
+}
+
+/// The digest of a difference stored as `bytes` to the frame with digest `first`: the same bytes to another frame are another picture.
+pub(crate) fn digest(first: Digest, bytes: &[u8]) -> Digest {
+    let mut digest = PartsDigest::default();
+    digest.part(b"taceva.difference/1");
+    digest.fixed(first.as_bytes());
+    digest.part(bytes);
+    digest.finish()
+}
+
+#[cfg(test)]
+mod tests {
+    use taceva_core::{FrameInfo, PixelFormat};
+
+    use super::*;
+
+    #[test]
+    fn a_difference_and_its_first_frame_give_the_frame_back() {
+        for format in [PixelFormat::Gray8, PixelFormat::Rgb16] {
+            let info = FrameInfo {
+                width: 16,
+                height: 16,
+                format,
+            };
+            let frame = |factor: usize| {
+                let bytes = (0..info.byte_len().expect("small"))
+                    .map(|at| (at * factor % 251).to_le_bytes()[0]);
+                Frame::new(info, bytes.collect()).expect("whole")
+            };
+            let (one, other) = (frame(7), frame(113));
+            let difference = less(&one, &other).expect("alike");
+            assert_ne!(difference, one);
+            assert_eq!(plus(&difference, &other).expect("alike"), one);
+        }
+    }
+
+    #[test]
+    fn the_same_difference_to_another_frame_has_another_digest() {
+        let [a, b] = [b"a", b"b"].map(|bytes| Digest::of(bytes));
+        assert_eq!(digest(a, b"x"), digest(a, b"x"));
+        assert_ne!(digest(a, b"x"), digest(b, b"x"));
+        assert_ne!(digest(a, b"x"), digest(a, b"y"));
+    }
+}

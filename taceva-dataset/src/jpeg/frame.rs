@@ -1,0 +1,111 @@
+//! What the header of a frame says, and what its scans have told of it so far.
+
+use super::segments::big_endian;
+
+/// A colour component.
+#[derive(Clone, Debug)]
+pub(super) struct Component {
+    pub(super) id: u8,
+    /// Blocks side by side, and one above the other, in a unit of an interleaved scan.
+    pub(super) sampling: [usize; 2],
+    /// Its table of quantisation.
+    pub(super) quantiser: u8,
+    /// Blocks side by side and one above the other, those that fill up the last unit too.
+    pub(super) padded: [usize; 2],
+    /// The same without those.
+    pub(super) blocks: [usize; 2],
+    /// Of each block of a progressive frame, the coefficients that are not zero, a bit each.
+    pub(super) nonzero: Vec<u64>,
+    /// Of each coefficient, how many of its low bits have not been told yet; `None` of one that no scan told of.
+    pub(super) untold: [Option<u8>; 64],
+}
+
+/// The frame of a picture.
+#[derive(Clone, Debug)]
+pub(super) struct Frame {
+    pub(super) is_progressive: bool,
+    /// Units of an interleaved scan, side by side and one above the other.
+    pub(super) units: [usize; 2],
+    pub(super) components: Vec<Component>,
+}
+
+impl Frame {
+    /// The frame that the segment `body` describes.
+    pub(super) fn parse(body: &[u8], is_progressive: bool) -> Result<Frame, String> {
+        let cut = || "a frame header that is cut".to_owned();
+        let [precision, _, _, _, _, count, rest @ ..] = body else {
+            return Err(cut());
+        };
+        let (height, width) = (big_endian(&body[1..3]), big_endian(&body[3..5]));
+        if *precision != 8 || width == 0 || height == 0 {
+            return Err(format!(
+                "{width}×{height} of {precision} bits, expected 8 bits and some pixels"
+            ));
+        }
+        let (told, more) = rest.as_chunks::<3>();
+        if told.len() != usize::from(*count) || !more.is_empty() || told.is_empty() {
+            return Err(cut());
+        }
+        let sampling: Vec<[usize; 2]> = told
+            .iter()
+            .map(|[_, sampling, _]| [usize::from(sampling >> 4), usize::from(sampling & 15)])
+            .collect();
+        if sampling
+            .iter()
+            .flatten()
+            .any(|factor| !(1..=4).contains(factor))
+        {
+            return Err("a sampling factor that is none of 1 to 4".to_owned());
+        }
+        let greatest = |axis: usize| {
+            sampling
+                .iter()
+                .map(|factors| factors[axis])
+                .max()
+                .unwrap_or(1)
+        };
+        let greatest = [greatest(0), greatest(1)];
+        let size = [width, height];
+        let units = [0, 1].map(|axis| size[axis].div_ceil(8 * greatest[axis]));
+        let components = told
+            .iter()
+            .zip(&sampling)
+            .map(|([id, _, quantiser], sampling)| {
+                let padded = [0, 1].map(|axis| units[axis] * sampling[axis]);
+                Component {
+                    id: *id,
+                    sampling: *sampling,
+                    quantiser: *quantiser,
+                    padded,
+                    blocks: [0, 1].map(|axis| {
+                        (size[axis] * sampling[axis])
+                            .div_ceil(greatest[axis])
+                            .div_ceil(8)
+                    }),
+                    nonzero: match is_progressive {
+                        true => vec![0; padded[0] * padded[1]],
+                        false => Vec::new(),
+                    },
+                    untold: [None; 64],
+                }
+            });
+        Ok(Frame {
+            is_progressive,
+            units,
+            components: components.collect(),
+        })
+    }
+
+    /// Whether every coefficient was told to its last bit.
+    pub(super) fn check_told(&self) -> Result<(), String> {
+        let mut untold = self
+            .components
+            .iter()
+            .flat_map(|component| &component.untold);
+        if untold.all(|bits| *bits == Some(0)) {
+            Ok(())
+        } else {
+            Err("scans are missing: the picture is not told to its last bit".to_owned())
+        }
+    }
+}

@@ -1,0 +1,378 @@
+//! The blocks of a scan, each read as a decoder reads it, but for what it would make of the numbers.
+
+use super::bits::Bits;
+use super::frame::{Component, Frame};
+use super::huffman::Huffman;
+
+/// What segments before a scan have left to it.
+#[derive(Debug, Default)]
+pub(super) struct Tables {
+    /// Those of first coefficients, then those of the others.
+    pub(super) huffman: [[Option<Huffman>; 4]; 2],
+    /// Of each table of quantisation, the divisor of the first coefficient.
+    pub(super) quantisers: [Option<usize>; 4],
+    /// Units between restart markers; 0 without.
+    pub(super) restart_interval: usize,
+}
+
+/// What the header of a scan says.
+#[derive(Debug)]
+pub(super) struct Scan {
+    /// Position in the frame, and the numbers of both Huffman tables.
+    components: Vec<(usize, [usize; 2])>,
+    /// The coefficients, first and last.
+    band: [usize; 2],
+    /// The bits that were told before; 0 in the first scan of a band.
+    before: u8,
+    /// The bits that are left to later scans.
+    later: u8,
+}
+
+/// The greatest coefficient that 8-bit pixels can have, twice over: some encoders overshoot on purpose.
+const GREATEST: i64 = 2_048;
+
+impl Scan {
+    pub(super) fn parse(body: &[u8], frame: &mut Frame) -> Result<Scan, String> {
+        let cut = || "a scan header that is cut".to_owned();
+        let [count, rest @ ..] = body else {
+            return Err(cut());
+        };
+        let told = rest.get(..2 * usize::from(*count)).ok_or_else(cut)?;
+        let [first, last, bits] = rest[told.len()..] else {
+            return Err(cut());
+        };
+        let (pairs, _) = told.as_chunks::<2>();
+        let mut components = Vec::new();
+        for [id, tables] in pairs {
+            let place = frame
+                .components
+                .iter()
+                .position(|component| component.id == *id);
+            let place = place.ok_or("a scan of a component that the frame lacks")?;
+            let tables = [usize::from(tables >> 4), usize::from(tables & 15)];
+            if tables.iter().any(|table| *table > 3)
+                || components.iter().any(|(of, _)| *of == place)
+            {
+                return Err("a scan header that contradicts itself".to_owned());
+            }
+            components.push((place, tables));
+        }
+        let scan = Scan {
+            components,
+            band: [usize::from(first), usize::from(last)],
+            before: bits >> 4,
+            later: bits & 15,
+        };
+        scan.tell(frame)?;
+        Ok(scan)
+    }
+
+    /// Notes which bits it tells, which must be the next ones.
+    fn tell(&self, frame: &mut Frame) -> Result<(), String> {
+        let wrong = || Err("a scan that tells bits out of turn".to_owned());
+        let [first, last] = self.band;
+        let is_interleaved = self.components.len() > 1;
+        let fits = match frame.is_progressive {
+            false => self.band == [0, 63] && self.before == 0 && self.later == 0,
+            true => {
+                first <= last
+                    && last < 64
+                    && (first > 0 || last == 0)
+                    && !(first > 0 && is_interleaved)
+                    && self.later < 14
+                    && (self.before == 0 || self.before == self.later + 1)
+            }
+        };
+        if !fits || self.components.is_empty() || self.components.len() > 4 {
+            return wrong();
+        }
+        for (place, _) in &self.components {
+            for untold in &mut frame.components[*place].untold[first..=last] {
+                let expected = (self.before > 0).then_some(self.before);
+                if *untold != expected {
+                    return wrong();
+                }
+                *untold = Some(self.later);
+            }
+        }
+        Ok(())
+    }
+
+    /// Reads every block of the data that begins at `start`; returns where the marker behind it is.
+    pub(super) fn read(
+        &self,
+        frame: &mut Frame,
+        tables: &Tables,
+        (bytes, start): (&[u8], usize),
+    ) -> Result<usize, String> {
+        let coders = self.coders(frame, tables)?;
+        let is_progressive = frame.is_progressive;
+        let alone = coders.len() == 1;
+        let [wide, high] = match alone {
+            true => frame.components[coders[0].place].blocks,
+            false => frame.units,
+        };
+        let mut bits = Bits::new(bytes, start);
+        let mut state = State::default();
+        let mut restarts = 0_u8;
+        let interval = tables.restart_interval;
+        for unit in 0..wide * high {
+            if interval > 0 && unit > 0 && unit % interval == 0 {
+                let end = state.finish(bits)?;
+                bits = Bits::new(bytes, restarted(bytes, end, restarts)?);
+                restarts = (restarts + 1) % 8;
+                state = State::default();
+            }
+            let (x, y) = (unit % wide, unit / wide);
+            for coder in &coders {
+                let component = &mut frame.components[coder.place];
+                let [across, down] = if alone { [1, 1] } else { component.sampling };
+                for block in 0..across * down {
+                    let (x, y) = (x * across + block % across, y * down + block / across);
+                    let place = y * component.padded[0] + x;
+                    match is_progressive {
+                        true => {
+                            self.progressive(coder, component, place, (&mut bits, &mut state))?
+                        }
+                        false => sequential(coder, &mut bits, &mut state)?,
+                    }
+                }
+            }
+        }
+        let end = state.finish(bits)?;
+        // Some encoders close the last part as they close the others.
+        let is_closed = interval > 0 && (wide * high).is_multiple_of(interval);
+        let closed = is_closed.then(|| restarted(bytes, end, restarts).ok());
+        Ok(closed.flatten().unwrap_or(end))
+    }
+
+    fn coders<'a>(&self, frame: &Frame, tables: &'a Tables) -> Result<Vec<Coder<'a>>, String> {
+        let needs = [self.band[0] == 0 && self.before == 0, self.band[1] > 0];
+        let coders = self.components.iter().map(|(place, numbers)| {
+            let table = |kind: usize| match (needs[kind], &tables.huffman[kind][numbers[kind]]) {
+                (false, _) => Ok(None),
+                (true, Some(table)) => Ok(Some(table)),
+                (true, None) => Err("a scan before its Huffman tables"),
+            };
+            let quantiser = usize::from(frame.components[*place].quantiser);
+            let quantiser = tables.quantisers.get(quantiser).copied().flatten();
+            Ok(Coder {
+                place: *place,
+                first: table(0)?,
+                others: table(1)?,
+                quantiser: quantiser.ok_or("a scan before its table of quantisation")? as i64,
+            })
+        });
+        coders.collect()
+    }
+
+    /// A block of a scan that tells some bits of some coefficients.
+    fn progressive(
+        &self,
+        coder: &Coder<'_>,
+        component: &mut Component,
+        place: usize,
+        (bits, state): (&mut Bits<'_>, &mut State),
+    ) -> Result<(), String> {
+        let nonzero = &mut component.nonzero[place];
+        match (coder.first, coder.others, self.before) {
+            (Some(first), _, _) => state.first(bits, first, coder, self.later),
+            (None, None, _) => bits.take(1).map(drop),
+            (None, Some(others), 0) => self.told_first(bits, others, (nonzero, state)),
+            (None, Some(others), _) => self.refined(bits, others, (nonzero, state)),
+        }
+    }
+
+    /// The first bits of a band.
+    fn told_first(
+        &self,
+        bits: &mut Bits<'_>,
+        table: &Huffman,
+        (nonzero, state): (&mut u64, &mut State),
+    ) -> Result<(), String> {
+        if state.empty_blocks > 0 {
+            state.empty_blocks -= 1;
+            return Ok(());
+        }
+        let [mut at, last] = self.band;
+        while at <= last {
+            let (run, size) = halves(table.decode(bits)?);
+            if size == 0 && run < 15 {
+                state.empty_blocks = run_of_blocks(bits, run)? - 1;
+                return Ok(());
+            }
+            at += usize::from(run);
+            if at > last {
+                return Err(OVERFLOW.to_owned());
+            }
+            if size > 0 {
+                bits.take(u32::from(size))?;
+                *nonzero |= 1 << at;
+            }
+            at += 1;
+        }
+        Ok(())
+    }
+
+    /// One more bit of a band.
+    fn refined(
+        &self,
+        bits: &mut Bits<'_>,
+        table: &Huffman,
+        (nonzero, state): (&mut u64, &mut State),
+    ) -> Result<(), String> {
+        let [mut at, last] = self.band;
+        if state.empty_blocks == 0 {
+            while at <= last {
+                let (run, size) = halves(table.decode(bits)?);
+                match (run, size) {
+                    (0..15, 0) => {
+                        state.empty_blocks = run_of_blocks(bits, run)?;
+                        break;
+                    }
+                    // The sign of a coefficient that begins here.
+                    (_, 1) => drop(bits.take(1)?),
+                    (15, 0) => {}
+                    _ => {
+                        return Err(
+                            "a coefficient of more than one bit in a scan of one".to_owned()
+                        );
+                    }
+                }
+                // Past as many zeros as the run says, each coefficient before told one more bit.
+                let mut zeros = run;
+                while at <= last {
+                    if *nonzero >> at & 1 == 1 {
+                        bits.take(1)?;
+                    } else if zeros == 0 {
+                        break;
+                    } else {
+                        zeros -= 1;
+                    }
+                    at += 1;
+                }
+                if at > last {
+                    return Err(OVERFLOW.to_owned());
+                }
+                if size == 1 {
+                    *nonzero |= 1 << at;
+                }
+                at += 1;
+            }
+        }
+        if state.empty_blocks > 0 {
+            let band = *nonzero >> at.min(63) & mask(last + 1 - at.min(last + 1));
+            for _ in 0..band.count_ones() {
+                bits.take(1)?;
+            }
+            state.empty_blocks -= 1;
+        }
+        Ok(())
+    }
+}
+
+const OVERFLOW: &str = "the entropy-coded data has a run beyond the end of a block";
+
+/// With what the blocks of a component are read.
+struct Coder<'a> {
+    place: usize,
+    first: Option<&'a Huffman>,
+    others: Option<&'a Huffman>,
+    quantiser: i64,
+}
+
+/// What one block leaves to the next, between restart markers.
+#[derive(Default)]
+struct State {
+    /// By place in the frame, the last first coefficient.
+    previous: [i64; 4],
+    /// Blocks that follow without a code of their own.
+    empty_blocks: u32,
+}
+
+impl State {
+    /// The first coefficient of a block.
+    #[inline]
+    fn first(
+        &mut self,
+        bits: &mut Bits<'_>,
+        table: &Huffman,
+        coder: &Coder<'_>,
+        later: u8,
+    ) -> Result<(), String> {
+        let size = u32::from(table.decode(bits)?);
+        if size > 11 {
+            return Err("a first coefficient of more bits than a picture has".to_owned());
+        }
+        let value = i64::from(bits.take(size)?);
+        // The upper half of the numbers of a size is positive, the lower half negative.
+        let is_negative = size > 0 && value >> (size - 1) == 0;
+        let difference = value - if is_negative { (1 << size) - 1 } else { 0 };
+        let previous = &mut self.previous[coder.place.min(3)];
+        *previous += difference;
+        if (*previous << later).abs() > GREATEST / coder.quantiser.max(1) + 2 {
+            return Err("a block brighter or darker than any picture".to_owned());
+        }
+        Ok(())
+    }
+
+    /// The position of the marker that must follow.
+    fn finish(&self, bits: Bits<'_>) -> Result<usize, String> {
+        if self.empty_blocks > 0 {
+            return Err("a run of empty blocks beyond the last one".to_owned());
+        }
+        bits.end()
+    }
+}
+
+/// A block of a scan that tells everything at once.
+#[inline]
+fn sequential(coder: &Coder<'_>, bits: &mut Bits<'_>, state: &mut State) -> Result<(), String> {
+    let (Some(first), Some(others)) = (coder.first, coder.others) else {
+        return Ok(());
+    };
+    state.first(bits, first, coder, 0)?;
+    let mut at = 1;
+    while at < 64 {
+        let (run, size) = halves(others.decode(bits)?);
+        if size == 0 && run < 15 {
+            return Ok(());
+        }
+        at += usize::from(run) + 1;
+        if at > 64 {
+            return Err(OVERFLOW.to_owned());
+        }
+        bits.take(u32::from(size))?;
+    }
+    Ok(())
+}
+
+/// The number of blocks, this one included, that have no further coefficient.
+fn run_of_blocks(bits: &mut Bits<'_>, size: u8) -> Result<u32, String> {
+    Ok((1 << size) + bits.take(u32::from(size))?)
+}
+
+fn halves(symbol: u8) -> (u8, u8) {
+    (symbol >> 4, symbol & 15)
+}
+
+/// As many ones as `count` says, at the low end.
+fn mask(count: usize) -> u64 {
+    if count < 64 {
+        (1 << count) - 1
+    } else {
+        u64::MAX
+    }
+}
+
+/// The position behind the restart marker of a number, which must be at `position`.
+fn restarted(bytes: &[u8], position: usize, number: u8) -> Result<usize, String> {
+    let rest = bytes.get(position..).unwrap_or_default();
+    let fills = rest.iter().take_while(|byte| **byte == 0xFF).count();
+    match rest.get(fills) {
+        Some(kind) if fills > 0 && *kind == 0xD0 + number => Ok(position + fills + 1),
+        _ => Err(format!(
+            "restart marker {number} is missing or out of turn at byte {position}"
+        )),
+    }
+}

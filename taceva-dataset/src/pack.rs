@@ -1,0 +1,269 @@
+//! Packs: frames of a recording one behind the other in a few files, each found by its offset.
+//!
+//! What stands in a pack is a whole image file, byte for byte, so that anybody who knows offset and length can read one. The picture is the
+//! frame, or, where that is smaller, its difference to the first frame of the pack, number by number and wrapping: what never moves in
+//! the pictures of a sensor is then stored once. A pack only grows. What lies behind the last frame that the journal names was never acknowledged, and is cut
+//! when the recording goes on.
+
+use std::fmt;
+use std::fs::{self, File, OpenOptions};
+use std::io::{Read, Seek, SeekFrom, Write};
+use std::path::{Path, PathBuf};
+use std::str::FromStr;
+
+use crate::error::DatasetError;
+use crate::file::sync_folder;
+use crate::layout;
+use crate::limits;
+
+/// Which bytes of a pack are a frame; written `@OFFSET+LENGTH` behind the path of the pack, and `-first` behind that of a difference.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Span {
+    /// Bytes before it.
+    pub offset: u64,
+    /// How many it takes.
+    pub length: u32,
+    /// Whether it is the difference to the first frame of the pack.
+    pub is_difference: bool,
+}
+
+/// What is written behind a difference.
+const DIFFERENCE: &str = "-first";
+
+impl Span {
+    /// The first byte behind it.
+    pub(crate) fn end(self) -> u64 {
+        self.offset.saturating_add(u64::from(self.length))
+    }
+}
+
+impl fmt::Display for Span {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let difference = if self.is_difference { DIFFERENCE } else { "" };
+        write!(f, "@{}+{}{difference}", self.offset, self.length)
+    }
+}
+
+impl FromStr for Span {
+    type Err = ();
+
+    fn from_str(text: &str) -> Result<Span, ()> {
+        let (offset, length) = text
+            .strip_prefix('@')
+            .and_then(|text| text.split_once('+'))
+            .ok_or(())?;
+        let whole = length.strip_suffix(DIFFERENCE);
+        Ok(Span {
+            offset: offset.parse().map_err(drop)?,
+            length: whole.unwrap_or(length).parse().map_err(drop)?,
+            is_difference: whole.is_some(),
+        })
+    }
+}
+
+/// The bytes of the frame at `span` of the pack `file`, which is at `path`.
+pub(crate) fn read_span(mut file: File, path: &Path, span: Span) -> Result<Vec<u8>, DatasetError> {
+    if u64::from(span.length) > limits::IMAGE_BYTES {
+        return Err(DatasetError::Path {
+            place: None,
+            written: format!("{}{span}", path.display()),
+            problem: format!(
+                "more than the {} bytes that are accepted of a picture",
+                limits::IMAGE_BYTES
+            ),
+        });
+    }
+    let failed = || DatasetError::io("read", path);
+    file.seek(SeekFrom::Start(span.offset)).map_err(failed())?;
+    let mut bytes = Vec::new();
+    // A pack that ends early gives fewer bytes, which the digest of the frame tells.
+    file.take(u64::from(span.length))
+        .read_to_end(&mut bytes)
+        .map_err(failed())?;
+    Ok(bytes)
+}
+
+/// Where the next frame goes.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) struct PackEnd {
+    /// The number of the pack, from 0.
+    pub(crate) number: usize,
+    /// The bytes in it.
+    pub(crate) length: u64,
+}
+
+impl PackEnd {
+    /// The end behind a frame at `path`, if that is in a pack and lies behind this one.
+    pub(crate) fn behind(self, path: &str, span: Option<Span>) -> PackEnd {
+        let found = layout::pack_number(path).zip(span);
+        found.map_or(self, |(number, span)| {
+            let end = PackEnd {
+                number,
+                length: span.end(),
+            };
+            match (end.number, end.length) > (self.number, self.length) {
+                true => end,
+                false => self,
+            }
+        })
+    }
+}
+
+/// A pack that frames are appended to.
+#[derive(Debug)]
+pub(crate) struct PackWriter {
+    folder: PathBuf,
+    file: File,
+    end: PackEnd,
+}
+
+impl PackWriter {
+    /// Goes on at `end` in the dataset at `folder`; its name is durable when this returns.
+    pub(crate) fn open(folder: &Path, end: PackEnd) -> Result<PackWriter, DatasetError> {
+        let path = folder.join(layout::pack_path(end.number));
+        let file = OpenOptions::new()
+            .append(true)
+            .create(true)
+            .open(&path)
+            .map_err(DatasetError::io("open", &path))?;
+        // Even where it is there: a killed process leaves names that nobody made durable.
+        sync_folder(&folder.join(layout::FRAMES))?;
+        Ok(PackWriter {
+            folder: folder.to_owned(),
+            file,
+            end,
+        })
+    }
+
+    /// Appends the image file `bytes`; durable after [`sync`](PackWriter::sync).
+    pub(crate) fn append(
+        &mut self,
+        bytes: &[u8],
+        is_difference: bool,
+    ) -> Result<(String, Span), DatasetError> {
+        let path = layout::pack_path(self.end.number);
+        let length = u32::try_from(bytes.len()).map_err(|_| DatasetError::Request {
+            path: self.folder.join(&path),
+            problem: format!("a picture of {} bytes", bytes.len()),
+        })?;
+        let span = Span {
+            offset: self.end.length,
+            length,
+            is_difference,
+        };
+        self.file
+            .write_all(bytes)
+            .map_err(DatasetError::io("append to", &self.folder.join(&path)))?;
+        self.end.length = span.end();
+        Ok((path, span))
+    }
+
+    /// Begins another pack where this one is full.
+    pub(crate) fn roll(&mut self) -> Result<(), DatasetError> {
+        if self.end.length >= limits::PACK_BYTES {
+            self.sync()?;
+            let end = PackEnd {
+                number: self.end.number + 1,
+                length: 0,
+            };
+            *self = PackWriter::open(&self.folder, end)?;
+        }
+        Ok(())
+    }
+
+    /// Where the next frame goes.
+    pub(crate) fn end(&self) -> PackEnd {
+        self.end
+    }
+
+    /// Makes what was appended durable.
+    pub(crate) fn sync(&self) -> Result<(), DatasetError> {
+        let path = self.folder.join(layout::pack_path(self.end.number));
+        self.file
+            .sync_data()
+            .map_err(DatasetError::io("make durable", &path))
+    }
+}
+
+/// Cuts what lies behind `end` in the packs of the dataset at `folder`: nobody acknowledged it.
+pub(crate) fn cut_behind(folder: &Path, end: PackEnd) -> Result<(), DatasetError> {
+    let path = folder.join(layout::pack_path(end.number));
+    match fs::metadata(&path) {
+        Ok(found) if found.len() > end.length => OpenOptions::new()
+            .write(true)
+            .open(&path)
+            .and_then(|file| file.set_len(end.length))
+            .map_err(DatasetError::io("cut the torn tail of", &path))?,
+        Ok(found) if found.len() < end.length => {
+            return Err(DatasetError::Damaged {
+                path,
+                problem: format!(
+                    "{} bytes, the journal names {} of them",
+                    found.len(),
+                    end.length
+                ),
+            });
+        }
+        Err(error) if end.length > 0 => return Err(DatasetError::io("read", &path)(error)),
+        _ => {}
+    }
+    let behind = folder.join(layout::pack_path(end.number + 1));
+    match fs::remove_file(&behind) {
+        Err(error) if error.kind() != std::io::ErrorKind::NotFound => {
+            Err(DatasetError::io("remove", &behind)(error))
+        }
+        _ => Ok(()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_span_reads_back_as_it_is_written_and_nothing_else_is_one() {
+        for is_difference in [false, true] {
+            let span = Span {
+                offset: 12,
+                length: 34,
+                is_difference,
+            };
+            assert_eq!(span.to_string().parse(), Ok(span));
+        }
+        for wrong in [
+            "",
+            "12+34",
+            "@12",
+            "@+",
+            "@-1+2",
+            "@1+99999999999",
+            "@1+2 ",
+            "@1+2-last",
+        ] {
+            assert_eq!(wrong.parse::<Span>(), Err(()), "{wrong:?}");
+        }
+    }
+
+    #[test]
+    fn a_pack_that_was_cut_short_of_what_the_journal_names_is_damaged() {
+        let folder = tempfile::tempdir().expect("a folder");
+        fs::create_dir(folder.path().join(layout::FRAMES)).expect("made");
+        let mut pack = PackWriter::open(folder.path(), PackEnd::default()).expect("new");
+        let (path, span) = pack.append(b"four", false).expect("room");
+        pack.append(b"torn", false).expect("room");
+        let end = PackEnd::default().behind(&path, Some(span));
+        cut_behind(folder.path(), end).expect("a torn tail");
+        let pack = folder.path().join(&path);
+        assert_eq!(fs::read(&pack).expect("there"), b"four");
+        assert_eq!(
+            read_span(File::open(&pack).expect("there"), &pack, span).expect("there"),
+            b"four"
+        );
+        fs::write(&pack, b"fo").expect("cut");
+        assert!(cut_behind(folder.path(), end).is_err());
+        assert_eq!(
+            read_span(File::open(&pack).expect("there"), &pack, span).expect("short"),
+            b"fo"
+        );
+    }
+}

@@ -1,0 +1,273 @@
+//! The ends of an interval, on a scale on which its quantity has no ends, and carried back.
+
+use std::fmt;
+
+use super::exponential::exponential;
+use super::student::quantile;
+use crate::range::Range;
+use crate::score::COVERAGE;
+use crate::value::UndefinedReason;
+
+/// On which scale an interval is symmetric about its value.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum Scale {
+    /// That of the quantity itself.
+    Own,
+    /// The logarithm of the distance from the one end of the range.
+    Logarithm,
+    /// The logarithm of the distances from both ends, one over the other.
+    Logit,
+    /// That of the quantity itself, and cut where its range ends.
+    Cut,
+    /// That of a test of each share: Wilson's, with as many samples as the clusters are worth.
+    Wilson,
+}
+
+/// What is known of an estimate before it has an interval.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Estimated {
+    /// The value.
+    pub(crate) value: f64,
+    /// Which values there can be.
+    pub(crate) range: Range,
+    /// The samples that it is made of.
+    pub(crate) samples: u64,
+}
+
+/// How far an estimate would move with other clusters.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Moved {
+    /// The standard error, on the quantity's own scale.
+    pub(crate) standard_error: f64,
+    /// Its degrees of freedom.
+    pub(crate) freedom: f64,
+    /// Clusters with samples.
+    pub(crate) clusters: usize,
+}
+
+/// Both ends, and on which scale they were found.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Ends {
+    pub(crate) low: f64,
+    pub(crate) high: f64,
+    pub(crate) scale: Scale,
+}
+
+impl Estimated {
+    /// The 95 % interval of an estimate that moves so far.
+    ///
+    /// With s the standard error and h = t(freedom) × s: value ± h where there is no end. Where there is one, at distance d,
+    /// the logarithm of d has the standard error s / d to first order, so that d is carried to d e^(±h/d); between two
+    /// ends the same with the odds of the value. Of a quantity that may be at an end, value ± h is cut there. Of shares: Wilson's
+    /// interval with t for z and n* = p (1 − p) / s² samples for n, at most as many as there are; where no share differs from 0,
+    /// or none from 1, with as many as there are clusters.
+    ///
+    /// # Errors
+    /// [`UndefinedReason::AtEnd`] if the value is at an end of its range, and stays there whichever cluster is left out;
+    /// [`UndefinedReason::Overflow`] if an end is beyond the range of binary64.
+    ///
+    /// # Reference
+    /// Dean and Pagano, Evaluating confidence interval methods for binomial proportions in clustered surveys, Journal of Survey
+    /// Statistics and Methodology 3 (2015), for shares; Efron and Tibshirani, An Introduction to the Bootstrap (1993), 12.6
+    /// and 13.6, for scales.
+    pub(crate) fn ends(&self, moved: &Moved) -> Result<Ends, UndefinedReason> {
+        if self.range == Range::Share {
+            return Ok(self.within(wilson(self.value, self.samples, moved), Scale::Wilson));
+        }
+        let value = self.value;
+        let [least, greatest] = self.range.ends();
+        let (below, above) = (value - least, greatest - value);
+        let is_at_end = !(below > 0.0 && above > 0.0);
+        if is_at_end && moved.standard_error <= 0.0 {
+            return Err(UndefinedReason::AtEnd);
+        }
+        let half = quantile(COVERAGE, moved.freedom) * moved.standard_error;
+        let (ends, scale) = match self.range {
+            Range::Any => ([value - half, value + half], Scale::Own),
+            Range::Positive if !is_at_end => {
+                let ends = [-half, half].map(|half| least + below * exponential(half / below));
+                (ends, Scale::Logarithm)
+            }
+            Range::BelowOne if !is_at_end => {
+                let ends = [half, -half].map(|half| greatest - above * exponential(half / above));
+                (ends, Scale::Logarithm)
+            }
+            Range::Ratio | Range::BelowTwo if !is_at_end => {
+                let width = greatest - least;
+                let step = half * width / (below * above);
+                let share = |step: f64| below / (below + above * exponential(-step));
+                (
+                    [-step, step].map(|step| least + width * share(step)),
+                    Scale::Logit,
+                )
+            }
+            _ => ([value - half, value + half], Scale::Cut),
+        };
+        let ends = self.within(ends, scale);
+        if ends.low.is_finite() && ends.high.is_finite() {
+            Ok(ends)
+        } else {
+            Err(UndefinedReason::Overflow)
+        }
+    }
+
+    /// The ends, where rounding or a cut may not leave the range nor the value outside.
+    pub(crate) fn within(&self, [low, high]: [f64; 2], scale: Scale) -> Ends {
+        let [least, greatest] = self.range.ends();
+        Ends {
+            low: low.max(least).min(self.value),
+            high: high.min(greatest).max(self.value),
+            scale,
+        }
+    }
+}
+
+fn wilson(share: f64, samples: u64, moved: &Moved) -> [f64; 2] {
+    let samples = as_f64(samples);
+    let binomial = share * (1.0 - share);
+    let worth = if binomial > 0.0 {
+        (binomial / moved.standard_error / moved.standard_error).min(samples)
+    } else {
+        u32::try_from(moved.clusters).map_or(samples, f64::from)
+    };
+    super::wilson::ends(share, worth, quantile(COVERAGE, moved.freedom))
+}
+
+fn as_f64(count: u64) -> f64 {
+    #[expect(
+        clippy::cast_precision_loss,
+        reason = "beyond 2^53 samples the interval has no digits left to lose"
+    )]
+    let count = count as f64;
+    count
+}
+
+impl fmt::Display for Scale {
+    /// What is said behind the way in which an interval was found; nothing of the quantity's own scale.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Scale::Own => "",
+            Scale::Logarithm => ", logarithmic",
+            Scale::Logit => ", logit",
+            Scale::Cut => ", cut to the range",
+            Scale::Wilson => ", Wilson with effective samples",
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The ends about `value` for a half width of `half` on the quantity's own scale, from five clusters of ten samples.
+    fn ends(range: Range, value: f64, half: f64) -> Result<Ends, UndefinedReason> {
+        let estimated = Estimated {
+            value,
+            range,
+            samples: 50,
+        };
+        estimated.ends(&Moved {
+            standard_error: half / quantile(COVERAGE, 4.0),
+            freedom: 4.0,
+            clusters: 5,
+        })
+    }
+
+    fn close(found: Result<Ends, UndefinedReason>, expected: [f64; 2], scale: Scale) {
+        let found = found.expect("an interval");
+        assert!(
+            (found.low - expected[0]).abs() < 1e-12 && (found.high - expected[1]).abs() < 1e-12,
+            "{found:?}, not {expected:?}"
+        );
+        assert_eq!(found.scale, scale);
+    }
+
+    #[test]
+    fn an_error_is_multiplied_and_divided_by_one_factor() {
+        // ln 2 of ±0.5 × 2 ln 2 / 2.
+        let half = 0.5 * std::f64::consts::LN_2;
+        close(
+            ends(Range::Positive, 0.5, half),
+            [0.25, 1.0],
+            Scale::Logarithm,
+        );
+    }
+
+    #[test]
+    fn an_explained_share_is_carried_by_what_is_not_explained() {
+        let half = 0.1 * std::f64::consts::LN_2;
+        close(
+            ends(Range::BelowOne, 0.9, half),
+            [0.8, 0.95],
+            Scale::Logarithm,
+        );
+    }
+
+    #[test]
+    fn a_ratio_is_carried_by_its_odds() {
+        // Odds 1, doubled and halved; p (1 − p) = 1/4.
+        let half = 0.25 * std::f64::consts::LN_2;
+        close(
+            ends(Range::Ratio, 0.5, half),
+            [1.0 / 3.0, 2.0 / 3.0],
+            Scale::Logit,
+        );
+        close(
+            ends(Range::BelowTwo, 1.0, 2.0 * half),
+            [2.0 / 3.0, 4.0 / 3.0],
+            Scale::Logit,
+        );
+    }
+
+    #[test]
+    fn a_quantity_that_may_be_at_an_end_is_cut_there() {
+        close(ends(Range::NotNegative, 0.5, 1.0), [0.0, 1.5], Scale::Cut);
+        close(ends(Range::RatioWithEnds, 0.9, 0.2), [0.7, 1.0], Scale::Cut);
+        close(ends(Range::Positive, 0.0, 0.25), [0.0, 0.25], Scale::Cut);
+        close(ends(Range::BelowOne, 1.0, 0.25), [0.75, 1.0], Scale::Cut);
+    }
+
+    #[test]
+    fn a_value_that_no_cluster_moves_from_an_end_has_no_interval() {
+        for (range, value) in [
+            (Range::Positive, 0.0),
+            (Range::BelowOne, 1.0),
+            (Range::Ratio, 1.0),
+            (Range::NotNegative, 0.0),
+        ] {
+            let found = ends(range, value, 0.0).map(|ends| [ends.low, ends.high]);
+            assert_eq!(found, Err(UndefinedReason::AtEnd), "{range:?}");
+        }
+        close(
+            ends(Range::Positive, 0.5, 0.0),
+            [0.5, 0.5],
+            Scale::Logarithm,
+        );
+    }
+
+    #[test]
+    fn a_share_that_is_all_or_nothing_is_known_from_as_many_as_there_are_clusters() {
+        let t = quantile(COVERAGE, 4.0);
+        let least = 5.0 / (5.0 + t * t);
+        close(ends(Range::Share, 1.0, 0.0), [least, 1.0], Scale::Wilson);
+        close(
+            ends(Range::Share, 0.0, 0.0),
+            [0.0, 1.0 - least],
+            Scale::Wilson,
+        );
+    }
+
+    #[test]
+    fn a_share_is_known_from_no_more_samples_than_there_are() {
+        let all_alike = ends(Range::Share, 0.5, 0.0).expect("an interval");
+        let [low, high] = super::super::wilson::ends(0.5, 50.0, quantile(COVERAGE, 4.0));
+        close(Ok(all_alike), [low, high], Scale::Wilson);
+    }
+
+    #[test]
+    fn an_end_beyond_binary64_is_an_overflow() {
+        let found = ends(Range::Positive, f64::MAX / 2.0, f64::MAX / 2.0);
+        assert_eq!(found.map(|ends| ends.low), Err(UndefinedReason::Overflow));
+    }
+}

@@ -1,0 +1,73 @@
+//! How far a value moves when the same thing is done again with other random numbers.
+
+use super::student::quantile;
+use crate::score::COVERAGE;
+
+/// A few values of one quantity, as repeats gave them.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Repeats {
+    /// Their mean.
+    pub mean: f64,
+    /// Their standard deviation, with one degree of freedom less than there are values.
+    pub standard_deviation: f64,
+    /// Where the mean of ever more repeats lies, at 95 %: Student's interval, which takes values for normal.
+    pub interval: [f64; 2],
+}
+
+impl Repeats {
+    /// Of `values`; `None` of fewer than two, and where one is no finite number.
+    ///
+    /// ```
+    /// let repeats = taceva_metrics::Repeats::of(&[1.0, 2.0, 3.0]).expect("three");
+    /// assert_eq!((repeats.mean, repeats.standard_deviation), (2.0, 1.0));
+    /// // 4.3027 is Student's t of two degrees of freedom.
+    /// assert!((repeats.interval[1] - 2.0 - 4.3027 / 3_f64.sqrt()).abs() < 1e-4);
+    /// assert_eq!(taceva_metrics::Repeats::of(&[1.0]), None);
+    /// ```
+    pub fn of(values: &[f64]) -> Option<Repeats> {
+        if values.len() < 2 || values.iter().any(|value| !value.is_finite()) {
+            return None;
+        }
+        let count = values.len() as f64;
+        let mean = values.iter().sum::<f64>() / count;
+        let squares = values.iter().map(|value| (value - mean) * (value - mean));
+        let variance = squares.sum::<f64>() / (count - 1.0);
+        let half = quantile(COVERAGE, count - 1.0) * (variance / count).sqrt();
+        let repeats = Repeats {
+            mean,
+            standard_deviation: variance.sqrt(),
+            interval: [mean - half, mean + half],
+        };
+        (mean.is_finite() && half.is_finite()).then_some(repeats)
+    }
+
+    /// The same with its interval kept within what the quantity can be.
+    pub fn within(self, [least, greatest]: [f64; 2]) -> Repeats {
+        Repeats {
+            interval: self.interval.map(|end| end.clamp(least, greatest)),
+            ..self
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn equal_repeats_leave_an_interval_of_no_width() {
+        let repeats = Repeats::of(&[0.25; 4]).expect("four");
+        assert_eq!(repeats.interval.map(f64::to_bits), [0.25_f64.to_bits(); 2]);
+        assert_eq!(Repeats::of(&[1.0, f64::NAN]), None);
+    }
+
+    #[test]
+    fn no_end_leaves_what_the_quantity_can_be() {
+        let repeats = Repeats::of(&[0.9, 0.999]).expect("two");
+        assert!(repeats.interval[1] > 1.0);
+        assert_eq!(
+            repeats.within([f64::MIN, 1.0]).interval[1].to_bits(),
+            1_f64.to_bits()
+        );
+    }
+}

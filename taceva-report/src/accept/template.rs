@@ -1,0 +1,155 @@
+//! Limits to begin with: those that a result itself keeps, each with what was measured beside it.
+
+use taceva_metrics::Better;
+
+use super::LIMITS_VERSION;
+use crate::escape::terminal;
+use crate::number::{Printed, spaced};
+use crate::results::{Interval, Score, Study};
+use crate::table::ScoreTable;
+
+/// How much worse than what was measured a limit is, as a part of the value.
+const MARGIN: f64 = 0.2;
+/// Digits of a limit: a limit of more is read as if it were known that well.
+const DIGITS: i32 = 3;
+
+/// Limits that `study` keeps, as a file that [`super::LimitsFile::read`] reads: a limit a score that is better on one side, a fifth worse
+/// than the value and never inside its interval.
+///
+/// ```
+/// use taceva_report::{LimitsFile, Study, accept, limits_template};
+/// let study = Study::read(r#"{"schema": "taceva.evaluation/1", "subject": {"sensor": "TacTip"},
+///     "metrics": {"mae": {"Fz": {"value": 0.05, "unit": "N", "n": 46, "ci95": [0.04, 0.055]}}}}"#)?.remove(0);
+/// let limits = LimitsFile::read(&limits_template(&study))?;
+/// assert_eq!(limits.limits[0].most, Some(0.06));
+/// assert!(accept(&study, &limits)[0].is_kept);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn limits_template(study: &Study) -> String {
+    let table = ScoreTable::of(std::slice::from_ref(study)).headlines();
+    let scores = table
+        .rows
+        .iter()
+        .filter_map(|row| study.score(&row.metric, &row.channel));
+    let limits: String = scores.filter_map(limit).collect();
+    let name = toml::Value::String(format!("limits of {}", study.sensor));
+    let mut out = format!(
+        "# Limits made from a result of {}, serial {}, samples {}.\n\
+         # Each is {:.0} % worse than what was measured and never inside its interval: change what you need, leave out the rest,\n\
+         # then: taceva accept RESULT.json --limits THIS.toml\n\
+         # `most` must not be exceeded, `least` must be reached; with `whole_interval = true` by the whole interval, not by the value alone.\n\
+         limits_version = {LIMITS_VERSION}\nname = {name}\n",
+        line(&study.sensor),
+        line(&study.serial),
+        line(&study.source),
+        MARGIN * 100.0
+    );
+    match limits.is_empty() {
+        true => out += "\n# This result has no score that is better on one side.\n",
+        false => out += &limits,
+    }
+    out
+}
+
+/// A limit with what was measured; nothing of scores that only describe or have no value.
+fn limit(score: &Score) -> Option<String> {
+    let value = score.value.number()?;
+    let ends = score.interval.as_ref().and_then(Interval::ends);
+    let [low, high] = ends.unwrap_or([value; 2]);
+    let room = value.abs() * MARGIN;
+    let bounds = match score.better() {
+        Better::Lower => format!("most = {:?}\n", upwards((value + room).max(high))),
+        Better::Higher => format!("least = {:?}\n", -upwards(-(value - room).min(low))),
+        Better::NearZero => {
+            let reach = upwards((value.abs() + room).max(high.abs()).max(low.abs()));
+            format!("least = {:?}\nmost = {reach:?}\n", -reach)
+        }
+        _ => return None,
+    };
+    let measured = Printed::of(&score.value, score.interval.as_ref()).phrase(&spaced(score.unit));
+    let text = |text: &str| toml::Value::String(text.to_owned()).to_string();
+    Some(format!(
+        "\n# measured: {}, n = {}\n[[limit]]\nmetric = {}\nchannel = {}\nunit = {}\n{bounds}",
+        line(&measured),
+        score.n,
+        text(&score.metric),
+        text(&score.channel),
+        text(score.unit.symbol()),
+    ))
+}
+
+/// A text that stays on its line of a comment.
+fn line(text: &str) -> String {
+    terminal(text).replace(['\n', '\r'], " ")
+}
+
+/// `number` with [`DIGITS`] digits, rounded towards plus infinity.
+fn upwards(number: f64) -> f64 {
+    if number.abs() < f64::MIN_POSITIVE {
+        return 0.0;
+    }
+    let digits = usize::try_from(DIGITS - 1).unwrap_or(0);
+    let rounded = |number: f64| format!("{number:.digits$e}").parse().unwrap_or(number);
+    let nearest = rounded(number);
+    // What rounding leaves of a product is no reason for another digit.
+    if nearest >= number - number.abs() * 1e-12 {
+        return nearest;
+    }
+    let step = 10_f64.powf(number.abs().log10().floor() - f64::from(DIGITS - 1));
+    let next = rounded(nearest + step);
+    if next >= number { next } else { number }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::accept::{LimitsFile, accept};
+    use crate::catalogue;
+
+    #[test]
+    fn what_a_template_says_is_kept_by_the_result_it_is_of() {
+        for name in ["GelSight", "MagicTac", "ViTacTip"] {
+            let study = catalogue::find(name).expect("there").as_study();
+            let limits = LimitsFile::read(&limits_template(&study)).expect("limits");
+            assert!(limits.limits.len() > 8, "{name}");
+            for finding in accept(&study, &limits) {
+                assert!(finding.is_kept, "{name}: {:?}", finding.reason);
+            }
+        }
+    }
+
+    #[test]
+    fn a_limit_is_worse_than_the_value_and_outside_the_interval() {
+        let study = Study::read(
+            r#"{"schema": "taceva.evaluation/1", "subject": {"sensor": "a\n[[limit]] \"b"}, "metrics": {
+                "mae": {"Fz": {"value": 0.05, "unit": "N", "n": 46, "ci95": [0.01, 0.0912345]}},
+                "r2": {"Fz": {"value": 0.5, "unit": "1", "n": 46, "ci95": [-0.25, 0.75]}},
+                "bias": {"Fz": {"value": -0.1, "unit": "N", "n": 46}},
+                "intrinsic": {"frame_rate": {"value": 30, "unit": "Hz", "n": 46}},
+                "rmse": {"Fz": {"undefined": "no sample", "n": 0}}}}"#,
+        );
+        let study = study.expect("a result").remove(0);
+        let limits = LimitsFile::read(&limits_template(&study)).expect("limits");
+        let bounds: Vec<_> = limits
+            .limits
+            .iter()
+            .map(|limit| (limit.metric.as_str(), limit.least, limit.most))
+            .collect();
+        assert_eq!(
+            bounds,
+            [
+                ("mae", None, Some(0.0913)),
+                ("bias", Some(-0.12), Some(0.12)),
+                ("r2", Some(-0.25), None)
+            ]
+        );
+    }
+
+    #[test]
+    fn rounding_goes_upwards_only() {
+        assert_eq!(
+            [0.123_01, 0.123, -0.123_9, 0.0, 9.999, 1e-7].map(|value| upwards(value).to_bits()),
+            [0.124, 0.123, -0.123, 0.0, 10.0, 1e-7].map(f64::to_bits)
+        );
+    }
+}

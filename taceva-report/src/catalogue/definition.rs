@@ -1,0 +1,66 @@
+//! How each metric is defined that stands in one column with results of this program. A number of another definition has another name.
+
+/// Metrics, where it matters with their channel, and what a published number of that name is.
+const DEFINITIONS: &[(&str, &str)] = &[
+    (
+        "mae",
+        "mean of |truth - prediction|; of a plane the mean of both axes",
+    ),
+    ("r2", "1 - residual over total sum of squares"),
+    (
+        "smape",
+        "mean of |truth - prediction| over the mean of both magnitudes",
+    ),
+    (
+        "sr",
+        "share of presses whose spacing is told within the tolerance",
+    ),
+    ("sensitivity", "indentation over normal force"),
+    (
+        "uniformity",
+        "1 / (1 + deviation / |mean|) over bins of the surface",
+    ),
+    (
+        "r_spatial",
+        "half the sum of the standard deviations of bin means over distance and depth",
+    ),
+    (
+        "r_light",
+        "|change of light| / (|change of light| + |change of error|)",
+    ),
+    (
+        "repeatability",
+        "mean standard deviation of repeated predictions",
+    ),
+    ("hysteresis", "area between loading and unloading"),
+    ("intrinsic frame_rate", "pictures a second"),
+    ("intrinsic field_of_view", "area of the sensing surface"),
+    ("intrinsic resolution", "pixels of a picture"),
+    ("intrinsic thickness", "thickness of the sensor"),
+];
+
+/// The definition that a published number of `metric` must have to bear that name; `None` for names that results of this program do not have.
+pub(super) fn of(metric: &str, channel: &str) -> Option<&'static str> {
+    let family = metric.split_once('.').map_or(metric, |(family, _)| family);
+    let named = |name: &str| name == family || name.split_once(' ') == Some((family, channel));
+    let mut found = DEFINITIONS.iter().filter(|(name, _)| named(name));
+    found.next().map(|(_, definition)| *definition)
+}
+
+/// Whether results of this program have scores of that name.
+pub(super) fn is_ours(metric: &str) -> bool {
+    taceva_metrics::catalogue::find(metric).is_some()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn parts_of_a_metric_have_its_definition_and_strangers_have_none() {
+        assert_eq!(of("r_light.scene:S1", "Fz"), of("r_light", "Pz"));
+        assert_eq!(of("intrinsic", "frame_rate"), Some("pictures a second"));
+        assert_eq!(of("force_error", "F"), None);
+        assert!(is_ours("mae") && !is_ours("force_error"));
+    }
+}

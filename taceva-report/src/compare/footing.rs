@@ -1,0 +1,68 @@
+//! Whether two scores can be compared at all: which of them take part in verdicts, and on which samples skill was shown.
+
+use std::collections::BTreeSet;
+
+use taceva_metrics::Sides;
+
+use crate::figures::listed;
+use crate::results::{Score, Study};
+
+/// Why two scores give no verdict, if one of them takes no part: `ViTacTip: no skill: …`.
+pub(super) fn barred(scores: Sides<&Score>, names: Sides<&str>) -> Option<String> {
+    let sides = [(scores.a, names.a), (scores.b, names.b)];
+    let reasons: Vec<String> = sides
+        .into_iter()
+        .filter_map(|(score, name)| {
+            let reason = score.standing.reason()?;
+            Some(format!("{name}: {reason}"))
+        })
+        .collect();
+    (!reasons.is_empty()).then(|| reasons.join("; "))
+}
+
+/// What a reader must know where the skill of the studies was shown on different samples.
+pub(super) fn notes(studies: &[Study], names: &[String]) -> Option<String> {
+    let shown: Vec<(&str, String)> = studies
+        .iter()
+        .zip(names)
+        .filter(|(study, _)| study.of_metric("skill").next().is_some())
+        .map(|(study, name)| (name.as_str(), ground(study)))
+        .collect();
+    let grounds: BTreeSet<&str> = shown.iter().map(|(_, ground)| ground.as_str()).collect();
+    (grounds.len() > 1).then(|| {
+        let each: Vec<String> = shown
+            .iter()
+            .map(|(name, ground)| format!("{name} on {ground}"))
+            .collect();
+        format!("skill is shown on different test parts: {}", listed(&each))
+    })
+}
+
+/// The samples that the skill of a study was shown on, in words.
+fn ground(study: &Study) -> String {
+    let of = |key: &str| {
+        let found = study.provenance.iter().find(|(name, _)| name == key);
+        found.map(|(_, text)| text.as_str())
+    };
+    let n = study.of_metric("skill").map(|skill| skill.n).max();
+    let samples = n.map(|n| format!("{n} samples"));
+    let data = of("dataset").map(|digest| {
+        let short: String = digest.chars().take(SHORT).collect();
+        format!("of {short}")
+    });
+    let split = of("split").map(|split| format!("split {split}"));
+    let seed = of("seed").map(|seed| format!("seed {seed}"));
+    let part = of("part").map(|part| format!("part {part}"));
+    let tables = of("tables").map(|tables| {
+        let short: String = tables.chars().take(TABLES).collect();
+        format!("of tables {short}…")
+    });
+    let all = [samples, data, tables, split, seed, part];
+    all.into_iter().flatten().collect::<Vec<_>>().join(", ")
+}
+
+/// `sha256:` and twelve digits tell recordings apart.
+const SHORT: usize = 19;
+
+/// As many letters as name the first table and twelve digits of it.
+const TABLES: usize = 40;

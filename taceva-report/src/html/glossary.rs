@@ -1,0 +1,89 @@
+//! What metrics mean, as the catalogue of metrics says it; and links to it from wherever a metric is named.
+
+use std::collections::BTreeSet;
+
+use taceva_metrics::{Better, Metric, ScoreUnit, catalogue};
+
+use crate::escape::html;
+use crate::figure::sign;
+
+/// The metrics that are named in `ids`, in the order of the catalogue: title, meaning, unit, direction and where each is defined. Names of
+/// variants stand for their metric.
+pub(crate) fn glossary<'a>(ids: impl Iterator<Item = &'a str>) -> String {
+    let named: BTreeSet<&str> = ids.map(base).collect();
+    let metrics = catalogue::ALL.iter();
+    let entries: String = metrics
+        .filter(|metric| named.contains(metric.id))
+        .map(|metric| entry(metric))
+        .collect();
+    match entries.is_empty() {
+        true => "<p>No metric of these results is in the catalogue.</p>".to_owned(),
+        false => format!("<dl class=\"glossary\">{entries}</dl>"),
+    }
+}
+
+/// The name of a metric as a link to what it means, with the sign of its direction; plain where the catalogue does not know it. A variant
+/// may be something else than its metric, and has no sign.
+pub(crate) fn metric_link(id: &str) -> String {
+    match catalogue::find(base(id)) {
+        Some(metric) => format!(
+            "<a class=\"metric\" href=\"#metric-{}\" title=\"{}\">{}</a>{}",
+            metric.id,
+            html(metric.title),
+            html(id),
+            if metric.id == id {
+                sign(metric.better)
+            } else {
+                ""
+            }
+        ),
+        None => html(id),
+    }
+}
+
+/// `hysteresis` of `hysteresis.ratio`.
+fn base(id: &str) -> &str {
+    id.split('.').next().unwrap_or_default()
+}
+
+fn entry(metric: &Metric) -> String {
+    let unit = match metric.unit {
+        ScoreUnit::OfChannel => "that of the channel: mm or N".to_owned(),
+        ScoreUnit::PerHour => "that of the channel an hour: mm/h or N/h".to_owned(),
+        ScoreUnit::Fixed(unit) => unit.to_string(),
+        _ => "none, it is a ratio".to_owned(),
+    };
+    let better = match metric.better {
+        Better::Lower => "lower is better (↓)",
+        Better::Higher => "higher is better (↑)",
+        Better::NearZero => "nearer to zero is better",
+        _ => "describes, and is neither good nor bad",
+    };
+    format!(
+        "<dt id=\"metric-{}\" tabindex=\"-1\">{} <code>{}</code></dt><dd>{} Unit: {}; {better}. Definition <code>{}</code>: {}.</dd>",
+        metric.id,
+        html(metric.title),
+        metric.id,
+        html(metric.documentation),
+        html(&unit),
+        html(metric.definition),
+        html(metric.reference)
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_link_of_a_metric_meets_its_entry() {
+        let ids = catalogue::ALL.iter().map(|metric| metric.id);
+        let text = glossary(ids.clone());
+        for id in ids {
+            let link = metric_link(&format!("{id}.some-variant"));
+            assert!(link.contains(&format!("href=\"#metric-{id}\"")), "{link}");
+            assert!(text.contains(&format!("id=\"metric-{id}\"")), "{id}");
+        }
+        assert_eq!(metric_link("<own>"), "&lt;own&gt;");
+    }
+}

@@ -1,0 +1,277 @@
+//! How it was done, as a paragraph for a paper; and what to cite.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use super::fold::counted;
+use super::studied::{points, span, whole};
+use crate::escape::html;
+use crate::figures::{listed, names};
+use crate::results::Study;
+use crate::table::ScoreTable;
+
+/// The study whose metrics these are, as its publisher names it.
+const STUDY: &str = "@article{taceva-study,\n  author  = {Cong and others},\n  title   = {{TacEva}},\n  journal = {Advanced Intelligent Systems},\n  year    = {2026},\n  doi     = {10.1002/aisy.202501179}\n}";
+
+/// The paragraph and the entries, each with a button that copies it, and the sensors in a table.
+pub(super) fn section(studies: &[Study], table: &ScoreTable) -> String {
+    format!(
+        "{}{}\n{}",
+        copied(
+            "methods-text",
+            "Methods",
+            &format!(
+                "<p id=\"methods-text\">{}</p>",
+                html(&paragraph(studies, table))
+            )
+        ),
+        copied(
+            "bibtex-text",
+            "BibTeX",
+            &format!(
+                "<pre id=\"bibtex-text\" tabindex=\"0\">{}</pre>",
+                html(&bibtex(studies))
+            )
+        ),
+        sensors(studies)
+    )
+}
+
+/// A text with a button that copies it; the page's script shows the button.
+fn copied(id: &str, what: &str, body: &str) -> String {
+    format!(
+        "<div class=\"copied\"><button type=\"button\" class=\"act\" data-copy=\"{id}\" hidden>Copy {what}</button>\n{body}</div>\n"
+    )
+}
+
+/// What was done, in sentences that a paper can take over; plain text.
+fn paragraph(studies: &[Study], table: &ScoreTable) -> String {
+    let mut out = format!(
+        "We evaluated {} ({}) with TacEva {}.",
+        counted(studies.len(), "vision-based tactile sensor"),
+        listed(&names(studies)),
+        listed(
+            &values(studies, "taceva").unwrap_or_else(|| vec!["of an unknown version".to_owned()])
+        )
+    );
+    out += &origin(studies);
+    out += &pressed(studies);
+    out += &divided(studies);
+    out += &model(studies);
+    out += &statistics(studies, table);
+    out
+}
+
+/// Where samples come from.
+fn origin(studies: &[Study]) -> String {
+    let simulated = studies.iter().filter(|study| study.is_simulated()).count();
+    let published = studies
+        .iter()
+        .filter(|study| study.source == "published")
+        .count();
+    let mut out = match (simulated, studies.len() - simulated) {
+        (0, _) => String::new(),
+        (_, 0) => {
+            " All samples were simulated on TacEva's bench; nothing was measured on hardware."
+                .to_owned()
+        }
+        (some, _) => format!(
+            " The samples of {} were simulated on TacEva's bench.",
+            counted(some, "sensor")
+        ),
+    };
+    if published > 0 {
+        out += &format!(
+            " The numbers of {} are published ones.",
+            counted(published, "sensor")
+        );
+    }
+    out
+}
+
+fn pressed(studies: &[Study]) -> String {
+    let presses = span(studies, |study| whole(study.made.presses));
+    let points = span(studies, points);
+    match (presses, points) {
+        (Some(presses), Some(points)) => {
+            format!(" Each sensor was pressed {presses} times, at {points} contact points.")
+        }
+        (Some(presses), None) => format!(" Each sensor was pressed {presses} times."),
+        (None, Some(points)) => format!(" Each sensor was pressed at {points} contact points."),
+        (None, None) => String::new(),
+    }
+}
+
+/// How samples were divided, with their numbers.
+fn divided(studies: &[Study]) -> String {
+    let Some(splits) = values(studies, "split") else {
+        return String::new();
+    };
+    let mut out = format!(
+        " Samples for learning were divided by the split {}",
+        listed(&splits)
+    );
+    if let Some(seeds) = values(studies, "seed") {
+        out += &format!(" (seed {})", listed(&seeds));
+    }
+    let mut names: Vec<&str> = Vec::new();
+    for (name, _) in studies.iter().flat_map(|study| &study.made.samples) {
+        if !names.contains(&name.as_str()) {
+            names.push(name);
+        }
+    }
+    let part = |name: &&str| {
+        let of = |study: &Study| {
+            let found = study.made.samples.iter().find(|(part, _)| part == name)?;
+            whole(found.1)
+        };
+        Some(format!("{} {name}", span(studies, of)?))
+    };
+    let parts: Vec<String> = names.iter().filter_map(part).collect();
+    if !parts.is_empty() {
+        out += &format!(" into {} samples", listed(&parts));
+    }
+    out + "."
+}
+
+/// The models, with the settings that all of one name share.
+fn model(studies: &[Study]) -> String {
+    let mut models: BTreeMap<&str, Vec<&Study>> = BTreeMap::new();
+    for study in studies {
+        if let Some(name) = &study.made.model {
+            models.entry(name).or_default().push(study);
+        }
+    }
+    let sentence = |(name, of): (&str, Vec<&Study>)| {
+        let (mut shared, mut own) = (Vec::new(), BTreeSet::new());
+        for (key, value) in of.iter().flat_map(|study| &study.made.settings) {
+            let setting = (key.clone(), value.clone());
+            match of
+                .iter()
+                .all(|study| study.made.settings.contains(&setting))
+            {
+                true if !shared.contains(&setting) => shared.push(setting),
+                true => {}
+                false => {
+                    own.insert(key.as_str());
+                }
+            }
+        }
+        let shared: Vec<String> = shared
+            .iter()
+            .map(|(key, value)| format!("{key} = {value}"))
+            .collect();
+        let mut words = format!(" Labels were predicted from pictures by the model {name}");
+        if of.len() < studies.len() {
+            let names: Vec<String> = of.iter().map(|study| study.sensor.clone()).collect();
+            words += &format!(" for {}", listed(&names));
+        }
+        if !shared.is_empty() {
+            words += &format!(" ({})", shared.join("; "));
+        }
+        if !own.is_empty() {
+            let own: Vec<String> = own.into_iter().map(str::to_owned).collect();
+            words += &format!(", with {} chosen for each sensor", listed(&own));
+        }
+        words + "."
+    };
+    let sentences: String = models.into_iter().map(sentence).collect();
+    match sentences.is_empty() {
+        true => sentences,
+        false => sentences + " Every score is of samples that the model had not seen.",
+    }
+}
+
+/// Intervals, tests and adjustment.
+fn statistics(studies: &[Study], table: &ScoreTable) -> String {
+    let methods: BTreeSet<&str> = table
+        .rows
+        .iter()
+        .flat_map(|row| row.cells.iter().flatten())
+        .filter_map(|cell| cell.method.as_deref())
+        .map(|method| method.split(", G=").next().unwrap_or(method))
+        .collect();
+    let methods: Vec<String> = methods.into_iter().map(str::to_owned).collect();
+    let mut out = match methods.is_empty() {
+        true => String::new(),
+        false => format!(" Intervals are of 95 % ({}).", methods.join("; ")),
+    };
+    let tests: BTreeSet<String> = table
+        .answers
+        .iter()
+        .filter_map(|answer| Some(answer.difference.as_ref()?.test.to_string()))
+        .collect();
+    if studies.len() > 1 && !tests.is_empty() {
+        let tests: Vec<String> = tests.into_iter().collect();
+        out += &format!(
+            " Sensors were compared pair by pair ({}), with p values adjusted by Holm's method over all pairs and channels of a metric and a level of 5 %.",
+            tests.join("; ")
+        );
+    }
+    out
+}
+
+/// The different values of an entry of provenance, in the order of the studies.
+fn values(studies: &[Study], name: &str) -> Option<Vec<String>> {
+    let mut values: Vec<String> = Vec::new();
+    for (_, value) in studies
+        .iter()
+        .flat_map(|study| &study.provenance)
+        .filter(|(known, _)| known == name)
+    {
+        if !values.contains(value) {
+            values.push(value.clone());
+        }
+    }
+    (!values.is_empty()).then_some(values)
+}
+
+/// The program, the study, and the sources of published numbers.
+fn bibtex(studies: &[Study]) -> String {
+    let versions = values(studies, "taceva");
+    let version = versions.map_or_else(
+        || env!("CARGO_PKG_VERSION").to_owned(),
+        |all| all.join(", "),
+    );
+    let mut entries = vec![
+        format!(
+            "@software{{taceva,\n  title   = {{{{TacEva}}: how well does a vision-based tactile sensor measure?}},\n  version = {{{}}},\n  url     = {{{}}}\n}}",
+            plain(&version),
+            env!("CARGO_PKG_REPOSITORY")
+        ),
+        STUDY.to_owned(),
+    ];
+    let sources = values(studies, "source").unwrap_or_default();
+    let misc = sources
+        .iter()
+        .enumerate()
+        .map(|(at, text)| format!("@misc{{source{},\n  note = {{{}}}\n}}", at + 1, plain(text)));
+    entries.extend(misc);
+    entries.join("\n\n")
+}
+
+/// A text without what BibTeX reads specially.
+fn plain(text: &str) -> String {
+    text.replace(['{', '}', '\\', '"', '%', '#', '$', '~', '^'], " ")
+        .replace('&', "and")
+}
+
+/// The sensors in a table.
+fn sensors(studies: &[Study]) -> String {
+    let mut out = String::from(
+        "<div class=\"scroll\" tabindex=\"0\" role=\"group\" aria-label=\"Sensors\"><table><caption>Sensors</caption><thead><tr><th scope=\"col\">sensor</th><th scope=\"col\">serial</th>\
+         <th scope=\"col\">gel</th><th scope=\"col\">samples</th><th scope=\"col\">model</th><th scope=\"col\">split</th></tr></thead><tbody>\n",
+    );
+    for (study, name) in studies.iter().zip(names(studies)) {
+        let split = study.provenance.iter().find(|(name, _)| name == "split");
+        out += &format!(
+            "<tr><th scope=\"row\">{}</th><td class=\"wrap\">{}</td><td class=\"wrap\">{}</td><td>{}</td><td class=\"wrap\">{}</td><td class=\"wrap\">{}</td></tr>\n",
+            html(&name),
+            html(&study.serial),
+            html(&study.gel),
+            html(&study.source),
+            html(study.made.model.as_deref().unwrap_or("–")),
+            html(split.map_or("–", |(_, split)| split))
+        );
+    }
+    out + "</tbody></table></div>\n"
+}

@@ -1,0 +1,96 @@
+//! Which samples are worth a look.
+
+use std::collections::BTreeSet;
+
+use crate::results::Study;
+use crate::samples::{SampleChannel, Samples};
+
+/// Samples of each kind a study.
+const EACH: usize = 4;
+
+/// A sample that is worth a look.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Pick {
+    /// Its id.
+    pub id: String,
+    /// Its row among the samples.
+    pub row: usize,
+    /// Whether it is one of the worst, else one of the best.
+    pub is_worst: bool,
+    /// Its error: the mean over channels of the error as a part of the range of the true values.
+    pub error: f64,
+}
+
+/// The samples of a study that are predicted worst and those that are predicted best, four each, every one of another contact point: the
+/// frames of one press, and presses at one place, fail alike. Fewer where there are few points, none without samples.
+pub fn picks(study: &Study) -> Vec<Pick> {
+    let Some(samples) = &study.samples else {
+        return Vec::new();
+    };
+    let channels: Vec<(&SampleChannel, f64)> = samples
+        .channels()
+        .iter()
+        .filter_map(|channel| Some((channel, range(channel)?)))
+        .collect();
+    let error = |row: usize| {
+        let errors = channels.iter().filter_map(|(channel, range)| {
+            let [truth, prediction] = channel.pair(row)?;
+            Some((truth - prediction).abs() / range)
+        });
+        let (sum, count) =
+            errors.fold((0.0, 0.0), |(sum, count), error| (sum + error, count + 1.0));
+        (count > 0.0).then(|| sum / count)
+    };
+    let rows = samples.of_protocol("calibration");
+    let mut errors: Vec<(usize, f64)> = rows
+        .into_iter()
+        .filter_map(|row| Some((row, error(row)?)))
+        .collect();
+    errors.sort_by(|a, b| b.1.total_cmp(&a.1).then(a.0.cmp(&b.0)));
+    let places = errors.iter().map(|(row, _)| place(samples, *row));
+    let each = EACH.min(places.collect::<BTreeSet<_>>().len() / 2);
+    let mut taken = BTreeSet::new();
+    let worst = apart(samples, errors.iter(), each, &mut taken);
+    let best = apart(samples, errors.iter().rev(), each, &mut taken);
+    let pick = |is_worst: bool| {
+        move |(row, error): (usize, f64)| Pick {
+            id: samples.word("id", row).unwrap_or_default().to_owned(),
+            row,
+            is_worst,
+            error,
+        }
+    };
+    let worst = worst.into_iter().map(pick(true));
+    worst.chain(best.into_iter().map(pick(false))).collect()
+}
+
+/// Where a sample was pressed; where no point is known, each sample is its own.
+fn place(samples: &Samples, row: usize) -> Option<&str> {
+    samples
+        .word("point_id", row)
+        .or_else(|| samples.word("id", row))
+}
+
+/// The first of `rows` of each contact point that nothing was taken of, `most` of them.
+fn apart<'a>(
+    samples: &'a Samples,
+    rows: impl Iterator<Item = &'a (usize, f64)>,
+    most: usize,
+    taken: &mut BTreeSet<&'a str>,
+) -> Vec<(usize, f64)> {
+    let mut found = Vec::new();
+    for (row, error) in rows {
+        let place = place(samples, *row);
+        if found.len() < most && place.is_some_and(|place| taken.insert(place)) {
+            found.push((*row, *error));
+        }
+    }
+    found
+}
+
+/// From the least to the greatest truth of those that are predicted.
+fn range(channel: &SampleChannel) -> Option<f64> {
+    let pairs = (0..channel.truth.len()).filter_map(|row| channel.pair(row));
+    let [low, high] = crate::figure::extent(pairs.map(|[truth, _]| truth))?;
+    (high > low).then_some(high - low)
+}

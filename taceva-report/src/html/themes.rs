@@ -1,0 +1,165 @@
+//! Scores and figures that are read together, theme by theme, each folded.
+
+use super::figures::one as figure;
+use super::fold::{counted, fold};
+use super::tables::table;
+use crate::figure::Figure;
+use crate::table::{ScoreRow, ScoreTable};
+
+/// What is read together.
+struct Theme {
+    id: &'static str,
+    title: &'static str,
+    metrics: &'static [&'static str],
+    /// What the ids of its figures begin with.
+    figures: &'static [&'static str],
+}
+
+/// Every theme, in the order of reports; what belongs to none of them comes last.
+const THEMES: [Theme; 6] = [
+    Theme {
+        id: "asked",
+        title: "What was asked",
+        metrics: &[],
+        figures: &["labels"],
+    },
+    Theme {
+        id: "accuracy",
+        title: "Accuracy",
+        metrics: &[
+            "skill",
+            "mae",
+            "rmse",
+            "bias",
+            "r2",
+            "smape",
+            "smape_gated",
+            "mae_euclid",
+            "tolerance",
+            "linearity",
+            "bias_level",
+            "crosstalk",
+        ],
+        figures: &["predicted-", "bias", "tolerance", "crosstalk"],
+    },
+    Theme {
+        id: "detail",
+        title: "Finest detail and least force",
+        metrics: &["sr", "minimum_detectable_force", "signal_to_repeatability"],
+        figures: &["resolution"],
+    },
+    Theme {
+        id: "surface",
+        title: "Sensitivity",
+        metrics: &["sensitivity", "uniformity"],
+        figures: &["sensitivity"],
+    },
+    Theme {
+        id: "robustness",
+        title: "Robustness",
+        metrics: &[
+            "r_spatial",
+            "r_light",
+            "repeatability",
+            "hysteresis",
+            "inter_sensor",
+            "drift",
+        ],
+        figures: &[
+            "distance",
+            "depth",
+            "lighting",
+            "repeatability",
+            "hysteresis",
+            "units",
+        ],
+    },
+    Theme {
+        id: "camera",
+        title: "Camera and field of view",
+        metrics: &["intrinsic"],
+        figures: &[],
+    },
+];
+
+/// Every score that is no variant and every figure but the radars, theme by theme, and all rows at the end.
+pub(super) fn section(table: &ScoreTable, figures: &[Figure]) -> String {
+    let headlines = table.headlines();
+    let mut out = String::from(
+        "<p class=\"note\">Below each value its 95 % interval and n. Bold: shown to be better than every other sensor, at a level of 5 % after Holm's adjustment over the metric. Columns sort. \
+         Point at a mark of a figure for its value and n, or step through its marks with the arrow keys.</p>\n\
+         <p class=\"screen\"><button type=\"button\" class=\"act\" data-unfold hidden>Unfold everything</button></p>\n",
+    );
+    if table.rows.is_empty() {
+        out += "<p>There is no score in these results.</p>";
+    }
+    if figures.is_empty() {
+        out += "<p>There is nothing to draw: no score has a map or a curve, and the samples are not at hand.</p>";
+    }
+    let (mut rows_left, mut figures_left): (Vec<&ScoreRow>, Vec<&Figure>) = (
+        headlines.rows.iter().collect(),
+        figures.iter().filter(|figure| !is_radar(figure)).collect(),
+    );
+    for theme in &THEMES {
+        let (rows, others) = rows_left.into_iter().partition(|row| theme.has_metric(row));
+        let (drawn, others_drawn) = figures_left
+            .into_iter()
+            .partition(|drawn| theme.has_figure(drawn));
+        (rows_left, figures_left) = (others, others_drawn);
+        out += &one((theme.id, theme.title), &headlines.names, &rows, &drawn);
+    }
+    out += &one(
+        ("other", "Other"),
+        &headlines.names,
+        &rows_left,
+        &figures_left,
+    );
+    if table.rows.len() > headlines.rows.len() {
+        let all: Vec<&ScoreRow> = table.rows.iter().collect();
+        out += &fold(
+            "theme-all",
+            "Every score",
+            &format!("all {} rows: every channel and every variant", all.len()),
+            &self::table("all", "Every score", &table.names, &all),
+        );
+    }
+    out
+}
+
+/// Radars stand where sensors are seen at a glance.
+pub(crate) fn is_radar(figure: &Figure) -> bool {
+    figure.id.starts_with("radar")
+}
+
+impl Theme {
+    fn has_metric(&self, row: &ScoreRow) -> bool {
+        let metric = row.metric.split('.').next().unwrap_or_default();
+        self.metrics.contains(&metric)
+    }
+
+    fn has_figure(&self, figure: &Figure) -> bool {
+        let starts = self.figures.iter();
+        starts.into_iter().any(|start| figure.id.starts_with(start))
+    }
+}
+
+fn one(
+    (id, title): (&str, &str),
+    names: &[String],
+    rows: &[&ScoreRow],
+    figures: &[&Figure],
+) -> String {
+    let mut holds = Vec::new();
+    if !rows.is_empty() {
+        holds.push(counted(rows.len(), "score"));
+    }
+    if !figures.is_empty() {
+        holds.push(counted(figures.len(), "figure"));
+    }
+    if holds.is_empty() {
+        return String::new();
+    }
+    let drawn = figures.iter().map(|drawn| figure(drawn));
+    let body = table(id, title, names, rows) + &drawn.collect::<String>();
+    fold(&format!("theme-{id}"), title, &holds.join(", "), &body)
+}

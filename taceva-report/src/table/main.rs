@@ -1,0 +1,44 @@
+//! The few scores that a paper shows first.
+
+use super::{ScoreRow, ScoreTable};
+
+/// The metrics that are shown, in their order.
+const METRICS: [&str; 9] = [
+    "mae",
+    "r2",
+    "sr",
+    "sensitivity",
+    "uniformity",
+    "r_spatial",
+    "r_light",
+    "repeatability",
+    "hysteresis",
+];
+/// Metrics that are shown of depth and normal force alone: a row a plane each would fill the page with what tells the same.
+const OF_NORMAL: [&str; 3] = ["r_spatial", "r_light", "repeatability"];
+
+impl ScoreTable {
+    /// The rows that a paper shows first: accuracy by plane and normal, detail, sensitivity, and robustness of depth and normal force. Where
+    /// channels have other names, all of the same metrics.
+    #[must_use]
+    pub fn main(&self) -> ScoreTable {
+        let headlines = self.headlines();
+        let has_normal = |metric: &str| {
+            let mut rows = headlines.rows.iter();
+            rows.any(|row| row.metric == metric && is_normal(row))
+        };
+        let is_kept = |row: &&ScoreRow| {
+            let is_known = METRICS.contains(&row.metric.as_str());
+            let is_of_normal = OF_NORMAL.contains(&row.metric.as_str()) && has_normal(&row.metric);
+            is_known && (!is_of_normal || is_normal(row))
+        };
+        ScoreTable {
+            rows: headlines.rows.iter().filter(is_kept).cloned().collect(),
+            ..headlines
+        }
+    }
+}
+
+fn is_normal(row: &ScoreRow) -> bool {
+    matches!(row.channel.as_str(), "Pz" | "Fz")
+}

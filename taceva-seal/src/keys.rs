@@ -1,0 +1,83 @@
+//! Which key of a file is not what it was: a few digits of the digest of each value, kept beside the seal.
+
+use std::collections::BTreeMap;
+
+use crate::canonical::Canonical;
+use crate::written::hexadecimal;
+
+/// Keys within keys that are told apart.
+const LEVELS: usize = 3;
+/// Beyond so many, keys are not told apart.
+const MOST: usize = 4_096;
+
+/// The first digits of the digest of each value, by its key: `metrics.mae.Fz`, `studies[1].provenance.seed`.
+pub(crate) type Keys = BTreeMap<String, String>;
+
+/// The keys of `value`; none where there are too many.
+pub(crate) fn of(value: &Canonical) -> Keys {
+    let mut keys = Keys::new();
+    add(value, "", LEVELS, &mut keys);
+    if keys.len() > MOST { Keys::new() } else { keys }
+}
+
+fn add(value: &Canonical, path: &str, levels: usize, keys: &mut Keys) {
+    match value {
+        Canonical::Object(entries) if levels > 0 && !entries.is_empty() => {
+            for (key, value) in entries {
+                let path = if path.is_empty() {
+                    key.clone()
+                } else {
+                    format!("{path}.{key}")
+                };
+                add(value, &path, levels - 1, keys);
+            }
+        }
+        Canonical::List(items)
+            if items.len() <= MOST
+                && items
+                    .iter()
+                    .all(|item| matches!(item, Canonical::Object(_))) =>
+        {
+            for (number, item) in items.iter().enumerate() {
+                add(item, &format!("{path}[{number}]"), levels, keys);
+            }
+        }
+        _ => {
+            let digest = value.digest();
+            keys.insert(path.to_owned(), hexadecimal(&digest[..4]));
+        }
+    }
+}
+
+/// The first key whose value is another one now than it was, is new, or is gone.
+pub(crate) fn first_change(was: &Keys, is: &Keys) -> Option<String> {
+    if was.is_empty() {
+        return None;
+    }
+    let mut names = was.keys().chain(is.keys());
+    names.find(|name| was.get(*name) != is.get(*name)).cloned()
+}
+
+/// One line: `mae.Fz=1a2b3c4d;…`, which no key breaks, since what would is percent-encoded.
+pub(crate) fn to_line(keys: &Keys) -> String {
+    let entries = keys.iter().map(|(name, digits)| {
+        let name: String = name
+            .chars()
+            .map(|letter| match letter {
+                ';' | '=' | '%' | '"' | '\\' => format!("%{:02x}", u32::from(letter)),
+                _ if letter.is_control() => format!("%{:02x}", u32::from(letter)),
+                _ => letter.to_string(),
+            })
+            .collect();
+        format!("{name}={digits}")
+    });
+    entries.collect::<Vec<_>>().join(";")
+}
+
+/// What [`to_line`] has written; names that it encoded stay so, on both sides of a comparison.
+pub(crate) fn from_line(line: &str) -> Keys {
+    line.split(';')
+        .filter_map(|entry| entry.split_once('='))
+        .map(|(name, digits)| (name.to_owned(), digits.to_owned()))
+        .collect()
+}

@@ -1,0 +1,237 @@
+//! TOML whose last table is its seal, over every byte before it: comments count as well.
+
+use crate::canonical::Canonical;
+use crate::error::SealError;
+use crate::history::{Edit, Opened, Version};
+use crate::keys::{self, Keys};
+use crate::written::{PREFIX, digest_of_bytes};
+
+/// The line with which the seal begins.
+const SEAL: &str = "[seal]";
+
+/// `body` with its seal.
+///
+/// # Errors
+/// [`SealError::Content`] if it is no TOML, or has a seal.
+pub fn seal(body: &str) -> Result<String, SealError> {
+    if split(body).is_some() {
+        return Err(content("it has a seal already"));
+    }
+    let line = if body.ends_with('\n') { "" } else { "\n" };
+    let body = format!("{body}{line}\n");
+    let keys = keys::to_line(&keys_of(&body)?);
+    let digest = digest_of_bytes(body.as_bytes());
+    let keys = toml::Value::String(keys);
+    Ok(format!(
+        "{body}{SEAL}\ndigest = \"{digest}\"\nkeys = {keys}\n"
+    ))
+}
+
+/// Whether `text` is what it was when it was sealed.
+///
+/// # Errors
+/// [`SealError`]: changed, with the key where it can be told; the seal gone that a file of this version has; a seal alone.
+pub fn check(text: &str, version: Version) -> Result<Opened, SealError> {
+    let Some((body, seal)) = split(text) else {
+        return match version {
+            Version::Sealed => Err(SealError::Gone),
+            Version::BeforeSeals => Ok(Opened {
+                is_sealed: false,
+                digest: digest_of_bytes(text.as_bytes()),
+                history: history_of(text)?,
+            }),
+        };
+    };
+    let seal = Written::parse(seal)?;
+    if body.trim().is_empty() {
+        return Err(SealError::Alone);
+    }
+    let digest = digest_of_bytes(body.as_bytes());
+    if digest != seal.digest {
+        let is = keys_of(body).map(|keys| keys::from_line(&keys::to_line(&keys)));
+        let key = is
+            .ok()
+            .and_then(|is| keys::first_change(&keys::from_line(&seal.keys), &is));
+        return Err(SealError::Changed { key });
+    }
+    Ok(Opened {
+        is_sealed: true,
+        digest,
+        history: history_of(body)?,
+    })
+}
+
+/// `text` as it is now, accepted: with one more entry of its history and a seal that holds. What holds already stays as it is.
+///
+/// # Errors
+/// [`SealError::Content`] if it is no TOML; [`SealError::Alone`].
+pub fn reseal(text: &str, date: &str, reason: &str) -> Result<String, SealError> {
+    let (body, from) = match split(text) {
+        None => (text, "unsealed".to_owned()),
+        Some((body, _)) if body.trim().is_empty() => return Err(SealError::Alone),
+        Some((body, seal)) => match Written::parse(seal) {
+            Ok(seal) if seal.digest == digest_of_bytes(body.as_bytes()) => {
+                return Ok(text.to_owned());
+            }
+            Ok(seal) => (body, seal.digest),
+            Err(_) => (body, "unreadable".to_owned()),
+        },
+    };
+    let edit = Edit {
+        date: date.to_owned(),
+        from,
+        to: digest_of_bytes(body.as_bytes()),
+        reason: reason.to_owned(),
+    };
+    let quoted = |text: &str| toml::Value::String(text.to_owned()).to_string();
+    let entry = format!(
+        "[[history]]\ndate = {}\nfrom = {}\nto = {}\nreason = {}\n",
+        quoted(&edit.date),
+        quoted(&edit.from),
+        quoted(&edit.to),
+        quoted(&edit.reason)
+    );
+    seal(&format!("{}\n\n{entry}", body.trim_end()))
+}
+
+/// The text before the last table, and that table, if it is the seal.
+fn split(text: &str) -> Option<(&str, &str)> {
+    let at = match text.rfind(&format!("\n{SEAL}")) {
+        Some(before) => before + 1,
+        None if text.starts_with(SEAL) => 0,
+        None => return None,
+    };
+    Some(text.split_at(at))
+}
+
+/// The seal as it is written.
+struct Written {
+    digest: String,
+    keys: String,
+}
+
+impl Written {
+    fn parse(text: &str) -> Result<Written, SealError> {
+        #[derive(serde::Deserialize)]
+        #[serde(deny_unknown_fields)]
+        struct File {
+            seal: Table,
+        }
+        #[derive(serde::Deserialize)]
+        #[serde(deny_unknown_fields)]
+        struct Table {
+            digest: String,
+            keys: String,
+        }
+        let unreadable = |problem: String| SealError::Unreadable { problem };
+        let File { seal } =
+            toml::from_str(text).map_err(|error| unreadable(error.message().to_owned()))?;
+        if !seal.digest.starts_with(PREFIX) {
+            return Err(unreadable(format!("its digest is no `{PREFIX}…`")));
+        }
+        Ok(Written {
+            digest: seal.digest,
+            keys: seal.keys,
+        })
+    }
+}
+
+fn keys_of(body: &str) -> Result<Keys, SealError> {
+    let value: Canonical = toml::from_str(body).map_err(|error| content(error.message()))?;
+    Ok(keys::of(&value))
+}
+
+fn history_of(body: &str) -> Result<Vec<Edit>, SealError> {
+    #[derive(serde::Deserialize)]
+    struct Told {
+        #[serde(default)]
+        history: Vec<Edit>,
+    }
+    let told: Told = toml::from_str(body).map_err(|error| content(error.message()))?;
+    Ok(told.history)
+}
+
+fn content(problem: &str) -> SealError {
+    SealError::Content {
+        problem: problem.trim_end().replace('\n', "; "),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const BODY: &str = "format = \"1.3\"\nsource = \"synthetic\"\n\n[footprint]\n# measured\nradius_mm = 5.0\n\n[[channels]]\nname = \"Fz\"\n";
+
+    #[test]
+    fn an_edit_is_noticed_and_its_key_named() {
+        let sealed = seal(BODY).expect("TOML");
+        assert!(check(&sealed, Version::Sealed).expect("holds").is_sealed);
+        for (from, to, key) in [
+            ("5.0", "4.0", "`footprint.radius_mm`"),
+            ("synthetic", "recorded", "`source`"),
+            ("\"Fz\"", "\"Fx\"", "`channels[0].name`"),
+            ("# measured", "# guessed", "the file"),
+        ] {
+            let error = check(&sealed.replace(from, to), Version::Sealed).expect_err(to);
+            let error = error.to_string();
+            assert!(error.starts_with(&format!("{key} was changed")), "{error}");
+        }
+    }
+
+    #[test]
+    fn a_seal_that_is_gone_alone_or_unreadable_is_refused() {
+        let sealed = seal(BODY).expect("TOML");
+        assert!(matches!(check(BODY, Version::Sealed), Err(SealError::Gone)));
+        assert!(!check(BODY, Version::BeforeSeals).expect("older").is_sealed);
+        let (_, alone) = split(&sealed).expect("sealed");
+        assert!(matches!(
+            check(alone, Version::BeforeSeals),
+            Err(SealError::Alone)
+        ));
+        let torn = sealed.replace("digest =", "dogest =");
+        assert!(matches!(
+            check(&torn, Version::Sealed),
+            Err(SealError::Unreadable { .. })
+        ));
+        let more = format!("{sealed}more = 1\n");
+        assert!(matches!(
+            check(&more, Version::Sealed),
+            Err(SealError::Unreadable { .. })
+        ));
+    }
+
+    #[test]
+    fn every_flip_of_a_bit_is_noticed() {
+        let sealed = seal(BODY).expect("TOML");
+        let (body, _) = split(&sealed).expect("sealed");
+        for at in 0..body.len() {
+            for bit in 0..8 {
+                let mut bytes = sealed.clone().into_bytes();
+                bytes[at] ^= 1 << bit;
+                if let Ok(text) = String::from_utf8(bytes) {
+                    assert!(
+                        check(&text, Version::Sealed).is_err(),
+                        "byte {at}, bit {bit}"
+                    );
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn an_accepted_edit_is_told_and_sealed() {
+        let edited = seal(BODY).expect("TOML").replace("5.0", "4.0");
+        let accepted = reseal(&edited, "2026-11-22", "measured \"again\"").expect("accepted");
+        let opened = check(&accepted, Version::Sealed).expect("holds");
+        assert_eq!(opened.history.len(), 1);
+        assert_eq!(opened.history[0].reason, "measured \"again\"");
+        assert!(accepted.contains("# measured"));
+        assert_eq!(
+            reseal(&accepted, "2026-11-23", "nothing").expect("holds"),
+            accepted
+        );
+        let forged = accepted.replace("again", "never");
+        assert!(check(&forged, Version::Sealed).is_err());
+    }
+}

@@ -1,0 +1,313 @@
+//! What is kept in a folder of a cache, and what of it may go.
+
+use std::fs::{self, Metadata};
+use std::io;
+use std::path::{Path, PathBuf};
+use std::time::{Duration, SystemTime};
+
+use super::key::Stage;
+use super::{ABANDONED, BEFORE, LAYOUT, PARTIAL, remove};
+
+/// The digits of a key.
+const DIGITS: usize = 64;
+
+/// Something that is kept: the result of one stage, or what a stopped run left half written.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct CacheEntry {
+    /// The stage that it is a result of; none of what is half written.
+    pub stage: Option<Stage>,
+    /// The digits of its key, or the name of what is half written.
+    pub name: String,
+    /// Where it lies.
+    pub path: PathBuf,
+    /// What it holds, in bytes.
+    pub bytes: u64,
+    /// What removing it frees, in bytes: files that a run shares stay where the run has them.
+    pub own_bytes: u64,
+    /// Its files.
+    pub files: u64,
+    /// When it was made, or looked at for the last time.
+    pub used: SystemTime,
+}
+
+impl CacheEntry {
+    /// The word for its kind: that of its stage, or `partial`.
+    pub fn kind(&self) -> &'static str {
+        self.stage.map_or(PARTIAL, Stage::name)
+    }
+
+    /// How long nobody has looked at it; zero for what is from the future.
+    pub fn age(&self, now: SystemTime) -> Duration {
+        now.duration_since(self.used).unwrap_or_default()
+    }
+}
+
+/// What is to go.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Pruning {
+    /// Only results of these stages; all of none.
+    pub stages: Vec<Stage>,
+    /// What nobody has looked at for longer.
+    pub older_than: Option<Duration>,
+    /// What is beyond so many bytes altogether, of those not looked at for longest first.
+    pub keep: Option<u64>,
+}
+
+/// Everything that is kept in `folder`, by kind, the longest unused first; a folder that is not there holds nothing.
+///
+/// Only what this program writes is listed: anything else that lies there is none of its business.
+///
+/// # Errors
+/// If the folder cannot be read.
+pub fn cache_entries(folder: &Path) -> io::Result<Vec<CacheEntry>> {
+    let mut entries = Vec::new();
+    // What earlier versions kept is never read again, and takes its room until somebody prunes it.
+    for layout in [BEFORE, LAYOUT].map(|layout| folder.join(layout)) {
+        for stage in Stage::ALL {
+            gather(&layout.join(stage.name()), Some(stage), &mut entries)?;
+        }
+        gather(&layout.join(PARTIAL), None, &mut entries)?;
+    }
+    entries.sort_by(|left, right| {
+        (left.stage, left.used, &left.name).cmp(&(right.stage, right.used, &right.name))
+    });
+    Ok(entries)
+}
+
+fn gather(folder: &Path, stage: Option<Stage>, entries: &mut Vec<CacheEntry>) -> io::Result<()> {
+    let found = match fs::read_dir(folder) {
+        Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(()),
+        found => found?,
+    };
+    for entry in found {
+        let entry = entry?;
+        let name = entry.file_name().to_string_lossy().into_owned();
+        let is_ours = match stage {
+            Some(_) => name.len() == DIGITS && name.bytes().all(|byte| byte.is_ascii_hexdigit()),
+            None => is_partial(&name),
+        };
+        // A run may have finished or swept it meanwhile.
+        if is_ours && let Ok(facts) = fs::symlink_metadata(entry.path()) {
+            let mut sum = Sum::default();
+            sum.add(&entry.path(), &facts)?;
+            entries.push(CacheEntry {
+                stage,
+                name,
+                path: entry.path(),
+                bytes: sum.bytes,
+                own_bytes: sum.own_bytes,
+                files: sum.files,
+                used: facts.modified()?,
+            });
+        }
+    }
+    Ok(())
+}
+
+/// Whether a run writes under that name: the number of a process and a counter.
+fn is_partial(name: &str) -> bool {
+    let is_number = |text: &str| !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_digit());
+    name.split_once('-')
+        .is_some_and(|(process, counter)| is_number(process) && is_number(counter))
+}
+
+#[derive(Default)]
+struct Sum {
+    bytes: u64,
+    own_bytes: u64,
+    files: u64,
+}
+
+impl Sum {
+    fn add(&mut self, path: &Path, facts: &Metadata) -> io::Result<()> {
+        if facts.is_dir() {
+            for entry in fs::read_dir(path)? {
+                let entry = entry?;
+                self.add(&entry.path(), &entry.metadata()?)?;
+            }
+            return Ok(());
+        }
+        self.files += 1;
+        self.bytes += facts.len();
+        if !is_shared(facts) {
+            self.own_bytes += facts.len();
+        }
+        Ok(())
+    }
+}
+
+/// Whether a file has another name, which keeps it.
+fn is_shared(facts: &Metadata) -> bool {
+    #[cfg(unix)]
+    let links = std::os::unix::fs::MetadataExt::nlink(facts);
+    #[cfg(not(unix))]
+    let links = {
+        let _ = facts;
+        1
+    };
+    links > 1
+}
+
+/// Those of `entries` that go by `pruning`, as they stand at `now`: what is too old, then what is too much.
+///
+/// What is half written goes once nobody can be writing it any more, whatever is asked for.
+pub fn pruned<'a>(
+    entries: &'a [CacheEntry],
+    pruning: &Pruning,
+    now: SystemTime,
+) -> Vec<&'a CacheEntry> {
+    let is_asked = |entry: &CacheEntry| match entry.stage {
+        Some(stage) => pruning.stages.is_empty() || pruning.stages.contains(&stage),
+        None => false,
+    };
+    let is_old = |entry: &CacheEntry| pruning.older_than.is_some_and(|age| entry.age(now) > age);
+    let mut staying: Vec<&CacheEntry> = Vec::new();
+    let mut going: Vec<&CacheEntry> = Vec::new();
+    for entry in entries {
+        match entry.stage {
+            None if entry.age(now) > ABANDONED => going.push(entry),
+            None => {}
+            Some(_) if is_asked(entry) && is_old(entry) => going.push(entry),
+            Some(_) if is_asked(entry) => staying.push(entry),
+            Some(_) => {}
+        }
+    }
+    if let Some(keep) = pruning.keep {
+        staying.sort_by_key(|entry| entry.used);
+        let mut sum: u64 = staying.iter().map(|entry| entry.bytes).sum();
+        for entry in staying {
+            if sum <= keep {
+                break;
+            }
+            sum -= entry.bytes;
+            going.push(entry);
+        }
+    }
+    going
+}
+
+/// Removes `entry` from the cache in `folder`; a run that looks for it meanwhile finds all of it or nothing.
+///
+/// # Errors
+/// If it cannot be moved away or removed.
+pub fn remove_entry(folder: &Path, entry: &CacheEntry) -> io::Result<()> {
+    if entry.stage.is_none() {
+        return remove(&entry.path);
+    }
+    let partial = folder.join(LAYOUT).join(PARTIAL);
+    fs::create_dir_all(&partial)?;
+    // Names of this form are swept by later runs, should this be stopped here.
+    let beside = (0..u32::MAX)
+        .map(|number| partial.join(format!("{}-{number}", std::process::id())))
+        .find(|beside| fs::symlink_metadata(beside).is_err())
+        .ok_or_else(|| io::Error::other("no name is free"))?;
+    match fs::rename(&entry.path, &beside) {
+        // Somebody was faster.
+        Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(()),
+        moved => moved.and_then(|()| remove(&beside)),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::fs::File;
+
+    use super::*;
+
+    const HOUR: Duration = Duration::from_secs(3600);
+
+    /// A cache with a file of `bytes` for each stage and age, in hours.
+    fn cache(kept: &[(Stage, u64, usize)]) -> (tempfile::TempDir, Vec<CacheEntry>) {
+        let folder = tempfile::tempdir().expect("a folder");
+        for (number, (stage, hours, bytes)) in kept.iter().enumerate() {
+            let path = folder.path().join(LAYOUT).join(stage.name());
+            fs::create_dir_all(&path).expect("made");
+            let path = path.join(format!("{number:064x}"));
+            fs::write(&path, vec![0; *bytes]).expect("written");
+            let file = File::options().append(true).open(path).expect("there");
+            let hours = u32::try_from(*hours).expect("few");
+            file.set_modified(SystemTime::now() - HOUR * hours)
+                .expect("dated");
+        }
+        let entries = cache_entries(folder.path()).expect("readable");
+        (folder, entries)
+    }
+
+    fn names(entries: &[&CacheEntry]) -> Vec<String> {
+        entries
+            .iter()
+            .map(|entry| entry.name.trim_start_matches('0').to_owned())
+            .collect()
+    }
+
+    #[test]
+    fn what_is_not_of_this_program_is_neither_listed_nor_removed() {
+        let (folder, _) = cache(&[(Stage::Fit, 1, 10)]);
+        let layout = folder.path().join(LAYOUT);
+        for stranger in ["fit/notes.txt", "fit/0123", "mine", "../thesis.tex"] {
+            fs::write(layout.join(stranger), "keep me").expect("written");
+        }
+        fs::create_dir_all(layout.join(PARTIAL).join("thesis")).expect("made");
+        let entries = cache_entries(folder.path()).expect("readable");
+        assert_eq!(entries.len(), 1, "{entries:?}");
+        let all = Pruning {
+            keep: Some(0),
+            ..Pruning::default()
+        };
+        for entry in pruned(&entries, &all, SystemTime::now()) {
+            remove_entry(folder.path(), entry).expect("removed");
+        }
+        assert!(cache_entries(folder.path()).expect("readable").is_empty());
+        assert!(layout.join("fit/notes.txt").exists() && layout.join("../thesis.tex").exists());
+        assert!(layout.join("partial/thesis").exists());
+    }
+
+    #[test]
+    fn the_longest_unused_go_first_until_the_rest_fits() {
+        let kept = [
+            (Stage::Fit, 3, 100),
+            (Stage::Features, 9, 100),
+            (Stage::Predict, 1, 100),
+        ];
+        let (_folder, entries) = cache(&kept);
+        let keep = |bytes| Pruning {
+            keep: Some(bytes),
+            ..Pruning::default()
+        };
+        let gone = |pruning: &Pruning| names(&pruned(&entries, pruning, SystemTime::now()));
+        assert_eq!(gone(&keep(300)), Vec::<String>::new());
+        assert_eq!(gone(&keep(299)), ["1"]);
+        assert_eq!(gone(&keep(100)), ["1", ""]);
+        let features = Pruning {
+            stages: vec![Stage::Predict],
+            keep: Some(0),
+            ..Pruning::default()
+        };
+        assert_eq!(gone(&features), ["2"]);
+        let old = Pruning {
+            older_than: Some(2 * HOUR),
+            ..Pruning::default()
+        };
+        assert_eq!(gone(&old).len(), 2);
+    }
+
+    #[test]
+    fn what_a_run_may_be_writing_stays_and_what_it_left_a_day_ago_goes() {
+        let (folder, _) = cache(&[]);
+        let partial = folder.path().join(LAYOUT).join(PARTIAL);
+        fs::create_dir_all(&partial).expect("made");
+        for (name, hours) in [("1-1", 1), ("2-1", 25)] {
+            let file = File::create(partial.join(name)).expect("made");
+            file.set_modified(SystemTime::now() - HOUR * hours)
+                .expect("dated");
+        }
+        let entries = cache_entries(folder.path()).expect("readable");
+        assert_eq!(entries.len(), 2);
+        let all = Pruning {
+            keep: Some(0),
+            older_than: Some(Duration::ZERO),
+            ..Pruning::default()
+        };
+        assert_eq!(names(&pruned(&entries, &all, SystemTime::now())), ["2-1"]);
+    }
+}

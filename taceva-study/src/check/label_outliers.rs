@@ -1,0 +1,104 @@
+//! TAC013: single labels far from all others.
+
+use super::evidence::Evidence;
+use super::finding::{Check, Found, Severity};
+
+pub(super) static CHECK: Check = Check {
+    code: "TAC013",
+    name: "label-outliers",
+    looks_for: "labels beyond 3 interquartile ranges of the quartiles that stand further from the next one than that range",
+    hint: "look at these samples: a transducer that was overloaded or read while the tip moved gives such labels; drop them in the map, or say why they are right",
+    reads_frames: false,
+    find,
+};
+
+/// Interquartile ranges beyond the quartiles where Tukey's outer fences stand.
+const FENCE: f64 = 3.0;
+/// Values below which quartiles say nothing.
+const LEAST: usize = 20;
+
+fn find(evidence: &Evidence<'_>) -> Vec<Found> {
+    let table = evidence.table;
+    let mut found = Vec::new();
+    for (position, channel) in table.channels().iter().enumerate() {
+        let column = table.truth(position);
+        let rows = (0..column.len()).filter_map(|row| Some((column.get(row)?, row)));
+        let values: Vec<(f64, usize)> = rows.collect();
+        let mirrored = values.iter().map(|(value, row)| (-value, *row)).collect();
+        for (values, sign) in [(values.clone(), 1.0), (mirrored, -1.0)] {
+            let Some(outliers) = above(values) else {
+                continue;
+            };
+            let unit = channel.unit();
+            let first = outliers.rows[0];
+            let message = format!(
+                "{channel}: {} of {} labels beyond 3 interquartile ranges of the quartiles, such as {} {unit} in row {}; the next is {} {unit}",
+                outliers.rows.len(),
+                column.len(),
+                sign * outliers.least,
+                first + 1,
+                sign * outliers.next,
+            );
+            let names = evidence.names(&outliers.rows);
+            found.push(Found::about(Severity::Warning, message, names));
+        }
+    }
+    found
+}
+
+/// Values that stand apart above all others.
+struct Outliers {
+    /// Their rows, that of the least first.
+    rows: Vec<usize>,
+    /// The least of them.
+    least: f64,
+    /// The greatest of all others.
+    next: f64,
+}
+
+/// The values above Tukey's outer fence and above a gap wider than the interquartile range.
+fn above(mut values: Vec<(f64, usize)>) -> Option<Outliers> {
+    if values.len() < LEAST {
+        return None;
+    }
+    values.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let quartile = |quarters: usize| values[(values.len() - 1) * quarters / 4].0;
+    let range = quartile(3) - quartile(1);
+    let fence = quartile(3) + FENCE * range;
+    let apart = values
+        .windows(2)
+        .position(|pair| pair[1].0 > fence && pair[1].0 - pair[0].0 > range)?;
+    let outliers = &values[apart + 1..];
+    (range > 0.0).then(|| Outliers {
+        rows: outliers.iter().map(|(_, row)| *row).collect(),
+        least: outliers[0].0,
+        next: values[apart].0,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn spread(extra: &[f64]) -> Vec<(f64, usize)> {
+        let usual = (0..200).map(|step| f64::from(step) * 0.025);
+        usual.chain(extra.iter().copied()).zip(0..).collect()
+    }
+
+    #[test]
+    fn one_force_of_15_newtons_above_5_is_found_with_its_row_and_its_neighbour() {
+        let found = above(spread(&[14.87])).expect("an outlier");
+        assert_eq!(found.rows, [200]);
+        assert!((found.least - 14.87).abs() < 1e-12 && (found.next - 4.975).abs() < 1e-12);
+    }
+
+    #[test]
+    fn tails_without_a_gap_few_values_and_constants_are_no_outliers() {
+        assert!(above(spread(&[])).is_none());
+        let tail: Vec<f64> = (0..40).map(|step| 5.0 + f64::from(step) * 0.5).collect();
+        assert!(above(spread(&tail)).is_none(), "a tail is no gap");
+        assert!(above(vec![(0.0, 0), (0.1, 1), (900.0, 2)]).is_none());
+        let still: Vec<(f64, usize)> = (0..50).map(|row| (1.0, row)).chain([(2.0, 50)]).collect();
+        assert!(above(still).is_none(), "no range to measure by");
+    }
+}

@@ -1,0 +1,52 @@
+//! What may be said of a scene otherwise than it is written, without editing it.
+
+use taceva_models::Settings;
+use taceva_protocol::{ModelSpec, Setting};
+
+use crate::error::StudyError;
+
+/// What stands in the place of what a scene says.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Instead {
+    /// The seed of every draw of the scene.
+    pub seed: Option<u64>,
+    /// The model of every study, without the settings that the scene has for another.
+    pub model: Option<String>,
+    /// Settings of the model, as `key=value`, beside those that stay.
+    pub set: Vec<String>,
+    /// The seeds that models are fitted with: presses, division and what is scored stay as they are.
+    pub seeds: Vec<u64>,
+}
+
+impl Instead {
+    /// Exchanges what the scene says of the model of `study`.
+    pub(super) fn exchange_model(
+        &self,
+        study: &str,
+        model: &mut Option<ModelSpec>,
+    ) -> Result<(), StudyError> {
+        if let Some(name) = &self.model {
+            *model = Some(ModelSpec {
+                name: Some(Setting::default_of(name.clone())),
+                ..ModelSpec::default()
+            });
+        }
+        if self.set.is_empty() && self.seeds.is_empty() {
+            return Ok(());
+        }
+        let Some(model) = model.as_mut().filter(|model| model.name.is_some()) else {
+            let needed =
+                "no model is fitted that could have settings or seeds; name one with --model";
+            return Err(StudyError::Request(format!("study `{study}`: {needed}")));
+        };
+        // Refused as they are in every other command.
+        let set = Settings::parse(self.set.iter().map(String::as_str))?;
+        for word in set.words() {
+            if let Some((key, value)) = word.split_once('=') {
+                let value = toml::Value::String(value.to_owned());
+                model.set.insert(key.to_owned(), value);
+            }
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,147 @@
+//! Which rows a state has taken, so that none is taken twice.
+
+use std::path::{Path, PathBuf};
+
+use serde::{Deserialize, Serialize};
+
+/// Rows of one input.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Taken {
+    /// The digest of the recording, or of both tables.
+    input: String,
+    /// From which row to before which, counted from 0, in order.
+    rows: Vec<[usize; 2]>,
+}
+
+impl Taken {
+    /// The given rows of an input.
+    pub(crate) fn rows_of(input: String, rows: &[usize]) -> Taken {
+        let mut sorted = rows.to_vec();
+        sorted.sort_unstable();
+        let mut ranges: Vec<[usize; 2]> = Vec::new();
+        for row in sorted {
+            match ranges.last_mut() {
+                Some([_, end]) if *end >= row => *end = row + 1,
+                _ => ranges.push([row, row + 1]),
+            }
+        }
+        Taken {
+            input,
+            rows: ranges,
+        }
+    }
+
+    /// All rows of an input.
+    pub(crate) fn all_of(input: String, rows: usize) -> Taken {
+        Taken {
+            input,
+            rows: vec![[0, rows]],
+        }
+    }
+
+    /// The first row that both have taken, and how many.
+    fn shared(&self, other: &Taken) -> Option<(usize, usize)> {
+        if self.input != other.input {
+            return None;
+        }
+        let (mut own, mut their) = (self.rows.iter().peekable(), other.rows.iter().peekable());
+        let (mut first, mut count) = (None, 0);
+        while let (Some([begin, end]), Some([other_begin, other_end])) = (own.peek(), their.peek())
+        {
+            let (from, to) = ((*begin).max(*other_begin), (*end).min(*other_end));
+            if from < to {
+                first.get_or_insert(from);
+                count += to - from;
+            }
+            match end < other_end {
+                true => own.next(),
+                false => their.next(),
+            };
+        }
+        first.map(|first| (first, count))
+    }
+}
+
+/// All that several states have taken, each with the file that it is in.
+#[derive(Debug, Default)]
+pub(crate) struct AllTaken {
+    taken: Vec<(PathBuf, Taken)>,
+    states: Vec<(PathBuf, String)>,
+}
+
+impl AllTaken {
+    /// Adds what the state in the file at `path`, of this digest, has taken; or says in words what was taken before.
+    pub(crate) fn add(&mut self, path: &Path, digest: &str, taken: &[Taken]) -> Result<(), String> {
+        if let Some((before, _)) = self.states.iter().find(|(_, known)| known == digest) {
+            return Err(format!(
+                "the same state as {}, whose rows would count twice",
+                before.display()
+            ));
+        }
+        for new in taken {
+            for (before, old) in &self.taken {
+                if let Some((first, count)) = new.shared(old) {
+                    return Err(format!(
+                        "{count} rows of {} were taken already by {}, from row {first} on, and would count twice",
+                        old.input.split(' ').next().unwrap_or_default(),
+                        before.display()
+                    ));
+                }
+            }
+        }
+        self.states.push((path.to_owned(), digest.to_owned()));
+        let new = taken.iter().map(|taken| (path.to_owned(), taken.clone()));
+        self.taken.extend(new);
+        Ok(())
+    }
+
+    /// What was taken, inputs in the order in which they came.
+    pub(crate) fn into_taken(self) -> Vec<Taken> {
+        self.taken.into_iter().map(|(_, taken)| taken).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn taken(input: &str, rows: &[usize]) -> Taken {
+        Taken::rows_of(input.to_owned(), rows)
+    }
+
+    #[test]
+    fn rows_are_kept_as_ranges_in_order() {
+        assert_eq!(
+            taken("a", &[7, 1, 2, 0, 5, 5]).rows,
+            [[0, 3], [5, 6], [7, 8]]
+        );
+    }
+
+    #[test]
+    fn shared_rows_are_found_wherever_ranges_meet_and_never_between_inputs() {
+        let one = taken("a", &[0, 1, 2, 8, 9]);
+        assert_eq!(one.shared(&taken("a", &[2, 3, 9, 10])), Some((2, 2)));
+        assert_eq!(one.shared(&taken("a", &[3, 4, 5, 6, 7, 10])), None);
+        assert_eq!(one.shared(&taken("b", &[0])), None);
+    }
+
+    #[test]
+    fn what_was_taken_is_refused_with_the_file_that_took_it() {
+        let mut all = AllTaken::default();
+        let path = Path::new;
+        assert_eq!(
+            all.add(path("a.state"), "1", &[taken("x", &[0, 1])]),
+            Ok(())
+        );
+        assert_eq!(all.add(path("b.state"), "2", &[taken("x", &[2])]), Ok(()));
+        let same = all.add(path("c.state"), "1", &[]).expect_err("the same");
+        assert!(same.contains("the same state as a.state"), "{same}");
+        let rows = all.add(path("c.state"), "3", &[taken("x", &[1, 2])]);
+        let rows = rows.expect_err("rows again");
+        assert!(
+            rows.contains("1 rows of x were taken already by a.state, from row 1 on"),
+            "{rows}"
+        );
+    }
+}

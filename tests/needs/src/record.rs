@@ -1,0 +1,72 @@
+//! The list of what was skipped: a line a skip, in a file of the target folder, so that what a test runner hides is seen.
+
+use std::fs::OpenOptions;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+use crate::Need;
+
+/// The name of the list in the target folder.
+pub const LIST: &str = "skipped-tests.tsv";
+
+/// Adds a line to the list: need, reason, test program and test, with tabs between them.
+///
+/// # Panics
+/// If it cannot be written: a skip that nobody sees is none.
+pub(crate) fn record(need: Need, reason: &str) {
+    let program = std::env::current_exe().expect("a test knows where it is");
+    let thread = std::thread::current();
+    let line = line(need, reason, &program, thread.name().unwrap_or_default());
+    let list = list(&program);
+    // One write to the end of the file: lines of several tests do not mix.
+    OpenOptions::new()
+        .create(true)
+        .append(true)
+        .open(&list)
+        .and_then(|mut file| file.write_all(line.as_bytes()))
+        .unwrap_or_else(|error| panic!("cannot write {}: {error}", list.display()));
+}
+
+/// The list beside everything that was built: in the folder that cargo marks as its own, or beside the program where there is none.
+fn list(program: &Path) -> PathBuf {
+    let above = program.ancestors().skip(1);
+    let target = above
+        .clone()
+        .find(|folder| folder.join("CACHEDIR.TAG").is_file());
+    let folder = target.or(above.clone().next());
+    folder.unwrap_or(Path::new(".")).join(LIST)
+}
+
+fn line(need: Need, reason: &str, program: &Path, test: &str) -> String {
+    let name = program.file_stem().unwrap_or_default().to_string_lossy();
+    // Cargo adds a number to the name of a test program.
+    let name = name.rsplit_once('-').map_or(&*name, |(name, _)| name);
+    let [reason, name, test] = [reason, name, test].map(plain);
+    format!("{need}\t{reason}\t{name}\t{test}\n")
+}
+
+/// `text` in one line and one column.
+fn plain(text: &str) -> String {
+    text.split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_skip_is_one_line_with_four_columns_whatever_its_reason_holds() {
+        let program = Path::new("/t/debug/deps/power_cut-0a1b2c");
+        let line = line(Need::Strace, "not\tthere:\nno such file", program, "a_cut");
+        assert_eq!(line, "strace\tnot there: no such file\tpower_cut\ta_cut\n");
+    }
+
+    #[test]
+    fn the_list_lies_in_the_folder_that_cargo_marks() {
+        let program = std::env::current_exe().expect("a test knows where it is");
+        let list = list(&program);
+        let folder = list.parent().expect("a folder");
+        assert!(folder.join("CACHEDIR.TAG").is_file(), "{}", list.display());
+        assert_eq!(list.file_name(), Some(LIST.as_ref()));
+    }
+}
