@@ -22,7 +22,7 @@ mod triple;
 pub use document::Document;
 pub(crate) use figures::one as figure;
 pub(crate) use fold::fold;
-pub(crate) use glossary::{glossary, metric_link};
+pub(crate) use glossary::{folded_glossary, glossary, metric_link, score_link};
 pub use picks::{Pick, picks};
 pub use pictures::Picture;
 pub(crate) use summary::{QUESTIONS, badge, lead};
@@ -106,12 +106,7 @@ fn details(studies: &[Study], table: &ScoreTable) -> String {
     let named = table.rows.iter().map(|row| row.metric.as_str());
     let (count, left_out) = left_out::section(studies);
     [
-        fold(
-            "glossary",
-            "Glossary",
-            "what each metric means, its unit and its definition",
-            &glossary(named),
-        ),
+        folded_glossary(named),
         fold(
             "left-out",
             "Left out, and to be minded",

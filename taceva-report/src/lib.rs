@@ -32,7 +32,7 @@ pub use escape::{
 pub use figure::{DARK, Figure, LIGHT, SERIES, STYLE};
 pub use figures::{Contender, Race, decode_bench, figures, model_bench, names, race};
 pub use html::{Document, Pick, Picture, Report, Triple, picks, report};
-pub use listing::Listing;
+pub use listing::{Directions, Listing};
 pub use number::{Printed, spaced, with_interval};
 pub use results::{
     BENCH_SCHEMA, BenchMachine, BenchRecording, ChannelError, DecodeBench, DecodeRow,
@@ -41,5 +41,6 @@ pub use results::{
 };
 pub use samples::{SampleChannel, Samples, SamplesError};
 pub use table::{
-    ScoreCell, ScoreRow, ScoreTable, csv, latex, latex_column, latex_number, latex_symbol, markdown,
+    ScoreCell, ScoreRow, ScoreTable, csv, latex, latex_column, latex_directed, latex_number,
+    latex_symbol, markdown,
 };

@@ -3,7 +3,7 @@
 use std::io::{self, Write};
 
 use taceva_core::PressOutcome;
-use taceva_metrics::catalogue;
+use taceva_metrics::{Better, catalogue};
 use taceva_report::escape_terminal;
 use taceva_study::EvaluationReport;
 
@@ -50,7 +50,8 @@ pub(super) fn write(reports: &[EvaluationReport], out: &mut dyn Write) -> io::Re
             cells.extend(published.get(number).cloned());
         }
         let [metric, channel, unit] = row;
-        table.push([vec![metric, channel], cells, vec![unit]].concat());
+        let named = Better::named(&metric);
+        table.push([vec![named, channel], cells, vec![unit]].concat());
     }
     print(&table, out)?;
     for report in reports.iter().filter(|report| report.over_seeds.is_some()) {

@@ -32,7 +32,9 @@ pub struct Decision {
 impl Decision {
     /// `Depth (mae Pz ↓)`
     pub fn asked(&self) -> String {
-        let of = format!("{} {} {}", self.metric, self.channel, self.better.arrow());
+        let of = self
+            .better
+            .beside(&format!("{} {}", self.metric, self.channel));
         if self.question.is_empty() {
             of
         } else {
@@ -162,6 +164,12 @@ impl Comparison {
 }
 
 impl Answer {
+    /// `mae Pz ↓`
+    pub(super) fn named(&self) -> String {
+        self.direction
+            .beside(&format!("{} {}", self.metric, self.channel))
+    }
+
     /// Whether a difference is shown.
     pub(super) fn is_shown(&self) -> bool {
         self.difference

@@ -2,6 +2,7 @@
 
 use taceva_metrics::Better;
 
+use super::glossary::score_link;
 use crate::escape::html;
 use crate::figures::{listed, names};
 use crate::number::{minus, spaced};
@@ -54,7 +55,8 @@ pub(super) fn section(studies: &[Study], table: &ScoreTable) -> String {
             .find(|row| row.metric == metric && row.channel == channel);
         if let Some(words) = row.and_then(|row| answer(studies, table, row)) {
             out += &format!(
-                "<li><strong>{question}</strong> (<code>{metric}</code> {channel}): {words}</li>\n"
+                "<li><strong>{question}</strong> ({}): {words}</li>\n",
+                score_link(metric, channel)
             );
             answered += 1;
         }
@@ -62,8 +64,8 @@ pub(super) fn section(studies: &[Study], table: &ScoreTable) -> String {
     if answered == 0 {
         for row in table.headlines().rows.iter().take(8) {
             if let Some(words) = answer(studies, table, row) {
-                let (metric, channel) = (html(&row.metric), html(&row.channel));
-                out += &format!("<li><code>{metric}</code> {channel}: {words}</li>\n");
+                let of = score_link(&row.metric, &row.channel);
+                out += &format!("<li>{of}: {words}</li>\n");
             }
         }
     }
