@@ -13,6 +13,7 @@ mod pictures;
 mod place;
 mod provenance;
 mod published;
+mod seeds;
 mod studied;
 mod summary;
 mod tables;
@@ -85,6 +86,12 @@ pub fn report(report: &Report<'_>) -> String {
         let title = "Scores beside what was published of the same sensor";
         let section = fold("published-all", title, &holds, &section);
         document.section("published", "Published", &section);
+    }
+    if let Some((count, section)) = seeds::section(studies) {
+        let holds = fold::counted(count, "score");
+        let title = "Scores over the seeds of the training";
+        let section = fold("seeds-all", title, &holds, &section);
+        document.section("seeds", "Seeds", &section);
     }
     if let Some((count, section)) = pictures::section(report) {
         let holds = fold::counted(count, "sample");

@@ -128,7 +128,15 @@ impl Comparison {
                 let p = p_values.fold(0.0_f64, |p, difference| p.max(difference.adjusted_p));
                 let start = format!("{}, {}{unit}", self.names[at], numeral(value));
                 let p = p_words(p);
+                let tie = self
+                    .ties
+                    .iter()
+                    .find(|(of, _)| metric == "sr" && of == channel);
                 match (losers.len(), open.len()) {
+                    (0, _) if tie.is_some() => (
+                        None,
+                        tie.map_or_else(String::new, |(_, words)| words.clone()),
+                    ),
                     (0, _) => (
                         None,
                         format!("no winner; the best value, {start}, is not shown to be better"),

@@ -1,5 +1,7 @@
 //! How it was done, as a paragraph for a paper; and what to cite.
 
+mod statistics;
+
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::fold::counted;
@@ -57,7 +59,7 @@ fn paragraph(studies: &[Study], table: &ScoreTable) -> String {
     out += &pressed(studies);
     out += &divided(studies);
     out += &model(studies);
-    out += &statistics(studies, table);
+    out += &statistics::statistics(studies, table);
     out
 }
 
@@ -179,35 +181,6 @@ fn model(studies: &[Study]) -> String {
         true => sentences,
         false => sentences + " Every score is of samples that the model had not seen.",
     }
-}
-
-/// Intervals, tests and adjustment.
-fn statistics(studies: &[Study], table: &ScoreTable) -> String {
-    let methods: BTreeSet<&str> = table
-        .rows
-        .iter()
-        .flat_map(|row| row.cells.iter().flatten())
-        .filter_map(|cell| cell.method.as_deref())
-        .map(|method| method.split(", G=").next().unwrap_or(method))
-        .collect();
-    let methods: Vec<String> = methods.into_iter().map(str::to_owned).collect();
-    let mut out = match methods.is_empty() {
-        true => String::new(),
-        false => format!(" Intervals are of 95 % ({}).", methods.join("; ")),
-    };
-    let tests: BTreeSet<String> = table
-        .answers
-        .iter()
-        .filter_map(|answer| Some(answer.difference.as_ref()?.test.to_string()))
-        .collect();
-    if studies.len() > 1 && !tests.is_empty() {
-        let tests: Vec<String> = tests.into_iter().collect();
-        out += &format!(
-            " Sensors were compared pair by pair ({}), with p values adjusted by Holm's method over all pairs and channels of a metric and a level of 5 %.",
-            tests.join("; ")
-        );
-    }
-    out
 }
 
 /// The different values of an entry of provenance, in the order of the studies.

@@ -8,6 +8,7 @@ use crate::figures::{listed, names};
 use crate::number::{minus, spaced};
 use crate::results::{Score, Study};
 use crate::table::{ScoreCell, ScoreRow, ScoreTable};
+use crate::tie::tie;
 
 /// What stands below the title.
 pub(crate) fn lead(studies: &[Study]) -> String {
@@ -119,13 +120,6 @@ fn answer(studies: &[Study], table: &ScoreTable, row: &ScoreRow) -> Option<Strin
         _ => best,
     })?;
     let name = html(&table.names[best.0]);
-    let missing: Vec<String> = row
-        .cells
-        .iter()
-        .zip(&table.names)
-        .filter(|(cell, _)| cell.as_ref().is_none_or(|cell| cell.value.is_none()))
-        .map(|(_, name)| html(name))
-        .collect();
     let verdict = if known.len() < 2 {
         match barred.is_empty() {
             true => "alone has a value".to_owned(),
@@ -136,18 +130,28 @@ fn answer(studies: &[Study], table: &ScoreTable, row: &ScoreRow) -> Option<Strin
             true => "is shown to be better than every other sensor".to_owned(),
             false => "is shown to be better than every other sensor that takes part".to_owned(),
         }
+    } else if let Some(tie) = tie(studies, &table.names, &row.metric, &row.channel) {
+        return Some(format!("{}.{}{barred}", html(&tie), without(row, table)));
     } else {
         let rivals = rivals(best.0, &known, (table, row));
         format!("has the best value, but is not shown to be better than {rivals}")
     };
-    let missing = match missing.len() {
+    Some(format!(
+        "{name} {verdict}, with {}.{}{barred}",
+        phrase(best.1),
+        without(row, table)
+    ))
+}
+
+/// Those that have no value: ` No value: GelSightWM.`
+fn without(row: &ScoreRow, table: &ScoreTable) -> String {
+    let missing = row.cells.iter().zip(&table.names);
+    let missing = missing.filter(|(cell, _)| cell.as_ref().is_none_or(|cell| cell.value.is_none()));
+    let missing: Vec<String> = missing.map(|(_, name)| html(name)).collect();
+    match missing.len() {
         0 => String::new(),
         _ => format!(" No value: {}.", listed(&missing)),
-    };
-    Some(format!(
-        "{name} {verdict}, with {}.{missing}{barred}",
-        phrase(best.1)
-    ))
+    }
 }
 
 /// Those whose value claims nothing, and why: ` Takes no part: GelSightWM (no skill).`
