@@ -159,8 +159,9 @@ impl<'a> FitPlan<'a> {
         } = recipe;
         let model_reads = model.reads_features();
         let mut channels = chosen_channels(dataset, &request.channels)?;
-        if request.channels.is_empty() && model_reads {
-            // Of a recording of a run: heights of the surface are met without a picture.
+        if request.channels.is_empty() {
+            // Of a recording of a run: heights of the surface are met without a picture. A model that looks at no picture is compared with
+            // those that do, and no sample carries all channels of a run.
             channels = seen_channels(dataset, &channels);
         }
         let need = || Need {

@@ -173,7 +173,7 @@ fn every_acknowledged_sample_survives_and_closing_loses_none() {
 
 #[test]
 fn a_recorder_that_was_killed_and_resumed_survives_a_power_cut() {
-    let recorded = Recorded::up_to(4);
+    let recorded = Recorded::up_to(5);
     let Some((first, _)) = recording(&recorded) else {
         return;
     };
