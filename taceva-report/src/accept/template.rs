@@ -182,9 +182,15 @@ mod tests {
         );
         let text = limits_template(&study.expect("a result").remove(0));
         let limits = LimitsFile::read(&text).expect("limits").limits;
-        let kept: Vec<_> = limits.iter().map(|limit| (&*limit.metric, &*limit.channel)).collect();
+        let kept: Vec<_> = limits
+            .iter()
+            .map(|limit| (&*limit.metric, &*limit.channel))
+            .collect();
         assert_eq!(kept, [("mae", "Pz"), ("r2", "Pz")]);
-        assert!(text.contains("no skill: ") && text.contains("\n# mae Fz, r2 Fz\n"), "{text}");
+        assert!(
+            text.contains("no skill: ") && text.contains("\n# mae Fz, r2 Fz\n"),
+            "{text}"
+        );
     }
 
     #[test]
