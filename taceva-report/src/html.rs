@@ -22,7 +22,7 @@ mod triple;
 
 pub use document::Document;
 pub(crate) use figures::one as figure;
-pub(crate) use fold::fold;
+pub(crate) use fold::{counted, fold};
 pub(crate) use glossary::{folded_glossary, glossary, metric_link, score_link};
 pub use picks::{Pick, picks};
 pub use pictures::Picture;

@@ -211,7 +211,10 @@ impl Listing {
                 _ => "",
             })
             .collect();
-        for (column, name) in self.head.iter().enumerate() {
+        // A column in which nothing is said takes room from those in which something is.
+        let is_said = |column: &usize| self.rows.iter().any(|row| !row[*column].is_empty());
+        let columns: Vec<usize> = (0..self.head.len()).filter(is_said).collect();
+        for (column, name) in columns.iter().map(|&column| (column, &self.head[column])) {
             out += &format!(
                 "<th scope=\"col\"{}>{}</th>",
                 classes[column],
@@ -221,7 +224,7 @@ impl Listing {
         out += "</tr></thead><tbody>\n";
         for row in &self.rows {
             out += "<tr>";
-            for (column, cell) in row.iter().enumerate() {
+            for (column, cell) in columns.iter().map(|&column| (column, &row[column])) {
                 let cell = written(&self.head[column], cell);
                 out += &format!("<td{}>{cell}</td>", classes[column]);
             }

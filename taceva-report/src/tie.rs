@@ -13,7 +13,7 @@ const METRIC: &str = "sr";
 const TOLERANCE_MM: f64 = 0.05;
 const NM: f64 = 1e6;
 
-/// The ties of `studies`, a line each: `sr line: tie: GelSight and TacTip both tell the gratings apart down to 0.25 mm`.
+/// The ties of `studies`, a line each: `sr line: tie: GelSight and TacTip both tell the gratings down to 0.25 mm to within 0.05 mm`.
 pub fn ties(studies: &[Study]) -> Vec<String> {
     let names = crate::figures::names(studies);
     let mut channels: Vec<&str> = Vec::new();
@@ -72,7 +72,10 @@ pub(crate) fn tie(
     let tolerance = stated.reduce(f64::max).unwrap_or(TOLERANCE_MM);
     let finest = tied.iter().map(|(study, ..)| {
         let samples = study.samples.as_ref()?;
-        finest(samples, channel, tolerance)
+        match best.total_cmp(&1.0).is_eq() {
+            true => boards(samples, channel).reduce(f64::min),
+            false => finest(samples, channel, tolerance),
+        }
     });
     let finest: Option<Vec<f64>> = finest.collect();
     let finest = finest.filter(|all| {
@@ -80,7 +83,11 @@ pub(crate) fn tie(
             .all(|pair| pair[0].total_cmp(&pair[1]).is_eq())
     });
     let said = match finest.as_deref() {
-        Some([mm, ..]) => format!("tell the gratings apart down to {} mm", numeral(*mm)),
+        Some([mm, ..]) => format!(
+            "tell the gratings down to {} mm to within {} mm",
+            numeral(*mm),
+            numeral(tolerance)
+        ),
         _ => format!(
             "tell {} of the gratings to within {} mm",
             percent(best),
@@ -103,6 +110,13 @@ pub(crate) fn tie(
         }
     });
     Some(format!("tie: {who} {said}{}", exact.unwrap_or_default()))
+}
+
+/// The spacing of every grating of `kind` that was pressed.
+fn boards<'a>(samples: &'a Samples, kind: &'a str) -> impl Iterator<Item = f64> + 'a {
+    let rows = 0..samples.rows();
+    let rows = rows.filter(move |row| samples.word("kind", *row) == Some(kind));
+    rows.filter_map(|row| samples.number("spacing_mm", row))
 }
 
 /// The finest spacing from which on, up to the coarsest, every grating of `kind` is told to within `tolerance_mm`; none if not even the
@@ -156,11 +170,22 @@ mod tests {
     #[test]
     fn a_tie_says_how_fine_both_tell_and_a_winner_is_no_tie() {
         let fine = "1,line,0.5,0.5\n2,line,0.3,0.35\n3,line,0.2,0.4\n4,dot,0.1,0.1\n";
-        let both = [study("a", [1.0, 0.5], fine), study("b", [1.0, 0.5], fine)];
-        let expected = "sr line: tie: a and b both tell the gratings apart down to 0.3 mm, and no finer tolerance tells them apart";
+        let both = [study("a", [0.75, 0.5], fine), study("b", [0.75, 0.5], fine)];
+        let expected = "sr line: tie: a and b both tell the gratings down to 0.3 mm to within 0.05 mm, and no finer tolerance tells them apart";
         assert_eq!(ties(&both), [expected]);
         let other = [study("a", [1.0, 0.5], ""), study("b", [0.9, 0.5], "")];
         assert!(ties(&other).is_empty());
+    }
+
+    #[test]
+    fn whoever_tells_all_tells_the_finest_that_was_pressed() {
+        let pressed = "1,line,0.5,\n2,line,0.25,\n3,dot,0.1,\n";
+        let all = [
+            study("a", [1.0, 0.5], pressed),
+            study("b", [1.0, 0.25], pressed),
+        ];
+        let expected = "sr line: tie: a and b both tell the gratings down to 0.25 mm to within 0.05 mm; without any error a 50 % and b 25 %";
+        assert_eq!(ties(&all), [expected]);
     }
 
     #[test]

@@ -45,7 +45,7 @@ fn index(sensors: &[Sensor], ours: &[Study]) -> String {
          <label>numbers <select data-filter=\"tag\"><option value=\"\">any</option><option value=\"numbers\">published here</option></select></label></fieldset>\n\
          <div class=\"scroll\" tabindex=\"0\" role=\"group\" aria-label=\"Sensors\"><table class=\"sorts\"><thead><tr><th scope=\"col\">sensor</th><th scope=\"col\">mechanism</th>\
          <th scope=\"col\" class=\"r\">MAE Pxy (mm) ↓</th><th scope=\"col\" class=\"r\">MAE Pz (mm) ↓</th><th scope=\"col\" class=\"r\">MAE Fxy (N) ↓</th>\
-         <th scope=\"col\" class=\"r\">MAE Fz (N) ↓</th><th scope=\"col\" class=\"r\">rate (Hz)</th><th scope=\"col\" class=\"r\">reported, of 10</th></tr></thead><tbody>\n{rows}</tbody></table></div>\n\
+         <th scope=\"col\" class=\"r\">MAE Fz (N) ↓</th><th scope=\"col\" class=\"r\">rate (Hz)</th><th scope=\"col\" class=\"r\">reported</th></tr></thead><tbody>\n{rows}</tbody></table></div>\n\
          <p class=\"note\">A dash: no number is known here. IMM maps intensity, MDM displacements of markers, MFM fuses modalities. The last column counts which of ten properties the work itself reports.</p>"
     );
     document.section("sensors", "Sensors", &list);
@@ -79,7 +79,7 @@ fn radars(studies: &[Study]) -> String {
     let radars: String = radars.map(figure).collect();
     match radars.is_empty() {
         true => "<p>Fewer than two sensors have numbers.</p>".to_owned(),
-        false => radars,
+        false => format!("<div class=\"radars\">\n{radars}</div>"),
     }
 }
 

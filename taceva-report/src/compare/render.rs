@@ -7,7 +7,7 @@ use super::overview::WIDTH;
 use super::{Answer, Comparison, Decision};
 use crate::escape::{html, terminal};
 use crate::figures::{figures, listed};
-use crate::html::{Document, figure, folded_glossary, lead, score_link};
+use crate::html::{Document, counted, figure, fold, folded_glossary, lead, score_link};
 use crate::listing::{Directions, Listing};
 use crate::number::{numeral, significant, spaced};
 use crate::results::Study;
@@ -203,6 +203,7 @@ impl Comparison {
             .map(figure)
             .collect();
         if !radars.is_empty() {
+            let radars = format!("<div class=\"radars\">\n{radars}</div>\n");
             document.section("figures", "Side by side", &radars);
         }
         let named = self.answers.iter().map(|answer| answer.metric.as_str());
@@ -215,19 +216,22 @@ impl Comparison {
     /// What is shown, score by score, and every answer, both folded.
     fn pairs(&self) -> String {
         let lines: String = self.won().iter().map(|won| won.html(&self.names)).collect();
-        let count = self.answers.len();
         let shown = if lines.is_empty() {
             format!(
                 "<p>No difference is shown between {}.</p>\n",
                 html(&listed(&self.names))
             )
         } else {
-            format!(
-                "<details><summary>All that is shown to differ</summary>\n<ul class=\"verdicts\">\n{lines}</ul>\n</details>\n"
-            )
+            let list = format!("<ul class=\"verdicts\">\n{lines}</ul>");
+            let holds = counted(self.won().len(), "line");
+            fold("shown-all", "All that is shown to differ", &holds, &list)
         };
         let table = self.listing().html_with_metrics();
-        format!("{shown}<details><summary>All {count} answers</summary>\n{table}</details>\n")
+        let holds = counted(self.answers.len(), "answer");
+        format!(
+            "{shown}{}",
+            fold("answers-all", "Every answer", &holds, &table)
+        )
     }
 
     /// What is shown, score by score: who is better, and than whom.

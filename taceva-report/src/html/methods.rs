@@ -126,7 +126,7 @@ fn divided(studies: &[Study]) -> String {
             let found = study.made.samples.iter().find(|(part, _)| part == name)?;
             whole(found.1)
         };
-        Some(format!("{} {name}", span(studies, of)?))
+        Some(format!("{} {}", span(studies, of)?, name.replace('_', " ")))
     };
     let parts: Vec<String> = names.iter().filter_map(part).collect();
     if !parts.is_empty() {
@@ -228,6 +228,23 @@ fn plain(text: &str) -> String {
         .replace('&', "and")
 }
 
+/// A text whose digests are cut to what tells them apart; provenance has them whole.
+fn without_digests(text: &str) -> String {
+    let is_digest = |word: &str| {
+        let digits = word.trim_end_matches(',');
+        digits.len() >= 40 && digits.chars().all(|letter| letter.is_ascii_hexdigit())
+    };
+    let words = text.split(' ').map(|word| match is_digest(word) {
+        true => {
+            let start: String = word.chars().take(12).collect();
+            let end = if word.ends_with(',') { "…," } else { "…" };
+            start + end
+        }
+        false => word.to_owned(),
+    });
+    words.collect::<Vec<_>>().join(" ")
+}
+
 /// The sensors in a table.
 fn sensors(studies: &[Study]) -> String {
     let mut out = String::from(
@@ -240,7 +257,7 @@ fn sensors(studies: &[Study]) -> String {
             "<tr><th scope=\"row\">{}</th><td class=\"wrap\">{}</td><td class=\"wrap\">{}</td><td>{}</td><td class=\"wrap\">{}</td><td class=\"wrap\">{}</td></tr>\n",
             html(&name),
             html(&study.serial),
-            html(&study.gel),
+            html(&without_digests(&study.gel)),
             html(&study.source),
             html(study.made.model.as_deref().unwrap_or("–")),
             html(split.map_or("–", |(_, split)| split))

@@ -33,12 +33,13 @@ pub(crate) fn badge(studies: &[Study]) -> &'static str {
 }
 
 /// What is asked of a report first, with how it is answered.
-pub(crate) const QUESTIONS: [(&str, &str, &str); 10] = [
+pub(crate) const QUESTIONS: [(&str, &str, &str); 11] = [
     ("mae", "Pz", "Depth"),
     ("mae", "Pxy", "Position in the plane"),
     ("mae", "Fz", "Normal force"),
     ("mae", "Fxy", "Shear force"),
     ("sr", "line", "Fine lines"),
+    ("sr", "dot", "Fine dots"),
     ("sensitivity", "Fz", "Sensitivity"),
     ("uniformity", "Fz", "Evenness of the surface"),
     ("r_light", "Fz", "Force in changing light"),
@@ -193,7 +194,9 @@ fn phrase(cell: &ScoreCell, row: &ScoreRow) -> String {
     let value = match &cell.printed.interval {
         Some([low, high]) => {
             let [low, high] = [low, high].map(|end| minus(end));
-            format!("{value}{unit} ({low} … {high})")
+            format!(
+                "<span class=\"nb\">{value}{unit}</span> <span class=\"nb\">({low} … {high})</span>"
+            )
         }
         None => format!("{value}{unit}"),
     };
