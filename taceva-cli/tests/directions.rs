@@ -61,7 +61,8 @@ fn latex(text: &str, whence: &str) -> usize {
     let mut found = 0;
     let describes = |name: &str| {
         let id = name.replace("\\_", "_");
-        sign(&id).is_none() && Better::of(&id).is_some()
+        // What a sensor stands at most is a property of it, and no metric.
+        id == "greatest" || sign(&id).is_none() && Better::of(&id).is_some()
     };
     for name in names.filter(|name| !name.is_empty() && !describes(name)) {
         let signs = ["$\\downarrow$", "$\\uparrow$", "$\\to$0"];

@@ -132,24 +132,22 @@ impl Comparison {
                     .ties
                     .iter()
                     .find(|(of, _)| metric == "sr" && of == channel);
-                match (losers.len(), open.len()) {
-                    (0, _) if tie.is_some() => (
-                        None,
-                        tie.map_or_else(String::new, |(_, words)| words.clone()),
-                    ),
-                    (0, _) => (
+                // Of those that are tied for the best none is shown to be better, whomever else they beat.
+                match (losers.len(), open.len(), tie) {
+                    (_, _, Some((_, words))) => (None, words.clone()),
+                    (0, _, None) => (
                         None,
                         format!("no winner; the best value, {start}, is not shown to be better"),
                     ),
-                    (1, 0) => (
+                    (1, 0, None) => (
                         Some(at),
                         format!("{start}, better than {} ({p})", self.names[losers[0]]),
                     ),
-                    (count, 0) => (
+                    (count, 0, None) => (
                         Some(at),
                         format!("{start}, better than all {count} others ({p})"),
                     ),
-                    (count, _) => (
+                    (count, _, None) => (
                         None,
                         format!(
                             "{start}, better than {count} of {} others ({p}), not than {}",
