@@ -57,7 +57,9 @@ fn cell(cell: Option<&ScoreCell>) -> String {
     };
     let interval = match (&printed.interval, &printed.reason) {
         (Some([low, high]), _) => {
-            format!("{} … {}, n = {}{invalid}", minus(low), minus(high), cell.n)
+            let (low, high, n) = (minus(low), minus(high), cell.n);
+            // Where it is broken, it is behind the comma.
+            format!("{low}\u{a0}…\u{a0}{high}, n\u{a0}=\u{a0}{n}{invalid}")
         }
         (None, Some(_)) | (None, None) => format!("no interval, n = {}{invalid}", cell.n),
     };
