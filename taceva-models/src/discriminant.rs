@@ -112,7 +112,8 @@ impl ModelEstimator for LinearDiscriminant {
         let design = Design::new(training.features, self.scale);
         let blocks = |samples: Range<usize>| design.block(samples, 0..width);
         let stage = Stage::begin(progress, "channels", problem.channels());
-        let told: Result<Vec<Planes>, ModelError> = (0..problem.channels())
+        // Of several channels that are refused it is always the first that is said, whichever thread was done before.
+        let told: Vec<Result<Planes, ModelError>> = (0..problem.channels())
             .into_par_iter()
             .map(|position| {
                 interrupted(progress)?;
@@ -125,7 +126,8 @@ impl ModelEstimator for LinearDiscriminant {
         drop(stage);
         let regressor = ClassRegressor::new(
             (training.targets.channels.clone(), training.features.shape()),
-            told?,
+            told.into_iter()
+                .collect::<Result<Vec<Planes>, ModelError>>()?,
         );
         let errors = match validation.filter(|_| held.is_some()) {
             Some(set) => errors(&regressor, set)?,

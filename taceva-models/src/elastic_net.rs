@@ -94,7 +94,8 @@ impl ElasticNet {
         let predictors = Predictors::of(design, progress)?;
         let products = design.transpose_times(labels.as_ref());
         let strengths = self.strengths();
-        let channels: Result<Vec<_>, ModelError> = (0..labels.ncols())
+        // Of several channels that fail it is always the first that is said, whichever thread was done before.
+        let channels: Vec<Result<Path, ModelError>> = (0..labels.ncols())
             .into_par_iter()
             .map(|channel| {
                 interrupted(progress)?;
@@ -109,7 +110,8 @@ impl ElasticNet {
                 path(&predictors, target, penalty, progress)
             })
             .collect();
-        Ok((shift, channels?))
+        let channels = channels.into_iter().collect::<Result<_, _>>()?;
+        Ok((shift, channels))
     }
 }
 

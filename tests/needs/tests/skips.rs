@@ -29,6 +29,7 @@ fn trial(value: &str) -> (Output, String) {
         .arg("a_test_that_finds_no_gpu")
         .env("TACEVA_NEEDS_TRIAL", "1")
         .env("TACEVA_REQUIRE", value)
+        .env_remove("TACEVA_SKIPPED")
         .output()
         .expect("it runs");
     let list = std::fs::read_to_string(folder.join(LIST)).unwrap_or_default();
