@@ -356,3 +356,48 @@ fn methods_say_how_it_was_done_and_nothing_that_is_not_known() {
         "We evaluated 1 vision-based tactile sensor (x) with TacEva of an unknown version.</p>"
     ));
 }
+
+#[test]
+fn scores_over_seeds_stand_on_the_page_where_there_are_any() {
+    let mut result = support::results("seeded", 1.0);
+    let without = Study::read(&result.to_string()).expect("a result");
+    assert!(!page(&without).contains("id=\"seeds\""));
+    result["over_seeds"] = serde_json::json!({
+        "seeds": [3, 1, 2], "decides": "first weights",
+        "scores": [{"metric": "mae", "channel": "Pz", "unit": "mm", "values": [0.1, null, 0.3],
+                    "mean": 0.2, "standard_deviation": 0.1, "interval": [0.05, 0.35]}]
+    });
+    let studies = Study::read(&result.to_string()).expect("a result");
+    let page = page(&studies);
+    assert!(page.contains(
+        "seeds 3, 1, 2; a seed decides first weights. Every other score of this page is of seed 3."
+    ));
+    assert!(page.contains("</a> ↓</th><td>Pz</td><td>mm</td>") && page.contains("0.05 … 0.35"));
+    assert!(page.contains("Each model was fitted with the seeds 3, 1 and 2;"));
+    result["over_seeds"]["scores"][0]["interval"] = serde_json::json!([1]);
+    let error = Study::read(&result.to_string()).expect_err("one end");
+    let place = "over_seeds.scores[0].interval";
+    assert!(error.to_string().starts_with(place), "{error}");
+}
+
+#[test]
+fn methods_say_that_only_scores_with_skill_are_compared_and_which_marks_there_are() {
+    let mut studies = [drawn("one", 30, 1.0), drawn("two", 30, 1.5)];
+    let unmarked = page(&studies);
+    assert!(unmarked.contains("Only scores of models with skill are compared"));
+    assert!(unmarked.contains("no score here is marked otherwise"));
+    studies[0].scores[0].standing = taceva_metrics::Standing::NoSkill;
+    let marked = page(&studies);
+    assert!(marked.contains("are marked “no skill” and take part in no comparison"));
+}
+
+#[test]
+fn every_metric_of_a_comparison_is_linked_to_its_meaning() {
+    let studies = [drawn("one", 30, 1.0), drawn("two", 30, 1.5)];
+    let page = compare(&studies, &CompareRequest::default()).page(&studies);
+    for link in page.split("href=\"#metric-").skip(1) {
+        let (id, _) = link.split_once('"').expect("its end");
+        assert!(page.contains(&format!("id=\"metric-{id}\"")), "{id}");
+    }
+    assert!(page.matches("href=\"#metric-mae\"").count() > 3);
+}
