@@ -115,7 +115,7 @@ fn a_report_has_the_keys_that_scripts_rely_on() {
         undefined["metrics"]["r2"]["Fx"],
         serde_json::json!({
             "undefined": "fewer than 2 samples", "n": 1, "n_invalid": 0, "definition": "r2/1",
-            "better": "higher", "standing": "no skill"
+            "better": "higher", "standing": "skill unknown"
         })
     );
     assert_eq!(

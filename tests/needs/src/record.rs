@@ -27,8 +27,19 @@ pub(crate) fn record(need: Need, reason: &str) {
         .unwrap_or_else(|error| panic!("cannot write {}: {error}", list.display()));
 }
 
-/// The list beside everything that was built: in the folder that cargo marks as its own, or beside the program where there is none.
+/// The variable of the environment that names the list: `.ci/test` sets it, and reads there what was skipped.
+const LIST_VARIABLE: &str = "TACEVA_SKIPPED";
+
+/// Where the list is: what the environment says, or a file beside everything that was built.
 fn list(program: &Path) -> PathBuf {
+    match std::env::var_os(LIST_VARIABLE) {
+        Some(list) => list.into(),
+        None => beside_what_was_built(program),
+    }
+}
+
+/// In the folder that cargo marks as its own, or beside the program where there is none, as in a folder restored from an archive.
+fn beside_what_was_built(program: &Path) -> PathBuf {
     let above = program.ancestors().skip(1);
     let target = above
         .clone()
@@ -62,11 +73,14 @@ mod tests {
     }
 
     #[test]
-    fn the_list_lies_in_the_folder_that_cargo_marks() {
-        let program = std::env::current_exe().expect("a test knows where it is");
-        let list = list(&program);
-        let folder = list.parent().expect("a folder");
-        assert!(folder.join("CACHEDIR.TAG").is_file(), "{}", list.display());
-        assert_eq!(list.file_name(), Some(LIST.as_ref()));
+    fn the_list_lies_in_the_folder_that_cargo_marks_or_else_beside_the_program() {
+        let target = std::env::temp_dir().join(format!("taceva-needs-{}", std::process::id()));
+        let program = target.join("debug/deps/power_cut-0a1b2c");
+        std::fs::create_dir_all(target.join("debug/deps")).expect("a folder");
+        let unmarked = beside_what_was_built(&program);
+        assert_eq!(unmarked, target.join("debug/deps").join(LIST));
+        std::fs::write(target.join("CACHEDIR.TAG"), "").expect("a file");
+        assert_eq!(beside_what_was_built(&program), target.join(LIST));
+        std::fs::remove_dir_all(&target).expect("our own folder");
     }
 }
