@@ -117,7 +117,7 @@ fn every_form_of_a_result_holds_every_score() {
         ("text", "95 % interval"),
         ("json", "\"ci95\""),
         ("csv", "ci95_low"),
-        ("md", "| mae |"),
+        ("md", "| mae ↓ |"),
         ("tex", "\\toprule"),
     ] {
         let out = bench.ok(&format!("evaluate data --model ridge --format {format} -q"));

@@ -5,12 +5,13 @@ use std::collections::BTreeMap;
 use taceva_core::{Batch, Field, FieldSet, Needs, Unit};
 
 use crate::accumulator::{Details, Finished, Numbers, Output};
+use crate::better::Better;
 use crate::channelwise::{Channelwise, each_pair};
 use crate::curve::Curve;
 use crate::exact::{Dyadic, ExactSum};
 use crate::level::{from_millionths, millionths, step};
 use crate::merge::{Merge, merge_cells};
-use crate::metric::{Better, Formula, Metric, ScoreUnit};
+use crate::metric::{Formula, Metric, ScoreUnit};
 use crate::range::Range;
 use crate::score::{Count, Parameter, Variant};
 use crate::state::Record;

@@ -20,11 +20,11 @@ use crate::tolerance::TOLERANCE;
 
 /// Every metric, in the order of reports.
 pub static ALL: [&Metric; 24] = [
-    &SKILL,
     &MAE,
     &RMSE,
     &BIAS,
     &R2,
+    &SKILL,
     &SMAPE,
     &SMAPE_GATED,
     &MAE_EUCLID,

@@ -8,9 +8,10 @@ use std::collections::BTreeMap;
 use taceva_core::{Batch, Channel, Field, FieldSet, Needs, Unit};
 
 use crate::accumulator::{Details, Family, Numbers, Output, each_row};
+use crate::better::Better;
 use crate::flag::Flag;
 use crate::matrix::Matrix;
-use crate::metric::{Better, Formula, Metric, ScoreUnit};
+use crate::metric::{Formula, Metric, ScoreUnit};
 use crate::paired::Paired;
 use crate::plan::MetricPlan;
 use crate::range::Range;

@@ -3,9 +3,10 @@
 use taceva_core::{Batch, Channel, Field, FieldSet, Needs, Unit};
 
 use crate::accumulator::{Numbers, Output};
+use crate::better::Better;
 use crate::channelwise::{Channelwise, each_pair};
 use crate::merge::Merge;
-use crate::metric::{Better, Formula, Metric, ScoreUnit};
+use crate::metric::{Formula, Metric, ScoreUnit};
 use crate::moments::Moments;
 use crate::paired::is_valid;
 use crate::plan::MetricPlan;

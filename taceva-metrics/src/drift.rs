@@ -3,10 +3,11 @@
 use taceva_core::{Batch, Channel, Field, FieldSet, Needs, Unit};
 
 use crate::accumulator::{Finished, Numbers, Output};
+use crate::better::Better;
 use crate::channelwise::{Channelwise, each_pair};
 use crate::exact::{Dyadic, ExactSum};
 use crate::merge::Merge;
-use crate::metric::{Better, Formula, Metric, ScoreUnit};
+use crate::metric::{Formula, Metric, ScoreUnit};
 use crate::paired::is_valid;
 use crate::range::Range;
 use crate::score::Parameter;

@@ -8,7 +8,8 @@ pub(crate) use loops::Loops;
 
 use taceva_core::{Field, FieldSet, Needs, Unit};
 
-use crate::metric::{Better, Formula, Metric, ScoreUnit};
+use crate::better::Better;
+use crate::metric::{Formula, Metric, ScoreUnit};
 use crate::range::Range;
 use crate::score::Parameter;
 

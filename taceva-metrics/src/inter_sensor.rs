@@ -9,7 +9,8 @@ use std::collections::BTreeMap;
 use taceva_core::{Batch, Field, FieldSet, Needs, Unit};
 
 use crate::accumulator::{Details, Family, Numbers, Output, each_row};
-use crate::metric::{Better, Formula, Metric, ScoreUnit};
+use crate::better::Better;
+use crate::metric::{Formula, Metric, ScoreUnit};
 use crate::plan::MetricPlan;
 use crate::range::Range;
 use crate::score::{Count, Parameter, Variant};

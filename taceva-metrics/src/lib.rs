@@ -2,6 +2,7 @@
 
 mod accumulator;
 mod accuracy;
+mod better;
 mod bias_level;
 pub mod catalogue;
 mod cells;
@@ -54,6 +55,7 @@ mod tolerance;
 mod value;
 
 pub use accuracy::EPSILON;
+pub use better::Better;
 pub use clusters::{Clusters, HASHED_CLUSTERS, NAMED_CLUSTERS};
 pub use curve::{Band, Curve};
 pub use error::{MetricError, UnknownMetric};
@@ -64,7 +66,7 @@ pub use facts::{Fact, SensorFacts};
 pub use flag::Flag;
 pub use map::Map;
 pub use matrix::Matrix;
-pub use metric::{Better, Metric, ScoreUnit};
+pub use metric::{Metric, ScoreUnit};
 pub use pair_sums::{PairSpec, PairSums};
 pub use paired::{GREATEST, Paired};
 pub use plan::MetricPlan;

@@ -5,8 +5,9 @@ mod line;
 use taceva_core::{Batch, Field, FieldSet, Needs, Unit};
 
 use crate::accumulator::{Numbers, Output};
+use crate::better::Better;
 use crate::channelwise::{Channelwise, each_pair};
-use crate::metric::{Better, Formula, Metric, ScoreUnit};
+use crate::metric::{Formula, Metric, ScoreUnit};
 use crate::range::Range;
 use crate::score::Parameter;
 use crate::state::Record;

@@ -2,6 +2,7 @@
 
 use taceva_core::{Needs, Unit};
 
+use crate::better::Better;
 use crate::facts::Fact;
 use crate::pair_sums::PairSums;
 use crate::plane_sums::PlaneSums;
@@ -38,45 +39,6 @@ pub struct Metric {
     pub facts: &'static [Fact],
     pub(crate) constants: Constants,
     pub(crate) formula: Formula,
-}
-
-/// Which values of a metric are good.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[non_exhaustive]
-pub enum Better {
-    /// Small ones.
-    Lower,
-    /// Large ones.
-    Higher,
-    /// Those near zero.
-    NearZero,
-    /// None: they describe.
-    Described,
-}
-
-impl Better {
-    /// The sign that stands beside a metric wherever it is printed: `↑` where larger is better, `↓` where smaller is, `→0` where nearness to
-    /// zero is, `–` where values only describe.
-    #[must_use]
-    pub fn arrow(self) -> &'static str {
-        match self {
-            Better::Lower => "↓",
-            Better::Higher => "↑",
-            Better::NearZero => "→0",
-            Better::Described => "–",
-        }
-    }
-
-    /// The word for it in files: `lower`, `higher`, `near zero` or `none`.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Better::Lower => "lower",
-            Better::Higher => "higher",
-            Better::NearZero => "near zero",
-            Better::Described => "none",
-        }
-    }
 }
 
 /// The unit of a metric's values.
@@ -164,22 +126,4 @@ pub(crate) struct Finish<S> {
     pub(crate) count: fn(&S) -> u64,
     /// The value.
     pub(crate) evaluate: fn(&S) -> Result<f64, UndefinedReason>,
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn every_direction_has_a_sign_and_a_word_of_its_own() {
-        let all = [
-            Better::Lower,
-            Better::Higher,
-            Better::NearZero,
-            Better::Described,
-        ];
-        assert_eq!(all.map(Better::arrow), ["↓", "↑", "→0", "–"]);
-        let words = ["lower", "higher", "near zero", "none"];
-        assert_eq!(all.map(Better::name), words);
-    }
 }

@@ -10,8 +10,9 @@ pub(crate) use signal::SIGNAL_TO_REPEATABILITY;
 use taceva_core::{Field, FieldSet, Needs, Unit};
 
 use crate::accumulator::Numbers;
+use crate::better::Better;
 use crate::exact::{Dyadic, ExactSum};
-use crate::metric::{Better, Formula, Metric, ScoreUnit};
+use crate::metric::{Formula, Metric, ScoreUnit};
 use crate::range::Range;
 use crate::score::Parameter;
 use crate::value::UndefinedReason;

@@ -3,12 +3,13 @@
 use taceva_core::{Batch, Field, FieldSet, Needs, Unit};
 
 use crate::accumulator::{Details, Finished, Numbers, Output};
+use crate::better::Better;
 use crate::channelwise::{Channelwise, each_pair};
 use crate::curve::Curve;
 use crate::exact::Dyadic;
 use crate::level::{from_millionths, millionths, step};
 use crate::merge::Merge;
-use crate::metric::{Better, Formula, Metric, ScoreUnit};
+use crate::metric::{Formula, Metric, ScoreUnit};
 use crate::range::Range;
 use crate::score::{Parameter, Variant};
 use crate::state::Record;

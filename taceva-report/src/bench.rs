@@ -1,6 +1,8 @@
 //! Benchmarks of models and of decoding as rows.
 
-use crate::listing::Listing;
+use taceva_metrics::Better;
+
+use crate::listing::{Directions, Listing};
 use crate::number::{Printed, numeral};
 use crate::results::{DecodeBench, DecodeRow, ModelBench, ModelRow, ScaledError};
 
@@ -23,7 +25,11 @@ impl ModelBench {
                 .map(|channel| format!("MAE {channel}{}", unit(channel))),
         );
         let recording = &self.recording;
+        // Times and errors alike: less is better of all but the name.
+        let lower = Some(Better::Lower);
+        let directions = std::iter::once(None).chain(head.iter().skip(1).map(|_| lower));
         let mut listing = Listing {
+            directions: Directions::Columns(directions.collect()),
             caption: format!("Models on {}, {}", recording.name, recording.sensor),
             head,
             rows: self.rows.iter().map(|row| row.cells(&channels)).collect(),
@@ -80,8 +86,11 @@ impl DecodeBench {
         let mut head = ["scale", "pixels", "decode (ms)"]
             .map(str::to_owned)
             .to_vec();
+        let lower = Some(Better::Lower);
+        let mut directions = vec![None, None, lower];
         for own in known {
             let error = &own.error;
+            directions.extend([lower; 2]);
             head.push(format!("MAE {} ({})", error.channel, error.unit));
             head.push(format!("change of {} ({})", error.channel, error.unit));
         }
@@ -111,6 +120,7 @@ impl DecodeBench {
             head,
             rows: self.rows.iter().map(|row| row.cells(&channels)).collect(),
             notes,
+            directions: Directions::Columns(directions),
         }
     }
 }

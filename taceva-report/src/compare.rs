@@ -17,6 +17,7 @@ use taceva_metrics::{
 };
 
 use crate::results::{Score, Study};
+use crate::tie::tie;
 
 /// What a comparison is asked.
 #[derive(Clone, Debug, Default)]
@@ -38,6 +39,8 @@ pub struct Comparison {
     pub answers: Vec<Answer>,
     /// What a reader must know before comparing them.
     pub notes: Vec<String>,
+    /// Channels of success rates whose best are several, with the words for it.
+    ties: Vec<(String, String)>,
 }
 
 /// One score of two studies.
@@ -127,10 +130,24 @@ pub fn compare(studies: &[Study], request: &CompareRequest) -> Comparison {
         answers.extend(pairs.into_iter().map(|pair| answer(pair, request)));
     }
     Comparison {
+        ties: ties(studies, &names, &answers),
         notes: footing::notes(studies, &names).into_iter().collect(),
         names,
         answers,
     }
+}
+
+/// The ties among the answers, channel by channel.
+fn ties(studies: &[Study], names: &[String], answers: &[Answer]) -> Vec<(String, String)> {
+    let mut ties: Vec<(String, String)> = Vec::new();
+    for answer in answers {
+        let is_new = ties.iter().all(|(channel, _)| *channel != answer.channel);
+        let words = tie(studies, names, &answer.metric, &answer.channel);
+        if let Some(words) = words.filter(|_| is_new) {
+            ties.push((answer.channel.clone(), words));
+        }
+    }
+    ties
 }
 
 /// The metrics that are asked for and that some study has, in the order of the first.

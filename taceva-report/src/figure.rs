@@ -18,7 +18,7 @@ pub(crate) use palette::{diverging, sequential};
 pub(crate) use panel::{Area, Axes, Panel};
 pub(crate) use scale::{Scale, extent};
 pub use svg::STYLE;
-pub(crate) use words::{axis_label, directed, middle_cut, short, sign};
+pub(crate) use words::{axis_label, directed, middle_cut, short};
 
 /// A finished figure.
 #[derive(Clone, Debug)]

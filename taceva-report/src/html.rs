@@ -13,6 +13,7 @@ mod pictures;
 mod place;
 mod provenance;
 mod published;
+mod seeds;
 mod studied;
 mod summary;
 mod tables;
@@ -21,8 +22,8 @@ mod triple;
 
 pub use document::Document;
 pub(crate) use figures::one as figure;
-pub(crate) use fold::fold;
-pub(crate) use glossary::{glossary, metric_link};
+pub(crate) use fold::{counted, fold};
+pub(crate) use glossary::{folded_glossary, glossary, metric_link, score_link};
 pub use picks::{Pick, picks};
 pub use pictures::Picture;
 pub(crate) use summary::{QUESTIONS, badge, lead};
@@ -86,6 +87,12 @@ pub fn report(report: &Report<'_>) -> String {
         let section = fold("published-all", title, &holds, &section);
         document.section("published", "Published", &section);
     }
+    if let Some((count, section)) = seeds::section(studies) {
+        let holds = fold::counted(count, "score");
+        let title = "Scores over the seeds of the training";
+        let section = fold("seeds-all", title, &holds, &section);
+        document.section("seeds", "Seeds", &section);
+    }
     if let Some((count, section)) = pictures::section(report) {
         let holds = fold::counted(count, "sample");
         let section = fold(
@@ -106,12 +113,7 @@ fn details(studies: &[Study], table: &ScoreTable) -> String {
     let named = table.rows.iter().map(|row| row.metric.as_str());
     let (count, left_out) = left_out::section(studies);
     [
-        fold(
-            "glossary",
-            "Glossary",
-            "what each metric means, its unit and its definition",
-            &glossary(named),
-        ),
+        folded_glossary(named),
         fold(
             "left-out",
             "Left out, and to be minded",

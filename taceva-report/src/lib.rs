@@ -15,6 +15,7 @@ mod number;
 mod results;
 mod samples;
 mod table;
+mod tie;
 
 pub use accept::{
     ACCEPTANCE_SCHEMA, Acceptance, Finding, Limit, LimitsError, LimitsFile, accept, limits_template,
@@ -32,14 +33,16 @@ pub use escape::{
 pub use figure::{DARK, Figure, LIGHT, SERIES, STYLE};
 pub use figures::{Contender, Race, decode_bench, figures, model_bench, names, race};
 pub use html::{Document, Pick, Picture, Report, Triple, picks, report};
-pub use listing::Listing;
+pub use listing::{Directions, Listing};
 pub use number::{Printed, spaced, with_interval};
 pub use results::{
     BENCH_SCHEMA, BenchMachine, BenchRecording, ChannelError, DecodeBench, DecodeRow,
-    EVALUATION_SCHEMA, Interval, Made, ModelBench, ModelRow, RUN_SCHEMA, ResultsError, ScaledError,
-    Score, Skip, Study, Value, Variant,
+    EVALUATION_SCHEMA, Interval, Made, ModelBench, ModelRow, OverSeeds, RUN_SCHEMA, ResultsError,
+    ScaledError, Score, SeedScore, Skip, Study, Value, Variant,
 };
 pub use samples::{SampleChannel, Samples, SamplesError};
 pub use table::{
-    ScoreCell, ScoreRow, ScoreTable, csv, latex, latex_column, latex_number, latex_symbol, markdown,
+    ScoreCell, ScoreRow, ScoreTable, csv, latex, latex_column, latex_directed, latex_number,
+    latex_symbol, markdown,
 };
+pub use tie::ties;

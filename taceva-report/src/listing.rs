@@ -1,5 +1,11 @@
 //! Words and numbers in rows: one content, and a form for people, programs, pages and papers each.
 
+mod directions;
+
+pub use directions::Directions;
+
+use std::borrow::Cow;
+
 use crate::escape;
 use crate::html::metric_link;
 use crate::table::latex_number;
@@ -23,6 +29,8 @@ pub struct Listing {
     pub rows: Vec<Vec<String>>,
     /// What a reader must know, below it.
     pub notes: Vec<String>,
+    /// Which of its numbers are good.
+    pub directions: Directions,
 }
 
 impl Listing {
@@ -37,8 +45,9 @@ impl Listing {
 
     /// For a terminal: columns as wide as their longest cell, numbers to the right, nothing that a terminal obeys.
     pub fn text(&self) -> String {
-        let rows: Vec<Vec<String>> = std::iter::once(&self.head)
-            .chain(&self.rows)
+        let shown = self.for_people();
+        let rows: Vec<Vec<String>> = std::iter::once(&shown.head)
+            .chain(&shown.rows)
             .map(|row| row.iter().map(|cell| escape::terminal(cell)).collect())
             .collect();
         let width = |column: usize| {
@@ -69,7 +78,8 @@ impl Listing {
     /// For programs that read tables.
     pub fn csv(&self) -> String {
         let mut writer = ::csv::Writer::from_writer(Vec::new());
-        for row in std::iter::once(&self.head).chain(&self.rows) {
+        let told = self.for_programs();
+        for row in std::iter::once(&told.head).chain(&told.rows) {
             let is_number = |cell: &str| cell.parse::<f64>().is_ok();
             let cells = row.iter().map(|cell| match is_number(cell) {
                 true => cell.clone(),
@@ -87,13 +97,14 @@ impl Listing {
 
     /// For programs: the rows as objects by the names of the columns, under `schema`.
     pub fn json(&self, schema: &str) -> String {
+        let told = self.for_programs();
         let row = |row: &Vec<String>| {
-            let cells = self.head.iter().zip(row);
+            let cells = told.head.iter().zip(row);
             let cells =
                 cells.map(|(name, cell)| (name.clone(), serde_json::Value::from(cell.as_str())));
             serde_json::Value::Object(cells.collect())
         };
-        let rows: Vec<serde_json::Value> = self.rows.iter().map(row).collect();
+        let rows: Vec<serde_json::Value> = told.rows.iter().map(row).collect();
         let whole = serde_json::json!({
             "schema": schema,
             "caption": self.caption,
@@ -113,9 +124,10 @@ impl Listing {
             true => "---:",
             false => "---",
         });
-        let mut out = line(&self.head);
+        let shown = self.for_people();
+        let mut out = line(&shown.head);
         out += &format!("|{}|\n", rule.collect::<Vec<_>>().join("|"));
-        out.extend(self.rows.iter().map(|row| line(row)));
+        out.extend(shown.rows.iter().map(|row| line(row)));
         for note in &self.notes {
             out += &format!("\n{}\n", escape::markdown(note));
         }
@@ -138,9 +150,10 @@ impl Listing {
             "  \\begin{{tabular}}{{{}}}\n    \\toprule\n",
             columns.collect::<String>()
         );
-        out += &line(&self.head);
+        let shown = self.for_people();
+        out += &line(&shown.head);
         out += "    \\midrule\n";
-        out.extend(self.rows.iter().map(|row| line(row)));
+        out.extend(shown.rows.iter().map(|row| line(row)));
         out += "    \\bottomrule\n  \\end{tabular}\n";
         for note in &self.notes {
             out += &format!("\n  \\footnotesize {}\n", escape::latex(note));
@@ -150,7 +163,7 @@ impl Listing {
 
     /// As a table of a page, that sorts.
     pub fn html(&self) -> String {
-        self.table(|_, cell| escape::html(cell))
+        self.for_people().table(|_, cell| escape::html(cell))
     }
 
     /// As a table of a page whose glossary says what the metrics of the column `metric` mean; in the column `verdict` what is not `pass` stands
@@ -165,6 +178,16 @@ impl Listing {
             ),
             _ => escape::html(cell),
         })
+    }
+
+    /// The rows as people read them: with signs.
+    fn for_people(&self) -> Cow<'_, Listing> {
+        self.directions.signed(self)
+    }
+
+    /// The rows as programs read them: with words in a column of their own.
+    fn for_programs(&self) -> Cow<'_, Listing> {
+        self.directions.worded(self)
     }
 
     /// A table whose cells are HTML as `written` makes it of the name of the column and the text.
@@ -188,7 +211,10 @@ impl Listing {
                 _ => "",
             })
             .collect();
-        for (column, name) in self.head.iter().enumerate() {
+        // A column in which nothing is said takes room from those in which something is.
+        let is_said = |column: &usize| self.rows.iter().any(|row| !row[*column].is_empty());
+        let columns: Vec<usize> = (0..self.head.len()).filter(is_said).collect();
+        for (column, name) in columns.iter().map(|&column| (column, &self.head[column])) {
             out += &format!(
                 "<th scope=\"col\"{}>{}</th>",
                 classes[column],
@@ -198,7 +224,7 @@ impl Listing {
         out += "</tr></thead><tbody>\n";
         for row in &self.rows {
             out += "<tr>";
-            for (column, cell) in row.iter().enumerate() {
+            for (column, cell) in columns.iter().map(|&column| (column, &row[column])) {
                 let cell = written(&self.head[column], cell);
                 out += &format!("<td{}>{cell}</td>", classes[column]);
             }

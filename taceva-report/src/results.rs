@@ -4,6 +4,7 @@ mod decode_bench;
 mod error;
 mod made;
 mod model_bench;
+mod over_seeds;
 mod read;
 mod score;
 mod standing;
@@ -14,6 +15,7 @@ pub use made::Made;
 pub use model_bench::{
     BENCH_SCHEMA, BenchMachine, BenchRecording, ChannelError, ModelBench, ModelRow,
 };
+pub use over_seeds::{OverSeeds, SeedScore};
 pub use score::{Interval, Score, Value, Variant};
 pub(crate) use standing::by_published_r2;
 
@@ -46,6 +48,8 @@ pub struct Study {
     pub made: Made,
     /// What a reader should know.
     pub notes: Vec<String>,
+    /// What scores become with other seeds of the training, where the model was fitted with several.
+    pub over_seeds: Option<OverSeeds>,
     /// The samples themselves, where they are at hand; figures that need them are left out otherwise.
     pub samples: Option<Samples>,
 }

@@ -11,6 +11,7 @@ pub use column::latex_column;
 pub use csv::csv;
 pub use latex::{latex, number as latex_number, symbol as latex_symbol};
 pub use markdown::markdown;
+pub use notation::directed as latex_directed;
 
 use taceva_core::Unit;
 use taceva_metrics::{Standing, catalogue};

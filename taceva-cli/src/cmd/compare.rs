@@ -36,7 +36,7 @@ pub(crate) fn run(args: &Compare, context: &Context) -> anyhow::Result<u8> {
         Format::Text if args.all => comparison.text(),
         Format::Text => comparison.overview(),
         Format::Json => comparison.json(),
-        Format::Csv => comparison.table().csv(),
+        Format::Csv => comparison.listing().csv(),
         Format::Md => comparison.listing().markdown(),
         Format::Tex => comparison.listing().latex(),
     };

@@ -2,21 +2,26 @@
 
 use std::io::{self, Write};
 
+use taceva_metrics::Better;
 use taceva_study::bench::{KernelBench, KernelRow};
 
 use super::latex::escape;
 use super::text::table;
 
-const HEAD: [&str; 8] = [
-    "scores",
-    "kernel",
-    "ns/pair",
-    "median",
-    "× floor",
-    "digits",
-    "order-free",
-    "Pareto",
-];
+/// The names of the columns, with the direction of each number.
+fn head() -> [String; 8] {
+    let (lower, higher) = (Better::Lower, Better::Higher);
+    [
+        "scores".to_owned(),
+        "kernel".to_owned(),
+        lower.beside("ns/pair"),
+        lower.beside("median"),
+        lower.beside("× floor"),
+        higher.beside("digits"),
+        "order-free".to_owned(),
+        "Pareto".to_owned(),
+    ]
+}
 
 /// For people.
 pub(super) fn text(bench: &KernelBench, out: &mut dyn Write) -> io::Result<()> {
@@ -40,7 +45,7 @@ pub(super) fn text(bench: &KernelBench, out: &mut dyn Write) -> io::Result<()> {
         "floor    {}: {:.3} ns a pair, {:.1} GB/s\n",
         bench.floor.name, bench.floor.ns_per_pair.best, bench.floor.gb_per_s
     )?;
-    table(HEAD, &cells(bench), out)?;
+    table(head().each_ref().map(String::as_str), &cells(bench), out)?;
     writeln!(
         out,
         "\ndigits: the fewest right decimal digits of any score on any input; 17.3 is every bit"
@@ -91,7 +96,7 @@ pub(super) fn csv(bench: &KernelBench, out: &mut dyn Write) -> io::Result<()> {
 
 /// For pages.
 pub(super) fn markdown(bench: &KernelBench, out: &mut dyn Write) -> io::Result<()> {
-    writeln!(out, "| {} |", HEAD.join(" | "))?;
+    writeln!(out, "| {} |", head().join(" | "))?;
     writeln!(out, "|---|---|---:|---:|---:|---:|---|---|")?;
     for row in cells(bench) {
         writeln!(out, "| {} |", row.join(" | "))?;
@@ -111,7 +116,7 @@ pub(super) fn markdown(bench: &KernelBench, out: &mut dyn Write) -> io::Result<(
 pub(super) fn latex(bench: &KernelBench, out: &mut dyn Write) -> io::Result<()> {
     writeln!(out, "% needs \\usepackage{{booktabs}}")?;
     writeln!(out, "\\begin{{tabular}}{{llrrrrll}}\n  \\toprule")?;
-    let head = HEAD.map(|name| name.replace('×', "$\\times$"));
+    let head = head().map(|name| escape(&name));
     writeln!(out, "  {} \\\\\n  \\midrule", head.join(" & "))?;
     for row in cells(bench) {
         writeln!(out, "  {} \\\\", row.map(|cell| escape(&cell)).join(" & "))?;

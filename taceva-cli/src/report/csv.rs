@@ -2,15 +2,16 @@
 
 use std::io::{self, Write};
 
-use taceva_metrics::Interval;
+use taceva_metrics::{Better, Interval};
 use taceva_report::escape_csv as word;
 use taceva_study::EvaluationReport;
 
 use super::line::lines;
 use super::number::{no_interval, reason};
 
-const HEAD: [&str; 13] = [
+const HEAD: [&str; 14] = [
     "metric",
+    "better",
     "channel",
     "value",
     "unit",
@@ -40,8 +41,10 @@ pub(super) fn write(report: &EvaluationReport, out: &mut dyn Write) -> io::Resul
                 .map_or_else(String::new, |why| format!("interval {why}")),
         };
         let method = line.interval.and_then(Interval::method);
+        let better = Better::of(&line.name).map_or("", Better::name);
         writer.write_record([
-            &word(&line.name),
+            word(&line.name).as_str(),
+            better,
             &word(line.channel),
             &number(line.value.scalar()),
             line.unit.symbol(),

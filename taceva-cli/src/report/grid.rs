@@ -2,7 +2,7 @@
 
 use taceva_study::EvaluationReport;
 
-use super::line::{lines, standings};
+use super::line::{read_lines, standings};
 use super::number::printed;
 
 /// Scores by metric and channel.
@@ -34,7 +34,7 @@ impl Grid {
                 grid.channels.push(channel.to_owned());
             }
         }
-        for line in lines(&report.evaluation) {
+        for line in read_lines(&report.evaluation) {
             if !grid.rows.iter().any(|(name, _)| *name == line.name) {
                 let empty = grid.channels.iter().map(|_| None).collect();
                 grid.rows.push((line.name.clone(), empty));

@@ -3,7 +3,7 @@
 use std::io::{self, Write};
 
 pub(super) use taceva_report::escape_latex as escape;
-use taceva_report::{latex_number as number, latex_symbol as symbol};
+use taceva_report::{latex_directed as directed, latex_number as number, latex_symbol as symbol};
 use taceva_study::EvaluationReport;
 
 use super::grid::{Grid, caption};
@@ -31,7 +31,12 @@ pub(super) fn write(report: &EvaluationReport, out: &mut dyn Write) -> io::Resul
                 None => "--".to_owned(),
             })
             .collect();
-        writeln!(out, "    {} & {} \\\\", escape(metric), values.join(" & "))?;
+        writeln!(
+            out,
+            "    {} & {} \\\\",
+            directed(metric, &escape(metric)),
+            values.join(" & ")
+        )?;
         let intervals: Vec<String> = cells
             .iter()
             .map(

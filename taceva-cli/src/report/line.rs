@@ -1,7 +1,7 @@
 //! Scores and their variants one after the other: what every table prints a row of.
 
 use taceva_core::Unit;
-use taceva_metrics::{Evaluation, Flag, Interval, Score, Standing, Value};
+use taceva_metrics::{Better, Evaluation, Flag, Interval, Score, Standing, Value};
 
 /// One number of a report, or the reason why there is none.
 pub(super) struct Line<'a> {
@@ -51,15 +51,40 @@ pub(super) fn lines(evaluation: &Evaluation) -> Vec<Line<'_>> {
     lines
 }
 
-/// What a reader must know of single scores: `uniformity Fz: one bin`.
+/// Those that people read: the constants that models are measured by are no scores, and stand in JSON and CSV alone.
+pub(super) fn read_lines(evaluation: &Evaluation) -> Vec<Line<'_>> {
+    let lines = lines(evaluation).into_iter();
+    lines.filter(|line| !line.is_reference()).collect()
+}
+
+impl Line<'_> {
+    /// The name as it stands in tables, with the sign of its direction: `mae ↓`.
+    pub(super) fn shown_name(&self) -> String {
+        Better::named(&self.name)
+    }
+
+    /// Whether it says what a score is measured by.
+    fn is_reference(&self) -> bool {
+        matches!(self.name.as_str(), "skill.constant" | "sr.of_constant")
+    }
+}
+
+/// What a reader must know of scores, a line a flag of a metric: `uniformity Fz: one bin`, `skill Pz Fz: constant is the mean of truth`.
 pub(super) fn flags(evaluation: &Evaluation) -> Vec<String> {
-    let of_score = |metric: &str, channel: &str, flag: &Flag| format!("{metric} {channel}: {flag}");
-    let scores = evaluation.scores();
-    scores
-        .flat_map(|(metric, channel, score)| {
-            let flags = score.flags.iter();
-            flags.map(move |flag| of_score(metric.id, channel, flag))
-        })
+    let mut groups: Vec<(&str, &Flag, Vec<&str>)> = Vec::new();
+    for (metric, channel, score) in evaluation.scores() {
+        for flag in &score.flags {
+            let is_same =
+                |group: &&mut (&str, &Flag, Vec<&str>)| (group.0, group.1) == (metric.id, flag);
+            match groups.iter_mut().find(is_same) {
+                Some((_, _, channels)) => channels.push(channel),
+                None => groups.push((metric.id, flag, vec![channel])),
+            }
+        }
+    }
+    let groups = groups.into_iter();
+    groups
+        .map(|(id, flag, channels)| format!("{id} {}: {flag}", channels.join(" ")))
         .collect()
 }
 

@@ -2,6 +2,7 @@
 
 use std::io::{self, Write};
 
+use taceva_metrics::Better;
 use taceva_study::EvaluationReport;
 
 use super::grid::Grid;
@@ -23,7 +24,7 @@ pub(super) fn write(report: &EvaluationReport, out: &mut dyn Write) -> io::Resul
                 None => "–".to_owned(),
             })
             .collect();
-        writeln!(out, "| {metric} | {} |", cells.join(" | "))?;
+        writeln!(out, "| {} | {} |", Better::named(metric), cells.join(" | "))?;
     }
     writeln!(out)?;
     writeln!(out, "{}", super::grid::caption(report))

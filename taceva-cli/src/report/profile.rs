@@ -3,12 +3,13 @@
 use std::io::{self, Write};
 
 use taceva_core::PressOutcome;
-use taceva_metrics::catalogue;
-use taceva_report::escape_terminal;
+use taceva_metrics::{Better, catalogue};
+use taceva_report::{Study, escape_terminal};
 use taceva_study::EvaluationReport;
 
 use super::line::{Line, lines, standings};
 use super::number::printed;
+use super::page;
 use super::text::{over_seeds, presses};
 
 /// A channel and the plane that says the same of it and its neighbour.
@@ -50,7 +51,8 @@ pub(super) fn write(reports: &[EvaluationReport], out: &mut dyn Write) -> io::Re
             cells.extend(published.get(number).cloned());
         }
         let [metric, channel, unit] = row;
-        table.push([vec![metric, channel], cells, vec![unit]].concat());
+        let named = Better::named(&metric);
+        table.push([vec![named, channel], cells, vec![unit]].concat());
     }
     print(&table, out)?;
     for report in reports.iter().filter(|report| report.over_seeds.is_some()) {
@@ -64,6 +66,7 @@ pub(super) fn write(reports: &[EvaluationReport], out: &mut dyn Write) -> io::Re
             writeln!(out, "presses    {}: {presses}", report.subject.sensor)?;
         }
     }
+    ties(reports, out)?;
     for report in reports {
         let sensor = escape_terminal(&report.subject.sensor);
         for standing in standings(&report.evaluation) {
@@ -76,6 +79,32 @@ pub(super) fn write(reports: &[EvaluationReport], out: &mut dyn Write) -> io::Re
             let what = escape_terminal(&skipped.what);
             writeln!(out, "skipped    {sensor}: {what}: {}", skipped.reason)?;
         }
+    }
+    Ok(())
+}
+
+/// Sensors that tell gratings equally often: how fine both tell them is read from their samples, so it is asked for only where shares are
+/// the same.
+fn ties(reports: &[EvaluationReport], out: &mut dyn Write) -> io::Result<()> {
+    let shares = |report: &EvaluationReport| -> Vec<(String, u64)> {
+        let told = lines(&report.evaluation).into_iter();
+        told.filter(|line| line.name == "sr")
+            .filter_map(|line| Some((line.channel.to_owned(), line.value.scalar()?.to_bits())))
+            .collect()
+    };
+    let mut all: Vec<(String, u64)> = reports.iter().flat_map(shares).collect();
+    let count = all.len();
+    all.sort_unstable();
+    all.dedup();
+    if all.len() == count {
+        return Ok(());
+    }
+    let studies = reports.iter().map(page::study);
+    let studies: Vec<Study> = studies
+        .collect::<Result<_, _>>()
+        .map_err(io::Error::other)?;
+    for tie in taceva_report::ties(&studies) {
+        writeln!(out, "verdict    {}", escape_terminal(&tie))?;
     }
     Ok(())
 }

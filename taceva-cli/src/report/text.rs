@@ -3,16 +3,17 @@
 use std::io::{self, Write};
 
 use taceva_core::{Limit, PressOutcome};
+use taceva_metrics::Better;
 use taceva_report::escape_terminal;
 use taceva_study::EvaluationReport;
 
-use super::line::{flags, lines, pictures, standings};
+use super::line::{flags, pictures, read_lines, standings};
 use super::number::printed;
 
 pub(super) fn write(report: &EvaluationReport, out: &mut dyn Write) -> io::Result<()> {
     heading(report, out)?;
     let mut last = String::new();
-    let rows: Vec<[String; 6]> = lines(&report.evaluation)
+    let rows: Vec<[String; 6]> = read_lines(&report.evaluation)
         .iter()
         .map(|line| {
             // A metric is named once, above its channels.
@@ -29,7 +30,7 @@ pub(super) fn write(report: &EvaluationReport, out: &mut dyn Write) -> io::Resul
             };
             [
                 if is_new {
-                    line.name.clone()
+                    line.shown_name()
                 } else {
                     String::new()
                 },
@@ -72,7 +73,7 @@ pub(super) fn over_seeds(report: &EvaluationReport, out: &mut dyn Write) -> io::
         .map(|score| {
             let [low, high] = score.interval.map(number);
             [
-                score.metric.to_owned(),
+                Better::named(score.metric),
                 score.channel.clone(),
                 number(score.mean),
                 unit(score.unit),

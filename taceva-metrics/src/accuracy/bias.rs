@@ -1,7 +1,8 @@
 //! Mean error with its sign.
 
 use super::{needs, no_constants, not_empty};
-use crate::metric::{Better, Finish, Formula, Metric, ScoreUnit};
+use crate::better::Better;
+use crate::metric::{Finish, Formula, Metric, ScoreUnit};
 use crate::pair_sums::PairSums;
 use crate::range::Range;
 use crate::streams::{Stream, Streams};

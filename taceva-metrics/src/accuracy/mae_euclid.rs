@@ -1,8 +1,9 @@
 //! Mean Euclidean error in a plane.
 
 use super::{needs, no_constants};
+use crate::better::Better;
 use crate::exact::Dyadic;
-use crate::metric::{Better, Finish, Formula, Metric, ScoreUnit};
+use crate::metric::{Finish, Formula, Metric, ScoreUnit};
 use crate::plane_sums::PlaneSums;
 use crate::range::Range;
 use crate::value::UndefinedReason;

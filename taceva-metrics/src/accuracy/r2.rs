@@ -1,8 +1,9 @@
 //! Coefficient of determination.
 
 use super::{needs, no_constants, not_empty};
+use crate::better::Better;
 use crate::exact::Dyadic;
-use crate::metric::{Better, Finish, Formula, Metric, ScoreUnit};
+use crate::metric::{Finish, Formula, Metric, ScoreUnit};
 use crate::pair_sums::PairSums;
 use crate::range::Range;
 use crate::streams::{Stream, Streams};

@@ -1,9 +1,10 @@
 //! Skill: how much better than a constant.
 
 use super::{needs, no_constants};
+use crate::better::Better;
 use crate::exact::Dyadic;
 use crate::exactly::exactly;
-use crate::metric::{Better, Formula, Metric, ScoreUnit};
+use crate::metric::{Formula, Metric, ScoreUnit};
 use crate::pair_sums::PairSums;
 use crate::range::Range;
 use crate::streams::{Stream, Streams};

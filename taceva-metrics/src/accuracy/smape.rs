@@ -3,8 +3,9 @@
 use taceva_core::Unit;
 
 use super::{EPSILON, gate, needs, not_empty};
+use crate::better::Better;
 use crate::exact::Dyadic;
-use crate::metric::{Better, Finish, Formula, Metric, ScoreUnit};
+use crate::metric::{Finish, Formula, Metric, ScoreUnit};
 use crate::pair_sums::PairSums;
 use crate::range::Range;
 use crate::score::Parameter;

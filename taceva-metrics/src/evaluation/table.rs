@@ -5,6 +5,7 @@ use std::fmt;
 use taceva_core::Unit;
 
 use super::{Entry, Evaluation};
+use crate::better::Better;
 use crate::score::Interval;
 use crate::value::Value;
 
@@ -46,7 +47,7 @@ fn rows(entry: &Entry) -> Vec<[String; 6]> {
     };
     let row = |name: String, value: &Value, interval: Option<&Interval>, unit: Unit, n: String| {
         [
-            name,
+            Better::named(&name),
             entry.channel.clone(),
             said(value),
             interval_said(value, interval),

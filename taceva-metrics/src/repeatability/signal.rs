@@ -3,7 +3,8 @@
 use super::spread::SpreadSums;
 use super::{NEEDS, RepeatMetric};
 use crate::accumulator::{Finished, Numbers};
-use crate::metric::{Better, Formula, Metric, ScoreUnit};
+use crate::better::Better;
+use crate::metric::{Formula, Metric, ScoreUnit};
 use crate::range::Range;
 use crate::score::Parameter;
 use crate::value::UndefinedReason;

@@ -4,8 +4,9 @@ use taceva_core::{Field, FieldSet, Nanometre, Needs, Unit};
 
 use super::histogram::Histogram;
 use crate::accumulator::{Details, Numbers};
+use crate::better::Better;
 use crate::curve::Curve;
-use crate::metric::{Better, Formula, Metric, ScoreUnit};
+use crate::metric::{Formula, Metric, ScoreUnit};
 use crate::range::Range;
 use crate::score::{Parameter, Variant};
 use crate::stats::wilson;

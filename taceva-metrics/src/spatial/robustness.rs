@@ -4,8 +4,9 @@ use taceva_core::{Field, FieldSet, Needs, Unit};
 
 use super::sums::SpatialSums;
 use crate::accumulator::{Finished, Numbers, midpoint};
+use crate::better::Better;
 use crate::facts::Fact;
-use crate::metric::{Better, Formula, Metric, ScoreUnit};
+use crate::metric::{Formula, Metric, ScoreUnit};
 use crate::moments::Moments;
 use crate::range::Range;
 use crate::settings::Settings;

@@ -7,7 +7,7 @@ use taceva_core::Unit;
 use super::difference::Difference;
 use super::error::ComparisonError;
 use super::sides::{Side, Sides};
-use crate::metric::Better;
+use crate::better::Better;
 
 /// What is asked of a difference.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -5,8 +5,9 @@ use taceva_core::{Field, FieldSet, Needs, Unit};
 use super::sums::{SurfaceSums, Total};
 use super::{NORMAL_ONLY, SurfaceMetric};
 use crate::accumulator::{Finished, Numbers};
+use crate::better::Better;
 use crate::exact::Dyadic;
-use crate::metric::{Better, Formula, Metric, ScoreUnit};
+use crate::metric::{Formula, Metric, ScoreUnit};
 use crate::range::Range;
 use crate::value::UndefinedReason;
 

@@ -1,17 +1,18 @@
 //! The data sheet of a sensor unit: limits, what was found, pass or fail, on one page.
 
 use serde_json::json;
+use taceva_metrics::Better;
 
 use super::{Finding, Limit};
 use crate::escape::html;
 use crate::html::{Document, Triple, badge, glossary, triples};
-use crate::listing::Listing;
+use crate::listing::{Directions, Listing};
 use crate::number::numeral;
 use crate::results::Study;
 use crate::samples::SampleChannel;
 
-/// The schema of an acceptance as JSON.
-pub const ACCEPTANCE_SCHEMA: &str = "taceva.acceptance/1";
+/// The schema of an acceptance as JSON. 1.1: each finding says which values are good.
+pub const ACCEPTANCE_SCHEMA: &str = "taceva.acceptance/1.1";
 
 /// Findings with what they are of.
 #[derive(Clone, Copy, Debug)]
@@ -53,6 +54,7 @@ impl Acceptance<'_> {
         ];
         let mut listing = Listing::new(&caption, &head);
         listing.rows = self.findings.iter().map(row).collect();
+        listing.directions = Directions::of_metrics(&listing.rows, 0);
         if self.study.is_simulated() {
             listing
                 .notes
@@ -66,6 +68,7 @@ impl Acceptance<'_> {
         let finding = |finding: &Finding| {
             json!({
                 "metric": finding.limit.metric,
+                "better": Better::of(&finding.limit.metric).map(Better::name),
                 "channel": finding.limit.channel,
                 "unit": finding.limit.unit,
                 "most": finding.limit.most,

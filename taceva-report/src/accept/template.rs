@@ -31,7 +31,11 @@ pub fn limits_template(study: &Study) -> String {
         .rows
         .iter()
         .filter_map(|row| study.score(&row.metric, &row.channel));
-    let limits: String = scores.filter_map(limit).collect();
+    let scores: Vec<&Score> = scores.collect();
+    let (kept, barred): (Vec<&Score>, Vec<&Score>) = scores
+        .into_iter()
+        .partition(|score| score.standing.takes_part());
+    let limits: String = kept.into_iter().filter_map(limit).collect();
     let name = toml::Value::String(format!("limits of {}", study.sensor));
     let mut out = format!(
         "# Limits made from a result of {}, serial {}, samples {}.\n\
@@ -45,10 +49,33 @@ pub fn limits_template(study: &Study) -> String {
         MARGIN * 100.0
     );
     match limits.is_empty() {
-        true => out += "\n# This result has no score that is better on one side.\n",
+        true => out += "\n# This result has no score to make a limit of.\n",
         false => out += &limits,
     }
-    out
+    out + &left_out(&barred)
+}
+
+/// What keeps no limit whatever its value, a comment a reason; nothing where nothing was left out.
+fn left_out(barred: &[&Score]) -> String {
+    let mut groups: Vec<(&str, Vec<String>)> = Vec::new();
+    for score in barred.iter().filter(|score| score.value.number().is_some()) {
+        let Some(reason) = score.standing.reason() else {
+            continue;
+        };
+        let name = line(&format!("{} {}", score.metric, score.channel));
+        match groups.iter_mut().find(|(known, _)| *known == reason) {
+            Some((_, names)) => names.push(name),
+            None => groups.push((reason, vec![name])),
+        }
+    }
+    let groups = groups.into_iter();
+    let comments = groups.map(|(reason, names)| {
+        format!(
+            "\n# Left out, since no limit on them would be kept ({reason}):\n# {}\n",
+            names.join(", ")
+        )
+    });
+    comments.collect()
 }
 
 /// A limit with what was measured; nothing of scores that only describe or have no value.
@@ -123,7 +150,7 @@ mod tests {
         let study = Study::read(
             r#"{"schema": "taceva.evaluation/1", "subject": {"sensor": "a\n[[limit]] \"b"}, "metrics": {
                 "mae": {"Fz": {"value": 0.05, "unit": "N", "n": 46, "ci95": [0.01, 0.0912345]}},
-                "r2": {"Fz": {"value": 0.5, "unit": "1", "n": 46, "ci95": [-0.25, 0.75]}},
+                "r2": {"Fz": {"value": 0.5, "unit": "1", "n": 46, "ci95": [0.25, 0.75]}},
                 "bias": {"Fz": {"value": -0.1, "unit": "N", "n": 46}},
                 "intrinsic": {"frame_rate": {"value": 30, "unit": "Hz", "n": 46}},
                 "rmse": {"Fz": {"undefined": "no sample", "n": 0}}}}"#,
@@ -140,8 +167,29 @@ mod tests {
             [
                 ("mae", None, Some(0.0913)),
                 ("bias", Some(-0.12), Some(0.12)),
-                ("r2", Some(-0.25), None)
+                ("r2", Some(0.25), None)
             ]
+        );
+    }
+
+    #[test]
+    fn what_shows_no_skill_is_left_out_by_name_and_reason() {
+        let study = Study::read(
+            r#"{"schema": "taceva.evaluation/1.1", "subject": {"sensor": "x"}, "metrics": {
+                "mae": {"Fz": {"value": 0.05, "unit": "N", "n": 46}, "Pz": {"value": 0.05, "unit": "mm", "n": 46}},
+                "r2": {"Fz": {"value": 0.1, "unit": "1", "n": 46, "ci95": [-0.25, 0.75]},
+                       "Pz": {"value": 0.9, "unit": "1", "n": 46, "ci95": [0.8, 0.95]}}}}"#,
+        );
+        let text = limits_template(&study.expect("a result").remove(0));
+        let limits = LimitsFile::read(&text).expect("limits").limits;
+        let kept: Vec<_> = limits
+            .iter()
+            .map(|limit| (&*limit.metric, &*limit.channel))
+            .collect();
+        assert_eq!(kept, [("mae", "Pz"), ("r2", "Pz")]);
+        assert!(
+            text.contains("no skill: ") && text.contains("\n# mae Fz, r2 Fz\n"),
+            "{text}"
         );
     }
 

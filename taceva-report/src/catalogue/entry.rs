@@ -401,6 +401,7 @@ impl Sensor {
             notes: vec![
                 "published numbers; nothing here was measured with this program".to_owned(),
             ],
+            over_seeds: None,
             samples: None,
         }
     }

@@ -1,7 +1,9 @@
 //! The catalogue as rows.
 
+use taceva_metrics::Better;
+
 use super::{Kind, Sensor};
-use crate::listing::Listing;
+use crate::listing::{Directions, Listing};
 use crate::number::numeral;
 
 /// A row a sensor; studies of sensors are named below the rows.
@@ -10,17 +12,19 @@ pub fn list(sensors: &[Sensor]) -> Listing {
         "sensor",
         "mechanism",
         "light kept out",
-        "MAE Pxy mm",
-        "MAE Pz mm",
-        "MAE Fxy N",
-        "MAE Fz N",
-        "rate Hz",
+        "MAE Pxy (mm)",
+        "MAE Pz (mm)",
+        "MAE Fxy (N)",
+        "MAE Fz (N)",
+        "rate (Hz)",
         "numbers",
     ];
     let mut listing = Listing::new(
         "Catalogue of vision-based tactile sensors, as published",
         &head,
     );
+    let of_head = |name: &&str| name.starts_with("MAE").then_some(Better::Lower);
+    listing.directions = Directions::Columns(head.iter().map(of_head).collect());
     let is_sensor = |entry: &&Sensor| entry.kind == Kind::Sensor;
     for sensor in sensors.iter().filter(is_sensor) {
         let number = |value: Option<f64>| value.map_or_else(|| "–".to_owned(), numeral);
@@ -116,6 +120,7 @@ pub fn details(sensor: &Sensor) -> Listing {
         ];
         listing.rows.push(row.map(ToOwned::to_owned).to_vec());
     }
+    listing.directions = Directions::of_metrics(&listing.rows, 0);
     for missing in &sensor.missing {
         listing.notes.push(format!(
             "No number of {}: {}.",

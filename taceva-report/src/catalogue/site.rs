@@ -3,7 +3,7 @@
 use super::{Kind, Published, Sensor};
 use crate::escape::html;
 use crate::figures::figures;
-use crate::html::{Document, figure};
+use crate::html::{Document, figure, folded_glossary, metric_link};
 use crate::number::numeral;
 use crate::results::Study;
 
@@ -44,8 +44,8 @@ fn index(sensors: &[Sensor], ours: &[Study]) -> String {
          <label>light <select data-filter=\"tag\"><option value=\"\">any</option><option value=\"opaque\">kept out</option></select></label>\
          <label>numbers <select data-filter=\"tag\"><option value=\"\">any</option><option value=\"numbers\">published here</option></select></label></fieldset>\n\
          <div class=\"scroll\" tabindex=\"0\" role=\"group\" aria-label=\"Sensors\"><table class=\"sorts\"><thead><tr><th scope=\"col\">sensor</th><th scope=\"col\">mechanism</th>\
-         <th scope=\"col\" class=\"r\">MAE Pxy (mm)</th><th scope=\"col\" class=\"r\">MAE Pz (mm)</th><th scope=\"col\" class=\"r\">MAE Fxy (N)</th>\
-         <th scope=\"col\" class=\"r\">MAE Fz (N)</th><th scope=\"col\" class=\"r\">rate (Hz)</th><th scope=\"col\" class=\"r\">reported, of 10</th></tr></thead><tbody>\n{rows}</tbody></table></div>\n\
+         <th scope=\"col\" class=\"r\">MAE Pxy (mm) ↓</th><th scope=\"col\" class=\"r\">MAE Pz (mm) ↓</th><th scope=\"col\" class=\"r\">MAE Fxy (N) ↓</th>\
+         <th scope=\"col\" class=\"r\">MAE Fz (N) ↓</th><th scope=\"col\" class=\"r\">rate (Hz)</th><th scope=\"col\" class=\"r\">reported</th></tr></thead><tbody>\n{rows}</tbody></table></div>\n\
          <p class=\"note\">A dash: no number is known here. IMM maps intensity, MDM displacements of markers, MFM fuses modalities. The last column counts which of ten properties the work itself reports.</p>"
     );
     document.section("sensors", "Sensors", &list);
@@ -79,7 +79,7 @@ fn radars(studies: &[Study]) -> String {
     let radars: String = radars.map(figure).collect();
     match radars.is_empty() {
         true => "<p>Fewer than two sensors have numbers.</p>".to_owned(),
-        false => radars,
+        false => format!("<div class=\"radars\">\n{radars}</div>"),
     }
 }
 
@@ -145,6 +145,11 @@ fn page(sensor: &Sensor) -> String {
     document.section("properties", "Properties", &properties(sensor));
     if !sensor.results.is_empty() {
         document.section("results", "Published results", &results(sensor));
+    }
+    let named = sensor.results.iter().map(|result| result.metric.as_str());
+    let is_known = |id: &str| taceva_metrics::Better::of(id).is_some();
+    if named.clone().any(is_known) {
+        document.section("meanings", "What the metrics mean", &folded_glossary(named));
     }
     if !sensor.reported.is_empty() {
         document.section("reported", "What the work reports", &reported(sensor));
@@ -229,7 +234,7 @@ fn results(sensor: &Sensor) -> String {
             .map_or_else(String::new, |note| format!("; {note}"));
         format!(
             "<tr><th scope=\"row\">{}</th><td>{}</td><td class=\"r\" data-v=\"{}\">{}</td><td>{}</td><td>{}, {}</td><td class=\"wrap\">{}</td><td class=\"wrap\">{}{}</td></tr>\n",
-            html(&result.metric),
+            metric_link(&result.metric),
             html(&result.channel),
             result.value,
             html(&result.shown()),

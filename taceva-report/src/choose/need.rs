@@ -2,6 +2,7 @@
 
 use std::fmt;
 use taceva_core::shown;
+use taceva_metrics::Better;
 
 use super::property::Property;
 use super::words::{QUANTITIES, Quantity, WORDS};
@@ -134,7 +135,7 @@ fn bound(quantity: &Quantity, words: &str, rest: &str) -> Result<Bound, NeedErro
     let side = sides
         .iter()
         .find_map(|(sign, is_least)| Some((rest.strip_prefix(sign)?, *is_least)));
-    let natural = quantity.is_reach || !quantity.property.is_better_low();
+    let natural = quantity.is_reach || quantity.property.better() == Better::Higher;
     let (rest, is_least) = side.unwrap_or((rest, natural));
     let rest = rest.trim();
     let end = rest.find(|letter: char| !(letter.is_ascii_digit() || letter == '.'));

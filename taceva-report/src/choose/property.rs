@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use taceva_metrics::Standing;
+use taceva_metrics::{Better, Standing};
 
 use crate::catalogue::Sensor;
 use crate::number::Printed;
@@ -85,15 +85,22 @@ impl Property {
         result.map_or(Standing::Counts, |result| result.standing)
     }
 
-    /// Whether small numbers are good.
-    pub fn is_better_low(self) -> bool {
-        matches!(
-            self,
+    /// Which numbers are good.
+    pub fn better(self) -> Better {
+        match self {
             Property::Error(_)
-                | Property::Repeatability(_)
-                | Property::Spatial(_)
-                | Property::Thickness
-        )
+            | Property::Repeatability(_)
+            | Property::Spatial(_)
+            | Property::Thickness => Better::Lower,
+            Property::Resolution(_)
+            | Property::Sensitivity
+            | Property::Uniformity
+            | Property::FrameRate
+            | Property::FieldOfView
+            | Property::GreatestDepth
+            | Property::GreatestForce
+            | Property::Opaque => Better::Higher,
+        }
     }
 
     /// The unit of the number; empty for a share.
@@ -138,7 +145,7 @@ impl Property {
     /// The share that `value` has of the best of `sensors`.
     pub(super) fn share(self, value: f64, sensors: &[&Sensor]) -> Option<f64> {
         let known = sensors.iter().filter_map(|sensor| self.of(sensor));
-        if self.is_better_low() {
+        if self.better() == Better::Lower {
             let best = known.fold(f64::INFINITY, f64::min);
             return (value > 0.0).then(|| best / value);
         }

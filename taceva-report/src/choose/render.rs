@@ -5,11 +5,12 @@ use serde_json::json;
 use super::{Candidate, Choice, Dropped, Step};
 use crate::escape::html;
 use crate::html::Document;
-use crate::listing::Listing;
+use crate::listing::{Directions, Listing};
 use crate::number::fixed;
 
-/// The schema of a choice as JSON. 1.1: `open` lists those of which it is not known whether they meet a hard need.
-pub const CHOICE_SCHEMA: &str = "taceva.choice/1.1";
+/// The schema of a choice as JSON. 1.1: `open` lists those of which it is not known whether they meet a hard need. 1.2: each step
+/// says which numbers are good.
+pub const CHOICE_SCHEMA: &str = "taceva.choice/1.2";
 
 impl Choice {
     /// A row a sensor, need and number; the best sensor first, those that were dropped last.
@@ -24,9 +25,11 @@ impl Choice {
             "mean share",
         ];
         let mut listing = Listing::new(&self.headline(), &head);
+        let mut of = Vec::new();
         for (at, candidate) in self.ranked.iter().enumerate() {
             for (number, step) in candidate.steps.iter().enumerate() {
                 let is_first = number == 0;
+                of.push(Some(step.property.better()));
                 let once = |text: String| if is_first { text } else { String::new() };
                 listing.rows.push(vec![
                     once((at + 1).to_string()),
@@ -39,6 +42,7 @@ impl Choice {
                 ]);
             }
         }
+        listing.directions = Directions::Rows { column: 3, of };
         for open in &self.open {
             listing
                 .notes
@@ -81,6 +85,7 @@ impl Choice {
             json!({
                 "need": step.need,
                 "looked_at": step.property.to_string(),
+                "better": step.property.better().name(),
                 "value": step.value,
                 "unit": step.property.unit(),
                 "standing": step.standing.words(),

@@ -32,7 +32,9 @@ pub struct Decision {
 impl Decision {
     /// `Depth (mae Pz ↓)`
     pub fn asked(&self) -> String {
-        let of = format!("{} {} {}", self.metric, self.channel, self.better.arrow());
+        let of = self
+            .better
+            .beside(&format!("{} {}", self.metric, self.channel));
         if self.question.is_empty() {
             of
         } else {
@@ -126,20 +128,26 @@ impl Comparison {
                 let p = p_values.fold(0.0_f64, |p, difference| p.max(difference.adjusted_p));
                 let start = format!("{}, {}{unit}", self.names[at], numeral(value));
                 let p = p_words(p);
-                match (losers.len(), open.len()) {
-                    (0, _) => (
+                let tie = self
+                    .ties
+                    .iter()
+                    .find(|(of, _)| metric == "sr" && of == channel);
+                // Of those that are tied for the best none is shown to be better, whomever else they beat.
+                match (losers.len(), open.len(), tie) {
+                    (_, _, Some((_, words))) => (None, words.clone()),
+                    (0, _, None) => (
                         None,
                         format!("no winner; the best value, {start}, is not shown to be better"),
                     ),
-                    (1, 0) => (
+                    (1, 0, None) => (
                         Some(at),
                         format!("{start}, better than {} ({p})", self.names[losers[0]]),
                     ),
-                    (count, 0) => (
+                    (count, 0, None) => (
                         Some(at),
                         format!("{start}, better than all {count} others ({p})"),
                     ),
-                    (count, _) => (
+                    (count, _, None) => (
                         None,
                         format!(
                             "{start}, better than {count} of {} others ({p}), not than {}",
@@ -162,6 +170,12 @@ impl Comparison {
 }
 
 impl Answer {
+    /// `mae Pz ↓`
+    pub(super) fn named(&self) -> String {
+        self.direction
+            .beside(&format!("{} {}", self.metric, self.channel))
+    }
+
     /// Whether a difference is shown.
     pub(super) fn is_shown(&self) -> bool {
         self.difference

@@ -1,14 +1,14 @@
 //! Comparisons as rows, as JSON and as a page.
 
 use serde_json::json;
-use taceva_metrics::{Better, Difference};
+use taceva_metrics::Difference;
 
 use super::overview::WIDTH;
 use super::{Answer, Comparison, Decision};
 use crate::escape::{html, terminal};
 use crate::figures::{figures, listed};
-use crate::html::{Document, figure, lead};
-use crate::listing::Listing;
+use crate::html::{Document, counted, figure, fold, folded_glossary, lead, score_link};
+use crate::listing::{Directions, Listing};
 use crate::number::{numeral, significant, spaced};
 use crate::results::Study;
 
@@ -16,9 +16,8 @@ use crate::results::Study;
 pub const COMPARISON_SCHEMA: &str = "taceva.comparison/2";
 
 /// The names of the columns of every answer.
-const HEAD: [&str; 14] = [
+const HEAD: [&str; 13] = [
     "metric",
-    "better",
     "channel",
     "A",
     "B",
@@ -34,21 +33,12 @@ const HEAD: [&str; 14] = [
 ];
 
 impl Comparison {
-    /// A row an answer, for people: directions as arrows.
+    /// A row an answer.
     pub fn listing(&self) -> Listing {
-        self.rows(Better::arrow)
-    }
-
-    /// A row an answer, for programs: directions as words.
-    pub fn table(&self) -> Listing {
-        self.rows(Better::name)
-    }
-
-    fn rows(&self, direction: fn(Better) -> &'static str) -> Listing {
         let mut listing = Listing::new("Comparison", &HEAD);
         let answers = self.answers.iter();
-        let rows = answers.map(|answer| self.row(answer, direction(answer.direction)));
-        listing.rows = rows.collect();
+        listing.rows = answers.map(|answer| self.row(answer)).collect();
+        listing.directions = Directions::of_metrics(&listing.rows, 0);
         listing.notes = self.rules();
         listing
     }
@@ -69,7 +59,7 @@ impl Comparison {
         notes
     }
 
-    fn row(&self, answer: &Answer, direction: &str) -> Vec<String> {
+    fn row(&self, answer: &Answer) -> Vec<String> {
         let number = |value: Option<f64>| value.map_or_else(|| "–".to_owned(), numeral);
         let apart = answer.scores.a.zip(answer.scores.b).map(|(a, b)| a - b);
         let of_difference = |words: &dyn Fn(&Difference) -> String| {
@@ -78,7 +68,6 @@ impl Comparison {
         };
         vec![
             answer.metric.clone(),
-            direction.to_owned(),
             answer.channel.clone(),
             self.names[answer.sides.a].clone(),
             self.names[answer.sides.b].clone(),
@@ -106,8 +95,7 @@ impl Comparison {
                 "" => String::new(),
                 unit => format!(", in {unit}"),
             };
-            let arrow = answer.direction.arrow();
-            let heading = format!("{} {} {arrow}{unit}", answer.metric, answer.channel);
+            let heading = format!("{}{unit}", answer.named());
             if heading != last {
                 out += &format!("\n{}\n", terminal(&heading));
                 last = heading;
@@ -197,8 +185,12 @@ impl Comparison {
         let lines: String = decisions
             .iter()
             .map(|decision| {
-                let (asked, words) = (html(&decision.asked()), html(&decision.words));
-                format!("<li><strong>{asked}</strong>: {words}</li>\n")
+                let of = score_link(&decision.metric, &decision.channel);
+                let asked = match decision.question.as_str() {
+                    "" => format!("<strong>{of}</strong>"),
+                    question => format!("<strong>{}</strong> ({of})", html(question)),
+                };
+                format!("<li>{asked}: {}</li>\n", html(&decision.words))
             })
             .collect();
         let tally = html(&self.tally());
@@ -211,8 +203,11 @@ impl Comparison {
             .map(figure)
             .collect();
         if !radars.is_empty() {
+            let radars = format!("<div class=\"radars\">\n{radars}</div>\n");
             document.section("figures", "Side by side", &radars);
         }
+        let named = self.answers.iter().map(|answer| answer.metric.as_str());
+        document.section("meanings", "What the metrics mean", &folded_glossary(named));
         document.finish()
     }
 }
@@ -221,19 +216,22 @@ impl Comparison {
     /// What is shown, score by score, and every answer, both folded.
     fn pairs(&self) -> String {
         let lines: String = self.won().iter().map(|won| won.html(&self.names)).collect();
-        let count = self.answers.len();
         let shown = if lines.is_empty() {
             format!(
                 "<p>No difference is shown between {}.</p>\n",
                 html(&listed(&self.names))
             )
         } else {
-            format!(
-                "<details><summary>All that is shown to differ</summary>\n<ul class=\"verdicts\">\n{lines}</ul>\n</details>\n"
-            )
+            let list = format!("<ul class=\"verdicts\">\n{lines}</ul>");
+            let holds = counted(self.won().len(), "line");
+            fold("shown-all", "All that is shown to differ", &holds, &list)
         };
-        let table = self.listing().html();
-        format!("{shown}<details><summary>All {count} answers</summary>\n{table}</details>\n")
+        let table = self.listing().html_with_metrics();
+        let holds = counted(self.answers.len(), "answer");
+        format!(
+            "{shown}{}",
+            fold("answers-all", "Every answer", &holds, &table)
+        )
     }
 
     /// What is shown, score by score: who is better, and than whom.
@@ -283,10 +281,8 @@ impl Won<'_> {
         };
         let others: Vec<String> = self.answers.iter().map(than).collect();
         format!(
-            "<li><code>{}</code> {} {}: <strong>{}</strong> is better than {}</li>\n",
-            html(&of.metric),
-            html(&of.channel),
-            of.direction.arrow(),
+            "<li>{}: <strong>{}</strong> is better than {}</li>\n",
+            score_link(&of.metric, &of.channel),
             html(&names[self.winner]),
             html(&listed(&others))
         )

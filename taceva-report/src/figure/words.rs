@@ -1,7 +1,7 @@
 //! Names as figures print them.
 
 use taceva_core::Unit;
-use taceva_metrics::{Better, catalogue};
+use taceva_metrics::Better;
 
 /// `indentation depth (mm)`; a ratio has no unit to name.
 pub(crate) fn axis_label(name: &str, unit: Unit) -> String {
@@ -13,18 +13,7 @@ pub(crate) fn axis_label(name: &str, unit: Unit) -> String {
 
 /// A label of an axis with the direction in which the values of `metric` are better: `MAE (mm) ↓`.
 pub(crate) fn directed(label: &str, metric: &str) -> String {
-    let better = catalogue::find(metric).map(|metric| metric.better);
-    format!("{label}{}", better.map_or("", sign))
-}
-
-/// The sign of a direction, behind a space; nothing of what only describes.
-pub(crate) fn sign(better: Better) -> &'static str {
-    match better {
-        Better::Lower => " ↓",
-        Better::Higher => " ↑",
-        Better::NearZero => " →0",
-        _ => "",
-    }
+    Better::of(metric).map_or_else(|| label.to_owned(), |better| better.beside(label))
 }
 
 /// `name`, cut to `most` letters: what is longer would leave its place. Control characters have no place in a picture.

@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use taceva_core::Unit;
+use taceva_metrics::SensorFacts;
 
 use crate::figure::{
     Area, Axes, Canvas, Figure, Grid, Ink, Panel, Points, Scale, axis_label, directed, extent,
@@ -14,7 +15,7 @@ use crate::samples::{SampleChannel, Samples};
 use super::SIX;
 
 /// The scene that models learn in.
-const LEARNT_IN: &str = "original";
+const LEARNT_IN: &str = SensorFacts::REFERENCE_SCENE;
 
 /// What a sensor says of one channel in one scene.
 struct Level {
@@ -71,7 +72,7 @@ pub(super) fn draw(studies: &[Study]) -> Option<Figure> {
         id: "lighting".to_owned(),
         title: "Error by scene of light".to_owned(),
         caption: format!(
-            "Mean absolute error of the same presses in each scene of light, a column a scene, on a logarithmic axis; models learn in the scene `{LEARNT_IN}`. Sensors that no light reaches are not shown. Point at a dot for the mean grey level of its pictures."
+            "Mean absolute error of the same presses in each scene of light, a column a scene, on a logarithmic axis; models learn in the scene “{LEARNT_IN}”. Sensors that no light reaches are not shown. Point at a dot for the mean grey level of its pictures."
         ),
         description: format!(
             "Mean absolute error by scene of light ({}) of {}.",
@@ -207,7 +208,7 @@ mod tests {
 
     #[test]
     fn the_scene_of_learning_comes_first() {
-        let scenes = ["S2", "original", "S1", "S2"];
-        assert_eq!(in_order(scenes.into_iter()), ["original", "S1", "S2"]);
+        let scenes = ["S2", "normal", "S1", "S2"];
+        assert_eq!(in_order(scenes.into_iter()), ["normal", "S1", "S2"]);
     }
 }

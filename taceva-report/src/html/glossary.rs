@@ -4,8 +4,8 @@ use std::collections::BTreeSet;
 
 use taceva_metrics::{Better, Metric, ScoreUnit, catalogue};
 
+use super::fold::fold;
 use crate::escape::html;
-use crate::figure::sign;
 
 /// The metrics that are named in `ids`, in the order of the catalogue: title, meaning, unit, direction and where each is defined. Names of
 /// variants stand for their metric.
@@ -22,20 +22,34 @@ pub(crate) fn glossary<'a>(ids: impl Iterator<Item = &'a str>) -> String {
     }
 }
 
-/// The name of a metric as a link to what it means, with the sign of its direction; plain where the catalogue does not know it. A variant
-/// may be something else than its metric, and has no sign.
+/// The same, folded; a link to a metric unfolds it.
+pub(crate) fn folded_glossary<'a>(ids: impl Iterator<Item = &'a str>) -> String {
+    let holds = "what each metric means, its unit and its definition";
+    fold("glossary", "Glossary", holds, &glossary(ids))
+}
+
+/// The name of a metric or variant as a link to what the metric means, with the sign of its direction; plain where the catalogue does not
+/// know it.
 pub(crate) fn metric_link(id: &str) -> String {
+    signed(id, &link(id))
+}
+
+/// A score with its metric as a link: `mae Pz ↓`.
+pub(crate) fn score_link(id: &str, channel: &str) -> String {
+    signed(id, &format!("{} {}", link(id), html(channel)))
+}
+
+fn signed(id: &str, body: &str) -> String {
+    Better::of(id).map_or_else(|| body.to_owned(), |better| better.beside(body))
+}
+
+fn link(id: &str) -> String {
     match catalogue::find(base(id)) {
         Some(metric) => format!(
-            "<a class=\"metric\" href=\"#metric-{}\" title=\"{}\">{}</a>{}",
+            "<a class=\"metric\" href=\"#metric-{}\" title=\"{}\">{}</a>",
             metric.id,
             html(metric.title),
-            html(id),
-            if metric.id == id {
-                sign(metric.better)
-            } else {
-                ""
-            }
+            html(id)
         ),
         None => html(id),
     }
@@ -56,7 +70,7 @@ fn entry(metric: &Metric) -> String {
     let better = match metric.better {
         Better::Lower => "lower is better (↓)",
         Better::Higher => "higher is better (↑)",
-        Better::NearZero => "nearer to zero is better",
+        Better::NearZero => "nearer to zero is better (→0)",
         _ => "describes, and is neither good nor bad",
     };
     format!(

@@ -1,5 +1,7 @@
 //! How it was done, as a paragraph for a paper; and what to cite.
 
+mod statistics;
+
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::fold::counted;
@@ -57,7 +59,7 @@ fn paragraph(studies: &[Study], table: &ScoreTable) -> String {
     out += &pressed(studies);
     out += &divided(studies);
     out += &model(studies);
-    out += &statistics(studies, table);
+    out += &statistics::statistics(studies, table);
     out
 }
 
@@ -124,7 +126,7 @@ fn divided(studies: &[Study]) -> String {
             let found = study.made.samples.iter().find(|(part, _)| part == name)?;
             whole(found.1)
         };
-        Some(format!("{} {name}", span(studies, of)?))
+        Some(format!("{} {}", span(studies, of)?, name.replace('_', " ")))
     };
     let parts: Vec<String> = names.iter().filter_map(part).collect();
     if !parts.is_empty() {
@@ -181,35 +183,6 @@ fn model(studies: &[Study]) -> String {
     }
 }
 
-/// Intervals, tests and adjustment.
-fn statistics(studies: &[Study], table: &ScoreTable) -> String {
-    let methods: BTreeSet<&str> = table
-        .rows
-        .iter()
-        .flat_map(|row| row.cells.iter().flatten())
-        .filter_map(|cell| cell.method.as_deref())
-        .map(|method| method.split(", G=").next().unwrap_or(method))
-        .collect();
-    let methods: Vec<String> = methods.into_iter().map(str::to_owned).collect();
-    let mut out = match methods.is_empty() {
-        true => String::new(),
-        false => format!(" Intervals are of 95 % ({}).", methods.join("; ")),
-    };
-    let tests: BTreeSet<String> = table
-        .answers
-        .iter()
-        .filter_map(|answer| Some(answer.difference.as_ref()?.test.to_string()))
-        .collect();
-    if studies.len() > 1 && !tests.is_empty() {
-        let tests: Vec<String> = tests.into_iter().collect();
-        out += &format!(
-            " Sensors were compared pair by pair ({}), with p values adjusted by Holm's method over all pairs and channels of a metric and a level of 5 %.",
-            tests.join("; ")
-        );
-    }
-    out
-}
-
 /// The different values of an entry of provenance, in the order of the studies.
 fn values(studies: &[Study], name: &str) -> Option<Vec<String>> {
     let mut values: Vec<String> = Vec::new();
@@ -255,6 +228,23 @@ fn plain(text: &str) -> String {
         .replace('&', "and")
 }
 
+/// A text whose digests are cut to what tells them apart; provenance has them whole.
+fn without_digests(text: &str) -> String {
+    let is_digest = |word: &str| {
+        let digits = word.trim_end_matches(',');
+        digits.len() >= 40 && digits.chars().all(|letter| letter.is_ascii_hexdigit())
+    };
+    let words = text.split(' ').map(|word| match is_digest(word) {
+        true => {
+            let start: String = word.chars().take(12).collect();
+            let end = if word.ends_with(',') { "…," } else { "…" };
+            start + end
+        }
+        false => word.to_owned(),
+    });
+    words.collect::<Vec<_>>().join(" ")
+}
+
 /// The sensors in a table.
 fn sensors(studies: &[Study]) -> String {
     let mut out = String::from(
@@ -267,7 +257,7 @@ fn sensors(studies: &[Study]) -> String {
             "<tr><th scope=\"row\">{}</th><td class=\"wrap\">{}</td><td class=\"wrap\">{}</td><td>{}</td><td class=\"wrap\">{}</td><td class=\"wrap\">{}</td></tr>\n",
             html(&name),
             html(&study.serial),
-            html(&study.gel),
+            html(&without_digests(&study.gel)),
             html(&study.source),
             html(study.made.model.as_deref().unwrap_or("–")),
             html(split.map_or("–", |(_, split)| split))

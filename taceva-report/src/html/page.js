@@ -117,7 +117,7 @@
     });
   }
 
-  const boxes = document.querySelectorAll(".scroll, main figure");
+  const boxes = document.querySelectorAll(".scroll, main figure[id]");
   const hint = (box) => { box.toggleAttribute("data-more", box.scrollWidth > box.clientWidth + 2); };
   const watch = new ResizeObserver((entries) => entries.forEach((entry) => hint(entry.target)));
   boxes.forEach((box) => watch.observe(box));

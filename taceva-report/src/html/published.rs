@@ -1,5 +1,6 @@
 //! Scores beside what was published of the same sensor, where both are defined alike.
 
+use super::glossary::metric_link;
 use crate::catalogue::find;
 use crate::escape::html;
 use crate::number::{minus, spaced, with_interval};
@@ -23,7 +24,7 @@ pub(super) fn section(studies: &[Study]) -> Option<(usize, String)> {
             rows += &format!(
                 "<tr><th scope=\"row\">{}</th><td>{}</td><td>{}</td><td class=\"r\">{}</td><td class=\"r\">{}{}</td><td class=\"wrap long\">{}: {}</td></tr>\n",
                 html(&study.sensor),
-                html(&score.metric),
+                metric_link(&score.metric),
                 html(&score.channel),
                 minus(&html(&with_interval(score))),
                 minus(&published.value.to_string()),

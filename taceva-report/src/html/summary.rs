@@ -2,11 +2,13 @@
 
 use taceva_metrics::Better;
 
+use super::glossary::score_link;
 use crate::escape::html;
 use crate::figures::{listed, names};
 use crate::number::{minus, spaced};
 use crate::results::{Score, Study};
 use crate::table::{ScoreCell, ScoreRow, ScoreTable};
+use crate::tie::tie;
 
 /// What stands below the title.
 pub(crate) fn lead(studies: &[Study]) -> String {
@@ -31,12 +33,13 @@ pub(crate) fn badge(studies: &[Study]) -> &'static str {
 }
 
 /// What is asked of a report first, with how it is answered.
-pub(crate) const QUESTIONS: [(&str, &str, &str); 10] = [
+pub(crate) const QUESTIONS: [(&str, &str, &str); 11] = [
     ("mae", "Pz", "Depth"),
     ("mae", "Pxy", "Position in the plane"),
     ("mae", "Fz", "Normal force"),
     ("mae", "Fxy", "Shear force"),
     ("sr", "line", "Fine lines"),
+    ("sr", "dot", "Fine dots"),
     ("sensitivity", "Fz", "Sensitivity"),
     ("uniformity", "Fz", "Evenness of the surface"),
     ("r_light", "Fz", "Force in changing light"),
@@ -54,7 +57,8 @@ pub(super) fn section(studies: &[Study], table: &ScoreTable) -> String {
             .find(|row| row.metric == metric && row.channel == channel);
         if let Some(words) = row.and_then(|row| answer(studies, table, row)) {
             out += &format!(
-                "<li><strong>{question}</strong> (<code>{metric}</code> {channel}): {words}</li>\n"
+                "<li><strong>{question}</strong> ({}): {words}</li>\n",
+                score_link(metric, channel)
             );
             answered += 1;
         }
@@ -62,8 +66,8 @@ pub(super) fn section(studies: &[Study], table: &ScoreTable) -> String {
     if answered == 0 {
         for row in table.headlines().rows.iter().take(8) {
             if let Some(words) = answer(studies, table, row) {
-                let (metric, channel) = (html(&row.metric), html(&row.channel));
-                out += &format!("<li><code>{metric}</code> {channel}: {words}</li>\n");
+                let of = score_link(&row.metric, &row.channel);
+                out += &format!("<li>{of}: {words}</li>\n");
             }
         }
     }
@@ -117,13 +121,6 @@ fn answer(studies: &[Study], table: &ScoreTable, row: &ScoreRow) -> Option<Strin
         _ => best,
     })?;
     let name = html(&table.names[best.0]);
-    let missing: Vec<String> = row
-        .cells
-        .iter()
-        .zip(&table.names)
-        .filter(|(cell, _)| cell.as_ref().is_none_or(|cell| cell.value.is_none()))
-        .map(|(_, name)| html(name))
-        .collect();
     let verdict = if known.len() < 2 {
         match barred.is_empty() {
             true => "alone has a value".to_owned(),
@@ -134,18 +131,28 @@ fn answer(studies: &[Study], table: &ScoreTable, row: &ScoreRow) -> Option<Strin
             true => "is shown to be better than every other sensor".to_owned(),
             false => "is shown to be better than every other sensor that takes part".to_owned(),
         }
+    } else if let Some(tie) = tie(studies, &table.names, &row.metric, &row.channel) {
+        return Some(format!("{}.{}{barred}", html(&tie), without(row, table)));
     } else {
         let rivals = rivals(best.0, &known, (table, row));
         format!("has the best value, but is not shown to be better than {rivals}")
     };
-    let missing = match missing.len() {
+    Some(format!(
+        "{name} {verdict}, with {}.{}{barred}",
+        phrase(best.1),
+        without(row, table)
+    ))
+}
+
+/// Those that have no value: ` No value: GelSightWM.`
+fn without(row: &ScoreRow, table: &ScoreTable) -> String {
+    let missing = row.cells.iter().zip(&table.names);
+    let missing = missing.filter(|(cell, _)| cell.as_ref().is_none_or(|cell| cell.value.is_none()));
+    let missing: Vec<String> = missing.map(|(_, name)| html(name)).collect();
+    match missing.len() {
         0 => String::new(),
         _ => format!(" No value: {}.", listed(&missing)),
-    };
-    Some(format!(
-        "{name} {verdict}, with {}.{missing}{barred}",
-        phrase(best.1)
-    ))
+    }
 }
 
 /// Those whose value claims nothing, and why: ` Takes no part: GelSightWM (no skill).`
@@ -187,7 +194,9 @@ fn phrase(cell: &ScoreCell, row: &ScoreRow) -> String {
     let value = match &cell.printed.interval {
         Some([low, high]) => {
             let [low, high] = [low, high].map(|end| minus(end));
-            format!("{value}{unit} ({low} … {high})")
+            format!(
+                "<span class=\"nb\">{value}{unit}</span> <span class=\"nb\">({low} … {high})</span>"
+            )
         }
         None => format!("{value}{unit}"),
     };

@@ -57,20 +57,22 @@ fn cell(cell: Option<&ScoreCell>) -> String {
     };
     let interval = match (&printed.interval, &printed.reason) {
         (Some([low, high]), _) => {
-            format!("{} … {}, n = {}{invalid}", minus(low), minus(high), cell.n)
+            let (low, high, n) = (minus(low), minus(high), cell.n);
+            // Where it is broken, it is behind the comma.
+            format!("{low}\u{a0}…\u{a0}{high}, n\u{a0}=\u{a0}{n}{invalid}")
         }
         (None, Some(_)) | (None, None) => format!("no interval, n = {}{invalid}", cell.n),
     };
-    let interval = match cell.remark() {
-        Some(remark) => format!("{interval}, {remark}"),
-        None => interval,
-    };
+    // On a line of its own: beside the interval it would make the column wide.
+    let remark = cell.remark().map_or_else(String::new, |remark| {
+        format!("<span class=\"ci\">{}</span>", html(&remark))
+    });
     let why = printed.reason.as_deref().unwrap_or_default();
     let hover = match why {
         "" => String::new(),
         why => format!(" title=\"interval {}\"", html(why)),
     };
     format!(
-        "<td class=\"r\" data-v=\"{value:?}\"{hover}>{shown}<span class=\"ci\">{interval}</span></td>"
+        "<td class=\"r\" data-v=\"{value:?}\"{hover}>{shown}<span class=\"ci\">{interval}</span>{remark}</td>"
     )
 }

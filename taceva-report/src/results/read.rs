@@ -1,5 +1,6 @@
 //! From JSON to results, place by place: whatever is amiss is named by where it stands.
 
+mod over_seeds;
 mod place;
 mod values;
 
@@ -117,6 +118,8 @@ fn study(root: &Place<'_>) -> Result<Study, ResultsError> {
         standing::by_r2(&mut scores);
     }
     let entries = entries.into_iter().filter(|(name, _)| *name != "notes");
+    let over_seeds = root.optional("over_seeds");
+    let over_seeds = over_seeds.map(|place| over_seeds::over_seeds(&place));
     Ok(Study {
         sensor: subject.entry("sensor")?.text()?.to_owned(),
         serial: named("serial")?,
@@ -130,6 +133,7 @@ fn study(root: &Place<'_>) -> Result<Study, ResultsError> {
             .collect(),
         made,
         notes,
+        over_seeds: over_seeds.transpose()?,
         samples: None,
     })
 }

@@ -1,9 +1,7 @@
 //! For papers: the main scores in the width of one column.
 
-use taceva_metrics::{Better, catalogue};
-
 use super::latex::{cell, symbol};
-use super::notation::metric;
+use super::notation::{directed, metric};
 use super::{ScoreCell, ScoreTable};
 use crate::escape::latex as escape;
 
@@ -45,10 +43,11 @@ pub fn latex_column(table: &ScoreTable, caption: &str) -> String {
         };
         let cells: Vec<String> = row.cells.iter().map(|of| short_cell(of.as_ref())).collect();
         out += &format!(
-            "    {} {}{unit}{} & {} \\\\\n",
-            metric(&row.metric),
-            symbol(&row.channel),
-            direction(&row.metric),
+            "    {} & {} \\\\\n",
+            directed(
+                &row.metric,
+                &format!("{} {}{unit}", metric(&row.metric), symbol(&row.channel))
+            ),
             cells.join(" & ")
         );
     }
@@ -60,16 +59,6 @@ pub fn latex_column(table: &ScoreTable, caption: &str) -> String {
         out += "\n  \\footnotesize Bold: better than every other sensor at a level of 5\\,\\% after Holm's adjustment.\n";
     }
     out + "\\end{table}\n"
-}
-
-/// The sign of the direction of a metric.
-fn direction(id: &str) -> &'static str {
-    match catalogue::find(id).map(|metric| metric.better) {
-        Some(Better::Lower) => " $\\downarrow$",
-        Some(Better::Higher) => " $\\uparrow$",
-        Some(Better::NearZero) => " $\\to 0$",
-        _ => "",
-    }
 }
 
 /// A value with at most three digits: a column has no room for more, and the long table has them.

@@ -1,11 +1,14 @@
 //! One row a score and study, numbers in full.
 
+use taceva_metrics::Better;
+
 use super::ScoreTable;
 use crate::escape;
 
-const HEAD: [&str; 13] = [
+const HEAD: [&str; 14] = [
     "sensor",
     "metric",
+    "better",
     "channel",
     "value",
     "unit",
@@ -30,6 +33,7 @@ pub fn csv(table: &ScoreTable) -> String {
     };
     write(&HEAD.map(str::to_owned));
     for row in &table.rows {
+        let better = Better::of(&row.metric).map_or("", Better::name);
         for (name, cell) in table.names.iter().zip(&row.cells) {
             let Some(cell) = cell else { continue };
             let number =
@@ -37,6 +41,7 @@ pub fn csv(table: &ScoreTable) -> String {
             write(&[
                 escape::csv(name),
                 escape::csv(&row.metric),
+                better.to_owned(),
                 escape::csv(&row.channel),
                 number(cell.value),
                 row.unit.symbol().to_owned(),

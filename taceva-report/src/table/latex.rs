@@ -1,6 +1,6 @@
 //! For papers: a booktabs table, a row a score, a column a study.
 
-use super::notation::metric;
+use super::notation::{directed, metric};
 use super::{ScoreCell, ScoreTable};
 use crate::escape::latex as escape;
 
@@ -38,7 +38,7 @@ pub fn latex(table: &ScoreTable, caption: &str) -> String {
         };
         out += &format!(
             "    {} & {} & {unit} & {} \\\\\n",
-            self::metric(metric),
+            directed(metric, &self::metric(metric)),
             symbol(&row.channel),
             cells.join(" & ")
         );

@@ -1,5 +1,7 @@
 //! For pages: a row a score, a column a study.
 
+use taceva_metrics::Better;
+
 use super::{ScoreCell, ScoreTable};
 use crate::escape::markdown as escape;
 
@@ -16,7 +18,7 @@ pub fn markdown(table: &ScoreTable) -> String {
             .collect();
         out += &format!(
             "| {} | {} | {} | {} |\n",
-            escape(&row.metric),
+            escape(&Better::named(&row.metric)),
             escape(&row.channel),
             row.unit,
             cells.join(" | ")

@@ -132,7 +132,7 @@ fn value(place: &Place<'_>) -> Result<(Value, Unit), ResultsError> {
     Ok((value, unit))
 }
 
-fn unit(place: &Place<'_>) -> Result<Unit, ResultsError> {
+pub(super) fn unit(place: &Place<'_>) -> Result<Unit, ResultsError> {
     let symbol = place.text()?;
     Unit::from_symbol(symbol)
         .ok_or_else(|| place.refuse_found("a unit", format!("`{}`", shown(symbol))))

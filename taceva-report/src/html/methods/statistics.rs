@@ -1,0 +1,84 @@
+//! Intervals, tests, and what earns a comparison, in the sentences of a paper.
+
+use std::collections::BTreeSet;
+
+use taceva_metrics::catalogue;
+
+use crate::figures::listed;
+use crate::results::{Score, Study};
+use crate::table::ScoreTable;
+
+/// Intervals, tests and adjustment.
+pub(super) fn statistics(studies: &[Study], table: &ScoreTable) -> String {
+    let methods: BTreeSet<&str> = table
+        .rows
+        .iter()
+        .flat_map(|row| row.cells.iter().flatten())
+        .filter_map(|cell| cell.method.as_deref())
+        .map(|method| method.split(", G=").next().unwrap_or(method))
+        .collect();
+    let methods: Vec<String> = methods.into_iter().map(str::to_owned).collect();
+    let mut out = match methods.is_empty() {
+        true => String::new(),
+        false => format!(" Intervals are of 95 % ({}).", methods.join("; ")),
+    };
+    let tests: BTreeSet<String> = table
+        .answers
+        .iter()
+        .filter_map(|answer| Some(answer.difference.as_ref()?.test.to_string()))
+        .collect();
+    if studies.len() > 1 && !tests.is_empty() {
+        let tests: Vec<String> = tests.into_iter().collect();
+        out += &format!(
+            " Sensors were compared pair by pair ({}), with p values adjusted by Holm's method over all pairs and channels of a metric and a level of 5 %.",
+            tests.join("; ")
+        );
+    }
+    out += &skill(studies);
+    out + &seeds(studies)
+}
+
+/// Which scores are compared, and how the others are marked.
+fn skill(studies: &[Study]) -> String {
+    let is_predicted = |score: &Score| {
+        catalogue::find(&score.metric).is_some_and(|metric| metric.reads_predictions())
+    };
+    let mut scores = studies.iter().flat_map(|study| &study.scores);
+    if !scores.any(is_predicted) {
+        return String::new();
+    }
+    let marks: BTreeSet<&str> = studies
+        .iter()
+        .flat_map(|study| &study.scores)
+        .filter(|score| score.value.number().is_some() && !score.standing.takes_part())
+        .filter_map(|score| score.standing.words())
+        .collect();
+    let marks: Vec<String> = marks.into_iter().map(|mark| format!("“{mark}”")).collect();
+    let marked = match marks.is_empty() {
+        true => "no score here is marked otherwise".to_owned(),
+        false => format!(
+            "the others keep their values, are marked {} and take part in no comparison",
+            listed(&marks)
+        ),
+    };
+    format!(
+        " Only scores of models with skill are compared: the lower end of the 95 % interval of 1 − MSE(model) / MSE(constant) must lie above zero on each channel that a score is formed from, on samples that the model had not seen, and a success rate above that of the best constant answer; {marked}."
+    )
+}
+
+/// With which seeds models were fitted, where with several.
+fn seeds(studies: &[Study]) -> String {
+    let over = studies.iter().filter_map(|study| study.over_seeds.as_ref());
+    let mut all: Vec<Vec<String>> = over
+        .map(|over| over.seeds.iter().map(ToString::to_string).collect())
+        .collect();
+    all.dedup();
+    match all.as_slice() {
+        [] => String::new(),
+        [seeds] => format!(
+            " Each model was fitted with the seeds {}; scores are those of the first, and the standard deviation over seeds is given apart.",
+            listed(seeds)
+        ),
+        _ => " Models were fitted with several seeds each; scores are those of the first, and the standard deviation over seeds is given apart.".to_owned(),
+    }
+}
