@@ -10,6 +10,7 @@ pub(crate) mod compare;
 pub(crate) mod completions;
 pub(crate) mod devices;
 pub(crate) mod doctor;
+mod effort;
 pub(crate) mod evaluate;
 pub(crate) mod fit;
 pub(crate) mod import;

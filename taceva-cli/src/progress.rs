@@ -91,7 +91,7 @@ fn left(done: u64, all: u64, elapsed: Duration) -> Option<Duration> {
 }
 
 /// `40 s`, `12 min`, `3 h 5 min`.
-fn spoken(time: Duration) -> String {
+pub(crate) fn spoken(time: Duration) -> String {
     let seconds = time.as_secs();
     match seconds {
         0..=89 => format!("{seconds} s"),

@@ -240,7 +240,7 @@ fn a_folder_that_is_no_dataset_or_a_newer_one_is_refused() {
     let header = std::fs::read_to_string(bench.path("data/dataset.toml")).expect("there");
     bench.write(
         "data/dataset.toml",
-        &header.replace("format = \"1.3\"", "format = \"2.0\""),
+        &header.replace("format = \"1.4\"", "format = \"2.0\""),
     );
     bench.refused(
         "evaluate data --model ridge",

@@ -328,4 +328,25 @@ fn a_column_that_judges_rows_and_is_not_mentioned_is_said_at_import() {
         said.contains("warning  unmentioned-quality: `quality_flags`"),
         "{said}"
     );
+    // The dataset remembers it, for whoever has not seen the import.
+    let said = bench.ok("check data --only TAC014 -q");
+    let line = r#"`[drop] column = "quality_flags", quality_flags = ["…"]`"#;
+    assert!(
+        said.contains("warning  TAC014 unmentioned-columns: `quality_flags`")
+            && said.contains(line),
+        "{said}"
+    );
+    let note = "note     TAC014 unmentioned-columns: columns of the table that no key of the map names: note\n";
+    assert!(said.contains(note), "{said}");
+    // Named where the hint says, the rows that are bad are left out and nothing is left to say of them.
+    let map = fs::read_to_string(bench.path("map.toml")).expect("there");
+    assert!(!map.contains("[drop]"), "{map}");
+    bench.write(
+        "map.toml",
+        &format!("{map}\n[drop]\ncolumn = \"quality_flags\"\nquality_flags = [\"bad\"]\n"),
+    );
+    bench.ok("import lab --map map.toml --to again -q");
+    let said = bench.ok("check again --only TAC014 -q");
+    assert!(!said.contains("warning  TAC014"), "{said}");
+    assert!(said.contains(note), "{said}");
 }

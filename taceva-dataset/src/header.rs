@@ -159,6 +159,8 @@ pub struct Header {
     pub channels: Channels,
     /// The names of the text columns kept for splits.
     pub attributes: Vec<String>,
+    /// Columns of the imported table that no key of its map names; empty of a recording, and before format 1.4.
+    pub unmentioned_columns: Vec<String>,
     /// What all frames share; `None` if there is none.
     pub frames: Option<FramesInfo>,
     /// How many presses ended in which way, those without a sample too; empty where no protocol pressed, and before format 1.2.
@@ -178,6 +180,8 @@ struct Written {
     source: Source,
     clock: Clock,
     attributes: Vec<String>,
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    unmentioned_columns: Vec<String>,
     digest: Digest,
     sensor: SensorFacts,
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -239,6 +243,7 @@ impl Header {
             footprint: written.footprint,
             channels,
             attributes: written.attributes,
+            unmentioned_columns: written.unmentioned_columns,
             frames: written.frames,
             presses: written.presses,
             table: written.table,
@@ -259,6 +264,7 @@ impl Header {
             source: self.source,
             clock: self.clock,
             attributes: self.attributes.clone(),
+            unmentioned_columns: self.unmentioned_columns.clone(),
             digest: self.digest,
             sensor: self.sensor.clone(),
             footprint: self.footprint,
@@ -326,6 +332,7 @@ mod tests {
             }),
             channels: Channels::new([Channel::FZ, Channel::PZ]).expect("distinct"),
             attributes: vec!["video".to_owned()],
+            unmentioned_columns: vec!["quality_flags".to_owned()],
             frames: Some(FramesInfo {
                 count: 3,
                 info: FrameInfo {

@@ -19,6 +19,7 @@ mod layout;
 mod limits;
 mod pack;
 mod parallel;
+mod quality;
 mod recorder;
 mod replaced;
 mod samples;
@@ -48,6 +49,7 @@ pub use import::{
     magnitude_suspicion,
 };
 pub use pack::Span;
+pub use quality::names_quality;
 pub use recorder::{Recorder, RecordingSpec};
 pub use replaced::settle;
 pub use scaled::DecodeScale;

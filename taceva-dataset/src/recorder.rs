@@ -265,7 +265,7 @@ impl Recorder {
             &header_path,
             &self.facts,
             (&self.table, self.frames_info()),
-            self.press_counts(),
+            (self.press_counts(), Vec::new()),
         )?;
         self.verify(&samples, &header)?;
         self.put_in_place(&samples, layout::SAMPLES)?;

@@ -33,7 +33,7 @@ pub(crate) fn write_table_and_header(
     header: &Path,
     facts: &RecordingFacts,
     (table, frames): (&Table, Option<FramesInfo>),
-    presses: BTreeMap<PressOutcome, u64>,
+    (presses, unmentioned_columns): (BTreeMap<PressOutcome, u64>, Vec<String>),
 ) -> Result<Header, DatasetError> {
     let bytes = to_parquet(table).map_err(|problem| DatasetError::Damaged {
         path: samples.to_owned(),
@@ -49,6 +49,7 @@ pub(crate) fn write_table_and_header(
         footprint: facts.footprint,
         channels: table.channels().clone(),
         attributes: table.attribute_names().to_vec(),
+        unmentioned_columns,
         digest: dataset_digest(table_digest, frames.as_ref()),
         frames,
         presses,

@@ -93,7 +93,7 @@ pub fn write_as_jpeg(
         &staged.path().join(layout::HEADER),
         &facts,
         (&table, frames),
-        header.presses.clone(),
+        (header.presses.clone(), header.unmentioned_columns.clone()),
     )?;
     staged.put_in_place(&folders)?;
     Ok(written)

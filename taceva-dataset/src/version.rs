@@ -18,7 +18,7 @@ pub struct Version {
 
 impl Version {
     /// What this crate writes.
-    pub const CURRENT: Version = Version { major: 1, minor: 3 };
+    pub const CURRENT: Version = Version { major: 1, minor: 4 };
 
     /// The first version whose headers are sealed.
     pub const SEALED: Version = Version { major: 1, minor: 3 };

@@ -8,6 +8,7 @@ mod error;
 mod exponential;
 mod holm;
 pub(crate) mod jackknife;
+mod logarithm;
 mod method;
 mod paired_clusters;
 mod poisson;

@@ -28,6 +28,7 @@ use std::time::Duration;
 
 use taceva_core::shown;
 
+pub(crate) use features::ONE_MAX;
 pub use inventory::{CacheEntry, Pruning, cache_entries, pruned, remove_entry};
 pub(crate) use key::Key;
 pub use key::Stage;
@@ -70,6 +71,11 @@ impl Cache {
             notes: Mutex::default(),
             records: Mutex::default(),
         }
+    }
+
+    /// The folder.
+    pub fn path(&self) -> &Path {
+        &self.folder
     }
 
     /// What the user should know: a folder that cannot be written, entries that were damaged.

@@ -19,13 +19,14 @@ mod saturation;
 mod stuck_channel;
 mod timing;
 mod units;
+mod unmentioned_columns;
 
 pub use evidence::{Evidence, FrameFacts};
 pub use finding::{Check, CheckReport, Finding, Severity};
 pub use run::{CheckRequest, check, check_plan};
 
 /// Every check, in the order of its code.
-pub static ALL: [&Check; 14] = [
+pub static ALL: [&Check; 15] = [
     &units::CHECK,
     &duplicate_frames::CHECK,
     &channel_order::CHECK,
@@ -40,4 +41,5 @@ pub static ALL: [&Check; 14] = [
     &facts::CHECK,
     &damaged_frames::CHECK,
     &label_outliers::CHECK,
+    &unmentioned_columns::CHECK,
 ];

@@ -191,6 +191,11 @@ impl<'a> FitPlan<'a> {
         self.model.reads_features()
     }
 
+    /// What is taken of frames; where some of it is open, what the model asks for.
+    pub(crate) fn features(&self) -> FeatureSpec {
+        self.features
+    }
+
     /// How many frames [`run`](FitPlan::run) decodes.
     pub(crate) fn frames_to_decode(&self) -> u64 {
         if self.reads_frames() {

@@ -7,6 +7,7 @@ mod cache;
 mod calibration;
 pub mod check;
 mod durable;
+mod effort;
 mod error;
 mod evaluate;
 mod facts;
@@ -37,6 +38,7 @@ pub use cache::{
     Cache, CacheEntry, Pruning, Stage, StageRecord, cache_entries, pruned, remove_entry,
 };
 pub use check::{CheckReport, CheckRequest, Finding, Severity, check, check_plan};
+pub use effort::Effort;
 pub use error::StudyError;
 pub use evaluate::{EvaluateRequest, Evaluated, ModelChoice, evaluate, evaluate_plan};
 pub use fit::{FitRequest, Fitted, fit};

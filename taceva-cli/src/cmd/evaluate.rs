@@ -1,9 +1,9 @@
 //! `taceva evaluate`.
 
 use taceva_dataset::SensorFile;
-use taceva_study::{EvaluateRequest, ModelChoice, Part, evaluate, evaluate_plan};
+use taceva_study::{Effort, EvaluateRequest, ModelChoice, Part, evaluate, evaluate_plan};
 
-use super::{Context, Usage, cache, fit_request, open};
+use super::{Context, Usage, cache, effort, fit_request, open};
 use crate::args::Evaluate;
 use crate::{exit, output, report};
 
@@ -52,6 +52,8 @@ pub(crate) fn run(args: &Evaluate, context: &Context) -> anyhow::Result<u8> {
     }
     context.tell(|| evaluate_plan(&dataset, &request))?;
     let cache = cache::of(&args.cache);
+    let planned = Effort::of_evaluation(&dataset, &request)?;
+    effort::tell(&planned, &dataset, cache.as_ref(), context);
     let mut evaluated = evaluate(&dataset, &request, context.work(cache.as_ref()))?;
     if args.samples_out.is_some() {
         super::note_samples(&mut evaluated.report)?;

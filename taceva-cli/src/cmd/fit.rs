@@ -6,9 +6,9 @@ use taceva_core::shown;
 
 use anyhow::Context as _;
 use taceva_models::{Checkpoints, Foreign};
-use taceva_study::{Fitted, fit};
+use taceva_study::{Effort, Fitted, fit};
 
-use super::{Context, cache, fit_request, open};
+use super::{Context, cache, effort, fit_request, open};
 use crate::args::Fit;
 use crate::{exit, output};
 
@@ -22,6 +22,8 @@ pub(crate) fn run(args: &Fit, context: &Context) -> anyhow::Result<u8> {
     let request = fit_request(&args.model.name, &args.model.settings, &args.split, &models)?;
     let checkpoints = checkpoints(args);
     let cache = cache::of(&args.cache);
+    let planned = Effort::of_fit(&dataset, &request)?;
+    effort::tell(&planned, &dataset, cache.as_ref(), context);
     let work = context.work(cache.as_ref());
     let fitted = fit(&dataset, &request, Some(checkpoints.clone()), work)?;
     cache::note(cache.as_ref(), context);

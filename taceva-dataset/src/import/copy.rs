@@ -87,7 +87,7 @@ impl ImportPlan {
             &staged.path().join(layout::HEADER),
             &self.facts,
             (&table, frames),
-            BTreeMap::new(),
+            (BTreeMap::new(), self.summary.columns_left_behind()),
         )?;
         staged.put_in_place(&folders)?;
         Ok(ImportReport {

@@ -4,6 +4,7 @@ use std::fmt;
 
 use super::copy::ImportReport;
 use super::plan::{Conversion, ImportPlan, ImportSummary};
+use crate::quality::names_quality;
 use crate::text::{shown, shown_path};
 
 impl fmt::Display for ImportSummary {
@@ -53,11 +54,6 @@ impl fmt::Display for ImportSummary {
     }
 }
 
-/// What the name of a column says whose rows may not be what they seem.
-const QUALITY: [&str; 9] = [
-    "quality", "flag", "valid", "status", "error", "outlier", "reject", "bad", "warning",
-];
-
 impl ImportSummary {
     /// The columns that are left behind; those that judge their rows, one by one.
     fn write_unmentioned(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -75,8 +71,7 @@ impl ImportSummary {
             names.join(", ")
         )?;
         for name in &self.unmentioned_columns {
-            let folded = name.to_lowercase();
-            if QUALITY.iter().any(|word| folded.contains(word)) {
+            if names_quality(name) {
                 writeln!(
                     f,
                     "warning  unmentioned-quality: `{}` may say which rows are bad, and no rule reads it; name it under [drop] or [attributes] of the map",

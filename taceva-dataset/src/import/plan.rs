@@ -14,6 +14,7 @@ use super::suspicion::{Suspicion, magnitude_suspicion_in};
 use crate::decode::ChannelOrder;
 use crate::error::{DatasetError, Place};
 use crate::file::SourceFolder;
+use crate::quality::names_quality;
 use crate::store::RecordingFacts;
 use crate::table::Table;
 use crate::text::shown;
@@ -55,6 +56,26 @@ pub struct ImportSummary {
     pub unmentioned_columns: BTreeSet<String>,
     /// Numbers that contradict their unit.
     pub suspicions: Vec<Suspicion>,
+}
+
+/// How many columns that the map does not mention a dataset remembers, and how long their names may be.
+const REMEMBERED: usize = 256;
+const REMEMBERED_BYTES: usize = 256;
+
+impl ImportSummary {
+    /// The columns that the map does not mention, as the dataset remembers them: those that judge their rows first.
+    pub(super) fn columns_left_behind(&self) -> Vec<String> {
+        let short = |name: &&String| name.len() <= REMEMBERED_BYTES;
+        let mut columns: Vec<String> = self
+            .unmentioned_columns
+            .iter()
+            .filter(short)
+            .cloned()
+            .collect();
+        columns.sort_by_key(|name| !names_quality(name));
+        columns.truncate(REMEMBERED);
+        columns
+    }
 }
 
 /// What happens to one channel.

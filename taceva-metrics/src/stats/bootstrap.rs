@@ -95,10 +95,16 @@ impl PoissonBootstrap {
             return Interval::Undefined(UndefinedReason::TooFewReplicates { defined, drawn });
         }
         let standard_error = standard_deviation(&replicates);
+        let freedom = clusters.iter().fold(-1.0, |freedom, _| freedom + 1.0);
+        let carried = replicates
+            .iter()
+            .map(|replicate| estimated.carry(*replicate));
+        let carried: Option<Vec<f64>> = carried.collect();
         let moved = Moved {
             standard_error,
-            freedom: clusters.iter().fold(-1.0, |freedom, _| freedom + 1.0),
+            freedom,
             clusters: clusters.len(),
+            carried: carried.map(|carried| [standard_deviation(&carried), freedom]),
         };
         // A scale changes no percentile, and replicates lie in the range; where none differs from the value, its end is asked.
         let ends = match self.ends {

@@ -3,6 +3,7 @@
 use std::fmt;
 
 use super::exponential::exponential;
+use super::logarithm::logarithm;
 use super::student::quantile;
 use crate::range::Range;
 use crate::score::COVERAGE;
@@ -44,6 +45,18 @@ pub(crate) struct Moved {
     pub(crate) freedom: f64,
     /// Clusters with samples.
     pub(crate) clusters: usize,
+    /// Standard error and its degrees of freedom on the scale without ends, where they were found there.
+    pub(crate) carried: Option<[f64; 2]>,
+}
+
+impl Moved {
+    /// t × the standard error on the scale without ends, on which a step from the value is `slope` times one of its own: as found there,
+    /// or to first order.
+    fn step(&self, slope: f64) -> f64 {
+        let first_order = || [self.standard_error * slope, self.freedom];
+        let [error, freedom] = self.carried.unwrap_or_else(first_order);
+        quantile(COVERAGE, freedom) * error
+    }
 }
 
 /// Both ends, and on which scale they were found.
@@ -57,9 +70,9 @@ pub(crate) struct Ends {
 impl Estimated {
     /// The 95 % interval of an estimate that moves so far.
     ///
-    /// With s the standard error and h = t(freedom) × s: value ± h where there is no end. Where there is one, at distance d,
-    /// the logarithm of d has the standard error s / d to first order, so that d is carried to d e^(±h/d); between two
-    /// ends the same with the odds of the value. Of a quantity that may be at an end, value ± h is cut there. Of shares: Wilson's
+    /// With s the standard error and h = t(freedom) × s: value ± h where there is no end. Where there is one, at distance d, with s and t
+    /// those of the logarithm of d: d e^(±h); between two ends the same with the odds of the value. Where they are known on the quantity's
+    /// own scale only, the logarithm of d has the standard error s / d to first order. Of a quantity that may be at an end, value ± h is cut there. Of shares: Wilson's
     /// interval with t for z and n* = p (1 − p) / s² samples for n, at most as many as there are; where no share differs from 0,
     /// or none from 1, with as many as there are clusters.
     ///
@@ -86,16 +99,18 @@ impl Estimated {
         let (ends, scale) = match self.range {
             Range::Any => ([value - half, value + half], Scale::Own),
             Range::Positive if !is_at_end => {
-                let ends = [-half, half].map(|half| least + below * exponential(half / below));
+                let step = moved.step(1.0 / below);
+                let ends = [-step, step].map(|step| least + below * exponential(step));
                 (ends, Scale::Logarithm)
             }
             Range::BelowOne if !is_at_end => {
-                let ends = [half, -half].map(|half| greatest - above * exponential(half / above));
+                let step = moved.step(1.0 / above);
+                let ends = [step, -step].map(|step| greatest - above * exponential(step));
                 (ends, Scale::Logarithm)
             }
             Range::Ratio | Range::BelowTwo if !is_at_end => {
                 let width = greatest - least;
-                let step = half * width / (below * above);
+                let step = moved.step(width / (below * above));
                 let share = |step: f64| below / (below + above * exponential(-step));
                 (
                     [-step, step].map(|step| least + width * share(step)),
@@ -110,6 +125,21 @@ impl Estimated {
         } else {
             Err(UndefinedReason::Overflow)
         }
+    }
+
+    /// How far `other` lies from the value on the scale without ends, the logarithm of a distance or of odds; `None` where the quantity has no
+    /// such scale, and where either is at an end.
+    pub(crate) fn carry(&self, other: f64) -> Option<f64> {
+        let [least, greatest] = self.range.ends();
+        let below = || (other - least) / (self.value - least);
+        let above = || (greatest - other) / (greatest - self.value);
+        let ratio = match self.range {
+            Range::Positive => below(),
+            Range::BelowOne => above(),
+            Range::Ratio | Range::BelowTwo => below() / above(),
+            _ => return None,
+        };
+        Some(logarithm(ratio)).filter(|carried| carried.is_finite())
     }
 
     /// The ends, where rounding or a cut may not leave the range nor the value outside.
@@ -171,6 +201,7 @@ mod tests {
             standard_error: half / quantile(COVERAGE, 4.0),
             freedom: 4.0,
             clusters: 5,
+            carried: None,
         })
     }
 
@@ -218,6 +249,46 @@ mod tests {
             [2.0 / 3.0, 4.0 / 3.0],
             Scale::Logit,
         );
+    }
+
+    #[test]
+    fn what_was_found_on_the_scale_without_ends_is_taken_as_it_is() {
+        let estimated = Estimated {
+            value: 0.5,
+            range: Range::Positive,
+            samples: 50,
+        };
+        let found = estimated.ends(&Moved {
+            standard_error: 1.0,
+            freedom: 1.0,
+            clusters: 5,
+            carried: Some([std::f64::consts::LN_2 / quantile(COVERAGE, 4.0), 4.0]),
+        });
+        close(found, [0.25, 1.0], Scale::Logarithm);
+    }
+
+    #[test]
+    fn distances_and_odds_are_carried_by_their_logarithms() {
+        let carried = |range, value, other| {
+            let samples = 50;
+            let estimated = Estimated {
+                value,
+                range,
+                samples,
+            };
+            estimated.carry(other).map(|carried| carried.exp())
+        };
+        let close = |found: Option<f64>, expected: f64| {
+            let found = found.expect("on the scale");
+            assert!((found / expected - 1.0).abs() < 1e-14, "{found}");
+        };
+        close(carried(Range::Positive, 0.5, 1.0), 2.0);
+        close(carried(Range::BelowOne, 0.9, 0.8), 2.0);
+        close(carried(Range::Ratio, 0.5, 0.75), 3.0);
+        close(carried(Range::BelowTwo, 1.0, 0.5), 1.0 / 3.0);
+        assert_eq!(carried(Range::Positive, 0.5, 0.0), None);
+        assert_eq!(carried(Range::BelowOne, 1.0, 0.5), None);
+        assert_eq!(carried(Range::Any, 0.5, 1.0), None);
     }
 
     #[test]

@@ -19,15 +19,18 @@ pub(crate) struct LeftOut {
 
 /// The interval of an estimate, whose score with each cluster left out is known.
 pub(crate) fn interval(value: f64, range: Range, left_out: &[LeftOut]) -> Interval {
-    let moved = match moved(value, left_out) {
-        Ok(moved) => moved,
-        Err(reason) => return Interval::Undefined(reason),
-    };
     let counts = left_out.iter().map(|cluster| cluster.count);
     let estimated = Estimated {
         value,
         range,
         samples: counts.fold(0, u64::saturating_add),
+    };
+    let moved = match moved(value, left_out) {
+        Ok(moved) => Moved {
+            carried: carried(&estimated, left_out),
+            ..moved
+        },
+        Err(reason) => return Interval::Undefined(reason),
     };
     match estimated.ends(&moved) {
         Ok(Ends { low, high, scale }) => Interval::Jackknife {
@@ -39,6 +42,25 @@ pub(crate) fn interval(value: f64, range: Range, left_out: &[LeftOut]) -> Interv
         },
         Err(reason) => Interval::Undefined(reason),
     }
+}
+
+/// Standard error and degrees of freedom of the same jackknife on the scale without ends, if the score of all clusters and those without
+/// one of them lie on it.
+///
+/// A score of few clusters is skewed on its own scale: one cluster in which a model errs much moves it further up, when it is met, than down
+/// when it is not. There the standard error would hang on where the score happens to lie; on the scale without ends it does not
+/// (`docs/coverage.md`).
+fn carried(estimated: &Estimated, left_out: &[LeftOut]) -> Option<[f64; 2]> {
+    let carry = |cluster: &LeftOut| {
+        let value = estimated.carry(cluster.value.ok()?)?;
+        Some(LeftOut {
+            value: Ok(value),
+            ..*cluster
+        })
+    };
+    let carried: Vec<LeftOut> = left_out.iter().map(carry).collect::<Option<_>>()?;
+    let moved = moved(0.0, &carried).ok()?;
+    Some([moved.standard_error, moved.freedom])
 }
 
 /// How far `value`, the score of all clusters, would move with others, on its own scale.
@@ -97,6 +119,7 @@ fn moved(value: f64, left_out: &[LeftOut]) -> Result<Moved, UndefinedReason> {
         standard_error,
         freedom,
         clusters,
+        carried: None,
     })
 }
 
@@ -107,6 +130,7 @@ pub(crate) fn delta_interval(value: f64, range: Range, variance: f64, clusters: 
         standard_error: variance.sqrt(),
         freedom: f64::from(freedom),
         clusters,
+        carried: None,
     };
     let estimated = Estimated {
         value,
@@ -169,6 +193,36 @@ mod tests {
         let half = 2.776_445_105 * 0.5_f64.sqrt();
         assert_eq!(clusters, 5);
         assert!((low - (3.0 - half)).abs() < 1e-8 && (high - (3.0 + half)).abs() < 1e-8);
+    }
+
+    #[test]
+    fn an_error_is_left_out_on_the_scale_of_its_logarithm() {
+        // Scores 1, 2, 4, 8 and 16 without each of five clusters of one sample, 4 with all: the logarithms are 0, ±ln 2 and ±2 ln 2, so
+        // the pseudo-values are four times those, and the standard error is 4 ln 2 √(10/4/5).
+        let left_out = [1.0, 2.0, 4.0, 8.0, 16.0].map(|value| LeftOut {
+            count: 1,
+            value: Ok(value),
+        });
+        let found = interval(4.0, Range::Positive, &left_out).ends();
+        let [low, high] = found.expect("five clusters are enough");
+        let step = 2.776_445_105 * 4.0 * std::f64::consts::LN_2 * 0.5_f64.sqrt();
+        assert!((low / 4.0 / (-step).exp() - 1.0).abs() < 1e-8, "{low}");
+        assert!((high / 4.0 / step.exp() - 1.0).abs() < 1e-8, "{high}");
+    }
+
+    #[test]
+    fn a_score_that_one_cluster_takes_to_its_end_is_left_out_on_its_own_scale() {
+        let with = |first: f64| {
+            let left_out = [first, 2.0, 4.0, 6.0, 8.0].map(|value| LeftOut {
+                count: 1,
+                value: Ok(value),
+            });
+            interval(4.0, Range::Positive, &left_out).ends()
+        };
+        let [low, high] = with(0.0).expect("five clusters are enough");
+        // By the first order of the logarithm: both ends are as many times away.
+        assert!(low > 0.0 && (low * high / 16.0 - 1.0).abs() < 1e-12);
+        assert!(high < with(1e-9).expect("enough")[1]);
     }
 
     #[test]

@@ -16,7 +16,7 @@ use crate::error::StudyError;
 /// What is kept of features altogether, in bytes.
 const ALL_MAX: u64 = 2 << 30;
 /// What is kept of one set of them.
-const ONE_MAX: u64 = ALL_MAX / 4;
+pub(crate) const ONE_MAX: u64 = ALL_MAX / 4;
 
 impl Cache {
     /// The features of `rows` of `dataset` by `extractor`: those kept, or what `make` gives, which is kept from then on.

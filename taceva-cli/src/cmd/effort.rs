@@ -1,0 +1,108 @@
+//! What long work is going to take, said before it begins: time for its pictures, and room for what is kept of them.
+
+use std::path::Path;
+use std::time::{Duration, Instant};
+
+use taceva_dataset::Dataset;
+use taceva_study::{Cache, Effort};
+
+use super::Context;
+use super::cache::amount::bytes;
+use crate::progress::spoken;
+use crate::room;
+
+/// Work that takes less time is not announced, nor are fewer bytes.
+const LONG: Duration = Duration::from_secs(5);
+const MUCH: u64 = 50_000_000;
+/// Pictures below which nobody waits for them, and how many are read to tell how long the others take.
+const MANY: usize = 200;
+const TRIED: usize = 4;
+
+/// Says what `effort` on `dataset` is going to take, if that is much.
+pub(super) fn tell(effort: &Effort, dataset: &Dataset, cache: Option<&Cache>, context: &Context) {
+    let time = time_of(&effort.rows, dataset, context.jobs.get());
+    let kept = cache.map_or(0, |_| effort.kept_bytes);
+    let free = cache.and_then(|cache| room::free(cache.path()));
+    let folder = cache.map_or(Path::new("."), Cache::path);
+    for line in lines(effort.rows.len(), time, (kept, free), folder) {
+        context.say(format_args!("{line}"));
+    }
+}
+
+/// How long the pictures of `rows` take, by a few of them; `None` where they are few, or one of them cannot be read, which the work will say.
+fn time_of(rows: &[usize], dataset: &Dataset, jobs: usize) -> Option<Duration> {
+    if rows.len() < MANY {
+        return None;
+    }
+    let tried = rows.iter().step_by(rows.len() / TRIED).take(TRIED);
+    let begun = Instant::now();
+    let mut count = 0_u32;
+    for row in tried {
+        dataset.frame(*row).ok()?;
+        count += 1;
+    }
+    let each = begun.elapsed() / count.max(1);
+    let all = u32::try_from(rows.len().div_ceil(jobs.max(1))).ok()?;
+    each.checked_mul(all)
+}
+
+/// What there is to say.
+fn lines(
+    frames: usize,
+    time: Option<Duration>,
+    (kept, free): (u64, Option<u64>),
+    folder: &Path,
+) -> Vec<String> {
+    let time = time.filter(|time| *time >= LONG).map(|time| {
+        format!(
+            "time: about {} to read {frames} pictures, where no features of them are kept; then learning says how far it is",
+            spoken(time)
+        )
+    });
+    let room = (kept >= MUCH).then(|| {
+        let free = free.map_or_else(String::new, |free| {
+            let fits = if free < kept {
+                ": they may not fit, and are then not kept"
+            } else {
+                ""
+            };
+            format!(", {} are free{fits}", bytes(free))
+        });
+        format!(
+            "disk: {} of features to keep in {}{free}; --no-cache keeps none",
+            bytes(kept),
+            taceva_core::shown(folder)
+        )
+    });
+    time.into_iter().chain(room).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn much_is_said_and_little_is_not() {
+        let folder = Path::new("/cache");
+        let said = lines(9, Some(Duration::from_secs(4)), (1_000, Some(10)), folder);
+        assert_eq!(said, Vec::<String>::new());
+        let said = lines(
+            20_000,
+            Some(Duration::from_secs(130)),
+            (80_000_000, Some(1_500_000_000)),
+            folder,
+        );
+        assert_eq!(
+            said,
+            [
+                "time: about 3 min to read 20000 pictures, where no features of them are kept; then learning says how far it is",
+                "disk: 80.0 MB of features to keep in /cache, 1.50 GB are free; --no-cache keeps none",
+            ]
+        );
+        let said = lines(9, None, (80_000_000, Some(10_000)), folder);
+        assert!(
+            said[0].contains("10.0 kB are free: they may not fit"),
+            "{said:?}"
+        );
+    }
+}

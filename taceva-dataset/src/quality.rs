@@ -1,0 +1,17 @@
+//! Columns of a table that judge its rows.
+
+/// What the name of a column says whose rows may not be what they seem.
+const WORDS: [&str; 9] = [
+    "quality", "flag", "valid", "status", "error", "outlier", "reject", "bad", "warning",
+];
+
+/// Whether a column called `name` may say which rows are bad.
+///
+/// ```
+/// assert!(taceva_dataset::names_quality("Quality_Flags"));
+/// assert!(!taceva_dataset::names_quality("operator"));
+/// ```
+pub fn names_quality(name: &str) -> bool {
+    let folded = name.to_lowercase();
+    WORDS.iter().any(|word| folded.contains(word))
+}

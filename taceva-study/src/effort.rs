@@ -1,0 +1,79 @@
+//! What fitting and evaluating are going to read and to keep, known before either begins.
+
+use taceva_dataset::Dataset;
+use taceva_models::FeatureSpec;
+
+use crate::cache::ONE_MAX;
+use crate::error::StudyError;
+use crate::evaluate::{EvaluateRequest, ModelChoice};
+use crate::fit::{FitPlan, FitRequest};
+use crate::predict::Target;
+
+/// Bytes of a feature that is kept.
+const FEATURE_BYTES: u64 = 4;
+
+/// Pictures that are read, and what is kept of them where there is a cache.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Effort {
+    /// The rows whose frames are decoded, those of each part behind each other.
+    pub rows: Vec<usize>,
+    /// What is kept of features at most, in bytes; where features are to be chosen, each trial keeps its own beside it.
+    pub kept_bytes: u64,
+}
+
+impl Effort {
+    /// Of [`fit`](crate::fit).
+    ///
+    /// # Errors
+    /// [`StudyError`] if the request cannot be meant.
+    pub fn of_fit(dataset: &Dataset, request: &FitRequest) -> Result<Effort, StudyError> {
+        Ok(Effort::of_plan(&FitPlan::new(dataset, request)?))
+    }
+
+    /// Of [`evaluate`](crate::evaluate).
+    ///
+    /// # Errors
+    /// [`StudyError`] if the request cannot be meant.
+    pub fn of_evaluation(
+        dataset: &Dataset,
+        request: &EvaluateRequest,
+    ) -> Result<Effort, StudyError> {
+        match &request.model {
+            ModelChoice::Fit(fit) => {
+                let plan = FitPlan::new(dataset, fit)?;
+                let (reads, spec) = (plan.reads_frames(), plan.features());
+                let learning = Effort::of_plan(&plan);
+                let target = Target::of(dataset, Some(plan.divided), request.part, reads)?;
+                Ok(learning.and(Effort::of_rows(target.rows, spec, reads)))
+            }
+            ModelChoice::Fitted(model) => {
+                let target = Target::new(dataset, model, request.part)?;
+                let spec = &model.card().features;
+                Ok(Effort::of_rows(target.rows, *spec, model.reads_features()))
+            }
+        }
+    }
+
+    fn of_plan(plan: &FitPlan<'_>) -> Effort {
+        let rows = [&plan.train[..], &plan.validation].concat();
+        Effort::of_rows(rows, plan.features(), plan.reads_frames())
+    }
+
+    fn of_rows(rows: Vec<usize>, spec: FeatureSpec, reads_frames: bool) -> Effort {
+        if !reads_frames {
+            return Effort::default();
+        }
+        let bytes = rows.len() as u64 * spec.shape().len() as u64 * FEATURE_BYTES;
+        Effort {
+            rows,
+            // More than that is not kept.
+            kept_bytes: if bytes > ONE_MAX { 0 } else { bytes },
+        }
+    }
+
+    fn and(mut self, other: Effort) -> Effort {
+        self.rows.extend(other.rows);
+        self.kept_bytes += other.kept_bytes;
+        self
+    }
+}
