@@ -3,6 +3,7 @@
 use std::fs::{self, File, TryLockError};
 use std::io;
 use std::path::{Path, PathBuf};
+use std::time::Duration;
 
 use crate::error::DatasetError;
 use crate::file::{parent_of, sync_folder};
@@ -11,7 +12,7 @@ use crate::replaced;
 use crate::text::shown;
 
 /// How often a folder that vanishes before it is locked is made again.
-const ATTEMPTS: u32 = 100;
+const CREATIONS: u32 = 100;
 
 /// What may stand where the folder will be.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -47,7 +48,7 @@ impl StagedFolder {
             path: target.clone(),
             problem: "no name for a new folder".to_owned(),
         })?;
-        for _ in 0..ATTEMPTS {
+        for _ in 0..CREATIONS {
             let created = fs::create_dir(&path);
             if matches!(&created, Err(error) if error.kind() == io::ErrorKind::AlreadyExists) {
                 remove_leftover(&path, &target)?;
@@ -210,16 +211,26 @@ fn is_read(path: &Path) -> bool {
         && File::open(path).is_ok_and(|folder| folder.try_lock_shared().is_ok())
 }
 
+/// How often a folder that is held is asked for, and how long after each time: a process that was just forked holds what its parent held
+/// until its own program begins.
+const ATTEMPTS: u32 = 20;
+const PAUSE: Duration = Duration::from_millis(5);
+
 /// Locks a folder for this process; the system lets go when the process ends, however it ends.
 pub(crate) fn lock_folder(path: &Path) -> Result<File, DatasetError> {
     let folder = File::open(path).map_err(DatasetError::io("open", path))?;
-    match folder.try_lock() {
-        Ok(()) => Ok(folder),
-        Err(TryLockError::WouldBlock) => Err(DatasetError::Busy {
-            path: path.to_owned(),
-        }),
-        Err(TryLockError::Error(source)) => Err(DatasetError::io("lock", path)(source)),
+    for _ in 0..ATTEMPTS {
+        match folder.try_lock() {
+            Ok(()) => return Ok(folder),
+            Err(TryLockError::WouldBlock) => std::thread::sleep(PAUSE),
+            Err(TryLockError::Error(source)) => {
+                return Err(DatasetError::io("lock", path)(source));
+            }
+        }
     }
+    Err(DatasetError::Busy {
+        path: path.to_owned(),
+    })
 }
 
 #[cfg(test)]

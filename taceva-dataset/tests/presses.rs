@@ -157,7 +157,7 @@ fn a_recording_of_format_1_1_says_of_no_press_how_it_ended_and_reads_as_before()
     let text = fs::read_to_string(&header).expect("reads");
     let (body, _) = text.split_once("\n[seal]").expect("sealed");
     let older = body
-        .replace("format = \"1.3\"", "format = \"1.1\"")
+        .replace("format = \"1.4\"", "format = \"1.1\"")
         .replace("[presses]\ncomplete = 1\n", "");
     assert!(older.len() + 20 < text.len(), "{text}");
     fs::write(&header, older).expect("written");

@@ -42,10 +42,10 @@ fn main() {
     let expected: Vec<String> = METRICS
         .iter()
         .zip(expected())
-        .map(|((metric, _), value)| format!("{metric} {value:.5}"))
+        .map(|((metric, label), value)| format!("{metric} {label} {value:.5}"))
         .collect();
     println!("Expected of infinitely many: {}.\n", expected.join(", "));
-    let names = METRICS.map(|(metric, _)| metric);
+    let names = METRICS.map(|(metric, label)| format!("{metric} {label}"));
     println!("| locations × presses | interval | {} |", names.join(" | "));
     println!("|---|---|{}", "---|".repeat(METRICS.len()));
     for (locations, presses) in DESIGNS {

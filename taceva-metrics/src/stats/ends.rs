@@ -67,6 +67,9 @@ pub(crate) struct Ends {
     pub(crate) scale: Scale,
 }
 
+/// The share of a distance below which its logarithm goes on along its tangent.
+const TANGENT: f64 = 0.7;
+
 impl Estimated {
     /// The 95 % interval of an estimate that moves so far.
     ///
@@ -127,8 +130,11 @@ impl Estimated {
         }
     }
 
-    /// How far `other` lies from the value on the scale without ends, the logarithm of a distance or of odds; `None` where the quantity has no
-    /// such scale, and where either is at an end.
+    /// How far `other`, the score without a cluster, lies from the value on the scale without ends, the logarithm of a distance or of odds;
+    /// `None` where the quantity has no such scale, and where the value is at an end.
+    ///
+    /// The logarithm of a distance goes on along its tangent below [`TANGENT`]: where one cluster makes most of an error, what is left without
+    /// it may be any small number, and says nothing of how far the error of other clusters would be from this one.
     pub(crate) fn carry(&self, other: f64) -> Option<f64> {
         let [least, greatest] = self.range.ends();
         let below = || (other - least) / (self.value - least);
@@ -136,10 +142,16 @@ impl Estimated {
         let ratio = match self.range {
             Range::Positive => below(),
             Range::BelowOne => above(),
-            Range::Ratio | Range::BelowTwo => below() / above(),
+            Range::Ratio | Range::BelowTwo => {
+                return Some(logarithm(below() / above())).filter(|carried| carried.is_finite());
+            }
             _ => return None,
         };
-        Some(logarithm(ratio)).filter(|carried| carried.is_finite())
+        let carried = match ratio < TANGENT {
+            true => logarithm(TANGENT) + (ratio - TANGENT) / TANGENT,
+            false => logarithm(ratio),
+        };
+        Some(carried).filter(|carried| carried.is_finite())
     }
 
     /// The ends, where rounding or a cut may not leave the range nor the value outside.
@@ -286,7 +298,10 @@ mod tests {
         close(carried(Range::BelowOne, 0.9, 0.8), 2.0);
         close(carried(Range::Ratio, 0.5, 0.75), 3.0);
         close(carried(Range::BelowTwo, 1.0, 0.5), 1.0 / 3.0);
-        assert_eq!(carried(Range::Positive, 0.5, 0.0), None);
+        // Nothing is left without the cluster: the tangent, ln 0.7 − 1.
+        close(carried(Range::Positive, 0.5, 0.0), 0.7 * (-1.0_f64).exp());
+        close(carried(Range::BelowOne, 0.5, 1.0), 0.7 * (-1.0_f64).exp());
+        assert_eq!(carried(Range::Ratio, 0.5, 1.0), None);
         assert_eq!(carried(Range::BelowOne, 1.0, 0.5), None);
         assert_eq!(carried(Range::Any, 0.5, 1.0), None);
     }

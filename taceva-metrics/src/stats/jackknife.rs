@@ -8,6 +8,10 @@ use crate::value::UndefinedReason;
 /// Clusters below which there is no interval.
 pub(crate) const LEAST_CLUSTERS: usize = 5;
 
+/// Degrees of freedom below which the variance of a few clusters is not said to be known: with fewer the interval is several times as wide
+/// where one cluster makes all of the variance, and holds the truth no more often.
+const LEAST_FREEDOM: f64 = 3.0;
+
 /// The score with one cluster left out.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct LeftOut {
@@ -74,7 +78,8 @@ pub(crate) fn standard_error(value: f64, left_out: &[LeftOut]) -> Result<f64, Un
 /// h_j θ − (h_j − 1) θ_(−j), and the variance is the mean of z_j², z_j² = (pseudo_j − mean)² / (h_j − 1).
 ///
 /// A variance that hangs on few clusters is itself not well known: with κ = mean(z⁴) / mean(z²)² it has
-/// 2 g / (κ − (g − 3)/(g − 1)) degrees of freedom, which are g − 1 for the κ = 3 of normal pseudo-values, and never more.
+/// 2 g / (κ − (g − 3)/(g − 1)) degrees of freedom, which are g − 1 for the κ = 3 of normal pseudo-values, never more, and never fewer than
+/// [`LEAST_FREEDOM`].
 ///
 /// # Reference
 /// Busing, Meijer and van der Leeden, Delete-m jackknife for unequal m, Statistics and Computing 9 (1999); Satterthwaite,
@@ -108,7 +113,7 @@ fn moved(value: f64, left_out: &[LeftOut]) -> Result<Moved, UndefinedReason> {
         let kurtosis = relative.map(|square| square * square).sum::<f64>() / g;
         let satterthwaite = 2.0 * g / (kurtosis - (g - 3.0) / (g - 1.0));
         if satterthwaite > 0.0 {
-            satterthwaite.clamp(1.0, g - 1.0)
+            satterthwaite.clamp(LEAST_FREEDOM, g - 1.0)
         } else {
             g - 1.0
         }

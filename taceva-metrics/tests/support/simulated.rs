@@ -20,11 +20,13 @@ use taceva_metrics::{
 /// Correlation of the sizes |d| of two errors at one location.
 pub(crate) const CORRELATION: f64 = 0.3;
 /// The scores whose intervals are tried, each with its label.
-pub(crate) const METRICS: [(&str, &str); 7] = [
+pub(crate) const METRICS: [(&str, &str); 9] = [
     ("mae", "Fz"),
     ("rmse", "Fz"),
     ("bias", "Fz"),
     ("r2", "Fz"),
+    ("r2", "Px"),
+    ("skill", "Px"),
     ("smape", "Fz"),
     ("sr", "line"),
     ("uniformity", "Fz"),
@@ -43,6 +45,12 @@ const SPACING_ERROR_NM: f64 = 350_000.0;
 const TOLERANCE_NM: f64 = 50_000.0;
 /// Between which compliances of locations lie.
 const COMPLIANCES_MM_PER_N: Range<f64> = 0.2..0.4;
+/// Places lie as far to either side, all presses of a location at one; a model tells them short by a share, and the constant that it is
+/// measured by is not their mean.
+const HALF_SPAN_MM: f64 = 3.0;
+const SHORT_BY: f64 = 0.35;
+const PLACE_ERROR_MM_PER_N: f64 = 5.0;
+const CONSTANT_MM: f64 = 0.3;
 /// Cells along each side of the surface, 1 mm wide; a location has a cell of its own.
 const CELLS: u32 = 20;
 
@@ -70,8 +78,9 @@ impl Method {
         Method::Bootstrap(BootstrapEnds::Percentile),
     ];
 
-    /// The plan of the scores of one channel, and that of the surface.
-    fn plans(self) -> [MetricPlan; 2] {
+    /// The plans of the scores of forces, of places and of the surface.
+    fn plans(self) -> [(Kind, MetricPlan); 3] {
+        let place = Channels::new([Channel::PX]).expect("one channel");
         let force = Channels::new([Channel::FZ]).expect("one channel");
         let press = [Channel::PX, Channel::PY, Channel::PZ, Channel::FZ];
         let press = Channels::new(press).expect("four channels");
@@ -81,25 +90,59 @@ impl Method {
             ..SensorFacts::default()
         };
         let fields: FieldSet = Field::ALL.into_iter().collect();
-        let plan = |channels, is_of_surface: bool| {
-            let metrics = METRICS.map(|(metric, _)| metric).into_iter();
+        let plan = |kind: Kind, channels| {
+            let metrics = METRICS
+                .into_iter()
+                .filter(|metric| Kind::of(*metric) == kind);
             // A thousand replicates of four hundred cells would take an hour.
-            let is_too_long = is_of_surface && matches!(self, Method::Bootstrap(_));
-            let metrics =
-                metrics.filter(|metric| (*metric == "uniformity") == is_of_surface && !is_too_long);
+            let is_too_long = kind == Kind::Surface && matches!(self, Method::Bootstrap(_));
+            let metrics = metrics.map(|(metric, _)| metric).filter(|_| !is_too_long);
             let metrics = catalogue::select(metrics).expect("metrics there are");
-            MetricPlan::new(&metrics, channels, fields).with_facts(facts.clone())
-        };
-        [plan(force, false), plan(press, true)].map(|plan| match self {
-            Method::Jackknife | Method::JackknifeBySample => plan,
-            Method::Bootstrap(ends) => {
-                let bootstrap = PoissonBootstrap {
-                    ends,
-                    ..PoissonBootstrap::default()
-                };
-                plan.with_interval_method(IntervalMethod::PoissonBootstrap(bootstrap))
+            let constants = [("Px".to_owned(), CONSTANT_MM)].into();
+            let plan = MetricPlan::new(&metrics, channels, fields).with_facts(facts.clone());
+            match kind {
+                Kind::Place => plan.with_constants(constants).expect("of its channel"),
+                _ => plan,
             }
+        };
+        let plans = [
+            (Kind::Force, plan(Kind::Force, force)),
+            (Kind::Place, plan(Kind::Place, place)),
+            (Kind::Surface, plan(Kind::Surface, press)),
+        ];
+        plans.map(|(kind, plan)| {
+            (
+                kind,
+                match self {
+                    Method::Jackknife | Method::JackknifeBySample => plan,
+                    Method::Bootstrap(ends) => {
+                        let bootstrap = PoissonBootstrap {
+                            ends,
+                            ..PoissonBootstrap::default()
+                        };
+                        plan.with_interval_method(IntervalMethod::PoissonBootstrap(bootstrap))
+                    }
+                },
+            )
         })
+    }
+}
+
+/// What samples say.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Kind {
+    Force,
+    Place,
+    Surface,
+}
+
+impl Kind {
+    fn of((metric, label): (&str, &str)) -> Kind {
+        match (metric, label) {
+            (_, "Px") => Kind::Place,
+            ("uniformity", _) => Kind::Surface,
+            _ => Kind::Force,
+        }
     }
 }
 
@@ -132,14 +175,13 @@ pub(crate) fn coverage(design: Design, method: Method, runs: Range<u32>) -> Each
     let mut coverage = Each::<Coverage>::default();
     for run in runs {
         let presses = design.presses(run, method == Method::JackknifeBySample);
-        let evaluations = plans.each_ref().map(|plan| {
-            let is_of_force = plan.channels().len() == 1;
+        let evaluations = plans.each_ref().map(|(kind, plan)| {
             let mut evaluator = Evaluator::new(plan);
             for press in &presses {
-                let sample = if is_of_force {
-                    press.force()
-                } else {
-                    press.surface()
+                let sample = match kind {
+                    Kind::Force => press.force(),
+                    Kind::Place => press.place(),
+                    Kind::Surface => press.surface(),
                 };
                 evaluator.accept(&sample).expect("the plan's channels");
             }
@@ -163,6 +205,7 @@ struct Press {
     point: String,
     cell: u32,
     compliance_mm_per_n: f64,
+    place_mm: f64,
     force_n: f64,
     error_n: f64,
 }
@@ -179,6 +222,17 @@ impl Press {
             predicted_spacing: Some(Nanometre(told)),
             truth: Readings::from_values([self.force_n]),
             prediction: Some(Readings::from_values([self.force_n - self.error_n])),
+            ..Sample::default()
+        }
+    }
+
+    /// A place, and where it is told to be.
+    fn place(&self) -> Sample {
+        let error_mm = SHORT_BY * self.place_mm + PLACE_ERROR_MM_PER_N * self.error_n;
+        Sample {
+            point_id: Some(self.point.clone()),
+            truth: Readings::from_values([self.place_mm]),
+            prediction: Some(Readings::from_values([self.place_mm - error_mm])),
             ..Sample::default()
         }
     }
@@ -204,6 +258,7 @@ impl Design {
         for location in 0..self.locations {
             let deviation_n = DEVIATION_N * relative_spread(random.unit());
             let compliance_mm_per_n = between(COMPLIANCES_MM_PER_N, random.unit());
+            let place_mm = between(-HALF_SPAN_MM..HALF_SPAN_MM, random.unit());
             for press in 0..self.presses {
                 let point = if by_sample {
                     format!("{location} {press}")
@@ -214,6 +269,7 @@ impl Design {
                     point,
                     cell: location,
                     compliance_mm_per_n,
+                    place_mm,
                     force_n: between(FORCES_N, random.unit()),
                     error_n: deviation_n * random.gaussian(),
                 });
@@ -240,7 +296,8 @@ fn between(range: Range<f64>, uniform: f64) -> f64 {
     range.start + (range.end - range.start) * uniform
 }
 
-/// The scores of infinitely many samples: σ √(2/π), σ √(1 + Var S), 0, 1 − σ² (1 + Var S) / (width² / 12), the means of sMAPE's
+/// The scores of infinitely many samples: σ √(2/π), σ √(1 + Var S), 0, 1 − σ² (1 + Var S) / (width² / 12), the same of places, about their mean and about
+/// the constant, the means of sMAPE's
 /// terms and of hits by the midpoint rule over forces, spreads, and errors up to 8 σ, and 1 / (1 + σ/μ) of the compliances.
 pub(crate) fn expected() -> Each<f64> {
     let midpoints = |count: u32| (0..count).map(move |at| (f64::from(at) + 0.5) / f64::from(count));
@@ -264,6 +321,9 @@ pub(crate) fn expected() -> Each<f64> {
     }
     let width_n = FORCES_N.end - FORCES_N.start;
     let mean_square = DEVIATION_N * DEVIATION_N * (1.0 + spread_variance());
+    let spread = HALF_SPAN_MM * HALF_SPAN_MM / 3.0;
+    let of_places =
+        SHORT_BY * SHORT_BY * spread + PLACE_ERROR_MM_PER_N * PLACE_ERROR_MM_PER_N * mean_square;
     let Range { start, end } = COMPLIANCES_MM_PER_N;
     let variation = (end - start) / 12.0_f64.sqrt() / f64::midpoint(start, end);
     [
@@ -271,6 +331,8 @@ pub(crate) fn expected() -> Each<f64> {
         mean_square.sqrt(),
         0.0,
         1.0 - mean_square * 12.0 / (width_n * width_n),
+        1.0 - of_places / spread,
+        1.0 - of_places / (spread + CONSTANT_MM * CONSTANT_MM),
         terms / weights,
         hits / weights,
         1.0 / (1.0 + variation),
