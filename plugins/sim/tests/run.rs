@@ -3,8 +3,11 @@
 #[path = "run/trial.rs"]
 mod trial;
 
-use taceva_core::{Nanometre, Phase, PressOutcome, Sample};
-use taceva_protocol::{PhaseKind, PlannedPress, PressRecord, Specimen};
+use taceva_core::{
+    Deadline, DriverError, DriverKey, ErrorKind, FrameInfo, FrameMut, Nanometre, Phase,
+    PressOutcome, Sample, Sensor, Stamp,
+};
+use taceva_protocol::{PhaseKind, PlannedPress, PressRecord, RunError, Specimen, StopCause};
 use taceva_sim::Model;
 
 use trial::{Log, Trial};
@@ -195,6 +198,74 @@ fn presses_that_a_limit_ends_come_out_of_the_gel_by_their_stations_and_are_resum
         );
         check(&trial, planned, &log);
     }
+}
+
+/// A sensor of which every so many frames have another size, as a driver refuses them.
+struct Short {
+    inner: Box<dyn Sensor>,
+    every: u32,
+    captured: u32,
+}
+
+impl Sensor for Short {
+    fn frame_info(&self) -> FrameInfo {
+        self.inner.frame_info()
+    }
+
+    fn start(&mut self, deadline: Deadline) -> Result<(), DriverError> {
+        self.inner.start(deadline)
+    }
+
+    fn capture(&mut self, into: FrameMut<'_>, deadline: Deadline) -> Result<Stamp, DriverError> {
+        const SENSOR: DriverKey = DriverKey::fixed("test/short");
+        let stamp = self.inner.capture(into, deadline)?;
+        self.captured += 1;
+        if self.captured.is_multiple_of(self.every) {
+            let why = "a frame of 64×48 rgb8 in 4608 bytes, expected 9216".to_owned();
+            let error = DriverError::new(ErrorKind::Protocol, &SENSOR, "capture a frame");
+            return Err(error.because(why));
+        }
+        Ok(stamp)
+    }
+
+    fn stop(&mut self) -> Result<(), DriverError> {
+        self.inner.stop()
+    }
+}
+
+/// What comes of a run whose sensor gives every so many frames in another size: its log, and how many were taken again.
+fn with_short(every: u32) -> (Log, Result<usize, RunError>) {
+    let trial = Trial::new(Model::GelSight, &scene(Model::GelSight));
+    let mut log = Log::default();
+    let instead = |inner| -> Box<dyn Sensor> {
+        Box::new(Short {
+            inner,
+            every,
+            captured: 0,
+        })
+    };
+    let done = trial.run_seen_by("1", &mut log, usize::MAX, instead);
+    (log, done)
+}
+
+#[test]
+fn frames_of_a_wrong_size_end_a_run_by_an_error_that_says_which_size() {
+    let (_, done) = with_short(1);
+    let error = done.expect_err("no frame is right");
+    let is_of_frames = matches!(&error.cause, StopCause::Frames { last: Some(_), .. });
+    assert!(is_of_frames, "{error:?}");
+    let said = error.to_string();
+    assert!(said.contains("in 4608 bytes, expected 9216"), "{said}");
+}
+
+#[test]
+fn a_frame_of_a_wrong_size_now_and_then_is_taken_again_and_counted() {
+    let (whole, none) = with_short(u32::MAX);
+    let (again, retried) = with_short(2);
+    assert_eq!(none.expect("a run"), 0);
+    let retried = retried.expect("a run");
+    assert!(retried > 10, "{retried}");
+    assert_eq!(again.records.len(), whole.records.len());
 }
 
 /// The log of a run of unit 1 without interruption, after it was compared with one in pieces.

@@ -202,32 +202,35 @@ mod tests {
 
     #[test]
     fn an_error_is_left_out_on_the_scale_of_its_logarithm() {
-        // Scores 1, 2, 4, 8 and 16 without each of five clusters of one sample, 4 with all: the logarithms are 0, ±ln 2 and ±2 ln 2, so
-        // the pseudo-values are four times those, and the standard error is 4 ln 2 √(10/4/5).
-        let left_out = [1.0, 2.0, 4.0, 8.0, 16.0].map(|value| LeftOut {
+        // Scores r², r, 1, 1/r and 1/r² times 4 without each of five clusters of one sample, 4 with all, r = 0.9: the logarithms are 0,
+        // ±ln r and ±2 ln r, so the pseudo-values are four times those, and the standard error is 4 |ln r| √(10/4/5).
+        let left_out = [0.81, 0.9, 1.0, 1.0 / 0.9, 1.0 / 0.81].map(|ratio| LeftOut {
             count: 1,
-            value: Ok(value),
+            value: Ok(4.0 * ratio),
         });
         let found = interval(4.0, Range::Positive, &left_out).ends();
         let [low, high] = found.expect("five clusters are enough");
-        let step = 2.776_445_105 * 4.0 * std::f64::consts::LN_2 * 0.5_f64.sqrt();
+        let step = 2.776_445_105 * 4.0 * -0.9_f64.ln() * 0.5_f64.sqrt();
         assert!((low / 4.0 / (-step).exp() - 1.0).abs() < 1e-8, "{low}");
         assert!((high / 4.0 / step.exp() - 1.0).abs() < 1e-8, "{high}");
     }
 
     #[test]
-    fn a_score_that_one_cluster_takes_to_its_end_is_left_out_on_its_own_scale() {
-        let with = |first: f64| {
-            let left_out = [first, 2.0, 4.0, 6.0, 8.0].map(|value| LeftOut {
+    fn one_cluster_that_makes_all_of_an_error_leaves_a_finite_interval() {
+        // Nine of ten locations are read perfectly, or all but: what is left without the tenth is nothing, or next to nothing.
+        let ends = |rest: f64| {
+            let of_others = (0..9).map(|_| 1e-6 * 10.0 / 9.0);
+            let left_out = of_others.chain([rest]).map(|left| LeftOut {
                 count: 1,
-                value: Ok(value),
+                value: Ok(1.0 - left),
             });
-            interval(4.0, Range::Positive, &left_out).ends()
+            let left_out: Vec<LeftOut> = left_out.collect();
+            let ends = interval(1.0 - 1e-6, Range::BelowOne, &left_out).ends();
+            ends.expect("ten clusters are enough")
         };
-        let [low, high] = with(0.0).expect("five clusters are enough");
-        // By the first order of the logarithm: both ends are as many times away.
-        assert!(low > 0.0 && (low * high / 16.0 - 1.0).abs() < 1e-12);
-        assert!(high < with(1e-9).expect("enough")[1]);
+        let [low, high] = ends(0.0);
+        assert!(0.999 < low && low < high && high < 1.0, "{low} {high}");
+        assert!((ends(1e-12)[0] - low).abs() < 1e-6);
     }
 
     #[test]

@@ -140,7 +140,7 @@ mod tests {
     fn a_cell_has_unit_interval_and_what_bars_it() {
         let cell = |metric| with_standing(&score(TABLE, metric).expect("a score"));
         assert_eq!(cell("mae:Fx"), "0.50 N (0.40 … 0.70)");
-        assert_eq!(cell("r2:Fx"), "0.2 (-0.5 … 0.8), no skill");
+        assert_eq!(cell("r2:Fx"), "0.25 (-0.50 … 0.75), no skill");
         assert!(score(TABLE, "mae:Fy").is_err());
     }
 

@@ -137,10 +137,10 @@ ways! {
     writes_to_standard_output: "prints", Do::Capture => Nothing;
     output_without_end: "fills_output", Do::Capture => Nothing;
     escapes_for_a_terminal: "prints_escapes", Do::Capture => Gone("\\u{1b}]52;c;");
-    a_frame_longer_than_its_buffer: "frame_longer", Do::Capture => Fails(ErrorKind::Protocol, "");
-    a_frame_shorter_than_its_size: "frame_shorter", Do::Capture => Fails(ErrorKind::Protocol, "");
+    a_frame_longer_than_its_buffer: "frame_longer", Do::Capture => Fails(ErrorKind::Protocol, "in 18432 bytes, expected 9216");
+    a_frame_shorter_than_its_size: "frame_shorter", Do::Capture => Fails(ErrorKind::Protocol, "in 4608 bytes, expected 9216");
     a_length_that_overflows: "frame_length_overflows", Do::Capture => Fails(ErrorKind::Protocol, "");
-    a_frame_of_another_size: "frame_other_size", Do::Capture => Fails(ErrorKind::Protocol, "");
+    a_frame_of_another_size: "frame_other_size", Do::Capture => Fails(ErrorKind::Protocol, "a frame of 256×12 rgb8, expected 64×48 rgb8");
     an_unknown_pixel_format: "frame_unknown_format", Do::Capture => Fails(ErrorKind::Unsupported, "");
     a_frame_without_pixels: "frame_null", Do::Capture => Fails(ErrorKind::Protocol, "");
     a_frame_from_nowhere: "frame_from_nowhere", Do::Capture => Gone("signal 11");

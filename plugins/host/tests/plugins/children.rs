@@ -64,6 +64,28 @@ fn what_a_plugin_logs_comes_while_it_runs_with_control_characters_written_out() 
 }
 
 #[test]
+fn a_device_that_never_closes_is_told_of_and_waited_for_a_few_seconds() {
+    let Some(fixture) = Fixture::built(&["CLOSE_HANGS"]) else {
+        return;
+    };
+    let (host, lines) = host(&fixture);
+    let open = eye(&host).open(&Args::default(), &mut taceva_core::Rig::new());
+    let open = open.unwrap_or_else(|error| panic!("{error}"));
+    let begun = Instant::now();
+    drop(open);
+    assert!(begun.elapsed() < Duration::from_secs(10));
+    let said = told(&lines, 1);
+    let line = said.last().expect("one line");
+    let expected =
+        "org.example.fixture Warn host: closed late: it did not close the device within 5s";
+    assert!(line.starts_with(expected), "{said:?}");
+    assert!(
+        line.ends_with("what was recorded is not affected"),
+        "{line}"
+    );
+}
+
+#[test]
 fn a_flood_of_lines_is_cut_and_counted_and_stops_nobody() {
     let Some(fixture) = Fixture::built(&["FLOODS=100000"]) else {
         return;

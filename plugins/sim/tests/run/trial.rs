@@ -4,11 +4,11 @@ use std::collections::BTreeSet;
 use std::time::Duration;
 
 use taceva_core::{
-    Deadline, Device, DriverError, Factory, Frame, Rig, SimulatedBench, SinkError, Stamp,
+    Deadline, Device, DriverError, Factory, Frame, Rig, Sensor, SimulatedBench, SinkError, Stamp,
 };
 use taceva_protocol::{
-    Cancel, Controls, Devices, Digest, Event, Mode, Plan, PressLog, PressRecord, RigInfo, RunSpec,
-    Scene, SourceInfo, Specimen, SpecimenChanger, StopCause, Timekeeper, plan, run,
+    Cancel, Controls, Devices, Digest, Event, Mode, Plan, PressLog, PressRecord, RigInfo, RunError,
+    RunSpec, Scene, SourceInfo, Specimen, SpecimenChanger, StopCause, Timekeeper, plan, run,
 };
 use taceva_sim::{
     ForceTransducerFactory, LightingFactory, Model, RobotFactory, SensorFactory, SimulatedRig,
@@ -100,17 +100,33 @@ impl Trial {
 
     /// Runs what `log` does not have of a unit on a new bench, but no more than `most` presses.
     pub(crate) fn run(&self, unit: &str, log: &mut Log, most: usize) {
+        match self.run_seen_by(unit, log, most, |sensor| sensor) {
+            Ok(_) => {}
+            Err(error) if matches!(error.cause, StopCause::Cancelled) => {}
+            Err(error) => panic!("{}: {error}", self.model),
+        }
+    }
+
+    /// The same with another sensor in the place of the bench's; how many frames were taken again.
+    pub(crate) fn run_seen_by(
+        &self,
+        unit: &str,
+        log: &mut Log,
+        most: usize,
+        instead: impl FnOnce(Box<dyn Sensor>) -> Box<dyn Sensor>,
+    ) -> Result<usize, RunError> {
         let mut rig = Rig::new();
         let arguments = format!("unit={unit};seed=7;reduction=40");
-        let mut sensor = open(&self.sensors, &arguments, &mut rig);
+        let mut sensor = instead(open(&self.sensors, &arguments, &mut rig));
         let mut robot = open(&self.robots, "", &mut rig);
         let mut force = open(&self.forces, "", &mut rig);
         let mut lighting = open(&self.lamps, "", &mut rig);
         let bench = SimulatedRig::of(&mut rig, "bench");
         let (mut clock, mut hands) = (Hands(bench.clone()), Hands(bench.clone()));
         let cancel = Cancel::new();
-        let mut begun = 0;
+        let (mut begun, mut retried) = (0, 0);
         let mut events = |event: &Event| {
+            retried += usize::from(matches!(event, Event::FrameRetried));
             if let Event::Approaching { press, .. } = event {
                 bench.name_press(name(*press));
                 begun += 1;
@@ -139,11 +155,7 @@ impl Trial {
                 events: &mut events,
             },
         );
-        match done {
-            Ok(_) => {}
-            Err(error) if matches!(error.cause, StopCause::Cancelled) => {}
-            Err(error) => panic!("{}: {error}", self.model),
-        }
+        done.map(|_| retried)
     }
 }
 
