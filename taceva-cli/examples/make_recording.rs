@@ -1,4 +1,4 @@
-//! Draws a small recording to try TacEva on: 400 pictures of a marker gel, 100 contact points pressed at four depths.
+//! Draws a small recording to try TacEva on: 800 pictures of a marker gel, 200 contact points pressed at four depths.
 //!
 //! ```text
 //! cargo run --release --example make_recording -- demo
@@ -18,7 +18,7 @@ use taceva_dataset::{
 };
 
 const SIZE: u32 = 96;
-const POINTS: u32 = 100;
+const POINTS: u32 = 200;
 const DEPTHS: u32 = 4;
 /// Of the gel that is pressed, mm; the picture shows a little more.
 const RADIUS_MM: f64 = 5.0;

@@ -10,7 +10,7 @@ use taceva_study::EvaluationReport;
 use super::line::{Line, lines, standings};
 use super::number::printed;
 use super::page;
-use super::text::{over_seeds, presses};
+use super::text::{over_seeds, presses, with_short_digests};
 
 /// A channel and the plane that says the same of it and its neighbour.
 const IN_PLANES: [(&str, &str); 4] = [("Px", "Pxy"), ("Py", "Pxy"), ("Fx", "Fxy"), ("Fy", "Fxy")];
@@ -19,13 +19,6 @@ const IN_PLANES: [(&str, &str); 4] = [("Px", "Pxy"), ("Py", "Pxy"), ("Fx", "Fxy"
 type Row = [String; 3];
 
 pub(super) fn write(reports: &[EvaluationReport], out: &mut dyn Write) -> io::Result<()> {
-    for report in reports {
-        let subject = &report.subject;
-        let [sensor, serial, gel] =
-            [&subject.sensor, &subject.serial, &subject.gel].map(|name| escape_terminal(name));
-        write!(out, "{sensor}   serial {serial}   gel {gel}")?;
-        writeln!(out, "   {}", subject.source)?;
-    }
     let is_model = |report: &EvaluationReport| report.subject.source != "recorded";
     if reports.iter().all(is_model) {
         writeln!(out, "Nothing here was measured: the samples are simulated.")?;
@@ -34,6 +27,14 @@ pub(super) fn write(reports: &[EvaluationReport], out: &mut dyn Write) -> io::Re
             out,
             "Not everything here was measured: some of the samples are simulated."
         )?;
+    }
+    for report in reports {
+        let subject = &report.subject;
+        let gel = with_short_digests(&subject.gel);
+        let [sensor, serial, gel] =
+            [&subject.sensor, &subject.serial, &gel].map(|name| escape_terminal(name));
+        write!(out, "{sensor}   serial {serial}   gel {gel}")?;
+        writeln!(out, "   {}", subject.source)?;
     }
     writeln!(out)?;
     let lines: Vec<Vec<Line<'_>>> = reports.iter().map(headlines).collect();
