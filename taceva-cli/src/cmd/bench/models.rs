@@ -4,7 +4,7 @@ use std::path::Path;
 
 use taceva_dataset::Dataset;
 use taceva_metrics::Isa;
-use taceva_models::{ALL, Models, Settings};
+use taceva_models::{Models, Settings};
 use taceva_report::{
     BenchMachine, BenchRecording, ChannelError, ModelBench, ModelRow, model_bench,
 };
@@ -61,7 +61,7 @@ fn requests(args: &BenchModels, known: &Models) -> anyhow::Result<Vec<FitRequest
         )
     };
     let all = || {
-        let names = ALL.iter().map(|info| info.name);
+        let names = known.compiled().map(|info| info.name);
         names
             .filter(|name| !NAMED_ONLY.contains(name))
             .map(quick)
