@@ -6,7 +6,7 @@ mod logistic;
 mod pls;
 mod svr;
 
-use ndarray::{Array1, Array2};
+use ndarray::{Array1, Array2, ShapeBuilder as _};
 use taceva_core::{ErrorKind, ModelError};
 use taceva_models::{LibraryModel, LibraryTask};
 
@@ -33,6 +33,18 @@ fn matrix(values: &[f64], rows: usize) -> Result<Array2<f64>, ModelError> {
 /// The rows of a task.
 fn records(task: &LibraryTask<'_>) -> Result<Array2<f64>, ModelError> {
     matrix(task.rows, task.sizes.samples)
+}
+
+/// The rows of a task, kept column by column: for methods that go through features one by one.
+fn columns(task: &LibraryTask<'_>) -> Result<Array2<f64>, ModelError> {
+    let (samples, features) = (task.sizes.samples, task.sizes.features);
+    let by_column = (0..features).flat_map(|feature| {
+        let own = task.rows.iter().skip(feature);
+        own.step_by(features).copied()
+    });
+    Array2::from_shape_vec((samples, features).f(), by_column.collect()).map_err(|error| {
+        ModelError::new(ErrorKind::Internal, "a task of broken rows").because(error)
+    })
 }
 
 /// The labels of one target.

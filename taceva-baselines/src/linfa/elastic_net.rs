@@ -11,7 +11,7 @@ use taceva_models::{
     ModelInfo, SettingError, SettingInfo, Settings, library_estimator,
 };
 
-use super::{RELEASE, matrix, records};
+use super::{RELEASE, columns, matrix};
 use crate::guard::{guarded, interrupted};
 use crate::predictor::{Linear, Weighted};
 use crate::setting::{candidates, number, open};
@@ -117,7 +117,7 @@ impl LibraryLearner for ElasticNet {
     }
 
     fn fit(&self, task: &LibraryTask<'_>) -> Result<Box<dyn LibraryPredictor>, ModelError> {
-        let (records, targets) = (records(task)?, matrix(task.labels, task.sizes.samples)?);
+        let (records, targets) = (columns(task)?, matrix(task.labels, task.sizes.samples)?);
         let least = least(&records, &targets, self.mix);
         let dataset = Dataset::new(records, targets);
         let mut strengths = task.values.to_vec();
