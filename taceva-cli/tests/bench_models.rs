@@ -45,7 +45,7 @@ fn models_of_libraries_race_beside_ours_and_auto_may_take_one() {
     let bench = Bench::new();
     let race = bench.json(
         "bench models --quick --model ridge:size=8x8 --model linfa/pls:size=8x8 --model smartcore/knn:size=8x8 \
-         --model auto:size=8x8",
+         --model auto:size=8x8,budget_s=0.5",
     );
     let rows = race["rows"].as_array().expect("rows");
     let names: Vec<&str> = rows

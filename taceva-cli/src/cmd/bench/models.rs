@@ -16,8 +16,15 @@ use super::pressed::Pressed;
 use crate::args::{BenchModels, SplitArgs};
 use crate::{exit, output};
 
-/// What is raced only where it is named: hours on most machines, or no model of its own.
-const NAMED_ONLY: [&str; 4] = ["resnet10", "resnet18", "resnet34", "auto"];
+/// What is raced only where it is named: minutes to hours on most machines, or no model of its own.
+const NAMED_ONLY: [&str; 6] = [
+    "resnet10",
+    "resnet18",
+    "resnet34",
+    "smartcore/lasso",
+    "smartcore/gradient-boosting",
+    "auto",
+];
 
 /// Settings that make a race short.
 const QUICK: [(&str, &str); 3] = [
