@@ -41,6 +41,27 @@ fn models_are_raced_on_one_split_of_the_simulated_bench() {
 }
 
 #[test]
+fn models_of_libraries_race_beside_ours_and_auto_may_take_one() {
+    let bench = Bench::new();
+    let race = bench.json(
+        "bench models --quick --model ridge:size=8x8 --model linfa/pls:size=8x8 --model smartcore/knn:size=8x8 \
+         --model auto:size=8x8,budget_s=0.5",
+    );
+    let rows = race["rows"].as_array().expect("rows");
+    let names: Vec<&str> = rows
+        .iter()
+        .filter_map(|row| row["model"].as_str())
+        .collect();
+    assert_eq!(names, ["ridge", "linfa/pls", "smartcore/knn", "auto"]);
+    assert!(rows.iter().all(|row| row["failed"].is_null()), "{rows:?}");
+    bench.refused(
+        "bench models --quick --model linfa/plss",
+        2,
+        "did you mean `linfa/pls`",
+    );
+}
+
+#[test]
 fn an_unknown_model_or_setting_is_refused_before_anything_is_fitted() {
     let bench = Bench::new();
     bench.refused(

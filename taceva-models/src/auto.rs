@@ -7,10 +7,11 @@ mod validate;
 use taceva_core::{Estimator, ModelError, Progress, Regressor, TrainingSet};
 
 pub use self::card::{AutoCard, AutoTrial, Untried};
-use self::cost::{Sizes, seconds};
+use self::cost::{Sizes, seconds, trying};
 use self::validate::{FOLDS, Folds};
 use crate::features::FeatureSpec;
 use crate::fit::{Chosen, ModelEstimator, ModelFit};
+use crate::library::{LibraryModel, LibrarySizes};
 use crate::problem::{Problem, invalid};
 use crate::progress::{Stage, interrupted};
 use crate::registry::{ALL, ModelInfo};
@@ -25,9 +26,11 @@ use crate::settings::{SettingError, SettingInfo, Settings, number};
 /// The budget is counted in work, not by a clock: seconds of a core that does a thousand million multiplications each second. What a
 /// model takes follows from the numbers of samples, features and channels, so that the same recording leads to the same choice on every
 /// machine, under any load and on any number of threads. The baseline and ridge are always tried.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub struct Auto {
     budget_s: f64,
+    /// Models of libraries that are tried beside ours.
+    libraries: Vec<&'static LibraryModel>,
 }
 
 const BUDGET: SettingInfo = SettingInfo {
@@ -55,17 +58,43 @@ impl Auto {
         settings.check_keys(Auto::INFO.settings)?;
         Ok(Auto {
             budget_s: settings.value(&BUDGET, 60.0, |text| number(text, 0.0..=1e6))?,
+            libraries: Vec::new(),
         })
     }
 
+    /// The choice among models of libraries too.
+    #[must_use]
+    pub fn among(mut self, libraries: &[&'static LibraryModel]) -> Auto {
+        self.libraries.extend(libraries);
+        self
+    }
+
     /// The models that can be tried on samples of these sizes, the cheapest first, with what each takes.
-    fn candidates(sizes: Sizes) -> Vec<(&'static ModelInfo, f64)> {
+    fn candidates(&self, sizes: Sizes) -> Vec<(&'static ModelInfo, f64)> {
         let models = ALL.iter().filter(|info| info.name != Auto::INFO.name);
         let costed = models.filter_map(|info| Some((info, seconds(info.name, sizes)?)));
-        let mut candidates: Vec<_> = costed.collect();
+        let of_libraries = self.libraries.iter().filter_map(|model| {
+            let work = (model.work)(learnt(sizes))?;
+            Some((&model.info, trying(work)))
+        });
+        let mut candidates: Vec<_> = costed.chain(of_libraries).collect();
         // Of equals the first in the list comes first: the plainer.
         candidates.sort_by(|left, right| left.1.total_cmp(&right.1));
         candidates
+    }
+}
+
+/// The sizes of the part of a training part that a trial learns from.
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "sizes of a recording in memory"
+)]
+fn learnt(sizes: Sizes) -> LibrarySizes {
+    LibrarySizes {
+        samples: (0.8 * sizes.samples) as usize,
+        features: sizes.features as usize,
+        targets: sizes.channels as usize,
     }
 }
 
@@ -93,7 +122,7 @@ impl ModelEstimator for Auto {
             channels: problem.channels() as f64,
             is_picture: shape.height > 1,
         };
-        let candidates = Auto::candidates(sizes);
+        let candidates = self.candidates(sizes);
         let mut spent_s = 0.0;
         let (mut tried, mut untried) = (Vec::new(), Vec::new());
         let stage = Stage::begin(progress, "models tried", candidates.len());
@@ -135,8 +164,10 @@ impl ModelEstimator for Auto {
             tried,
             untried,
         };
+        let libraries = self.libraries.iter().map(|model| &model.info);
         let info = ALL
             .iter()
+            .chain(libraries)
             .find(|info| Some(info.name) == card.best().map(|trial| trial.model.as_str()))
             .ok_or_else(|| invalid("no model could be tried"))?;
         let estimator = info
@@ -186,7 +217,8 @@ mod tests {
             channels: 3.0,
             is_picture: true,
         };
-        let candidates = Auto::candidates(sizes);
+        let auto = Auto::from_settings(&Settings::default()).expect("no setting");
+        let candidates = auto.candidates(sizes);
         assert_eq!(candidates[0].0.name, "baseline");
         assert_eq!(candidates.last().expect("some").0.name, "resnet34");
         assert_eq!(candidates.len(), ALL.len() - 1);
@@ -196,7 +228,7 @@ mod tests {
         };
         let networks = |name: &str| name == "cnn" || name.starts_with("resnet");
         assert!(
-            Auto::candidates(flat)
+            auto.candidates(flat)
                 .iter()
                 .all(|(info, _)| !networks(info.name))
         );

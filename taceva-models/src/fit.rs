@@ -10,6 +10,7 @@ use crate::discriminant::ClassRegressor;
 use crate::features::Pca;
 use crate::kernel::KernelRegressor;
 use crate::label_scaling::LabelScaling;
+use crate::library::LibraryRegressor;
 use crate::linear::{LinearEstimator, LinearRegressor};
 use crate::model::plugin_tensor;
 use crate::neighbours::NeighbourRegressor;
@@ -110,6 +111,8 @@ pub enum ModelRegressor {
     Trees(Box<TreeRegressor>),
     /// A network that reads features as a picture.
     Network(Box<NetworkRegressor>),
+    /// Of another library, whose parameters are kept.
+    Library(Box<LibraryRegressor>),
     /// Of a plugin, which answers.
     Plugin(PluginRegressor),
     /// Any of them but the linear and the network, on principal components.
@@ -144,6 +147,7 @@ impl ModelRegressor {
             ModelRegressor::Classes(classes) => classes.reads_features(),
             ModelRegressor::Trees(trees) => trees.reads_features(),
             ModelRegressor::Network(network) => network.reads_features(),
+            ModelRegressor::Library(library) => library.reads_features(),
             ModelRegressor::Plugin(_) => true,
             ModelRegressor::Projected(projected) => projected.inner().reads_features(),
         }
@@ -188,6 +192,7 @@ impl ModelRegressor {
                     .map(|tensor| Raw::singles(&tensor.name, tensor.shape, &tensor.values))
                     .collect()
             }
+            ModelRegressor::Library(library) => library.tensors(),
             ModelRegressor::Plugin(plugin) => vec![plugin_tensor(plugin)],
             ModelRegressor::Projected(projected) => projected.tensors(),
         }
@@ -201,6 +206,7 @@ impl ModelRegressor {
             ModelRegressor::Classes(classes) => &**classes,
             ModelRegressor::Trees(trees) => &**trees,
             ModelRegressor::Network(network) => &**network,
+            ModelRegressor::Library(library) => &**library,
             ModelRegressor::Plugin(plugin) => plugin,
             ModelRegressor::Projected(projected) => &**projected,
         }

@@ -13,6 +13,7 @@ mod fit;
 mod gratings;
 mod kernel;
 mod label_scaling;
+mod library;
 mod linalg;
 mod linear;
 mod model;
@@ -49,6 +50,11 @@ pub use fit::{Chosen, ModelEstimator, ModelFit, ModelRegressor};
 pub use gratings::{FourierPlane, RadialSpectrum};
 pub use kernel::{GaussianProcess, KernelRegressor, KernelRidge, NORMAL_95, SupportVectors};
 pub use label_scaling::LabelScaling;
+pub use library::{
+    LibraryCard, LibraryLearner, LibraryModel, LibraryPredictor, LibraryRegressor, LibrarySettings,
+    LibrarySizes, LibraryTask, LibraryTensor, LibraryTensors, LoadedPredictor, Numbers,
+    library_estimator,
+};
 pub use linear::{LinearEstimator, LinearFit, LinearRegressor};
 pub use model::{
     ChannelCard, FitInput, Form, FormatError, Model, ModelCard, ModelFileError, Provenance,

@@ -1,4 +1,4 @@
-//! The models of a program: those that are built in, and those that plugins offer.
+//! The models of a program: those that are built in, those of other libraries, and those that plugins offer.
 
 use std::collections::BTreeMap;
 use std::fmt;
@@ -6,8 +6,10 @@ use std::sync::Arc;
 
 use taceva_core::{Args, EstimatorFactory};
 
+use crate::auto::Auto;
 use crate::features::FeatureSpec;
 use crate::fit::ModelEstimator;
+use crate::library::LibraryModel;
 use crate::plugin::PluginEstimator;
 use crate::registry::{ALL, ModelInfo, UnknownModel};
 use crate::settings::{SettingError, Settings};
@@ -24,6 +26,7 @@ use crate::settings::{SettingError, Settings};
 #[derive(Clone, Default)]
 pub struct Models {
     offered: BTreeMap<String, Arc<dyn EstimatorFactory>>,
+    libraries: Vec<&'static LibraryModel>,
 }
 
 impl Models {
@@ -41,6 +44,22 @@ impl Models {
         self
     }
 
+    /// These models and `libraries`' own: `auto` tries them too, and files of them are read.
+    #[must_use]
+    pub fn with_libraries(
+        mut self,
+        libraries: impl IntoIterator<Item = &'static LibraryModel>,
+    ) -> Models {
+        self.libraries.extend(libraries);
+        self
+    }
+
+    /// Every model that is compiled into the program, the plainest first, those of libraries last.
+    pub fn compiled(&self) -> impl Iterator<Item = &'static ModelInfo> + '_ {
+        let of_libraries = self.libraries.iter().map(|model| &model.info);
+        ALL.iter().chain(of_libraries)
+    }
+
     /// The model called `name`.
     ///
     /// # Errors
@@ -49,11 +68,23 @@ impl Models {
         if let Some(factory) = self.offered(name) {
             return Ok(ChosenModel::Offered(Arc::clone(factory)));
         }
+        if name == Auto::INFO.name {
+            return Ok(ChosenModel::Auto(self.libraries.clone().into()));
+        }
+        if let Some(model) = self.library(name) {
+            return Ok(ChosenModel::Library(model));
+        }
         let built_in = ALL.iter().find(|info| info.name == name);
-        let names = ALL.iter().map(|info| info.name);
-        built_in.map(ChosenModel::from).ok_or_else(|| {
+        let names = self.compiled().map(|info| info.name);
+        built_in.map(ChosenModel::BuiltIn).ok_or_else(|| {
             UnknownModel::new(name, names.chain(self.offered.keys().map(String::as_str)))
         })
+    }
+
+    /// The model of a library called `name`, where this program has it.
+    pub(crate) fn library(&self, name: &str) -> Option<&'static LibraryModel> {
+        let mut libraries = self.libraries.iter().copied();
+        libraries.find(|model| model.info.name == name)
     }
 
     /// What makes and loads the models called `key`, where a plugin does.
@@ -64,7 +95,7 @@ impl Models {
 
 impl fmt::Debug for Models {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let names = ALL.iter().map(|info| info.name);
+        let names = self.compiled().map(|info| info.name);
         let offered = self.offered.keys().map(String::as_str);
         f.debug_set().entries(names.chain(offered)).finish()
     }
@@ -75,44 +106,54 @@ impl fmt::Debug for Models {
 pub enum ChosenModel {
     /// One that is built in.
     BuiltIn(&'static ModelInfo),
+    /// One of another library.
+    Library(&'static LibraryModel),
+    /// The one that does best, of those that are built in and these of libraries.
+    Auto(Arc<[&'static LibraryModel]>),
     /// One that a plugin offers.
     Offered(Arc<dyn EstimatorFactory>),
 }
 
 impl ChosenModel {
+    /// Its entry in the registry; `None` for one that a plugin offers.
+    fn info(&self) -> Option<&'static ModelInfo> {
+        match self {
+            ChosenModel::BuiltIn(info) => Some(info),
+            ChosenModel::Library(model) => Some(&model.info),
+            ChosenModel::Auto(_) => Some(&Auto::INFO),
+            ChosenModel::Offered(_) => None,
+        }
+    }
+
     /// The word people type.
     pub fn name(&self) -> &str {
         match self {
             ChosenModel::BuiltIn(info) => info.name,
+            ChosenModel::Library(model) => model.info.name,
+            ChosenModel::Auto(_) => Auto::INFO.name,
             ChosenModel::Offered(factory) => factory.key().as_str(),
         }
     }
 
     /// Whether its predictions depend on what is seen; if not, no frame need be decoded for it.
     pub fn reads_features(&self) -> bool {
-        match self {
-            ChosenModel::BuiltIn(info) => info.features.is_some(),
-            ChosenModel::Offered(_) => true,
-        }
+        self.info().is_none_or(|info| info.features.is_some())
     }
 
     /// What it sees of a frame where nothing else is asked for.
     pub fn features(&self) -> FeatureSpec {
-        match self {
-            ChosenModel::BuiltIn(info) => info.features.unwrap_or_default(),
-            ChosenModel::Offered(_) => FeatureSpec::default(),
-        }
+        let own = self.info().and_then(|info| info.features);
+        own.unwrap_or_default()
     }
 
     /// The keys of what can be set.
     pub fn setting_keys(&self) -> Vec<&str> {
-        match self {
-            ChosenModel::BuiltIn(info) => info.settings.iter().map(|info| info.key).collect(),
-            ChosenModel::Offered(factory) => {
-                let settings = factory.settings().iter();
-                settings.map(|setting| setting.key.as_str()).collect()
-            }
+        if let ChosenModel::Offered(factory) = self {
+            let settings = factory.settings().iter();
+            return settings.map(|setting| setting.key.as_str()).collect();
         }
+        let settings = self.info().map_or(&[][..], |info| info.settings);
+        settings.iter().map(|info| info.key).collect()
     }
 
     /// The model as `settings` ask for, not fitted yet.
@@ -122,6 +163,11 @@ impl ChosenModel {
     pub fn estimator(&self, settings: &Settings) -> Result<Box<dyn ModelEstimator>, SettingError> {
         match self {
             ChosenModel::BuiltIn(info) => info.estimator(settings),
+            ChosenModel::Library(model) => model.info.estimator(settings),
+            ChosenModel::Auto(libraries) => {
+                let auto = Auto::from_settings(settings)?;
+                Ok(Box::new(auto.among(libraries)))
+            }
             ChosenModel::Offered(factory) => Ok(Box::new(PluginEstimator {
                 settings: Args::from_pairs(factory.settings(), settings.iter())?,
                 factory: Arc::clone(factory),
@@ -136,11 +182,18 @@ impl From<&'static ModelInfo> for ChosenModel {
     }
 }
 
-/// The name, and the build where that is not the program's: what decides which model it is.
+/// The name, and the build or the release where that is not the program's: what decides which model it is.
 impl fmt::Debug for ChosenModel {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             ChosenModel::BuiltIn(info) => f.write_str(info.name),
+            ChosenModel::Library(model) => write!(f, "{} {}", model.info.name, model.release),
+            ChosenModel::Auto(libraries) => {
+                f.write_str(Auto::INFO.name)?;
+                let models = libraries.iter();
+                let mut models = models.map(|model| (model.info.name, model.release));
+                models.try_for_each(|(name, release)| write!(f, " {name} {release}"))
+            }
             ChosenModel::Offered(factory) => write!(f, "{} {:?}", self.name(), factory.build()),
         }
     }

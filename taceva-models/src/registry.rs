@@ -1,5 +1,7 @@
 //! The models by name.
 
+use std::fmt;
+
 use crate::auto::Auto;
 use crate::baseline::Baseline;
 use crate::discriminant::LinearDiscriminant;
@@ -7,6 +9,7 @@ use crate::elastic_net::ElasticNet;
 use crate::features::FeatureSpec;
 use crate::fit::ModelEstimator;
 use crate::kernel::{GaussianProcess, KernelRidge, SupportVectors};
+use crate::library::library_of;
 use crate::neighbours::Neighbours;
 use crate::network::NetworkEstimator;
 use crate::pls::Pls;
@@ -79,18 +82,42 @@ pub fn find(name: &str) -> Result<&'static ModelInfo, UnknownModel> {
 }
 
 /// A name that no model has.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("{} `{}`, {suggestion}", if name.contains('/') { "no plugin that was found has the model" } else { "no model is called" }, taceva_core::shown(name))]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub struct UnknownModel {
     name: String,
     suggestion: Suggestion,
+    /// The feature that the program lacks, where that is why.
+    feature: Option<&'static str>,
 }
 
 impl UnknownModel {
     pub(crate) fn new<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> UnknownModel {
+        let known: Vec<&str> = known.into_iter().collect();
+        let library = library_of(name);
+        let offers = |library: &str| known.iter().any(|known| library_of(known) == Some(library));
         UnknownModel {
             name: name.to_owned(),
+            feature: library.filter(|library| !offers(library)),
             suggestion: Suggestion::of(name, known),
         }
     }
 }
+
+impl fmt::Display for UnknownModel {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let name = taceva_core::shown(&self.name);
+        if let Some(feature) = self.feature {
+            return write!(
+                f,
+                "`{name}`: this program was built without the feature `{feature}`: build it with `--features {feature}`"
+            );
+        }
+        let what = match (library_of(&self.name), self.name.contains('/')) {
+            (None, true) => "no plugin that was found has the model",
+            _ => "no model is called",
+        };
+        write!(f, "{what} `{name}`, {}", self.suggestion)
+    }
+}
+
+impl std::error::Error for UnknownModel {}

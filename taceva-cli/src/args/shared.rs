@@ -8,7 +8,10 @@ use clap::{Args, ValueEnum};
 #[derive(Debug, Args)]
 pub(crate) struct ModelArgs {
     /// The model: baseline, ridge, pls, elastic-net, kernel-ridge, svr, gaussian-process, knn, lda, random-forest,
-    /// gradient-boosting, cnn, resnet10, resnet18, resnet34; auto: the one that does best on groups left out; or that of a plugin, ID/KEY
+    /// gradient-boosting, cnn, resnet10, resnet18, resnet34; auto: the one that does best on groups left out; one of a library:
+    /// linfa/linear, linfa/pls, linfa/elastic-net, linfa/svr, linfa/logistic, smartcore/ridge, smartcore/lasso, smartcore/svr,
+    /// smartcore/knn, smartcore/random-forest, smartcore/extra-trees, smartcore/gradient-boosting, which stop between two of the
+    /// library's fits only; or that of a plugin, ID/KEY
     #[arg(long = "model", value_name = "NAME")]
     pub(crate) name: String,
     #[command(flatten)]
@@ -19,7 +22,10 @@ pub(crate) struct ModelArgs {
 #[derive(Debug, Args)]
 pub(crate) struct OptionalModelArgs {
     /// The model to fit: baseline, ridge, pls, elastic-net, kernel-ridge, svr, gaussian-process, knn, lda, random-forest,
-    /// gradient-boosting, cnn, resnet10, resnet18, resnet34; auto: the one that does best on groups left out; or that of a plugin, ID/KEY
+    /// gradient-boosting, cnn, resnet10, resnet18, resnet34; auto: the one that does best on groups left out; one of a library:
+    /// linfa/linear, linfa/pls, linfa/elastic-net, linfa/svr, linfa/logistic, smartcore/ridge, smartcore/lasso, smartcore/svr,
+    /// smartcore/knn, smartcore/random-forest, smartcore/extra-trees, smartcore/gradient-boosting, which stop between two of the
+    /// library's fits only; or that of a plugin, ID/KEY
     #[arg(long = "model", value_name = "NAME")]
     pub(crate) name: Option<String>,
     #[command(flatten)]

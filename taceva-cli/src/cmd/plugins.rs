@@ -14,6 +14,11 @@ use taceva_models::Models;
 use super::Context;
 use crate::stderr;
 
+/// The models that this program was built with.
+fn compiled() -> Models {
+    Models::builtin().with_libraries(taceva_baselines::all())
+}
+
 impl Context {
     /// Every driver: those linked in, and those of plugins, also beside the scene at `scene`.
     pub(crate) fn drivers(&self, scene: Option<&Path>) -> anyhow::Result<Drivers> {
@@ -21,17 +26,17 @@ impl Context {
         Ok(Drivers::builtin()?.with_plugins(&host)?)
     }
 
-    /// Every model: those built in, and those of plugins.
+    /// Every model: those built in, those of libraries, and those of plugins.
     pub(crate) fn models(&self) -> anyhow::Result<Models> {
         let host = self.plugins(None)?;
-        Ok(Models::builtin().with(host.models()))
+        Ok(compiled().with(host.models()))
     }
 
     /// Every driver and every model, also of plugins beside the scene at `scene`.
     pub(crate) fn equipment(&self, scene: &Path) -> anyhow::Result<(Drivers, Models)> {
         let host = self.plugins(Some(scene))?;
         let drivers = Drivers::builtin()?.with_plugins(&host)?;
-        Ok((drivers, Models::builtin().with(host.models())))
+        Ok((drivers, compiled().with(host.models())))
     }
 
     /// The plugins that are found, delivered as the user decided.

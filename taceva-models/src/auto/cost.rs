@@ -60,5 +60,10 @@ pub(super) fn seconds(name: &str, sizes: Sizes) -> Option<f64> {
         "resnet34" => picture(140_000.0, 60.0)?,
         _ => return None,
     };
-    Some(FOLDS as f64 * work / RATE)
+    Some(trying(work))
+}
+
+/// The seconds of the budget that trying a model takes, one fit of which takes `work` multiplications.
+pub(super) fn trying(work: f64) -> f64 {
+    FOLDS as f64 * work / RATE
 }

@@ -12,6 +12,7 @@ use super::{Model, channels_of};
 use crate::discriminant::ClassRegressor;
 use crate::fit::ModelRegressor;
 use crate::kernel::KernelRegressor;
+use crate::library::LibraryRegressor;
 use crate::linear::LinearRegressor;
 use crate::models::Models;
 use crate::neighbours::NeighbourRegressor;
@@ -115,7 +116,7 @@ impl Models {
                 let shape = card.features.shape();
                 ModelRegressor::Linear(LinearRegressor::from_tensors(&tensors, channels, shape)?)
             }
-            (None, None, Some(form)) => formed(&tensors, (channels, &card), form)?,
+            (None, None, Some(form)) => formed(self, &tensors, (channels, &card), form)?,
             (None, Some(plugin), None) => {
                 ModelRegressor::Plugin(plugin_from(self, &tensors, (&channels, &card, plugin))?)
             }
@@ -129,8 +130,9 @@ impl Models {
     }
 }
 
-/// The kernel, the neighbours or the trees that tensors hold, and the principal components before them.
+/// The kernel, the neighbours, the trees or the model of a library that tensors hold, and the principal components before them.
 fn formed(
+    models: &Models,
     tensors: &Tensors<'_>,
     (channels, card): (Channels, &ModelCard),
     form: Form,
@@ -163,6 +165,18 @@ fn formed(
         Form::Trees { .. } => {
             let trees = TreeRegressor::from_tensors(tensors, channels, seen)?;
             ModelRegressor::Trees(Box::new(trees))
+        }
+        Form::Library => {
+            let library = card.library.as_ref().ok_or(FormatError::Card)?;
+            let model = models
+                .library(&card.model)
+                .ok_or_else(|| FormatError::NoLibrary {
+                    model: card.model.clone(),
+                    feature: library.feature.clone(),
+                })?;
+            let kind = (channels, seen);
+            let fitted = LibraryRegressor::from_tensors(tensors, kind, (model, library))?;
+            ModelRegressor::Library(Box::new(fitted))
         }
     };
     let regressor = match pca {
@@ -368,6 +382,16 @@ pub enum FormatError {
         id: String,
         /// The estimator in it.
         key: String,
+    },
+    /// A model of a library that this program was built without.
+    #[error(
+        "fitted by `{model}`: this program was built without the feature `{feature}`: build it with `--features {feature}`", model = taceva_core::shown(model), feature = taceva_core::shown(feature)
+    )]
+    NoLibrary {
+        /// The model.
+        model: String,
+        /// The feature that offers it.
+        feature: String,
     },
     /// A tensor that does not belong there.
     #[error("unexpected tensor `{name}`", name = taceva_core::shown(name))]

@@ -10,6 +10,7 @@ use crate::feature_choice::FeatureChoice;
 use crate::features::FeatureSpec;
 use crate::fit::{ModelFit, ModelRegressor};
 use crate::label_scaling::means;
+use crate::library::LibraryCard;
 use crate::network::NetworkCard;
 use crate::plugin::PluginCard;
 
@@ -55,6 +56,9 @@ pub struct ModelCard {
     /// The network, where the model is one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub network: Option<NetworkCard>,
+    /// The library that fitted it and is needed to read it, where the model is of one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub library: Option<LibraryCard>,
     /// The plugin that fitted it and is needed to ask it, where the model is of one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub plugin: Option<PluginCard>,
@@ -88,6 +92,8 @@ pub enum Form {
         /// How many there are.
         trees: usize,
     },
+    /// Parameters of another library's model.
+    Library,
 }
 
 impl Form {
@@ -110,6 +116,7 @@ impl Form {
             ModelRegressor::Trees(trees) => Some(Form::Trees {
                 trees: trees.trees(),
             }),
+            ModelRegressor::Library(_) => Some(Form::Library),
             ModelRegressor::Projected(projected) => Form::of(projected.inner()),
         }
     }
@@ -222,6 +229,10 @@ impl ModelCard {
             form: Form::of(&fit.regressor),
             network: match &fit.regressor {
                 ModelRegressor::Network(network) => Some(network.card().clone()),
+                _ => None,
+            },
+            library: match &fit.regressor {
+                ModelRegressor::Library(library) => Some(library.card().clone()),
                 _ => None,
             },
             plugin: match &fit.regressor {

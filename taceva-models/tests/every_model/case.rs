@@ -1,11 +1,9 @@
 //! The models as the suite fits them.
 
 use taceva_core::{Features, ModelError, Regressor, Silent};
-use taceva_models::{
-    FeatureSpec, FitInput, Model, ModelEstimator, ModelFit, Provenance, Settings, find,
-};
+use taceva_models::{FeatureSpec, FitInput, Model, ModelEstimator, ModelFit, Provenance, Settings};
 
-use crate::blobs::{FRAME, Recording};
+use crate::blobs::{FRAME, Recording, SHAPE};
 
 /// A model as the suite fits it, and what it promises beyond what all do.
 pub(crate) struct Case {
@@ -25,7 +23,9 @@ pub(crate) struct Case {
     pub(crate) error: f64,
 }
 
-const fn case(name: &'static str, words: &'static [&'static str], error: f64) -> Case {
+pub(crate) use crate::cases::CASES;
+
+pub(crate) const fn case(name: &'static str, words: &'static [&'static str], error: f64) -> Case {
     Case {
         name,
         words,
@@ -37,68 +37,6 @@ const fn case(name: &'static str, words: &'static [&'static str], error: f64) ->
     }
 }
 
-const fn network(name: &'static str) -> Case {
-    Case {
-        least: 8,
-        order: None,
-        components: false,
-        ..case(name, &["epochs=1", "batch=8"], f64::INFINITY)
-    }
-}
-
-pub(crate) const CASES: &[Case] = &[
-    case("baseline", &[], 5.0),
-    case("ridge", &[], 0.6),
-    case("pls", &[], 0.6),
-    // The path ends where a sweep changes little, wherever it started.
-    Case {
-        order: Some(1e-3),
-        ..case("elastic-net", &[], 0.9)
-    },
-    // Samples are compared in single precision.
-    Case {
-        order: Some(1e-4),
-        ..case("kernel-ridge", &[], 0.4)
-    },
-    Case {
-        order: None,
-        ..case("svr", &[], 0.6)
-    },
-    Case {
-        order: Some(1e-4),
-        ..case("gaussian-process", &[], 0.4)
-    },
-    Case {
-        order: Some(1e-5),
-        ..case("knn", &[], 1.0)
-    },
-    // As many values as samples: the nearest picture is told.
-    case("lda", &[], 1.5),
-    Case {
-        order: None,
-        ..case("random-forest", &["trees=40"], 1.5)
-    },
-    Case {
-        order: None,
-        ..case("gradient-boosting", &["most=40"], 1.5)
-    },
-    network("cnn"),
-    network("resnet10"),
-    Case {
-        deeper: true,
-        ..network("resnet18")
-    },
-    Case {
-        deeper: true,
-        ..network("resnet34")
-    },
-    Case {
-        least: 5,
-        order: None,
-        ..case("auto", &["budget_s=0.02"], 0.6)
-    },
-];
-
 pub(crate) fn case_of(name: &str) -> &'static Case {
     let mut cases = CASES.iter();
     cases.find(|case| case.name == name).expect("listed")
@@ -107,8 +45,8 @@ pub(crate) fn case_of(name: &str) -> &'static Case {
 impl Case {
     pub(crate) fn estimator(&self) -> Box<dyn ModelEstimator> {
         let settings = Settings::parse(self.words.iter().copied()).expect("well formed");
-        let info = find(self.name).expect("registered");
-        info.estimator(&settings).expect("valid settings")
+        let model = crate::models().find(self.name).expect("registered");
+        model.estimator(&settings).expect("valid settings")
     }
 
     pub(crate) fn fit(
@@ -146,8 +84,8 @@ impl Case {
         let settings = Settings::parse(self.words.iter().copied()).expect("well formed");
         let estimator = self.estimator();
         let features = FeatureSpec {
-            width: 24,
-            height: 20,
+            width: u32::try_from(SHAPE.width).expect("small"),
+            height: u32::try_from(SHAPE.height).expect("small"),
             pca,
             ..FeatureSpec::default()
         };

@@ -4,6 +4,7 @@ mod beyond;
 #[path = "../blobs/mod.rs"]
 mod blobs;
 mod case;
+mod cases;
 mod determinism;
 mod files;
 mod fits;
@@ -11,7 +12,12 @@ mod networks;
 mod refusals;
 
 use case::CASES;
-use taceva_models::ALL;
+use taceva_models::{ALL, Models};
+
+/// The models that are held to this.
+fn models() -> Models {
+    Models::builtin()
+}
 
 #[test]
 fn no_model_is_registered_without_being_held_to_this() {

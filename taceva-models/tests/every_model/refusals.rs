@@ -57,7 +57,10 @@ fn parts_that_do_not_fit_each_other_are_refused() {
     other.features = Features::new(FeatureShape::flat(20), vec![0.5; 480]).expect("whole");
     for case in CASES {
         let said = case.refusal(&training, Some(&other));
-        let expected = "validation samples of 20 features, training samples of 480";
+        let expected = format!(
+            "validation samples of 20 features, training samples of {}",
+            SHAPE.len()
+        );
         assert_eq!(said, expected, "{}", case.name);
         let regressor = case.fitted(&training, None).regressor;
         let error = regressor

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use taceva_dataset::Dataset;
 use taceva_metrics::Isa;
-use taceva_models::{ALL, Models, Settings};
+use taceva_models::{Models, Settings};
 use taceva_report::{
     BenchMachine, BenchRecording, ChannelError, ModelBench, ModelRow, model_bench,
 };
@@ -16,8 +16,15 @@ use super::pressed::Pressed;
 use crate::args::{BenchModels, SplitArgs};
 use crate::{exit, output};
 
-/// What is raced only where it is named: hours on most machines, or no model of its own.
-const NAMED_ONLY: [&str; 4] = ["resnet10", "resnet18", "resnet34", "auto"];
+/// What is raced only where it is named: minutes to hours on most machines, or no model of its own.
+const NAMED_ONLY: [&str; 6] = [
+    "resnet10",
+    "resnet18",
+    "resnet34",
+    "smartcore/lasso",
+    "smartcore/gradient-boosting",
+    "auto",
+];
 
 /// Settings that make a race short.
 const QUICK: [(&str, &str); 3] = [
@@ -61,7 +68,7 @@ fn requests(args: &BenchModels, known: &Models) -> anyhow::Result<Vec<FitRequest
         )
     };
     let all = || {
-        let names = ALL.iter().map(|info| info.name);
+        let names = known.compiled().map(|info| info.name);
         names
             .filter(|name| !NAMED_ONLY.contains(name))
             .map(quick)
