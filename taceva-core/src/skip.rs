@@ -56,7 +56,11 @@ impl fmt::Display for SkipReason {
         match self {
             SkipReason::FieldAbsent(field) => write!(f, "no sample carries `{field}`"),
             SkipReason::ChannelAbsent(channel) => {
-                write!(f, "there is no channel `{}`", crate::shown(channel))
+                write!(
+                    f,
+                    "nothing is scored on a channel `{}`",
+                    crate::shown(channel)
+                )
             }
             SkipReason::FactAbsent(fact) => write!(f, "the sensor's `{fact}` is not declared"),
             SkipReason::GelIsOpaque => {
@@ -87,7 +91,7 @@ mod tests {
             lines,
             [
                 "no sample carries `repeat`",
-                "there is no channel `Px`",
+                "nothing is scored on a channel `Px`",
                 "the sensor's `footprint` is not declared",
                 "the gel is opaque: ambient light cannot reach the camera",
                 "nothing that was asked for reads it",

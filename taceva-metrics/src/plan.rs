@@ -34,7 +34,7 @@ use crate::tolerance::Tolerances;
 /// use taceva_metrics::{MetricPlan, catalogue};
 /// let channels = Channels::new([Channel::FZ])?;
 /// let plan = MetricPlan::new(&catalogue::ALL, channels, FieldSet::PAIRS);
-/// assert_eq!(plan.skipped()[0].reason.to_string(), "there is no channel `Px`");
+/// assert_eq!(plan.skipped()[0].reason.to_string(), "nothing is scored on a channel `Px`");
 /// # Ok::<(), taceva_core::ChannelError>(())
 /// ```
 #[derive(Clone, Debug)]

@@ -384,11 +384,13 @@ fn scores_over_seeds_stand_on_the_page_where_there_are_any() {
 fn methods_say_that_only_scores_with_skill_are_compared_and_which_marks_there_are() {
     let mut studies = [drawn("one", 30, 1.0), drawn("two", 30, 1.5)];
     let unmarked = page(&studies);
-    assert!(unmarked.contains("Only scores of models with skill are compared"));
+    assert!(
+        unmarked.contains("Scores formed from predictions are compared where the model has skill")
+    );
     assert!(unmarked.contains("no score here is marked otherwise"));
     studies[0].scores[0].standing = taceva_metrics::Standing::NoSkill;
     let marked = page(&studies);
-    assert!(marked.contains("are marked “no skill” and take part in no comparison"));
+    assert!(marked.contains("are marked “no skill” (the model is not shown to do better than a constant) and take part in no comparison"));
 }
 
 #[test]

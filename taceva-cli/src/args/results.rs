@@ -78,7 +78,7 @@ pub(crate) struct Accept {
     /// The limits: `[[limit]]` with metric, channel, unit, and most or least
     #[arg(long, value_name = "LIMITS.toml", required_unless_present = "template")]
     pub(crate) limits: Option<PathBuf>,
-    /// Write limits that this result keeps, a fifth worse than what was measured, to begin with
+    /// Write limits that this result keeps, to begin with: a fifth worse than measured, or the worse end of the interval
     #[arg(long, value_name = "RESULT.json", conflicts_with_all = ["result", "limits", "html", "date", "format"])]
     pub(crate) template: Option<PathBuf>,
     /// Write the data sheet: one page to look at, to print and to send

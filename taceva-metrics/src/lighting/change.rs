@@ -90,18 +90,16 @@ impl Change {
 
     /// |∂R / ∂ ln MAEc| = a ρ / (a + b)², ρ = MAEc / MAEo; with respect to ln MAEo it is the same with the other sign.
     ///
-    /// For `plus`, an error below the reference has no slope. `None` where R is not defined.
+    /// For `plus` an error below the reference has the slope that it has without: R stays at 1 there, but how far below the reference the error
+    /// truly is, is not known either, and a slope of 0 would call a value certain that lies next to the bend. `None` where R is not defined.
     pub(super) fn slope(self, plus: bool) -> Option<f64> {
         let [Some(light), Some(harm)] = self.ratios() else {
             return None;
         };
         let (a, b) = ((light - 1.0).abs(), harm - 1.0);
-        if plus && b < 0.0 {
-            return Some(0.0);
-        }
         let total = a + b.abs();
         let slope = a * harm / (total * total);
-        let signed = if b < 0.0 { slope } else { -slope };
+        let signed = if b < 0.0 && !plus { slope } else { -slope };
         signed.is_finite().then_some(signed)
     }
 }
@@ -153,6 +151,10 @@ mod tests {
                 "{error}: {slope}"
             );
         }
-        assert_eq!(at(0.5).slope(true), Some(0.0));
+        // Without more error R is 1, and no more certain than beyond the bend.
+        assert_eq!(
+            at(0.5).slope(true),
+            at(0.5).slope(false).map(|slope| -slope)
+        );
     }
 }

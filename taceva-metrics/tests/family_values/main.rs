@@ -158,7 +158,7 @@ fn shear_that_nobody_measures_leaves_no_normal_presses_to_tell() {
         .expect("the plan's channels");
     assert_eq!(
         variant_said(&evaluation, "sensitivity", "Fz", "normal_only"),
-        "there is no channel `Fx`"
+        "nothing is scored on a channel `Fx`"
     );
     assert_eq!(
         evaluation

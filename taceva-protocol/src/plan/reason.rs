@@ -180,7 +180,7 @@ impl fmt::Display for PlanReason {
                 write!(f, "needs `{channel}` ← needs {cause}")
             }
             PlanReason::NoMarkers => {
-                f.write_str("the gel has no markers: shear leaves no trace that could repeat")
+                f.write_str("the gel has no markers, and how well shear repeats is asked of gels with markers alone")
             }
             PlanReason::NoMetricNeeds => f.write_str("no kept metric needs it"),
             PlanReason::VisitedBy { phase, presses } => {

@@ -296,7 +296,10 @@ fn a_recording_is_planned_by_what_it_holds() {
     let plan = planned_as(&text, SourceInfo::Recording(recording), &paper_metrics());
     assert_eq!(ids(&plan), ["mae", "intrinsic"]);
     assert_eq!(reason(&plan, "hysteresis"), "no sample carries `phase`");
-    assert_eq!(reason(&plan, "sensitivity"), "there is no channel `Px`");
+    assert_eq!(
+        reason(&plan, "sensitivity"),
+        "nothing is scored on a channel `Px`"
+    );
     assert!(plan.phases.is_empty() && plan.presses.is_empty());
     assert_eq!(plan.fits.len(), 1);
 }

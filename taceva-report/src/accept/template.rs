@@ -14,7 +14,7 @@ const MARGIN: f64 = 0.2;
 const DIGITS: i32 = 3;
 
 /// Limits that `study` keeps, as a file that [`super::LimitsFile::read`] reads: a limit a score that is better on one side, a fifth worse
-/// than the value and never inside its interval.
+/// than the value, or the worse end of its interval where that is further.
 ///
 /// ```
 /// use taceva_report::{LimitsFile, Study, accept, limits_template};
@@ -39,7 +39,7 @@ pub fn limits_template(study: &Study) -> String {
     let name = toml::Value::String(format!("limits of {}", study.sensor));
     let mut out = format!(
         "# Limits made from a result of {}, serial {}, samples {}.\n\
-         # Each is {:.0} % worse than what was measured and never inside its interval: change what you need, leave out the rest,\n\
+         # Each is {:.0} % worse than what was measured, or the worse end of its interval where that is further: change what you need, leave out the rest,\n\
          # then: taceva accept RESULT.json --limits THIS.toml\n\
          # `most` must not be exceeded, `least` must be reached; with `whole_interval = true` by the whole interval, not by the value alone.\n\
          limits_version = {LIMITS_VERSION}\nname = {name}\n",

@@ -62,8 +62,8 @@ fn base(id: &str) -> &str {
 
 fn entry(metric: &Metric) -> String {
     let unit = match metric.unit {
-        ScoreUnit::OfChannel => "that of the channel: mm or N".to_owned(),
-        ScoreUnit::PerHour => "that of the channel an hour: mm/h or N/h".to_owned(),
+        ScoreUnit::OfChannel => "that of each channel, such as mm or N".to_owned(),
+        ScoreUnit::PerHour => "that of each channel an hour, such as mm/h or N/h".to_owned(),
         ScoreUnit::Fixed(unit) => unit.to_string(),
         _ => "none, it is a ratio".to_owned(),
     };
@@ -71,7 +71,7 @@ fn entry(metric: &Metric) -> String {
         Better::Lower => "lower is better (↓)",
         Better::Higher => "higher is better (↑)",
         Better::NearZero => "nearer to zero is better (→0)",
-        _ => "describes, and is neither good nor bad",
+        _ => "describes, and is neither good nor bad by itself",
     };
     format!(
         "<dt id=\"metric-{}\" tabindex=\"-1\">{} <code>{}</code></dt><dd>{} Unit: {}; {better}. Definition <code>{}</code>: {}.</dd>",

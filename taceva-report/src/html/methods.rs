@@ -179,7 +179,10 @@ fn model(studies: &[Study]) -> String {
     let sentences: String = models.into_iter().map(sentence).collect();
     match sentences.is_empty() {
         true => sentences,
-        false => sentences + " Every score is of samples that the model had not seen.",
+        false => {
+            sentences
+                + " Every score that is formed from predictions is of samples that the model had not seen; scores of the gel alone, such as sensitivity, uniformity and hysteresis, are of all samples."
+        }
     }
 }
 

@@ -6,7 +6,7 @@ use super::finding::{Check, Found, Severity};
 pub(super) static CHECK: Check = Check {
     code: "TAC013",
     name: "label-outliers",
-    looks_for: "labels beyond 3 interquartile ranges of the quartiles that stand further from the next one than that range",
+    looks_for: "labels beyond 3 interquartile ranges of the quartiles, further from the next one than that range and than half as far as the next one is from the quartile",
     hint: "look at these samples: a transducer that was overloaded or read while the tip moved gives such labels; drop them in the map, or say why they are right",
     reads_frames: false,
     find,
@@ -14,6 +14,10 @@ pub(super) static CHECK: Check = Check {
 
 /// Interquartile ranges beyond the quartiles where Tukey's outer fences stand.
 const FENCE: f64 = 3.0;
+/// How wide the gap below outliers is at least, of how far the next label is from the quartile.
+const GAP: f64 = 0.5;
+/// More than one in so many labels are no outliers but a group.
+const MOST: usize = 20;
 /// Values below which quartiles say nothing.
 const LEAST: usize = 20;
 
@@ -56,7 +60,8 @@ struct Outliers {
     next: f64,
 }
 
-/// The values above Tukey's outer fence and above a gap wider than the interquartile range.
+/// The values above Tukey's outer fence and above a gap wider than the interquartile range and than [`GAP`] times the tail below it: most presses
+/// without shear and a few with much have a narrow range and a long tail, in which no label stands apart.
 fn above(mut values: Vec<(f64, usize)>) -> Option<Outliers> {
     if values.len() < LEAST {
         return None;
@@ -65,9 +70,14 @@ fn above(mut values: Vec<(f64, usize)>) -> Option<Outliers> {
     let quartile = |quarters: usize| values[(values.len() - 1) * quarters / 4].0;
     let range = quartile(3) - quartile(1);
     let fence = quartile(3) + FENCE * range;
-    let apart = values
-        .windows(2)
-        .position(|pair| pair[1].0 > fence && pair[1].0 - pair[0].0 > range)?;
+    let is_gap = |pair: &[(f64, usize)]| {
+        let [(below, _), (above, _)] = pair else {
+            return false;
+        };
+        above - below > range.max(GAP * (below - quartile(3))) && *above > fence
+    };
+    let few = values.len() - values.len() / MOST;
+    let apart = (few..values.len()).find(|at| is_gap(&values[at - 1..=*at]))? - 1;
     let outliers = &values[apart + 1..];
     (range > 0.0).then(|| Outliers {
         rows: outliers.iter().map(|(_, row)| *row).collect(),
@@ -90,6 +100,17 @@ mod tests {
         let found = above(spread(&[14.87])).expect("an outlier");
         assert_eq!(found.rows, [200]);
         assert!((found.least - 14.87).abs() < 1e-12 && (found.next - 4.975).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_long_tail_beside_a_narrow_middle_has_no_outliers_and_a_label_far_beyond_it_is_one() {
+        // Three quarters of the presses shear nothing, the others up to 0.6 N, with gaps wider than the middle.
+        let still = (0..75).map(|row| f64::from(row) * 1e-5);
+        let sheared = (1..=25).map(|row| 0.024 * f64::from(row));
+        let values: Vec<(f64, usize)> = still.chain(sheared).zip(0..).collect();
+        assert!(above(values.clone()).is_none());
+        let with = [values, vec![(1.5, 100)]].concat();
+        assert_eq!(above(with).expect("one").rows, [100]);
     }
 
     #[test]

@@ -27,10 +27,13 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
     if times.len() < LEAST {
         return Vec::new();
     }
+    let units = evidence.table.unit_id();
     let mut found = vec![rate(&times)];
     let backwards: Vec<usize> = times
         .windows(2)
         .filter(|pair| pair[1].1 < pair[0].1)
+        // Another unit of the sensor is another recording, whose clock begins anew.
+        .filter(|pair| units[pair[1].0] == units[pair[0].0])
         .map(|pair| pair[1].0)
         .collect();
     let repeated: Vec<usize> = times
@@ -42,7 +45,17 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
     let warn = |message: &str, rows: &[usize]| {
         Found::about(
             Severity::Warning,
-            format!("{} {message}", rows.len()),
+            match rows.len() {
+                1 => format!(
+                    "1 {}",
+                    message.replacen("samples are", "sample is", 1).replacen(
+                        "samples have",
+                        "sample has",
+                        1
+                    )
+                ),
+                many => format!("{many} {message}"),
+            },
             evidence.names(rows),
         )
     };

@@ -1,6 +1,7 @@
 //! A skip is written down, or fails where it is not allowed.
 
 use std::ffi::OsStr;
+use std::io::ErrorKind;
 use std::process::{Command, Output};
 
 use taceva_needs::{LIST, Need, UnknownNeed, required, skip};
@@ -25,13 +26,19 @@ fn trial(value: &str) -> (Output, String) {
     std::fs::write(folder.join("CACHEDIR.TAG"), "").expect("room");
     let program = folder.join("trial-0");
     std::fs::copy(this, &program).expect("room");
-    let output = Command::new(&program)
+    let mut command = Command::new(&program);
+    command
         .arg("a_test_that_finds_no_gpu")
         .env("TACEVA_NEEDS_TRIAL", "1")
         .env("TACEVA_REQUIRE", value)
-        .env_remove("TACEVA_SKIPPED")
-        .output()
-        .expect("it runs");
+        .env_remove("TACEVA_SKIPPED");
+    let output = loop {
+        match command.output() {
+            // A process that another test has just forked holds the copy open for writing until its own program begins.
+            Err(error) if error.kind() == ErrorKind::ExecutableFileBusy => std::thread::yield_now(),
+            done => break done.expect("it runs"),
+        }
+    };
     let list = std::fs::read_to_string(folder.join(LIST)).unwrap_or_default();
     std::fs::remove_dir_all(folder).expect("ours");
     (output, list)

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use taceva_metrics::catalogue;
+use taceva_metrics::{Standing, catalogue};
 
 use crate::figures::listed;
 use crate::results::{Score, Study};
@@ -53,7 +53,7 @@ fn skill(studies: &[Study]) -> String {
         .filter(|score| score.value.number().is_some() && !score.standing.takes_part())
         .filter_map(|score| score.standing.words())
         .collect();
-    let marks: Vec<String> = marks.into_iter().map(|mark| format!("“{mark}”")).collect();
+    let marks: Vec<String> = marks.into_iter().map(explained).collect();
     let marked = match marks.is_empty() {
         true => "no score here is marked otherwise".to_owned(),
         false => format!(
@@ -62,8 +62,17 @@ fn skill(studies: &[Study]) -> String {
         ),
     };
     format!(
-        " Only scores of models with skill are compared: the lower end of the 95 % interval of 1 − MSE(model) / MSE(constant) must lie above zero on each channel that a score is formed from, on samples that the model had not seen, and a success rate above that of the best constant answer; {marked}."
+        " Scores formed from predictions are compared where the model has skill: the lower end of the 95 % interval of 1 − MSE(model) / MSE(constant) must lie above zero on each channel that a score is formed from, on samples that the model had not seen, and a success rate above that of the best constant answer; {marked}."
     )
+}
+
+/// A mark, and what it stands for: `“no skill” (the model is not shown to do better than a constant)`.
+fn explained(mark: &str) -> String {
+    let reason = Standing::from_words(mark).and_then(Standing::reason);
+    match reason.and_then(|reason| reason.split_once(": ")) {
+        Some((_, reason)) => format!("“{mark}” ({reason})"),
+        None => format!("“{mark}”"),
+    }
 }
 
 /// With which seeds models were fitted, where with several.
