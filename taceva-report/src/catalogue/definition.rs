@@ -21,6 +21,14 @@ const DEFINITIONS: &[(&str, &str)] = &[
         "1 / (1 + deviation / |mean|) over bins of the surface",
     ),
     (
+        "r_spatial.std_distance",
+        "the standard deviation of bin means over distance",
+    ),
+    (
+        "r_spatial.std_depth",
+        "the standard deviation of bin means over depth",
+    ),
+    (
         "r_spatial",
         "half the sum of the standard deviations of bin means over distance and depth",
     ),
@@ -42,7 +50,10 @@ const DEFINITIONS: &[(&str, &str)] = &[
 /// The definition that a published number of `metric` must have to bear that name; `None` for names that results of this program do not have.
 pub(super) fn of(metric: &str, channel: &str) -> Option<&'static str> {
     let family = metric.split_once('.').map_or(metric, |(family, _)| family);
-    let named = |name: &str| name == family || name.split_once(' ') == Some((family, channel));
+    // Parts that are defined by themselves stand before what they are parts of.
+    let named = |name: &str| {
+        name == metric || name == family || name.split_once(' ') == Some((family, channel))
+    };
     let mut found = DEFINITIONS.iter().filter(|(name, _)| named(name));
     found.next().map(|(_, definition)| *definition)
 }
