@@ -146,6 +146,8 @@ mod tests {
         use Visit::{Not, Station as Visited, WhereItIs};
         assert_eq!(visits(0.25), [Not, Not, WhereItIs, Visited, Visited]);
         assert_eq!(visits(0.05), [Not, Not, Not, Not, WhereItIs]);
+        // A depth that was just reached is visited on the way out.
+        assert_eq!(visits(0.3), [Not, WhereItIs, Visited, Visited, Visited]);
         // On the way out itself: the gel pushes harder than it did a moment before.
         assert_eq!(visits(0.39), [Not, WhereItIs, Visited, Visited, Visited]);
     }
