@@ -24,11 +24,11 @@ pub(super) const SEGMENT_MM: f64 = 0.125;
 pub(super) const CONTACT_MM_S: f64 = 4.0;
 pub(super) const TRAVEL_MM_S: f64 = 16.0;
 
-/// What the transducer says to each question; `None` is silence.
-pub(super) type Force = fn(question: u32) -> Option<f64>;
+/// What the transducer says to each question at the height of the tip, in N; `None` is silence.
+type Force = Box<dyn FnMut(u32, f64) -> Option<f64> + Send>;
 
 /// A live transducer that feels nothing: no two readings are equal.
-pub(super) fn nothing(question: u32) -> Option<f64> {
+pub(super) fn nothing(question: u32, _: f64) -> Option<f64> {
     Some(f64::from(question) * 1e-6)
 }
 
@@ -54,14 +54,17 @@ pub(super) struct State {
 pub(super) struct Rig(Arc<Mutex<State>>);
 
 impl Rig {
-    pub(super) fn new(height_mm: f64, force: Force) -> Rig {
+    pub(super) fn new(
+        height_mm: f64,
+        force: impl FnMut(u32, f64) -> Option<f64> + Send + 'static,
+    ) -> Rig {
         Rig(Arc::new(Mutex::new(State {
             now_s: 5.0,
             height_mm,
             halted: true,
             stuck: false,
             questions: 0,
-            force,
+            force: Box::new(force),
             motions: Vec::new(),
         })))
     }
@@ -144,7 +147,8 @@ impl ForceTransducer for Rig {
     fn read(&mut self, deadline: Deadline) -> Result<(Wrench, Stamp), DriverError> {
         let mut state = self.state();
         state.questions += 1;
-        match (state.force)(state.questions) {
+        let (question, height_mm) = (state.questions, state.height_mm);
+        match (state.force)(question, height_mm) {
             Some(force_n) => {
                 state.now_s += 0.001;
                 let force = [Newton(0.0), Newton(0.0), Newton(force_n)];
@@ -173,7 +177,7 @@ impl Timekeeper for Rig {
 }
 
 /// 2 mm of clearance, 1 mm of depth and a quarter beyond it, in segments of an eighth.
-fn plan() -> Plan {
+pub(super) fn plan() -> Plan {
     let scene = Scene::parse("small", SMALL).expect("a scene");
     let source = SourceInfo::Rig(Box::new(rig_of(sensor(), Axes::FORCE)));
     let plan = plan_study(&scene, &scene.studies[0], &source, &paper_metrics());

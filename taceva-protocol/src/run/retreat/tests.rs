@@ -48,7 +48,7 @@ fn from_a_limit_of_depth_the_tip_draws_back_to_the_first_segment_at_which_it_may
 
 #[test]
 fn under_a_force_that_does_not_fall_the_tip_draws_back_to_the_first_contact_and_no_farther() {
-    let rig = Rig::new(CONTACT_MM + 0.3125, |question| {
+    let rig = Rig::new(CONTACT_MM + 0.3125, |question, _| {
         Some(2.0 + f64::from(question) * 1e-6)
     });
     with_tip(&rig, |tip| tip.draw_back(CONTACT_MM)).expect("no more than it was");
@@ -58,7 +58,7 @@ fn under_a_force_that_does_not_fall_the_tip_draws_back_to_the_first_contact_and_
 
 #[test]
 fn after_a_fault_nothing_moves_while_the_force_is_the_same_to_the_last_bit() {
-    let rig = Rig::new(1.0, |_| Some(0.5));
+    let rig = Rig::new(1.0, |_, _| Some(0.5));
     assert!(!with_tip(&rig, |tip| tip.abandon()));
     assert_eq!(rig.motions(), []);
     assert!(rig.state().halted);
@@ -66,7 +66,7 @@ fn after_a_fault_nothing_moves_while_the_force_is_the_same_to_the_last_bit() {
 
 #[test]
 fn after_a_fault_nothing_moves_while_the_transducer_is_silent() {
-    let rig = Rig::new(1.0, |_| None);
+    let rig = Rig::new(1.0, |_, _| None);
     assert!(!with_tip(&rig, |tip| tip.abandon()));
     assert_eq!(rig.motions(), []);
     assert!(rig.state().halted);
@@ -75,7 +75,9 @@ fn after_a_fault_nothing_moves_while_the_transducer_is_silent() {
 #[test]
 fn after_a_fault_the_tip_leaves_the_gel_as_soon_as_the_force_is_alive_again() {
     // Silence is believed after three questions, so that this is the third look.
-    let rig = Rig::new(1.0, |question| nothing(question).filter(|_| question > 6));
+    let rig = Rig::new(1.0, |question, height_mm| {
+        nothing(question, height_mm).filter(|_| question > 6)
+    });
     assert!(with_tip(&rig, |tip| tip.abandon()));
     let motions = rig.motions();
     let (first, last) = (motions[0], motions[motions.len() - 1]);
