@@ -1,6 +1,9 @@
 //! What a plan is for, what it refuses, and what it says of pictures that are not taken.
 
-use taceva_core::{Axes, Field, FieldSet, SensorFacts};
+use taceva_core::{
+    Axes, Descriptor, DescriptorSpec, DriverKey, DriverSource, Facts, Field, FieldSet, Millimetre,
+    Point, RobotFacts, SensorFacts, Workspace,
+};
 
 use super::bench::{SMALL, rig_of, sensor};
 use super::{only, planned_as};
@@ -65,4 +68,55 @@ fn pictures_are_counted_where_some_are_taken_and_not_spoken_of_where_none_is() {
     let seeing = planned_as(SMALL, whole(), &only(&["mae"]));
     let counted = format!(", {} frames", seeing.cost.frames);
     assert!(seeing.to_string().contains(&counted), "{seeing}");
+}
+
+/// A robot whose tip may be in `workspace`.
+fn reaching(workspace: Workspace) -> Option<Descriptor> {
+    let key = DriverKey::fixed("test/robot");
+    let facts = Facts::Robot(RobotFacts {
+        workspace: Some(workspace),
+        ..RobotFacts::default()
+    });
+    let spec = DescriptorSpec::new(key, "a robot", DriverSource::Simulated, facts);
+    Some(spec.check().expect("no contradiction"))
+}
+
+#[test]
+fn a_robot_that_just_reaches_the_whole_surface_will_do_and_one_of_a_micrometre_less_on_any_side_will_not()
+ {
+    let scene = Scene::parse("small", SMALL).expect("a scene");
+    let contact = &scene.protocol.contact;
+    let (up, down) = (contact.clearance_mm.value, contact.search_mm.value);
+    let refusal = |tightened: usize| {
+        let part = |side: usize, length: f64| match side == tightened {
+            true => Millimetre(length - 0.001),
+            false => Millimetre(length),
+        };
+        let negative = |side: usize, length: f64| Millimetre(-part(side, length).0);
+        let workspace = Workspace {
+            least: Point {
+                x: negative(0, 8.0),
+                y: negative(1, 10.0),
+                z: negative(2, up),
+            },
+            greatest: Point {
+                x: part(3, 8.0),
+                y: part(4, 10.0),
+                z: part(5, down),
+            },
+        };
+        let mut rig = rig_of(sensor(), Axes::FORCE);
+        rig.robot = reaching(workspace);
+        let source = SourceInfo::Rig(Box::new(rig));
+        let planned = plan(&scene, |_| source.clone());
+        planned.err().map(|error| error.to_string())
+    };
+    for side in 0..6 {
+        let said = refusal(side).unwrap_or_default();
+        assert!(
+            said.contains("the robot `test/robot` does not reach ("),
+            "{side}: {said}"
+        );
+    }
+    assert_eq!(refusal(6), None);
 }
