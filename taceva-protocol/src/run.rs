@@ -12,6 +12,8 @@ mod event;
 mod indent;
 mod log;
 mod retreat;
+#[cfg(test)]
+mod rig;
 mod station;
 mod supervisor;
 mod time;

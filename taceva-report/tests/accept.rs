@@ -192,3 +192,11 @@ fn limits_that_say_nothing_or_no_number_are_refused_by_their_place() {
     assert!(said.contains("limits_version 2: expected 1"), "{said}");
     assert!(refusal("limits_version = 1\n").contains("no [[limit]]"));
 }
+
+#[test]
+fn limits_that_name_no_version_are_of_the_first() {
+    let limit = "[[limit]]\nmetric = \"mae\"\nchannel = \"Fz\"\nunit = \"N\"\nmost = 1.0\n";
+    let unversioned = LimitsFile::read(limit).expect("limits");
+    let first = LimitsFile::read(&format!("limits_version = 1\n{limit}")).expect("limits");
+    assert_eq!(unversioned, first);
+}

@@ -109,3 +109,79 @@ fn distance(from: [Nanometre; 2], to: [Nanometre; 2]) -> f64 {
     let side = |axis: usize| to[axis].to_millimetres() - from[axis].to_millimetres();
     side(0).hypot(side(1))
 }
+
+#[cfg(test)]
+mod tests {
+    use taceva_core::{Axes, Phase};
+
+    use super::*;
+    use crate::plan::plan_study;
+    use crate::plan::tests::bench::{SMALL, paper_metrics, rig_of, sensor};
+    use crate::press::Station;
+    use crate::scene::Scene;
+    use crate::source::SourceInfo;
+
+    /// Seconds of a press 5 mm from where the tip is, at 2 mm/s in contact and 8 mm/s above it, with 1 mm of clearance, segments of an
+    /// eighth, half a second of rest and a quarter for a frame.
+    fn seconds(motion: Motion, frames: bool) -> f64 {
+        let mut scene = Scene::parse("small", SMALL).expect("a scene");
+        let source = SourceInfo::Rig(Box::new(rig_of(sensor(), Axes::FORCE)));
+        let plan = plan_study(&scene, &scene.studies[0], &source, &paper_metrics());
+        let mut press = plan.expect("a plan").presses.remove(0);
+        let contact = &mut scene.protocol.contact;
+        contact.speed_mm_s.value = 2.0;
+        contact.clearance_mm.value = 1.0;
+        contact.settle_s.value = 0.5;
+        let price = Price {
+            contact,
+            frame_s: 0.25,
+            travel_mm_s: 8.0,
+            segment_mm: 0.125,
+        };
+        press.press.place = [Nanometre(4_000_000), Nanometre(-2_000_000)];
+        press.press.motion = motion;
+        press.frames = frames;
+        price.seconds(&press, [Nanometre(1_000_000), Nanometre(2_000_000)])
+    }
+
+    fn assert_takes(motion: Motion, frames: bool, expected: f64) {
+        let found = seconds(motion, frames);
+        assert!(
+            (found - expected).abs() < 1e-12,
+            "{found}, by hand {expected}"
+        );
+    }
+
+    #[test]
+    fn a_rest_costs_the_way_there_and_its_frames() {
+        // 5 mm / 8 mm/s, and four frames.
+        assert_takes(Motion::Rest { frames: 4 }, true, 0.625 + 1.0);
+    }
+
+    #[test]
+    fn a_touch_costs_the_way_the_search_the_rest_and_a_frame_if_one_is_taken() {
+        // The search: 1 mm / 2 mm/s, and eight looks of 5 ms.
+        let search = 0.5 + 8.0 * 0.005;
+        assert_takes(Motion::Touch, false, 0.625 + search + 0.5);
+        assert_takes(Motion::Touch, true, 0.625 + search + 0.5 + 0.25);
+    }
+
+    #[test]
+    fn stations_cost_their_ways_down_sideways_and_up_and_the_way_back() {
+        let station = |depth, sideways, phase| Station {
+            depth: Nanometre(depth),
+            shear: [Nanometre(sideways), Nanometre(0)],
+            phase,
+        };
+        let stations = vec![
+            station(500_000, 0, Phase::Load),
+            station(250_000, 250_000, Phase::Unload),
+        ];
+        let search = 0.5 + 8.0 * 0.005;
+        // Half a millimetre each, the second a quarter up and a quarter sideways: four looks.
+        let station = 0.25 + 4.0 * 0.005 + 0.5 + 0.25;
+        let back = (0.25 + 1.0) / 8.0;
+        let expected = 0.625 + search + 2.0 * station + back;
+        assert_takes(Motion::Indent(stations), true, expected);
+    }
+}

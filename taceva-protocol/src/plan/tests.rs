@@ -2,6 +2,7 @@
 
 pub(crate) mod bench;
 mod reached;
+mod told;
 
 use taceva_core::{Axes, FieldSet, Millimetre, SensorFacts};
 use taceva_core::{Channel, Channels, Field};

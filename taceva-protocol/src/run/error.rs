@@ -85,3 +85,20 @@ impl std::error::Error for RunError {
         Some(&self.cause)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lost_frames_are_counted_and_the_last_complaint_of_the_sensor_is_told() {
+        let said = |last: Option<&str>| {
+            let last = last.map(str::to_owned);
+            StopCause::Frames { attempts: 3, last }.to_string()
+        };
+        let counted = "3 frames in a row were lost, damaged or older than the contact";
+        assert_eq!(said(None), counted);
+        let expected = format!("{counted}; the last: no light");
+        assert_eq!(said(Some("no light")), expected);
+    }
+}

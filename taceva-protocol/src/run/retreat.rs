@@ -120,3 +120,6 @@ impl Tip<'_> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests;

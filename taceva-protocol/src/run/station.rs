@@ -189,3 +189,179 @@ pub(super) fn sample(
         ..Sample::default()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use taceva_core::{
+        DriverError, FrameInfo, GratingKind, Millimetre, Newton, Phase, PixelFormat, Point,
+    };
+
+    use super::*;
+    use crate::press::Station;
+    use crate::run::rig::{Rig, nothing, plan, with_tip};
+
+    /// Gives pictures that were taken at these times; the last one again and again.
+    struct Album(Vec<f64>);
+
+    impl Sensor for Album {
+        fn frame_info(&self) -> FrameInfo {
+            FrameInfo {
+                width: 1,
+                height: 1,
+                format: PixelFormat::Gray8,
+            }
+        }
+        fn capture(&mut self, _: FrameMut<'_>, _: Deadline) -> Result<Stamp, DriverError> {
+            let valid_s = self.0[0];
+            if self.0.len() > 1 {
+                self.0.remove(0);
+            }
+            Ok(Stamp {
+                valid_s,
+                received_s: None,
+            })
+        }
+    }
+
+    /// The picture of a tip that has rested since 4.5 s, at 5 s; how often another one was asked for, and when it was taken.
+    fn taken(times: &[f64]) -> (u32, Result<f64, StopCause>) {
+        let mut album = Album(times.to_vec());
+        let mut retried = 0;
+        let frame = with_tip(&Rig::new(-3.0, nothing), |tip| {
+            let mut note =
+                |event: &Event| retried += u32::from(matches!(event, Event::FrameRetried));
+            let mut camera = Camera::new(&mut album);
+            camera.frame(4.5, tip, &mut note)
+        });
+        (retried, frame.map(|(_, stamp)| stamp.valid_s))
+    }
+
+    #[test]
+    fn a_picture_of_before_the_rest_or_of_another_clock_is_asked_for_again() {
+        let (retried, time_s) = taken(&[4.25, 5.25, 4.499, 4.75]);
+        assert_eq!((retried, time_s.ok()), (3, Some(4.75)));
+        let (retried, time_s) = taken(&[4.5]);
+        assert_eq!((retried, time_s.ok()), (0, Some(4.5)));
+    }
+
+    #[test]
+    fn a_sensor_that_gives_only_old_pictures_is_given_up() {
+        let (retried, error) = taken(&[4.0]);
+        assert_eq!(retried, FRAME_TRIES);
+        let error = error.expect_err("no news").to_string();
+        assert!(error.starts_with("10 frames in a row were lost"), "{error}");
+    }
+
+    #[test]
+    fn a_sample_says_when_it_was_received_though_the_sensor_does_not() {
+        let mut album = Album(vec![5.001]);
+        let observed = with_tip(&Rig::new(-3.0, nothing), |tip| {
+            tip.find_pose()?;
+            let before = tip.look()?;
+            let camera = &mut Camera::new(&mut album);
+            observe(before, tip, Some(camera), &mut |_| {})
+        });
+        let stamp = observed.expect("news").stamp;
+        assert!(
+            stamp
+                .received_s
+                .is_some_and(|received_s| received_s >= stamp.valid_s)
+        );
+    }
+
+    /// The sample of the second of two stations, half a millimetre below a contact at 0.25 mm.
+    fn second(motion: Motion, limited_by: Option<Limit>) -> Sample {
+        let mut plan = plan();
+        let planned = &mut plan.presses[0];
+        planned.press.unit = "b".to_owned();
+        planned.press.light = Some("S1".to_owned());
+        planned.press.repeat = Some(3);
+        planned.press.motion = motion;
+        planned.press.specimen = Specimen::Grating {
+            kind: GratingKind::Dot,
+            spacing: Nanometre(500_000),
+        };
+        let position = Point {
+            x: Millimetre(1.0),
+            y: Millimetre(-2.0),
+            z: Millimetre(0.75),
+        };
+        let pose = Pose {
+            position,
+            ..Pose::default()
+        };
+        let wrench = Wrench {
+            force: [Newton(0.125), Newton(-0.25), Newton(1.5)],
+            ..Wrench::default()
+        };
+        let stamp = Stamp {
+            valid_s: 5.0,
+            received_s: Some(5.5),
+        };
+        let observed = Observed {
+            wrench,
+            pose,
+            stamp,
+            frame: None,
+        };
+        let spot = Spot {
+            limited_by,
+            ..Spot::reached(1, 0.25)
+        };
+        let channels = ["Px", "Py", "Pz", "Fx", "Fy", "Fz", SURFACE, "Tz"].map(str::to_owned);
+        let sample = sample(planned, spot, observed, &channels);
+        assert_eq!(sample.id, format!("{}/1", planned.id));
+        assert_eq!(sample.point_id, Some(planned.press.point_id()));
+        assert_eq!(sample.stamp, Some(stamp));
+        sample
+    }
+
+    fn truths(sample: &Sample) -> Vec<Option<f64>> {
+        (0..8).map(|channel| sample.truth.get(channel)).collect()
+    }
+
+    #[test]
+    fn a_sample_of_a_press_says_where_it_was_taken_of_what_and_what_was_measured() {
+        let station = |phase| Station {
+            depth: Nanometre(500_000),
+            shear: [Nanometre(0); 2],
+            phase,
+        };
+        let stations = vec![station(Phase::Load), station(Phase::Unload)];
+        let sample = second(Motion::Indent(stations.clone()), None);
+        assert_eq!(sample.unit_id.as_deref(), Some("b"));
+        assert_eq!(sample.scene_id.as_deref(), Some("S1"));
+        assert_eq!((sample.depth_step, sample.repeat), (Some(1), Some(3)));
+        assert_eq!(
+            (sample.phase, sample.limited_by),
+            (Some(Phase::Unload), None)
+        );
+        let spacing = Some(Nanometre(500_000));
+        assert_eq!(
+            (sample.kind, sample.spacing),
+            (Some(GratingKind::Dot), spacing)
+        );
+        let [x, y, z] = [Some(1.0), Some(-2.0), Some(0.5)];
+        let force = [Some(0.125), Some(-0.25), Some(1.5)];
+        assert_eq!(
+            truths(&sample),
+            [x, y, z, force[0], force[1], force[2], None, None]
+        );
+        // Where a limit stopped the tip the depth is no level, and all else is as it was.
+        let limited = second(Motion::Indent(stations), Some(Limit::Depth));
+        assert_eq!(
+            (limited.depth_step, limited.phase),
+            (None, Some(Phase::Unload))
+        );
+        assert_eq!(limited.limited_by, Some(Limit::Depth));
+        assert_eq!(truths(&limited), truths(&sample));
+    }
+
+    #[test]
+    fn a_touch_has_a_height_and_no_depth_and_a_rest_has_neither() {
+        let touch = truths(&second(Motion::Touch, None));
+        assert_eq!((touch[2], touch[6]), (None, Some(0.75)));
+        let rest = truths(&second(Motion::Rest { frames: 2 }, None));
+        assert_eq!((rest[2], rest[6]), (None, None));
+    }
+}

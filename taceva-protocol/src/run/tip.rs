@@ -346,3 +346,37 @@ fn part_way(from: &Pose, to: &Pose, part: f64) -> Pose {
         ..*to
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::run::rig::{Rig, SEGMENT_MM, nothing, with_tip};
+
+    #[test]
+    fn a_robot_that_does_not_move_is_stuck_after_twice_the_segments_of_its_way_and_eight() {
+        let rig = Rig::new(1.0, nothing);
+        rig.state().stuck = true;
+        let cause = with_tip(&rig, |tip| {
+            tip.clear_halt()?;
+            tip.find_pose()?;
+            tip.approach([0.0, 0.0, 0.0])
+        });
+        let cause = cause.expect_err("it stands where it stood");
+        let stuck = StopCause::Tripped(Trip::Diverged { distance_mm: 1.0 });
+        assert_eq!(cause.to_string(), stuck.to_string());
+        // 16 for the way, 8 to spare, and the one that finds patience at its end.
+        assert_eq!(rig.motions().len(), 16 + 8 + 1);
+        for motion in rig.motions() {
+            assert_eq!((motion.from_mm, motion.to_mm), (1.0, 1.0 - SEGMENT_MM));
+        }
+        assert!(rig.state().halted);
+    }
+
+    #[test]
+    fn a_station_is_beside_its_place_by_its_shear_and_below_the_contact_by_its_depth() {
+        let [place, shear] = [[4_000_000, -3_000_000], [500_000, 250_000]];
+        let [place, shear] = [place, shear].map(|pair| pair.map(Nanometre));
+        let station = Tip::station(place, shear, 0.25, Nanometre(750_000));
+        assert!(station.iter().eq(&[4.5, -2.75, 1.0]), "{station:?}");
+    }
+}

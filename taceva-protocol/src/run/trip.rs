@@ -134,3 +134,40 @@ impl fmt::Display for Trip {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn depth_and_both_forces_are_limits_of_the_gel_and_nothing_else_is() {
+        let (limit_n, force_n, age_s) = (1.0, 2.0, 0.1);
+        for (trip, limit) in [
+            (
+                Trip::Depth {
+                    depth_mm: 2.0,
+                    limit_mm: 1.0,
+                },
+                Some(Limit::Depth),
+            ),
+            (
+                Trip::NormalForce { force_n, limit_n },
+                Some(Limit::NormalForce),
+            ),
+            (
+                Trip::ShearForce { force_n, limit_n },
+                Some(Limit::ShearForce),
+            ),
+            (Trip::UnexpectedContact { force_n }, None),
+            (Trip::ForceRate { rate_n_s: 300.0 }, None),
+            (Trip::Saturated { force_n }, None),
+            (Trip::NotFinite, None),
+            (Trip::Frozen { readings: 8 }, None),
+            (Trip::StaleForce { age_s }, None),
+            (Trip::StalePose { age_s }, None),
+            (Trip::Diverged { distance_mm: 1.0 }, None),
+        ] {
+            assert_eq!(trip.limit(), limit, "{trip}");
+        }
+    }
+}

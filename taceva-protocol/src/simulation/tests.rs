@@ -181,6 +181,22 @@ fn a_rehearsal_visits_every_place_touches_nothing_and_records_nothing() {
 }
 
 #[test]
+fn a_rehearsal_goes_as_far_above_the_height_of_travel_as_it_is_told() {
+    let mut bench = Bench::new(SOFT);
+    // Presses without stations, after which the tip is where it went first.
+    let presses = &mut bench.plan.presses;
+    presses.retain(|press| matches!(press.press.motion, Motion::Rest { .. }));
+    assert!(!bench.plan.presses.is_empty());
+    let height = Millimetre(20.0);
+    let rehearsal = Mode::Rehearse { height };
+    bench
+        .run(rehearsal, &mut Memory::default())
+        .expect("in the air");
+    let travel = -bench.plan.contact.clearance_mm.value;
+    assert!((bench.height() - (travel - 20.0)).abs() < 1e-9);
+}
+
+#[test]
 fn a_gel_that_is_not_there_is_searched_for_and_left() {
     let mut bench = Bench::new(SOFT);
     bench.shared.world().gel.stiffness_n_mm = 1e-9;

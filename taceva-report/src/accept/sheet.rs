@@ -212,3 +212,6 @@ fn bounds(limit: &Limit) -> String {
     };
     ends + whole
 }
+
+#[cfg(test)]
+mod tests;

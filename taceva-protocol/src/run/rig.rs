@@ -1,0 +1,216 @@
+//! A rig that does what a test says, and remembers every motion.
+
+use std::sync::{Arc, Mutex, MutexGuard};
+use std::time::Duration;
+
+use taceva_core::{
+    Axes, Deadline, DriverError, DriverKey, ErrorKind, ForceTransducer, Halt, Millimetre, Newton,
+    Point, Pose, Robot, Speed, Stamp, Wrench,
+};
+
+use super::bounds::Bounds;
+use super::supervisor::Supervisor;
+use super::time::{Cancel, Timekeeper};
+use super::tip::{Pace, Tip};
+use crate::limits::Overshoot;
+use crate::plan::tests::bench::{SMALL, paper_metrics, rig_of, sensor};
+use crate::plan::{Plan, plan_study};
+use crate::scene::Scene;
+use crate::source::SourceInfo;
+
+/// The gel begins here; all lengths are parts of powers of two, so that sums of them are exact.
+pub(super) const CONTACT_MM: f64 = 0.25;
+pub(super) const SEGMENT_MM: f64 = 0.125;
+pub(super) const CONTACT_MM_S: f64 = 4.0;
+pub(super) const TRAVEL_MM_S: f64 = 16.0;
+
+/// What the transducer says to each question at the height of the tip, in N; `None` is silence.
+type Force = Box<dyn FnMut(u32, f64) -> Option<f64> + Send>;
+
+/// A live transducer that feels nothing: no two readings are equal.
+pub(super) fn nothing(question: u32, _: f64) -> Option<f64> {
+    Some(f64::from(question) * 1e-6)
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Motion {
+    pub(super) from_mm: f64,
+    pub(super) to_mm: f64,
+    pub(super) speed_mm_s: f64,
+}
+
+pub(super) struct State {
+    now_s: f64,
+    height_mm: f64,
+    pub(super) halted: bool,
+    /// Whether the robot says it moved and stays where it is.
+    pub(super) stuck: bool,
+    questions: u32,
+    force: Force,
+    motions: Vec<Motion>,
+}
+
+#[derive(Clone)]
+pub(super) struct Rig(Arc<Mutex<State>>);
+
+impl Rig {
+    pub(super) fn new(
+        height_mm: f64,
+        force: impl FnMut(u32, f64) -> Option<f64> + Send + 'static,
+    ) -> Rig {
+        Rig(Arc::new(Mutex::new(State {
+            now_s: 5.0,
+            height_mm,
+            halted: true,
+            stuck: false,
+            questions: 0,
+            force: Box::new(force),
+            motions: Vec::new(),
+        })))
+    }
+
+    pub(super) fn state(&self) -> MutexGuard<'_, State> {
+        self.0.lock().expect("whole")
+    }
+
+    pub(super) fn motions(&self) -> Vec<Motion> {
+        self.state().motions.clone()
+    }
+}
+
+fn now(state: &State) -> Stamp {
+    Stamp {
+        valid_s: state.now_s,
+        received_s: None,
+    }
+}
+
+fn error(kind: ErrorKind, what: &'static str) -> DriverError {
+    DriverError::new(kind, &DriverKey::fixed("test/rig"), what)
+}
+
+impl Halt for Rig {
+    fn halt(&self) -> Result<(), DriverError> {
+        self.state().halted = true;
+        Ok(())
+    }
+}
+
+impl Robot for Rig {
+    fn pose(&mut self, _: Deadline) -> Result<(Pose, Stamp), DriverError> {
+        let state = self.state();
+        let position = Point {
+            z: Millimetre(state.height_mm),
+            ..Point::default()
+        };
+        let pose = Pose {
+            position,
+            ..Pose::default()
+        };
+        Ok((pose, now(&state)))
+    }
+
+    fn move_to(&mut self, target: Pose, speed: Speed, _: Deadline) -> Result<Stamp, DriverError> {
+        let mut state = self.state();
+        if state.halted {
+            return Err(error(ErrorKind::Interrupted, "move"));
+        }
+        let (from_mm, to_mm) = (state.height_mm, target.position.z.0);
+        let speed_mm_s = speed.mm_per_s();
+        state.motions.push(Motion {
+            from_mm,
+            to_mm,
+            speed_mm_s,
+        });
+        state.now_s += (to_mm - from_mm).abs() / speed_mm_s;
+        if !state.stuck {
+            state.height_mm = to_mm;
+        }
+        Ok(now(&state))
+    }
+
+    fn halt_handle(&self) -> Arc<dyn Halt> {
+        Arc::new(self.clone())
+    }
+
+    fn clear_halt(&mut self, _: Deadline) -> Result<(), DriverError> {
+        self.state().halted = false;
+        Ok(())
+    }
+}
+
+impl ForceTransducer for Rig {
+    fn axes(&self) -> Axes {
+        Axes::FORCE
+    }
+
+    fn read(&mut self, deadline: Deadline) -> Result<(Wrench, Stamp), DriverError> {
+        let mut state = self.state();
+        state.questions += 1;
+        let (question, height_mm) = (state.questions, state.height_mm);
+        match (state.force)(question, height_mm) {
+            Some(force_n) => {
+                state.now_s += 0.001;
+                let force = [Newton(0.0), Newton(0.0), Newton(force_n)];
+                let wrench = Wrench {
+                    force,
+                    ..Wrench::default()
+                };
+                Ok((wrench, now(&state)))
+            }
+            None => {
+                state.now_s += deadline.remaining().as_secs_f64();
+                Err(error(ErrorKind::Timeout, "read"))
+            }
+        }
+    }
+}
+
+impl Timekeeper for Rig {
+    fn now_s(&self) -> f64 {
+        self.state().now_s
+    }
+
+    fn rest(&mut self, rest: Duration) {
+        self.state().now_s += rest.as_secs_f64();
+    }
+}
+
+/// 2 mm of clearance, 1 mm of depth and a quarter beyond it, in segments of an eighth.
+pub(super) fn plan() -> Plan {
+    let scene = Scene::parse("small", SMALL).expect("a scene");
+    let source = SourceInfo::Rig(Box::new(rig_of(sensor(), Axes::FORCE)));
+    let plan = plan_study(&scene, &scene.studies[0], &source, &paper_metrics());
+    let mut plan = plan.expect("a plan");
+    plan.contact.clearance_mm.value = 2.0;
+    plan.contact.speed_mm_s.value = CONTACT_MM_S;
+    let limits = plan.limits.as_mut().expect("it moves");
+    limits.depth_max = Millimetre(1.0);
+    limits.normal_max = Newton(1.5);
+    limits.speed_max_mm_s = TRAVEL_MM_S;
+    limits.overshoot = Overshoot {
+        segment_mm: SEGMENT_MM,
+        healthy_mm: 0.25,
+        frozen_mm: 1.0,
+    };
+    plan
+}
+
+/// Lets `act` move the tip of `rig`, which touched the gel at [`CONTACT_MM`].
+pub(super) fn with_tip<T>(rig: &Rig, act: impl FnOnce(&mut Tip<'_>) -> T) -> T {
+    let plan = plan();
+    let limits = plan.limits.clone().expect("it moves");
+    let (mut robot, mut force, mut clock) = (rig.clone(), rig.clone(), rig.clone());
+    let cancel = Cancel::new();
+    let mut tip = Tip::new(
+        (&mut robot, &mut force),
+        (&mut clock, &cancel),
+        Supervisor::new(limits, Arc::new(rig.clone())),
+        (
+            Bounds::of(&plan, 0.0).expect("it moves"),
+            Pace::of(&plan).expect("it moves"),
+        ),
+    );
+    tip.contact_mm = Some(CONTACT_MM);
+    act(&mut tip)
+}

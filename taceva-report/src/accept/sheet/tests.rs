@@ -1,0 +1,178 @@
+//! A data sheet says of every limit what was found, and passes only if all are kept.
+
+use serde_json::Value;
+
+use super::*;
+use crate::accept::{LimitsFile, accept};
+use crate::samples::Samples;
+
+/// A simulated unit with two errors: one of 0.5 N between 0.375 N and 0.75 N, one of 0.25 mm without an interval.
+fn study() -> Study {
+    let studies = Study::read(
+        r#"{"schema": "taceva.evaluation/1.1",
+            "subject": {"sensor": "drawn", "serial": "7", "gel": "B", "source": "simulated"},
+            "metrics": {"mae": {
+                "Fz": {"value": 0.5, "unit": "N", "n": 80, "ci95": [0.375, 0.75], "method": "drawn"},
+                "Pz": {"value": 0.25, "unit": "mm", "n": 40}}},
+            "provenance": {"split": "by point"}}"#,
+    );
+    studies.expect("a result").remove(0)
+}
+
+const KEPT: &str = "metric = \"mae\"\nchannel = \"Fz\"\nunit = \"N\"\nmost = 1.5";
+const BROKEN: &str = "metric = \"mae\"\nchannel = \"Fz\"\nunit = \"N\"\nleast = 0.25\nmost = 0.625\nwhole_interval = true";
+const MISSING: &str = "metric = \"mae\"\nchannel = \"Fx\"\nunit = \"N\"\nleast = 0.25";
+
+/// What becomes of `limits`.
+fn held(study: &Study, limits: &[&str]) -> Vec<Finding> {
+    let text: String = limits
+        .iter()
+        .map(|limit| format!("[[limit]]\n{limit}\n"))
+        .collect();
+    accept(study, &LimitsFile::read(&text).expect("limits"))
+}
+
+fn sheet<'a>(study: &'a Study, findings: &'a [Finding]) -> Acceptance<'a> {
+    Acceptance {
+        name: "batch 3",
+        study,
+        findings,
+        date: Some("2026-11-22"),
+        pictures: None,
+    }
+}
+
+#[test]
+fn a_unit_passes_if_all_limits_are_kept_and_not_if_one_is_broken() {
+    let study = study();
+    for (limits, is_passed) in [
+        (&[KEPT][..], true),
+        (&[KEPT, BROKEN], false),
+        (&[BROKEN, KEPT], false),
+    ] {
+        let findings = held(&study, limits);
+        let sheet = sheet(&study, &findings);
+        assert_eq!(sheet.is_passed(), is_passed, "{limits:?}");
+        let verdict = if is_passed { "passed" } else { "failed" };
+        let json: Value = serde_json::from_str(&sheet.json()).expect("JSON");
+        assert_eq!(json["passed"], is_passed);
+        let caption = sheet.listing().caption;
+        let expected = format!("drawn, serial 7: {verdict} by batch 3, 2026-11-22");
+        assert_eq!(caption, expected);
+    }
+}
+
+#[test]
+fn each_row_has_the_limit_what_was_found_and_why_it_is_not_enough() {
+    let study = study();
+    let findings = held(&study, &[KEPT, BROKEN, MISSING]);
+    let listing = sheet(&study, &findings).listing();
+    let expected = [
+        [
+            "mae",
+            "Fz",
+            "≤ 1.5",
+            "0.5",
+            "0.375 … 0.75",
+            "N",
+            "80",
+            "pass",
+            "",
+        ],
+        [
+            "mae",
+            "Fz",
+            "0.25 … 0.625, whole interval",
+            "0.5",
+            "0.375 … 0.75",
+            "N",
+            "80",
+            "FAIL",
+            "interval reaches 0.75, above 0.625",
+        ],
+        [
+            "mae",
+            "Fx",
+            "≥ 0.25",
+            "–",
+            "–",
+            "N",
+            "0",
+            "FAIL",
+            "there is no such score",
+        ],
+    ];
+    assert_eq!(listing.rows, expected);
+    assert_eq!(
+        listing.notes,
+        ["Nothing here was measured: the samples are simulated."]
+    );
+}
+
+#[test]
+fn a_sheet_without_name_and_date_speaks_of_neither() {
+    let study = study();
+    let findings = held(&study, &[KEPT]);
+    let sheet = Acceptance {
+        name: "",
+        date: None,
+        ..sheet(&study, &findings)
+    };
+    assert_eq!(sheet.listing().caption, "drawn, serial 7: passed");
+    assert!(!sheet.page().contains("<dt>date</dt>"));
+}
+
+#[test]
+fn programs_find_every_limit_with_its_ends_and_its_reason() {
+    let study = study();
+    let findings = held(&study, &[KEPT, BROKEN]);
+    let json: Value = serde_json::from_str(&sheet(&study, &findings).json()).expect("JSON");
+    assert_eq!(json["schema"], ACCEPTANCE_SCHEMA);
+    assert_eq!(json["date"], "2026-11-22");
+    assert_eq!(json["subject"]["serial"], "7");
+    let [kept, broken] = [0, 1].map(|at| &json["findings"][at]);
+    assert_eq!(
+        (&kept["kept"], &kept["reason"]),
+        (&true.into(), &Value::Null)
+    );
+    assert_eq!((&kept["most"], &kept["least"]), (&1.5.into(), &Value::Null));
+    assert_eq!(broken["ci95"], serde_json::json!([0.375, 0.75]));
+    assert_eq!(broken["reason"], "interval reaches 0.75, above 0.625");
+    assert_eq!(broken["better"], "lower");
+}
+
+#[test]
+fn a_page_says_its_verdict_in_words_and_counts_what_is_broken() {
+    let study = study();
+    let findings = held(&study, &[KEPT]);
+    let page = sheet(&study, &findings).page();
+    assert!(page.contains("<p class=\"pass\">PASS: every limit is kept.</p>"));
+    assert!(!page.contains("FAIL"));
+    let findings = held(&study, &[KEPT, BROKEN, MISSING]);
+    let page = sheet(&study, &findings).page();
+    assert!(page.contains("<p class=\"fail\">FAIL: 2 of 3 limits are not kept.</p>"));
+    assert!(!page.contains("PASS") && page.contains("there is no such score"));
+}
+
+#[test]
+fn a_page_names_the_unit_and_the_ranges_that_were_tried_where_samples_are_at_hand() {
+    let mut study = study();
+    let findings = held(&study, &[KEPT]);
+    let page = sheet(&study, &findings).page();
+    for entry in [
+        "<dt>sensor</dt><dd>drawn</dd>",
+        "<dt>serial</dt><dd>7</dd>",
+        "<dt>gel</dt><dd>B</dd>",
+        "<dt>date</dt><dd>2026-11-22</dd>",
+        "<dt>samples</dt><dd>simulated</dd>",
+        "<dt>split</dt><dd>by point</dd>",
+    ] {
+        assert!(page.contains(entry), "{entry}");
+    }
+    assert!(!page.contains("ranges tried"));
+    let samples = "id,Pz,Pz_predicted,Fz\na,1.25,9,-0.5\nb,0,9,\nc,0.5,9,2\n";
+    study.samples = Some(Samples::read(samples).expect("samples"));
+    let page = sheet(&study, &findings).page();
+    let ranges = "<dt>ranges tried</dt><dd>Pz 0 … 1.25 mm; Fz −0.5 … 2 N</dd>";
+    assert!(page.contains(ranges), "{page}");
+}
