@@ -1,6 +1,7 @@
 //! Which sensor for a task: hard needs drop, soft ones rank, and every step shows the numbers that decided.
 
 mod need;
+mod place;
 mod property;
 mod render;
 mod words;
@@ -52,6 +53,8 @@ pub struct Step {
     pub standing: Standing,
     /// Its share of the best of those that remain; none for hard needs and unknown numbers.
     pub share: Option<f64>,
+    /// Whether the need is a hard one, which ranks nobody.
+    pub is_bound: bool,
 }
 
 /// A sensor of which a hard need asks what is not known.
@@ -77,7 +80,7 @@ pub struct Dropped {
 /// A hard need drops every sensor whose number is known not to meet it, and sets those apart of which that number is not known: what nobody
 /// knows recommends nothing. A sensor of which a need looks at a score that takes no part in verdicts is not ranked. Studies of sensors are no sensors. A soft need ranks those that remain: a sensor has the share of
 /// the best that its number has, the mean over the numbers of the need; a number that is not known counts as a share of 0, since it
-/// recommends nothing. The rank is the mean over soft needs; equals stay in the order of their names.
+/// recommends nothing. The rank is the mean over soft needs; equals share a place, and stay in the order of their names.
 ///
 /// ```
 /// use taceva_report::{Need, catalogue, choose};
@@ -181,6 +184,7 @@ fn candidate(sensor: &Sensor, remaining: &[&Sensor], needs: &[Need]) -> Candidat
                 value: bound.property.of(sensor),
                 standing: bound.property.standing(sensor),
                 share: None,
+                is_bound: true,
             });
         }
         let mut of_need = Vec::new();
@@ -194,6 +198,7 @@ fn candidate(sensor: &Sensor, remaining: &[&Sensor], needs: &[Need]) -> Candidat
                 value,
                 standing: property.standing(sensor),
                 share,
+                is_bound: false,
             });
         }
         shares.extend(mean(&of_need));

@@ -1,12 +1,13 @@
 //! Whether sensors or models differ: every pair, every score, with intervals and in words.
 
+mod aside;
 mod estimate;
 mod footing;
 mod overview;
 mod paired;
 mod render;
 
-pub use overview::{Decision, OVERVIEW_LINES};
+pub use overview::{Decision, OVERVIEW_LINES, OVERVIEW_WIDTH};
 pub use render::COMPARISON_SCHEMA;
 
 use std::collections::BTreeMap;
@@ -17,7 +18,7 @@ use taceva_metrics::{
 };
 
 use crate::results::{Score, Study};
-use crate::tie::tie;
+use aside::Aside;
 
 /// What a comparison is asked.
 #[derive(Clone, Debug, Default)]
@@ -39,8 +40,8 @@ pub struct Comparison {
     pub answers: Vec<Answer>,
     /// What a reader must know before comparing them.
     pub notes: Vec<String>,
-    /// Channels of success rates whose best are several, with the words for it.
-    ties: Vec<(String, String)>,
+    /// What stands beside the verdicts, score by score.
+    asides: Vec<Aside>,
 }
 
 /// One score of two studies.
@@ -130,24 +131,26 @@ pub fn compare(studies: &[Study], request: &CompareRequest) -> Comparison {
         answers.extend(pairs.into_iter().map(|pair| answer(pair, request)));
     }
     Comparison {
-        ties: ties(studies, &names, &answers),
+        asides: asides(studies, &names, &answers),
         notes: footing::notes(studies, &names).into_iter().collect(),
         names,
         answers,
     }
 }
 
-/// The ties among the answers, channel by channel.
-fn ties(studies: &[Study], names: &[String], answers: &[Answer]) -> Vec<(String, String)> {
-    let mut ties: Vec<(String, String)> = Vec::new();
-    for answer in answers {
-        let is_new = ties.iter().all(|(channel, _)| *channel != answer.channel);
-        let words = tie(studies, names, &answer.metric, &answer.channel);
-        if let Some(words) = words.filter(|_| is_new) {
-            ties.push((answer.channel.clone(), words));
+/// What stands beside the answers, score by score.
+fn asides(studies: &[Study], names: &[String], answers: &[Answer]) -> Vec<Aside> {
+    let mut asides: Vec<Aside> = Vec::new();
+    for Answer {
+        metric, channel, ..
+    } in answers
+    {
+        let is_known = |aside: &Aside| aside.metric == *metric && aside.channel == *channel;
+        if !asides.iter().any(is_known) {
+            asides.push(Aside::of(studies, names, metric, channel));
         }
     }
-    ties
+    asides
 }
 
 /// The metrics that are asked for and that some study has, in the order of the first.

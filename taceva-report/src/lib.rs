@@ -10,10 +10,12 @@ mod figure;
 mod figures;
 mod html;
 mod json;
+mod light;
 mod listing;
 mod number;
 mod results;
 mod samples;
+mod spread;
 mod table;
 mod tie;
 
@@ -24,7 +26,8 @@ pub use choose::{
     Bound, CHOICE_SCHEMA, Candidate, Choice, Dropped, Need, NeedError, Property, Step, choose,
 };
 pub use compare::{
-    Answer, COMPARISON_SCHEMA, CompareRequest, Comparison, Decision, OVERVIEW_LINES, compare,
+    Answer, COMPARISON_SCHEMA, CompareRequest, Comparison, Decision, OVERVIEW_LINES,
+    OVERVIEW_WIDTH, compare,
 };
 pub use escape::{
     csv as escape_csv, from_csv as unescape_csv, html as escape_html, latex as escape_latex,

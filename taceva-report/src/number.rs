@@ -10,6 +10,8 @@ const ROUNDING: f64 = 1e-12;
 const MOST: usize = 6;
 /// Numbers from here on are never written with a power of ten for being small.
 const SMALL: f64 = 1e-4;
+/// Decimals more than its width asks for that an interval has where an end would print as 0 without being 0.
+const BEYOND: usize = 3;
 
 /// A value and the ends of its interval, to the digit that the interval supports.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -43,7 +45,8 @@ impl Printed {
 
     /// Prints a number to a twentieth of the width between `ends`; without them, or if they are equal, to four digits.
     ///
-    /// Numbers below 10⁻¹² are rounding errors and print as 0; a minus never stands before a zero.
+    /// Numbers below 10⁻¹² are rounding errors and print as 0; a minus never stands before a zero. An end that is not 0 never prints as 0:
+    /// the interval has up to three more decimals then, and what they do not show has a power of ten.
     ///
     /// ```
     /// use taceva_report::Printed;
@@ -57,17 +60,27 @@ impl Printed {
         let widths = ends.map(|[low, high]| (high - low) / 20.0);
         let width = widths.filter(|width| *width > greatest * 1e-9);
         let step = width.unwrap_or(number / 1e3).abs();
-        let decimals = match greatest < ROUNDING || step <= 0.0 {
+        let fewest = match greatest < ROUNDING || step <= 0.0 {
             true => 0,
             false => decimals(step),
         };
-        let print = |number: f64| match decimals > MOST && greatest < SMALL {
+        let print = |number: f64, decimals: usize| match decimals > MOST && greatest < SMALL {
             true => powered(number, decimals),
             false => fixed(number, decimals),
         };
+        let hides_an_end = |decimals: usize| {
+            let mut all = ends.into_iter().flatten();
+            all.any(|end| end.abs() >= ROUNDING && is_zero(&print(end, decimals)))
+        };
+        let found = (fewest..=fewest + BEYOND).find(|decimals| !hides_an_end(*decimals));
+        let decimals = found.unwrap_or(fewest);
+        let print_end = |end: f64| match print(end, decimals) {
+            text if end.abs() >= ROUNDING && is_zero(&text) => format!("{end:.0e}"),
+            text => text,
+        };
         Printed {
-            value: print(number),
-            interval: ends.map(|ends| ends.map(print)),
+            value: print(number, decimals),
+            interval: ends.map(|ends| ends.map(print_end)),
             reason: None,
         }
     }
@@ -147,9 +160,15 @@ fn powered(number: f64, decimals: usize) -> String {
 
 fn unsigned_zero(text: String) -> String {
     match text.strip_prefix('-') {
-        Some(size) if !size.contains(|letter| ('1'..='9').contains(&letter)) => size.to_owned(),
+        Some(size) if is_zero(size) => size.to_owned(),
         _ => text,
     }
+}
+
+/// Whether it shows no digit but zeros before a power of ten.
+fn is_zero(text: &str) -> bool {
+    let digits = text.split('e').next().unwrap_or_default();
+    !digits.contains(|letter| ('1'..='9').contains(&letter))
 }
 
 fn i32_to_usize(number: i32) -> usize {
@@ -194,7 +213,7 @@ mod tests {
             ["0.00"; 3]
         );
         assert_eq!(fixed(-0.006, 2), "-0.01");
-        assert_eq!(phrase(-0.002, Some([-0.5, -0.001])), "0.00 (-0.50 … 0.00)");
+        assert_eq!(phrase(-0.002, Some([-0.5, 0.3])), "0.00 (-0.50 … 0.30)");
         assert_eq!(phrase(-0.0, None), "0");
         assert_eq!([-0.0, -1e-15, -0.02].map(numeral), ["0", "0", "−0.02"]);
     }
@@ -204,6 +223,17 @@ mod tests {
         assert_eq!(phrase(1.4e-17, None), "0");
         assert_eq!(phrase(1.4e-17, Some([1.2e-17, 1.6e-17])), "0 (0 … 0)");
         assert_eq!(phrase(0.0, Some([-1e-15, 1e-15])), "0 (0 … 0)");
+    }
+
+    #[test]
+    fn an_end_of_an_interval_that_is_not_zero_never_prints_as_zero() {
+        assert_eq!(phrase(0.8, Some([0.02, 10.0])), "0.80 (0.02 … 10.00)");
+        assert_eq!(
+            phrase(-0.002, Some([-0.5, -0.001])),
+            "-0.002 (-0.500 … -0.001)"
+        );
+        assert_eq!(phrase(40.0, Some([-80.0, -1e-7])), "40 (-80 … -1e-7)");
+        assert_eq!(phrase(0.8, Some([0.0, 10.0])), "0.8 (0.0 … 10.0)");
     }
 
     #[test]
@@ -223,7 +253,7 @@ mod tests {
         );
         assert_eq!(
             phrase(2.34e-7, Some([-1e-9, 4.6e-7])),
-            "2.3e-7 (0 … 4.6e-7)"
+            "2.34e-7 (-1e-9 … 4.60e-7)"
         );
         assert_eq!(
             phrase(0.012_345_67, Some([0.012_345_6, 0.012_345_8])),

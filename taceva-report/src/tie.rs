@@ -1,77 +1,125 @@
-//! Ties: sensors that tell the spacing of gratings equally often, and how fine that is.
+//! Ties: sensors that have the very same best value; of gratings, how fine that is.
 
 use std::collections::BTreeMap;
 
+use taceva_metrics::Better;
+
 use crate::figures::listed;
-use crate::number::numeral;
+use crate::light;
+use crate::number::{numeral, spaced};
 use crate::results::{Score, Study};
 use crate::samples::Samples;
 
-/// The metric whose values are shares of few presses, so that they are often the same.
-const METRIC: &str = "sr";
+/// The metric of gratings, whose values are shares of few presses, so that they are often the same.
+const GRATINGS: &str = "sr";
 /// How far a spacing may be missed, where a score does not say.
 const TOLERANCE_MM: f64 = 0.05;
 const NM: f64 = 1e6;
 
-/// The ties of `studies`, a line each: `sr line: tie: GelSight and TacTip both tell the gratings down to 0.25 mm to within 0.05 mm`.
+/// Several best of one score.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Tie {
+    /// The positions of those that are tied, at least two.
+    pub(crate) who: Vec<usize>,
+    /// `tie: GelSight and TacTip have the same value, 0.42 mm/N`
+    pub(crate) words: String,
+}
+
+/// One of those that may be tied.
+struct Told<'a> {
+    at: usize,
+    study: &'a Study,
+    name: &'a str,
+    score: &'a Score,
+    value: f64,
+}
+
+/// The ties of `studies` in telling gratings, a line each: `sr line: tie: GelSight and TacTip both tell the gratings down to 0.25 mm to within
+/// 0.05 mm`.
 pub fn ties(studies: &[Study]) -> Vec<String> {
     let names = crate::figures::names(studies);
     let mut channels: Vec<&str> = Vec::new();
-    for score in studies.iter().flat_map(|study| study.of_metric(METRIC)) {
+    for score in studies.iter().flat_map(|study| study.of_metric(GRATINGS)) {
         if !channels.contains(&score.channel.as_str()) {
             channels.push(&score.channel);
         }
     }
     let channels = channels.into_iter();
     let lines = channels.filter_map(|channel| {
-        let words = tie(studies, &names, METRIC, channel)?;
-        Some(format!("{METRIC} {channel}: {words}"))
+        let tie = tie(studies, &names, GRATINGS, channel)?;
+        Some(format!("{GRATINGS} {channel}: {}", tie.words))
     });
     lines.collect()
 }
 
-/// What there is to say where the best of those that take part are several; nothing of other metrics, or of one winner.
-pub(crate) fn tie(
-    studies: &[Study],
-    names: &[String],
-    metric: &str,
-    channel: &str,
-) -> Option<String> {
-    if metric != METRIC {
+/// The best of some values, the first of those that are equal; none where values only describe.
+pub(crate) fn best(
+    values: impl IntoIterator<Item = (usize, f64)>,
+    better: Better,
+) -> Option<(usize, f64)> {
+    let leads = |new: f64, old: f64| match better {
+        Better::Lower => new < old,
+        Better::Higher => new > old,
+        Better::NearZero => new.abs() < old.abs(),
+        _ => false,
+    };
+    let values = values.into_iter().filter(|_| better != Better::Described);
+    values.reduce(|best, next| if leads(next.1, best.1) { next } else { best })
+}
+
+/// Who is tied, bit by bit, where the best of those that take part are several; nothing of one winner and of values that only describe.
+pub(crate) fn tie(studies: &[Study], names: &[String], metric: &str, channel: &str) -> Option<Tie> {
+    let told = studies.iter().zip(names).enumerate();
+    let told = told.filter_map(|(at, (study, name))| {
+        let score = study.score(metric, channel)?;
+        let takes_part = score.standing.takes_part() && !light::is_low(score);
+        Some(Told {
+            at,
+            study,
+            name,
+            score,
+            value: score.value.number().filter(|_| takes_part)?,
+        })
+    });
+    let told: Vec<Told<'_>> = told.collect();
+    let unit = told.first()?.score.unit;
+    let same = || told.iter().filter(|one| one.score.unit == unit);
+    let better = told.first()?.score.better();
+    let (_, best) = best(same().map(|one| (one.at, one.value)), better)?;
+    let tied: Vec<&Told<'_>> = same()
+        .filter(|one| one.value.total_cmp(&best).is_eq())
+        .collect();
+    if tied.len() < 2 {
         return None;
     }
-    let told: Vec<(&Study, &String, &Score, f64)> = studies
-        .iter()
-        .zip(names)
-        .filter_map(|(study, name)| {
-            let score = study.score(METRIC, channel)?;
-            let share = score
-                .value
-                .number()
-                .filter(|_| score.standing.takes_part())?;
-            Some((study, name, score, share))
-        })
-        .collect();
-    let best = told.iter().map(|(.., share)| *share).reduce(f64::max)?;
-    let tied: Vec<_> = told
-        .into_iter()
-        .filter(|(.., share)| share.total_cmp(&best).is_eq())
-        .collect();
-    let [(_, _, score, _), _, ..] = tied[..] else {
-        return None;
+    let words = match metric {
+        GRATINGS => gratings(&tied, best, channel),
+        _ => {
+            let who: Vec<String> = tied.iter().map(|one| one.name.to_owned()).collect();
+            let value = format!("{}{}", numeral(best), spaced(unit));
+            format!("tie: {} have the same value, {value}", listed(&who))
+        }
     };
-    let who: Vec<String> = tied.iter().map(|(_, name, ..)| (*name).clone()).collect();
+    Some(Tie {
+        who: tied.iter().map(|one| one.at).collect(),
+        words,
+    })
+}
+
+/// How fine those tell that are tied at a share of `best`.
+fn gratings(tied: &[&Told<'_>], best: f64, channel: &str) -> String {
+    let who: Vec<String> = tied.iter().map(|one| one.name.to_owned()).collect();
     let who = match who.len() {
         2 => format!("{} both", listed(&who)),
         _ => format!("{} all", listed(&who)),
     };
-    let stated = score.parameters.iter();
+    let stated = tied.iter().take(1).flat_map(|one| &one.score.parameters);
     let stated = stated
         .filter(|(name, _)| name == "tolerance_mm")
         .map(|(_, mm)| *mm);
     let tolerance = stated.reduce(f64::max).unwrap_or(TOLERANCE_MM);
-    let finest = tied.iter().map(|(study, ..)| {
-        let samples = study.samples.as_ref()?;
+    let finest = tied.iter().map(|one| {
+        let samples = one.study.samples.as_ref()?;
         match best.total_cmp(&1.0).is_eq() {
             true => boards(samples, channel).reduce(f64::min),
             false => finest(samples, channel, tolerance),
@@ -94,9 +142,9 @@ pub(crate) fn tie(
             numeral(tolerance)
         ),
     };
-    let exact = tied.iter().map(|(_, name, score, _)| {
-        let exact = score.variant("exact")?.value.number()?;
-        Some((format!("{name} {}", percent(exact)), exact))
+    let exact = tied.iter().map(|one| {
+        let exact = one.score.variant("exact")?.value.number()?;
+        Some((format!("{} {}", one.name, percent(exact)), exact))
     });
     let exact: Option<Vec<(String, f64)>> = exact.collect();
     let exact = exact.map(|all| {
@@ -109,7 +157,7 @@ pub(crate) fn tie(
             false => format!("; without any error {}", listed(&words)),
         }
     });
-    Some(format!("tie: {who} {said}{}", exact.unwrap_or_default()))
+    format!("tie: {who} {said}{}", exact.unwrap_or_default())
 }
 
 /// The spacing of every grating of `kind` that was pressed.
@@ -203,5 +251,29 @@ mod tests {
         let mut all = [study("a", [0.9, 0.5], ""), study("b", [0.9, 0.5], "")];
         all[1].scores[0].standing = taceva_metrics::Standing::NoSkill;
         assert!(ties(&all).is_empty());
+    }
+
+    #[test]
+    fn the_same_value_of_any_metric_is_a_tie_and_one_bit_more_is_none() {
+        let of = |name: &str, value: f64| {
+            let text = format!(
+                r#"{{"schema": "taceva.evaluation/1.1", "subject": {{"sensor": "{name}"}}, "metrics": {{"sensitivity": {{"Fz":
+                   {{"value": {value:?}, "unit": "mm/N"}}}}}}}}"#
+            );
+            Study::read(&text).expect("a result").remove(0)
+        };
+        let tie_of = |values: [f64; 3]| {
+            let studies = [of("a", values[0]), of("b", values[1]), of("c", values[2])];
+            let names = crate::figures::names(&studies);
+            tie(&studies, &names, "sensitivity", "Fz")
+        };
+        let tied = tie_of([2.5, 0.5, 2.5]).expect("a tie");
+        let words = "tie: a and c have the same value, 2.5 mm/N";
+        assert_eq!(
+            (tied.who.as_slice(), tied.words.as_str()),
+            ([0, 2].as_slice(), words)
+        );
+        assert_eq!(tie_of([2.5, 0.5, 2.500_000_000_000_001]), None);
+        assert_eq!(tie_of([2.5, 0.5, 0.5]), None);
     }
 }

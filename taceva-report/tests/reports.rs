@@ -264,7 +264,7 @@ fn every_naughty_string_is_only_words() {
             assert!(!line.starts_with(['=', '+', '-', '@']), "{text:?}: {line}");
         }
         let comparison = compare(&studies, &CompareRequest::default());
-        let words = comparison.overview() + &comparison.text();
+        let words = comparison.overview(None) + &comparison.text();
         assert!(
             words
                 .chars()

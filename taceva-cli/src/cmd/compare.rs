@@ -1,8 +1,9 @@
 //! `taceva compare`.
 
 use std::collections::BTreeMap;
+use std::io::IsTerminal;
 
-use taceva_report::{CompareRequest, compare};
+use taceva_report::{CompareRequest, OVERVIEW_WIDTH, compare};
 
 use super::{Context, Usage, results};
 use crate::args::{Compare, Format};
@@ -32,9 +33,11 @@ pub(crate) fn run(args: &Compare, context: &Context) -> anyhow::Result<u8> {
         seed: args.seed,
     };
     let comparison = compare(&studies, &request);
+    // Only a terminal has no room for whole lines.
+    let is_seen = args.output.path.is_none() && std::io::stdout().is_terminal();
     let text = match args.output.format {
         Format::Text if args.all => comparison.text(),
-        Format::Text => comparison.overview(),
+        Format::Text => comparison.overview(is_seen.then_some(OVERVIEW_WIDTH)),
         Format::Json => comparison.json(),
         Format::Csv => comparison.listing().csv(),
         Format::Md => comparison.listing().markdown(),

@@ -145,7 +145,11 @@ impl Verdict {
                 let said = |value: f64| number(value, decimals);
                 let unit = suffix(*unit);
                 let Some(better) = better else {
-                    let (value, low, high) = (said(difference.value), said(low), said(high));
+                    let (value, low, high) = (
+                        said(difference.value),
+                        end(low, decimals),
+                        end(high, decimals),
+                    );
                     let Sides { a, b } = names;
                     return format!(
                         "{a} and {b} differ by {value}{unit} ({level} {low}…{high}, {p})"
@@ -157,7 +161,7 @@ impl Verdict {
                 } else {
                     [low, high]
                 };
-                let (low, high) = (said(low), said(high));
+                let (low, high) = (end(low, decimals), end(high, decimals));
                 let word = match better {
                     Side::A => "better",
                     Side::B => "worse",
@@ -170,8 +174,9 @@ impl Verdict {
             Verdict::NoDifferenceShown { difference, unit } => {
                 let [low, high] = difference.interval;
                 let decimals = decimals(&[low, high], difference.value);
-                let numbers = [difference.value, low, high].map(|value| number(value, decimals));
-                let ([value, low, high], unit) = (numbers, suffix(*unit));
+                let value = number(difference.value, decimals);
+                let [low, high] = [low, high].map(|of| end(of, decimals));
+                let unit = suffix(*unit);
                 let level = percent(difference.confidence);
                 format!("no difference shown (difference {value}{unit}, {level} {low}…{high})")
             }
@@ -212,8 +217,19 @@ fn suffix(unit: Unit) -> String {
     }
 }
 
-/// The fewest decimals, up to 12, whose last is at most a tenth of the width of an interval; of one without ends, of the value.
-fn decimals([low, high]: &[f64; 2], value: f64) -> usize {
+/// The fewest decimals, up to 12, whose last is at most a tenth of the width of an interval; of one without ends, of the value. Up to three
+/// more where an end that is not 0 would print as 0: the interval would contradict what is shown.
+fn decimals(ends: &[f64; 2], value: f64) -> usize {
+    let fewest = decimals_of_width(ends, value);
+    let hides_an_end = |decimals: usize| {
+        let mut ends = ends.iter();
+        ends.any(|end| end.abs() > 1e-12 && is_zero(&number(*end, decimals)))
+    };
+    let found = (fewest..=fewest + 3).find(|decimals| !hides_an_end(*decimals));
+    found.unwrap_or(fewest)
+}
+
+fn decimals_of_width([low, high]: &[f64; 2], value: f64) -> usize {
     let width = if (high - low).is_finite() {
         high - low
     } else {
@@ -235,9 +251,25 @@ fn number(value: f64, decimals: usize) -> String {
         return if value < 0.0 { "−∞" } else { "∞" }.to_owned();
     }
     let size = format!("{:.decimals$}", value.abs());
-    let zero = size.bytes().all(|byte| matches!(byte, b'0' | b'.'));
-    let sign = if value < 0.0 && !zero { "−" } else { "" };
+    let sign = if value < 0.0 && !is_zero(&size) {
+        "−"
+    } else {
+        ""
+    };
     format!("{sign}{size}")
+}
+
+/// Whether it shows no digit but zeros.
+fn is_zero(text: &str) -> bool {
+    text.bytes().all(|byte| matches!(byte, b'0' | b'.'))
+}
+
+/// An end of an interval: what not even `decimals` show has a power of ten.
+fn end(value: f64, decimals: usize) -> String {
+    match number(value, decimals) {
+        text if value.abs() > 1e-12 && is_zero(&text) => format!("{value:.0e}").replace('-', "−"),
+        text => text,
+    }
 }
 
 fn p_value(p: f64) -> String {
@@ -245,5 +277,23 @@ fn p_value(p: f64) -> String {
         "p < 0.001".to_owned()
     } else {
         format!("p = {p:.3}")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_end_of_an_interval_that_is_not_zero_never_prints_as_zero() {
+        let ends = |interval: [f64; 2], value: f64| {
+            let decimals = decimals(&interval, value);
+            interval.map(|of| end(of, decimals))
+        };
+        assert_eq!(ends([0.02, 1.5], 0.8), ["0.02", "1.50"]);
+        assert_eq!(ends([-1.5, -0.004], -0.8), ["−1.500", "−0.004"]);
+        assert_eq!(ends([-1e-7, 1.5], 0.8), ["−1e−7", "1.5"]);
+        assert_eq!(ends([0.0, 1.5], 0.8), ["0.0", "1.5"]);
+        assert_eq!(ends([0.02, f64::INFINITY], 0.8), ["0.02", "∞"]);
     }
 }

@@ -4,13 +4,14 @@ use serde_json::json;
 
 use super::{Candidate, Choice, Dropped, Step};
 use crate::escape::html;
+use crate::figures::listed;
 use crate::html::Document;
 use crate::listing::{Directions, Listing};
 use crate::number::fixed;
 
 /// The schema of a choice as JSON. 1.1: `open` lists those of which it is not known whether they meet a hard need. 1.2: each step
-/// says which numbers are good.
-pub const CHOICE_SCHEMA: &str = "taceva.choice/1.2";
+/// says which numbers are good. 1.3: each that is ranked has a place, and says whether it is tied.
+pub const CHOICE_SCHEMA: &str = "taceva.choice/1.3";
 
 impl Choice {
     /// A row a sensor, need and number; the best sensor first, those that were dropped last.
@@ -26,13 +27,17 @@ impl Choice {
         ];
         let mut listing = Listing::new(&self.headline(), &head);
         let mut of = Vec::new();
-        for (at, candidate) in self.ranked.iter().enumerate() {
+        for ((at, candidate), place) in self.ranked.iter().enumerate().zip(self.places()) {
+            let place = match self.is_tied(at) {
+                true => format!("{place} (tie)"),
+                false => place.to_string(),
+            };
             for (number, step) in candidate.steps.iter().enumerate() {
                 let is_first = number == 0;
                 of.push(Some(step.property.better()));
                 let once = |text: String| if is_first { text } else { String::new() };
                 listing.rows.push(vec![
-                    once((at + 1).to_string()),
+                    once(place.clone()),
                     once(candidate.name.clone()),
                     step.need.clone(),
                     step.property.to_string(),
@@ -75,7 +80,14 @@ impl Choice {
                 format!("{} alone is ranked; others take no part", best.name)
             }
             [best] => format!("{} alone meets every need, as far as is known", best.name),
-            [best, second, ..] => format!("{} first, {} second", best.name, second.name),
+            several => self.leaders().unwrap_or_else(|| {
+                let names = several.iter().map(|candidate| candidate.name.clone());
+                let names: Vec<String> = names.collect();
+                format!(
+                    "{} meet every need, as far as is known, and no need ranks them",
+                    listed(&names)
+                )
+            }),
         }
     }
 
@@ -92,11 +104,12 @@ impl Choice {
                 "share": step.share,
             })
         };
-        let candidate = |candidate: &Candidate| {
+        let places = self.places();
+        let candidate = |(at, candidate): (usize, &Candidate)| {
             let steps: Vec<_> = candidate.steps.iter().map(step).collect();
-            json!({"name": candidate.name, "share": candidate.share, "steps": steps})
+            json!({"name": candidate.name, "place": places.get(at), "tied": self.is_tied(at), "share": candidate.share, "steps": steps})
         };
-        let ranked: Vec<_> = self.ranked.iter().map(candidate).collect();
+        let ranked: Vec<_> = self.ranked.iter().enumerate().map(candidate).collect();
         let named = |list: &[Dropped]| -> Vec<serde_json::Value> {
             let list = list.iter();
             list.map(|dropped| json!({"name": dropped.name, "reason": dropped.reason}))

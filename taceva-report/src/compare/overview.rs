@@ -2,15 +2,16 @@
 
 use taceva_metrics::Better;
 
-use super::{Answer, Comparison};
+use super::{Answer, Aside, Comparison};
 use crate::figures::listed;
 use crate::html::QUESTIONS;
 use crate::number::{numeral, significant, spaced};
+use crate::tie::best;
 
 /// Lines of the first screen.
 pub const OVERVIEW_LINES: usize = 12;
-/// Letters of a line.
-pub(super) const WIDTH: usize = 100;
+/// Letters of a line of a terminal.
+pub const OVERVIEW_WIDTH: usize = 100;
 
 /// What is asked of one score, and how it is answered.
 #[derive(Clone, Debug, PartialEq)]
@@ -25,6 +26,8 @@ pub struct Decision {
     pub better: Better,
     /// The position of the study that is shown to be better than every other one.
     pub winner: Option<usize>,
+    /// The positions of those that are tied for the best value, bit by bit; empty where none are.
+    pub tied: Vec<usize>,
     /// Who has the best value, what it is, than whom it is shown to be better, and how sure that is.
     pub words: String,
 }
@@ -41,21 +44,24 @@ impl Decision {
             format!("{} ({of})", self.question)
         }
     }
+
+    /// `Depth (mae Pz ↓): GelSight, 0.056 mm, better than all 3 others (p < 0.001)`
+    pub(super) fn line(&self) -> String {
+        format!("{}: {}", self.asked(), self.words)
+    }
 }
 
 impl Comparison {
-    /// The questions that are asked first, each with its answer: those that have names, or else the first score of each metric. At most
-    /// [`OVERVIEW_LINES`] less two.
+    /// The questions that are asked first, each with its answer: those that have names, or else the first score of each metric.
     pub fn decisions(&self) -> Vec<Decision> {
-        const MOST: usize = OVERVIEW_LINES - 2;
         let named = QUESTIONS.iter();
         let named =
             named.filter_map(|(metric, channel, name)| self.decision(name, metric, channel));
-        let mut decisions: Vec<Decision> = named.take(MOST).collect();
+        let mut decisions: Vec<Decision> = named.collect();
         if decisions.is_empty() {
             let mut metrics: Vec<&str> = Vec::new();
             for answer in &self.answers {
-                if !metrics.contains(&answer.metric.as_str()) && decisions.len() < MOST {
+                if !metrics.contains(&answer.metric.as_str()) {
                     metrics.push(&answer.metric);
                     decisions.extend(self.decision("", &answer.metric, &answer.channel));
                 }
@@ -83,23 +89,28 @@ impl Comparison {
         )
     }
 
-    /// The first screen: what decides, in at most [`OVERVIEW_LINES`] lines of 100 letters.
-    pub fn overview(&self) -> String {
+    /// The first screen: what decides, in at most [`OVERVIEW_LINES`] lines. With a `width` they have at most so many letters, cut between
+    /// words; questions without room are counted.
+    pub fn overview(&self, width: Option<usize>) -> String {
+        let line = |words: &str| {
+            let words = crate::escape::terminal(words);
+            width.map_or_else(|| words.clone(), |width| cut(&words, width))
+        };
+        let notes = self.notes.iter().take(1);
+        let notes: Vec<String> = notes.map(|note| line(&format!("mind: {note}"))).collect();
+        let room = OVERVIEW_LINES - 2 - notes.len();
         let decisions = self.decisions();
-        let notes = self.notes.iter();
-        let notes: Vec<String> = notes
-            .map(|note| cut(&crate::escape::terminal(&format!("mind: {note}"))))
-            .take(1)
-            .collect();
-        let most = OVERVIEW_LINES - 2 - notes.len();
-        let lines = decisions.iter().take(most).map(|decision| {
-            let line = format!("{}: {}", decision.asked(), decision.words);
-            cut(&crate::escape::terminal(&line))
-        });
-        let mut lines: Vec<String> = lines.collect();
-        lines.insert(0, cut(&self.tally()));
+        let more = match decisions.len().saturating_sub(room) {
+            0 => String::new(),
+            1 => "1 more question, and ".to_owned(),
+            more => format!("{more} more questions, and "),
+        };
+        let mut lines = vec![line(&self.tally())];
+        lines.extend(decisions.iter().take(room).map(|of| line(&of.line())));
         lines.extend(notes);
-        lines.push("every pair, with both p values and its interval: --all".to_owned());
+        lines.push(format!(
+            "{more}every pair, with both p values and its interval: --all"
+        ));
         lines.join("\n") + "\n"
     }
 
@@ -107,12 +118,22 @@ impl Comparison {
         let is_of_it = |answer: &&Answer| answer.metric == metric && answer.channel == channel;
         let answers: Vec<&Answer> = self.answers.iter().filter(is_of_it).collect();
         let better = answers.first()?.direction;
+        let unit = spaced(answers.first()?.unit);
+        let is_of_score = |aside: &&Aside| aside.metric == metric && aside.channel == channel;
+        let aside = self.asides.iter().find(is_of_score)?;
+        let is_low = |at: usize| aside.low.iter().any(|(low, _)| *low == at);
+        let answers = answers.into_iter();
+        let answers: Vec<&Answer> = answers
+            .filter(|answer| !is_low(answer.sides.a) && !is_low(answer.sides.b))
+            .collect();
         let valued = values(&answers, |_| true);
         let tested = values(&answers, |answer| answer.difference.is_some());
-        let unit = spaced(answers.first()?.unit);
-        let (winner, words) = match best(&tested, better) {
-            None => (None, untested(&answers, &valued, &self.names)),
-            Some((at, value)) => {
+        let (winner, words) = match (best(tested, better), &aside.tie) {
+            // Of those that are tied for the best none is shown to be better, whomever else they beat.
+            (_, Some(tie)) => (None, tie.words.clone()),
+            (None, None) if answers.is_empty() => (None, "no verdict".to_owned()),
+            (None, None) => (None, untested(&answers, &valued, &self.names)),
+            (Some((at, value)), None) => {
                 let lost = |answer: &&&Answer| answer.better() == Some(at);
                 let won: Vec<&Answer> = answers.iter().filter(lost).copied().collect();
                 let other = |answer: &Answer| match answer.sides.a == at {
@@ -128,26 +149,20 @@ impl Comparison {
                 let p = p_values.fold(0.0_f64, |p, difference| p.max(difference.adjusted_p));
                 let start = format!("{}, {}{unit}", self.names[at], numeral(value));
                 let p = p_words(p);
-                let tie = self
-                    .ties
-                    .iter()
-                    .find(|(of, _)| metric == "sr" && of == channel);
-                // Of those that are tied for the best none is shown to be better, whomever else they beat.
-                match (losers.len(), open.len(), tie) {
-                    (_, _, Some((_, words))) => (None, words.clone()),
-                    (0, _, None) => (
+                match (losers.len(), open.len()) {
+                    (0, _) => (
                         None,
                         format!("no winner; the best value, {start}, is not shown to be better"),
                     ),
-                    (1, 0, None) => (
+                    (1, 0) => (
                         Some(at),
                         format!("{start}, better than {} ({p})", self.names[losers[0]]),
                     ),
-                    (count, 0, None) => (
+                    (count, 0) => (
                         Some(at),
                         format!("{start}, better than all {count} others ({p})"),
                     ),
-                    (count, _, None) => (
+                    (count, _) => (
                         None,
                         format!(
                             "{start}, better than {count} of {} others ({p}), not than {}",
@@ -158,7 +173,11 @@ impl Comparison {
                 }
             }
         };
+        let low = aside.low.iter().map(|(_, words)| format!("; {words}"));
+        let words = format!("{words}{}{}", aside.spread, low.collect::<String>());
+        let tied = aside.tie.as_ref().map(|tie| tie.who.clone());
         Some(Decision {
+            tied: tied.unwrap_or_default(),
             question: question.to_owned(),
             metric: metric.to_owned(),
             channel: channel.to_owned(),
@@ -202,27 +221,6 @@ fn values(answers: &[&Answer], is_wanted: impl Fn(&Answer) -> bool) -> Vec<(usiz
     values
 }
 
-/// The best of some values; none where values only describe.
-fn best(values: &[(usize, f64)], better: Better) -> Option<(usize, f64)> {
-    let is_better = |new: f64, old: f64| match better {
-        Better::Lower => new < old,
-        Better::Higher => new > old,
-        Better::NearZero => new.abs() < old.abs(),
-        _ => false,
-    };
-    if better == Better::Described {
-        return None;
-    }
-    let values = values.iter().copied();
-    values.reduce(|best, next| {
-        if is_better(next.1, best.1) {
-            next
-        } else {
-            best
-        }
-    })
-}
-
 /// Why nothing is decided.
 fn untested(answers: &[&Answer], valued: &[(usize, f64)], names: &[String]) -> String {
     let reason = answers.iter().find_map(|answer| answer.reason.as_deref());
@@ -243,11 +241,26 @@ fn p_words(p: f64) -> String {
     }
 }
 
-/// A line of at most [`WIDTH`] letters; what is left out is marked.
-fn cut(line: &str) -> String {
-    if line.chars().count() <= WIDTH {
+/// A line of at most `width` letters, cut between words if there are any; what is left out is marked.
+fn cut(line: &str, width: usize) -> String {
+    if line.chars().count() <= width {
         return line.to_owned();
     }
-    let start: String = line.chars().take(WIDTH - 1).collect();
-    format!("{}…", start.trim_end())
+    let start: String = line.chars().take(width.saturating_sub(1)).collect();
+    let whole = start
+        .rsplit_once(' ')
+        .map_or(start.as_str(), |(whole, _)| whole);
+    format!("{}…", whole.trim_end())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_line_that_is_too_long_is_cut_between_words() {
+        assert_eq!(cut("no winner of these", 18), "no winner of these");
+        assert_eq!(cut("no winner of these", 14), "no winner of…");
+        assert_eq!(cut("unbroken", 5), "unbr…");
+    }
 }

@@ -3,7 +3,7 @@
 use serde_json::json;
 use taceva_metrics::Difference;
 
-use super::overview::WIDTH;
+use super::overview::OVERVIEW_WIDTH;
 use super::{Answer, Comparison, Decision};
 use crate::escape::{html, terminal};
 use crate::figures::{figures, listed};
@@ -86,9 +86,12 @@ impl Comparison {
         ]
     }
 
-    /// Every answer, for a terminal: score by score, in lines of at most 100 letters.
+    /// Every question and every answer, for a terminal: score by score, in lines of at most 100 letters.
     pub fn text(&self) -> String {
         let mut out = format!("{}\n", self.tally());
+        for decision in self.decisions() {
+            out += &wrapped(&terminal(&decision.line()));
+        }
         let mut last = String::new();
         for answer in &self.answers {
             let unit = match spaced(answer.unit).trim() {
@@ -162,6 +165,7 @@ impl Comparison {
                 "channel": decision.channel,
                 "better": decision.better.name(),
                 "winner": decision.winner.map(|at| &self.names[at]),
+                "tied": decision.tied.iter().map(|at| &self.names[*at]).collect::<Vec<_>>(),
                 "answer": decision.words,
             })
         };
@@ -300,12 +304,12 @@ fn end(end: f64) -> String {
     }
 }
 
-/// Words in lines of at most [`WIDTH`] letters, all but the first set in further.
+/// Words in lines of at most [`OVERVIEW_WIDTH`] letters, all but the first set in further.
 fn wrapped(text: &str) -> String {
     let mut out = String::new();
     let mut line = String::from(" ");
     for word in text.split(' ').filter(|word| !word.is_empty()) {
-        let is_full = line.chars().count() + 1 + word.chars().count() > WIDTH;
+        let is_full = line.chars().count() + 1 + word.chars().count() > OVERVIEW_WIDTH;
         if is_full && !line.trim().is_empty() {
             out += line.trim_end();
             out.push('\n');

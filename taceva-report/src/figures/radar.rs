@@ -45,12 +45,10 @@ const ACCURACY: [Axis; 6] = [
     low("mae", "Fz", "MAE Fz"),
     low("mae", "Fxy", "MAE Fxy"),
 ];
-const SENSOR: [Axis; 6] = [
+/// Without what only describes a sensor, as frame rate and field of view do: there the rim would not be the best.
+const SENSOR: [Axis; 3] = [
     high("sensitivity", "Fz", "sensitivity S"),
     high("uniformity", "Fz", "uniformity U"),
-    high("intrinsic", "frame_rate", "frame rate"),
-    high("intrinsic", "field_of_view", "field of view"),
-    high("intrinsic", "resolution", "pixels"),
     low("minimum_detectable_force", "Fz", "least force"),
 ];
 const ROBUSTNESS: [Axis; 7] = [
@@ -274,4 +272,18 @@ fn outline(
         }
     }
     canvas.points(points, Ink::Series(at), 3.4, 1.0);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use taceva_metrics::catalogue;
+
+    #[test]
+    fn no_axis_is_of_a_metric_that_is_neither_good_nor_bad() {
+        for axis in ACCURACY.iter().chain(&SENSOR).chain(&ROBUSTNESS) {
+            let metric = catalogue::find(axis.metric).expect("a known metric");
+            assert_eq!(metric.better, axis.better, "{}", axis.name);
+        }
+    }
 }

@@ -1,14 +1,16 @@
 //! What the results say, in words.
 
-use taceva_metrics::Better;
+use taceva_metrics::Flag;
 
 use super::glossary::score_link;
 use crate::escape::html;
 use crate::figures::{listed, names};
+use crate::light::{self, is_low};
 use crate::number::{minus, spaced};
 use crate::results::{Score, Study};
+use crate::spread;
 use crate::table::{ScoreCell, ScoreRow, ScoreTable};
-use crate::tie::tie;
+use crate::tie::{best, tie};
 
 /// What stands below the title.
 pub(crate) fn lead(studies: &[Study]) -> String {
@@ -74,74 +76,96 @@ pub(super) fn section(studies: &[Study], table: &ScoreTable) -> String {
     out + "</ul>\n"
 }
 
+/// The verdict, and what light does, where that is asked.
 fn answer(studies: &[Study], table: &ScoreTable, row: &ScoreRow) -> Option<String> {
-    let known: Vec<(usize, &ScoreCell, f64)> = row
-        .cells
-        .iter()
-        .enumerate()
-        .filter_map(|(at, cell)| cell.as_ref().and_then(|cell| Some((at, cell, cell.value?))))
-        .collect();
-    let barred = barred(&known, table);
-    let better = studies
-        .iter()
-        .find_map(|study| study.score(&row.metric, &row.channel))
-        .map(Score::better)?;
-    let phrase = |cell: &ScoreCell| phrase(cell, row);
-    if studies.len() == 1 {
-        return Some(match known.first() {
-            Some((_, cell, _)) => {
-                let why = cell
-                    .standing
-                    .reason()
-                    .map(|why| format!(" It claims nothing: {why}."));
-                format!(
-                    "{}, n = {}.{}",
-                    phrase(cell),
-                    cell.n,
-                    why.unwrap_or_default()
-                )
-            }
-            None => {
-                let cell = row.cells.first()?.as_ref()?;
-                format!("no value ({}).", html(cell.printed.reason.as_deref()?))
-            }
-        });
+    let verdict = match studies {
+        [_] => alone(row)?,
+        _ => verdict(studies, table, row)?,
+    };
+    let light = light::words(studies, &table.names, &row.metric, &row.channel);
+    Some(match light.is_empty() {
+        true => verdict,
+        false => format!("{verdict} {}", html(&light)),
+    })
+}
+
+/// The score of a single sensor.
+fn alone(row: &ScoreRow) -> Option<String> {
+    let cell = row.cells.first()?.as_ref()?;
+    if cell.value.is_none() {
+        let reason = cell.printed.reason.as_deref()?;
+        return Some(format!("no value ({}).", html(reason)));
     }
-    let known: Vec<(usize, &ScoreCell, f64)> = known
-        .into_iter()
-        .filter(|(_, cell, _)| cell.takes_part())
+    let why = cell.standing.reason();
+    let why = why.map(|why| format!(" It claims nothing: {why}."));
+    let (said, n) = (phrase(cell, row), cell.n);
+    Some(format!("{said}, n = {n}.{}", why.unwrap_or_default()))
+}
+
+/// Who is best of several sensors.
+fn verdict(studies: &[Study], table: &ScoreTable, row: &ScoreRow) -> Option<String> {
+    let score = |at: usize| studies.get(at)?.score(&row.metric, &row.channel);
+    let known = row.cells.iter().enumerate();
+    let known: Vec<Known<'_>> = known
+        .filter_map(|(at, cell)| {
+            let cell = cell.as_ref()?;
+            Some(Known {
+                at,
+                cell,
+                value: cell.value?,
+                is_low: score(at).is_some_and(is_low),
+            })
+        })
         .collect();
+    let better = (0..studies.len()).find_map(score).map(Score::better)?;
+    let barred = barred(&known, table);
+    let beside = format!("{}{barred}", without(row, table));
+    let known: Vec<Known<'_>> = known.into_iter().filter(Known::takes_part).collect();
     if known.is_empty() && !barred.is_empty() {
         return Some(format!("no verdict.{barred}"));
     }
-    let best = known.iter().copied().reduce(|best, next| match better {
-        Better::Higher if next.2 > best.2 => next,
-        Better::Lower if next.2 < best.2 => next,
-        Better::NearZero if next.2.abs() < best.2.abs() => next,
-        _ => best,
-    })?;
-    let name = html(&table.names[best.0]);
+    let which: Vec<usize> = known.iter().map(|known| known.at).collect();
+    let spread = spread::words(studies, &which, &row.metric, &row.channel);
+    if let Some(tie) = tie(studies, &table.names, &row.metric, &row.channel) {
+        return Some(format!("{}{spread}.{beside}", html(&tie.words)));
+    }
+    let (at, _) = best(known.iter().map(|known| (known.at, known.value)), better)?;
+    let best = known.iter().find(|known| known.at == at)?;
+    let rivals = rivals(at, &known, (table, row));
+    let that_takes_part = match barred.is_empty() {
+        true => "",
+        false => " that takes part",
+    };
     let verdict = if known.len() < 2 {
-        match barred.is_empty() {
-            true => "alone has a value".to_owned(),
-            false => "alone has a value that takes part".to_owned(),
-        }
-    } else if best.1.is_best {
-        match barred.is_empty() {
-            true => "is shown to be better than every other sensor".to_owned(),
-            false => "is shown to be better than every other sensor that takes part".to_owned(),
-        }
-    } else if let Some(tie) = tie(studies, &table.names, &row.metric, &row.channel) {
-        return Some(format!("{}.{}{barred}", html(&tie), without(row, table)));
+        format!("alone has a value{that_takes_part}")
+    } else if rivals.is_empty() {
+        format!("is shown to be better than every other sensor{that_takes_part}")
     } else {
-        let rivals = rivals(best.0, &known, (table, row));
         format!("has the best value, but is not shown to be better than {rivals}")
     };
-    Some(format!(
-        "{name} {verdict}, with {}.{}{barred}",
-        phrase(best.1),
-        without(row, table)
-    ))
+    let (name, value) = (html(&table.names[at]), phrase(best.cell, row));
+    Some(format!("{name} {verdict}, with {value}{spread}.{beside}"))
+}
+
+/// A cell that has a value.
+struct Known<'a> {
+    at: usize,
+    cell: &'a ScoreCell,
+    value: f64,
+    /// Whether the light hardly changed, so that no verdict is given.
+    is_low: bool,
+}
+
+impl Known<'_> {
+    fn takes_part(&self) -> bool {
+        self.cell.takes_part() && !self.is_low
+    }
+
+    /// Why it takes no part: `no skill`, `low stimulus`.
+    fn remark(&self) -> Option<String> {
+        let low = self.is_low.then(|| Flag::LowStimulus.to_string());
+        self.cell.remark().or(low)
+    }
 }
 
 /// Those that have no value: ` No value: GelSightWM.`
@@ -156,12 +180,12 @@ fn without(row: &ScoreRow, table: &ScoreTable) -> String {
 }
 
 /// Those whose value claims nothing, and why: ` Takes no part: GelSightWM (no skill).`
-fn barred(known: &[(usize, &ScoreCell, f64)], table: &ScoreTable) -> String {
-    let barred = known.iter().filter(|(_, cell, _)| !cell.takes_part());
+fn barred(known: &[Known<'_>], table: &ScoreTable) -> String {
+    let barred = known.iter().filter(|known| !known.takes_part());
     let barred: Vec<String> = barred
-        .filter_map(|(at, cell, _)| {
-            let remark = cell.remark()?;
-            Some(format!("{} ({})", html(&table.names[*at]), html(&remark)))
+        .filter_map(|known| {
+            let (name, remark) = (&table.names[known.at], known.remark()?);
+            Some(format!("{} ({})", html(name), html(&remark)))
         })
         .collect();
     match barred.is_empty() {
@@ -171,11 +195,7 @@ fn barred(known: &[(usize, &ScoreCell, f64)], table: &ScoreTable) -> String {
 }
 
 /// Those that the best is not shown to be better than.
-fn rivals(
-    best: usize,
-    known: &[(usize, &ScoreCell, f64)],
-    (table, row): (&ScoreTable, &ScoreRow),
-) -> String {
+fn rivals(best: usize, known: &[Known<'_>], (table, row): (&ScoreTable, &ScoreRow)) -> String {
     let loses = |at: usize| {
         table.answers.iter().any(|answer| {
             let is_of_row = answer.metric == row.metric && answer.channel == row.channel;
@@ -183,8 +203,9 @@ fn rivals(
             is_of_row && of_both.contains(&at) && answer.better() == Some(best)
         })
     };
-    let rivals = known.iter().filter(|(at, _, _)| *at != best && !loses(*at));
-    let rivals: Vec<String> = rivals.map(|(at, _, _)| html(&table.names[*at])).collect();
+    let rivals = known.iter().map(|known| known.at);
+    let rivals = rivals.filter(|at| *at != best && !loses(*at));
+    let rivals: Vec<String> = rivals.map(|at| html(&table.names[at])).collect();
     listed(&rivals)
 }
 

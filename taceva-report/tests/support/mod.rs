@@ -52,7 +52,10 @@ pub(crate) fn results(sensor: &str, scale: f64) -> Value {
         spatial["distance"] = curve("mm", unit, (0..40).map(gapped).collect());
         spatial["depth"] = curve("mm", unit, (0..30).map(wave).collect());
         metrics["r_spatial"][channel] = spatial;
-        metrics["r_light"][channel] = number(0.3 / scale, "1");
+        let mut light = number(0.3 / scale, "1");
+        light["scenes"] = json!({"rows": ["S1", "S2"], "columns": ["intensity_ratio", "error_ratio"],
+            "values": [[1.4, 2.0 * scale], [2.3, 8.0 * scale]], "unit": "1"});
+        metrics["r_light"][channel] = light;
         let mut repeatability = number(0.01 * scale, unit);
         repeatability["curve"] = curve("1", unit, (0..10).map(gapped).collect());
         metrics["repeatability"][channel] = repeatability;

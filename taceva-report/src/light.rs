@@ -1,0 +1,165 @@
+//! What light does to the errors of a sensor: the scenes of its robustness to lighting, and how they are said.
+
+use taceva_metrics::Flag;
+
+use crate::number::numeral;
+use crate::results::{Score, Study, Value};
+
+/// The metric that says it.
+const METRIC: &str = "r_light";
+
+/// The scenes of light of one score.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Light {
+    pub(crate) scenes: Vec<Scene>,
+    /// Whether in some scene the light hardly changed.
+    pub(crate) is_low: bool,
+}
+
+/// One scene beside the untouched light, by predictions as the model gives them.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Scene {
+    pub(crate) name: String,
+    /// Brightness over that of untouched light.
+    pub(crate) light: Option<f64>,
+    /// Mean absolute error over that in untouched light.
+    pub(crate) error: Option<f64>,
+}
+
+impl Light {
+    /// The scenes of `score`; none of a score of another metric, of planes, and of results that do not say them.
+    pub(crate) fn of(score: &Score) -> Light {
+        let found = score.variant("scenes").filter(|_| score.metric == METRIC);
+        let scenes = match found.map(|variant| &variant.value) {
+            Some(Value::Matrix(matrix)) => {
+                let column = |name: &str| matrix.columns.iter().position(|of| of == name);
+                let [light, error] = ["intensity_ratio", "error_ratio"].map(column);
+                let scene = |(name, row): (&String, &Vec<Option<f64>>)| {
+                    let at = |column: Option<usize>| row.get(column?).copied().flatten();
+                    Scene {
+                        name: name.clone(),
+                        light: at(light),
+                        error: at(error),
+                    }
+                };
+                matrix.rows.iter().zip(&matrix.values).map(scene).collect()
+            }
+            _ => Vec::new(),
+        };
+        Light {
+            scenes,
+            is_low: is_low(score),
+        }
+    }
+
+    /// `errors become 66 to 325 times as large in the lit scenes`
+    fn errors(&self) -> Option<String> {
+        let [low, high] = crate::figure::extent(self.scenes.iter().filter_map(|of| of.error))?;
+        let scenes = match self.scenes.len() {
+            1 => "scene",
+            _ => "scenes",
+        };
+        let times = range(low, high);
+        Some(format!(
+            "errors become {times} times as large in the lit {scenes}"
+        ))
+    }
+
+    /// `light changed by 0.0089 % to 10.1 %: low stimulus`, where the score is flagged as such.
+    pub(crate) fn low_stimulus(&self) -> Option<String> {
+        if !self.is_low {
+            return None;
+        }
+        let changes = self.scenes.iter().filter_map(|of| of.light);
+        let changes = changes.map(|light| 100.0 * (light - 1.0).abs());
+        let said = crate::figure::extent(changes).map(|[low, high]| match range(low, high) {
+            one if !one.contains(' ') => format!("light changed by {one} %: "),
+            _ => format!(
+                "light changed by {} % to {} %: ",
+                numeral(low),
+                numeral(high)
+            ),
+        });
+        Some(format!("{}{}", said.unwrap_or_default(), Flag::LowStimulus))
+    }
+}
+
+/// Whether `score` is flagged as one of too little change of light to be told from others by it.
+pub(crate) fn is_low(score: &Score) -> bool {
+    let flag = Flag::LowStimulus.to_string();
+    score.metric == METRIC && score.flags.contains(&flag)
+}
+
+/// What light does to each study, whichever part its score takes in verdicts: `ViTacTip: errors become 66 to 325 times as large in the lit
+/// scenes`; nothing of other metrics.
+pub(crate) fn words(studies: &[Study], names: &[String], metric: &str, channel: &str) -> String {
+    let of_one = |(study, name): (&Study, &String)| {
+        let light = Light::of(study.score(metric, channel)?);
+        let parts = [light.errors(), light.low_stimulus()];
+        let parts: Vec<String> = parts.into_iter().flatten().collect();
+        (!parts.is_empty()).then(|| format!("{name}: {}", parts.join("; ")))
+    };
+    let said: Vec<String> = studies.iter().zip(names).filter_map(of_one).collect();
+    match metric == METRIC && !said.is_empty() {
+        true => format!("{}.", said.join(". ")),
+        false => String::new(),
+    }
+}
+
+/// `66 to 325`, or one number if both are the same to three digits.
+fn range(low: f64, high: f64) -> String {
+    let [low, high] = [low, high].map(numeral);
+    match low == high {
+        true => low,
+        false => format!("{low} to {high}"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A study with scenes of light and error ratio.
+    fn study(scenes: &[[f64; 2]], more: &str) -> Study {
+        let rows: Vec<String> = (1..=scenes.len()).map(|at| format!("\"S{at}\"")).collect();
+        let values: Vec<String> = scenes.iter().map(|row| format!("{row:?}")).collect();
+        let text = format!(
+            r#"{{"schema": "taceva.evaluation/1.1", "subject": {{"sensor": "x"}}, "metrics": {{"r_light": {{"Fz": {{"value": 0.1, "unit": "1"{more},
+                "scenes": {{"rows": [{}], "columns": ["intensity_ratio", "error_ratio"], "values": [{}], "unit": "1"}}}}}}}}}}"#,
+            rows.join(", "),
+            values.join(", ")
+        );
+        Study::read(&text).expect("a result").remove(0)
+    }
+
+    fn said(study: Study) -> String {
+        words(&[study], &["x".to_owned()], "r_light", "Fz")
+    }
+
+    #[test]
+    fn what_light_does_is_said_from_the_least_to_the_greatest_ratio() {
+        let grown = study(&[[1.4, 66.4], [2.8, 325.0]], "");
+        let expected = "x: errors become 66.4 to 325 times as large in the lit scenes.";
+        assert_eq!(said(grown), expected);
+        let one = study(&[[1.4, 0.5]], "");
+        let expected = "x: errors become 0.5 times as large in the lit scene.";
+        assert_eq!(said(one), expected);
+    }
+
+    #[test]
+    fn light_that_hardly_changes_is_said_with_how_little_it_changed() {
+        let dim = study(
+            &[[0.99991, 1.25], [1.1, 20.0]],
+            r#", "flags": ["low stimulus"]"#,
+        );
+        let expected = "x: errors become 1.25 to 20 times as large in the lit scenes; light changed by 0.009 % to 10 %: low stimulus.";
+        assert_eq!(said(dim), expected);
+    }
+
+    #[test]
+    fn of_results_without_scenes_and_of_other_metrics_nothing_is_said() {
+        assert_eq!(said(study(&[], "")), "");
+        let lit = study(&[[1.4, 66.4]], "");
+        assert_eq!(words(&[lit], &["x".to_owned()], "mae", "Fz"), "");
+    }
+}
