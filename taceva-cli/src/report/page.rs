@@ -13,7 +13,8 @@ use taceva_report::{
 };
 use taceva_study::EvaluationReport;
 
-use crate::{output, stderr};
+use crate::cmd::Context;
+use crate::output;
 
 use super::thumbnail::{MEDIA_TYPE, thumbnail};
 use super::triple::triple;
@@ -66,7 +67,7 @@ impl Page {
     }
 
     /// Writes every figure into `folder`, as SVG that stands alone and as PDF, and says which letters no font has.
-    pub(crate) fn write_figures(&self, folder: &Path) -> anyhow::Result<()> {
+    pub(crate) fn write_figures(&self, folder: &Path, context: &Context) -> anyhow::Result<()> {
         fs::create_dir_all(folder).with_context(|| format!("cannot make {}", shown(folder)))?;
         let mut without_glyph = BTreeSet::new();
         for figure in figures(&self.studies) {
@@ -79,7 +80,7 @@ impl Page {
         if !without_glyph.is_empty() {
             let letters = without_glyph.into_iter();
             let letters = letters.map(|letter| format!("{letter} (U+{:04X})", u32::from(letter)));
-            stderr::say(format_args!(
+            context.say(format_args!(
                 "the fonts of PDF figures lack {}: each is drawn as a box with its code point; the SVG figures hold the letters",
                 letters.collect::<Vec<_>>().join(", ")
             ));
