@@ -142,7 +142,7 @@ impl Beside<'_> {
         self.html.is_some() || self.figures.is_some() || self.samples.is_some()
     }
 
-    fn write(&self, written: &EvaluationReport) -> anyhow::Result<()> {
+    fn write(&self, written: &EvaluationReport, context: &Context) -> anyhow::Result<()> {
         if self.html.is_some() || self.figures.is_some() {
             let title = format!("{}: how well it measures", written.subject.sensor);
             let page = report::page::Page::of(&title, std::slice::from_ref(written))?;
@@ -150,7 +150,7 @@ impl Beside<'_> {
                 output::write(Some(path), |out| page.write(out))?;
             }
             if let Some(folder) = self.figures {
-                page.write_figures(folder)?;
+                page.write_figures(folder, context)?;
             }
         }
         if let (Some(path), Some(samples)) = (self.samples, &written.samples) {

@@ -15,6 +15,7 @@ pub use finding::{Finding, State};
 pub use machine::Machine;
 #[cfg(feature = "plugin")]
 pub use plugins::examine_plugins;
+pub use usb::UsbDevice;
 
 use crate::devices::devices;
 use crate::drivers::Drivers;

@@ -10,6 +10,8 @@ mod scale;
 mod svg;
 mod words;
 
+use std::collections::BTreeSet;
+
 pub(crate) use canvas::{Anchor, Canvas, Ink, Label, Points, Stroke};
 pub(crate) use grid::Grid;
 pub(crate) use names::beside;
@@ -45,9 +47,16 @@ impl Figure {
         svg::write(self, true)
     }
 
-    /// As PDF of one page, with the fonts that every reader has; vectors, on white.
+    /// As PDF of one page: vectors, on white, with the glyphs that it uses embedded.
+    ///
+    /// A letter that no font built in has is drawn as a box with its code point; [`Figure::letters_without_glyph`] names them.
     pub fn pdf(&self) -> Vec<u8> {
         pdf::write(self)
+    }
+
+    /// The letters of its labels that no font built in has, in order of their code points.
+    pub fn letters_without_glyph(&self) -> BTreeSet<char> {
+        pdf::letters_without_glyph(self)
     }
 
     /// How many marks it has.

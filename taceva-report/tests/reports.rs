@@ -56,38 +56,12 @@ fn every_figure_of_the_list_is_drawn_and_none_is_empty() {
         );
         assert!(!figure.caption.is_empty() && !figure.description.is_empty());
         let svg = figure.svg();
-        assert_sound_pdf(&figure.pdf());
         assert!(
             svg.starts_with("<svg xmlns") && !svg.contains("NaN") && !svg.contains("inf"),
             "{}",
             figure.id
         );
     }
-}
-
-/// Holds the table of a PDF to what it says: every object begins where it is said to.
-fn assert_sound_pdf(file: &[u8]) {
-    assert!(file.starts_with(b"%PDF-1.4") && file.ends_with(b"%%EOF\n"));
-    let text = String::from_utf8_lossy(file);
-    let begin: usize = text
-        .lines()
-        .rev()
-        .nth(1)
-        .expect("startxref")
-        .parse()
-        .expect("a place");
-    assert!(file[begin..].starts_with(b"xref\n"));
-    let table = String::from_utf8_lossy(&file[begin..]).into_owned();
-    let places = table
-        .lines()
-        .filter_map(|line| line.strip_suffix(" 00000 n "));
-    let mut objects = 0;
-    for (at, place) in places.enumerate() {
-        let place: usize = place.parse().expect("a place");
-        assert!(file[place..].starts_with(format!("{} 0 obj", at + 1).as_bytes()));
-        objects += 1;
-    }
-    assert_eq!(objects, 8);
 }
 
 #[test]

@@ -70,7 +70,7 @@ pub(crate) fn run(args: &Evaluate, context: &Context) -> anyhow::Result<u8> {
         figures: args.figures.as_deref(),
         samples: args.samples_out.as_deref(),
     };
-    beside.write(&evaluated.report)?;
+    beside.write(&evaluated.report, context)?;
     if let (Some(path), Some(manifest)) = (&args.split_out, &evaluated.manifest) {
         output::write(Some(path), |out| {
             serde_json::to_writer_pretty(&mut *out, manifest)?;

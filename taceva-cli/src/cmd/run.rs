@@ -70,7 +70,7 @@ pub(crate) fn run(args: &Run, context: &Context) -> anyhow::Result<u8> {
     let page = folder.path().join(PAGE);
     let drawn = report::page::Page::of(&planned.scene.name, &reports)?;
     output::write(Some(&page), |out| drawn.write(out))?;
-    drawn.write_figures(&folder.figures())?;
+    drawn.write_figures(&folder.figures(), context)?;
     drawn.write_scores(folder.path())?;
     let results = folder.path().join(RESULTS);
     output::write_as(Format::Json, Some(&results), |out| {

@@ -47,7 +47,7 @@ pub(crate) fn run(args: &Score, context: &Context) -> anyhow::Result<u8> {
     output::write_as(args.output.format, args.output.path.as_deref(), |out| {
         report::evaluation(&scored.report, args.output.format, out)
     })?;
-    beside.write(&scored.report)?;
+    beside.write(&scored.report, context)?;
     if let Some(path) = &args.state_out {
         output::write(Some(path), |out| scored.state.write(out))?;
     }

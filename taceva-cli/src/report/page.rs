@@ -1,5 +1,6 @@
 //! One-file pages of finished evaluations.
 
+use std::collections::BTreeSet;
 use std::fs;
 use std::io::{self, Write};
 use std::path::Path;
@@ -12,6 +13,7 @@ use taceva_report::{
 };
 use taceva_study::EvaluationReport;
 
+use crate::cmd::Context;
 use crate::output;
 
 use super::thumbnail::{MEDIA_TYPE, thumbnail};
@@ -64,14 +66,24 @@ impl Page {
         Ok(())
     }
 
-    /// Writes every figure into `folder`, as SVG that stands alone and as PDF.
-    pub(crate) fn write_figures(&self, folder: &Path) -> anyhow::Result<()> {
+    /// Writes every figure into `folder`, as SVG that stands alone and as PDF, and says which letters no font has.
+    pub(crate) fn write_figures(&self, folder: &Path, context: &Context) -> anyhow::Result<()> {
         fs::create_dir_all(folder).with_context(|| format!("cannot make {}", shown(folder)))?;
+        let mut without_glyph = BTreeSet::new();
         for figure in figures(&self.studies) {
             let path = folder.join(format!("{}.svg", figure.id));
             output::write(Some(&path), |out| out.write_all(figure.svg().as_bytes()))?;
             let path = path.with_extension("pdf");
             output::write(Some(&path), |out| out.write_all(&figure.pdf()))?;
+            without_glyph.extend(figure.letters_without_glyph());
+        }
+        if !without_glyph.is_empty() {
+            let letters = without_glyph.into_iter();
+            let letters = letters.map(|letter| format!("{letter} (U+{:04X})", u32::from(letter)));
+            context.say(format_args!(
+                "the fonts of PDF figures lack {}: each is drawn as a box with its code point; the SVG figures hold the letters",
+                letters.collect::<Vec<_>>().join(", ")
+            ));
         }
         Ok(())
     }

@@ -1,30 +1,47 @@
-//! The machine that is looked at: a tree of files laid out as Linux lays them out.
+//! The machine that is looked at: a tree of files laid out as Linux lays them out, and what is plugged into its USB.
 
 use std::fs;
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
+use super::usb::{UsbDevice, plugged_in};
 use super::user::User;
 use crate::name_order;
 
 /// Longest file that is read of a machine: its table of groups.
 const TEXT_BYTES: u64 = 1 << 20;
 
-/// A machine, as its files describe it.
+/// A machine, as its files and the list of its USB devices describe it.
 #[derive(Clone, Debug)]
 pub struct Machine {
     root: PathBuf,
+    /// Or why they cannot be listed.
+    pub(super) usb: Result<Vec<UsbDevice>, String>,
 }
 
 impl Machine {
     /// This machine.
     pub fn this() -> Machine {
-        Machine::at("/")
+        Machine {
+            root: PathBuf::from("/"),
+            usb: plugged_in(),
+        }
     }
 
-    /// The machine whose root folder is `root`; for a mounted image, and for tests.
+    /// The machine whose root folder is `root`, with nothing on its USB; for a mounted image, and for tests.
     pub fn at(root: impl Into<PathBuf>) -> Machine {
-        Machine { root: root.into() }
+        Machine {
+            root: root.into(),
+            usb: Ok(Vec::new()),
+        }
+    }
+
+    /// The same machine with `devices` on its USB.
+    pub fn with_usb(self, devices: Vec<UsbDevice>) -> Machine {
+        Machine {
+            usb: Ok(devices),
+            ..self
+        }
     }
 
     /// Who runs the program, if the machine says so.

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::Path;
 
 use taceva_drivers::Drivers;
-use taceva_drivers::doctor::{Finding, Machine, State, examine};
+use taceva_drivers::doctor::{Finding, Machine, State, UsbDevice, examine};
 use tempfile::TempDir;
 
 /// A machine of files, each with its text.
@@ -128,34 +128,26 @@ fn a_camera_that_is_not_permitted_says_which_group_to_join() {
     );
 }
 
+#[cfg(target_os = "linux")]
 #[test]
 fn a_known_sensor_on_the_usb_without_a_device_file_lacks_its_driver() {
-    let port = "sys/bus/usb/devices/1-2";
-    let files = |more: &'static str| {
-        vec![
-            ("proc/self/status".to_owned(), STRANGER),
-            (format!("{port}/idVendor"), "2833\n"),
-            (format!("{port}/idProduct"), "0209\n"),
-            (format!("{port}/serial"), "D20042\n"),
-            ("sys/bus/usb/devices/usb1/idVendor".to_owned(), "1d6b\n"),
-            (more.to_owned(), ""),
-        ]
-    };
-    let found = |more| {
-        let files = files(more);
-        let files: Vec<(&str, &str)> = files
-            .iter()
-            .map(|(path, text)| (path.as_str(), *text))
-            .collect();
-        findings(machine(&files).path())
-            .pop()
-            .expect("the USB comes last")
+    let found = |file: &str| {
+        let root = machine(&[("proc/self/status", STRANGER), (file, "")]);
+        let drivers = Drivers::builtin().expect("no contradiction");
+        let devices = vec![
+            UsbDevice::new("1-1", 0x1d6b, 0x0002),
+            UsbDevice::new("1-2", 0x2833, 0x0209).with_serial("D20042"),
+        ];
+        let machine = Machine::at(root.path()).with_usb(devices);
+        let found = examine(&drivers, &machine).pop();
+        found.expect("the USB comes last")
     };
     let without = found("dev/null");
     assert_eq!(
         (without.code, without.state),
         ("usb-without-driver", State::Problem)
     );
+    assert_eq!(without.subject, "USB 1-2");
     assert_eq!(without.detail, "DIGIT tactile sensor, serial number D20042");
     assert!(without.remedy.expect("known").contains("modprobe uvcvideo"));
     assert_eq!(found("dev/video3").code, "usb");

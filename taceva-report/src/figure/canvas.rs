@@ -233,8 +233,12 @@ impl Canvas {
 
 use super::words::short;
 
-/// About how wide a text is.
+/// About how wide a text is: letters of East Asia and all behind them are as wide as they are high.
 pub(crate) fn width_of(text: &str, size: f64) -> f64 {
-    let letters = u32::try_from(text.chars().count()).unwrap_or(u32::MAX);
-    f64::from(letters) * size * 0.56
+    let wide = text
+        .chars()
+        .filter(|letter| matches!(letter, '\u{1100}'..='\u{11ff}' | '\u{2e80}'..))
+        .count();
+    let letters = |count: usize| f64::from(u32::try_from(count).unwrap_or(u32::MAX));
+    (letters(text.chars().count() - wide) * 0.56 + letters(wide)) * size
 }

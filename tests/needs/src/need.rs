@@ -28,6 +28,8 @@ pub enum Need {
     Terminal,
     /// `djpeg`, which says what libjpeg warns of in a picture.
     Libjpeg,
+    /// `pdffonts` and `pdftotext` of Poppler, which say what a PDF holds.
+    Poppler,
     /// Real recordings, in the folder that `TACEVA_DATA` names.
     Recordings,
     /// A GPU that the features which were built in can reach.
@@ -45,7 +47,7 @@ pub struct UnknownNeed(
 
 impl Need {
     /// Every need.
-    pub const ALL: [Need; 13] = [
+    pub const ALL: [Need; 14] = [
         Need::Browser,
         Need::Axe,
         Need::Latex,
@@ -56,6 +58,7 @@ impl Need {
         Need::Clang,
         Need::Terminal,
         Need::Libjpeg,
+        Need::Poppler,
         Need::Recordings,
         Need::Gpu,
         Need::Example,
@@ -74,6 +77,7 @@ impl Need {
             Need::Clang => "clang",
             Need::Terminal => "terminal",
             Need::Libjpeg => "libjpeg",
+            Need::Poppler => "poppler",
             Need::Recordings => "recordings",
             Need::Gpu => "gpu",
             Need::Example => "example",

@@ -1,102 +1,152 @@
-//! Texts in PDF: Helvetica where it has the letter, Symbol for the few that it lacks.
+//! Labels: runs of glyphs of one font each, and boxes for letters that no font has.
 
+use std::collections::BTreeMap;
+
+use pdf_writer::{Content, Name, Str};
+use subsetter::GlyphRemapper;
+
+use super::content::number;
+use super::face::{Face, Found, find};
+use super::missing;
 use crate::figure::canvas::{Anchor, Label};
 
-/// Widths of Helvetica from the space to the tilde, in thousandths of its size.
-const WIDTHS: [u16; 95] = [
-    278, 278, 355, 556, 556, 889, 667, 191, 333, 333, 389, 584, 278, 333, 278, 278, 556, 556, 556,
-    556, 556, 556, 556, 556, 556, 556, 278, 278, 584, 584, 584, 556, 1015, 667, 667, 722, 722, 667,
-    611, 778, 722, 278, 500, 667, 556, 833, 722, 778, 667, 778, 722, 667, 611, 722, 667, 944, 667,
-    667, 611, 278, 278, 278, 469, 556, 333, 556, 556, 500, 556, 556, 278, 556, 556, 222, 222, 500,
-    222, 833, 556, 556, 556, 556, 333, 500, 278, 556, 500, 722, 500, 500, 500, 334, 260, 334, 584,
-];
-
-/// A byte of a font.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Glyph {
-    Helvetica(u8),
-    Symbol(u8),
+/// What a figure uses of a font.
+pub(super) struct Used {
+    pub(super) face: Face,
+    /// The numbers of glyphs in the file of a figure, in the order in which they came.
+    pub(super) glyphs: GlyphRemapper,
+    /// The letter that each of these stands for.
+    pub(super) letters: BTreeMap<u16, char>,
 }
 
-fn glyph(letter: char) -> Glyph {
-    match letter {
-        ' '..='~' => Glyph::Helvetica(u8::try_from(letter).unwrap_or(b'?')),
-        '\u{a0}'..='\u{ff}' => Glyph::Helvetica(u8::try_from(letter).unwrap_or(b'?')),
-        '…' => Glyph::Helvetica(0x85),
-        // The en dash is as wide as a minus.
-        '–' | '−' => Glyph::Helvetica(0x96),
-        'ε' => Glyph::Symbol(0x65),
-        'σ' => Glyph::Symbol(0x73),
-        '↑' => Glyph::Symbol(0xad),
-        '↓' => Glyph::Symbol(0xaf),
-        _ => Glyph::Helvetica(b'?'),
+impl Used {
+    /// Nothing yet.
+    pub(super) fn none_of(face: Face) -> Used {
+        Used {
+            face,
+            glyphs: GlyphRemapper::new(),
+            letters: BTreeMap::new(),
+        }
     }
 }
 
-fn width(glyph: Glyph) -> f64 {
-    let thousandths = match glyph {
-        Glyph::Helvetica(byte) => {
-            let place = usize::from(byte).checked_sub(32);
-            place
-                .and_then(|place| WIDTHS.get(place))
-                .copied()
-                .unwrap_or(556)
-        }
-        Glyph::Symbol(_) => 520,
-    };
-    f64::from(thousandths) / 1000.0
+/// A part of a label.
+enum Piece {
+    Run { face: Face, letters: Vec<u16> },
+    Missing(char),
 }
 
-/// The operators that print `label` in `colour` on a page of `height`.
-pub(super) fn label(label: &Label, height: f64, colour: &str) -> String {
-    let glyphs: Vec<Glyph> = label.text.chars().map(glyph).collect();
-    let length = glyphs.iter().map(|glyph| width(*glyph)).sum::<f64>() * label.size;
+/// Draws `label` at `at`, in the state that holds its colour, and notes what it uses of each font.
+pub(super) fn draw(label: &Label, at: [f64; 2], fonts: &mut [Used; 3], content: &mut Content) {
+    let (pieces, length) = pieces(label, fonts);
     let back = match label.anchor {
         Anchor::Start => 0.0,
         Anchor::Middle => length / 2.0,
         Anchor::End => length,
     };
-    let [x, y] = [label.at[0], height - label.at[1]];
-    let matrix = match label.upwards {
-        true => format!("0 1 -1 0 {x:.2} {:.2}", y - back),
-        false => format!("1 0 0 1 {:.2} {y:.2}", x - back),
-    };
-    let mut out = format!("BT {colour} {matrix} Tm ");
-    let font = |glyph: &Glyph| match (glyph, label.bold) {
-        (Glyph::Symbol(_), _) => 2,
-        (_, true) => 1,
-        (_, false) => 0,
-    };
-    for run in glyphs.chunk_by(|left, right| font(left) == font(right)) {
-        let bytes = run.iter().map(|glyph| match glyph {
-            Glyph::Helvetica(byte) | Glyph::Symbol(byte) => format!("{byte:02x}"),
-        });
-        let font = run.first().map_or(0, font);
-        out += &format!(
-            "/F{font} {} Tf <{}> Tj ",
-            label.size,
-            bytes.collect::<String>()
-        );
+    let [x, y] = at;
+    content.transform(match label.upwards {
+        true => [0.0, 1.0, -1.0, 0.0, number(x), number(y - back)],
+        false => [1.0, 0.0, 0.0, 1.0, number(x - back), number(y)],
+    });
+    for (piece, pen) in &pieces {
+        match piece {
+            Piece::Run { face, letters } => {
+                let codes: Vec<u8> = letters.iter().flat_map(|code| code.to_be_bytes()).collect();
+                content.begin_text();
+                content.set_font(Name(face.resource()), number(label.size));
+                content.next_line(number(*pen), 0.0);
+                content.show(Str(&codes)).end_text();
+            }
+            Piece::Missing(letter) => missing::draw(*letter, *pen, label.size, fonts, content),
+        }
     }
-    out + "ET\n"
 }
 
-/// A text of the file itself, in UTF-16 with its mark.
-pub(super) fn literal(text: &str) -> String {
-    let units = text.encode_utf16().map(|unit| format!("{unit:04x}"));
-    format!("<feff{}>", units.collect::<String>())
+/// The parts of a label, each with the place of the pen where it begins, and the length of all.
+fn pieces(label: &Label, fonts: &mut [Used; 3]) -> (Vec<(Piece, f64)>, f64) {
+    let mut pieces: Vec<(Piece, f64)> = Vec::new();
+    let mut pen = 0.0;
+    for letter in label.text.chars() {
+        match find(letter, label.bold) {
+            Found::Glyph(face, glyph) => {
+                let code = code(letter, face, glyph.0, fonts);
+                match pieces.last_mut() {
+                    Some((
+                        Piece::Run {
+                            face: last,
+                            letters,
+                        },
+                        _,
+                    )) if *last == face => {
+                        letters.push(code);
+                    }
+                    _ => {
+                        let letters = vec![code];
+                        pieces.push((Piece::Run { face, letters }, pen));
+                    }
+                }
+                pen += face.advance(glyph) * label.size;
+            }
+            Found::Nothing => {}
+            Found::Nowhere => {
+                pieces.push((Piece::Missing(letter), pen));
+                pen += missing::advance(letter) * label.size;
+            }
+        }
+    }
+    (pieces, pen)
+}
+
+/// The number of a glyph in the file.
+pub(super) fn code(letter: char, face: Face, glyph: u16, fonts: &mut [Used; 3]) -> u16 {
+    let Some(used) = fonts.iter_mut().find(|used| used.face == face) else {
+        return 0;
+    };
+    let code = used.glyphs.remap(glyph);
+    used.letters.entry(code).or_insert(letter);
+    code
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
+    fn length(text: &str) -> f64 {
+        let label = Label::new([0.0, 0.0], text, Anchor::Start);
+        pieces(&label, &mut Face::ALL.map(Used::none_of)).1
+    }
+
     #[test]
-    fn letters_that_helvetica_lacks_come_from_symbol() {
-        let at_the_end = Label::new([100.0, 10.0], "SR(ε) ↑", Anchor::End);
-        let printed = label(&at_the_end, 200.0, "0 0 0 rg");
-        // S 667, R 722, parentheses 333 each, space 278, two of Symbol: 3373 thousandths of 11.
-        assert!(printed.starts_with("BT 0 0 0 rg 1 0 0 1 62.9"), "{printed}");
-        assert!(printed.contains("/F2 11 Tf <65> Tj") && printed.contains("/F2 11 Tf <ad> Tj"));
+    fn a_label_is_as_long_as_its_glyphs() {
+        // S 667, R 722, parentheses 333 each: 2055 thousandths of 11.
+        assert!((length("SR()") - 22.6).abs() < 0.05, "{}", length("SR()"));
+        // Ideographs are as wide as they are high.
+        assert!((length("触觉") - 22.0).abs() < 0.2, "{}", length("触觉"));
+        assert!(length("\u{200b}").abs() < 1e-9 && length("한") > 5.0);
+    }
+
+    #[test]
+    fn letters_of_one_font_are_one_run() {
+        let label = Label::new([0.0, 0.0], "SR(ε) ↑ 触觉 한 b", Anchor::Start);
+        let mut fonts = Face::ALL.map(Used::none_of);
+        let (pieces, _) = pieces(&label, &mut fonts);
+        let runs: Vec<_> = pieces
+            .iter()
+            .map(|(piece, _)| match piece {
+                Piece::Run { face, letters } => Ok((*face, letters.len())),
+                Piece::Missing(letter) => Err(*letter),
+            })
+            .collect();
+        let expected = [
+            Ok((Face::Regular, 8)),
+            Ok((Face::EastAsian, 2)),
+            Ok((Face::Regular, 1)),
+            Err('한'),
+            Ok((Face::Regular, 2)),
+        ];
+        assert_eq!(runs, expected);
+        // A letter that comes twice is one glyph.
+        assert_eq!(fonts[0].letters.len(), 8);
     }
 }

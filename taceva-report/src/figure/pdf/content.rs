@@ -1,0 +1,194 @@
+//! Marks as the operators of a page.
+
+use std::collections::BTreeSet;
+
+use pdf_writer::types::{LineCapStyle, LineJoinStyle};
+use pdf_writer::{Content, Name};
+
+use super::face::Face;
+use super::text::{self, Used};
+use crate::figure::canvas::{Ink, Mark, Points, Stroke};
+use crate::figure::palette::LIGHT;
+
+/// A circle of four Bézier curves: how far their handles reach, as a part of the radius.
+const HANDLE: f64 = 0.552_284_75;
+
+/// Draws marks, one after the other.
+pub(super) struct Painter {
+    height: f64,
+    content: Content,
+    opacities: BTreeSet<u8>,
+    fonts: [Used; 3],
+}
+
+/// What was drawn, and what it uses.
+pub(super) struct Drawn {
+    pub(super) operators: Vec<u8>,
+    /// Hundredths, each a state of the page.
+    pub(super) opacities: BTreeSet<u8>,
+    /// Fonts of which at least one glyph is used.
+    pub(super) fonts: Vec<Used>,
+}
+
+impl Painter {
+    /// A page of `height`, with nothing on it.
+    pub(super) fn new(height: f64) -> Painter {
+        Painter {
+            height,
+            content: Content::new(),
+            opacities: BTreeSet::new(),
+            fonts: Face::ALL.map(Used::none_of),
+        }
+    }
+
+    /// Everything that was drawn.
+    pub(super) fn finish(self) -> Drawn {
+        let used = self.fonts.into_iter();
+        Drawn {
+            operators: self.content.finish().into_vec(),
+            opacities: self.opacities,
+            fonts: used.filter(|used| !used.letters.is_empty()).collect(),
+        }
+    }
+
+    /// Draws `mark` above what is there.
+    pub(super) fn mark(&mut self, mark: &Mark) {
+        self.content.save_state();
+        match mark {
+            Mark::Path { points, stroke } => self.path(points, *stroke),
+            Mark::Area {
+                points,
+                ink,
+                opacity,
+            } => {
+                self.fill_with(*ink, *opacity);
+                self.outline(points);
+                self.content.close_path().fill_nonzero();
+            }
+            Mark::Box { place, ink, .. } => {
+                self.fill_with(*ink, 1.0);
+                let [x, y, width, height] = *place;
+                let [left, low] = self.at([x, y + height]);
+                let content = &mut self.content;
+                content.rect(left, low, number(width), number(height));
+                content.fill_nonzero();
+            }
+            // What is only there to be pointed at is not drawn.
+            Mark::Points { opacity, .. } if *opacity <= 0.0 => {}
+            Mark::Points {
+                points,
+                ink,
+                radius,
+                opacity,
+            } => {
+                self.fill_with(*ink, *opacity);
+                self.dots(points, *radius);
+            }
+            Mark::Label(label) => {
+                let [red, green, blue] = colour(label.ink);
+                self.content.set_fill_rgb(red, green, blue);
+                self.content.set_stroke_rgb(red, green, blue);
+                let at = [label.at[0], self.height - label.at[1]];
+                text::draw(label, at, &mut self.fonts, &mut self.content);
+            }
+        }
+        self.content.restore_state();
+    }
+
+    fn path(&mut self, points: &[[f64; 2]], stroke: Stroke) {
+        let [red, green, blue] = colour(stroke.ink);
+        let dashes = stroke.dash.split_whitespace();
+        let dashes = dashes.filter_map(|dash| dash.parse::<f32>().ok());
+        let content = &mut self.content;
+        content.set_stroke_rgb(red, green, blue);
+        content.set_line_width(number(stroke.width));
+        content.set_dash_pattern(dashes, 0.0);
+        content.set_line_cap(LineCapStyle::RoundCap);
+        content.set_line_join(LineJoinStyle::RoundJoin);
+        self.outline(points);
+        self.content.stroke();
+    }
+
+    fn dots(&mut self, points: &Points, radius: f64) {
+        let reach = radius * HANDLE;
+        for [x, y] in &points.at {
+            let (left, right, high, low) = (x - radius, x + radius, y - radius, y + radius);
+            let [to_x, to_y] = self.at([right, *y]);
+            self.content.move_to(to_x, to_y);
+            for curve in [
+                [[right, y - reach], [x + reach, high], [*x, high]],
+                [[x - reach, high], [left, y - reach], [left, *y]],
+                [[left, y + reach], [x - reach, low], [*x, low]],
+                [[x + reach, low], [right, y + reach], [right, *y]],
+            ] {
+                let [[ax, ay], [bx, by], [to_x, to_y]] = curve.map(|place| self.at(place));
+                self.content.cubic_to(ax, ay, bx, by, to_x, to_y);
+            }
+            self.content.fill_nonzero();
+        }
+    }
+
+    /// Sets the colour and the opacity of what is filled.
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "hundredths of a share"
+    )]
+    fn fill_with(&mut self, ink: Ink, opacity: f64) {
+        let hundredths = (opacity.clamp(0.0, 1.0) * 100.0).round() as u8;
+        self.opacities.insert(hundredths);
+        let [red, green, blue] = colour(ink);
+        let state = state_name(hundredths);
+        self.content.set_parameters(Name(state.as_bytes()));
+        self.content.set_fill_rgb(red, green, blue);
+    }
+
+    fn outline(&mut self, points: &[[f64; 2]]) {
+        for (at, point) in points.iter().enumerate() {
+            let [x, y] = self.at(*point);
+            if at == 0 {
+                self.content.move_to(x, y);
+            } else {
+                self.content.line_to(x, y);
+            }
+        }
+    }
+
+    /// A place on the page, whose ordinate grows upwards.
+    fn at(&self, [x, y]: [f64; 2]) -> [f32; 2] {
+        [number(x), number(self.height - y)]
+    }
+}
+
+/// The name of the state with `hundredths` of opacity.
+pub(super) fn state_name(hundredths: u8) -> String {
+    format!("G{hundredths}")
+}
+
+/// A number as a file holds it: to a hundredth.
+#[expect(
+    clippy::cast_possible_truncation,
+    reason = "hundredths on a page of some hundreds"
+)]
+pub(super) fn number(value: f64) -> f32 {
+    ((value * 100.0).round() / 100.0) as f32
+}
+
+/// A colour on white paper.
+fn colour(ink: Ink) -> [f32; 3] {
+    let hex = match ink {
+        Ink::Text => "#1b1f24",
+        Ink::Muted => "#57606a",
+        Ink::Grid => "#e4e7eb",
+        Ink::Paper => "#ffffff",
+        Ink::Series(position) => LIGHT[position % LIGHT.len()],
+        Ink::Rgb(parts) => return parts.map(share),
+    };
+    let part = |at: usize| u8::from_str_radix(&hex[at..at + 2], 16).expect("six digits");
+    [part(1), part(3), part(5)].map(share)
+}
+
+/// A part of a colour, to a thousandth.
+fn share(part: u8) -> f32 {
+    (f32::from(part) / 255.0 * 1000.0).round() / 1000.0
+}
