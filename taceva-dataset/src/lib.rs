@@ -1,5 +1,7 @@
 #![doc = include_str!("../README.md")]
 
+#[cfg(feature = "ndarray")]
+mod arrays;
 mod csv_table;
 mod dataset;
 mod decode;
@@ -33,6 +35,8 @@ mod toml_file;
 mod transcode;
 mod version;
 
+#[cfg(feature = "ndarray")]
+pub use arrays::{FrameArray, FrameArrays};
 pub use csv_table::CsvTable;
 pub use dataset::{Dataset, Pass, StreamReport};
 pub use decode::ChannelOrder;

@@ -2,7 +2,7 @@
 
 #![expect(clippy::print_stdout, reason = "an example shows its result")]
 
-use taceva_core::{Channel, Channels, FieldSet, Readings, Sample, SampleSink};
+use taceva_metrics::{Channel, Channels, FieldSet, Readings, Sample, SampleSink};
 use taceva_metrics::{Evaluator, MetricPlan, catalogue};
 
 fn main() -> Result<(), Box<dyn std::error::Error + Send + Sync>> {

@@ -16,6 +16,29 @@ pub enum MetricError {
         /// Rows of the reference.
         reference: usize,
     },
+    /// Columns of different length in one batch.
+    Rows {
+        /// What has another length: a channel, or the contact locations.
+        what: String,
+        /// Rows of the first channel.
+        expected: usize,
+        /// Rows that were found.
+        found: usize,
+    },
+    /// A matrix that has not a column a channel.
+    Columns {
+        /// Which matrix: truth or prediction.
+        what: &'static str,
+        /// Number of channels.
+        expected: usize,
+        /// Columns that were found.
+        found: usize,
+    },
+    /// No value where every row needs one.
+    Absent {
+        /// The row, from 0.
+        row: usize,
+    },
     /// A batch or a state of other channels.
     Channels {
         /// Those that are evaluated, with their units.
@@ -67,6 +90,24 @@ impl fmt::Display for MetricError {
                 f,
                 "{estimate} estimates beside {reference} references, expected as many"
             ),
+            MetricError::Rows {
+                what,
+                expected,
+                found,
+            } => write!(
+                f,
+                "{found} rows of {}, expected {expected} as of the first channel",
+                shown(what)
+            ),
+            MetricError::Columns {
+                what,
+                expected,
+                found,
+            } => write!(
+                f,
+                "{found} columns of {what}, expected {expected}, one a channel"
+            ),
+            MetricError::Absent { row } => write!(f, "no value in row {row}, expected a number"),
             MetricError::Channels { expected, found } => {
                 write!(f, "channels {}, expected {}", shown(found), shown(expected))
             }

@@ -1,5 +1,6 @@
 //! Finished scores: printed as a table, serialized as a report, or walked one by one.
 
+mod handles;
 #[cfg(feature = "serde")]
 mod json;
 mod table;

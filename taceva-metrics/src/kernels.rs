@@ -1,4 +1,4 @@
-//! The ways to sum that the exact one is measured against, and inputs that tell them apart.
+//! The ways to sum that the exact one is measured against, and inputs that tell them apart; behind the feature `bench`.
 //!
 //! Every [`Contender`] forms MAE, R² and sMAPE of two columns under one signature, so that a caller can time it, count how
 //! many [`digits`] it gets right, and see whether the result survives [`shuffled`] rows. Nothing here reads a clock. How fast

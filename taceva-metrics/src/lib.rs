@@ -2,6 +2,8 @@
 
 mod accumulator;
 mod accuracy;
+#[cfg(feature = "ndarray")]
+mod arrays;
 mod better;
 mod bias_level;
 pub mod catalogue;
@@ -21,8 +23,10 @@ mod facts;
 mod flag;
 mod geometry;
 mod hysteresis;
+mod independent;
 mod inter_sensor;
 mod intrinsic;
+#[cfg(feature = "bench")]
 pub mod kernels;
 mod level;
 mod lighting;
@@ -32,6 +36,7 @@ mod matrix;
 mod merge;
 mod metric;
 mod moments;
+mod number;
 mod ordered;
 mod pair_sums;
 mod paired;
@@ -42,6 +47,7 @@ mod plane_sums;
 mod range;
 mod repeatability;
 mod resolution;
+mod rows;
 mod score;
 mod settings;
 mod spatial;
@@ -67,12 +73,14 @@ pub use flag::Flag;
 pub use map::Map;
 pub use matrix::Matrix;
 pub use metric::{Metric, ScoreUnit};
+pub use number::Number;
 pub use pair_sums::{PairSpec, PairSums};
 pub use paired::{GREATEST, Paired};
 pub use plan::MetricPlan;
 pub use plane_sums::PlaneSums;
 pub use range::Range;
-pub use score::{Count, Interval, Parameter, Score, Variant};
+pub use rows::Rows;
+pub use score::{ClusteredBy, Count, Interval, Parameter, Score, Variant};
 pub use settings::Settings;
 pub use standing::{GREATEST_BOUNDED_SHARE, Standing};
 pub use state::{Record, State};
@@ -82,5 +90,10 @@ pub use stats::{
     decide, holm, welch,
 };
 pub use streams::{Stream, Streams};
-pub use taceva_core::{Isa, IsaError};
+// What signatures here name, so that a caller needs no other crate.
+pub use taceva_core::{
+    Batch, BatchBuilder, Channel, ChannelError, Channels, Column, Field, FieldSet, Footprint,
+    FootprintError, GratingKind, Isa, IsaError, Labels, Nanometre, Needs, Phase, Readings, Sample,
+    SampleSink, SinkError, SkipReason, Skipped, Stamp, Unit,
+};
 pub use value::{InapplicableReason, UndefinedReason, Value};

@@ -50,6 +50,7 @@ pub struct MetricPlan {
     seed: u64,
     interval_method: IntervalMethod,
     constants: BTreeMap<String, f64>,
+    independent: bool,
 }
 
 impl MetricPlan {
@@ -69,6 +70,7 @@ impl MetricPlan {
             seed: 0,
             interval_method: IntervalMethod::default(),
             constants: BTreeMap::new(),
+            independent: false,
         };
         plan.decided()
     }
@@ -146,6 +148,34 @@ impl MetricPlan {
             interval_method,
             ..self
         }
+    }
+
+    /// The same plan for samples that do not depend on each other: every sample is a cluster of its own in the intervals of errors, R², skill,
+    /// planes, linearity, cross-talk, bias by level and tolerance, and each of these intervals says `samples taken as independent`. Metrics that
+    /// ask which samples belong together keep their contact locations.
+    ///
+    /// Presses at one location are not independent: their intervals would hold the truth too seldom (`docs/coverage.md`). Samples that are equal
+    /// in every channel share a cluster, and more than [`NAMED_CLUSTERS`](crate::NAMED_CLUSTERS) are dealt into
+    /// [`HASHED_CLUSTERS`](crate::HASHED_CLUSTERS), so that scores depend on the set of samples alone.
+    ///
+    /// ```
+    /// use taceva_metrics::{Channel, Channels, FieldSet, MetricPlan, catalogue};
+    /// let channels = Channels::new([Channel::FZ])?;
+    /// let plan = MetricPlan::new(&catalogue::ALL, channels, FieldSet::PAIRS).independent_samples();
+    /// assert!(plan.takes_samples_as_independent());
+    /// # Ok::<(), taceva_metrics::ChannelError>(())
+    /// ```
+    #[must_use]
+    pub fn independent_samples(self) -> MetricPlan {
+        MetricPlan {
+            independent: true,
+            ..self
+        }
+    }
+
+    /// Whether every sample is a cluster of its own.
+    pub fn takes_samples_as_independent(&self) -> bool {
+        self.independent
     }
 
     /// The same plan for a model whose best constant answers are known: by channel the mean of the labels it was fitted on, in the unit of
@@ -273,31 +303,43 @@ impl MetricPlan {
     /// One accumulator for all metrics that share what is kept.
     pub(crate) fn accumulators(&self) -> Vec<Box<dyn Accumulator>> {
         let families = [
-            Pairs::for_plan(self).map(|family| self.clustered(family)),
-            Plane::for_metrics(&self.kept, &self.channels).map(|family| self.clustered(family)),
+            Pairs::for_plan(self).map(|family| self.by_row(family)),
+            Plane::for_metrics(&self.kept, &self.channels).map(|family| self.by_row(family)),
             Resolution::for_plan(self).map(|family| self.clustered(family)),
             Surface::for_plan(self).map(|family| self.clustered(family)),
             Spatial::for_plan(self).map(|family| self.clustered(family)),
             Lighting::for_plan(self).map(|family| self.clustered(family)),
-            self.by_channel(Repeats),
+            self.by_channel(Repeats, MetricPlan::clustered),
             Loops::for_plan(self).map(|family| self.clustered(family)),
             InterSensor::for_plan(self).map(|family| self.clustered(family)),
             Intrinsic::for_plan(self).map(|family| self.clustered(family)),
-            Idle::for_plan(self).and_then(|kind| self.by_channel(kind)),
-            self.by_channel(Lines),
-            Crosstalk::for_plan(self).map(|family| self.clustered(family)),
-            self.by_channel(Levels),
-            self.by_channel(Tolerances),
-            self.by_channel(Drifts),
+            Idle::for_plan(self).and_then(|kind| self.by_channel(kind, MetricPlan::clustered)),
+            self.by_channel(Lines, MetricPlan::by_row),
+            Crosstalk::for_plan(self).map(|family| self.by_row(family)),
+            self.by_channel(Levels, MetricPlan::by_row),
+            self.by_channel(Tolerances, MetricPlan::by_row),
+            self.by_channel(Drifts, MetricPlan::clustered),
         ];
         families.into_iter().flatten().collect()
     }
 
-    fn by_channel<K>(&self, kind: K) -> Option<Box<dyn Accumulator>>
+    fn by_channel<K>(
+        &self,
+        kind: K,
+        clustered: fn(&MetricPlan, ByChannel<K>) -> Box<dyn Accumulator>,
+    ) -> Option<Box<dyn Accumulator>>
     where
         K: Channelwise + 'static,
     {
-        ByChannel::for_plan(kind, self).map(|family| self.clustered(family))
+        ByChannel::for_plan(kind, self).map(|family| clustered(self, family))
+    }
+
+    /// An accumulator whose clusters are rows where samples are taken as independent.
+    fn by_row<F>(&self, family: F) -> Box<dyn Accumulator>
+    where
+        F: Family + 'static,
+    {
+        Box::new(Clustered::new(family, self).with_rows_as_clusters(self.independent))
     }
 
     fn clustered<F>(&self, family: F) -> Box<dyn Accumulator>

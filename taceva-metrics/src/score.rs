@@ -106,6 +106,37 @@ pub struct Parameter {
     pub value: f64,
 }
 
+/// What the clusters of an interval are.
+///
+/// ```
+/// use taceva_metrics::{Channel, ClusteredBy, Evaluator, Interval};
+/// let mut evaluator = Evaluator::of_channels([Channel::FZ])?.independent_samples();
+/// evaluator.update_pairs(Channel::FZ, &[1.0, 2.0, 3.0, 4.0, 5.0], &[1.1, 2.3, 2.9, 4.2, 5.4])?;
+/// let scores = evaluator.finish()?;
+/// let interval = scores.mae(Channel::FZ).map(|score| score.interval);
+/// assert!(matches!(interval, Some(Interval::Jackknife { by: ClusteredBy::Sample, .. })));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum ClusteredBy {
+    /// Contact locations.
+    #[default]
+    Point,
+    /// Single samples, taken as independent because the caller said that they are.
+    Sample,
+}
+
+impl ClusteredBy {
+    /// Behind the name of a method.
+    const fn words(self) -> &'static str {
+        match self {
+            ClusteredBy::Point => " by point_id",
+            ClusteredBy::Sample => ", samples taken as independent",
+        }
+    }
+}
+
 /// A confidence interval of 95 %.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
@@ -122,6 +153,8 @@ pub enum Interval {
         clusters: usize,
         /// On which scale the ends lie about the value.
         scale: Scale,
+        /// What varies from cluster to cluster.
+        by: ClusteredBy,
     },
     /// By counting each contact location a random number of times.
     Bootstrap {
@@ -143,6 +176,8 @@ pub enum Interval {
         seed: u64,
         /// Replicates in which the score has no value; they are left out.
         undefined: usize,
+        /// What varies from cluster to cluster.
+        by: ClusteredBy,
     },
     /// Carried over from the jackknife variances of what the value is made of, to first order.
     Delta {
@@ -156,6 +191,8 @@ pub enum Interval {
         clusters: usize,
         /// On which scale the ends lie about the value.
         scale: Scale,
+        /// What varies from cluster to cluster.
+        by: ClusteredBy,
     },
     /// As if all samples were independent: what the interval of a share would be at best.
     Wilson {
@@ -169,6 +206,17 @@ pub enum Interval {
 }
 
 impl Interval {
+    /// The same interval, whose clusters were single samples.
+    pub(crate) fn of_independent_samples(mut self) -> Interval {
+        if let Interval::Jackknife { by, .. }
+        | Interval::Bootstrap { by, .. }
+        | Interval::Delta { by, .. } = &mut self
+        {
+            *by = ClusteredBy::Sample;
+        }
+        self
+    }
+
     /// Both ends, if there is an interval.
     pub fn ends(&self) -> Option<[f64; 2]> {
         match *self {
@@ -202,15 +250,22 @@ impl Interval {
     }
 
     /// How it was found, in words: `jackknife by point_id, G=32`, `jackknife by point_id, G=32, logarithmic` or
-    /// `Poisson bootstrap by point_id (percentile), G=32, B=1000, seed=0`.
+    /// `Poisson bootstrap by point_id (percentile), G=32, B=1000, seed=0`; `, samples taken as independent` instead of ` by point_id` where
+    /// every sample was a cluster of its own.
     pub fn method(&self) -> Option<String> {
         match self {
             Interval::Jackknife {
-                clusters, scale, ..
-            } => Some(format!("jackknife by point_id, G={clusters}{scale}")),
+                clusters,
+                scale,
+                by,
+                ..
+            } => Some(format!("jackknife{}, G={clusters}{scale}", by.words())),
             Interval::Delta {
-                clusters, scale, ..
-            } => Some(format!("delta method by point_id, G={clusters}{scale}")),
+                clusters,
+                scale,
+                by,
+                ..
+            } => Some(format!("delta method{}, G={clusters}{scale}", by.words())),
             Interval::Wilson { .. } => Some("Wilson, samples taken as independent".to_owned()),
             Interval::Bootstrap {
                 ends,
@@ -219,14 +274,16 @@ impl Interval {
                 replicates,
                 seed,
                 undefined,
+                by,
                 ..
             } => {
                 let left_out = match undefined {
                     0 => String::new(),
                     undefined => format!(" ({undefined} without a value)"),
                 };
+                let by = by.words();
                 Some(format!(
-                    "Poisson bootstrap by point_id ({ends}), G={clusters}, B={replicates}{left_out}, seed={seed}{scale}"
+                    "Poisson bootstrap{by} ({ends}), G={clusters}, B={replicates}{left_out}, seed={seed}{scale}"
                 ))
             }
             Interval::Undefined(_) => None,

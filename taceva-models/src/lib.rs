@@ -1,5 +1,7 @@
 #![doc = include_str!("../README.md")]
 
+#[cfg(feature = "ndarray")]
+mod arrays;
 mod auto;
 mod baseline;
 mod choice;
@@ -36,6 +38,8 @@ mod tensors;
 mod trees;
 mod trials;
 
+#[cfg(feature = "ndarray")]
+pub use arrays::{EstimatorArrays, RegressorArrays, features_of};
 pub use auto::{Auto, AutoCard, AutoTrial, Untried};
 pub use baseline::Baseline;
 pub use choice::{ChannelChoice, Choice, ChosenBy};

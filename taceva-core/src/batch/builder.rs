@@ -73,6 +73,19 @@ impl BatchBuilder {
         self.batch.rows
     }
 
+    /// The batch so far, which the builder keeps.
+    ///
+    /// ```
+    /// use taceva_core::{BatchBuilder, Channel, Channels, FieldSet, Sample};
+    /// let mut builder = BatchBuilder::new(Channels::new([Channel::FZ])?, FieldSet::PAIRS);
+    /// builder.push(&Sample::default());
+    /// assert_eq!((builder.so_far().rows(), builder.rows()), (1, 1));
+    /// # Ok::<(), taceva_core::ChannelError>(())
+    /// ```
+    pub fn so_far(&self) -> &Batch {
+        &self.batch
+    }
+
     /// The batch so far; the builder starts anew.
     pub fn take(&mut self) -> Batch {
         let fresh = empty(self.batch.channels.clone(), self.fields);

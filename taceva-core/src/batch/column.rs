@@ -18,6 +18,19 @@ impl Column {
         }
     }
 
+    /// A column in which no sample has a value.
+    ///
+    /// ```
+    /// use taceva_core::Column;
+    /// assert_eq!((Column::absent(2).len(), Column::absent(2).get(0)), (2, None));
+    /// ```
+    pub fn absent(rows: usize) -> Column {
+        Column {
+            values: vec![0.0; rows],
+            present: Some(vec![false; rows]),
+        }
+    }
+
     /// Adds a value, or the fact that there is none.
     pub fn push(&mut self, value: Option<f64>) {
         if value.is_none() && self.present.is_none() {
@@ -68,5 +81,33 @@ impl Column {
     /// Whether there is no row.
     pub fn is_empty(&self) -> bool {
         self.values.is_empty()
+    }
+}
+
+/// Every value present; the vector is taken over, not copied.
+///
+/// ```
+/// use taceva_core::Column;
+/// assert_eq!(Column::from(vec![0.5, 1.0]).get(1), Some(1.0));
+/// ```
+impl From<Vec<f64>> for Column {
+    fn from(values: Vec<f64>) -> Column {
+        Column::full(values)
+    }
+}
+
+/// A row an item; `None` where a sample has no value.
+///
+/// ```
+/// use taceva_core::Column;
+/// let column: Column = [Some(0.5), None].into_iter().collect();
+/// assert_eq!((column.get(0), column.get(1)), (Some(0.5), None));
+/// ```
+impl FromIterator<Option<f64>> for Column {
+    fn from_iter<I: IntoIterator<Item = Option<f64>>>(values: I) -> Column {
+        let values = values.into_iter();
+        let mut column = Column::full(Vec::with_capacity(values.size_hint().0));
+        values.for_each(|value| column.push(value));
+        column
     }
 }

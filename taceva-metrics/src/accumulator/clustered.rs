@@ -1,5 +1,7 @@
 //! The accumulator of any family of sums that are kept apart by contact location.
 
+use std::borrow::Cow;
+
 use taceva_core::{Batch, Channels};
 
 use super::Accumulator;
@@ -8,6 +10,7 @@ use super::resampling::{Cell, Resampling, each_left_out};
 use crate::clusters::{Clustering, Clusters};
 use crate::error::MetricError;
 use crate::evaluation::Entry;
+use crate::independent::rows_as_clusters;
 use crate::metric::Metric;
 use crate::plan::MetricPlan;
 use crate::score::{Interval, Score, Variant};
@@ -23,6 +26,7 @@ pub(crate) struct Clustered<F: Family> {
     clustering: Clustering<Vec<F::Sums>>,
     clusters: Clusters<Vec<F::Sums>>,
     interval_method: IntervalMethod,
+    rows_as_clusters: bool,
 }
 
 impl<F: Family> Clustered<F> {
@@ -37,12 +41,24 @@ impl<F: Family> Clustered<F> {
             clustering,
             clusters: Clusters::default(),
             interval_method: plan.interval_method(),
+            rows_as_clusters: false,
+        }
+    }
+
+    /// The same accumulator; where `rows_as_clusters`, each row is a cluster of its own.
+    pub(crate) fn with_rows_as_clusters(self, rows_as_clusters: bool) -> Clustered<F> {
+        Clustered {
+            rows_as_clusters,
+            ..self
         }
     }
 
     fn shape(&self) -> Shape {
         let mut parameters = self.family.parameters();
         parameters.insert("seed".to_owned(), self.clustering.seed.to_string());
+        if self.rows_as_clusters {
+            parameters.insert("clusters".to_owned(), "samples".to_owned());
+        }
         Shape {
             schema: F::SCHEMA,
             parameters,
@@ -151,7 +167,7 @@ impl<F: Family> Clustered<F> {
             }
             _ => None,
         };
-        let interval = |value: &Value, name: Option<&str>| match value {
+        let of_value = |value: &Value, name: Option<&str>| match value {
             Value::Undefined(reason) => Interval::Undefined(*reason),
             Value::Scalar(_) if cells.is_none() => Interval::Undefined(self.family.unclustered()),
             Value::Scalar(value) => match (&own, name) {
@@ -160,6 +176,10 @@ impl<F: Family> Clustered<F> {
                 _ => resampling.interval(*value, name),
             },
             _ => Interval::Undefined(UndefinedReason::Empty),
+        };
+        let interval = |value: &Value, name: Option<&str>| match self.rows_as_clusters {
+            true => of_value(value, name).of_independent_samples(),
+            false => of_value(value, name),
         };
         let n = parts.iter().map(|sums| self.family.count(metric, sums));
         let n_invalid = parts.iter().map(|sums| self.family.invalid(sums));
@@ -214,7 +234,10 @@ impl<F: Family> Accumulator for Clustered<F> {
             });
         }
         let family = &mut self.family;
-        let labels = family.clusters(batch);
+        let labels = match self.rows_as_clusters {
+            true => Some(Cow::Owned(rows_as_clusters(batch))),
+            false => family.clusters(batch),
+        };
         self.clustering.deposit(
             &mut self.clusters,
             batch.rows(),

@@ -6,7 +6,7 @@ use super::ends::{Ends, Estimated, Moved, Scale};
 use super::jackknife::LEAST_CLUSTERS;
 use super::poisson::weight;
 use super::random::bits;
-use crate::score::Interval;
+use crate::score::{ClusteredBy, Interval};
 use crate::value::UndefinedReason;
 
 /// Which share of the replicates may have no value.
@@ -130,6 +130,7 @@ impl PoissonBootstrap {
             replicates: drawn,
             seed: self.seed,
             undefined: drawn - defined,
+            by: ClusteredBy::default(),
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use super::ends::{Ends, Estimated, Moved};
 use crate::range::Range;
-use crate::score::Interval;
+use crate::score::{ClusteredBy, Interval};
 use crate::value::UndefinedReason;
 
 /// Clusters below which there is no interval.
@@ -43,6 +43,7 @@ pub(crate) fn interval(value: f64, range: Range, left_out: &[LeftOut]) -> Interv
             standard_error: moved.standard_error,
             clusters: moved.clusters,
             scale,
+            by: ClusteredBy::default(),
         },
         Err(reason) => Interval::Undefined(reason),
     }
@@ -149,6 +150,7 @@ pub(crate) fn delta_interval(value: f64, range: Range, variance: f64, clusters: 
             standard_error: moved.standard_error,
             clusters,
             scale,
+            by: ClusteredBy::default(),
         },
         Err(reason) => Interval::Undefined(reason),
     }

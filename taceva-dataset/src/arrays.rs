@@ -1,0 +1,206 @@
+//! Frames as arrays of `ndarray`.
+
+use ndarray::{Array3, Array4};
+use taceva_core::{Frame, FrameInfo};
+
+use crate::dataset::{Dataset, Pass};
+use crate::error::DatasetError;
+
+/// The pixels of one frame.
+///
+/// # Shapes
+/// Height × width × channels, in standard (row-major) layout; one channel for gray, three for red, green and blue.
+/// # Units
+/// Steps of the camera: 0 to 255, or 0 to 65,535.
+///
+/// ```
+/// use taceva_core::{Frame, FrameInfo, PixelFormat};
+/// use taceva_dataset::FrameArray;
+/// let info = FrameInfo { width: 2, height: 1, format: PixelFormat::Rgb8 };
+/// let FrameArray::U8(pixels) = FrameArray::from(Frame::new(info, vec![1, 2, 3, 4, 5, 6])?) else {
+///     return Err("8 bits".into());
+/// };
+/// assert_eq!((pixels.dim(), pixels[[0, 1, 2]]), ((1, 2, 3), 6));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum FrameArray {
+    /// Of a format with 8 bits a number.
+    U8(Array3<u8>),
+    /// Of a format with 16 bits a number.
+    U16(Array3<u16>),
+}
+
+/// The pixels of several frames of one size.
+///
+/// # Shapes
+/// Frames × height × width × channels, in standard (row-major) layout; one channel for gray, three for red, green and blue.
+/// # Units
+/// Steps of the camera: 0 to 255, or 0 to 65,535.
+///
+/// ```
+/// use taceva_core::{Frame, FrameInfo, PixelFormat};
+/// use taceva_dataset::FrameArrays;
+/// let info = FrameInfo { width: 1, height: 1, format: PixelFormat::Gray16 };
+/// let frames = [Frame::new(info, vec![0x34, 0x12])?, Frame::new(info, vec![1, 0])?];
+/// let FrameArrays::U16(pixels) = FrameArrays::of_frames(info, &frames).ok_or("of one size")? else {
+///     return Err("16 bits".into());
+/// };
+/// assert_eq!((pixels.dim(), pixels[[0, 0, 0, 0]]), ((2, 1, 1, 1), 0x1234));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum FrameArrays {
+    /// Of a format with 8 bits a number.
+    U8(Array4<u8>),
+    /// Of a format with 16 bits a number.
+    U16(Array4<u16>),
+}
+
+/// 8-bit pixels are taken over without a copy; 16-bit ones are brought to the byte order of the machine.
+impl From<Frame> for FrameArray {
+    fn from(frame: Frame) -> FrameArray {
+        let shape = shape(frame.info());
+        // A frame has exactly as many numbers as its shape, which its constructor checks.
+        match frame.info().format.bytes_per_sample() {
+            1 => FrameArray::U8(of_len(shape, frame.into_bytes())),
+            _ => FrameArray::U16(of_len(shape, frame.samples().collect())),
+        }
+    }
+}
+
+impl FrameArrays {
+    /// `frames` of `info` in one array, each copied once; `None` if one of them has another size or format.
+    ///
+    /// ```
+    /// use taceva_core::{FrameInfo, PixelFormat};
+    /// use taceva_dataset::FrameArrays;
+    /// let info = FrameInfo { width: 4, height: 3, format: PixelFormat::Gray8 };
+    /// assert!(matches!(FrameArrays::of_frames(info, &[]), Some(FrameArrays::U8(none)) if none.dim() == (0, 3, 4, 1)));
+    /// ```
+    pub fn of_frames<'a>(
+        info: FrameInfo,
+        frames: impl IntoIterator<Item = &'a Frame>,
+    ) -> Option<FrameArrays> {
+        let mut pixels = Pixels::new(info);
+        let fit = frames.into_iter().all(|frame| pixels.push(frame));
+        fit.then(|| pixels.finish())
+    }
+}
+
+impl Dataset {
+    /// The frame of a row as an array, verified and decoded; `None` if the row has none.
+    ///
+    /// # Errors
+    /// As [`frame`](Dataset::frame).
+    ///
+    /// ```
+    /// use taceva_dataset::{Dataset, FrameArray};
+    ///
+    /// fn brightest(dataset: &Dataset) -> Result<Option<u16>, taceva_dataset::DatasetError> {
+    ///     Ok(dataset.frame_array(0)?.and_then(|frame| match frame {
+    ///         FrameArray::U8(pixels) => pixels.iter().copied().max().map(u16::from),
+    ///         FrameArray::U16(pixels) => pixels.iter().copied().max(),
+    ///         _ => None,
+    ///     }))
+    /// }
+    /// # let _ = brightest;
+    /// ```
+    pub fn frame_array(&self, row: usize) -> Result<Option<FrameArray>, DatasetError> {
+        Ok(self.frame(row)?.map(FrameArray::from))
+    }
+
+    /// The frames of the rows of `pass` as one array, in that order, verified and decoded on its threads. All of them are in memory at once: ask for
+    /// as many as there is room for.
+    ///
+    /// # Errors
+    /// As [`map_frames`](Dataset::map_frames), for the first row without a frame too; [`DatasetError::Request`] if the dataset has no frames at
+    /// all.
+    ///
+    /// ```
+    /// use std::num::NonZeroUsize;
+    /// use taceva_core::Silent;
+    /// use taceva_dataset::{Dataset, FrameArrays, Pass};
+    ///
+    /// fn first_eight(dataset: &Dataset) -> Result<FrameArrays, taceva_dataset::DatasetError> {
+    ///     let rows: Vec<usize> = (0..8).collect();
+    ///     dataset.frame_arrays(Pass { rows: &rows, jobs: NonZeroUsize::MIN, progress: &Silent })
+    /// }
+    /// # let _ = first_eight;
+    /// ```
+    pub fn frame_arrays(&self, pass: Pass<'_>) -> Result<FrameArrays, DatasetError> {
+        let Some(frames) = &self.header().frames else {
+            return Err(DatasetError::Request {
+                path: self.path().to_owned(),
+                problem: "no frames that could be decoded".to_owned(),
+            });
+        };
+        let mut pixels = Pixels::new(frames.info);
+        self.map_frames(
+            pass,
+            |_, frame| frame,
+            |_, frame| match pixels.push(&frame) {
+                true => Ok(()),
+                // Reading has compared both already.
+                false => Err(format!("a frame of {}", frame.info()).into()),
+            },
+        )?;
+        Ok(pixels.finish())
+    }
+}
+
+/// Height, width and channels.
+fn shape(info: FrameInfo) -> [usize; 3] {
+    // A frame of that size is in memory.
+    let [height, width] = [info.height, info.width].map(|side| side as usize);
+    [height, width, info.format.samples()]
+}
+
+/// `values` as they lie.
+fn of_len<T: Clone + Default>(shape: [usize; 3], values: Vec<T>) -> Array3<T> {
+    Array3::from_shape_vec(shape, values).unwrap_or_default()
+}
+
+/// The numbers of frames of one size, one frame behind the other.
+struct Pixels {
+    info: FrameInfo,
+    frames: usize,
+    bytes: Vec<u8>,
+    words: Vec<u16>,
+}
+
+impl Pixels {
+    fn new(info: FrameInfo) -> Pixels {
+        Pixels {
+            info,
+            frames: 0,
+            bytes: Vec::new(),
+            words: Vec::new(),
+        }
+    }
+
+    /// Whether `frame` was of that size, and is kept.
+    fn push(&mut self, frame: &Frame) -> bool {
+        if frame.info() != self.info {
+            return false;
+        }
+        self.frames += 1;
+        match self.info.format.bytes_per_sample() {
+            1 => self.bytes.extend_from_slice(frame.bytes()),
+            _ => self.words.extend(frame.samples()),
+        }
+        true
+    }
+
+    fn finish(self) -> FrameArrays {
+        let [height, width, channels] = shape(self.info);
+        let shape = [self.frames, height, width, channels];
+        // As many numbers as frames of that size have.
+        match self.info.format.bytes_per_sample() {
+            1 => FrameArrays::U8(Array4::from_shape_vec(shape, self.bytes).unwrap_or_default()),
+            _ => FrameArrays::U16(Array4::from_shape_vec(shape, self.words).unwrap_or_default()),
+        }
+    }
+}

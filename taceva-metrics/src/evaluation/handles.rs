@@ -1,0 +1,45 @@
+//! Scores of a channel by method instead of by name.
+
+use std::borrow::Borrow;
+
+use taceva_core::Channel;
+
+use super::Evaluation;
+use crate::score::Score;
+
+/// A method a metric: its name, and what it says.
+macro_rules! handles {
+    ($($metric:ident: $says:literal),+ $(,)?) => {
+        /// Scores of one channel. `None` if the plan left the metric out ([`skipped`](Evaluation::skipped) says why) or has no such channel; a
+        /// score that the samples do not determine is there, with the reason as its value. Planes and all other metrics:
+        /// [`score`](Evaluation::score).
+        impl Evaluation {
+            $(
+                #[doc = concat!("The score `", stringify!($metric), "` of `channel`: ", $says, ".")]
+                ///
+                /// ```
+                /// use taceva_metrics::{Channel, Evaluator};
+                /// let mut evaluator = Evaluator::of_channels([Channel::FZ])?;
+                /// evaluator.update_pairs(Channel::FZ, &[0.5, 1.0, 2.0], &[0.5, 1.25, 1.75])?;
+                /// let scores = evaluator.finish()?;
+                #[doc = concat!("assert!(scores.", stringify!($metric), "(Channel::FZ).is_some_and(|score| score.value.scalar().is_some()));")]
+                /// # Ok::<(), Box<dyn std::error::Error>>(())
+                /// ```
+                pub fn $metric(&self, channel: impl Borrow<Channel>) -> Option<&Score> {
+                    self.score(stringify!($metric), channel.borrow().name())
+                }
+            )+
+        }
+    };
+}
+
+handles! {
+    mae: "the mean absolute error, in the unit of the channel",
+    rmse: "the root mean square error, in the unit of the channel",
+    bias: "the mean of truth − prediction, in the unit of the channel",
+    r2: "which share of the spread of the truth is explained, without unit",
+    skill: "which share of the squared error of the best constant answer is taken away, without unit",
+    smape: "the symmetric relative error as a fraction, without unit",
+    smape_gated: "the symmetric relative error of samples in contact, without unit",
+    tolerance: "which share of predictions is within 0.05 mm or 0.05 N",
+}

@@ -1,0 +1,147 @@
+//! What a program that embeds the crate relies on.
+
+use taceva_metrics::{
+    Channel, Channels, Evaluation, Evaluator, FieldSet, MetricPlan, Readings, Rows, Sample,
+    SampleSink, catalogue,
+};
+
+/// Predictions of 100 samples that all differ, and their truth.
+fn drawn() -> (Vec<f64>, Vec<f64>) {
+    let truth: Vec<f64> = (0..100).map(|row| f64::from(row) / 10.0).collect();
+    let error = |row: u32| f64::from(row * 37 % 101) / 1000.0;
+    let prediction = truth.iter().zip(0..).map(|(y, row)| y + error(row));
+    let prediction = prediction.collect();
+    (truth, prediction)
+}
+
+fn said(scores: &Evaluation) -> Vec<String> {
+    let scores = scores.scores();
+    scores
+        .map(|(metric, of, score)| format!("{} {of} {score:?}", metric.id))
+        .collect()
+}
+
+fn evaluator() -> Evaluator {
+    Evaluator::of_channels([Channel::FX, Channel::FZ]).expect("two channels")
+}
+
+#[test]
+fn a_running_score_is_that_of_the_samples_so_far_and_changes_nothing() {
+    let channels = Channels::new([Channel::FZ]).expect("one channel");
+    let plan = MetricPlan::new(&catalogue::ALL, channels, FieldSet::PAIRS);
+    let (truth, prediction) = drawn();
+    let mut asked = Evaluator::new(&plan);
+    for row in 0..truth.len() {
+        let sample = Sample {
+            point_id: Some(format!("{}", row / 10)),
+            truth: Readings::from_values([truth[row]]),
+            prediction: Some(Readings::from_values([prediction[row]])),
+            ..Sample::default()
+        };
+        asked.accept(&sample).expect("one channel");
+        if row == 59 {
+            let rows = Rows::new().pairs(Channel::FZ, &truth[..60], &prediction[..60]);
+            let mut alone = Evaluator::new(&plan);
+            let points = (0..60).map(|row| format!("{}", row / 10));
+            alone.update_rows(rows.points(points)).expect("60 rows");
+            let running = asked.score().expect("a score");
+            assert_eq!(said(&running), said(&alone.finish().expect("a score")));
+        }
+    }
+    let running = said(&asked.score().expect("a score"));
+    assert_eq!(running, said(&asked.finish().expect("a score")));
+}
+
+#[test]
+fn samples_taken_as_independent_give_the_same_in_any_order_and_split() {
+    let (truth, prediction) = drawn();
+    let mut whole = evaluator().independent_samples();
+    whole
+        .update_pairs(Channel::FZ, &truth, &prediction)
+        .expect("as many");
+    let mut back = evaluator().independent_samples();
+    let mut front = evaluator().independent_samples();
+    front
+        .update_pairs(Channel::FZ, &truth[..30], &prediction[..30])
+        .expect("as many");
+    let (truth, prediction) = (truth[30..].iter().rev(), prediction[30..].iter().rev());
+    back.update_pairs(Channel::FZ, truth, prediction)
+        .expect("as many");
+    back.merge(front).expect("one plan");
+    let [whole, parts] = [whole, back].map(|evaluator| evaluator.finish().expect("a score"));
+    assert_eq!(said(&whole), said(&parts));
+    let method = whole
+        .mae(Channel::FZ)
+        .and_then(|mae| mae.interval.method())
+        .expect("an interval");
+    let expected = "jackknife, samples taken as independent, G=";
+    assert!(method.starts_with(expected), "{method}");
+}
+
+#[test]
+fn samples_taken_as_independent_merge_with_no_others() {
+    let mut by_sample = evaluator().independent_samples();
+    let by_point = evaluator();
+    assert!(by_sample.merge(by_point).is_err());
+}
+
+#[test]
+fn the_mean_of_independent_samples_has_the_textbook_interval() {
+    // Errors −1, −2, −3, −4, −5: bias −3, standard error √(2.5 / 5).
+    let mut evaluator = evaluator().independent_samples();
+    evaluator
+        .update_pairs(Channel::FZ, [0.0; 5], (1..=5_u8).map(f64::from))
+        .expect("as many");
+    let scores = evaluator.finish().expect("a score");
+    let bias = scores.bias(Channel::FZ).expect("it is kept");
+    let [low, high] = bias.interval.ends().expect("five samples");
+    let half = 2.776_445_105 * 0.5_f64.sqrt();
+    assert!((low + 3.0 + half).abs() < 1e-8 && (high + 3.0 - half).abs() < 1e-8);
+}
+
+#[test]
+fn rows_that_do_not_fit_are_refused_and_nothing_is_taken_in() {
+    let mut evaluator = evaluator();
+    let refused = [
+        Rows::new().pairs(Channel::FZ, [0.0, 1.0], [0.0]),
+        Rows::new()
+            .pairs(Channel::FX, [0.0], [0.0])
+            .pairs(Channel::FZ, [0.0, 1.0], [0.0, 1.0]),
+        Rows::new()
+            .pairs(Channel::FZ, [0.0], [0.0])
+            .points(["a", "b"]),
+        Rows::new().pairs(Channel::PX, [0.0], [0.0]),
+        Rows::new()
+            .pairs(Channel::FZ, [0.0], [0.0])
+            .pairs(Channel::FZ, [0.0], [0.0]),
+    ];
+    let errors = refused.map(|rows| {
+        let error = evaluator.update_rows(rows);
+        error.expect_err("it does not fit").to_string()
+    });
+    assert_eq!(
+        errors,
+        [
+            "1 estimates beside 2 references, expected as many",
+            "2 rows of `Fz`, expected 1 as of the first channel",
+            "2 rows of contact locations, expected 1 as of the first channel",
+            "channels Px [mm], expected Fx [N], Fz [N]",
+            "channels Fz [N] twice, expected Fx [N], Fz [N]",
+        ]
+    );
+    let scores = evaluator.finish().expect("a score");
+    assert_eq!(scores.mae(Channel::FZ).map(|mae| mae.n), Some(0));
+}
+
+#[test]
+fn a_value_that_is_no_number_is_counted_and_an_absent_one_is_not_there() {
+    let mut evaluator = evaluator();
+    let truth = [Some(1.0), Some(f64::NAN), None];
+    evaluator
+        .update_pairs(Channel::FZ, truth, [1.0_f32; 3])
+        .expect("as many");
+    let scores = evaluator.finish().expect("a score");
+    let counted = |channel| scores.mae(channel).map(|mae| (mae.n, mae.n_invalid));
+    assert_eq!(counted(Channel::FZ), Some((1, 1)));
+    assert_eq!(counted(Channel::FX), Some((0, 0)));
+}

@@ -1,0 +1,162 @@
+//! Models on arrays of `ndarray`.
+
+use std::borrow::Cow;
+
+use ndarray::{Array2, ArrayView2, CowArray, Ix2};
+use taceva_core::{
+    Channels, ErrorKind, FeatureShape, Features, ModelError, Progress, Regressor, Targets,
+    TrainingSet,
+};
+
+use crate::fit::{ModelEstimator, ModelFit};
+
+/// A matrix of features, a sample a row, as models take it. An owned matrix of `f32` in standard layout is taken over without a copy; a view, or
+/// another layout, is copied once.
+///
+/// # Shapes
+/// `matrix`: samples × features; each sample is a flat list.
+/// # Errors
+/// [`ModelError`] if there are samples of no feature.
+///
+/// ```
+/// use ndarray::array;
+/// use taceva_models::features_of;
+/// let matrix = array![[1.0_f32, 2.0], [3.0, 4.0]];
+/// assert_eq!(features_of(matrix.t())?.values(), [1.0, 3.0, 2.0, 4.0]);
+/// assert_eq!(features_of(matrix)?.samples(), 2);
+/// # Ok::<(), taceva_core::ModelError>(())
+/// ```
+pub fn features_of<'a>(matrix: impl Into<CowArray<'a, f32, Ix2>>) -> Result<Features, ModelError> {
+    let matrix = matrix.into();
+    let (samples, features) = matrix.dim();
+    if features == 0 && samples > 0 {
+        return Err(invalid(format!("{samples} samples of no feature")));
+    }
+    let whole = matrix.is_standard_layout();
+    let values = if whole && matrix.is_owned() {
+        let (mut values, offset) = matrix.into_owned().into_raw_vec_and_offset();
+        let start = offset.unwrap_or_default();
+        values.truncate(start + samples * features);
+        values.drain(..start);
+        values
+    } else {
+        matrix.iter().copied().collect()
+    };
+    Features::new(FeatureShape::flat(features), values)
+}
+
+/// Fitting on arrays, for every estimator.
+pub trait EstimatorArrays {
+    /// Learns to predict `targets` from `features`; both have a row a sample. Settings that are left open are chosen on the training samples.
+    ///
+    /// # Shapes
+    /// `features`: samples × features, copied once; `targets`: samples × channels, in the order of `channels`, copied only if it is not in
+    /// standard layout.
+    /// # Units
+    /// Targets are in the unit of their channel: mm for positions, N for forces.
+    /// # Errors
+    /// [`ModelError`] if the shapes do not fit each other, nothing can be learnt from them, or `progress` was cancelled.
+    ///
+    /// ```
+    /// use ndarray::Array2;
+    /// use taceva_core::{Channel, Channels, Silent};
+    /// use taceva_models::{EstimatorArrays, RegressorArrays, Settings, find};
+    /// let features = Array2::from_shape_fn((40, 3), |(row, column)| ((row * (column + 2)) % 7) as f32);
+    /// let forces = features.map(|value| f64::from(*value)).sum_axis(ndarray::Axis(1)).insert_axis(ndarray::Axis(1));
+    /// let channels = Channels::new([Channel::FZ])?;
+    /// let settings = Settings::parse(["refit=false"])?;
+    /// let fit = find("ridge")?.estimator(&settings)?.fit_arrays(features.view(), forces.view(), &channels, &Silent)?;
+    /// let predicted = fit.regressor.predict_array(features.view())?;
+    /// assert_eq!(predicted.dim(), (40, 1));
+    /// assert!((&predicted - &forces).iter().all(|error| error.abs() < 0.1));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    fn fit_arrays(
+        &self,
+        features: ArrayView2<'_, f32>,
+        targets: ArrayView2<'_, f64>,
+        channels: &Channels,
+        progress: &dyn Progress,
+    ) -> Result<ModelFit, ModelError>;
+}
+
+impl<E: ModelEstimator + ?Sized> EstimatorArrays for E {
+    fn fit_arrays(
+        &self,
+        features: ArrayView2<'_, f32>,
+        targets: ArrayView2<'_, f64>,
+        channels: &Channels,
+        progress: &dyn Progress,
+    ) -> Result<ModelFit, ModelError> {
+        let expected = (features.nrows(), channels.len());
+        if targets.dim() != expected {
+            let (rows, columns) = targets.dim();
+            return Err(invalid(format!(
+                "targets of {rows} samples and {columns} channels, expected {} and {}",
+                expected.0, expected.1
+            )));
+        }
+        let features = features_of(features)?;
+        let values = match targets.to_slice() {
+            Some(values) => Cow::Borrowed(values),
+            None => Cow::Owned(targets.iter().copied().collect()),
+        };
+        let training = TrainingSet {
+            features: &features,
+            targets: Targets {
+                channels,
+                values: &values,
+            },
+            groups: None,
+        };
+        self.fit_model(&training, None, progress)
+    }
+}
+
+/// Prediction of arrays, for every fitted model.
+pub trait RegressorArrays {
+    /// Predicts every sample of `features`.
+    ///
+    /// # Shapes
+    /// `features`: samples × features, copied once; the result: samples × channels, in the order of the model's channels.
+    /// # Units
+    /// Those of the channels: mm for positions, N for forces.
+    /// # Errors
+    /// [`ModelError`] if the samples are of another length than those that the model was fitted on, or a prediction is not finite.
+    ///
+    /// ```
+    /// use ndarray::{Array2, array};
+    /// use taceva_core::{Channel, Channels, Silent};
+    /// use taceva_models::{EstimatorArrays, RegressorArrays, Settings, find};
+    /// let channels = Channels::new([Channel::FZ])?;
+    /// let estimator = find("baseline")?.estimator(&Settings::default())?;
+    /// let features = Array2::<f32>::zeros((2, 1));
+    /// let fit = estimator.fit_arrays(features.view(), array![[1.0], [3.0]].view(), &channels, &Silent)?;
+    /// assert_eq!(fit.regressor.predict_array(features.view())?, array![[2.0], [2.0]]);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    fn predict_array(&self, features: ArrayView2<'_, f32>) -> Result<Array2<f64>, ModelError>;
+}
+
+impl<R: Regressor + ?Sized> RegressorArrays for R {
+    fn predict_array(&self, features: ArrayView2<'_, f32>) -> Result<Array2<f64>, ModelError> {
+        let (rows, found) = features.dim();
+        let shape = self.shape();
+        if found != shape.len() {
+            let expected = shape.len();
+            return Err(invalid(format!(
+                "samples of {found} features, expected {expected}"
+            )));
+        }
+        let features = Features::new(shape, features.iter().copied().collect())?;
+        let mut predicted = Array2::zeros((rows, self.channels().len()));
+        if let Some(into) = predicted.as_slice_mut() {
+            self.predict(&features, into)?;
+        }
+        Ok(predicted)
+    }
+}
+
+fn invalid(message: String) -> ModelError {
+    ModelError::new(ErrorKind::InvalidArgument, message)
+}
