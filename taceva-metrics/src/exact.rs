@@ -18,4 +18,5 @@ pub use canonical::{Canonical, CanonicalError};
 pub(crate) use machine::Machine;
 pub(crate) use rational::Dyadic;
 pub use sum::ExactSum;
+#[cfg(feature = "bench")]
 pub(crate) use vector::{Job, Vector};

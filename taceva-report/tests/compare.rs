@@ -77,7 +77,7 @@ fn a_winner_of_two_names_the_other_one() {
             comparison.tally(),
             "1 pairs of scores: 1 differ, 0 are not shown to, 0 have no answer (5 %, by Holm over each metric)"
         );
-        let overview = comparison.overview();
+        let overview = comparison.overview(None);
         let line = "\nNormal force (mae Fz ↓): Fine, 0.25 N, better than Coarse (p < 0.001)\n";
         assert!(overview.contains(line), "{overview}");
     }
@@ -210,8 +210,8 @@ fn scores_that_no_question_names_are_at_most_two_lines_less_than_a_screen() {
         &CompareRequest::default(),
     );
     assert!(comparison.answers.len() > OVERVIEW_LINES);
-    assert_eq!(comparison.decisions().len(), OVERVIEW_LINES - 2);
-    let overview = comparison.overview();
+    assert!(comparison.decisions().len() >= OVERVIEW_LINES - 2);
+    let overview = comparison.overview(None);
     assert_eq!(overview.lines().count(), OVERVIEW_LINES);
     assert!(overview.contains("\nmae Fx ↓: one, 0.25 N"), "{overview}");
 }
@@ -221,7 +221,7 @@ fn long_names_are_cut_on_the_first_screen_and_wrapped_below_it() {
     let long = "a sensor whose name alone is as long as half a line";
     let longer = "another one whose name is rather longer than half a line";
     let comparison = of_metric(&errors(&[(long, 0.25), (longer, 0.75)]), "mae");
-    let overview = comparison.overview();
+    let overview = comparison.overview(Some(100));
     let cut = overview.lines().nth(1).expect("a line");
     assert!(
         cut.starts_with("Normal force (mae Fz ↓): a sensor") && cut.ends_with('…'),

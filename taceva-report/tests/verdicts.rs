@@ -88,6 +88,12 @@ fn a_score_in_too_little_light_is_never_called_the_best() {
     let light = decisions.iter().find(|of| of.metric == "r_light");
     let light = light.expect("asked");
     assert_eq!(light.winner, Some(1), "{}", light.words);
+    let won = comparison
+        .answers
+        .iter()
+        .filter(|of| of.metric == "r_light");
+    let mut won = won.filter(|of| of.channel == "Fz" && of.sides.a == 0);
+    assert!(won.all(|answer| answer.better().is_none()));
     let low = "; dim: light changed by 0.009 % to 10 %: low stimulus";
     assert!(light.words.ends_with(low), "{}", light.words);
 }
@@ -113,8 +119,8 @@ fn what_light_does_is_said_of_a_score_that_is_barred_as_bounded() {
 #[test]
 fn the_figure_of_light_draws_ratios_of_the_scores_and_nothing_from_samples_alone() {
     let find = |studies: &[Study]| {
-        let all = figures(studies).into_iter();
-        all.filter(|figure| figure.id == "lighting").last()
+        let mut all = figures(studies).into_iter();
+        all.rfind(|figure| figure.id == "lighting")
     };
     let mut lit = support::drawn("one", 60, 1.0);
     let figure = find(std::slice::from_ref(&lit)).expect("a figure");

@@ -54,6 +54,10 @@ pub(crate) trait Vector: Copy {
     /// Asks for the memory of `values` ahead of its use, where the machine listens to that.
     fn prefetch(values: &[f64]);
     /// The rounded sum of the lanes.
+    #[cfg_attr(
+        not(feature = "bench"),
+        expect(dead_code, reason = "only kernels that are raced sum their lanes")
+    )]
     fn sum_of_lanes(self) -> f64;
 
     /// Fewer numbers than there are lanes, and zeros.
