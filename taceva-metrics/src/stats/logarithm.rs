@@ -1,7 +1,6 @@
 //! ln x, of + − × ÷ alone: a platform's own logarithm would not give the same bytes on every machine.
 
-/// ln 2 in two parts, the first of which has so few digits that a whole multiple of it is exact.
-const LN_2: [f64; 2] = [6.931_471_803_691_238e-1, 1.908_214_929_270_587_7e-10];
+use super::exponential::LN_2;
 
 /// ln x, to a few roundings; minus infinity at 0, and no number below.
 pub(super) fn logarithm(x: f64) -> f64 {
