@@ -2,7 +2,7 @@
 
 use taceva_core::{Footprint, Nanometre};
 
-use crate::digest::fnv_1a;
+use crate::content_id::fnv_1a;
 
 /// A source of numbers for one purpose.
 #[derive(Clone, Copy, Debug)]
