@@ -11,7 +11,7 @@ use super::models::{Raced, TrialError, unfitted};
 use super::paired::{absolute_errors, difference};
 use crate::error::StudyError;
 use crate::fit::FitRequest;
-use crate::rows::{Divided, Part};
+use crate::rows::{DataPart, Divided};
 use crate::work::Work;
 
 /// Frames that are decoded one by one.
@@ -104,8 +104,8 @@ pub fn decode(
     work.progress.end();
     Ok(DecodeTrials {
         split: format!("{}, seed {}", divided.spec, divided.seed),
-        train: divided.rows(Part::Train).len(),
-        test: divided.rows(Part::Test).len(),
+        train: divided.rows(DataPart::Train).len(),
+        test: divided.rows(DataPart::Test).len(),
         rows,
     })
 }

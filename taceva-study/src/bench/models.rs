@@ -15,7 +15,7 @@ use crate::error::StudyError;
 use crate::evaluate::{EvaluateRequest, ModelChoice, score};
 use crate::fit::{FitRequest, fit};
 use crate::predict::{self, Predicted, Target, extractor};
-use crate::rows::{Divided, Part};
+use crate::rows::{DataPart, Divided};
 use crate::work::Work;
 
 /// The error that models are compared by.
@@ -144,8 +144,8 @@ pub fn models(
     front::mark(&mut raced);
     Ok(ModelTrials {
         split: format!("{}, seed {}", divided.spec, divided.seed),
-        train: divided.rows(Part::Train).len(),
-        test: divided.rows(Part::Test).len(),
+        train: divided.rows(DataPart::Train).len(),
+        test: divided.rows(DataPart::Test).len(),
         rows: raced.into_iter().map(|(row, _)| row).collect(),
     })
 }
