@@ -102,7 +102,7 @@ fn textured(number: u8, format: PixelFormat) -> Frame {
         height: 30,
         format,
     };
-    let (mut texture, mut noise) = (Random(5), Random(u64::from(number)));
+    let (mut texture, mut noise) = (Random::new(5), Random::new(u64::from(number)));
     let length = info.byte_len().expect("small");
     let bytes = (0..length).map(|at| {
         let still = texture.below(200).to_le_bytes()[0];
@@ -425,7 +425,7 @@ fn mutated_journals_are_refused_or_lose_only_a_tail() {
     let table = recorder.table().clone();
     drop(recorder);
     let journal = fs::read(path.join("journal")).expect("read");
-    let mut random = Random(5);
+    let mut random = Random::new(5);
     for _ in 0..2_000 {
         fs::write(path.join("journal"), random.mutated(&journal)).expect("written");
         if let Ok(recorder) = Recorder::resume(&path) {
@@ -459,7 +459,7 @@ fn nothing_acknowledged_is_lost_when_the_recorder_is_killed() {
         skip(Need::Example, why);
         return;
     };
-    let mut random = Random(6);
+    let mut random = Random::new(6);
     for _ in 0..6 {
         let folder = tempfile::tempdir().expect("a folder");
         let path = folder.path().join("set");

@@ -1,6 +1,6 @@
 //! Runs a plan on borrowed devices: safely, resumably, and without a clock or a file of its own.
 //!
-//! A press is an approach, a search for contact, its stations and a retreat. In contact the tip moves in segments of 15 ms; after each,
+//! A press is an approach, a search for contact, its waypoints and a retreat. In contact the tip moves in segments of 15 ms; after each,
 //! force and pose are read and shown to the [`Supervisor`]. A limit of the gel ends the way in and the run goes on; anything else stops it,
 //! the tip leaves the gel if its signals can be trusted, and the same call resumes the run.
 
@@ -14,7 +14,7 @@ mod log;
 mod retreat;
 #[cfg(test)]
 mod rig;
-mod station;
+mod sample;
 mod supervisor;
 mod time;
 mod tip;
@@ -24,7 +24,7 @@ pub use devices::{Devices, SpecimenChanger};
 pub use error::{Left, RunError, StopCause};
 pub use event::Event;
 pub use log::{PressLog, PressRecord};
-pub use supervisor::{Observation, Stage, Supervisor};
+pub use supervisor::{MotionStage, Observation, Supervisor};
 pub use time::{Cancel, Timekeeper};
 pub use trip::Trip;
 
@@ -33,12 +33,12 @@ pub(crate) use supervisor::STALE_S;
 
 use taceva_core::{Degree, Lighting, Millimetre, Nanometre, PressOutcome, Sensor, Specimen};
 
-use crate::digest::Digest;
+use crate::content_id::ContentId;
 use crate::plan::{Plan, PlannedPress};
 use crate::press::Motion;
 use align::Look;
 use bounds::Bounds;
-use station::{Camera, Gathered, Spot};
+use sample::{Camera, Gathered, Spot};
 use tip::{DEADLINE, Pace, Step, Tip};
 
 /// What is run.
@@ -240,7 +240,7 @@ impl<'a> Run<'a> {
     }
 
     /// The error that ends the run, after the tip was brought to where it can be left.
-    fn abandoned(&mut self, press: Option<Digest>, cause: StopCause) -> RunError {
+    fn abandoned(&mut self, press: Option<ContentId>, cause: StopCause) -> RunError {
         if let StopCause::Tripped(trip) = cause {
             (self.events)(&Event::Halted(trip));
         }
@@ -333,8 +333,8 @@ impl<'a> Run<'a> {
         let place = press.place.map(Nanometre::to_millimetres);
         let turn = Degree(f64::from(press.turn_millidegrees) / 1e3);
         self.tip.travel(place, turn, height)?;
-        for station in press.stations() {
-            let target = Tip::station(press.place, station.shear, height, station.depth);
+        for waypoint in press.waypoints() {
+            let target = Tip::waypoint(press.place, waypoint.shear, height, waypoint.depth);
             self.tip.approach(target)?;
         }
         (self.events)(&Event::Rehearsed(planned.id));
@@ -377,8 +377,8 @@ impl<'a> Run<'a> {
         gathered: &mut Gathered,
     ) -> Step<()> {
         let camera = self.camera.as_mut().filter(|_| planned.frames);
-        let observed = station::observe(before, &mut self.tip, camera, self.events)?;
-        let sample = station::sample(planned, spot, observed, &self.plan.channels);
+        let observed = sample::observe(before, &mut self.tip, camera, self.events)?;
+        let sample = sample::sample(planned, spot, observed, &self.plan.channels);
         gathered.samples.push(sample);
         (self.events)(&Event::Sampled {
             number: gathered.samples.len() - 1,
@@ -439,7 +439,7 @@ mod tests {
     struct Nowhere;
 
     impl PressLog for Nowhere {
-        fn is_finished(&self, _: Digest) -> bool {
+        fn is_finished(&self, _: ContentId) -> bool {
             false
         }
         fn append(&mut self, _: &PressRecord) -> Result<(), SinkError> {

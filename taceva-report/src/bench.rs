@@ -13,7 +13,12 @@ impl ModelBench {
         let lower = |name: String| Column::new(name).direction(Direction::Is(Better::Lower));
         let channels = self.channels();
         let mut columns = vec![Column::new("model")];
-        for (name, unit) in [("fit", "s"), ("predict", "s"), ("a frame", "ms")] {
+        for (name, unit) in [
+            ("fit", "s"),
+            ("fit", "processor s"),
+            ("predict", "s"),
+            ("a frame", "ms"),
+        ] {
             columns.push(lower(name.to_owned()).unit(unit));
         }
         columns.extend(channels.iter().map(|channel| {
@@ -24,6 +29,7 @@ impl ModelBench {
             }
         }));
         let recording = &self.recording;
+        columns.push(Column::new("front of"));
         let caption = format!("Models on {}, {}", recording.name, recording.sensor);
         let mut table = Table::new(caption, columns);
         for row in &self.rows {
@@ -39,6 +45,9 @@ impl ModelBench {
             "Fitted on {} samples, scored on {}, split {}; {}, {} of {} cores. Intervals of 95 % by contact point.",
             recording.train, recording.test, recording.split, self.machine.cpu, self.machine.threads, self.machine.cores
         ));
+        table.note(
+            "front of: channels on which no model takes less processor time to fit without being shown, pair by pair, to be further off.",
+        );
         let rows = self.rows.iter();
         for (model, why) in rows.filter_map(|row| Some((&row.model, row.failed.as_ref()?))) {
             table.note(format!("{model}: {why}"));
@@ -49,11 +58,16 @@ impl ModelBench {
 
 impl ModelRow {
     fn cells(&self, channels: &[&str]) -> Vec<String> {
-        let times = [self.fit_s, self.predict_s, self.latency_s * 1e3];
+        let times = [
+            Some(self.fit_s),
+            self.fit_cpu_s,
+            Some(self.predict_s),
+            Some(self.latency_s * 1e3),
+        ];
         // A model that failed took no time that means anything.
-        let time = |time: f64| match self.failed {
-            Some(_) => "–".to_owned(),
-            None => numeral(time),
+        let time = |time: Option<f64>| match (time, &self.failed) {
+            (Some(time), None) => numeral(time),
+            (None, _) | (_, Some(_)) => "–".to_owned(),
         };
         let name = format!("{} {}", self.model, self.settings);
         let mut cells = vec![name.trim_end().to_owned()];
@@ -63,6 +77,8 @@ impl ModelRow {
             Some(error) => Printed::number(error.mae, error.ci95).phrase(""),
         };
         cells.extend(channels.iter().map(error));
+        let front = self.front_of().filter(|front| !front.is_empty());
+        cells.push(front.map_or_else(|| "–".to_owned(), |front| front.join(" ")));
         cells
     }
 }

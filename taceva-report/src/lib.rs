@@ -15,6 +15,7 @@ mod number;
 mod results;
 mod samples;
 mod scores;
+mod short_digests;
 mod spread;
 mod table;
 mod tie;
@@ -44,6 +45,7 @@ pub use results::{
 };
 pub use samples::{SampleChannel, Samples, SamplesError};
 pub use scores::{ScoreCell, ScoreRow, ScoreTable};
+pub use short_digests::short_digests;
 pub use table::{
     Align, Cell, Column, Direction, Estimate, Layout, Row, Table, Words, latex_number, latex_symbol,
 };

@@ -14,7 +14,9 @@ use taceva_models::{
 use crate::error::StudyError;
 use crate::features::{blank, extract, extractor};
 use crate::plan::Plan;
-use crate::rows::{Divided, Need, Part, chosen_channels, require_samples, seen_channels, usable};
+use crate::rows::{
+    DataPart, Divided, Need, chosen_channels, require_samples, seen_channels, usable,
+};
 use crate::work::Work;
 
 /// What to fit.
@@ -168,7 +170,10 @@ impl<'a> FitPlan<'a> {
             frame: model_reads,
             labels: Some(&channels),
         };
-        let whole = [divided.rows(Part::Train), divided.rows(Part::Validation)];
+        let whole = [
+            divided.rows(DataPart::Train),
+            divided.rows(DataPart::Validation),
+        ];
         let [train, validation] = [&whole[0], &whole[1]].map(|rows| usable(dataset, rows, need()));
         let left_out = whole[0].len() + whole[1].len() - train.len() - validation.len();
         Ok(FitPlan {
@@ -232,7 +237,7 @@ impl<'a> FitPlan<'a> {
     }
 
     /// From now on puts a long training aside, and goes on from what is found there.
-    pub(crate) fn put_aside(&mut self, checkpoints: Checkpoints) {
+    pub(crate) fn keep_checkpoints(&mut self, checkpoints: Checkpoints) {
         self.estimator.put_aside(checkpoints);
     }
 
@@ -372,7 +377,7 @@ impl<'a> FitPlan<'a> {
 
 /// Fits a model on the training part of `dataset`.
 ///
-/// A long training is put aside in `checkpoints` and goes on from there; models that are fitted in one go put nothing aside.
+/// A long training keeps a checkpoint in `checkpoints` and resumes from it; models that are fitted in one go have none.
 ///
 /// # Errors
 /// [`StudyError`] if the request cannot be meant, the dataset cannot be read, or nothing can be learnt from it.
@@ -384,7 +389,7 @@ pub fn fit(
 ) -> Result<Fitted, StudyError> {
     let mut plan = FitPlan::new(dataset, request)?;
     if let Some(checkpoints) = checkpoints {
-        plan.put_aside(checkpoints);
+        plan.keep_checkpoints(checkpoints);
     }
     plan.run(work)
 }

@@ -10,13 +10,13 @@ use taceva_models::Model;
 use crate::bounded::Bounded;
 use crate::error::StudyError;
 use crate::features::{blank, extract};
-use crate::rows::{Divided, Need, Part, require_samples, usable};
+use crate::rows::{DataPart, Divided, Need, require_samples, usable};
 use crate::work::Work;
 
 /// Predictions of some rows of a dataset, beside what is true of them.
 #[derive(Debug)]
 pub struct Predicted {
-    part: Part,
+    part: DataPart,
     channels: Channels,
     ids: Vec<String>,
     points: Option<Vec<String>>,
@@ -65,8 +65,9 @@ impl Predicted {
             .collect();
         (!shares.is_empty()).then(|| {
             format!(
-                "predictions that lie beyond the bounds of the model, a quarter of the range of labels on either side: {}; robustness is of \
-                 predictions as they are, every other score of those brought back",
+                "of the predictions of all samples together, these shares lie beyond the bounds of the model, a quarter of the range of labels \
+                 on either side: {}; a score marked `bounded` gives the share among its own samples; robustness is of predictions as \
+                 they are, every other score of those brought back",
                 shares.join(", ")
             )
         })
@@ -179,7 +180,7 @@ impl Predicted {
 pub fn predict(
     dataset: &Dataset,
     model: &Model,
-    part: Option<Part>,
+    part: Option<DataPart>,
     work: Work<'_>,
 ) -> Result<Predicted, StudyError> {
     let target = Target::new(dataset, model, part)?;
@@ -188,7 +189,7 @@ pub fn predict(
 
 /// The rows that are predicted, and how that was decided.
 pub(crate) struct Target {
-    pub(crate) part: Part,
+    pub(crate) part: DataPart,
     pub(crate) rows: Vec<usize>,
     pub(crate) divided: Option<Divided>,
     pub(crate) left_out: usize,
@@ -199,7 +200,7 @@ impl Target {
     pub(crate) fn new(
         dataset: &Dataset,
         model: &Model,
-        part: Option<Part>,
+        part: Option<DataPart>,
     ) -> Result<Target, StudyError> {
         require_samples(dataset)?;
         let divided = Divided::by_model(dataset, model)?;
@@ -209,20 +210,20 @@ impl Target {
     pub(crate) fn of(
         dataset: &Dataset,
         divided: Option<Divided>,
-        part: Option<Part>,
+        part: Option<DataPart>,
         reads_frames: bool,
     ) -> Result<Target, StudyError> {
         if let (Some(divided), None) = (&divided, part) {
             divided.require_test()?;
         }
         let part = part.unwrap_or(if divided.is_some() {
-            Part::Test
+            DataPart::Test
         } else {
-            Part::All
+            DataPart::All
         });
         let all = match (&divided, part) {
             (Some(divided), part) => divided.rows(part),
-            (None, Part::All) => dataset.all_rows(),
+            (None, DataPart::All) => dataset.all_rows(),
             (None, part) => {
                 return Err(StudyError::Request(format!(
                     "part `{}`: the model was fitted on another dataset, only `all` of this one can be taken",

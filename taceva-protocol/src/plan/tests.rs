@@ -1,8 +1,8 @@
 //! The planner on metrics of its own, so that each rule is tried whatever the catalogue holds.
 
 pub(crate) mod bench;
+mod explained;
 mod reached;
-mod told;
 
 use taceva_core::{Axes, FieldSet, Millimetre, SensorFacts};
 use taceva_core::{Channel, Channels, Field};
@@ -95,20 +95,20 @@ fn planning_twice_changes_nothing() {
             lights: &lights,
         };
         let facts = gather.facts().expect("no contradiction");
-        let ground = facts.ground.as_ref().expect("a footprint");
+        let phase_inputs = facts.phase_inputs.as_ref().expect("a footprint");
         for kind in PhaseKind::ALL {
             assert_eq!(
-                ground.count(kind),
-                ground.presses(kind).len() as u64,
+                phase_inputs.count(kind),
+                phase_inputs.presses(kind).len() as u64,
                 "{kind}"
             );
         }
-        let everything = Draft::everything(&paper_metrics(), &facts);
+        let everything = Collected::everything(&paper_metrics(), &facts);
         let once = refine(everything.clone(), &facts).expect("a plan");
         assert_eq!(refine(once.clone(), &facts).expect("the same"), once);
         // Nothing is added: every pass works on what the one before left.
-        let kept = |draft: &Draft| {
-            draft
+        let kept = |collected: &Collected| {
+            collected
                 .presses
                 .iter()
                 .map(|press| press.id)
@@ -157,10 +157,10 @@ fn a_gel_without_markers_skips_the_repeatability_of_shear() {
         .find(|metric| metric.id == "repeatability");
     assert_eq!(metric.expect("kept").channels, ["Px", "Py", "Pz", "Fz"]);
     assert!(reason(&plan, "repeatability (Fx, Fy)").starts_with("the gel has no markers"));
-    let mut stations = plan
+    let mut waypoints = plan
         .presses_of(PhaseKind::Repeatability)
-        .flat_map(|press| press.press.stations());
-    assert!(stations.all(|station| station.shear == [taceva_core::Nanometre(0); 2]));
+        .flat_map(|press| press.press.waypoints());
+    assert!(waypoints.all(|waypoint| waypoint.shear == [taceva_core::Nanometre(0); 2]));
 }
 
 #[test]

@@ -2,34 +2,34 @@
 
 use taceva_core::{Field, SkipReason};
 
-use super::draft::Draft;
-use super::facts::{ModelChoice, OF_THE_PROTOCOL, StudyFacts, Supplier, axis_of};
+use super::collect::Collected;
+use super::facts::{FieldSource, ModelChoice, OF_THE_PROTOCOL, StudyFacts, axis_of};
 use super::reason::{Cause, PlanReason, Subject};
 
 /// Removes the channels and fields that nobody supplies.
-pub(super) fn pass(mut draft: Draft, facts: &StudyFacts<'_>) -> Draft {
-    for channel in draft.channels.clone() {
+pub(super) fn pass(mut collected: Collected, facts: &StudyFacts<'_>) -> Collected {
+    for channel in collected.channels.clone() {
         if let Some(cause) = channel_cause(&channel, facts) {
-            draft.channels.retain(|kept| *kept != channel);
+            collected.channels.retain(|kept| *kept != channel);
             let reason = PlanReason::Unmeasured {
                 channel: channel.clone(),
                 cause,
             };
-            draft.skip(Subject::Channel(channel), reason);
+            collected.skip(Subject::Channel(channel), reason);
         }
     }
-    for field in draft.fields.iter().collect::<Vec<Field>>() {
-        if let Some(reason) = field_reason(field, &draft, facts) {
-            draft.fields = draft.fields.without(field);
-            draft.skip(Subject::Field(field), reason);
+    for field in collected.fields.iter().collect::<Vec<Field>>() {
+        if let Some(reason) = field_reason(field, &collected, facts) {
+            collected.fields = collected.fields.without(field);
+            collected.skip(Subject::Field(field), reason);
         }
     }
-    draft
+    collected
 }
 
 /// What is missing for `channel` to be measured.
 fn channel_cause(channel: &str, facts: &StudyFacts<'_>) -> Option<Cause> {
-    let Supplier::Rig { robot, force, .. } = facts.supplier else {
+    let FieldSource::Rig { robot, force, .. } = facts.field_source else {
         return None;
     };
     match (axis_of(channel), force) {
@@ -40,13 +40,13 @@ fn channel_cause(channel: &str, facts: &StudyFacts<'_>) -> Option<Cause> {
 }
 
 /// Why nobody supplies `field`.
-fn field_reason(field: Field, draft: &Draft, facts: &StudyFacts<'_>) -> Option<PlanReason> {
-    let cause = match &facts.supplier {
-        Supplier::Rig { sensor, robot, .. } => match field {
+fn field_reason(field: Field, collected: &Collected, facts: &StudyFacts<'_>) -> Option<PlanReason> {
+    let cause = match &facts.field_source {
+        FieldSource::Rig { sensor, robot, .. } => match field {
             Field::Frame | Field::FrameDigest | Field::Intensity => {
                 (!sensor).then_some(Cause::NoSensor)
             }
-            Field::Truth => draft.channels.is_empty().then_some(Cause::NoRobot),
+            Field::Truth => collected.channels.is_empty().then_some(Cause::NoRobot),
             Field::Prediction | Field::PredictedSpacing if !sensor => Some(Cause::NoSensor),
             Field::Scene => match facts.lights.len() {
                 0 => Some(Cause::NoLighting),
@@ -57,7 +57,7 @@ fn field_reason(field: Field, draft: &Draft, facts: &StudyFacts<'_>) -> Option<P
             field if OF_THE_PROTOCOL.contains(&field) => (!robot).then_some(Cause::NoRobot),
             _ => None,
         },
-        Supplier::Recording { fields, .. } => {
+        FieldSource::Recording { fields, .. } => {
             let of_model = [Field::Prediction, Field::PredictedSpacing].contains(&field);
             let seen = if of_model { Field::Frame } else { field };
             // A reader tells digest and brightness by looking at the pictures.
@@ -75,5 +75,5 @@ fn field_reason(field: Field, draft: &Draft, facts: &StudyFacts<'_>) -> Option<P
         _ => None,
     };
     let cause = cause.or(of_model)?;
-    Some(PlanReason::Unsupplied { field, cause })
+    Some(PlanReason::Unresolved { field, cause })
 }

@@ -9,22 +9,22 @@ use taceva_protocol::{PhaseKind, Plan, PlannedMetric};
 
 use crate::error::StudyError;
 use crate::fit::FitRequest;
-use crate::rows::{Divided, Part};
+use crate::rows::{DataPart, Divided};
 use crate::scene::PlannedStudy;
 
-/// The rows of a recording, dealt to the parts of the protocol that they were pressed for.
-pub(super) struct Deal<'a> {
+/// The rows of a recording, assigned to the phases of the protocol that they were pressed for.
+pub(super) struct PhaseRows<'a> {
     plan: &'a Plan,
     dataset: &'a Dataset,
     /// Absent of a recording that nobody here planned: then every row belongs to every part.
     rows: Option<BTreeMap<PhaseKind, Vec<usize>>>,
 }
 
-impl<'a> Deal<'a> {
-    pub(super) fn new(study: &'a PlannedStudy, dataset: &'a Dataset) -> Deal<'a> {
+impl<'a> PhaseRows<'a> {
+    pub(super) fn new(study: &'a PlannedStudy, dataset: &'a Dataset) -> PhaseRows<'a> {
         let plan = &study.plan;
         let rows = (!plan.presses.is_empty()).then(|| by_phase(plan, dataset));
-        Deal {
+        PhaseRows {
             plan,
             dataset,
             rows,
@@ -59,7 +59,7 @@ impl<'a> Deal<'a> {
         !self.predicted_phases().is_empty()
     }
 
-    /// Whether a metric compares spacings that were told with the true ones.
+    /// Whether a metric compares predicted spacings with the true ones.
     pub(super) fn reads_spacings(&self) -> bool {
         let mut metrics = self.metrics();
         metrics.any(|(_, metric)| metric.needs.fields.contains(Field::PredictedSpacing))
@@ -129,7 +129,7 @@ impl<'a> Deal<'a> {
 
 /// The rows that a model was fitted on or whose settings were chosen on, ascending.
 pub(super) fn seen(divided: &Divided) -> Vec<usize> {
-    let parts = [Part::Train, Part::Validation].map(|part| divided.rows(part));
+    let parts = [DataPart::Train, DataPart::Validation].map(|part| divided.rows(part));
     let mut rows = parts.concat();
     rows.sort_unstable();
     rows

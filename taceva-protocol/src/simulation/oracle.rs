@@ -1,8 +1,8 @@
-//! What must hold whatever goes wrong. The judge sees the truth of the simulated world, not what the devices say.
+//! What must hold whatever goes wrong. The oracle sees the truth of the simulated world, not what the devices say.
 
 use std::fmt;
 
-use crate::limits::Limits;
+use crate::limits::RigLimits;
 
 /// A halt must reach the robot within this, in s.
 pub const HALT_WITHIN_S: f64 = 0.05;
@@ -71,7 +71,7 @@ impl fmt::Display for Violation {
     }
 }
 
-/// How often each thing that must hold was looked at, so that a judge who slept is noticed.
+/// How often each thing that must hold was looked at, so that a oracle who slept is noticed.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Checks {
     /// Motions whose depth and force were compared with the limits.
@@ -102,7 +102,7 @@ pub(super) const SILENCE: &str = "a silent transducer";
 /// The hazard of a gel that is pressed too hard.
 pub(super) const TOO_HARD: &str = "a force beyond the limit";
 
-/// What the judge must know of the rig to say what was stated.
+/// What the oracle must know of the rig to say what was stated.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Stated {
     pub(super) depth_max_mm: f64,
@@ -117,7 +117,7 @@ pub(super) struct Stated {
 
 impl Stated {
     pub(super) fn new(
-        limits: &Limits,
+        limits: &RigLimits,
         stiffness_n_mm: f64,
         noise_n: f64,
         step_mm: f64,
@@ -153,7 +153,7 @@ pub(super) struct Ended {
 
 /// Watches the world.
 #[derive(Clone, Debug)]
-pub(super) struct Judge {
+pub(super) struct Oracle {
     stated: Stated,
     hazard: Option<(&'static str, f64)>,
     /// Whether the limit of force was passed while the transducer did not show it.
@@ -162,9 +162,9 @@ pub(super) struct Judge {
     pub(super) checks: Checks,
 }
 
-impl Judge {
-    pub(super) fn new(stated: Stated) -> Judge {
-        Judge {
+impl Oracle {
+    pub(super) fn new(stated: Stated) -> Oracle {
+        Oracle {
             stated,
             hazard: None,
             overlooked: false,

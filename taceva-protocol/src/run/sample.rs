@@ -115,11 +115,11 @@ pub(super) fn observe(
 /// Which sample of a press is taken.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Spot {
-    /// Its number: that of its station, or of its picture.
+    /// Its number: that of its waypoint, or of its picture.
     pub(super) number: u32,
     /// The height from which depths count, in mm.
     pub(super) zero_mm: f64,
-    /// The limit of the gel that kept the tip from the station.
+    /// The limit of the gel that kept the tip from the waypoint.
     pub(super) limited_by: Option<Limit>,
 }
 
@@ -166,20 +166,20 @@ pub(super) fn sample(
         Specimen::Sphere { .. } => (None, None),
         Specimen::Grating { kind, spacing } => (Some(kind), Some(spacing)),
     };
-    let station = usize::try_from(spot.number)
+    let waypoint = usize::try_from(spot.number)
         .ok()
-        .and_then(|number| press.stations().get(number));
+        .and_then(|number| press.waypoints().get(number));
     Sample {
         id: format!("{}/{}", planned.id, spot.number),
         unit_id: Some(press.unit.clone()),
         scene_id: press.light.clone(),
         point_id: Some(press.point_id()),
         // A depth at which a limit stopped the tip is no level that repeats share.
-        depth_step: station
+        depth_step: waypoint
             .filter(|_| spot.limited_by.is_none())
             .map(|_| spot.number),
         repeat: press.repeat,
-        phase: station.map(|station| station.phase),
+        phase: waypoint.map(|waypoint| waypoint.phase),
         limited_by: spot.limited_by,
         stamp: Some(observed.stamp),
         kind,
@@ -197,7 +197,7 @@ mod tests {
     };
 
     use super::*;
-    use crate::press::Station;
+    use crate::press::Waypoint;
     use crate::run::rig::{Rig, nothing, plan, with_tip};
 
     /// Gives pictures that were taken at these times; the last one again and again.
@@ -269,7 +269,7 @@ mod tests {
         );
     }
 
-    /// The sample of the second of two stations, half a millimetre below a contact at 0.25 mm.
+    /// The sample of the second of two waypoints, half a millimetre below a contact at 0.25 mm.
     fn second(motion: Motion, limited_by: Option<Limit>) -> Sample {
         let mut plan = plan();
         let planned = &mut plan.presses[0];
@@ -322,13 +322,13 @@ mod tests {
 
     #[test]
     fn a_sample_of_a_press_says_where_it_was_taken_of_what_and_what_was_measured() {
-        let station = |phase| Station {
+        let waypoint = |phase| Waypoint {
             depth: Nanometre(500_000),
             shear: [Nanometre(0); 2],
             phase,
         };
-        let stations = vec![station(Phase::Load), station(Phase::Unload)];
-        let sample = second(Motion::Indent(stations.clone()), None);
+        let waypoints = vec![waypoint(Phase::Load), waypoint(Phase::Unload)];
+        let sample = second(Motion::Indent(waypoints.clone()), None);
         assert_eq!(sample.unit_id.as_deref(), Some("b"));
         assert_eq!(sample.scene_id.as_deref(), Some("S1"));
         assert_eq!((sample.depth_step, sample.repeat), (Some(1), Some(3)));
@@ -348,7 +348,7 @@ mod tests {
             [x, y, z, force[0], force[1], force[2], None, None]
         );
         // Where a limit stopped the tip the depth is no level, and all else is as it was.
-        let limited = second(Motion::Indent(stations), Some(Limit::Depth));
+        let limited = second(Motion::Indent(waypoints), Some(Limit::Depth));
         assert_eq!(
             (limited.depth_step, limited.phase),
             (None, Some(Phase::Unload))

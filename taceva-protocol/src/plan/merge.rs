@@ -2,19 +2,19 @@
 
 use std::collections::BTreeMap;
 
-use super::draft::{Draft, PlannedPress};
+use super::collect::{Collected, PlannedPress};
 use super::facts::StudyFacts;
 use super::reason::{PlanReason, Subject};
-use crate::digest::Digest;
+use crate::content_id::ContentId;
 use crate::phase::PhaseKind;
 use taceva_core::Specimen;
 
 /// Joins equal presses and sorts the rest.
-pub(super) fn pass(mut draft: Draft, facts: &StudyFacts<'_>) -> Draft {
-    let mut places: BTreeMap<Digest, usize> = BTreeMap::new();
+pub(super) fn pass(mut collected: Collected, facts: &StudyFacts<'_>) -> Collected {
+    let mut places: BTreeMap<ContentId, usize> = BTreeMap::new();
     let mut shared: BTreeMap<(PhaseKind, PhaseKind), usize> = BTreeMap::new();
-    let mut presses: Vec<PlannedPress> = Vec::with_capacity(draft.presses.len());
-    for press in std::mem::take(&mut draft.presses) {
+    let mut presses: Vec<PlannedPress> = Vec::with_capacity(collected.presses.len());
+    for press in std::mem::take(&mut collected.presses) {
         match places.get(&press.id) {
             Some(&place) => {
                 let first: &mut PlannedPress = &mut presses[place];
@@ -33,7 +33,7 @@ pub(super) fn pass(mut draft: Draft, facts: &StudyFacts<'_>) -> Draft {
         }
     }
     for ((kind, phase), presses) in shared {
-        draft.skip(
+        collected.skip(
             Subject::Phase(kind),
             PlanReason::VisitedBy { phase, presses },
         );
@@ -56,6 +56,6 @@ pub(super) fn pass(mut draft: Draft, facts: &StudyFacts<'_>) -> Draft {
         };
         (unit_of(press), board, light_of(press), press.phases[0])
     });
-    draft.presses = presses;
-    draft
+    collected.presses = presses;
+    collected
 }

@@ -24,27 +24,27 @@ pub(crate) trait Rows: Sync {
     fn batch(&self, plan: &MetricPlan, rows: Range<usize>) -> Result<Batch, StudyError>;
 }
 
-/// Takes in all rows. Each thread takes a contiguous share; exact sums make the shares invisible.
+/// Accumulates all rows of `source`. Each thread takes a contiguous block; sums are exact, so the blocks do not change the result.
 ///
-/// Shares are whole batches, so that the first batch with an error is the same on any number of threads.
+/// Blocks are whole batches, so that the first batch with an error is the same on any number of threads.
 ///
 /// # Errors
 /// [`StudyError`] of the first batch that cannot be read or scored.
-pub(crate) fn tally(
+pub(crate) fn accumulate(
     source: &impl Rows,
     plan: &MetricPlan,
     jobs: NonZeroUsize,
 ) -> Result<Evaluator, StudyError> {
     let rows = source.rows();
-    let share = rows.div_ceil(jobs.get()).next_multiple_of(BATCH_ROWS);
-    let shares: Vec<Range<usize>> = (0..rows)
-        .step_by(share.max(BATCH_ROWS))
-        .map(|start| start..rows.min(start + share))
+    let block = rows.div_ceil(jobs.get()).next_multiple_of(BATCH_ROWS);
+    let blocks: Vec<Range<usize>> = (0..rows)
+        .step_by(block.max(BATCH_ROWS))
+        .map(|start| start..rows.min(start + block))
         .collect();
     let evaluators: Vec<Result<Evaluator, StudyError>> = std::thread::scope(|scope| {
-        let threads: Vec<_> = shares
+        let threads: Vec<_> = blocks
             .into_iter()
-            .map(|share| scope.spawn(move || take_in(source, plan, share)))
+            .map(|block| scope.spawn(move || accumulate_block(source, plan, block)))
             .collect();
         let joined = threads.into_iter().map(|thread| match thread.join() {
             Ok(evaluator) => evaluator,
@@ -59,7 +59,7 @@ pub(crate) fn tally(
     Ok(total)
 }
 
-fn take_in(
+fn accumulate_block(
     source: &impl Rows,
     plan: &MetricPlan,
     rows: Range<usize>,

@@ -6,30 +6,30 @@ use std::fmt;
 ///
 /// It tells accidents apart, not attacks: the hash is FNV-1a, which anybody can collide on purpose.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub struct Digest(u128);
+pub struct ContentId(u128);
 
-impl fmt::Display for Digest {
+impl fmt::Display for ContentId {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{:032x}", self.0)
     }
 }
 
-impl fmt::Debug for Digest {
+impl fmt::Debug for ContentId {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         fmt::Display::fmt(self, f)
     }
 }
 
-impl Digest {
+impl ContentId {
     /// The digest written as 32 hexadecimal digits.
-    pub fn from_hex(text: &str) -> Option<Digest> {
+    pub fn from_hex(text: &str) -> Option<ContentId> {
         let is_hex = text.len() == 32 && text.bytes().all(|byte| byte.is_ascii_hexdigit());
         let bits = u128::from_str_radix(text, 16).ok()?;
-        is_hex.then_some(Digest(bits))
+        is_hex.then_some(ContentId(bits))
     }
 }
 
-impl serde::Serialize for Digest {
+impl serde::Serialize for ContentId {
     fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         serializer.collect_str(self)
     }
@@ -62,8 +62,8 @@ impl Hasher {
         self.bytes(&number.to_bits().to_le_bytes())
     }
 
-    pub(crate) fn finish(self) -> Digest {
-        Digest(self.0)
+    pub(crate) fn finish(self) -> ContentId {
+        ContentId(self.0)
     }
 
     fn bytes(self, bytes: &[u8]) -> Hasher {
@@ -106,9 +106,9 @@ mod tests {
     #[test]
     fn a_digest_reads_back_from_what_it_prints() {
         let digest = Hasher::new("t").whole(-1).finish();
-        assert_eq!(Digest::from_hex(&digest.to_string()), Some(digest));
+        assert_eq!(ContentId::from_hex(&digest.to_string()), Some(digest));
         for text in ["", "+1", "zz", &"f".repeat(33)] {
-            assert_eq!(Digest::from_hex(text), None, "{text}");
+            assert_eq!(ContentId::from_hex(text), None, "{text}");
         }
     }
 }

@@ -5,7 +5,7 @@ use taceva_metrics::{Fact, Metric, catalogue};
 
 use super::facts::StudyFacts;
 use super::reason::{PlanReason, PlanSkip, Subject};
-use crate::digest::Digest;
+use crate::content_id::ContentId;
 use crate::phase::PhaseKind;
 use crate::press::Press;
 
@@ -86,7 +86,7 @@ pub struct PlannedMetric {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PlannedPress {
     /// Its name.
-    pub id: Digest,
+    pub id: ContentId,
     /// What is done.
     pub press: Press,
     /// The parts of the protocol that want it, in order.
@@ -106,7 +106,7 @@ pub struct Fit {
 
 /// A plan in the making.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(crate) struct Draft {
+pub(crate) struct Collected {
     pub(crate) metrics: Vec<PlannedMetric>,
     pub(crate) phases: Vec<PhaseKind>,
     pub(crate) presses: Vec<PlannedPress>,
@@ -122,9 +122,9 @@ pub(crate) const CHANNELS: [&str; 7] = ["Px", "Py", "Pz", "Fx", "Fy", "Fz", SURF
 /// The height at which a surface is first felt, along z of the sensor's frame, in mm.
 pub(crate) const SURFACE: &str = "surface_z";
 
-impl Draft {
+impl Collected {
     /// Everything: all metrics, all presses, all fields, all models.
-    pub(crate) fn everything(metrics: &[MetricNeeds], facts: &StudyFacts<'_>) -> Draft {
+    pub(crate) fn everything(metrics: &[MetricNeeds], facts: &StudyFacts<'_>) -> Collected {
         let channels = facts.all_channels();
         let metrics = metrics.iter().map(|needs| PlannedMetric {
             id: needs.id.clone(),
@@ -134,9 +134,9 @@ impl Draft {
             required: needs.channels.clone(),
             facts: needs.facts,
         });
-        let presses = facts.ground.iter().flat_map(|ground| {
+        let presses = facts.phase_inputs.iter().flat_map(|phase_inputs| {
             PhaseKind::ALL.into_iter().flat_map(|kind| {
-                let presses = ground.presses(kind).into_iter();
+                let presses = phase_inputs.presses(kind).into_iter();
                 presses.map(move |press| PlannedPress {
                     id: press.id(),
                     press,
@@ -145,9 +145,9 @@ impl Draft {
                 })
             })
         });
-        Draft {
+        Collected {
             metrics: metrics.collect(),
-            phases: match facts.ground {
+            phases: match facts.phase_inputs {
                 Some(_) => PhaseKind::ALL.to_vec(),
                 None => Vec::new(),
             },
