@@ -10,6 +10,7 @@
 
 use std::path::Path;
 
+use taceva_core::random::mix;
 use taceva_core::{
     Channel, Channels, Clock, Frame, FrameInfo, PixelFormat, Readings, Sample, Stamp,
 };
@@ -131,14 +132,6 @@ fn unit_draw(seed: u64, point: u32, step: u32, purpose: u32) -> f64 {
         .into_iter()
         .fold(seed, |mixed, number| mix(mixed ^ u64::from(number)));
     f64::from(u32::try_from(place >> 32).unwrap_or_default()) / 4_294_967_296.0
-}
-
-/// The finaliser of splitmix64.
-fn mix(state: u64) -> u64 {
-    let state = state.wrapping_add(0x9E37_79B9_7F4A_7C15);
-    let state = (state ^ state >> 30).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-    let state = (state ^ state >> 27).wrapping_mul(0x94D0_49BB_1331_11EB);
-    state ^ state >> 31
 }
 
 fn record(path: &Path) -> Result<(), Box<dyn std::error::Error>> {

@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use taceva_core::Labels;
+use taceva_core::random::mix;
 
 use crate::merge::Merge;
 
@@ -22,7 +23,7 @@ pub const HASHED_CLUSTERS: usize = 32;
 pub enum Clusters<T> {
     /// A summary a location, by its name.
     Named(BTreeMap<String, T>),
-    /// [`HASHED_CLUSTERS`] summaries; a location's is `splitmix64(seed ^ fnv1a64(name)) mod 32`.
+    /// [`HASHED_CLUSTERS`] summaries; a location's is `mix(seed ^ fnv1a64(name)) mod 32` with [`taceva_core::random::mix`].
     Hashed(Vec<T>),
     /// One summary of everything: some sample named no location.
     Pooled(T),
@@ -188,7 +189,7 @@ impl<T: Merge + Clone> Clustering<T> {
 
     fn bucket(&self, name: &str) -> usize {
         let clusters = u64::try_from(HASHED_CLUSTERS).expect("32 fits");
-        let bucket = splitmix64(self.seed ^ fnv1a64(name.as_bytes())) % clusters;
+        let bucket = mix(self.seed ^ fnv1a64(name.as_bytes())) % clusters;
         usize::try_from(bucket).expect("below 32")
     }
 }
@@ -248,14 +249,6 @@ pub(crate) fn fnv1a64_from(hash: u64, bytes: &[u8]) -> u64 {
     })
 }
 
-/// The first output of SplitMix64 from `state` (Steele, Lea, Flood 2014).
-pub(crate) fn splitmix64(state: u64) -> u64 {
-    let mut mixed = state.wrapping_add(0x9e37_79b9_7f4a_7c15);
-    mixed = (mixed ^ (mixed >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-    mixed = (mixed ^ (mixed >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-    mixed ^ (mixed >> 31)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -264,7 +257,6 @@ mod tests {
     fn the_hashes_give_their_published_values() {
         assert_eq!(fnv1a64(b""), 0xcbf2_9ce4_8422_2325);
         assert_eq!(fnv1a64(b"foobar"), 0x8594_4171_f739_67e8);
-        assert_eq!(splitmix64(0), 0xe220_a839_7b1d_cdaf);
     }
 
     #[test]

@@ -26,7 +26,7 @@ pub(crate) static CROSSTALK: Metric = Metric {
     title: "cross-talk between channels",
     better: Better::Lower,
     unit: ScoreUnit::One,
-    range: Range::Positive,
+    range: Range::Greatest,
     definition: "crosstalk/1",
     reference: "joint least-squares slopes of each prediction on all truths, as shares of full scale",
     documentation: "How far the prediction of one channel moves, as a share of its full scale, when another channel alone moves \
@@ -34,7 +34,7 @@ pub(crate) static CROSSTALK: Metric = Metric {
                     different channels; `matrix` has a row for each predicted and a column for each true channel, its diagonal \
                     being 1 for a sensor without gain error. Where truths are so alike that no joint fit tells them apart, each \
                     slope is that on its own truth alone, and the score is flagged. Of samples with all six channels, or all \
-                    of them that there are.",
+                    of them that there are. A greatest value has no interval.",
     needs: Needs {
         fields: FieldSet::EMPTY.with(Field::Truth).with(Field::Prediction),
         channels: &[],

@@ -21,11 +21,12 @@ mod compensated;
 mod contender;
 mod digits;
 mod floor;
-mod random;
+mod numbers;
 mod recipe;
+mod shuffled;
 
 pub use contender::{Contender, Scores};
 pub use digits::{ALL_DIGITS, digits};
 pub use floor::stream_sum;
-pub use random::{SplitMix64, shuffled};
 pub use recipe::{Kind, Order, Recipe, nasty_inputs};
+pub use shuffled::shuffled;

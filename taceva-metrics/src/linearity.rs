@@ -18,12 +18,13 @@ pub(crate) static LINEARITY: Metric = Metric {
     title: "linearity error",
     better: Better::Lower,
     unit: ScoreUnit::One,
-    range: Range::Positive,
+    range: Range::Greatest,
     definition: "linearity/1",
     reference: "independent linearity: greatest deviation from the least-squares line, as a share of full scale",
     documentation: "The greatest distance of a prediction from the line that fits predictions to the truth best, as a share of \
                     full scale, the range of the truth. The line's own error is no part of it: `slope` and `offset` say what a \
-                    recalibration would remove. It is set by single samples, and grows with their number.",
+                    recalibration would remove. It is set by single samples and grows with their number, so \
+                    that it has no interval.",
     needs: Needs {
         fields: FieldSet::EMPTY.with(Field::Truth).with(Field::Prediction),
         channels: &[],
@@ -78,7 +79,7 @@ impl Channelwise for Lines {
             .with(
                 "greatest_deviation",
                 output.unit,
-                Range::Positive,
+                Range::Greatest,
                 of(|line| line.greatest_deviation),
             )
             .with("slope", Unit::One, Range::Any, of(|line| line.slope))

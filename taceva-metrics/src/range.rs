@@ -8,6 +8,9 @@ pub enum Range {
     Any,
     /// Above 0: errors, areas, spreads. Infinitely many samples would not give 0.
     Positive,
+    /// Above 0, and the greatest of several numbers: one sample, level or pair of channels decides it, and resampling does not show
+    /// how far it would move with others. It has no interval.
+    Greatest,
     /// From 0 on, and 0 even of infinitely many samples: a spread from which chance was taken.
     NotNegative,
     /// Below 1: R², the skill of a model.
@@ -28,7 +31,7 @@ impl Range {
     pub fn ends(self) -> [f64; 2] {
         match self {
             Range::Any => [f64::NEG_INFINITY, f64::INFINITY],
-            Range::Positive | Range::NotNegative => [0.0, f64::INFINITY],
+            Range::Positive | Range::Greatest | Range::NotNegative => [0.0, f64::INFINITY],
             Range::BelowOne => [f64::NEG_INFINITY, 1.0],
             Range::Ratio | Range::RatioWithEnds | Range::Share => [0.0, 1.0],
             Range::BelowTwo => [0.0, 2.0],

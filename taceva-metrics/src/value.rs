@@ -118,6 +118,8 @@ pub enum UndefinedReason {
     NotDeclared(&'static str),
     /// No interval is defined for this score.
     NoInterval,
+    /// The score is the greatest of several numbers, and resampling does not show how far that would move with other samples.
+    Greatest,
     /// The value is at the end of its range in every cluster, so that nothing says how far it would move with others.
     AtEnd,
     /// The mean is zero, and nothing relates to it.
@@ -186,6 +188,9 @@ impl fmt::Display for UndefinedReason {
                 write!(f, "the sensor's `{fact}` is not declared")
             }
             UndefinedReason::NoInterval => f.write_str("no interval is defined"),
+            UndefinedReason::Greatest => {
+                f.write_str("a greatest value, of which no interval can be trusted")
+            }
             UndefinedReason::AtEnd => f.write_str("at the end of its range in every cluster"),
             UndefinedReason::ZeroMean => f.write_str("the mean is zero"),
             UndefinedReason::NoReferenceScene => f.write_str("no sample of the reference scene"),

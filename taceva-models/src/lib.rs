@@ -28,7 +28,6 @@ mod plugin;
 mod problem;
 mod progress;
 mod projected;
-mod random;
 mod registry;
 mod ridge;
 mod settings;

@@ -15,6 +15,7 @@ mod listing;
 mod number;
 mod results;
 mod samples;
+mod short_digests;
 mod spread;
 mod table;
 mod tie;
@@ -44,6 +45,7 @@ pub use results::{
     ScaledError, Score, SeedScore, Skip, Study, Value, Variant,
 };
 pub use samples::{SampleChannel, Samples, SamplesError};
+pub use short_digests::short_digests;
 pub use table::{
     ScoreCell, ScoreRow, ScoreTable, csv, latex, latex_column, latex_directed, latex_number,
     latex_symbol, markdown,

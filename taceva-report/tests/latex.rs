@@ -105,6 +105,7 @@ fn benchmarks_of_models_compile() {
             mae: 0.25,
             ci95: Some([-0.05, 0.55]),
             n: 40,
+            beaten_by: Vec::new(),
         }],
         ..ModelRow::default()
     });

@@ -4,13 +4,13 @@ use std::io::{self, Write};
 
 use taceva_core::PressOutcome;
 use taceva_metrics::{Better, catalogue};
-use taceva_report::{Study, escape_terminal};
+use taceva_report::{Study, escape_terminal, short_digests};
 use taceva_study::EvaluationReport;
 
 use super::line::{Line, lines, standings};
 use super::number::printed;
 use super::page;
-use super::text::{over_seeds, presses, with_short_digests};
+use super::text::{over_seeds, presses};
 
 /// A channel and the plane that says the same of it and its neighbour.
 const IN_PLANES: [(&str, &str); 4] = [("Px", "Pxy"), ("Py", "Pxy"), ("Fx", "Fxy"), ("Fy", "Fxy")];
@@ -30,7 +30,7 @@ pub(super) fn write(reports: &[EvaluationReport], out: &mut dyn Write) -> io::Re
     }
     for report in reports {
         let subject = &report.subject;
-        let gel = with_short_digests(&subject.gel);
+        let gel = short_digests(&subject.gel);
         let [sensor, serial, gel] =
             [&subject.sensor, &subject.serial, &gel].map(|name| escape_terminal(name));
         write!(out, "{sensor}   serial {serial}   gel {gel}")?;

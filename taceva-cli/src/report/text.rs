@@ -4,7 +4,7 @@ use std::io::{self, Write};
 
 use taceva_core::{Limit, PressOutcome};
 use taceva_metrics::Better;
-use taceva_report::escape_terminal;
+use taceva_report::{escape_terminal, short_digests};
 use taceva_study::EvaluationReport;
 
 use super::line::{flags, pictures, read_lines, standings};
@@ -102,7 +102,7 @@ fn heading(report: &EvaluationReport, out: &mut dyn Write) -> io::Result<()> {
     if subject.source == "unknown" {
         writeln!(out, "Scores of two tables")?;
     } else {
-        let gel = with_short_digests(&subject.gel);
+        let gel = short_digests(&subject.gel);
         let [sensor, serial, gel] =
             [&subject.sensor, &subject.serial, &gel].map(|name| escape_terminal(name));
         let source = &subject.source;
@@ -254,43 +254,4 @@ pub(super) fn table<const N: usize>(
         writeln!(out, "{}", cells.join("  ").trim_end())?;
     }
     Ok(())
-}
-/// `text` with the first 12 digits of each digest in it; files hold all 64.
-pub(super) fn with_short_digests(text: &str) -> String {
-    const DIGITS: usize = 64;
-    const SHOWN: usize = 12;
-    let mut short = String::with_capacity(text.len());
-    let mut rest = text;
-    while let Some(at) = rest.find(|digit: char| digit.is_ascii_hexdigit()) {
-        let (before, from) = rest.split_at(at);
-        let end = from.find(|digit: char| !digit.is_ascii_hexdigit());
-        let (digits, after) = from.split_at(end.unwrap_or(from.len()));
-        short.push_str(before);
-        match digits.len() {
-            DIGITS => short.extend([&digits[..SHOWN], "…"]),
-            _ => short.push_str(digits),
-        }
-        rest = after;
-    }
-    short.push_str(rest);
-    short
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn digests_are_shown_by_their_first_digits_and_other_words_whole() {
-        let digest = "0f".repeat(32);
-        let text = format!(
-            "bench 2, parameters {digest}, seed 7, faded Ünter {}",
-            &digest[1..]
-        );
-        let expected = format!(
-            "bench 2, parameters 0f0f0f0f0f0f…, seed 7, faded Ünter {}",
-            &digest[1..]
-        );
-        assert_eq!(with_short_digests(&text), expected);
-    }
 }

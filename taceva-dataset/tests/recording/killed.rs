@@ -33,7 +33,7 @@ fn nothing_acknowledged_is_lost_when_the_recorder_is_killed() {
         skip(Need::Example, why);
         return;
     };
-    let mut random = Random(6);
+    let mut random = Random::new(6);
     for _ in 0..6 {
         let folder = tempfile::tempdir().expect("a folder");
         let path = folder.path().join("set");

@@ -16,7 +16,7 @@ fn textured(number: u8, format: PixelFormat) -> Frame {
         height: 30,
         format,
     };
-    let (mut texture, mut noise) = (Random(5), Random(u64::from(number)));
+    let (mut texture, mut noise) = (Random::new(5), Random::new(u64::from(number)));
     let length = info.byte_len().expect("small");
     let bytes = (0..length).map(|at| {
         let still = texture.below(200).to_le_bytes()[0];

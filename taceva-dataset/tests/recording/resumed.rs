@@ -86,7 +86,7 @@ fn mutated_journals_are_refused_or_lose_only_a_tail() {
     let table = recorder.table().clone();
     drop(recorder);
     let journal = fs::read(path.join("journal")).expect("read");
-    let mut random = Random(5);
+    let mut random = Random::new(5);
     for _ in 0..2_000 {
         fs::write(path.join("journal"), random.mutated(&journal)).expect("written");
         if let Ok(recorder) = Recorder::resume(&path) {

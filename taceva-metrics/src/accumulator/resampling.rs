@@ -121,6 +121,9 @@ impl Resampling {
         let Some(position) = position else {
             return Interval::Undefined(UndefinedReason::Empty);
         };
+        if self.names[position].1 == Range::Greatest {
+            return Interval::Undefined(UndefinedReason::Greatest);
+        }
         match &self.draws {
             Draws::Weighted(intervals) => intervals[position],
             Draws::LeftOut(draws) => {

@@ -73,11 +73,10 @@ mod tests {
         let text = std::fs::read_to_string(format!("{folder}/structured.json")).expect("a file");
         let golden: serde_json::Value = serde_json::from_str(&text).expect("JSON");
         let section = &golden["inter_sensor"];
-        let mut state = section["params"]["seed"].as_u64().expect("a seed");
+        let seed = section["params"]["seed"].as_u64().expect("a seed");
+        let mut random = taceva_core::random::SplitMix64::new(seed);
         let mut below = |bound: u64| {
-            let drawn = crate::clusters::splitmix64(state);
-            state = state.wrapping_add(0x9e37_79b9_7f4a_7c15);
-            f64::from(u32::try_from(drawn % bound).expect("a small bound"))
+            f64::from(u32::try_from(random.next_u64() % bound).expect("a small bound"))
         };
         let mut clouds = [Vec::new(), Vec::new()];
         for _ in 0..section["params"]["m"].as_u64().expect("a count") {

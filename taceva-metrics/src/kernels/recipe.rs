@@ -1,6 +1,6 @@
 //! Test inputs as recipes: a few numbers from which every machine makes the same columns, bit for bit.
 
-use super::random::SplitMix64;
+use super::numbers::Numbers;
 use crate::paired::Paired;
 
 /// How to make two columns.
@@ -134,7 +134,7 @@ pub enum Order {
 impl Recipe {
     /// The columns.
     pub fn columns(&self) -> Paired<Vec<f64>> {
-        let mut random = SplitMix64(self.seed);
+        let mut random = Numbers::new(self.seed);
         let mut rows: Vec<(f64, f64)> = Vec::with_capacity(self.rows);
         for row in 0..self.rows {
             let before = rows.last().map(|row| row.0);
@@ -146,7 +146,7 @@ impl Recipe {
             Order::Reversed => rows.reverse(),
             Order::Sorted => rows
                 .sort_by(|left, right| left.0.total_cmp(&right.0).then(left.1.total_cmp(&right.1))),
-            Order::Shuffled(seed) => SplitMix64(seed).shuffle(&mut rows),
+            Order::Shuffled(seed) => Numbers::new(seed).shuffle(&mut rows),
         }
         let (reference, estimate) = rows.into_iter().unzip();
         Paired {
@@ -158,7 +158,7 @@ impl Recipe {
 
 impl Kind {
     /// y and ŷ of a row, after the y of the row before.
-    fn draw(self, row: usize, before: Option<f64>, random: &mut SplitMix64) -> (f64, f64) {
+    fn draw(self, row: usize, before: Option<f64>, random: &mut Numbers) -> (f64, f64) {
         match self {
             Kind::Lab { low, high, noise } => {
                 let y = low + (high - low) * random.unit();
@@ -194,7 +194,7 @@ impl Kind {
             }
             Kind::Thousandths { low, high, noise } => {
                 let levels = u64::try_from(high - low + 1).expect("levels in order");
-                let level = i32::try_from(random.word() % levels).expect("fewer than 2^31 levels");
+                let level = i32::try_from(random.below(levels)).expect("fewer than 2^31 levels");
                 let y = f64::from(low + level) / 1000.0;
                 (y, y + noise * random.bell())
             }

@@ -12,9 +12,9 @@ use crate::fit::{ModelEstimator, ModelFit, ModelRegressor};
 use crate::output::OutputScale;
 use crate::problem::Problem;
 use crate::progress::{Stage, interrupted};
-use crate::random::SplitMix64;
 use crate::registry::ModelInfo;
 use crate::settings::{SettingError, SettingInfo, Settings, number};
+use taceva_core::random::SplitMix64;
 
 /// A random forest: the mean of trees that each saw its own draw of the samples, and at each split its own draw of the features.
 ///

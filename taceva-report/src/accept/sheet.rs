@@ -10,6 +10,7 @@ use crate::listing::{Directions, Listing};
 use crate::number::numeral;
 use crate::results::Study;
 use crate::samples::SampleChannel;
+use crate::short_digests::short_digests;
 
 /// The schema of an acceptance as JSON. 1.1: each finding says which values are good.
 pub const ACCEPTANCE_SCHEMA: &str = "taceva.acceptance/1.1";
@@ -132,7 +133,7 @@ impl Acceptance<'_> {
         let mut entries = vec![
             ("sensor", study.sensor.clone()),
             ("serial", study.serial.clone()),
-            ("gel", study.gel.clone()),
+            ("gel", short_digests(&study.gel)),
         ];
         entries.extend(self.date.map(|date| ("date", date.to_owned())));
         entries.push(("samples", study.source.clone()));
@@ -152,7 +153,7 @@ impl Acceptance<'_> {
                 .iter()
                 .map(|model| ("model", model.clone())),
         );
-        entries.extend(known.map(|(name, text)| (name.as_str(), text.clone())));
+        entries.extend(known.map(|(name, text)| (name.as_str(), short_digests(text))));
         let entries = entries
             .iter()
             .map(|(name, text)| format!("<dt>{}</dt><dd>{}</dd>", html(name), html(text)));

@@ -59,8 +59,9 @@ impl Predicted {
             .collect();
         (!shares.is_empty()).then(|| {
             format!(
-                "predictions that lie beyond the bounds of the model, a quarter of the range of labels on either side: {}; robustness is of \
-                 predictions as they are, every other score of those brought back",
+                "of the predictions of all samples together, these shares lie beyond the bounds of the model, a quarter of the range of labels \
+                 on either side: {}; a score marked `bounded` gives the share among its own samples; robustness is of predictions as \
+                 they are, every other score of those brought back",
                 shares.join(", ")
             )
         })
