@@ -5,7 +5,8 @@ use std::collections::BTreeSet;
 use taceva_core::{ErrorKind, Features};
 use taceva_models::{FeatureChoice, FeatureSpec, Model, ModelEstimator, OpenFeatures};
 
-use super::{FitPlan, groups};
+use super::FitPlan;
+use super::learn::groups;
 use crate::error::StudyError;
 use crate::work::Work;
 
