@@ -22,7 +22,7 @@ const BATCH_ROWS: usize = 1024;
 /// Threads and labs may each have one of the same plan; merging them gives what one alone would have given, bit for bit.
 pub struct Evaluator {
     plan: MetricPlan,
-    accumulators: Vec<Box<dyn Accumulator>>,
+    accumulators: Vec<Accumulator>,
     builder: BatchBuilder,
 }
 

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use taceva_core::{Channels, Field, FieldSet, SkipReason, Skipped};
 
 use crate::error::MetricError;
-use crate::evaluate::accumulator::{Accumulator, Clustered};
+use crate::evaluate::accumulator::Accumulator;
 use crate::evaluate::facts::SensorFacts;
 use crate::evaluate::settings::Settings;
 use crate::families::accuracy::{Pairs, Plane};
@@ -303,7 +303,7 @@ impl MetricPlan {
     }
 
     /// One accumulator for all metrics that share what is kept.
-    pub(crate) fn accumulators(&self) -> Vec<Box<dyn Accumulator>> {
+    pub(crate) fn accumulators(&self) -> Vec<Accumulator> {
         let families = [
             Pairs::for_plan(self).map(|family| self.by_row(family)),
             Plane::for_metrics(&self.kept, &self.channels).map(|family| self.by_row(family)),
@@ -328,27 +328,27 @@ impl MetricPlan {
     fn by_channel<K>(
         &self,
         kind: K,
-        clustered: fn(&MetricPlan, ByChannel<K>) -> Box<dyn Accumulator>,
-    ) -> Option<Box<dyn Accumulator>>
+        clustered: fn(&MetricPlan, ByChannel<K>) -> Accumulator,
+    ) -> Option<Accumulator>
     where
-        K: Channelwise + 'static,
+        K: Channelwise,
     {
         ByChannel::for_plan(kind, self).map(|family| clustered(self, family))
     }
 
     /// An accumulator whose clusters are rows where samples are taken as independent.
-    fn by_row<F>(&self, family: F) -> Box<dyn Accumulator>
+    fn by_row<F>(&self, family: F) -> Accumulator
     where
-        F: Family + 'static,
+        F: Family,
     {
-        Box::new(Clustered::new(family, self).with_rows_as_clusters(self.independent))
+        Accumulator::new(family, self).with_rows_as_clusters(self.independent)
     }
 
-    fn clustered<F>(&self, family: F) -> Box<dyn Accumulator>
+    fn clustered<F>(&self, family: F) -> Accumulator
     where
-        F: Family + 'static,
+        F: Family,
     {
-        Box::new(Clustered::new(family, self))
+        Accumulator::new(family, self)
     }
 }
 

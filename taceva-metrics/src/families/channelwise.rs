@@ -14,9 +14,9 @@ use crate::paired::Paired;
 use crate::score::value::InapplicableReason;
 
 /// What is kept of a channel, and which scores come of it.
-pub(crate) trait Channelwise: Send {
+pub(crate) trait Channelwise: Send + 'static {
     /// What is kept of one channel; the default is that of no row.
-    type Sums: Merge + Clone + Default + Send;
+    type Sums: Merge + Clone + Default + Send + 'static;
     /// The name and version of its states.
     const SCHEMA: &'static str;
 

@@ -1,4 +1,4 @@
-//! What a family of metrics says of itself; [`Clustered`](crate::evaluate::accumulator::Clustered) does the rest.
+//! What a family of metrics says of itself; [`Accumulator`](crate::evaluate::accumulator::Accumulator) does the rest.
 
 use std::borrow::Cow;
 use std::collections::BTreeMap;
@@ -18,9 +18,9 @@ use crate::score::{Count, Interval, Parameter, Variant};
 /// # Laws
 /// [`deposit`](Family::deposit) must keep a function of the set of rows: it may not look at their order, nor at which rows come
 /// together.
-pub(crate) trait Family: Send {
+pub(crate) trait Family: Send + 'static {
     /// What is kept of one part: a channel, a plane, a kind of grating, or everything at once.
-    type Sums: Merge + Clone + Send;
+    type Sums: Merge + Clone + Send + 'static;
     /// The name and version of its states.
     const SCHEMA: &'static str;
 

@@ -2,6 +2,7 @@
 
 use std::borrow::Cow;
 
+use super::parts::Parts;
 use crate::exact::merge::Merge;
 use crate::families::family::{Finished, Numbers};
 use crate::score::Interval;
@@ -11,26 +12,26 @@ use crate::stats::jackknife::{self, LeftOut};
 use crate::stats::{Estimated, PoissonBootstrap};
 
 /// A cluster: a number that stands for its name, and the sums of each part.
-pub(super) type Cell<'a, S> = (u64, &'a Vec<S>);
+pub(super) type Cell<'a> = (u64, &'a Parts);
 
 /// Shows `visit` each cluster with the sums of all the others.
 ///
 /// Sums of the clusters before and of those after are carried along, so that nothing need ever be taken away: sets that only
 /// grow have intervals too.
-pub(super) fn each_left_out<S: Merge + Clone>(
-    empty: &[S],
-    cells: &[Cell<'_, S>],
-    mut visit: impl FnMut(&[S], &[S]),
+pub(super) fn each_left_out(
+    empty: &Parts,
+    cells: &[Cell<'_>],
+    visit: &mut dyn FnMut(&Parts, &Parts),
 ) {
     let mut after = Vec::with_capacity(cells.len());
-    let mut sums = empty.to_vec();
+    let mut sums = empty.clone();
     for (_, cell) in cells.iter().rev() {
         after.push(sums.clone());
         sums.merge(cell);
     }
-    let mut before = empty.to_vec();
+    let mut before = empty.clone();
     for (_, cell) in cells {
-        let mut others = after.pop().unwrap_or_else(|| empty.to_vec());
+        let mut others = after.pop().unwrap_or_else(|| empty.clone());
         others.merge(&before);
         visit(cell, &others);
         before.merge(cell);
@@ -71,13 +72,13 @@ impl Resampling {
     }
 
     /// Finishes the score once a replicate, clusters of `samples` samples counting as often as their weights say.
-    pub(super) fn weigh<S: Merge + Clone>(
+    pub(super) fn weigh(
         &mut self,
         bootstrap: PoissonBootstrap,
-        empty: &[S],
-        cells: &[Cell<'_, S>],
+        empty: &Parts,
+        cells: &[Cell<'_>],
         (total, samples): (&Numbers, u64),
-        finish: impl Fn(&[S]) -> Numbers,
+        finish: &dyn Fn(&Parts) -> Numbers,
     ) {
         let keys: Vec<u64> = cells.iter().map(|(key, _)| *key).collect();
         let mut replicates: Vec<Vec<Finished>> = Vec::new();
@@ -88,7 +89,7 @@ impl Resampling {
             samples,
         };
         bootstrap.interval(&anything, &keys, |weights| {
-            let mut sums = empty.to_vec();
+            let mut sums = empty.clone();
             for ((_, cell), &weight) in cells.iter().zip(weights) {
                 sums.merge_times(cell, weight);
             }
