@@ -211,6 +211,7 @@ fn benchmarks_say_that_less_is_better() {
         mae: 0.25,
         ci95: Some([0.2, 0.3]),
         n: 40,
+        beaten_by: Vec::new(),
     };
     bench.rows.push(ModelRow {
         errors: vec![error],

@@ -50,7 +50,7 @@ impl RecordKind {
 
 /// One whole record.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(crate) struct Record {
+pub(crate) struct JournalRecord {
     pub(crate) kind: RecordKind,
     pub(crate) payload: Vec<u8>,
 }
@@ -68,7 +68,7 @@ pub(crate) struct Journal {
 /// What was found in a journal when it was opened.
 #[derive(Debug, Default)]
 pub(crate) struct Recovered {
-    pub(crate) records: Vec<Record>,
+    pub(crate) records: Vec<JournalRecord>,
     /// Bytes of a torn last record that were cut away.
     pub(crate) cut_bytes: u64,
 }
@@ -188,7 +188,7 @@ fn chained(before: &[u8; CHAIN], header: &[u8; HEADER], payload: &[u8]) -> [u8; 
 
 /// The whole records of a journal and how many bytes they take.
 struct Scanned {
-    records: Vec<Record>,
+    records: Vec<JournalRecord>,
     chain: [u8; CHAIN],
     whole: usize,
 }
@@ -232,7 +232,7 @@ fn scan(bytes: &[u8]) -> Result<Scanned, (usize, &'static str)> {
                 Err((at, "a changed record, and records behind it"))
             };
         }
-        scanned.records.push(Record {
+        scanned.records.push(JournalRecord {
             kind,
             payload: payload.to_vec(),
         });

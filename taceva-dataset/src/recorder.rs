@@ -12,7 +12,7 @@ use crate::digest::Digest;
 use crate::error::DatasetError;
 use crate::file::{parent_of, sync_folder};
 use crate::header::{Header, ReferenceInfo};
-use crate::journal::{Journal, Record, RecordKind};
+use crate::journal::{Journal, JournalRecord, RecordKind};
 use crate::layout;
 use crate::pack::{PackEnd, PackWriter, cut_behind};
 use crate::samples::from_parquet;
@@ -274,7 +274,7 @@ impl Recorder {
         Ok(header)
     }
 
-    fn replay(&mut self, record: &Record) -> Result<(), String> {
+    fn replay(&mut self, record: &JournalRecord) -> Result<(), String> {
         match record.kind {
             RecordKind::Start => Err("a second beginning".to_owned()),
             RecordKind::Sample => {

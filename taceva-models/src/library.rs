@@ -96,7 +96,7 @@ pub trait LibraryLearner: Send + Sync {
     }
 
     /// Whether labels are classes: each prediction is one of the labels it was taught.
-    fn tells_classes(&self) -> bool {
+    fn is_classifier(&self) -> bool {
         false
     }
 

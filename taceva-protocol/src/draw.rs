@@ -3,7 +3,7 @@
 use taceva_core::random::{STEP, mix};
 use taceva_core::{Footprint, Nanometre};
 
-use crate::digest::fnv_1a;
+use crate::content_id::fnv_1a;
 
 /// A source of numbers for one purpose.
 #[derive(Clone, Copy, Debug)]

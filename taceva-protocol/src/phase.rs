@@ -14,7 +14,7 @@ use std::fmt;
 use taceva_core::{Footprint, Nanometre, Phase, Specimen};
 
 use crate::draw::Draws;
-use crate::press::{Motion, Press, Station};
+use crate::press::{Motion, Press, Waypoint};
 use crate::scene::Protocol;
 use crate::specimen::spacings;
 
@@ -81,7 +81,7 @@ impl serde::Serialize for PhaseKind {
 
 /// What presses are drawn from.
 #[derive(Clone, Debug)]
-pub(crate) struct Ground<'a> {
+pub(crate) struct PhaseInputs<'a> {
     pub(crate) protocol: &'a Protocol,
     pub(crate) footprint: Footprint,
     pub(crate) depth_max: Nanometre,
@@ -94,7 +94,7 @@ pub(crate) struct Ground<'a> {
     pub(crate) seed: u64,
 }
 
-impl Ground<'_> {
+impl PhaseInputs<'_> {
     /// The presses that `kind` wants, in order.
     pub(crate) fn presses(&self, kind: PhaseKind) -> Vec<Press> {
         match kind {
@@ -109,7 +109,7 @@ impl Ground<'_> {
         }
     }
 
-    /// How many presses [`presses`](Ground::presses) gives, told without drawing one.
+    /// How many presses [`presses`](PhaseInputs::presses) gives, told without drawing one.
     pub(crate) fn count(&self, kind: PhaseKind) -> u64 {
         let protocol = self.protocol;
         match kind {
@@ -203,9 +203,9 @@ fn nanometres(millimetres: f64) -> Nanometre {
     Nanometre::from_millimetres(millimetres).expect("lengths of a scene are at most 1000 mm")
 }
 
-/// A station straight below the first contact, on the way in.
-fn straight(depth: Nanometre) -> Station {
-    Station {
+/// A waypoint straight below the first contact, on the way in.
+fn straight(depth: Nanometre) -> Waypoint {
+    Waypoint {
         depth,
         shear: [Nanometre(0); 2],
         phase: Phase::Load,

@@ -86,16 +86,16 @@ fn samples(plan: &Plan, planned: &PlannedPress) -> Vec<Sample> {
     let press = &planned.press;
     let count = u32::try_from(press.samples()).expect("few");
     let sample = |number: u32| {
-        let station = press.stations().get(usize::try_from(number).expect("few"));
-        let depth = station.map_or(0.0, |station| station.depth.to_millimetres());
-        let shear = station.map_or([0.0; 2], |station| {
-            station.shear.map(Nanometre::to_millimetres)
+        let waypoint = press.waypoints().get(usize::try_from(number).expect("few"));
+        let depth = waypoint.map_or(0.0, |waypoint| waypoint.depth.to_millimetres());
+        let shear = waypoint.map_or([0.0; 2], |waypoint| {
+            waypoint.shear.map(Nanometre::to_millimetres)
         });
         let [x, y] = press.place.map(Nanometre::to_millimetres);
         let value = |name: &str| match name {
             "Px" => Some(x + shear[0]),
             "Py" => Some(y + shear[1]),
-            "Pz" => station.map(|_| depth + 0.002 * error(planned, number, 1)),
+            "Pz" => waypoint.map(|_| depth + 0.002 * error(planned, number, 1)),
             "Fx" => Some(0.6 * shear[0] + 0.004 * error(planned, number, 2)),
             "Fy" => Some(0.6 * shear[1] + 0.004 * error(planned, number, 3)),
             "Fz" => Some(1.4 * depth + 0.004 * error(planned, number, 4)),
@@ -117,9 +117,9 @@ fn samples(plan: &Plan, planned: &PlannedPress) -> Vec<Sample> {
             unit_id: Some(press.unit.clone()),
             scene_id: press.light.clone(),
             point_id: Some(press.point_id()),
-            depth_step: station.map(|_| number),
+            depth_step: waypoint.map(|_| number),
             repeat: press.repeat,
-            phase: station.map(|station| station.phase),
+            phase: waypoint.map(|waypoint| waypoint.phase),
             stamp: Some(Stamp {
                 valid_s: 0.04 * moment,
                 received_s: None,
@@ -172,7 +172,7 @@ fn evaluate_of_pruned_equals_evaluate_of_everything() {
     let ids: Vec<&str> = catalogue::ALL.iter().map(|metric| metric.id).collect();
     assert_eq!(everything.metrics.len(), ids.len(), "{everything}");
     let alone = (0..ids.len()).map(|metric| 1_u64 << metric);
-    let drawn = (1..=40).map(|seed| mixed(seed) & mixed(seed << 32));
+    let drawn = (1..=40).map(|seed| finalise(seed) & finalise(seed << 32));
     let (mut compared, mut fewer_fields, mut fewer_presses) = (0, 0, 0);
     for subset in alone.chain(drawn) {
         let is_wanted = |(place, _): &(usize, &&str)| subset >> place & 1 == 1;

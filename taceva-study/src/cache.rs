@@ -30,8 +30,8 @@ use taceva_core::shown;
 
 pub(crate) use features::ONE_MAX;
 pub use inventory::{CacheEntry, Pruning, cache_entries, pruned, remove_entry};
+pub use key::CachedStage;
 pub(crate) use key::Key;
-pub use key::Stage;
 pub use study::StageRecord;
 pub(crate) use study::StudyCache;
 pub(crate) use tree::remove;

@@ -19,7 +19,7 @@ use crate::plan::Plan;
 use crate::predict::{self, Predicted, Target};
 use crate::provenance::{ModelProvenance, Provenance, chosen_notes};
 use crate::report::EvaluationReport;
-use crate::rows::{Divided, Part};
+use crate::rows::{DataPart, Divided};
 use crate::samples::Samples;
 use crate::skill::with_skill;
 use crate::state_file::StateFile;
@@ -37,7 +37,7 @@ pub struct EvaluateRequest {
     /// Metrics and groups by name.
     pub metrics: Vec<String>,
     /// The part that is scored; what the model has not seen, if `None`.
-    pub part: Option<Part>,
+    pub part: Option<DataPart>,
     /// What is known of the sensor beyond the dataset's header.
     pub sensor: Option<SensorFile>,
 }
@@ -233,7 +233,7 @@ pub(crate) fn score(
 }
 
 fn divided_as(divided: &Divided) -> String {
-    let parts = [Part::Train, Part::Validation, Part::Test];
+    let parts = [DataPart::Train, DataPart::Validation, DataPart::Test];
     let counts: Vec<String> = parts
         .iter()
         .map(|part| format!("{} {}", part.name(), divided.rows(*part).len()))
@@ -250,10 +250,10 @@ fn divided_as(divided: &Divided) -> String {
 fn seen_note(target: &Target) -> Option<String> {
     let divided = target.divided.as_ref()?;
     let is_seen = match target.part {
-        Part::Train | Part::Validation | Part::All => true,
-        Part::Test => false,
+        DataPart::Train | DataPart::Validation | DataPart::All => true,
+        DataPart::Test => false,
     };
-    (is_seen && !divided.rows(Part::Train).is_empty()).then(|| {
+    (is_seen && !divided.rows(DataPart::Train).is_empty()).then(|| {
         format!(
             "scored on the part `{}`, which the model has seen: this is no test",
             target.part.name()

@@ -14,7 +14,7 @@ use crate::cache::StudyCache;
 use crate::error::StudyError;
 use crate::report::EvaluationReport;
 use crate::scene::{PlannedScene, PlannedStudy, StudySource};
-use crate::stage::{Means, assess};
+use crate::stage::{RunContext, assess};
 use crate::work::Work;
 pub use folder::{Existing, RunFolder};
 pub(crate) use folder::{PLANS, RECORDINGS};
@@ -42,13 +42,13 @@ pub fn run_scene(
     };
     let studies = scene.studies.iter().zip(&datasets);
     let assessed = studies.enumerate().map(|(number, (study, dataset))| {
-        let means = Means {
+        let context = RunContext {
             work,
             cache: workshop.cache_of(study, number),
             models: workshop.models,
             checkpoint: &folder.checkpoint(number, &study.plan.name),
         };
-        assess(scene, study, dataset, means)
+        assess(scene, study, dataset, context)
     });
     assessed.collect()
 }

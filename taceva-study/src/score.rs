@@ -13,6 +13,7 @@ use taceva_core::{Channel, Column, Progress, Unit};
 use taceva_dataset::{CsvTable, SensorFile};
 use taceva_metrics::{MetricPlan, SensorFacts, catalogue};
 
+use crate::accumulate::{self, Rows};
 use crate::bounded::Bounded;
 use crate::error::StudyError;
 use crate::facts;
@@ -24,7 +25,6 @@ use crate::skill::with_skill;
 use crate::state_file::StateFile;
 use crate::subject::Subject;
 use crate::taken::Taken;
-use crate::tally::{self, Rows};
 
 use fields::Place;
 use paired_rows::PairedRows;
@@ -185,7 +185,7 @@ impl Scoring {
 
     fn evaluate(&self) -> Result<Scored, StudyError> {
         let rows = PairedRows::of(self)?;
-        let mut evaluator = tally::tally(&rows, &self.metrics, self.request.jobs)?;
+        let mut evaluator = accumulate::accumulate(&rows, &self.metrics, self.request.jobs)?;
         let provenance = Provenance {
             taceva: env!("CARGO_PKG_VERSION").to_owned(),
             notes: tables::same_bytes_note(&self.digests).into_iter().collect(),

@@ -90,12 +90,12 @@ impl ModelEstimator for LibraryEstimator {
         let refit = self.learner.settings().refit;
         let rows = trials.learnt(refit);
         let features = trials.features.select(&rows);
-        let labels = match (self.learner.tells_classes(), validation) {
+        let labels = match (self.learner.is_classifier(), validation) {
             (false, _) => rows_of(&trials.labels, &rows),
             (true, held) => rows_of(&as_taught(training, held), &rows),
         };
         let fitted = Fitted::new(&*self.learner, &features, &labels, &values, progress)?;
-        let scale = match self.learner.tells_classes() {
+        let scale = match self.learner.is_classifier() {
             true => OutputScale {
                 offset: vec![0.0; channels],
                 span: vec![1.0; channels],

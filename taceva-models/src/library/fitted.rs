@@ -43,7 +43,7 @@ impl Fitted {
         let is_nothing = kept.is_empty() || live.is_empty();
         let base = |channel: usize| {
             let labels = labels.col_as_slice(channel);
-            match (varies(&channel), learner.tells_classes()) {
+            match (varies(&channel), learner.is_classifier()) {
                 (false, _) => labels[0],
                 (true, false) => labels.iter().sum::<f64>() / labels.len() as f64,
                 (true, true) if is_nothing => commonest(labels),

@@ -36,7 +36,7 @@ impl Halt for SimulatedHalt {
         }
         world.halted = true;
         let now_s = world.now_s;
-        world.judge.halted(now_s);
+        world.oracle.halted(now_s);
         Ok(())
     }
 }

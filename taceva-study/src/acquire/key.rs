@@ -4,7 +4,7 @@ use taceva_core::{ArgKind, Device, Registry};
 use taceva_drivers::Drivers;
 use taceva_protocol::Setting;
 
-use crate::cache::{Cache, Key, Stage};
+use crate::cache::{Cache, CachedStage, Key};
 use crate::scene::{PlannedStudy, RigSpec};
 
 /// The parts of a written plan that say what is computed of a recording, and not what is recorded.
@@ -27,7 +27,7 @@ pub(crate) fn key(
     for field in OF_SCORES {
         fields.remove(field);
     }
-    let mut key = Key::of(Stage::Acquire)
+    let mut key = Key::of(CachedStage::Acquire)
         .part("models", cache.models())
         .part("plan", &written.to_string())
         .whole("opaque", &plan.opaque)

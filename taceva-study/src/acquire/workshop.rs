@@ -6,7 +6,7 @@ use std::time::Duration;
 use taceva_core::{Progress, Rig, SimulatedBench};
 use taceva_drivers::{Drivers, Selector};
 use taceva_models::Models;
-use taceva_protocol::{Digest, SpecimenChanger, Timekeeper};
+use taceva_protocol::{ContentId, SpecimenChanger, Timekeeper};
 
 use crate::cache::Cache;
 
@@ -33,7 +33,7 @@ pub struct Surroundings {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Upcoming {
     /// Its name.
-    pub press: Digest,
+    pub press: ContentId,
     /// When it begins by the clock of the rig, on a schedule that leaves every press ample time: a rig whose time can be
     /// turned gives the same times to a press whether the run was interrupted or not.
     pub begins: Duration,

@@ -6,9 +6,9 @@ use taceva_core::{Column, Field};
 use taceva_dataset::Dataset;
 use taceva_metrics::{Evaluator, Metric, MetricPlan};
 
+use crate::accumulate::{Columns, accumulate};
 use crate::error::StudyError;
 use crate::predict::{Predicted, truth};
-use crate::tally::{Columns, tally};
 
 /// The metrics of a plan by the rows they read.
 pub(super) struct Passes<'a> {
@@ -59,7 +59,7 @@ impl<'a> Passes<'a> {
                 rows,
             };
             let plan = self.restricted(metrics)?;
-            total.merge(tally(&columns, &plan, jobs)?)?;
+            total.merge(accumulate(&columns, &plan, jobs)?)?;
         }
         if !self.of_truth.is_empty() {
             let rows = dataset.all_rows();
@@ -76,7 +76,7 @@ impl<'a> Passes<'a> {
                 rows: &rows,
             };
             let plan = self.restricted(&self.of_truth)?;
-            total.merge(tally(&columns, &plan, jobs)?)?;
+            total.merge(accumulate(&columns, &plan, jobs)?)?;
         }
         Ok(total)
     }

@@ -5,7 +5,8 @@ use std::collections::BTreeSet;
 use taceva_core::{ErrorKind, Features};
 use taceva_models::{FeatureChoice, FeatureSpec, Model, ModelEstimator, OpenFeatures};
 
-use super::{FitPlan, groups};
+use super::FitPlan;
+use super::learn::groups;
 use crate::error::StudyError;
 use crate::work::Work;
 
@@ -38,7 +39,7 @@ impl FitPlan<'_> {
         })?;
         let candidates = open.candidates(&self.features, frames.info, frames.reference.is_some());
         let parts = self.parts()?;
-        // One that puts nothing aside: a checkpoint is of one kind of features.
+        // Without a checkpoint, which is of one kind of features.
         let estimator = self.model.estimator(&self.of_model)?;
         let mut tried: Vec<(FeatureSpec, Vec<f64>)> = Vec::new();
         let (mut failed, mut last) = (Vec::new(), None);

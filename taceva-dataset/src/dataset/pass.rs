@@ -1,0 +1,137 @@
+//! Passes over the rows of a dataset, on several threads and in order.
+
+use std::num::NonZeroUsize;
+
+use taceva_core::{Field, Frame, Progress, SampleSink, SinkError};
+
+use super::Dataset;
+use crate::error::DatasetError;
+use crate::parallel::ordered_map;
+
+/// Which rows to go through, how, and who listens.
+#[derive(Clone, Copy)]
+pub struct Pass<'a> {
+    /// The rows, from 0, in the order in which they are wanted.
+    pub rows: &'a [usize],
+    /// Threads that read and decode.
+    pub jobs: NonZeroUsize,
+    /// Hears of each row and may stop the pass.
+    pub progress: &'a dyn Progress,
+}
+
+/// What a pass over samples did.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct StreamReport {
+    /// Samples handed to the sink.
+    pub samples: u64,
+    /// Frames that were read and decoded: none, if the sink reads none.
+    pub frames_decoded: u64,
+}
+
+impl Dataset {
+    /// Decodes the frame of each row, calls `work` with it on one of the threads and `take` with the results, in order, on this one.
+    ///
+    /// At most a few frames a thread are in memory. The outcome does not depend on the number of threads.
+    ///
+    /// # Errors
+    /// Those of [`frame`](Dataset::frame), for the first row in order that has one; [`DatasetError::Request`] if a row has no
+    /// frame; [`DatasetError::Sink`] if `take` refuses; [`DatasetError::Cancelled`].
+    pub fn map_frames<T: Send>(
+        &self,
+        pass: Pass<'_>,
+        work: impl Fn(usize, Frame) -> T + Sync,
+        mut take: impl FnMut(usize, T) -> Result<(), SinkError>,
+    ) -> Result<(), DatasetError> {
+        let decode_and_work = |row| {
+            let frame = self.frame(row)?.ok_or_else(|| DatasetError::Request {
+                path: self.path().to_owned(),
+                problem: format!("row {row} has no frame"),
+            })?;
+            Ok(work(row, frame))
+        };
+        self.pass(pass, "decode", decode_and_work, |row, result| {
+            take(row, result).map_err(|source| DatasetError::Sink { row, source })
+        })
+    }
+
+    /// Calls `work` with each row on one of the threads and `take` with the results, in order, on this one; `stage` is what the progress hears.
+    ///
+    /// # Errors
+    /// Those of `work` and `take`, for the first row in order that has one; [`DatasetError::Cancelled`].
+    pub fn map_rows<T: Send>(
+        &self,
+        pass: Pass<'_>,
+        stage: &str,
+        work: impl Fn(usize) -> Result<T, DatasetError> + Sync,
+        take: impl FnMut(usize, T) -> Result<(), DatasetError>,
+    ) -> Result<(), DatasetError> {
+        self.pass(pass, stage, work, take)
+    }
+
+    /// Pushes the sample of each row into `sink`, in order; frames are decoded only if the sink reads them.
+    ///
+    /// # Errors
+    /// Those of [`frame`](Dataset::frame); [`DatasetError::Sink`] if the sink refuses a sample; [`DatasetError::Cancelled`].
+    pub fn stream(
+        &self,
+        pass: Pass<'_>,
+        sink: &mut dyn SampleSink,
+    ) -> Result<StreamReport, DatasetError> {
+        let fields = sink.fields();
+        let wants_frames = fields.contains(Field::Frame);
+        let mut report = StreamReport::default();
+        let read = |row| {
+            self.check_row(row)?;
+            if wants_frames {
+                self.frame(row)
+            } else {
+                Ok(None)
+            }
+        };
+        // Without frames there is nothing to share among threads.
+        let jobs = if wants_frames {
+            pass.jobs
+        } else {
+            NonZeroUsize::MIN
+        };
+        self.pass(Pass { jobs, ..pass }, "read", read, |row, frame| {
+            report.samples += 1;
+            report.frames_decoded += u64::from(frame.is_some());
+            let mut sample = self.table.sample(row, fields, frame);
+            sample.sensor_id = Some(self.header.sensor.model.clone());
+            sink.accept(&sample)
+                .map_err(|source| DatasetError::Sink { row, source })
+        })?;
+        Ok(report)
+    }
+
+    fn pass<T: Send>(
+        &self,
+        pass: Pass<'_>,
+        stage: &str,
+        work: impl Fn(usize) -> Result<T, DatasetError> + Sync,
+        mut take: impl FnMut(usize, T) -> Result<(), DatasetError>,
+    ) -> Result<(), DatasetError> {
+        let Pass {
+            rows,
+            jobs,
+            progress,
+        } = pass;
+        progress.begin(stage, Some(rows.len() as u64));
+        let outcome = ordered_map(
+            rows.len(),
+            jobs,
+            |position| work(rows[position]),
+            |position, result| {
+                if progress.is_cancelled() {
+                    return Err(DatasetError::Cancelled);
+                }
+                take(rows[position], result?)?;
+                progress.advance(1);
+                Ok(())
+            },
+        );
+        progress.end();
+        outcome
+    }
+}
