@@ -6,7 +6,7 @@ use taceva_core::{Batch, Field, FieldSet, Needs, Unit};
 
 use crate::evaluate::state::Record;
 use crate::exact::level::{from_millionths, millionths, step};
-use crate::exact::merge::{Merge, merge_cells};
+use crate::exact::merge::{Merge, keyed, merge_cells};
 use crate::exact::{Dyadic, ExactSum};
 use crate::families::channelwise::{Channelwise, each_pair};
 use crate::families::family::{Details, Finished, Numbers, Output};
@@ -146,7 +146,7 @@ impl Channelwise for Levels {
         };
         Record {
             counts: vec![sums.n, sums.n_invalid],
-            cells: sums.levels.iter().map(level).collect(),
+            cells: keyed(sums.levels.iter().map(level)),
             ..Record::default()
         }
     }

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use crate::evaluate::state::Record;
-use crate::exact::merge::Merge;
+use crate::exact::merge::{Merge, keyed};
 
 /// Where presses belong together: a contact location, and a depth step within it where that matters.
 #[derive(Clone, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
@@ -129,9 +129,7 @@ impl<V: Merge + Clone + Default> Cells<V> {
     /// The cells as records by key, for [`Record::cells`].
     pub(crate) fn to_records(&self, to_record: impl Fn(&V) -> Record) -> BTreeMap<String, Record> {
         let cells = self.cells.iter();
-        cells
-            .map(|(key, cell)| (key.to_text(), to_record(cell)))
-            .collect()
+        keyed(cells.map(|(key, cell)| (key.to_text(), to_record(cell))))
     }
 
     /// The cells of a record, which `named` or not must agree with.

@@ -191,7 +191,19 @@ pub(crate) struct Details {
 /// The intervals of a value and of variants by name.
 pub(crate) struct Intervals {
     pub(crate) value: Interval,
-    pub(crate) variants: BTreeMap<String, Interval>,
+    pub(crate) variants: Vec<(String, Interval)>,
+}
+
+impl Intervals {
+    /// The interval of the variant called `name`, or of the value itself; the last one of a name counts.
+    pub(crate) fn of(&self, name: Option<&str>) -> Option<Interval> {
+        let Some(name) = name else {
+            return Some(self.value);
+        };
+        let mut variants = self.variants.iter().rev();
+        let found = variants.find(|(known, _)| known == name);
+        found.map(|(_, interval)| *interval)
+    }
 }
 
 #[cfg(test)]

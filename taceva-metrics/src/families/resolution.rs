@@ -12,6 +12,7 @@ use taceva_core::{Batch, Field, GratingKind, Labels, Nanometre, Unit};
 
 use crate::evaluate::plan::MetricPlan;
 use crate::evaluate::state::Record;
+use crate::exact::merge::keyed;
 use crate::families::family::{Details, Family, Numbers, Output, each_row};
 use crate::metric::{Formula, Metric};
 use histogram::Histogram;
@@ -54,7 +55,7 @@ impl Family for Resolution {
 
     fn parameters(&self) -> BTreeMap<String, String> {
         let clusters = if self.by_point { "point_id" } else { "board" };
-        BTreeMap::from([("clusters".to_owned(), clusters.to_owned())])
+        keyed([("clusters".to_owned(), clusters.to_owned())])
     }
 
     fn empty(&self) -> Vec<Histogram> {

@@ -13,6 +13,7 @@ use crate::evaluate::facts;
 use crate::evaluate::plan::MetricPlan;
 use crate::evaluate::settings::Settings;
 use crate::evaluate::state::Record;
+use crate::exact::merge::keyed;
 use crate::exact::moments::Moments;
 use crate::families::accuracy::outputs;
 use crate::families::family::{Details, Family, Numbers, Output, each_row};
@@ -79,7 +80,7 @@ impl Family for Spatial {
     const SCHEMA: &'static str = "taceva.spatial/1";
 
     fn parameters(&self) -> BTreeMap<String, String> {
-        BTreeMap::from([
+        keyed([
             ("bins".to_owned(), BINS.to_string()),
             ("footprint".to_owned(), self.footprint.clone()),
         ])

@@ -17,6 +17,7 @@ use crate::evaluate::facts;
 use crate::evaluate::plan::MetricPlan;
 use crate::evaluate::settings::Settings;
 use crate::evaluate::state::Record;
+use crate::exact::merge::keyed;
 use crate::families::family::{Details, Family, Numbers, Output, each_row};
 use crate::metric::{Formula, Metric};
 use crate::paired::is_valid;
@@ -118,7 +119,7 @@ impl Family for Surface {
     const SCHEMA: &'static str = "taceva.surface/1";
 
     fn parameters(&self) -> BTreeMap<String, String> {
-        let mut parameters = BTreeMap::from([
+        let mut parameters = keyed([
             ("gate_N".to_owned(), self.settings.gate.0.to_string()),
             ("shear".to_owned(), self.shear.is_ok().to_string()),
         ]);

@@ -4,7 +4,6 @@
 //! answers the same whatever it sees repeats itself perfectly, follows a line without an error and is moved by no light: its scores
 //! are numbers, and claim nothing.
 
-use std::collections::BTreeMap;
 use std::fmt;
 
 use taceva_core::Field;
@@ -144,7 +143,7 @@ impl Metric {
 
 /// Gives each of `entries` the standing that the skill scores and the bounded shares among them determine.
 pub(crate) fn judge(entries: &mut [Entry]) {
-    let skills: BTreeMap<String, Standing> = entries
+    let skills: Vec<(String, Standing)> = entries
         .iter()
         .filter(|entry| matches!(entry.metric.formula, Formula::Skill))
         .map(|entry| (entry.channel.clone(), of_skill_score(&entry.score)))
@@ -176,13 +175,17 @@ fn of_score(
     metric: &Metric,
     channel: &str,
     score: &Score,
-    skills: &BTreeMap<String, Standing>,
+    skills: &[(String, Standing)],
 ) -> Standing {
     if matches!(metric.formula, Formula::Resolution) {
         return of_success_rate(score);
     }
     let channels = channels(channel, score);
-    let of_channel = |name: &str| skills.get(name).copied();
+    let of_channel = |name: &str| {
+        let mut skills = skills.iter().rev();
+        let found = skills.find(|(channel, _)| channel == name);
+        found.map(|(_, standing)| *standing)
+    };
     let skill = Standing::of_channels(metric, channels.iter().map(String::as_str), |name| {
         of_channel(name).unwrap_or(Standing::SkillUnknown)
     });

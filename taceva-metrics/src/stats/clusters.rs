@@ -59,14 +59,19 @@ impl<T> Clusters<T> {
         mut convert: impl FnMut(&T) -> Result<U, E>,
     ) -> Result<Clusters<U>, E> {
         Ok(match self {
-            Clusters::Named(cells) => Clusters::Named(
-                cells
-                    .iter()
-                    .map(|(name, cell)| Ok((name.clone(), convert(cell)?)))
-                    .collect::<Result<_, E>>()?,
-            ),
+            Clusters::Named(cells) => {
+                let mut converted = BTreeMap::new();
+                for (name, cell) in cells {
+                    converted.insert(name.clone(), convert(cell)?);
+                }
+                Clusters::Named(converted)
+            }
             Clusters::Hashed(cells) => {
-                Clusters::Hashed(cells.iter().map(convert).collect::<Result<_, E>>()?)
+                let mut converted = Vec::with_capacity(cells.len());
+                for cell in cells {
+                    converted.push(convert(cell)?);
+                }
+                Clusters::Hashed(converted)
             }
             Clusters::Pooled(cell) => Clusters::Pooled(convert(cell)?),
         })

@@ -136,11 +136,10 @@ impl Accumulator {
         let of_value = |value: &Value, name: Option<&str>| match value {
             Value::Undefined(reason) => Interval::Undefined(*reason),
             Value::Scalar(_) if cells.is_none() => Interval::Undefined(self.family.unclustered()),
-            Value::Scalar(value) => match (&own, name) {
-                (Some(own), None) => own.value,
-                (Some(own), Some(name)) if own.variants.contains_key(name) => own.variants[name],
-                _ => resampling.interval(*value, name),
-            },
+            Value::Scalar(value) => {
+                let own = own.as_ref().and_then(|own| own.of(name));
+                own.unwrap_or_else(|| resampling.interval(*value, name))
+            }
             _ => Interval::Undefined(UndefinedReason::Empty),
         };
         let interval = |value: &Value, name: Option<&str>| match self.rows_as_clusters {

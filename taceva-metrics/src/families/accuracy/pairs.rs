@@ -7,6 +7,7 @@ use taceva_core::{Batch, Channels, Column, Unit};
 use super::plane::planes;
 use crate::evaluate::plan::MetricPlan;
 use crate::evaluate::state::Record;
+use crate::exact::merge::keyed;
 use crate::exact::{Counts, Sums};
 use crate::families::accuracy::pair_sums::{PairSpec, PairSums};
 use crate::families::accuracy::streams::{Stream, Streams};
@@ -90,7 +91,7 @@ impl Family for Pairs {
     const SCHEMA: &'static str = "taceva.pairs/1";
 
     fn parameters(&self) -> BTreeMap<String, String> {
-        let mut parameters = BTreeMap::from([("streams".to_owned(), self.streams.to_string())]);
+        let mut parameters = keyed([("streams".to_owned(), self.streams.to_string())]);
         if self.streams.contains(Stream::Symmetric) {
             parameters.insert("eps".to_owned(), format!("{EPSILON:e}"));
         }

@@ -7,7 +7,7 @@ use taceva_core::Phase;
 
 use super::press::Press;
 use crate::evaluate::state::Record;
-use crate::exact::merge::Merge;
+use crate::exact::merge::{Merge, keyed};
 use crate::exact::ordered::Ordered;
 use crate::exact::{Dyadic, ExactSum};
 use crate::paired::is_valid;
@@ -85,7 +85,7 @@ impl Branches {
         Record {
             counts: vec![self.place.n],
             sums: self.place.sums.to_vec(),
-            cells: branches.into_iter().flatten().collect(),
+            cells: keyed(branches.into_iter().flatten()),
             ..Record::default()
         }
     }
@@ -154,9 +154,6 @@ fn read_branch(record: &Record) -> Result<Branch, String> {
         .iter()
         .copied()
         .zip(record.sums.iter().cloned());
-    Ok(depths
-        .iter()
-        .map(|depth| Ordered::new(*depth))
-        .zip(forces)
-        .collect())
+    let depths = depths.iter().map(|depth| Ordered::new(*depth));
+    Ok(keyed(depths.zip(forces)))
 }

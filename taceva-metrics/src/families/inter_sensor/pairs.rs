@@ -1,9 +1,8 @@
 //! Every pair of units, laid onto each other and compared.
 
-use std::collections::BTreeMap;
-
 use super::gap::Gap;
 use super::surfaces::{Cloud, SurfaceClouds};
+use crate::exact::merge::keyed;
 use crate::exact::{Dyadic, ExactSum};
 use crate::families::family::Finished;
 use crate::geometry::{Motion, Point, Registration, register_clouds};
@@ -141,12 +140,8 @@ fn compare(units: [usize; 2], onto: &Cloud, from: &Cloud) -> UnitPair {
 
 /// The points of both clouds at the locations they share, in one order.
 fn shared_points(from: &Cloud, onto: &Cloud) -> [Vec<Point>; 2] {
-    let onto: BTreeMap<usize, Point> = onto
-        .locations
-        .iter()
-        .copied()
-        .zip(onto.points.iter().copied())
-        .collect();
+    let locations = onto.locations.iter().copied();
+    let onto = keyed(locations.zip(onto.points.iter().copied()));
     let located = from.locations.iter().zip(&from.points);
     let (from, onto) = located
         .filter_map(|(location, &point)| Some((point, *onto.get(location)?)))

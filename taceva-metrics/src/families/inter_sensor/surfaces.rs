@@ -119,9 +119,10 @@ impl SurfaceClouds {
                 .all(|value| millionths(*value).is_some());
             let whole = lengths && record.values.len().is_multiple_of(3) && record.cells.is_empty();
             let triples = record.values.chunks_exact(3);
-            let places: BTreeSet<[Ordered; 3]> = triples
-                .map(|place| [place[0], place[1], place[2]].map(Ordered::new))
-                .collect();
+            let mut places = BTreeSet::new();
+            for place in triples {
+                places.insert([place[0], place[1], place[2]].map(Ordered::new));
+            }
             let found = whole.then_some(places).filter(|places| !places.is_empty());
             found.ok_or_else(|| "no places of three lengths each".to_owned())
         };

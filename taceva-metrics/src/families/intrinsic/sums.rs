@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use crate::evaluate::state::Record;
 use crate::exact::Dyadic;
-use crate::exact::merge::Merge;
+use crate::exact::merge::{Merge, keyed};
 use crate::exact::ordered::Ordered;
 use crate::families::family::Finished;
 use crate::geometry::Hull;
@@ -134,7 +134,7 @@ impl IntrinsicSums {
         Record {
             counts: vec![self.n_invalid, self.timed, self.contacts],
             values: self.hull.corners().concat(),
-            cells: parts.map(|(name, part)| (name.to_owned(), part)).collect(),
+            cells: keyed(parts.map(|(name, part)| (name.to_owned(), part))),
             ..Record::default()
         }
     }

@@ -1,7 +1,5 @@
 //! How far a robustness would move with other contact locations: the delta method on the errors it is made of.
 
-use std::collections::BTreeMap;
-
 use super::change::Change;
 use super::robustness::{changes, variant_of};
 use super::sums::{LightingSums, SceneSums};
@@ -24,14 +22,14 @@ pub(super) fn intervals(
 ) -> Intervals {
     let undefined = |reason| Intervals {
         value: Interval::Undefined(reason),
-        variants: BTreeMap::new(),
+        variants: Vec::new(),
     };
     let changes = match changes(total, reference) {
         Ok(changes) => changes,
         Err(reason) => return undefined(reason),
     };
     let baseline = log_variance(total, clusters, reference);
-    let mut variants = BTreeMap::new();
+    let mut variants = Vec::new();
     let mut terms = [Vec::new(), Vec::new()];
     for (scene, change) in &changes {
         let own = log_variance(total, clusters, scene);
@@ -44,13 +42,13 @@ pub(super) fn intervals(
         if change.robustness().is_ok() {
             let last = terms[0].last().into_iter();
             let interval = mean_interval(last.copied(), baseline, Range::Ratio);
-            variants.insert(variant_of(scene), interval);
+            variants.push((variant_of(scene), interval));
         }
     }
     let [plain, plus] = terms;
     let plain = mean_interval(plain.into_iter(), baseline, Range::Ratio);
     let plus = mean_interval(plus.into_iter(), baseline, Range::RatioWithEnds);
-    variants.insert("plus".to_owned(), plus);
+    variants.push(("plus".to_owned(), plus));
     Intervals {
         value: plain,
         variants,

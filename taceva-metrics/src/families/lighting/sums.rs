@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use crate::evaluate::state::Record;
-use crate::exact::merge::{Merge, merge_cells};
+use crate::exact::merge::{Merge, keyed, merge_cells};
 use crate::exact::{Dyadic, ExactSum};
 use crate::paired::{Paired, is_valid};
 
@@ -73,7 +73,7 @@ impl LightingSums {
         };
         Record {
             counts: vec![self.n_invalid],
-            cells: self.scenes.iter().map(cell).collect(),
+            cells: keyed(self.scenes.iter().map(cell)),
             ..Record::default()
         }
     }

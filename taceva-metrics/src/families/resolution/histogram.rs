@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use crate::evaluate::state::Record;
 use crate::exact::Dyadic;
-use crate::exact::merge::Merge;
+use crate::exact::merge::{Merge, keyed};
 
 /// Counts of samples by |r̂ − r| in whole nanometres, so that every tolerance can be asked afterwards, and by r, so that it is known how
 /// often one answer for all of them would be right.
@@ -86,7 +86,7 @@ impl Histogram {
         });
         Record {
             counts: [vec![self.n_invalid], flat(&self.counts)].concat(),
-            cells: truths.into_iter().collect(),
+            cells: keyed(truths),
             ..Record::default()
         }
     }

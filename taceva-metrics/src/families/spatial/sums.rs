@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use taceva_core::{Footprint, Nanometre};
 
 use crate::evaluate::state::Record;
-use crate::exact::merge::{Merge, merge_cells};
+use crate::exact::merge::{Merge, keyed, merge_cells};
 use crate::exact::moments::Moments;
 use crate::paired::{Paired, is_valid};
 
@@ -48,10 +48,7 @@ impl SpatialSums {
         let distance = cells("distance", &self.distance);
         Record {
             counts: vec![self.n, self.n_invalid, self.outside],
-            cells: distance
-                .into_iter()
-                .chain(cells("depth", &self.depth))
-                .collect(),
+            cells: keyed(distance.into_iter().chain(cells("depth", &self.depth))),
             ..Record::default()
         }
     }

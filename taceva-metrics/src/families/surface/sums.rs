@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use super::grid::Cell;
 use crate::evaluate::state::Record;
 use crate::exact::ExactSum;
-use crate::exact::merge::{Merge, merge_cells};
+use crate::exact::merge::{Merge, keyed, merge_cells};
 use crate::exact::moments::Moments;
 use crate::paired::is_valid;
 
@@ -128,7 +128,7 @@ impl SurfaceSums {
                 self.force_squares.clone(),
                 self.normal.sum.clone(),
             ],
-            cells: self.cells.iter().map(cell).collect(),
+            cells: keyed(self.cells.iter().map(cell)),
             ..Record::default()
         }
     }
