@@ -12,7 +12,7 @@ use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
 use crate::error::DatasetError;
-use crate::file::sync_folder;
+use crate::file::make_names_durable;
 use crate::layout;
 use crate::limits;
 
@@ -127,7 +127,7 @@ impl PackWriter {
             .open(&path)
             .map_err(DatasetError::io("open", &path))?;
         // Even where it is there: a killed process leaves names that nobody made durable.
-        sync_folder(&folder.join(layout::FRAMES))?;
+        make_names_durable(&folder.join(layout::FRAMES))?;
         Ok(PackWriter {
             folder: folder.to_owned(),
             file,

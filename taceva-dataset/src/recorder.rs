@@ -7,10 +7,11 @@ use std::path::{Path, PathBuf};
 use taceva_core::{
     Channels, Field, FieldSet, Frame, FrameInfo, PressOutcome, Sample, SampleSink, SinkError,
 };
+use taceva_durable::parent_of;
 
 use crate::digest::Digest;
 use crate::error::DatasetError;
-use crate::file::{parent_of, sync_folder};
+use crate::file::make_names_durable;
 use crate::header::{Header, ReferenceInfo};
 use crate::journal::{Journal, JournalRecord, RecordKind};
 use crate::layout;
@@ -102,7 +103,7 @@ impl Recorder {
         let lock = empty_folder(path)?;
         let frames = path.join(layout::FRAMES);
         fs::create_dir_all(&frames).map_err(DatasetError::io("create", &frames))?;
-        sync_folder(parent_of(path))?;
+        make_names_durable(parent_of(path))?;
         let start = WrittenStart::new(spec).to_toml();
         let journal = Journal::create(&path.join(layout::JOURNAL), start.as_bytes())?;
         Ok(Recorder::new(path, lock, journal, spec.clone()))
@@ -354,7 +355,7 @@ impl Recorder {
     fn put_in_place(&self, from: &Path, name: &str) -> Result<(), DatasetError> {
         let to = self.path.join(name);
         fs::rename(from, &to).map_err(DatasetError::io("rename into place", &to))?;
-        sync_folder(&self.path)
+        make_names_durable(&self.path)
     }
 }
 

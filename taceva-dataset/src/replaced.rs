@@ -10,8 +10,10 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
+use taceva_durable::parent_of;
+
 use crate::error::DatasetError;
-use crate::file::{parent_of, sync_folder};
+use crate::file::make_names_durable;
 use crate::held::is_same;
 use crate::layout;
 
@@ -65,7 +67,7 @@ pub fn settle(target: &Path) -> Result<(), DatasetError> {
             continue;
         }
         match fs::rename(&aside, target) {
-            Ok(()) => sync_folder(parent_of(target))?,
+            Ok(()) => make_names_durable(parent_of(target))?,
             // Somebody else was faster.
             Err(_) if exists(target) => {}
             Err(error) => return Err(DatasetError::io("put back", &aside)(error)),
@@ -77,7 +79,7 @@ pub fn settle(target: &Path) -> Result<(), DatasetError> {
 /// Removes what is left of the predecessors of the dataset at `target`, once it is certain that a power cut cannot bring them back.
 fn clear_beside(target: &Path, partial: &Path, first: &Path) {
     let (is_partial, is_aside) = (exists(partial), exists(first));
-    if !(is_partial || is_aside) || sync_folder(parent_of(target)).is_err() {
+    if !(is_partial || is_aside) || make_names_durable(parent_of(target)).is_err() {
         return;
     }
     if is_partial {

@@ -1,6 +1,7 @@
 //! A whole scene, end to end: acquire every study, then fit, predict and score it.
 
 mod folder;
+mod layout;
 
 use std::num::NonZeroUsize;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -17,7 +18,7 @@ use crate::scene::{PlannedScene, PlannedStudy, StudySource};
 use crate::stage::{RunContext, assess};
 use crate::work::Work;
 pub use folder::{Existing, RunFolder};
-pub(crate) use folder::{PLANS, RECORDINGS};
+pub(crate) use layout::{PLANS, RECORDINGS};
 
 /// The reports of the studies of `scene`, in order; what is acquired is recorded in `folder`, several studies at a time.
 ///

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 
-use taceva_core::{FrameInfo, Progress};
+use taceva_core::{Frame, FrameInfo, Progress};
 
 use super::npy::NpyFrames;
 use super::plan::{FrameSource, ImportPlan, ImportSummary, PlannedFrames};
@@ -107,6 +107,28 @@ struct Copied {
     intensity: f64,
 }
 
+impl Copied {
+    /// Writes `bytes`, the file of `frame`, at `relative` of the staged folder.
+    fn write(
+        staged: &StagedFolder,
+        relative: String,
+        bytes: &[u8],
+        (kind, frame): (ImageKind, &Frame),
+    ) -> Result<Copied, DatasetError> {
+        write_durable(&staged.path().join(&relative), bytes)?;
+        Ok(Copied {
+            kind,
+            info: frame.info(),
+            entry: FrameEntry {
+                path: relative,
+                span: None,
+                digest: Digest::of(bytes),
+            },
+            intensity: frame.mean_luma(),
+        })
+    }
+}
+
 /// Frames copied at a time by each job: most of a copy is waiting until the disk has it, and disks like to be asked for
 /// several files at once.
 const COPIES_A_JOB: NonZeroUsize = NonZeroUsize::new(4).expect("four");
@@ -197,17 +219,7 @@ fn copy_element(
         problem,
     })?;
     let relative = layout::frame_path(row, ImageKind::Png.extension());
-    write_durable(&staged.path().join(&relative), &bytes)?;
-    Ok(Copied {
-        kind: ImageKind::Png,
-        info: frame.info(),
-        entry: FrameEntry {
-            path: relative,
-            span: None,
-            digest: Digest::of(&bytes),
-        },
-        intensity: frame.mean_luma(),
-    })
+    Copied::write(staged, relative, &bytes, (ImageKind::Png, &frame))
 }
 
 /// Verifies the image at `path` and writes the same bytes where `place` says.
@@ -233,17 +245,7 @@ fn copy_image(
         .filter(|extension| kind.has_extension(extension))
         .unwrap_or(kind.extension());
     let relative = place(extension);
-    write_durable(&staged.path().join(&relative), &bytes)?;
-    Ok(Copied {
-        kind,
-        info: frame.info(),
-        entry: FrameEntry {
-            path: relative,
-            span: None,
-            digest: Digest::of(&bytes),
-        },
-        intensity: frame.mean_luma(),
-    })
+    Copied::write(staged, relative, &bytes, (kind, &frame))
 }
 
 fn copy_reference(

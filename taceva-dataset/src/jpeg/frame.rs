@@ -1,6 +1,6 @@
 //! What the header of a frame says, and what its scans have told of it so far.
 
-use super::segments::big_endian;
+use super::bits::big_endian;
 
 /// A colour component.
 #[derive(Clone, Debug)]

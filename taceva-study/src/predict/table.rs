@@ -8,6 +8,7 @@ use taceva_models::Model;
 
 use super::{Predicted, Target};
 use crate::error::StudyError;
+use crate::rows::BESIDE_CHANNELS;
 
 /// `numbers` beside what the table of `dataset` says of the same rows.
 pub(crate) fn table(
@@ -73,17 +74,6 @@ fn constants(model: &Model) -> BTreeMap<String, f64> {
 
 /// What else the table says of `rows`, of the columns that `score` reads.
 fn beside(dataset: &Dataset, rows: &[usize]) -> Vec<(&'static str, Vec<Option<String>>)> {
-    const READ_BY_SCORE: [Field; 9] = [
-        Field::UnitId,
-        Field::Scene,
-        Field::DepthStep,
-        Field::Repeat,
-        Field::Phase,
-        Field::Stamp,
-        Field::Kind,
-        Field::Spacing,
-        Field::Intensity,
-    ];
     let column = |field: Field| {
         let texts = dataset.table().as_text(field.name())?;
         Some((
@@ -91,7 +81,11 @@ fn beside(dataset: &Dataset, rows: &[usize]) -> Vec<(&'static str, Vec<Option<St
             rows.iter().map(|&row| texts[row].clone()).collect(),
         ))
     };
-    READ_BY_SCORE.into_iter().filter_map(column).collect()
+    // Points have a column of their own.
+    let others = BESIDE_CHANNELS
+        .into_iter()
+        .filter(|field| *field != Field::Point);
+    others.filter_map(column).collect()
 }
 
 /// What is true of `rows`; a channel that the dataset has not is absent in every row.
