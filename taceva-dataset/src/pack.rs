@@ -17,6 +17,16 @@ use crate::layout;
 use crate::limits;
 
 /// Which bytes of a pack are a frame; written `@OFFSET+LENGTH` behind the path of the pack, and `-first` behind that of a difference.
+///
+/// ```
+/// use taceva_dataset::{Digest, FrameEntry};
+///
+/// let entry = FrameEntry::at("frames/0000.pack@5+7-first", Digest::of(b""));
+/// let span = entry.span.ok_or("it is in a pack")?;
+/// assert_eq!((span.offset, span.length, span.is_difference), (5, 7, true));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Span {
     /// Bytes before it.

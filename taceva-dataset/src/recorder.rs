@@ -31,7 +31,18 @@ use folder::{empty_folder, remove_journal};
 use written::{WrittenFrame, WrittenPress, WrittenSample, WrittenStart};
 
 /// What a recording is of.
+///
+/// ```
+/// use taceva_core::{Channel, Channels, Clock};
+/// use taceva_dataset::{RecordingFacts, RecordingSpec, SensorFacts, Source};
+///
+/// let facts = RecordingFacts::new(Source::Recorded, Clock::Monotonic, SensorFacts::new("DIGIT"));
+/// let spec = RecordingSpec::new(facts, Channels::new([Channel::PZ, Channel::FZ])?);
+/// assert_eq!(spec.channels.len(), 2);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct RecordingSpec {
     /// Sensor, clock, source and footprint.
     pub facts: RecordingFacts,
@@ -39,28 +50,24 @@ pub struct RecordingSpec {
     pub channels: Channels,
 }
 
+impl RecordingSpec {
+    /// A recording with `facts`, whose samples have a truth for each of `channels`.
+    pub fn new(facts: RecordingFacts, channels: Channels) -> RecordingSpec {
+        RecordingSpec { facts, channels }
+    }
+}
+
 /// Writes samples as they come. A killed process or a power cut loses at most the sample that was not yet acknowledged.
 ///
 /// ```
 /// use taceva_core::{Channel, Channels, Clock, Readings, Sample};
-/// use taceva_dataset::{Dataset, Known, Recorder, RecordingFacts, RecordingSpec, SensorFacts, Source};
+/// use taceva_dataset::{Dataset, Recorder, RecordingFacts, RecordingSpec, SensorFacts, Source};
 ///
 /// # let folder = tempfile::tempdir()?;
 /// # let path = folder.path().join("recording");
-/// let spec = RecordingSpec {
-///     facts: RecordingFacts {
-///         source: Source::Synthetic,
-///         clock: Clock::Unknown,
-///         sensor: SensorFacts {
-///             model: "my gel".into(),
-///             serial: "7".into(),
-///             gel: "unknown".into(),
-///             opaque: Known::Is(true),
-///         },
-///         footprint: None,
-///     },
-///     channels: Channels::new([Channel::FZ])?,
-/// };
+/// let sensor = SensorFacts::new("my gel").with_serial("7").with_opaque(true);
+/// let facts = RecordingFacts::new(Source::Synthetic, Clock::Unknown, sensor);
+/// let spec = RecordingSpec::new(facts, Channels::new([Channel::FZ])?);
 /// let mut recorder = Recorder::create(&path, &spec)?;
 /// recorder.append(&Sample {
 ///     id: "press 1".into(),

@@ -22,7 +22,25 @@ use crate::store::write_table_and_header;
 use crate::table::{FrameEntry, Table};
 
 /// What an import did.
+///
+/// ```
+/// # use taceva_core::{Channel, Channels, Clock, SourceUnit};
+/// # use taceva_dataset::{ColumnMap, ImportMap, ImportPlan, RecordingFacts, SensorFacts, Source};
+/// # let folder = tempfile::tempdir()?;
+/// std::fs::write(folder.path().join("labels.csv"), "force\n1500\n2000\n")?;
+/// let facts = RecordingFacts::new(Source::Recorded, Clock::Unknown, SensorFacts::new("my gel"));
+/// let mut map = ImportMap::new("labels.csv", facts);
+/// map.channels = Channels::new([Channel::FZ])?;
+/// map.columns = vec![ColumnMap::new("force", SourceUnit::parse("mN")?)];
+/// let plan = ImportPlan::new(folder.path(), &map)?;
+///
+/// let target = folder.path().join("dataset");
+/// let report = plan.run(&target, std::num::NonZeroUsize::MIN, &taceva_core::Silent)?;
+/// assert_eq!(report.digest, taceva_dataset::Dataset::open(&target)?.digest());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct ImportReport {
     /// The counts.
     pub summary: ImportSummary,

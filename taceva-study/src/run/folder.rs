@@ -226,20 +226,18 @@ mod tests {
     fn scene(folder: &Path, seed: u64) -> PlannedScene {
         let recording = folder.join("recording");
         if !recording.exists() {
-            let spec = taceva_dataset::RecordingSpec {
-                facts: taceva_dataset::RecordingFacts {
-                    source: taceva_dataset::Source::Synthetic,
-                    clock: taceva_core::Clock::Unknown,
-                    sensor: taceva_dataset::SensorFacts {
-                        model: "drawn".into(),
-                        serial: "1".into(),
-                        gel: "1".into(),
-                        opaque: taceva_dataset::Known::Unknown,
-                    },
-                    footprint: None,
-                },
-                channels: taceva_core::Channels::new([taceva_core::Channel::FZ]).expect("one"),
-            };
+            let sensor = taceva_dataset::SensorFacts::new("drawn")
+                .with_serial("1")
+                .with_gel("1");
+            let facts = taceva_dataset::RecordingFacts::new(
+                taceva_dataset::Source::Synthetic,
+                taceva_core::Clock::Unknown,
+                sensor,
+            );
+            let spec = taceva_dataset::RecordingSpec::new(
+                facts,
+                taceva_core::Channels::new([taceva_core::Channel::FZ]).expect("one"),
+            );
             let recorder = taceva_dataset::Recorder::create(&recording, &spec).expect("new");
             recorder.close().expect("closed");
         }
