@@ -97,7 +97,7 @@ impl SourceFolder {
     }
 }
 
-/// Whether a written path stays inside the folder it is relative to, as far as its text tells.
+/// Whether a written path stays inside the folder it is relative to, as far as its text shows.
 pub(crate) fn check_relative(written: &str) -> Result<(), &'static str> {
     if written.is_empty() {
         return Err("empty, expected a path relative to the folder");

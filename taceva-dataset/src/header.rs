@@ -130,7 +130,7 @@ impl Header {
             true => taceva_seal::Version::Sealed,
             false => taceva_seal::Version::BeforeSeals,
         };
-        // TOML that is none is told by its line.
+        // A text that is no TOML is refused with its line.
         parse_toml::<toml::Table>(path, &text)?;
         let seal =
             taceva_seal::toml_text::check(&text, version).map_err(|source| DatasetError::Seal {

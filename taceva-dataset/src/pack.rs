@@ -86,7 +86,7 @@ pub(crate) fn read_span(mut file: File, path: &Path, span: Span) -> Result<Vec<u
     let failed = || DatasetError::io("read", path);
     file.seek(SeekFrom::Start(span.offset)).map_err(failed())?;
     let mut bytes = Vec::new();
-    // A pack that ends early gives fewer bytes, which the digest of the frame tells.
+    // A pack that ends early gives fewer bytes, which the digest of the frame shows.
     file.take(u64::from(span.length))
         .read_to_end(&mut bytes)
         .map_err(failed())?;

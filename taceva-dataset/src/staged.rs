@@ -27,7 +27,7 @@ pub(crate) enum Place {
 
 /// A hidden sibling of the target, renamed into place once everything in it is durable and removed if that never happens.
 ///
-/// It is locked while in use, so that the leftover of a killed process is told from the work of a living one.
+/// It is locked while in use, so that the leftover of a killed process is distinguished from the work of a running one.
 #[derive(Debug)]
 pub(crate) struct StagedFolder {
     target: PathBuf,

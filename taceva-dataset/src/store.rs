@@ -1,4 +1,4 @@
-//! The last step of every dataset: the table and the header are written, and say what each other must be.
+//! The last step of every dataset: table and header are written, each with the digests that the other must have.
 
 use std::collections::BTreeMap;
 use std::path::Path;

@@ -49,7 +49,7 @@ impl PhaseInputs<'_> {
         }
     }
 
-    /// How many presses [`presses`](PhaseInputs::presses) gives, told without drawing one.
+    /// How many presses [`presses`](PhaseInputs::presses) gives, counted without drawing one.
     pub(crate) fn count(&self, kind: PhaseKind) -> u64 {
         let protocol = self.protocol;
         match kind {

@@ -28,7 +28,7 @@ impl std::fmt::Display for Edit {
     }
 }
 
-/// Enough of a digest to tell it from another.
+/// Enough digits of a digest to distinguish it from another.
 fn short(digest: &str) -> &str {
     digest.get(..15).unwrap_or(digest)
 }

@@ -90,7 +90,7 @@ fn acquire_all(
     let done = done.into_inner().unwrap_or_else(PoisonError::into_inner);
     let done: Vec<Result<Dataset, StudyError>> = done.into_iter().flatten().collect();
     let (datasets, mut errors): (Vec<_>, Vec<_>) = done.into_iter().partition(Result::is_ok);
-    // Studies that were only told to stop say less than the one that failed.
+    // Studies that were cancelled come after the one that failed.
     errors.sort_by_key(|result| matches!(result, Err(error) if is_cancelled(error)));
     errors.into_iter().chain(datasets).collect()
 }

@@ -95,7 +95,7 @@ const REMEMBERED: usize = 256;
 const REMEMBERED_BYTES: usize = 256;
 
 impl ImportSummary {
-    /// The columns that the map does not mention, as the dataset remembers them: those that judge their rows first.
+    /// The columns that the map does not mention, as the dataset remembers them: those that rate their rows first.
     pub(super) fn columns_left_behind(&self) -> Vec<String> {
         let short = |name: &&String| name.len() <= REMEMBERED_BYTES;
         let mut columns: Vec<String> = self

@@ -45,7 +45,7 @@ impl fmt::Display for Suspicion {
     }
 }
 
-/// Fewest values that are judged.
+/// The least number of values that is checked.
 const LEAST_VALUES: usize = 3;
 
 /// What contacts of a gel look like in a unit: not all magnitudes are below `small`, the median is not above `large`, and 95 % of them not

@@ -56,7 +56,7 @@ impl<'a> Reader<'a> {
             }
         }
         let frame = self.frame.ok_or("no frame before the end marker")?;
-        frame.check_told()
+        frame.check_complete()
     }
 
     /// The kind of the marker that must be here.

@@ -74,7 +74,7 @@ impl FaultPlan {
         self
     }
 
-    /// The same plan with another delay of the slow link; 80 ms unless told.
+    /// The same plan with another delay of the slow link; 80 ms by default.
     #[must_use]
     pub fn delay(mut self, delay: Duration) -> FaultPlan {
         self.delay = delay;

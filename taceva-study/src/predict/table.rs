@@ -10,7 +10,7 @@ use super::{Predicted, Target};
 use crate::error::StudyError;
 use crate::rows::BESIDE_CHANNELS;
 
-/// `numbers` beside what the table of `dataset` says of the same rows.
+/// The numbers of a model with the labels of the same rows.
 pub(crate) fn table(
     dataset: &Dataset,
     model: &Model,
@@ -72,7 +72,7 @@ fn constants(model: &Model) -> BTreeMap<String, f64> {
         .collect()
 }
 
-/// What else the table says of `rows`, of the columns that `score` reads.
+/// The other columns of the table for `rows` that `score` reads.
 fn beside(dataset: &Dataset, rows: &[usize]) -> Vec<(&'static str, Vec<Option<String>>)> {
     let column = |field: Field| {
         let texts = dataset.table().as_text(field.name())?;
@@ -88,7 +88,7 @@ fn beside(dataset: &Dataset, rows: &[usize]) -> Vec<(&'static str, Vec<Option<St
     others.filter_map(column).collect()
 }
 
-/// What is true of `rows`; a channel that the dataset has not is absent in every row.
+/// The truth of `rows`; a channel that the dataset does not have is absent in every row.
 pub(crate) fn truth(
     dataset: &Dataset,
     channel: &taceva_core::Channel,
