@@ -40,7 +40,7 @@ pub(super) fn run(args: &BenchDecode, context: &Context) -> anyhow::Result<u8> {
             bench
         }
     };
-    results::write(&bench.listing(), &args.output, || bench.json())?;
+    results::write(&bench.table(), &args.output, || bench.json())?;
     if let Some(path) = &args.svg {
         draw(&bench, path)?;
     }

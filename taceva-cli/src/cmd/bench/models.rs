@@ -55,7 +55,7 @@ pub(super) fn run(args: &BenchModels, context: &Context) -> anyhow::Result<u8> {
             race(&pressed.dataset, "simulated bench", entered, context)?
         }
     };
-    results::write(&bench.listing(), &args.output, || bench.json())?;
+    results::write(&bench.table(), &args.output, || bench.json())?;
     if let Some(path) = &args.svg {
         draw(&bench, path)?;
     }

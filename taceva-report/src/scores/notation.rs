@@ -1,7 +1,5 @@
 //! Metrics as papers of the field write them.
 
-use taceva_metrics::Better;
-
 use crate::escape::latex as escape;
 
 /// Names in commands, and symbols in papers.
@@ -38,12 +36,6 @@ pub(super) fn metric(id: &str) -> String {
     known.map_or_else(|| escape(id), |(_, symbol)| format!("{symbol}{variant}"))
 }
 
-/// `text`, LaTeX that names the metric or variant `id`, with the sign of its direction behind it: `MAE $\downarrow$`.
-pub fn directed(id: &str, text: &str) -> String {
-    let sign = Better::of(id).map(|better| escape(&better.beside("")));
-    format!("{text}{}", sign.unwrap_or_default())
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -52,13 +44,6 @@ mod tests {
     fn metrics_are_set_as_in_papers_and_others_as_they_are() {
         let set = ["mae", "r2", "hysteresis.ratio", "own_metric"].map(metric);
         assert_eq!(set, ["MAE", "$R^2$", "hysteresis, ratio", "own\\_metric"]);
-    }
-
-    #[test]
-    fn directions_are_signs_of_mathematics() {
-        assert_eq!(directed("mae", "MAE"), "MAE $\\downarrow$");
-        assert_eq!(directed("bias", "bias"), "bias $\\to$0");
-        assert_eq!(directed("own_metric", "own"), "own");
     }
 
     #[test]
