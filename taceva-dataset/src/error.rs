@@ -162,7 +162,7 @@ pub enum DatasetError {
     /// The work was stopped on request; nothing half-written is left.
     #[error("stopped on request")]
     Cancelled,
-    /// Whoever took the samples refused one.
+    /// The sink of the samples refused one.
     #[error("row {row}: {source}")]
     Sink {
         /// The row of the dataset, from 0.

@@ -18,7 +18,7 @@ pub(crate) fn open_regular(path: &Path, cap: u64) -> Result<(File, u64), Dataset
     Ok((file, metadata.len()))
 }
 
-/// Whether what `metadata` tell of `path` is a regular file of at most `cap` bytes.
+/// Whether `path`, whose metadata are `metadata`, is a regular file of at most `cap` bytes.
 pub(crate) fn check_regular(
     path: &Path,
     metadata: &Metadata,

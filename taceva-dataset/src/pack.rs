@@ -195,7 +195,7 @@ impl PackWriter {
     }
 }
 
-/// Cuts what lies behind `end` in the packs of the dataset at `folder`: nobody acknowledged it.
+/// Cuts what lies behind `end` in the packs of the dataset at `folder`, which was never acknowledged.
 pub(crate) fn cut_behind(folder: &Path, end: PackEnd) -> Result<(), DatasetError> {
     let path = folder.join(layout::pack_path(end.number));
     match fs::metadata(&path) {

@@ -17,7 +17,7 @@ use crate::file::make_names_durable;
 use crate::held::is_same;
 use crate::layout;
 
-/// Old datasets of one name that are still read: beyond these nobody sets another aside.
+/// The most old datasets of one name that are kept while they are still read.
 const SET_ASIDE: usize = 64;
 /// How often, and how long each time, a replacement that is between two renames is waited for.
 const WAITS: u32 = 2_000;
@@ -114,7 +114,7 @@ fn set_aside(target: &Path) -> Option<PathBuf> {
     found.pop()
 }
 
-/// Whether somebody holds the folder at `partial`: whoever writes there.
+/// Whether a process holds the folder at `partial`, which it writes.
 fn is_at_work(partial: &Path) -> bool {
     matches!(
         File::open(partial).map(|folder| folder.try_lock()),
@@ -122,7 +122,7 @@ fn is_at_work(partial: &Path) -> bool {
     )
 }
 
-/// Removes the folder at `path` if it is a leftover of ours that nobody reads or writes; otherwise leaves it to the next one.
+/// Removes the folder at `path` if it is a leftover of ours that no process reads or writes; otherwise leaves it to the next call.
 pub(crate) fn clear(path: &Path) {
     if let Ok(folder) = File::open(path)
         && folder.try_lock().is_ok()
@@ -143,7 +143,7 @@ pub(crate) fn remove(path: &Path) -> io::Result<()> {
     fs::remove_dir_all(path)
 }
 
-/// Takes the dataset that stood in place out of `path`: removed if nobody reads it, set aside until then if somebody does.
+/// Takes the dataset that stood in place out of `path`: removed if no process reads it, else set aside until none does.
 pub(crate) fn retire(path: &Path, target: &Path) {
     clear(path);
     if exists(path) {

@@ -311,7 +311,7 @@ impl Table {
         self.intensity[row] = Some(intensity);
     }
 
-    /// Every column that says something, in the one order in which tables are digested, stored and exported.
+    /// Every column that holds a value, in the one order in which tables are digested, stored and exported.
     pub(crate) fn columns(&self) -> Vec<NamedColumn<'_>> {
         let named = |name, cells| NamedColumn { name, cells };
         let mut columns = vec![

@@ -1,4 +1,4 @@
-//! What every driver must hold to, whoever wrote it: run a factory through these and read the [`Report`].
+//! The contract of every driver, as checks: run a factory through them and read the [`Report`].
 //!
 //! The suites check the contract of [`Sensor`](taceva_core::Sensor), [`Robot`](taceva_core::Robot),
 //! [`ForceTransducer`](taceva_core::ForceTransducer) and [`Lighting`](taceva_core::Lighting): that the descriptor states the

@@ -67,7 +67,7 @@ pub fn check_with(
     }
 }
 
-/// `text` as it is now, accepted: with one more entry of its history and a seal that holds. What holds already stays as it is.
+/// `text` accepted as it is: with one more entry of its history and a seal that holds. A text whose seal holds already is returned unchanged.
 ///
 /// # Errors
 /// [`SealError::Content`] if it is no JSON object; [`SealError::Alone`].

@@ -61,7 +61,7 @@ pub fn check(text: &str, version: Version) -> Result<Opened, SealError> {
     })
 }
 
-/// `text` as it is now, accepted: with one more entry of its history and a seal that holds. What holds already stays as it is.
+/// `text` accepted as it is: with one more entry of its history and a seal that holds. A text whose seal holds already is returned unchanged.
 ///
 /// # Errors
 /// [`SealError::Content`] if it is no TOML; [`SealError::Alone`].

@@ -190,7 +190,7 @@ impl PlannedStudy {
     }
 }
 
-/// What a study is fed from, for the planner and for those who carry the plan out.
+/// The source of the samples of a study, for the planner and for the run.
 struct Source {
     info: SourceInfo,
     source: StudySource,

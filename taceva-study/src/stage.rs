@@ -123,7 +123,7 @@ pub(crate) fn assess(
     Ok(report.with_samples(samples))
 }
 
-/// The model of a study, and what it has seen.
+/// The model of a study, and the split it was fitted on.
 struct Learnt {
     model: Model,
     divided: Option<Divided>,
@@ -186,7 +186,7 @@ impl Learnt {
         }))
     }
 
-    /// Predictions of everything that a metric reads one of and that the model has not seen.
+    /// Predictions of all rows that a metric reads and that the model was not fitted on.
     fn predict(
         &self,
         study: &PlannedStudy,

@@ -8,7 +8,7 @@ use super::Dataset;
 use crate::error::DatasetError;
 use crate::parallel::ordered_map;
 
-/// Which rows a pass goes through, in which order, on how many threads, and who is told of its progress.
+/// Which rows a pass goes through, in which order, on how many threads, and what receives its progress.
 ///
 /// ```
 /// # use taceva_core::{Channel, Channels, Clock, Frame, FrameInfo, PixelFormat, Readings, Sample};
@@ -53,7 +53,7 @@ pub struct Pass<'a> {
     pub rows: &'a [usize],
     /// Threads that read and decode.
     pub jobs: NonZeroUsize,
-    /// Is told of each row and may stop the pass.
+    /// Receives each row that is done, and may cancel the pass.
     pub progress: &'a dyn Progress,
 }
 

@@ -37,13 +37,13 @@ pub enum Source {
 pub enum Known<T> {
     /// Written down.
     Is(T),
-    /// Nobody knows.
+    /// Not known.
     #[default]
     Unknown,
 }
 
 impl<T: Copy> Known<T> {
-    /// The fact, if somebody wrote it down.
+    /// The fact, if it is known.
     pub fn known(self) -> Option<T> {
         match self {
             Known::Is(fact) => Some(fact),

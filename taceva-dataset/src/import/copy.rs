@@ -72,7 +72,7 @@ impl ImportPlan {
         self.run_at(target, Place::Free, (jobs, progress))
     }
 
-    /// As [`run`](ImportPlan::run), in the place of the dataset at `target` if there is one: whoever reads it sees the old one until
+    /// As [`run`](ImportPlan::run), in the place of the dataset at `target` if there is one: a reader sees the old one until
     /// the new one is whole and durable.
     ///
     /// # Errors

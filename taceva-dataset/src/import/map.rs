@@ -1,4 +1,4 @@
-//! The map of an import: which column is which channel, in which unit, and what nobody knows.
+//! The map of an import: which column is which channel, in which unit, and which facts are unknown.
 
 mod written;
 
@@ -108,7 +108,7 @@ pub struct FrameMap {
     pub folder: Option<String>,
     /// The order of the colours in the files.
     pub channel_order: ChannelOrder,
-    /// The frame without contact, relative to the source folder; `None` if nobody knows one.
+    /// The frame without contact, relative to the source folder; `None` if none is known.
     pub reference: Option<String>,
 }
 

@@ -78,7 +78,7 @@ pub struct ImportSummary {
     pub conversions: Vec<Conversion>,
     /// How the colours of the frames are stored; `None` without frames.
     pub channel_order: Option<ChannelOrder>,
-    /// The frame without contact; `None` if nobody knows one.
+    /// The frame without contact; `None` if none is known.
     pub reference: Option<PathBuf>,
     /// Images beside the table that no row names.
     pub unnamed_images: u64,

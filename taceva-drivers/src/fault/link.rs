@@ -1,4 +1,4 @@
-//! What the wrappers have in common: the link between the caller and a device, which is where most faults happen.
+//! The link between the caller and a device, where most faults occur; shared by the wrappers.
 
 use std::time::Duration;
 
@@ -85,7 +85,7 @@ impl Link {
         Ok(deadline.less(delay))
     }
 
-    /// The stamp of a value that came over the link, and what `fault` makes of it.
+    /// The stamp of a value that came over the link, changed by `fault`.
     pub(super) fn stamped(&mut self, stamp: Stamp, fault: Option<FaultKind>) -> Stamp {
         match (fault, self.last_stamp) {
             (Some(FaultKind::StaleStamp), Some(last)) => {

@@ -81,7 +81,7 @@ impl<'a> Passes<'a> {
         Ok(total)
     }
 
-    /// What a reader must know where two sets of rows were read.
+    /// A note where two sets of rows were read.
     pub(super) fn note(&self, dataset: &Dataset) -> Option<String> {
         let ids: Vec<&str> = self.of_truth.iter().map(|metric| metric.id).collect();
         let reads_predictions = !self.of_predictions.is_empty() || !self.of_unbounded.is_empty();

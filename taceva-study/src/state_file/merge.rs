@@ -10,7 +10,7 @@ use crate::error::StudyError;
 use crate::report::EvaluationReport;
 use crate::taken::{AllTaken, Taken};
 
-/// The scores of several states together, and their joined state.
+/// The scores of several states together, and the merged state.
 ///
 /// # Errors
 /// [`StudyError::State`] naming the first file that does not belong with the first; [`StudyError::Request`] for no file.
