@@ -7,7 +7,6 @@ mod baseline;
 mod choice;
 mod discriminant;
 mod distance;
-mod durable;
 mod elastic_net;
 mod feature_choice;
 mod features;

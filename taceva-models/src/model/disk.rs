@@ -8,7 +8,6 @@ use sha2::{Digest, Sha256};
 
 use super::Model;
 use super::bytes::{FILE_MAX, FormatError};
-use crate::durable;
 use crate::models::Models;
 
 impl Model {
@@ -84,7 +83,7 @@ fn write_whole(path: &Path, bytes: &[u8]) -> io::Result<()> {
         name.to_string_lossy(),
         std::process::id()
     ));
-    durable::replace(path, &beside, |beside| {
+    taceva_durable::replace(path, &beside, |beside| {
         File::create_new(beside)?.write_all(bytes)
     })
 }

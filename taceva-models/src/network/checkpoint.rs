@@ -14,8 +14,6 @@ use taceva_network::{Checkpoint, Trainer};
 pub use error::CheckpointError;
 pub(super) use identity::Identity;
 
-use crate::durable;
-
 /// Where a training is put aside, and how often.
 ///
 /// Nothing of this changes what is learnt: gone on with, a training ends with the same bits as if it had not been put aside.
@@ -103,7 +101,7 @@ impl Checkpoints {
     /// Puts `trainer`, whose training is `identity`, aside.
     fn put(&self, identity: &Identity, trainer: &Trainer<'_>) -> Result<(), CheckpointError> {
         let checkpoint = trainer.checkpoint().map_err(CheckpointError::Unread)?;
-        durable::replace(&self.path, &self.beside(), |beside| {
+        taceva_durable::replace(&self.path, &self.beside(), |beside| {
             bytes::write(identity, &checkpoint, File::create(beside)?)
         })
         .map_err(|source| CheckpointError::Write {
