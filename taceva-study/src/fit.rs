@@ -233,7 +233,7 @@ impl<'a> FitPlan<'a> {
 
     /// From now on puts a long training aside, and goes on from what is found there.
     pub(crate) fn put_aside(&mut self, checkpoints: Checkpoints) {
-        self.estimator.put_aside(checkpoints);
+        self.estimator.keep_checkpoints(checkpoints);
     }
 
     pub(crate) fn run(mut self, work: Work<'_>) -> Result<Fitted, StudyError> {
