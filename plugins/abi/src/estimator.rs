@@ -35,7 +35,7 @@ pub struct TrainingSet {
     pub channel_names: *const Text,
 }
 
-/// `taceva_progress`: told how far a fit is, from 0 to 1; a return that is not 0 asks it to end.
+/// `taceva_progress`: called with how far a fit is, from 0 to 1; a return that is not 0 asks it to end.
 pub type Progress = Option<unsafe extern "C" fn(context: *mut c_void, done: f64) -> i32>;
 
 /// `taceva_regressor_calls`.

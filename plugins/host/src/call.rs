@@ -287,7 +287,7 @@ mod tests {
 
     #[test]
     fn text_that_is_none_is_a_fault_and_nothing_of_it_is_read() {
-        let told = |texts: &[abi::Text]| {
+        let taken = |texts: &[abi::Text]| {
             let mut taken = Taken::default();
             for text in texts {
                 // SAFETY: the context is that of `taken`, and each text is as long as it says or refused by its length.
@@ -296,7 +296,7 @@ mod tests {
             taken.whole()
         };
         assert_eq!(
-            told(&[abi::Text::from("a"), abi::Text::from("b")]),
+            taken(&[abi::Text::from("a"), abi::Text::from("b")]),
             Ok("ab".to_owned())
         );
         let nothing = abi::Text {
@@ -312,8 +312,8 @@ mod tests {
             length: 2,
         };
         for text in [nothing, endless, odd] {
-            assert!(told(&[text]).is_err());
-            assert!(told(&[abi::Text::from("a"), text]).is_err());
+            assert!(taken(&[text]).is_err());
+            assert!(taken(&[abi::Text::from("a"), text]).is_err());
         }
     }
 

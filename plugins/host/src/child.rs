@@ -15,17 +15,23 @@
 //! The host believes nothing: every length and number that comes is checked ([`wire`]), every call has a time after which the child is
 //! ended ([`Patience`]), and a child that breaks a rule is ended at once.
 
+mod arguments;
 mod array;
+mod bench;
 mod error;
 mod fate;
+mod guarded;
 mod keeper;
+mod kind;
+mod link;
 mod log;
 mod main_hook;
 mod memory;
+mod model;
 mod patience;
 mod plugin;
-mod proxy;
 mod quarantine;
+mod reply;
 mod sandbox;
 mod serve;
 mod session;

@@ -46,7 +46,7 @@ pub(crate) fn fit(
         .map_or(std::ptr::null(), std::ptr::from_ref);
     let mut listener = Listener {
         progress: request.progress,
-        told: 0,
+        reported: 0,
     };
     let mut regressor = EMPTY;
     request.progress.begin(&format!("fit {key}"), Some(STEPS));
@@ -190,7 +190,7 @@ const STEPS: u64 = 1_000;
 
 struct Listener<'a> {
     progress: &'a dyn Progress,
-    told: u64,
+    reported: u64,
 }
 
 unsafe extern "C" fn progress(context: *mut c_void, done: f64) -> i32 {
@@ -203,13 +203,13 @@ unsafe extern "C" fn progress(context: *mut c_void, done: f64) -> i32 {
         reason = "clamped to the number of steps; NaN becomes 0"
     )]
     let reached = (done.clamp(0.0, 1.0) * STEPS as f64) as u64;
-    let told = listener.told;
-    listener.told = told.max(reached);
+    let reported = listener.reported;
+    listener.reported = reported.max(reached);
     let progress = listener.progress;
     // A panic of whoever listens must not cross the line: it ends the fit.
     let cancelled = catch_unwind(AssertUnwindSafe(|| {
-        if reached > told {
-            progress.advance(reached - told);
+        if reached > reported {
+            progress.advance(reached - reported);
         }
         progress.is_cancelled()
     }));

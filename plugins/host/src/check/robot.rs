@@ -150,8 +150,12 @@ fn no_targets(subject: &Subject) -> Result<(), Ending> {
         },
     ];
     for target in targets {
-        let told = bare_move(&robot, target, 0.001);
-        expect_failure("a target that is none", told, &[ErrorKind::InvalidArgument])?;
+        let answer = bare_move(&robot, target, 0.001);
+        expect_failure(
+            "a target that is none",
+            answer,
+            &[ErrorKind::InvalidArgument],
+        )?;
     }
     Ok(())
 }
@@ -160,9 +164,9 @@ fn no_speeds(subject: &Subject) -> Result<(), Ending> {
     let pose = bare_pose(subject)?;
     let robot: Bare = subject.open()?;
     for speed in [0.0, -0.001, f64::NAN, f64::INFINITY] {
-        let told = bare_move(&robot, pose, speed);
+        let answer = bare_move(&robot, pose, speed);
         let kinds = [ErrorKind::InvalidArgument, ErrorKind::OutOfRange];
-        expect_failure(&format!("a speed of {speed} m/s"), told, &kinds)?;
+        expect_failure(&format!("a speed of {speed} m/s"), answer, &kinds)?;
     }
     Ok(())
 }
@@ -179,10 +183,10 @@ fn outside(subject: &Subject) -> Result<(), Ending> {
             x: x_mm / 1e3,
             ..pose
         };
-        let told = bare_move(&robot, target, 0.001);
+        let answer = bare_move(&robot, target, 0.001);
         expect_failure(
             &format!("a target at x = {x_mm} mm"),
-            told,
+            answer,
             &[ErrorKind::OutOfRange],
         )?;
     }
@@ -213,8 +217,8 @@ fn latches(subject: &Subject) -> Result<(), Ending> {
     let home = here(&mut *robot)?;
     robot.halt()?;
     robot.halt()?;
-    let told = robot.move_to(above(home, 0.1), speed(5.0)?, PATIENT);
-    expect_failure("a move after a halt", told, &[ErrorKind::Interrupted])?;
+    let answer = robot.move_to(above(home, 0.1), speed(5.0)?, PATIENT);
+    expect_failure("a move after a halt", answer, &[ErrorKind::Interrupted])?;
     here(&mut *robot)?;
     robot.clear_halt(PATIENT)?;
     robot.clear_halt(PATIENT)?;
@@ -238,7 +242,7 @@ fn halts(subject: &Subject) -> Result<(), Ending> {
         )
     });
     // Slow: a simulation counts its own time, and may be there before the halt is.
-    let told = robot.move_to(
+    let answer = robot.move_to(
         above(home, 1.0),
         speed(0.01)?,
         Deadline::after(Duration::from_secs(200)),
@@ -249,8 +253,8 @@ fn halts(subject: &Subject) -> Result<(), Ending> {
         .map_err(|_| Ending::Broken("the check panicked".to_owned()))?;
     sent.map_err(Ending::Broken)?;
     ensure(took < AT_ONCE, || format!("`halt` itself took {took:?}"))?;
-    if told.is_err() {
-        expect_failure("a move that was halted", told, &[ErrorKind::Interrupted])?;
+    if answer.is_err() {
+        expect_failure("a move that was halted", answer, &[ErrorKind::Interrupted])?;
         let late = ended.saturating_duration_since(at);
         ensure(late < AT_ONCE, || {
             format!("it took {late:?}, expected at most {AT_ONCE:?}")
@@ -266,8 +270,8 @@ fn timeout_stops(subject: &Subject) -> Result<(), Ending> {
     let mut robot = open(subject)?;
     let home = here(&mut *robot)?;
     let short = Deadline::after(Duration::from_millis(20));
-    let told = robot.move_to(above(home, 1.0), speed(1.0)?, short);
-    expect_failure("a move of 1 s in 20 ms", told, &[ErrorKind::Timeout])?;
+    let answer = robot.move_to(above(home, 1.0), speed(1.0)?, short);
+    expect_failure("a move of 1 s in 20 ms", answer, &[ErrorKind::Timeout])?;
     let once = here(&mut *robot)?;
     thread::sleep(Duration::from_millis(50));
     let again = here(&mut *robot)?;
@@ -312,10 +316,10 @@ fn no_guards(subject: &Subject) -> Result<(), Ending> {
         let guard = Guard {
             force: Newton(force),
         };
-        let told = guarded.move_guarded(home, speed(1.0)?, guard, PATIENT);
+        let answer = guarded.move_guarded(home, speed(1.0)?, guard, PATIENT);
         expect_failure(
             &format!("a guard of {force} N"),
-            told,
+            answer,
             &[ErrorKind::InvalidArgument],
         )?;
     }

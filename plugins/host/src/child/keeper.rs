@@ -296,7 +296,7 @@ fn watch_over(
         if let Some(output) = &output {
             polled.push(PollFd::from_borrowed_fd(output.as_fd(), PollFlags::IN));
         }
-        // An interrupted poll has told nothing.
+        // An interrupted poll says nothing.
         let _ = poll(&mut polled, timeout.as_ref());
         let has = |at: usize| polled.get(at).is_some_and(|fd| !fd.revents().is_empty());
         let (has_ended, was_woken, has_printed) = (has(0), has(1), has(2));

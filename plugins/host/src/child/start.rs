@@ -280,11 +280,11 @@ fn refuse_quarantined(
     }
 }
 
-/// What is done when a child has ended: a library that crashed goes into quarantine, then whoever wants to know is told.
+/// What is done when a child has ended: a library that crashed goes into quarantine, then whoever wants to know is called.
 fn when_ended(
     plugin: String,
     quarantine: Option<(Quarantine, Sha256Digest)>,
-    told: Option<Ended>,
+    on_end: Option<Ended>,
 ) -> impl FnOnce(&Fate) + Send + 'static {
     move |fate| {
         if let Some((quarantine, digest)) = quarantine.filter(|_| fate.is_its_own_fault()) {
@@ -292,8 +292,8 @@ fn when_ended(
             // Its devices have failed already, and say why; that it may be started again is the lesser evil.
             let _ = quarantine.put(&entry);
         }
-        if let Some(told) = told {
-            told(fate);
+        if let Some(on_end) = on_end {
+            on_end(fate);
         }
     }
 }
@@ -312,7 +312,7 @@ impl Drop for Child {
             let _ = keeper.join();
         }
         if let Some(listener) = self.listener.take() {
-            // As above: what it was told last is told before the child is forgotten.
+            // As above: its last messages are read before the child is forgotten.
             let _ = listener.join();
         }
         watch.end(call);

@@ -14,10 +14,10 @@ use taceva_sim::{
     ForceTransducerFactory, LightingFactory, Model, RobotFactory, SensorFactory, SimulatedRig,
 };
 
-/// The clock and the hands of a rig.
-struct Hands(SimulatedRig);
+/// The clock of a rig, and whoever changes its specimens.
+struct BenchClock(SimulatedRig);
 
-impl Timekeeper for Hands {
+impl Timekeeper for BenchClock {
     fn now_s(&self) -> f64 {
         Stamp::at(self.0.now()).valid_s
     }
@@ -27,7 +27,7 @@ impl Timekeeper for Hands {
     }
 }
 
-impl SpecimenChanger for Hands {
+impl SpecimenChanger for BenchClock {
     fn mount(&mut self, specimen: Specimen, _: Deadline) -> Result<(), DriverError> {
         SimulatedBench::mount(&self.0, specimen)
     }
@@ -122,7 +122,7 @@ impl Trial {
         let mut force = open(&self.forces, "", &mut rig);
         let mut lighting = open(&self.lamps, "", &mut rig);
         let bench = SimulatedRig::of(&mut rig, "bench");
-        let (mut clock, mut hands) = (Hands(bench.clone()), Hands(bench.clone()));
+        let (mut clock, mut changer) = (BenchClock(bench.clone()), BenchClock(bench.clone()));
         let cancel = Cancel::new();
         let (mut begun, mut retried) = (0, 0);
         let mut events = |event: &Event| {
@@ -146,7 +146,7 @@ impl Trial {
                 force: force.as_mut(),
                 sensor: Some(sensor.as_mut()),
                 lighting: Some(lighting.as_mut()),
-                specimens: Some(&mut hands),
+                specimens: Some(&mut changer),
             },
             log,
             Controls {

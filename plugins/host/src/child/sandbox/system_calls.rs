@@ -168,7 +168,7 @@ type Rules = BTreeMap<i64, Vec<SeccompRule>>;
 pub(super) fn filter_for_loading(needs: &[Need]) -> Result<Option<u32>, String> {
     let rules = rules(needs).map_err(|error| said(&error))?;
     let count = u32::try_from(rules.len()).ok();
-    // A denied call fails like one that needs a privilege; one that cannot be judged, like one that an old kernel lacks.
+    // A denied call fails like one that needs a privilege; one whose arguments cannot be checked, like one that an old kernel lacks.
     let denied = SeccompAction::Errno(libc::EPERM.unsigned_abs());
     let allowed = program(rules, denied, SeccompAction::Allow)?;
     let unknown = SeccompAction::Errno(libc::ENOSYS.unsigned_abs());
