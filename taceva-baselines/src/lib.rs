@@ -1,13 +1,13 @@
 #![doc = include_str!("../README.md")]
 
 #[cfg(any(feature = "linfa", feature = "smartcore"))]
+mod adapter;
+#[cfg(any(feature = "linfa", feature = "smartcore"))]
 mod guard;
 #[cfg(feature = "linfa")]
 mod linfa;
 #[cfg(any(feature = "linfa", feature = "smartcore"))]
 mod predictor;
-#[cfg(any(feature = "linfa", feature = "smartcore"))]
-mod setting;
 #[cfg(feature = "smartcore")]
 mod smartcore;
 #[cfg(any(feature = "linfa", feature = "smartcore"))]

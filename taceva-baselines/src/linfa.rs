@@ -15,11 +15,11 @@ const RELEASE: &str = "linfa 0.8.1";
 
 /// Every model, the plainest first.
 pub(crate) const ALL: &[&LibraryModel] = &[
-    &linear::MODEL,
-    &pls::MODEL,
-    &elastic_net::MODEL,
-    &svr::MODEL,
-    &logistic::MODEL,
+    &linear::ADAPTER.model,
+    &pls::ADAPTER.model,
+    &elastic_net::ADAPTER.model,
+    &svr::ADAPTER.model,
+    &logistic::ADAPTER.model,
 ];
 
 /// `values` as a matrix of `rows` rows.

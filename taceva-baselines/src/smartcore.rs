@@ -18,13 +18,13 @@ const RELEASE: &str = "smartcore 0.7.0";
 
 /// Every model, the plainest first.
 pub(crate) const ALL: &[&LibraryModel] = &[
-    &ridge::MODEL,
-    &lasso::MODEL,
-    &svr::MODEL,
-    &knn::MODEL,
-    &forest::FOREST,
-    &forest::EXTRA_TREES,
-    &boosting::MODEL,
+    &ridge::ADAPTER.model,
+    &lasso::ADAPTER.model,
+    &svr::ADAPTER.model,
+    &knn::ADAPTER.model,
+    &forest::FOREST.model,
+    &forest::EXTRA_TREES.model,
+    &boosting::ADAPTER.model,
 ];
 
 /// `values` as a matrix of `rows` rows, kept column by column, as the library reads it.

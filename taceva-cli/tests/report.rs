@@ -237,6 +237,7 @@ fn a_benchmark_of_models_is_what_its_schema_says() {
         mae: 0.25,
         ci95: Some([0.2, 0.3]),
         n: 40,
+        beaten_by: Vec::new(),
     };
     bench.rows = vec![
         ModelRow {

@@ -25,7 +25,7 @@ use rayon::prelude::*;
 use crate::architecture::Architecture;
 use crate::error::{NetworkError, SampleSet};
 use crate::network::Network;
-use crate::random::Draws;
+use taceva_core::random::Draws;
 
 /// A training that goes on.
 ///

@@ -1,15 +1,17 @@
 //! Run time against error: what `taceva bench` measures, as data.
 
 mod decode;
+mod front;
 mod kernels;
 mod machine;
 mod models;
+mod paired;
 mod stopwatch;
 
 pub use decode::{DecodeTrial, DecodeTrials, ErrorChange, decode};
 pub use kernels::{Floor, InputDigits, KernelBench, KernelRequest, KernelRow, kernels};
 pub use machine::Machine;
-pub use models::{ModelTrial, ModelTrials, TrialError, models};
+pub use models::{ModelRace, ModelTrial, ModelTrials, TrialError, models};
 pub use stopwatch::{Spread, Stopwatch};
 
 /// The schema of every benchmark as JSON.

@@ -7,38 +7,38 @@ use ndarray::Array2;
 use rayon::prelude::*;
 use taceva_core::ModelError;
 use taceva_models::{
-    LibraryLearner, LibraryModel, LibraryPredictor, LibrarySettings, LibrarySizes, LibraryTask,
-    ModelInfo, SettingError, SettingInfo, Settings, library_estimator,
+    LibraryModel, LibrarySettings, LibrarySizes, LibraryTask, LoadedPredictor, ModelInfo,
+    SettingInfo,
 };
 
 use super::{RELEASE, columns, matrix};
+use crate::adapter::{Adapter, Number, Numbers, Unset, any};
 use crate::guard::{guarded, interrupted};
 use crate::predictor::{Linear, Weighted};
-use crate::setting::{candidates, number, open};
-
-/// The multi-task elastic net: minimises ½n⁻¹ ‖Y − XW‖² + λ (α Σ‖wⱼ‖₂ + ½(1 − α)‖W‖²), wⱼ the weights of feature j for every target.
-///
-/// λ is the strength × the least λ at which every weight is 0. Targets are learnt together, each strength once; each target takes the
-/// weights of the strength that is chosen for it.
-struct ElasticNet {
-    settings: LibrarySettings,
-    strength: Option<f64>,
-    mix: f64,
-}
 
 const NAME: &str = "linfa/elastic-net";
 
-const STRENGTH: SettingInfo = SettingInfo {
-    key: "strength",
-    accepts: "a number from 1e-4 to 1",
-    default: "chosen for each channel",
-    about: "the penalty on weights, relative to the least at which every weight is 0",
+const STRENGTH: Number = Number {
+    info: SettingInfo {
+        key: "strength",
+        accepts: "a number from 1e-4 to 1",
+        default: "chosen for each channel",
+        about: "the penalty on weights, relative to the least at which every weight is 0",
+    },
+    range: [1e-4, 1.0],
+    is_whole: false,
+    unset: Unset::ChosenAmong(&STRENGTHS),
 };
-const MIX: SettingInfo = SettingInfo {
-    key: "mix",
-    accepts: "a number from 0.01 to 1",
-    default: "0.5",
-    about: "the share of the penalty that leaves features out: 1 is the group lasso",
+const MIX: Number = Number {
+    info: SettingInfo {
+        key: "mix",
+        accepts: "a number from 0.01 to 1",
+        default: "0.5",
+        about: "the share of the penalty that leaves features out: 1 is the group lasso",
+    },
+    range: [0.01, 1.0],
+    is_whole: false,
+    unset: Unset::Is(0.5),
 };
 
 /// From the weakest to the strongest, four a decade.
@@ -60,41 +60,39 @@ const STRENGTHS: [f64; 11] = [
 const SWEEPS: u32 = 1000;
 const TOLERANCE: f64 = 1e-4;
 
-pub(super) static MODEL: LibraryModel = LibraryModel {
-    info: ModelInfo::of_library(
-        NAME,
-        "linfa: multi-task elastic net, which leaves out features for all channels at once",
-        &[
-            LibrarySettings::SCALE,
-            STRENGTH,
-            MIX,
-            LibrarySettings::REFIT,
-        ],
-        |settings| Ok(library_estimator(ElasticNet::from_settings(settings)?)),
-    ),
-    release: RELEASE,
-    work: |sizes| {
-        let LibrarySizes {
-            samples,
-            features,
-            targets,
-        } = sizes;
-        let sweep = samples as f64 * features as f64 * (1.0 + 2.0 * targets as f64);
-        Some(12.0 * 250.0 * sweep)
+/// The multi-task elastic net: minimises ½n⁻¹ ‖Y − XW‖² + λ (α Σ‖wⱼ‖₂ + ½(1 − α)‖W‖²), wⱼ the weights of feature j for every target.
+///
+/// λ is the strength × the least λ at which every weight is 0. Targets are learnt together, each strength once; each target takes the
+/// weights of the strength that is chosen for it.
+pub(super) static ADAPTER: Adapter = Adapter {
+    model: LibraryModel {
+        info: ModelInfo::of_library(
+            NAME,
+            "linfa: multi-task elastic net, which leaves out features for all channels at once",
+            &[
+                LibrarySettings::SCALE,
+                STRENGTH.info,
+                MIX.info,
+                LibrarySettings::REFIT,
+            ],
+            |settings| ADAPTER.estimator(settings),
+        ),
+        release: RELEASE,
+        work: |LibrarySizes {
+                   samples,
+                   features,
+                   targets,
+               }| {
+            let sweep = samples as f64 * features as f64 * (1.0 + 2.0 * targets as f64);
+            Some(12.0 * 250.0 * sweep)
+        },
+        load: Linear::load,
     },
-    load: Linear::load,
+    numbers: &[STRENGTH, MIX],
+    is_classifier: false,
+    check: any,
+    fit,
 };
-
-impl ElasticNet {
-    fn from_settings(settings: &Settings) -> Result<ElasticNet, SettingError> {
-        settings.check_keys(MODEL.info.settings)?;
-        Ok(ElasticNet {
-            settings: LibrarySettings::from_settings(settings)?,
-            strength: open(settings, &STRENGTH, 1e-4..=1.0)?,
-            mix: number(settings, &MIX, 0.5, 0.01..=1.0)?,
-        })
-    }
-}
 
 /// The least λ at which every weight is 0.
 fn least(records: &Array2<f64>, targets: &Array2<f64>, mix: f64) -> f64 {
@@ -103,51 +101,38 @@ fn least(records: &Array2<f64>, targets: &Array2<f64>, mix: f64) -> f64 {
     lengths.fold(0.0, f64::max) / (records.nrows() as f64 * mix)
 }
 
-impl LibraryLearner for ElasticNet {
-    fn model(&self) -> &'static LibraryModel {
-        &MODEL
-    }
-
-    fn settings(&self) -> LibrarySettings {
-        self.settings
-    }
-
-    fn candidates(&self) -> Option<(&'static str, Vec<f64>)> {
-        Some((STRENGTH.key, candidates(self.strength, &STRENGTHS)))
-    }
-
-    fn fit(&self, task: &LibraryTask<'_>) -> Result<Box<dyn LibraryPredictor>, ModelError> {
-        let (records, targets) = (columns(task)?, matrix(task.labels, task.sizes.samples)?);
-        let least = least(&records, &targets, self.mix);
-        let dataset = Dataset::new(records, targets);
-        let mut strengths = task.values.to_vec();
-        strengths.sort_by(f64::total_cmp);
-        strengths.dedup_by(|a, b| a.total_cmp(b).is_eq());
-        let one = |strength: &f64| {
-            interrupted(task.progress)?;
-            let estimator = MultiTaskElasticNet::params()
-                .penalty(strength * least)
-                .l1_ratio(self.mix)
-                .with_intercept(true)
-                .max_iterations(SWEEPS)
-                .tolerance(TOLERANCE);
-            let fitted = guarded(NAME, || estimator.fit(&dataset))?;
-            Ok((*strength, fitted))
-        };
-        let fitted: Vec<(f64, MultiTaskElasticNet<f64>)> = strengths
-            .par_iter()
-            .map(one)
-            .collect::<Result<_, ModelError>>()?;
-        let of = |(target, value): (usize, &f64)| {
-            let own = fitted
-                .iter()
-                .find(|(strength, _)| strength.total_cmp(value).is_eq());
-            own.map(|(_, fitted)| {
-                let weights = fitted.hyperplane().column(target).to_vec();
-                (weights, fitted.intercept()[target])
-            })
-        };
-        let linear: Vec<Weighted> = task.values.iter().enumerate().filter_map(of).collect();
-        Ok(Box::new(Linear::new(NAME, linear)?))
-    }
+fn fit(set: &Numbers<'_>, task: &LibraryTask<'_>) -> LoadedPredictor {
+    let mix = set.real(&MIX);
+    let (records, targets) = (columns(task)?, matrix(task.labels, task.sizes.samples)?);
+    let least = least(&records, &targets, mix);
+    let dataset = Dataset::new(records, targets);
+    let mut strengths = task.values.to_vec();
+    strengths.sort_by(f64::total_cmp);
+    strengths.dedup_by(|a, b| a.total_cmp(b).is_eq());
+    let one = |strength: &f64| {
+        interrupted(task.progress)?;
+        let estimator = MultiTaskElasticNet::params()
+            .penalty(strength * least)
+            .l1_ratio(mix)
+            .with_intercept(true)
+            .max_iterations(SWEEPS)
+            .tolerance(TOLERANCE);
+        let fitted = guarded(NAME, || estimator.fit(&dataset))?;
+        Ok((*strength, fitted))
+    };
+    let fitted: Vec<(f64, MultiTaskElasticNet<f64>)> = strengths
+        .par_iter()
+        .map(one)
+        .collect::<Result<_, ModelError>>()?;
+    let of = |(target, value): (usize, &f64)| {
+        let own = fitted
+            .iter()
+            .find(|(strength, _)| strength.total_cmp(value).is_eq());
+        own.map(|(_, fitted)| {
+            let weights = fitted.hyperplane().column(target).to_vec();
+            (weights, fitted.intercept()[target])
+        })
+    };
+    let linear: Vec<Weighted> = task.values.iter().enumerate().filter_map(of).collect();
+    Ok(Box::new(Linear::new(NAME, linear)?))
 }

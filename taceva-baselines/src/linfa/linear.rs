@@ -6,53 +6,45 @@ use linfa_linear::LinearRegression;
 use ndarray::Array1;
 use taceva_core::ModelError;
 use taceva_models::{
-    LibraryLearner, LibraryModel, LibraryPredictor, LibrarySettings, LibrarySizes, LibraryTask,
-    ModelInfo, SettingError, Settings, library_estimator,
+    LibraryModel, LibrarySettings, LibrarySizes, LibraryTask, LoadedPredictor, ModelInfo,
 };
 
 use super::{RELEASE, labels, matrix};
+use crate::adapter::{Adapter, Numbers, any};
 use crate::guard::{guarded, interrupted};
 use crate::predictor::{Linear, Weighted};
 use crate::span::Span;
+
+const NAME: &str = "linfa/linear";
 
 /// Ordinary least squares by Householder's decomposition, each target alone.
 ///
 /// Where there are no more samples than features, or features depend on each other, the library is handed the samples in the coordinates
 /// of the space that they span, and the answer is the shortest of all solutions.
-struct LeastSquares {
-    settings: LibrarySettings,
-}
-
-const NAME: &str = "linfa/linear";
-
-pub(super) static MODEL: LibraryModel = LibraryModel {
-    info: ModelInfo::of_library(
-        NAME,
-        "linfa: least squares without a penalty; follows noise where samples are few",
-        &[LibrarySettings::SCALE, LibrarySettings::REFIT],
-        |settings| Ok(library_estimator(LeastSquares::from_settings(settings)?)),
-    ),
-    release: RELEASE,
-    work: |sizes| {
-        let LibrarySizes {
-            samples,
-            features,
-            targets,
-        } = sizes;
-        let (small, large) = (samples.min(features) as f64, samples.max(features) as f64);
-        Some(2.0 * (4.0 + 8.0 * targets as f64) * small * small * large)
+pub(super) static ADAPTER: Adapter = Adapter {
+    model: LibraryModel {
+        info: ModelInfo::of_library(
+            NAME,
+            "linfa: least squares without a penalty; follows noise where samples are few",
+            &[LibrarySettings::SCALE, LibrarySettings::REFIT],
+            |settings| ADAPTER.estimator(settings),
+        ),
+        release: RELEASE,
+        work: |LibrarySizes {
+                   samples,
+                   features,
+                   targets,
+               }| {
+            let (small, large) = (samples.min(features) as f64, samples.max(features) as f64);
+            Some(2.0 * (4.0 + 8.0 * targets as f64) * small * small * large)
+        },
+        load: Linear::load,
     },
-    load: Linear::load,
+    numbers: &[],
+    is_classifier: false,
+    check: any,
+    fit,
 };
-
-impl LeastSquares {
-    fn from_settings(settings: &Settings) -> Result<LeastSquares, SettingError> {
-        settings.check_keys(MODEL.info.settings)?;
-        Ok(LeastSquares {
-            settings: LibrarySettings::from_settings(settings)?,
-        })
-    }
-}
 
 /// The weights of one target.
 fn solved(rows: &[f64], labels: &Array1<f64>) -> Result<Vec<f64>, ModelError> {
@@ -64,41 +56,31 @@ fn solved(rows: &[f64], labels: &Array1<f64>) -> Result<Vec<f64>, ModelError> {
     Ok(fitted.params().to_vec())
 }
 
-impl LibraryLearner for LeastSquares {
-    fn model(&self) -> &'static LibraryModel {
-        &MODEL
-    }
-
-    fn settings(&self) -> LibrarySettings {
-        self.settings
-    }
-
-    fn fit(&self, task: &LibraryTask<'_>) -> Result<Box<dyn LibraryPredictor>, ModelError> {
-        let LibrarySizes {
-            samples,
-            features,
-            targets,
-        } = task.sizes;
-        let whole = || -> Result<Vec<Weighted>, ModelError> {
-            let one = |target: usize| {
-                interrupted(task.progress)?;
-                Ok((solved(task.rows, &labels(task, target))?, 0.0))
-            };
-            (0..targets).map(one).collect()
+fn fit(_: &Numbers<'_>, task: &LibraryTask<'_>) -> LoadedPredictor {
+    let LibrarySizes {
+        samples,
+        features,
+        targets,
+    } = task.sizes;
+    let whole = || -> Result<Vec<Weighted>, ModelError> {
+        let one = |target: usize| {
+            interrupted(task.progress)?;
+            Ok((solved(task.rows, &labels(task, target))?, 0.0))
         };
-        let spanned = || -> Result<Vec<Weighted>, ModelError> {
-            let span = Span::new(task.rows, features);
-            let one = |target: usize| {
-                interrupted(task.progress)?;
-                let weights = solved(&span.rows, &labels(task, target))?;
-                Ok(span.weights(&weights))
-            };
-            (0..targets).map(one).collect()
+        (0..targets).map(one).collect()
+    };
+    let spanned = || -> Result<Vec<Weighted>, ModelError> {
+        let span = Span::new(task.rows, features);
+        let one = |target: usize| {
+            interrupted(task.progress)?;
+            let weights = solved(&span.rows, &labels(task, target))?;
+            Ok(span.weights(&weights))
         };
-        let weights = match samples > features {
-            true => whole().or_else(|_| spanned())?,
-            false => spanned()?,
-        };
-        Ok(Box::new(Linear::new(NAME, weights)?))
-    }
+        (0..targets).map(one).collect()
+    };
+    let weights = match samples > features {
+        true => whole().or_else(|_| spanned())?,
+        false => spanned()?,
+    };
+    Ok(Box::new(Linear::new(NAME, weights)?))
 }

@@ -1,4 +1,4 @@
-//! `linfa/logistic`: multinomial logistic regression, which tells classes apart.
+//! `linfa/logistic`: multinomial logistic regression, a classifier.
 
 use linfa::Dataset;
 use linfa::traits::Fit;
@@ -7,66 +7,65 @@ use ndarray::Array1;
 use rayon::prelude::*;
 use taceva_core::{ErrorKind, ModelError, TrainingSet};
 use taceva_models::{
-    LibraryLearner, LibraryModel, LibraryPredictor, LibrarySettings, LibrarySizes, LibraryTask,
-    ModelInfo, SettingError, SettingInfo, Settings, library_estimator,
+    LibraryModel, LibrarySettings, LibrarySizes, LibraryTask, LoadedPredictor, ModelInfo,
+    SettingInfo,
 };
 
 use super::{RELEASE, records};
+use crate::adapter::{Adapter, Number, Numbers, Unset};
 use crate::guard::{guarded, interrupted};
 use crate::predictor::{Classes, Planes};
-use crate::setting::{candidates, open};
-
-/// Multinomial logistic regression with a penalty on squared weights, each target alone: a channel is told as one of the values that it
-/// takes in the training part, for boards, kinds, spacings and levels.
-struct Logistic {
-    settings: LibrarySettings,
-    strength: Option<f64>,
-}
 
 const NAME: &str = "linfa/logistic";
 
-/// Values of a channel that are told apart.
+/// Classes of a channel at most.
 const VALUES_MAX: usize = 256;
 
-const STRENGTH: SettingInfo = SettingInfo {
-    key: "strength",
-    accepts: "a number from 1e-6 to 1e6",
-    default: "chosen for each channel",
-    about: "the penalty on squared weights, beside the summed loss of all samples",
+const STRENGTH: Number = Number {
+    info: SettingInfo {
+        key: "strength",
+        accepts: "a number from 1e-6 to 1e6",
+        default: "chosen for each channel",
+        about: "the penalty on squared weights, beside the summed loss of all samples",
+    },
+    range: [1e-6, 1e6],
+    is_whole: false,
+    unset: Unset::ChosenAmong(&STRENGTHS),
 };
 
 /// From the weakest to the strongest.
 const STRENGTHS: [f64; 5] = [1e-1, 1.0, 1e1, 1e2, 1e3];
 
-pub(super) static MODEL: LibraryModel = LibraryModel {
-    info: ModelInfo::of_library(
-        NAME,
-        "linfa: logistic regression, which tells which of the values it was taught a channel has",
-        &[LibrarySettings::SCALE, STRENGTH, LibrarySettings::REFIT],
-        |settings| Ok(library_estimator(Logistic::from_settings(settings)?)),
-    ),
-    release: RELEASE,
-    work: |sizes| {
-        let LibrarySizes {
-            samples,
-            features,
-            targets,
-        } = sizes;
-        // A hundred steps at six strengths; two products a step for each class, of which there are tens.
-        Some(6.0 * 100.0 * 2.0 * 40.0 * targets as f64 * samples as f64 * features as f64)
+/// Multinomial logistic regression with a penalty on squared weights, each target alone: a channel is predicted as one of the values that it
+/// takes in the training part, for boards, kinds, spacings and levels.
+pub(super) static ADAPTER: Adapter = Adapter {
+    model: LibraryModel {
+        info: ModelInfo::of_library(
+            NAME,
+            "linfa: logistic regression, which predicts one of the labels of the training part",
+            &[
+                LibrarySettings::SCALE,
+                STRENGTH.info,
+                LibrarySettings::REFIT,
+            ],
+            |settings| ADAPTER.estimator(settings),
+        ),
+        release: RELEASE,
+        work: |LibrarySizes {
+                   samples,
+                   features,
+                   targets,
+               }| {
+            // A hundred steps at six strengths; two products a step for each class, of which there are tens.
+            Some(6.0 * 100.0 * 2.0 * 40.0 * targets as f64 * samples as f64 * features as f64)
+        },
+        load: Planes::load,
     },
-    load: Planes::load,
+    numbers: &[STRENGTH],
+    is_classifier: true,
+    check,
+    fit,
 };
-
-impl Logistic {
-    fn from_settings(settings: &Settings) -> Result<Logistic, SettingError> {
-        settings.check_keys(MODEL.info.settings)?;
-        Ok(Logistic {
-            settings: LibrarySettings::from_settings(settings)?,
-            strength: open(settings, &STRENGTH, 1e-6..=1e6)?,
-        })
-    }
-}
 
 /// Labels ascending, each once.
 fn levels(mut labels: Vec<f64>) -> Vec<f64> {
@@ -96,48 +95,30 @@ fn planes(task: &LibraryTask<'_>, target: usize, strength: f64) -> Result<Classe
     })
 }
 
-impl LibraryLearner for Logistic {
-    fn model(&self) -> &'static LibraryModel {
-        &MODEL
-    }
-
-    fn settings(&self) -> LibrarySettings {
-        self.settings
-    }
-
-    fn candidates(&self) -> Option<(&'static str, Vec<f64>)> {
-        Some((STRENGTH.key, candidates(self.strength, &STRENGTHS)))
-    }
-
-    fn tells_classes(&self) -> bool {
-        true
-    }
-
-    fn check(&self, training: &TrainingSet<'_>) -> Result<(), ModelError> {
-        let channels = training.targets.channels.as_slice();
-        for (position, channel) in channels.iter().enumerate() {
-            let labels = training.targets.values.iter().skip(position);
-            let values = levels(labels.step_by(channels.len()).copied().collect()).len();
-            if values > VALUES_MAX {
-                return Err(ModelError::new(
-                    ErrorKind::InvalidArgument,
-                    format!(
-                        "`{channel}` takes {values} values in the training part, {NAME} tells at most {VALUES_MAX} apart: for what \
-                         varies freely choose another model, such as linfa/elastic-net"
-                    ),
-                ));
-            }
+fn check(training: &TrainingSet<'_>) -> Result<(), ModelError> {
+    let channels = training.targets.channels.as_slice();
+    for (position, channel) in channels.iter().enumerate() {
+        let labels = training.targets.values.iter().skip(position);
+        let values = levels(labels.step_by(channels.len()).copied().collect()).len();
+        if values > VALUES_MAX {
+            return Err(ModelError::new(
+                ErrorKind::InvalidArgument,
+                format!(
+                    "`{channel}` takes {values} values in the training part, {NAME} has at most {VALUES_MAX} classes: for what \
+                     varies freely choose another model, such as linfa/elastic-net"
+                ),
+            ));
         }
-        Ok(())
     }
+    Ok(())
+}
 
-    fn fit(&self, task: &LibraryTask<'_>) -> Result<Box<dyn LibraryPredictor>, ModelError> {
-        let one = |target: usize| {
-            interrupted(task.progress)?;
-            planes(task, target, task.values[target])
-        };
-        let targets = (0..task.sizes.targets).into_par_iter();
-        let targets: Vec<Classes> = targets.map(one).collect::<Result<_, ModelError>>()?;
-        Ok(Box::new(Planes::new(NAME, targets)?))
-    }
+fn fit(_: &Numbers<'_>, task: &LibraryTask<'_>) -> LoadedPredictor {
+    let one = |target: usize| {
+        interrupted(task.progress)?;
+        planes(task, target, task.values[target])
+    };
+    let targets = (0..task.sizes.targets).into_par_iter();
+    let targets: Vec<Classes> = targets.map(one).collect::<Result<_, ModelError>>()?;
+    Ok(Box::new(Planes::new(NAME, targets)?))
 }

@@ -7,28 +7,27 @@ use ndarray::Array2;
 use rayon::prelude::*;
 use taceva_core::{ErrorKind, ModelError};
 use taceva_models::{
-    LibraryLearner, LibraryModel, LibraryPredictor, LibrarySettings, LibrarySizes, LibraryTask,
-    ModelInfo, SettingError, SettingInfo, Settings, library_estimator,
+    LibraryModel, LibrarySettings, LibrarySizes, LibraryTask, LoadedPredictor, ModelInfo,
+    SettingInfo,
 };
 
 use super::{RELEASE, matrix, records};
+use crate::adapter::{Adapter, Number, Numbers, Unset, any};
 use crate::guard::{guarded, interrupted};
 use crate::predictor::{Linear, Weighted};
-use crate::setting::{candidates, open};
-
-/// Partial least squares by power iterations (NIPALS), for all targets at once; no more components than samples less one, or features.
-struct Pls {
-    settings: LibrarySettings,
-    components: Option<usize>,
-}
 
 const NAME: &str = "linfa/pls";
 
-const COMPONENTS: SettingInfo = SettingInfo {
-    key: "components",
-    accepts: "a whole number from 1 to 200",
-    default: "chosen for each channel",
-    about: "how many directions of features are kept",
+const COMPONENTS: Number = Number {
+    info: SettingInfo {
+        key: "components",
+        accepts: "a whole number from 1 to 200",
+        default: "chosen for each channel",
+        about: "how many directions of features are kept",
+    },
+    range: [1.0, 200.0],
+    is_whole: true,
+    unset: Unset::ChosenAmong(&COUNTS),
 };
 
 /// From the most to the fewest: of equals the last is the plainest.
@@ -37,33 +36,33 @@ const COUNTS: [f64; 9] = [30.0, 25.0, 20.0, 15.0, 10.0, 6.0, 4.0, 2.0, 1.0];
 /// Rows that the library predicts at a time where its weights are read off.
 const ROWS: usize = 256;
 
-pub(super) static MODEL: LibraryModel = LibraryModel {
-    info: ModelInfo::of_library(
-        NAME,
-        "linfa: partial least squares, directions of features that vary most with the labels",
-        &[LibrarySettings::SCALE, COMPONENTS, LibrarySettings::REFIT],
-        |settings| Ok(library_estimator(Pls::from_settings(settings)?)),
-    ),
-    release: RELEASE,
-    work: |sizes| {
-        let LibrarySizes {
-            samples, features, ..
-        } = sizes;
-        // About a hundred power iterations for each of 114 + 30 components.
-        Some(144.0 * 100.0 * samples as f64 * features as f64)
+/// Partial least squares by power iterations (NIPALS), for all targets at once; no more components than samples less one, or features.
+pub(super) static ADAPTER: Adapter = Adapter {
+    model: LibraryModel {
+        info: ModelInfo::of_library(
+            NAME,
+            "linfa: partial least squares, directions of features that vary most with the labels",
+            &[
+                LibrarySettings::SCALE,
+                COMPONENTS.info,
+                LibrarySettings::REFIT,
+            ],
+            |settings| ADAPTER.estimator(settings),
+        ),
+        release: RELEASE,
+        work: |LibrarySizes {
+                   samples, features, ..
+               }| {
+            // About a hundred power iterations for each of 114 + 30 components.
+            Some(144.0 * 100.0 * samples as f64 * features as f64)
+        },
+        load: Linear::load,
     },
-    load: Linear::load,
+    numbers: &[COMPONENTS],
+    is_classifier: false,
+    check: any,
+    fit,
 };
-
-impl Pls {
-    fn from_settings(settings: &Settings) -> Result<Pls, SettingError> {
-        settings.check_keys(MODEL.info.settings)?;
-        Ok(Pls {
-            settings: LibrarySettings::from_settings(settings)?,
-            components: open(settings, &COMPONENTS, 1..=200)?,
-        })
-    }
-}
 
 /// The weights of a fitted model, a target after the other, with its bias: what it says of each feature alone.
 fn weights(
@@ -86,69 +85,54 @@ fn weights(
     Ok(linear)
 }
 
-impl LibraryLearner for Pls {
-    fn model(&self) -> &'static LibraryModel {
-        &MODEL
-    }
-
-    fn settings(&self) -> LibrarySettings {
-        self.settings
-    }
-
-    fn candidates(&self) -> Option<(&'static str, Vec<f64>)> {
-        let set = self.components.map(|components| components as f64);
-        Some((COMPONENTS.key, candidates(set, &COUNTS)))
-    }
-
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "whole numbers of components, all small"
-    )]
-    fn fit(&self, task: &LibraryTask<'_>) -> Result<Box<dyn LibraryPredictor>, ModelError> {
-        let LibrarySizes {
-            samples,
-            features,
-            targets,
-        } = task.sizes;
-        let most = features.min(samples - 1);
-        let dataset = Dataset::new(records(task)?, matrix(task.labels, samples)?);
-        let asked: Vec<usize> = task
-            .values
-            .iter()
-            .map(|value| (*value as usize).min(most))
-            .collect();
-        let mut counts = asked.clone();
-        counts.sort_unstable();
-        counts.dedup();
-        let one = |count: &usize| {
-            // Components that are left where nothing is to be explained any more are refused: fewer explain it all.
-            let mut outcome = Err(ModelError::new(ErrorKind::InvalidArgument, NAME));
-            for tried in (1..=*count).rev() {
-                interrupted(task.progress)?;
-                outcome = guarded(NAME, || {
-                    PlsRegression::params(tried).scale(false).fit(&dataset)
-                })
-                .and_then(|fitted| weights(&fitted, (features, targets)))
-                .and_then(|linear| {
-                    Linear::new(NAME, linear.clone())?;
-                    Ok(linear)
-                });
-                if outcome.is_ok() {
-                    break;
-                }
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "whole numbers of components, all small"
+)]
+fn fit(_: &Numbers<'_>, task: &LibraryTask<'_>) -> LoadedPredictor {
+    let LibrarySizes {
+        samples,
+        features,
+        targets,
+    } = task.sizes;
+    let most = features.min(samples - 1);
+    let dataset = Dataset::new(records(task)?, matrix(task.labels, samples)?);
+    let asked: Vec<usize> = task
+        .values
+        .iter()
+        .map(|value| (*value as usize).min(most))
+        .collect();
+    let mut counts = asked.clone();
+    counts.sort_unstable();
+    counts.dedup();
+    let one = |count: &usize| {
+        // Components that are left where nothing is to be explained any more are refused: fewer explain it all.
+        let mut outcome = Err(ModelError::new(ErrorKind::InvalidArgument, NAME));
+        for tried in (1..=*count).rev() {
+            interrupted(task.progress)?;
+            outcome = guarded(NAME, || {
+                PlsRegression::params(tried).scale(false).fit(&dataset)
+            })
+            .and_then(|fitted| weights(&fitted, (features, targets)))
+            .and_then(|linear| {
+                Linear::new(NAME, linear.clone())?;
+                Ok(linear)
+            });
+            if outcome.is_ok() {
+                break;
             }
-            outcome.map(|linear| (*count, linear))
-        };
-        let fitted: Vec<(usize, Vec<Weighted>)> = counts
-            .par_iter()
-            .map(one)
-            .collect::<Result<_, ModelError>>()?;
-        let of = |(target, count): (usize, &usize)| {
-            let own = fitted.iter().find(|(known, _)| known == count);
-            own.map(|(_, linear)| linear[target].clone())
-        };
-        let linear = asked.iter().enumerate().filter_map(of).collect();
-        Ok(Box::new(Linear::new(NAME, linear)?))
-    }
+        }
+        outcome.map(|linear| (*count, linear))
+    };
+    let fitted: Vec<(usize, Vec<Weighted>)> = counts
+        .par_iter()
+        .map(one)
+        .collect::<Result<_, ModelError>>()?;
+    let of = |(target, count): (usize, &usize)| {
+        let own = fitted.iter().find(|(known, _)| known == count);
+        own.map(|(_, linear)| linear[target].clone())
+    };
+    let linear = asked.iter().enumerate().filter_map(of).collect();
+    Ok(Box::new(Linear::new(NAME, linear)?))
 }

@@ -6,44 +6,49 @@ use linfa_svm::Svm;
 use rayon::prelude::*;
 use taceva_core::ModelError;
 use taceva_models::{
-    LibraryLearner, LibraryModel, LibraryPredictor, LibrarySettings, LibrarySizes, LibraryTask,
-    ModelInfo, SettingError, SettingInfo, Settings, library_estimator,
+    LibraryModel, LibrarySettings, LibrarySizes, LibraryTask, LoadedPredictor, ModelInfo,
+    SettingInfo,
 };
 
 use super::{RELEASE, labels, records};
+use crate::adapter::{Adapter, Number, Numbers, Unset, any};
 use crate::guard::{guarded, interrupted};
 use crate::predictor::{Machine, Support};
-use crate::setting::{candidates, number, open};
-
-/// Support vector regression by sequential minimal optimisation, each target alone.
-///
-/// The kernel is exp(−‖x − v‖² / (2 ℓ² d²)), d² the mean squared distance of training samples from their mean.
-struct SupportVectors {
-    settings: LibrarySettings,
-    cost: Option<f64>,
-    length: f64,
-    tube: f64,
-}
 
 const NAME: &str = "linfa/svr";
 
-const COST: SettingInfo = SettingInfo {
-    key: "cost",
-    accepts: "a number from 1e-3 to 1e6",
-    default: "chosen for each channel",
-    about: "what an error beyond the tube costs, labels scaled to 0..1",
+const COST: Number = Number {
+    info: SettingInfo {
+        key: "cost",
+        accepts: "a number from 1e-3 to 1e6",
+        default: "chosen for each channel",
+        about: "what an error beyond the tube costs, labels scaled to 0..1",
+    },
+    range: [1e-3, 1e6],
+    is_whole: false,
+    unset: Unset::ChosenAmong(&COSTS),
 };
-const LENGTH: SettingInfo = SettingInfo {
-    key: "length",
-    accepts: "a number from 0.01 to 100",
-    default: "1",
-    about: "how far the kernel reaches, in typical distances of a sample from the mean",
+const LENGTH: Number = Number {
+    info: SettingInfo {
+        key: "length",
+        accepts: "a number from 0.01 to 100",
+        default: "1",
+        about: "how far the kernel reaches, in typical distances of a sample from the mean",
+    },
+    range: [0.01, 100.0],
+    is_whole: false,
+    unset: Unset::Is(1.0),
 };
-const TUBE: SettingInfo = SettingInfo {
-    key: "tube",
-    accepts: "a number from 1e-6 to 0.5",
-    default: "0.01",
-    about: "errors that cost nothing, as a share of the range of labels",
+const TUBE: Number = Number {
+    info: SettingInfo {
+        key: "tube",
+        accepts: "a number from 1e-6 to 0.5",
+        default: "0.01",
+        about: "errors that cost nothing, as a share of the range of labels",
+    },
+    range: [1e-6, 0.5],
+    is_whole: false,
+    unset: Unset::Is(0.01),
 };
 
 /// From the dearest to the cheapest: of equals the last is the plainest.
@@ -52,44 +57,40 @@ const COSTS: [f64; 4] = [100.0, 10.0, 1.0, 0.1];
 /// Below this the library counts a coefficient as 0.
 const NOTHING: f64 = 100.0 * f64::EPSILON;
 
-pub(super) static MODEL: LibraryModel = LibraryModel {
-    info: ModelInfo::of_library(
-        NAME,
-        "linfa: support vector regression with a Gaussian kernel, on all samples",
-        &[
-            LibrarySettings::SCALE,
-            COST,
-            LENGTH,
-            TUBE,
-            LibrarySettings::REFIT,
-        ],
-        |settings| Ok(library_estimator(SupportVectors::from_settings(settings)?)),
-    ),
-    release: RELEASE,
-    work: |sizes| {
-        let LibrarySizes {
-            samples,
-            features,
-            targets,
-        } = sizes;
-        let (samples, targets) = (samples as f64, targets as f64);
-        let kernel = samples * samples * features as f64;
-        Some(5.0 * targets * (kernel + 200.0 * samples * samples))
+/// Support vector regression by sequential minimal optimisation, each target alone.
+///
+/// The kernel is exp(−‖x − v‖² / (2 ℓ² d²)), d² the mean squared distance of training samples from their mean.
+pub(super) static ADAPTER: Adapter = Adapter {
+    model: LibraryModel {
+        info: ModelInfo::of_library(
+            NAME,
+            "linfa: support vector regression with a Gaussian kernel, on all samples",
+            &[
+                LibrarySettings::SCALE,
+                COST.info,
+                LENGTH.info,
+                TUBE.info,
+                LibrarySettings::REFIT,
+            ],
+            |settings| ADAPTER.estimator(settings),
+        ),
+        release: RELEASE,
+        work: |LibrarySizes {
+                   samples,
+                   features,
+                   targets,
+               }| {
+            let (samples, targets) = (samples as f64, targets as f64);
+            let kernel = samples * samples * features as f64;
+            Some(5.0 * targets * (kernel + 200.0 * samples * samples))
+        },
+        load: Support::load,
     },
-    load: Support::load,
+    numbers: &[COST, LENGTH, TUBE],
+    is_classifier: false,
+    check: any,
+    fit,
 };
-
-impl SupportVectors {
-    fn from_settings(settings: &Settings) -> Result<SupportVectors, SettingError> {
-        settings.check_keys(MODEL.info.settings)?;
-        Ok(SupportVectors {
-            settings: LibrarySettings::from_settings(settings)?,
-            cost: open(settings, &COST, 1e-3..=1e6)?,
-            length: number(settings, &LENGTH, 1.0, 0.01..=100.0)?,
-            tube: number(settings, &TUBE, 0.01, 1e-6..=0.5)?,
-        })
-    }
-}
 
 /// What squared distances are multiplied by in a kernel of that `length`.
 pub(crate) fn rate(task: &LibraryTask<'_>, length: f64) -> f64 {
@@ -97,43 +98,29 @@ pub(crate) fn rate(task: &LibraryTask<'_>, length: f64) -> f64 {
     task.sizes.samples as f64 / (2.0 * length * length * squares)
 }
 
-impl LibraryLearner for SupportVectors {
-    fn model(&self) -> &'static LibraryModel {
-        &MODEL
-    }
-
-    fn settings(&self) -> LibrarySettings {
-        self.settings
-    }
-
-    fn candidates(&self) -> Option<(&'static str, Vec<f64>)> {
-        Some((COST.key, candidates(self.cost, &COSTS)))
-    }
-
-    fn fit(&self, task: &LibraryTask<'_>) -> Result<Box<dyn LibraryPredictor>, ModelError> {
-        let records = records(task)?;
-        let rate = rate(task, self.length);
-        let one = |target: usize| {
-            interrupted(task.progress)?;
-            let dataset = Dataset::new(records.clone(), labels(task, target));
-            let fitted = guarded(NAME, || {
-                Svm::<f64, f64>::params()
-                    .c_svr(task.values[target], Some(self.tube))
-                    .gaussian_kernel(1.0 / rate)
-                    .eps(1e-3)
-                    .fit(&dataset)
-            })?;
-            let coefficients = fitted.alpha.iter();
-            Ok(Machine {
-                coefficients: coefficients
-                    .map(|value| if value.abs() > NOTHING { *value } else { 0.0 })
-                    .collect(),
-                bias: -fitted.rho,
-            })
-        };
-        let targets = (0..task.sizes.targets).into_par_iter();
-        let machines: Vec<Machine> = targets.map(one).collect::<Result<_, ModelError>>()?;
-        let rows = (task.rows, task.sizes.features);
-        Ok(Box::new(Support::new(NAME, rows, rate, &machines)?))
-    }
+fn fit(set: &Numbers<'_>, task: &LibraryTask<'_>) -> LoadedPredictor {
+    let records = records(task)?;
+    let rate = rate(task, set.real(&LENGTH));
+    let one = |target: usize| {
+        interrupted(task.progress)?;
+        let dataset = Dataset::new(records.clone(), labels(task, target));
+        let fitted = guarded(NAME, || {
+            Svm::<f64, f64>::params()
+                .c_svr(task.values[target], Some(set.real(&TUBE)))
+                .gaussian_kernel(1.0 / rate)
+                .eps(1e-3)
+                .fit(&dataset)
+        })?;
+        let coefficients = fitted.alpha.iter();
+        Ok(Machine {
+            coefficients: coefficients
+                .map(|value| if value.abs() > NOTHING { *value } else { 0.0 })
+                .collect(),
+            bias: -fitted.rho,
+        })
+    };
+    let targets = (0..task.sizes.targets).into_par_iter();
+    let machines: Vec<Machine> = targets.map(one).collect::<Result<_, ModelError>>()?;
+    let rows = (task.rows, task.sizes.features);
+    Ok(Box::new(Support::new(NAME, rows, rate, &machines)?))
 }

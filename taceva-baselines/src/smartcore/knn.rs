@@ -4,63 +4,57 @@ use smartcore::algorithm::neighbour::linear_search::LinearKNNSearch;
 use smartcore::metrics::distance::euclidian::Euclidian;
 use taceva_core::{ErrorKind, ModelError};
 use taceva_models::{
-    LibraryLearner, LibraryModel, LibraryPredictor, LibrarySettings, LibrarySizes, LibraryTask,
-    LibraryTensor, LibraryTensors, ModelInfo, SettingError, SettingInfo, Settings,
-    library_estimator,
+    LibraryModel, LibraryPredictor, LibrarySettings, LibrarySizes, LibraryTask, LibraryTensor,
+    LibraryTensors, LoadedPredictor, ModelInfo, SettingInfo,
 };
 
 use super::RELEASE;
+use crate::adapter::{Adapter, Number, Numbers, Unset, any};
 use crate::guard::guarded;
 use crate::predictor::damaged;
-use crate::setting::{candidates, open};
-
-/// Nearest neighbours by Euclidean distance, each weighted by 1 / distance; samples at no distance count alone.
-struct Neighbours {
-    settings: LibrarySettings,
-    count: Option<usize>,
-}
 
 const NAME: &str = "smartcore/knn";
 
-const COUNT: SettingInfo = SettingInfo {
-    key: "neighbours",
-    accepts: "a whole number from 1 to 1000",
-    default: "chosen for each channel",
-    about: "how many of the nearest training samples a prediction is the mean of",
+const COUNT: Number = Number {
+    info: SettingInfo {
+        key: "neighbours",
+        accepts: "a whole number from 1 to 1000",
+        default: "chosen for each channel",
+        about: "how many of the nearest training samples a prediction is the mean of",
+    },
+    range: [1.0, 1000.0],
+    is_whole: true,
+    unset: Unset::ChosenAmong(&COUNTS),
 };
 
 /// From the fewest to the most: of equals the last is the smoothest.
 const COUNTS: [f64; 8] = [1.0, 2.0, 3.0, 4.0, 5.0, 8.0, 12.0, 20.0];
 
-pub(super) static MODEL: LibraryModel = LibraryModel {
-    info: ModelInfo::of_library(
-        NAME,
-        "smartcore: the mean of the nearest training samples",
-        &[LibrarySettings::SCALE, COUNT, LibrarySettings::REFIT],
-        |settings| Ok(library_estimator(Neighbours::from_settings(settings)?)),
-    ),
-    release: RELEASE,
-    work: |sizes| {
-        let LibrarySizes {
-            samples,
-            features,
-            targets,
-        } = sizes;
-        let samples = samples as f64;
-        Some(9.0 * targets as f64 * samples * samples * features as f64)
+/// Nearest neighbours by Euclidean distance, each weighted by 1 / distance; samples at no distance count alone.
+pub(super) static ADAPTER: Adapter = Adapter {
+    model: LibraryModel {
+        info: ModelInfo::of_library(
+            NAME,
+            "smartcore: the mean of the nearest training samples",
+            &[LibrarySettings::SCALE, COUNT.info, LibrarySettings::REFIT],
+            |settings| ADAPTER.estimator(settings),
+        ),
+        release: RELEASE,
+        work: |LibrarySizes {
+                   samples,
+                   features,
+                   targets,
+               }| {
+            let samples = samples as f64;
+            Some(9.0 * targets as f64 * samples * samples * features as f64)
+        },
+        load: Lookup::load,
     },
-    load: Lookup::load,
+    numbers: &[COUNT],
+    is_classifier: false,
+    check: any,
+    fit,
 };
-
-impl Neighbours {
-    fn from_settings(settings: &Settings) -> Result<Neighbours, SettingError> {
-        settings.check_keys(MODEL.info.settings)?;
-        Ok(Neighbours {
-            settings: LibrarySettings::from_settings(settings)?,
-            count: open(settings, &COUNT, 1..=1000)?,
-        })
-    }
-}
 
 /// Training samples that the library searches, and their labels.
 struct Lookup {
@@ -174,33 +168,18 @@ impl Lookup {
     }
 }
 
-impl LibraryLearner for Neighbours {
-    fn model(&self) -> &'static LibraryModel {
-        &MODEL
-    }
-
-    fn settings(&self) -> LibrarySettings {
-        self.settings
-    }
-
-    fn candidates(&self) -> Option<(&'static str, Vec<f64>)> {
-        let set = self.count.map(|count| count as f64);
-        Some((COUNT.key, candidates(set, &COUNTS)))
-    }
-
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "whole numbers of neighbours, and rows that are single-precision numbers"
-    )]
-    fn fit(&self, task: &LibraryTask<'_>) -> Result<Box<dyn LibraryPredictor>, ModelError> {
-        let rows = task.rows.iter().map(|&value| value as f32).collect();
-        let most = task.sizes.samples.min(1000) as f64;
-        let counts = task.values.iter().map(|value| value.min(most) as u32);
-        Ok(Box::new(Lookup::new(
-            (rows, task.sizes.features),
-            task.labels.to_vec(),
-            counts.collect(),
-        )?))
-    }
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "whole numbers of neighbours, and rows that are single-precision numbers"
+)]
+fn fit(_: &Numbers<'_>, task: &LibraryTask<'_>) -> LoadedPredictor {
+    let rows = task.rows.iter().map(|&value| value as f32).collect();
+    let most = task.sizes.samples.min(1000) as f64;
+    let counts = task.values.iter().map(|value| value.min(most) as u32);
+    Ok(Box::new(Lookup::new(
+        (rows, task.sizes.features),
+        task.labels.to_vec(),
+        counts.collect(),
+    )?))
 }

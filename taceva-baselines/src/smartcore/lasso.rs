@@ -5,31 +5,27 @@ use smartcore::linalg::basic::arrays::Array;
 use smartcore::linear::lasso::{Lasso, LassoParameters};
 use taceva_core::ModelError;
 use taceva_models::{
-    LibraryLearner, LibraryModel, LibraryPredictor, LibrarySettings, LibrarySizes, LibraryTask,
-    ModelInfo, SettingError, SettingInfo, Settings, library_estimator,
+    LibraryModel, LibrarySettings, LibrarySizes, LibraryTask, LoadedPredictor, ModelInfo,
+    SettingInfo,
 };
 
 use super::{RELEASE, matrix};
+use crate::adapter::{Adapter, Number, Numbers, Unset, any};
 use crate::guard::{guarded, interrupted};
 use crate::predictor::Linear;
-use crate::setting::{candidates, open};
-
-/// The lasso by an interior-point method, each target alone: minimises ‖y − Xw‖² + λ ‖w‖₁.
-///
-/// λ is the strength × the least λ at which every weight is 0. The library refuses fewer samples than features; it is then handed as many
-/// samples more as it takes whose features and label are all 0, which changes no sum.
-struct LeastAbsolute {
-    settings: LibrarySettings,
-    strength: Option<f64>,
-}
 
 const NAME: &str = "smartcore/lasso";
 
-const STRENGTH: SettingInfo = SettingInfo {
-    key: "strength",
-    accepts: "a number from 1e-4 to 1",
-    default: "chosen for each channel",
-    about: "the penalty on weights, relative to the least at which every weight is 0",
+const STRENGTH: Number = Number {
+    info: SettingInfo {
+        key: "strength",
+        accepts: "a number from 1e-4 to 1",
+        default: "chosen for each channel",
+        about: "the penalty on weights, relative to the least at which every weight is 0",
+    },
+    range: [1e-4, 1.0],
+    is_whole: false,
+    unset: Unset::ChosenAmong(&STRENGTHS),
 };
 
 /// From the weakest to the strongest.
@@ -39,36 +35,39 @@ const STRENGTHS: [f64; 4] = [1e-2, 3e-2, 1e-1, 3e-1];
 const STEPS: usize = 50;
 const TOLERANCE: f64 = 1e-2;
 
-pub(super) static MODEL: LibraryModel = LibraryModel {
-    info: ModelInfo::of_library(
-        NAME,
-        "smartcore: the lasso, which leaves most weights near 0; slow with many features",
-        &[LibrarySettings::SCALE, STRENGTH, LibrarySettings::REFIT],
-        |settings| Ok(library_estimator(LeastAbsolute::from_settings(settings)?)),
-    ),
-    release: RELEASE,
-    work: |sizes| {
-        let LibrarySizes {
-            samples,
-            features,
-            targets,
-        } = sizes;
-        let (features, targets) = (features as f64, targets as f64);
-        let rows = (samples as f64).max(features);
-        Some(6.0 * targets * features * features * (rows + 3000.0))
+/// The lasso by an interior-point method, each target alone: minimises ‖y − Xw‖² + λ ‖w‖₁.
+///
+/// λ is the strength × the least λ at which every weight is 0. The library refuses fewer samples than features; it is then handed as many
+/// samples more as it takes whose features and label are all 0, which changes no sum.
+pub(super) static ADAPTER: Adapter = Adapter {
+    model: LibraryModel {
+        info: ModelInfo::of_library(
+            NAME,
+            "smartcore: the lasso, which leaves most weights near 0; slow with many features",
+            &[
+                LibrarySettings::SCALE,
+                STRENGTH.info,
+                LibrarySettings::REFIT,
+            ],
+            |settings| ADAPTER.estimator(settings),
+        ),
+        release: RELEASE,
+        work: |LibrarySizes {
+                   samples,
+                   features,
+                   targets,
+               }| {
+            let (features, targets) = (features as f64, targets as f64);
+            let rows = (samples as f64).max(features);
+            Some(6.0 * targets * features * features * (rows + 3000.0))
+        },
+        load: Linear::load,
     },
-    load: Linear::load,
+    numbers: &[STRENGTH],
+    is_classifier: false,
+    check: any,
+    fit,
 };
-
-impl LeastAbsolute {
-    fn from_settings(settings: &Settings) -> Result<LeastAbsolute, SettingError> {
-        settings.check_keys(MODEL.info.settings)?;
-        Ok(LeastAbsolute {
-            settings: LibrarySettings::from_settings(settings)?,
-            strength: open(settings, &STRENGTH, 1e-4..=1.0)?,
-        })
-    }
-}
 
 /// The least λ at which every weight is 0: twice the largest product of a feature with the labels.
 fn least(rows: &[f64], features: usize, labels: &[f64]) -> f64 {
@@ -82,52 +81,38 @@ fn least(rows: &[f64], features: usize, labels: &[f64]) -> f64 {
         .fold(0.0, |most: f64, one| most.max(one.abs()))
 }
 
-impl LibraryLearner for LeastAbsolute {
-    fn model(&self) -> &'static LibraryModel {
-        &MODEL
-    }
-
-    fn settings(&self) -> LibrarySettings {
-        self.settings
-    }
-
-    fn candidates(&self) -> Option<(&'static str, Vec<f64>)> {
-        Some((STRENGTH.key, candidates(self.strength, &STRENGTHS)))
-    }
-
-    fn fit(&self, task: &LibraryTask<'_>) -> Result<Box<dyn LibraryPredictor>, ModelError> {
-        let LibrarySizes {
-            samples,
-            features,
-            targets,
-        } = task.sizes;
-        let rows = samples.max(features);
-        let mut values = task.rows.to_vec();
-        values.resize(rows * features, 0.0);
-        let records = matrix(NAME, &values, rows)?;
-        let one = |target: usize| {
-            interrupted(task.progress)?;
-            let mut labels = task.target(target);
-            let lambda = task.values[target] * least(task.rows, features, &labels);
-            labels.resize(rows, 0.0);
-            let parameters = LassoParameters {
-                // The library multiplies it by the number of rows.
-                alpha: lambda / rows as f64,
-                normalize: false,
-                tol: TOLERANCE,
-                max_iter: STEPS,
-                fit_intercept: false,
-            };
-            let weights = guarded(NAME, || {
-                Lasso::fit(&records, &labels, parameters).map(|fitted| {
-                    let weights = fitted.coefficients();
-                    weights.iterator(0).copied().collect::<Vec<f64>>()
-                })
-            })?;
-            Ok((weights, 0.0))
+fn fit(_: &Numbers<'_>, task: &LibraryTask<'_>) -> LoadedPredictor {
+    let LibrarySizes {
+        samples,
+        features,
+        targets,
+    } = task.sizes;
+    let rows = samples.max(features);
+    let mut values = task.rows.to_vec();
+    values.resize(rows * features, 0.0);
+    let records = matrix(NAME, &values, rows)?;
+    let one = |target: usize| {
+        interrupted(task.progress)?;
+        let mut labels = task.target(target);
+        let lambda = task.values[target] * least(task.rows, features, &labels);
+        labels.resize(rows, 0.0);
+        let parameters = LassoParameters {
+            // The library multiplies it by the number of rows.
+            alpha: lambda / rows as f64,
+            normalize: false,
+            tol: TOLERANCE,
+            max_iter: STEPS,
+            fit_intercept: false,
         };
-        let targets = (0..targets).into_par_iter();
-        let linear = targets.map(one).collect::<Result<_, ModelError>>()?;
-        Ok(Box::new(Linear::new(NAME, linear)?))
-    }
+        let weights = guarded(NAME, || {
+            Lasso::fit(&records, &labels, parameters).map(|fitted| {
+                let weights = fitted.coefficients();
+                weights.iterator(0).copied().collect::<Vec<f64>>()
+            })
+        })?;
+        Ok((weights, 0.0))
+    };
+    let targets = (0..targets).into_par_iter();
+    let linear = targets.map(one).collect::<Result<_, ModelError>>()?;
+    Ok(Box::new(Linear::new(NAME, linear)?))
 }

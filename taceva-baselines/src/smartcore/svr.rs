@@ -6,81 +6,82 @@ use smartcore::svm::Kernels;
 use smartcore::svm::svr::{SVR, SVRParameters};
 use taceva_core::{ErrorKind, ModelError, TrainingSet};
 use taceva_models::{
-    LibraryLearner, LibraryModel, LibraryPredictor, LibrarySettings, LibrarySizes, LibraryTask,
-    ModelInfo, SettingError, SettingInfo, Settings, library_estimator,
+    LibraryModel, LibrarySettings, LibrarySizes, LibraryTask, LoadedPredictor, ModelInfo,
+    SettingInfo,
 };
 
 use super::{RELEASE, records};
+use crate::adapter::{Adapter, Number, Numbers, Unset};
 use crate::guard::{guarded, interrupted};
 use crate::predictor::{Machine, Support};
-use crate::setting::number;
-
-/// Support vector regression by sequential minimal optimisation, each target alone. Nothing is chosen by error.
-struct SupportVectors {
-    settings: LibrarySettings,
-    cost: f64,
-    length: f64,
-    tube: f64,
-}
 
 const NAME: &str = "smartcore/svr";
 
-const COST: SettingInfo = SettingInfo {
-    key: "cost",
-    accepts: "a number from 1e-3 to 1e6",
-    default: "10",
-    about: "what an error beyond the tube costs, labels scaled to 0..1",
-};
-const LENGTH: SettingInfo = SettingInfo {
-    key: "length",
-    accepts: "a number from 0.01 to 100",
-    default: "1",
-    about: "how far the kernel reaches, in typical distances of a sample from the mean",
-};
-const TUBE: SettingInfo = SettingInfo {
-    key: "tube",
-    accepts: "a number from 1e-6 to 0.5",
-    default: "0.01",
-    about: "errors that cost nothing, as a share of the range of labels",
-};
-
-pub(super) static MODEL: LibraryModel = LibraryModel {
-    info: ModelInfo::of_library(
-        NAME,
-        "smartcore: support vector regression; needs at least as many samples as features",
-        &[
-            LibrarySettings::SCALE,
-            COST,
-            LENGTH,
-            TUBE,
-            LibrarySettings::REFIT,
-        ],
-        |settings| Ok(library_estimator(SupportVectors::from_settings(settings)?)),
-    ),
-    release: RELEASE,
-    work: |sizes| {
-        let LibrarySizes {
-            samples,
-            features,
-            targets,
-        } = sizes;
-        let (n, p) = (samples as f64, features as f64);
-        (samples >= features).then_some(2.0 * targets as f64 * n * n * (3.0 * p + 400.0))
+const COST: Number = Number {
+    info: SettingInfo {
+        key: "cost",
+        accepts: "a number from 1e-3 to 1e6",
+        default: "10",
+        about: "what an error beyond the tube costs, labels scaled to 0..1",
     },
-    load: Support::load,
+    range: [1e-3, 1e6],
+    is_whole: false,
+    unset: Unset::Is(10.0),
+};
+const LENGTH: Number = Number {
+    info: SettingInfo {
+        key: "length",
+        accepts: "a number from 0.01 to 100",
+        default: "1",
+        about: "how far the kernel reaches, in typical distances of a sample from the mean",
+    },
+    range: [0.01, 100.0],
+    is_whole: false,
+    unset: Unset::Is(1.0),
+};
+const TUBE: Number = Number {
+    info: SettingInfo {
+        key: "tube",
+        accepts: "a number from 1e-6 to 0.5",
+        default: "0.01",
+        about: "errors that cost nothing, as a share of the range of labels",
+    },
+    range: [1e-6, 0.5],
+    is_whole: false,
+    unset: Unset::Is(0.01),
 };
 
-impl SupportVectors {
-    fn from_settings(settings: &Settings) -> Result<SupportVectors, SettingError> {
-        settings.check_keys(MODEL.info.settings)?;
-        Ok(SupportVectors {
-            settings: LibrarySettings::from_settings(settings)?,
-            cost: number(settings, &COST, 10.0, 1e-3..=1e6)?,
-            length: number(settings, &LENGTH, 1.0, 0.01..=100.0)?,
-            tube: number(settings, &TUBE, 0.01, 1e-6..=0.5)?,
-        })
-    }
-}
+/// Support vector regression by sequential minimal optimisation, each target alone. Nothing is chosen by error.
+pub(super) static ADAPTER: Adapter = Adapter {
+    model: LibraryModel {
+        info: ModelInfo::of_library(
+            NAME,
+            "smartcore: support vector regression; needs at least as many samples as features",
+            &[
+                LibrarySettings::SCALE,
+                COST.info,
+                LENGTH.info,
+                TUBE.info,
+                LibrarySettings::REFIT,
+            ],
+            |settings| ADAPTER.estimator(settings),
+        ),
+        release: RELEASE,
+        work: |LibrarySizes {
+                   samples,
+                   features,
+                   targets,
+               }| {
+            let (n, p) = (samples as f64, features as f64);
+            (samples >= features).then_some(2.0 * targets as f64 * n * n * (3.0 * p + 400.0))
+        },
+        load: Support::load,
+    },
+    numbers: &[COST, LENGTH, TUBE],
+    is_classifier: false,
+    check,
+    fit,
+};
 
 /// What the library found, read from its serialised form: the support vectors come in the order of samples.
 fn machine(fitted: &Value, task: &LibraryTask<'_>) -> Option<Machine> {
@@ -106,61 +107,52 @@ fn machine(fitted: &Value, task: &LibraryTask<'_>) -> Option<Machine> {
     })
 }
 
-impl LibraryLearner for SupportVectors {
-    fn model(&self) -> &'static LibraryModel {
-        &MODEL
+fn check(training: &TrainingSet<'_>) -> Result<(), ModelError> {
+    let samples = training.features.samples();
+    let features = training.features.shape().len();
+    if samples >= features {
+        return Ok(());
     }
+    Err(ModelError::new(
+        ErrorKind::InvalidArgument,
+        format!(
+            "{samples} training samples, {NAME} needs at least as many as features, of which there are {features}: smartcore 0.7.0 \
+             cuts each sample to as many numbers as there are samples; a smaller `size`, `pca` or linfa/svr would be accepted"
+        ),
+    ))
+}
 
-    fn settings(&self) -> LibrarySettings {
-        self.settings
-    }
-
-    fn check(&self, training: &TrainingSet<'_>) -> Result<(), ModelError> {
-        let samples = training.features.samples();
-        let features = training.features.shape().len();
-        if samples >= features {
-            return Ok(());
-        }
-        Err(ModelError::new(
-            ErrorKind::InvalidArgument,
-            format!(
-                "{samples} training samples, {NAME} needs at least as many as features, of which there are {features}: smartcore 0.7.0 \
-                 cuts each sample to as many numbers as there are samples; a smaller `size`, `pca` or linfa/svr would be accepted"
-            ),
-        ))
-    }
-
-    fn fit(&self, task: &LibraryTask<'_>) -> Result<Box<dyn LibraryPredictor>, ModelError> {
-        let records = records(NAME, task)?;
-        let LibrarySizes {
-            samples, features, ..
-        } = task.sizes;
-        let squares: f64 = task.rows.iter().map(|value| value * value).sum();
-        let rate = samples as f64 / (2.0 * self.length * self.length * squares);
-        let one = |target: usize| {
-            interrupted(task.progress)?;
-            let labels = task.target(target);
-            let parameters = SVRParameters::default()
-                .with_c(self.cost)
-                .with_eps(self.tube)
-                .with_kernel(Kernels::rbf().with_gamma(rate));
-            let fitted = guarded(NAME, || {
-                let fitted = SVR::fit(&records, &labels, &parameters);
-                let fitted = fitted.map_err(|error| error.to_string())?;
-                serde_json::to_value(&fitted).map_err(|error| error.to_string())
-            })?;
-            machine(&fitted, task).ok_or_else(|| {
-                let why = format!("{NAME}: the library fitted a parameter that is not finite");
-                ModelError::new(ErrorKind::OutOfRange, why)
-            })
-        };
-        let targets = (0..task.sizes.targets).into_par_iter();
-        let machines: Vec<Machine> = targets.map(one).collect::<Result<_, ModelError>>()?;
-        Ok(Box::new(Support::new(
-            NAME,
-            (task.rows, features),
-            rate,
-            &machines,
-        )?))
-    }
+fn fit(set: &Numbers<'_>, task: &LibraryTask<'_>) -> LoadedPredictor {
+    let records = records(NAME, task)?;
+    let LibrarySizes {
+        samples, features, ..
+    } = task.sizes;
+    let squares: f64 = task.rows.iter().map(|value| value * value).sum();
+    let length = set.real(&LENGTH);
+    let rate = samples as f64 / (2.0 * length * length * squares);
+    let one = |target: usize| {
+        interrupted(task.progress)?;
+        let labels = task.target(target);
+        let parameters = SVRParameters::default()
+            .with_c(set.real(&COST))
+            .with_eps(set.real(&TUBE))
+            .with_kernel(Kernels::rbf().with_gamma(rate));
+        let fitted = guarded(NAME, || {
+            let fitted = SVR::fit(&records, &labels, &parameters);
+            let fitted = fitted.map_err(|error| error.to_string())?;
+            serde_json::to_value(&fitted).map_err(|error| error.to_string())
+        })?;
+        machine(&fitted, task).ok_or_else(|| {
+            let why = format!("{NAME}: the library fitted a parameter that is not finite");
+            ModelError::new(ErrorKind::OutOfRange, why)
+        })
+    };
+    let targets = (0..task.sizes.targets).into_par_iter();
+    let machines: Vec<Machine> = targets.map(one).collect::<Result<_, ModelError>>()?;
+    Ok(Box::new(Support::new(
+        NAME,
+        (task.rows, features),
+        rate,
+        &machines,
+    )?))
 }

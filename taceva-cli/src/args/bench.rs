@@ -1,5 +1,6 @@
 //! What is typed of benchmarks.
 
+use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
 use clap::{Args, Subcommand};
@@ -55,6 +56,9 @@ pub(crate) struct BenchModels {
     /// [default: all but resnet10, resnet18, resnet34 and auto, which take long]
     #[arg(long = "model", value_name = "NAME[:KEY=VALUE,…]")]
     pub(crate) models: Vec<String>,
+    /// How often each model is fitted, in turns; the least processor time counts
+    #[arg(long, value_name = "N", default_value = "1")]
+    pub(crate) rounds: NonZeroUsize,
     /// Few presses where the bench presses, and short trainings where no model is named
     #[arg(long)]
     pub(crate) quick: bool,

@@ -272,6 +272,7 @@ mod tests {
                     mae,
                     ci95: Some([mae - 0.05, mae + 0.05]),
                     n: 40,
+                    beaten_by: Vec::new(),
                 }],
                 ..ModelRow::default()
             });

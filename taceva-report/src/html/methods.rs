@@ -9,8 +9,8 @@ use super::studied::{points, span, whole};
 use crate::escape::html;
 use crate::figures::{listed, names};
 use crate::results::Study;
+use crate::scores::ScoreTable;
 use crate::short_digests::short_digests;
-use crate::table::ScoreTable;
 
 /// The study whose metrics these are, as its publisher names it.
 const STUDY: &str = "@article{taceva-study,\n  author  = {Cong and others},\n  title   = {{TacEva}},\n  journal = {Advanced Intelligent Systems},\n  year    = {2026},\n  doi     = {10.1002/aisy.202501179}\n}";

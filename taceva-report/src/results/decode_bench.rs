@@ -140,6 +140,7 @@ mod tests {
                     mae: 0.25,
                     ci95: Some([0.125, 0.375]),
                     n: 40,
+                    beaten_by: Vec::new(),
                 },
                 change: Some(0.0625),
                 change_ci95: None,

@@ -71,6 +71,9 @@ pub struct ModelRow {
     pub settings: String,
     /// Seconds to fit it, features included.
     pub fit_s: f64,
+    /// Processor seconds to fit it, features included; `None` where the system does not say, or an older program wrote it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub fit_cpu_s: Option<f64>,
     /// Seconds to predict the whole test part, features included.
     pub predict_s: f64,
     /// Seconds from one frame to its prediction, the median over frames taken one by one.
@@ -96,6 +99,9 @@ pub struct ChannelError {
     pub ci95: Option<[f64; 2]>,
     /// Samples it is made of.
     pub n: u64,
+    /// The models of the race that take less processor time to fit and than which this one is not shown to be nearer.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub beaten_by: Vec<String>,
 }
 
 impl ModelBench {
@@ -163,9 +169,19 @@ impl ModelRow {
         self.errors.iter().find(|error| error.channel == channel)
     }
 
+    /// The channels on whose Pareto front it is: nobody takes less processor time to fit and is, as far as intervals say, as near. `None`
+    /// where no time is known.
+    pub fn front_of(&self) -> Option<Vec<&str>> {
+        self.fit_cpu_s?;
+        let errors = self.errors.iter();
+        let unbeaten = errors.filter(|error| error.beaten_by.is_empty());
+        Some(unbeaten.map(|error| error.channel.as_str()).collect())
+    }
+
     fn check(&self, at: usize) -> Result<(), ResultsError> {
         let times = [
             ("fit_s", self.fit_s),
+            ("fit_cpu_s", self.fit_cpu_s.unwrap_or(0.0)),
             ("predict_s", self.predict_s),
             ("latency_s", self.latency_s),
         ];
@@ -202,6 +218,7 @@ mod tests {
                 mae: 0.25,
                 ci95: Some([0.125, 0.375]),
                 n: 40,
+                beaten_by: Vec::new(),
             }],
             ..ModelRow::default()
         });

@@ -5,13 +5,13 @@ use std::time::Instant;
 
 use taceva_core::FrameInfo;
 use taceva_dataset::{Dataset, DecodeScale};
-use taceva_metrics::{ClusterSums, Sides, SignFlip};
+use taceva_metrics::ClusterSums;
 
 use super::models::{Raced, TrialError, unfitted};
+use super::paired::{absolute_errors, difference};
 use crate::error::StudyError;
 use crate::fit::FitRequest;
-use crate::predict::Predicted;
-use crate::rows::{Divided, Part};
+use crate::rows::{DataPart, Divided};
 use crate::work::Work;
 
 /// Frames that are decoded one by one.
@@ -61,7 +61,7 @@ pub struct DecodeTrials {
 /// A scale at which frames are too small for the features is a row that says so.
 ///
 /// # Errors
-/// [`StudyError`] if the request cannot be meant, the recording has frames that are no JPEG or cannot be read, or `work` asks to stop.
+/// [`StudyError`] if the request is not valid, the recording has frames that are no JPEG or cannot be read, or `work` asks to stop.
 pub fn decode(
     path: &Path,
     request: &FitRequest,
@@ -104,8 +104,8 @@ pub fn decode(
     work.progress.end();
     Ok(DecodeTrials {
         split: format!("{}, seed {}", divided.spec, divided.seed),
-        train: divided.rows(Part::Train).len(),
-        test: divided.rows(Part::Test).len(),
+        train: divided.rows(DataPart::Train).len(),
+        test: divided.rows(DataPart::Test).len(),
         rows,
     })
 }
@@ -159,17 +159,16 @@ impl Full {
                 .iter()
                 .find(|full| full.channel == error.channel)?;
             let position = raced.predicted.channels().position(&error.channel)?;
-            let sides = own[position].as_ref().zip(self.sums[position].as_ref());
-            let tested = sides.map(|(a, b)| SignFlip::default().test(Sides { a, b }));
-            Some(match tested {
-                Some(Ok(difference)) => ErrorChange {
+            let sides = [own[position].as_ref(), self.sums[position].as_ref()];
+            Some(match difference(sides) {
+                Some(difference) => ErrorChange {
                     value: difference.value,
                     // So few points that every difference is possible have no interval.
                     ci95: Some(difference.interval)
                         .filter(|ends| ends.iter().all(|end| end.is_finite())),
                 },
                 // Too few points.
-                Some(Err(_)) | None => ErrorChange {
+                None => ErrorChange {
                     value: error.mae - full.mae,
                     ci95: None,
                 },
@@ -178,20 +177,4 @@ impl Full {
         let errors = raced.errors.iter();
         errors.map(|error| (error.clone(), change(error))).collect()
     }
-}
-
-fn absolute_errors(predicted: &Predicted) -> Vec<Option<ClusterSums>> {
-    let of = |position: usize| {
-        let points = predicted.points()?;
-        let mut sums = ClusterSums::default();
-        for (row, point) in points.iter().enumerate() {
-            let estimate = predicted.prediction()[position].get(row);
-            let pair = estimate.zip(predicted.truth()[position].get(row));
-            if let Some((estimate, truth)) = pair {
-                sums.try_add(point, (estimate - truth).abs()).ok()?;
-            }
-        }
-        Some(sums)
-    };
-    (0..predicted.channels().len()).map(of).collect()
 }

@@ -5,13 +5,17 @@ use std::time::Instant;
 
 use taceva_core::{ErrorKind, Features, Progress, Unit};
 use taceva_dataset::{Dataset, Pass};
+use taceva_metrics::ClusterSums;
 use taceva_models::Model;
 
+use super::front;
+use super::paired::absolute_errors;
+use super::stopwatch::process_time;
 use crate::error::StudyError;
 use crate::evaluate::{EvaluateRequest, ModelChoice, score};
 use crate::fit::{FitRequest, fit};
 use crate::predict::{self, Predicted, Target, extractor};
-use crate::rows::{Divided, Part};
+use crate::rows::{DataPart, Divided};
 use crate::work::Work;
 
 /// The error that models are compared by.
@@ -28,6 +32,8 @@ pub struct ModelTrial {
     pub settings: Vec<String>,
     /// Seconds to fit it, features included.
     pub fit_s: f64,
+    /// Processor seconds to fit it, features included: the least of all rounds. `None` where the system does not say.
+    pub fit_cpu_s: Option<f64>,
     /// Seconds to predict the whole test part, features included.
     pub predict_s: f64,
     /// Seconds from one decoded frame to its prediction, the median over frames taken one by one.
@@ -51,6 +57,26 @@ pub struct TrialError {
     pub ci95: Option<[f64; 2]>,
     /// Samples it is made of.
     pub n: u64,
+    /// The models of the race that take less processor time to fit and than which this one is not shown to be nearer: the 95 % interval of
+    /// the difference of errors, paired by contact point, is not below 0. None: on the Pareto front.
+    pub beaten_by: Vec<String>,
+}
+
+impl ModelTrial {
+    /// The name with its settings.
+    pub(super) fn words(&self) -> String {
+        let words = [std::slice::from_ref(&self.model), &self.settings].concat();
+        words.join(" ")
+    }
+}
+
+/// Models that are raced.
+#[derive(Clone, Copy, Debug)]
+pub struct ModelRace<'a> {
+    /// A fit each, all on one split and one seed.
+    pub requests: &'a [FitRequest],
+    /// How often each is fitted, in turns.
+    pub rounds: NonZeroUsize,
 }
 
 /// How the recording was divided, and what came of each model.
@@ -66,7 +92,7 @@ pub struct ModelTrials {
     pub rows: Vec<ModelTrial>,
 }
 
-/// Fits and scores every model of `requests` on the same split of `dataset`, one after the other; `rows` tells of each as it is done.
+/// Fits and scores every model of `race` on the same split of `dataset`, one after the other; `rows` tells of each as it is done.
 ///
 /// A model that cannot be fitted on this recording is a row that says why.
 ///
@@ -74,9 +100,10 @@ pub struct ModelTrials {
 /// [`StudyError`] if a request cannot be meant, requests differ in split or seed, the dataset cannot be read, or `work` asks to stop.
 pub fn models(
     dataset: &Dataset,
-    requests: &[FitRequest],
+    race: ModelRace<'_>,
     work: Work<'_>,
 ) -> Result<ModelTrials, StudyError> {
+    let requests = race.requests;
     let Some(first) = requests.first() else {
         return Err(StudyError::Request("no model to race".to_owned()));
     };
@@ -96,22 +123,30 @@ pub fn models(
         cache: None,
         ..work
     };
-    work.progress
-        .begin("models raced", Some(requests.len() as u64));
-    let rows: Result<Vec<ModelTrial>, StudyError> = requests
-        .iter()
-        .map(|request| {
-            let row = trial(dataset, request, work);
+    let fits = requests.len() * race.rounds.get();
+    work.progress.begin("models raced", Some(fits as u64));
+    let mut raced = Vec::with_capacity(requests.len());
+    for request in requests {
+        raced.push(trial(dataset, request, work)?);
+        work.progress.advance(1);
+    }
+    for _ in 1..race.rounds.get() {
+        for (request, (row, _)) in requests.iter().zip(&mut raced) {
+            if row.failed.is_none() {
+                let (outcome, again) = cpu_s(|| fit(dataset, request, None, work));
+                outcome?;
+                row.fit_cpu_s = row.fit_cpu_s.zip(again).map(|(one, other)| one.min(other));
+            }
             work.progress.advance(1);
-            row
-        })
-        .collect();
+        }
+    }
     work.progress.end();
+    front::mark(&mut raced);
     Ok(ModelTrials {
         split: format!("{}, seed {}", divided.spec, divided.seed),
-        train: divided.rows(Part::Train).len(),
-        test: divided.rows(Part::Test).len(),
-        rows: rows?,
+        train: divided.rows(DataPart::Train).len(),
+        test: divided.rows(DataPart::Test).len(),
+        rows: raced.into_iter().map(|(row, _)| row).collect(),
     })
 }
 
@@ -119,18 +154,21 @@ fn trial(
     dataset: &Dataset,
     request: &FitRequest,
     work: Work<'_>,
-) -> Result<ModelTrial, StudyError> {
+) -> Result<front::Raced, StudyError> {
     let mut row = ModelTrial {
         model: request.model.name().to_owned(),
         settings: request.settings.words().collect(),
         fit_s: 0.0,
+        fit_cpu_s: None,
         predict_s: 0.0,
         latency_s: 0.0,
         errors: Vec::new(),
         failed: None,
     };
-    row.failed = unfitted(measure(dataset, request, work, &mut row))?;
-    Ok(row)
+    let mut sums = Vec::new();
+    let measured = measure(dataset, request, work, &mut row).map(|own| sums = own);
+    row.failed = unfitted(measured)?;
+    Ok((row, sums))
 }
 
 /// Why a model could not be fitted or scored, where that ends its own row alone.
@@ -150,16 +188,35 @@ fn measure(
     request: &FitRequest,
     work: Work<'_>,
     row: &mut ModelTrial,
-) -> Result<(), StudyError> {
+) -> Result<Vec<Option<ClusterSums>>, StudyError> {
     let raced = Raced::new(dataset, request, work)?;
-    (row.fit_s, row.predict_s) = (raced.fit_s, raced.predict_s);
+    (row.fit_s, row.fit_cpu_s) = (raced.fit_s, raced.fit_cpu_s);
+    row.predict_s = raced.predict_s;
     let model = &raced.model;
     if model.card().auto.is_some() {
         row.settings.push(format!("took={}", model.card().model));
     }
     row.latency_s = latency(dataset, model, &raced.target, work.progress)?;
+    let by_channel = absolute_errors(&raced.predicted);
     row.errors = raced.errors;
-    Ok(())
+    // A channel may have no score.
+    let positions = row.errors.iter().map(|error| {
+        let channels = raced.predicted.channels();
+        channels.position(&error.channel)
+    });
+    let sums = positions.map(|position| by_channel.get(position?)?.clone());
+    Ok(sums.collect())
+}
+
+/// What `run` gives, and the processor seconds that it took.
+fn cpu_s<T>(run: impl FnOnce() -> T) -> (T, Option<f64>) {
+    let start = process_time();
+    let outcome = run();
+    let took = process_time().zip(start);
+    (
+        outcome,
+        took.map(|(end, start)| (end - start).as_secs_f64()),
+    )
 }
 
 /// A model that was fitted on the training part and scored on the test part.
@@ -169,6 +226,7 @@ pub(super) struct Raced {
     pub(super) predicted: Predicted,
     pub(super) errors: Vec<TrialError>,
     fit_s: f64,
+    fit_cpu_s: Option<f64>,
     predict_s: f64,
 }
 
@@ -179,7 +237,8 @@ impl Raced {
         work: Work<'_>,
     ) -> Result<Raced, StudyError> {
         let start = Instant::now();
-        let fitted = fit(dataset, request, None, work)?;
+        let (fitted, fit_cpu_s) = cpu_s(|| fit(dataset, request, None, work));
+        let fitted = fitted?;
         let fit_s = start.elapsed().as_secs_f64();
         let model = fitted.model;
         let target = Target::of(dataset, Some(fitted.divided), None, model.reads_features())?;
@@ -202,6 +261,7 @@ impl Raced {
                 mae: score.value.scalar()?,
                 ci95: score.interval.ends(),
                 n: score.n,
+                beaten_by: Vec::new(),
             })
         });
         Ok(Raced {
@@ -210,6 +270,7 @@ impl Raced {
             target,
             predicted,
             fit_s,
+            fit_cpu_s,
             predict_s,
         })
     }
@@ -227,11 +288,7 @@ fn latency(
     let rows = &target.rows[..target.rows.len().min(SINGLES)];
     if model.reads_features() {
         let extractor = extractor(dataset, model)?;
-        let pass = Pass {
-            rows,
-            jobs: NonZeroUsize::MIN,
-            progress,
-        };
+        let pass = Pass::new(rows, NonZeroUsize::MIN, progress);
         let predict = |frame| -> Result<f64, StudyError> {
             let start = Instant::now();
             let mut sample = vec![0.0; shape.len()];

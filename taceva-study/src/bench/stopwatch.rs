@@ -90,10 +90,30 @@ fn timed(run: impl FnOnce()) -> (Duration, Option<Duration>) {
     (wall, thread.and_then(|(end, start)| end.checked_sub(start)))
 }
 
-/// What the calling thread has computed so far.
-#[cfg(unix)]
+/// What all threads of this process have computed so far; `None` where the system does not say.
+pub(super) fn process_time() -> Option<Duration> {
+    clock(Clock::Process)
+}
+
+/// What the calling thread has computed so far; `None` where the system does not say.
 fn thread_time() -> Option<Duration> {
-    let time = rustix::time::clock_gettime(rustix::time::ClockId::ThreadCPUTime);
+    clock(Clock::Thread)
+}
+
+/// Whose computing is counted.
+#[derive(Clone, Copy)]
+enum Clock {
+    Process,
+    Thread,
+}
+
+#[cfg(unix)]
+fn clock(clock: Clock) -> Option<Duration> {
+    use rustix::time::{ClockId, clock_gettime};
+    let time = clock_gettime(match clock {
+        Clock::Process => ClockId::ProcessCPUTime,
+        Clock::Thread => ClockId::ThreadCPUTime,
+    });
     let seconds = u64::try_from(time.tv_sec).ok()?;
     let nanoseconds = u32::try_from(time.tv_nsec).ok()?;
     Some(Duration::new(seconds, nanoseconds))
@@ -101,7 +121,7 @@ fn thread_time() -> Option<Duration> {
 
 /// Not known here.
 #[cfg(not(unix))]
-fn thread_time() -> Option<Duration> {
+fn clock(_: Clock) -> Option<Duration> {
     None
 }
 

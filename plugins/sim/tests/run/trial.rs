@@ -7,14 +7,15 @@ use taceva_core::{
     Deadline, Device, DriverError, Factory, Frame, Rig, Sensor, SimulatedBench, SinkError, Stamp,
 };
 use taceva_protocol::{
-    Cancel, Controls, Devices, Digest, Event, Mode, Plan, PressLog, PressRecord, RigInfo, RunError,
-    RunSpec, Scene, SourceInfo, Specimen, SpecimenChanger, StopCause, Timekeeper, plan, run,
+    Cancel, ContentId, Controls, Devices, Event, Mode, Plan, PressLog, PressRecord, RigInfo,
+    RunError, RunSpec, Scene, SourceInfo, Specimen, SpecimenChanger, StopCause, Timekeeper, plan,
+    run,
 };
 use taceva_sim::{
     ForceTransducerFactory, LightingFactory, Model, RobotFactory, SensorFactory, SimulatedRig,
 };
 
-/// The clock of a rig, and whoever changes its specimens.
+/// The clock of a simulated rig, which also changes its specimens.
 struct BenchClock(SimulatedRig);
 
 impl Timekeeper for BenchClock {
@@ -36,13 +37,13 @@ impl SpecimenChanger for BenchClock {
 /// A log in memory.
 #[derive(Default)]
 pub(crate) struct Log {
-    finished: BTreeSet<Digest>,
+    finished: BTreeSet<ContentId>,
     pub(crate) records: Vec<PressRecord>,
     pub(crate) untouched: Vec<Frame>,
 }
 
 impl PressLog for Log {
-    fn is_finished(&self, press: Digest) -> bool {
+    fn is_finished(&self, press: ContentId) -> bool {
         self.finished.contains(&press)
     }
 
@@ -160,7 +161,7 @@ impl Trial {
 }
 
 /// A number that names a press.
-fn name(press: Digest) -> u64 {
+fn name(press: ContentId) -> u64 {
     let text = press.to_string();
     u64::from_str_radix(&text[..16], 16).expect("a digest is written in hexadecimal")
 }

@@ -8,7 +8,7 @@ use taceva_models::{Models, Settings};
 use taceva_report::{
     BenchMachine, BenchRecording, ChannelError, ModelBench, ModelRow, model_bench,
 };
-use taceva_study::bench::{Machine, ModelTrial, ModelTrials, TrialError, models};
+use taceva_study::bench::{Machine, ModelRace, ModelTrial, ModelTrials, TrialError, models};
 use taceva_study::{FitRequest, StudyError, Subject};
 
 use super::super::{Context, open, results};
@@ -41,17 +41,21 @@ pub(super) fn run(args: &BenchModels, context: &Context) -> anyhow::Result<u8> {
     let requests = requests(args, &known)?;
     // Before the bench presses anything.
     requests.iter().try_for_each(FitRequest::check)?;
+    let entered = ModelRace {
+        requests: &requests,
+        rounds: args.rounds,
+    };
     let bench = match &args.dataset {
         Some(path) => {
             let name = path.file_name().unwrap_or(path.as_os_str());
-            race(&open(path)?, &name.to_string_lossy(), &requests, context)?
+            race(&open(path)?, &name.to_string_lossy(), entered, context)?
         }
         None => {
-            let pressed = Pressed::new(args.quick, args.split.seed, (context, &known))?;
-            race(&pressed.dataset, "simulated bench", &requests, context)?
+            let pressed = Pressed::new(args.quick, args.split.seed.value, (context, &known))?;
+            race(&pressed.dataset, "simulated bench", entered, context)?
         }
     };
-    results::write(&bench.listing(), &args.output, || bench.json())?;
+    results::write(&bench.table(), &args.output, || bench.json())?;
     if let Some(path) = &args.svg {
         draw(&bench, path)?;
     }
@@ -92,17 +96,17 @@ pub(super) fn request(word: &str, split: &SplitArgs, known: &Models) -> anyhow::
         settings: Settings::parse(settings).map_err(StudyError::from)?,
         channels: Vec::new(),
         split: split.split.clone(),
-        seed: split.seed,
+        seed: split.seed.value,
     })
 }
 
 fn race(
     dataset: &Dataset,
     name: &str,
-    requests: &[FitRequest],
+    entered: ModelRace<'_>,
     context: &Context,
 ) -> anyhow::Result<ModelBench> {
-    let trials = models(dataset, requests, context.work(None))?;
+    let trials = models(dataset, entered, context.work(None))?;
     let ModelTrials {
         rows,
         split,
@@ -152,6 +156,7 @@ fn row(trial: ModelTrial) -> ModelRow {
         model: trial.model,
         settings: trial.settings.join(" "),
         fit_s: trial.fit_s,
+        fit_cpu_s: trial.fit_cpu_s,
         predict_s: trial.predict_s,
         latency_s: trial.latency_s,
         errors: trial.errors.into_iter().map(error).collect(),
@@ -166,6 +171,7 @@ pub(super) fn error(error: TrialError) -> ChannelError {
         mae: error.mae,
         ci95: error.ci95,
         n: error.n,
+        beaten_by: error.beaten_by,
     }
 }
 

@@ -1,0 +1,200 @@
+//! What is done to a picture before a network sees it: part of the model, and kept in its file.
+
+use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
+use taceva_core::FeatureShape;
+
+/// What is done to each picture.
+///
+/// Light that changes slowly over a picture, or from one picture to the next, says little about the touch of a sensor whose
+/// markers move; a sensor whose colour is its signal should keep it.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Preprocessing {
+    /// The mean around each pixel is subtracted, weighted by a Gaussian with this standard deviation in pixels; nothing is
+    /// subtracted where it is 0.
+    pub local_mean_px: f64,
+    /// Whether each picture is divided by its standard deviation; a picture that is even throughout stays zero.
+    pub contrast: bool,
+}
+
+/// Standard deviations to which the Gaussian reaches.
+const REACH: f64 = 3.0;
+
+impl Preprocessing {
+    /// The widest Gaussian, in pixels.
+    pub const LOCAL_MEAN_MAX: f64 = 100.0;
+
+    /// Whether every number is in its range.
+    pub(crate) fn is_valid(&self) -> bool {
+        (0.0..=Preprocessing::LOCAL_MEAN_MAX).contains(&self.local_mean_px)
+    }
+
+    /// All pictures of `values`, changed; each on its own, so that no prediction depends on another.
+    pub(crate) fn apply(&self, shape: FeatureShape, values: &[f32]) -> Vec<f32> {
+        let kernel = self.kernel();
+        let mut changed = values.to_vec();
+        changed
+            .par_chunks_mut(shape.len().max(1))
+            .for_each(|picture| {
+                if let Some(kernel) = &kernel {
+                    subtract_local_mean(kernel, shape, picture);
+                }
+                if self.contrast {
+                    normalise_contrast(picture);
+                }
+            });
+        changed
+    }
+
+    /// Weights of a pixel's neighbours at distance 0, 1, …
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "three standard deviations of at most a hundred pixels"
+    )]
+    fn kernel(&self) -> Option<Vec<f64>> {
+        let sigma = self.local_mean_px;
+        (sigma > 0.0).then(|| {
+            let reach = (REACH * sigma).ceil() as usize;
+            let weight = |distance: usize| (-0.5 * (distance as f64 / sigma).powi(2)).exp();
+            (0..=reach).map(weight).collect()
+        })
+    }
+}
+
+/// Subtracts from each number the weighted mean of its surroundings, as far as they lie within the picture.
+#[expect(
+    clippy::cast_possible_truncation,
+    reason = "means are formed in double precision and kept in single"
+)]
+fn subtract_local_mean(kernel: &[f64], shape: FeatureShape, picture: &mut [f32]) {
+    let FeatureShape {
+        height,
+        width,
+        depth,
+    } = shape;
+    let along = |at: usize, length: usize| {
+        let first = at.saturating_sub(kernel.len() - 1);
+        let last = (at + kernel.len() - 1).min(length - 1);
+        first..=last
+    };
+    // Rows first, then columns: the Gaussian is a product, and so is the share of it within the picture.
+    let mut rows = vec![0.0_f64; picture.len()];
+    for (row, means) in picture
+        .chunks_exact(width * depth)
+        .zip(rows.chunks_exact_mut(width * depth))
+    {
+        for x in 0..width {
+            let mut weights = 0.0;
+            for near in along(x, width) {
+                let weight = kernel[near.abs_diff(x)];
+                weights += weight;
+                for channel in 0..depth {
+                    means[x * depth + channel] += weight * f64::from(row[near * depth + channel]);
+                }
+            }
+            means[x * depth..][..depth]
+                .iter_mut()
+                .for_each(|mean| *mean /= weights);
+        }
+    }
+    for (y, row) in picture.chunks_exact_mut(width * depth).enumerate() {
+        let mut means = vec![0.0_f64; row.len()];
+        let mut weights = 0.0;
+        for near in along(y, height) {
+            let weight = kernel[near.abs_diff(y)];
+            weights += weight;
+            let others = &rows[near * row.len()..][..row.len()];
+            let places = means.iter_mut().zip(others);
+            places.for_each(|(mean, other)| *mean += weight * other);
+        }
+        for (value, mean) in row.iter_mut().zip(means) {
+            *value = (f64::from(*value) - mean / weights) as f32;
+        }
+    }
+}
+
+/// Subtracts the mean of a picture and divides by its standard deviation.
+#[expect(
+    clippy::cast_possible_truncation,
+    reason = "moments are formed in double precision and applied to single"
+)]
+fn normalise_contrast(picture: &mut [f32]) {
+    let count = picture.len() as f64;
+    let values = || picture.iter().copied().map(f64::from);
+    let mean = values().sum::<f64>() / count;
+    let variance = values().map(|value| (value - mean).powi(2)).sum::<f64>() / count;
+    let scale = if variance > 0.0 {
+        1.0 / variance.sqrt()
+    } else {
+        0.0
+    };
+    for value in picture {
+        *value = ((f64::from(*value) - mean) * scale) as f32;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const SHAPE: FeatureShape = FeatureShape {
+        height: 5,
+        width: 7,
+        depth: 2,
+    };
+
+    fn picture() -> Vec<f32> {
+        let mut random = taceva_core::random::SplitMix64::new(3);
+        (0..SHAPE.len())
+            .map(|_| f32::from(random.next_u64().to_le_bytes()[0]) / 255.0)
+            .collect()
+    }
+
+    #[test]
+    fn the_local_mean_is_that_of_the_definition() {
+        let (sigma, values) = (1.3, picture());
+        let only = Preprocessing {
+            local_mean_px: sigma,
+            contrast: false,
+        };
+        let found = only.apply(SHAPE, &values);
+        let at = |y: usize, x: usize, channel: usize| (y * SHAPE.width + x) * 2 + channel;
+        for (y, x) in (0..5).flat_map(|y| (0..7).map(move |x| (y, x))) {
+            for channel in 0..2 {
+                let (mut sum, mut weights) = (0.0, 0.0);
+                for (near_y, near_x) in (0..5_usize).flat_map(|y| (0..7_usize).map(move |x| (y, x)))
+                {
+                    let (dy, dx) = (near_y.abs_diff(y), near_x.abs_diff(x));
+                    // Four pixels is three standard deviations, rounded up.
+                    if dy > 4 || dx > 4 {
+                        continue;
+                    }
+                    let square = (dy * dy + dx * dx) as f64;
+                    let weight = (-square / (2.0 * sigma * sigma)).exp();
+                    sum += weight * f64::from(values[at(near_y, near_x, channel)]);
+                    weights += weight;
+                }
+                let expected = f64::from(values[at(y, x, channel)]) - sum / weights;
+                assert!((f64::from(found[at(y, x, channel)]) - expected).abs() < 1e-7);
+            }
+        }
+    }
+
+    #[test]
+    fn contrast_does_not_depend_on_light_and_an_even_picture_stays_zero() {
+        let both = Preprocessing {
+            local_mean_px: 2.0,
+            contrast: true,
+        };
+        let values = picture();
+        let brighter: Vec<f32> = values.iter().map(|value| 0.5 * value + 0.25).collect();
+        let (found, other) = (both.apply(SHAPE, &values), both.apply(SHAPE, &brighter));
+        assert!(found.iter().zip(&other).all(|(a, b)| (a - b).abs() < 1e-5));
+        let square: f32 = found.iter().map(|value| value * value).sum();
+        assert!((square / 70.0 - 1.0).abs() < 1e-5);
+        let even = both.apply(SHAPE, &[0.25; 70]);
+        assert!(even.iter().all(|value| value.abs() < f32::EPSILON));
+    }
+}

@@ -1,0 +1,27 @@
+//! Absolute errors of two models on the same samples, paired by contact point.
+
+use taceva_metrics::{ClusterSums, Difference, Sides, SignFlip};
+
+use crate::predict::Predicted;
+
+/// Of each channel the sums of absolute errors by contact point; `None` where samples have no point.
+pub(super) fn absolute_errors(predicted: &Predicted) -> Vec<Option<ClusterSums>> {
+    let of = |position: usize| {
+        let points = predicted.points()?;
+        let mut sums = ClusterSums::default();
+        for (row, point) in points.iter().enumerate() {
+            let estimate = predicted.prediction()[position].get(row);
+            let pair = estimate.zip(predicted.truth()[position].get(row));
+            if let Some((estimate, truth)) = pair {
+                sums.try_add(point, (estimate - truth).abs()).ok()?;
+            }
+        }
+        Some(sums)
+    };
+    (0..predicted.channels().len()).map(of).collect()
+}
+
+/// The mean error of the first side less that of the second; `None` if samples have no points, or there are too few.
+pub(super) fn difference([a, b]: [Option<&ClusterSums>; 2]) -> Option<Difference> {
+    SignFlip::default().test(Sides { a: a?, b: b? }).ok()
+}
