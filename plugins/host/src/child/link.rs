@@ -9,10 +9,11 @@ use std::time::Duration;
 use taceva_core::{Deadline, DriverError, DriverKey, ErrorKind, Halt, Interrupt};
 
 use super::fate::{CLOSING, Fate};
-use super::keeper::CallId;
+use super::life::Life;
 use super::reply::Reply;
 use super::socket::{Caller, LinkError, Socket, send_now};
-use super::start::{Child, Life};
+use super::start::Child;
+use super::watch::CallId;
 use super::wire::{Answer, Call, Urgent};
 
 /// The connection to one open device: its calls, and what goes round them. Dropping it closes the device.

@@ -7,8 +7,8 @@ use std::thread::JoinHandle;
 use std::time::Duration;
 
 use super::fate::Fate;
-use super::keeper::Watch;
 use super::socket::{LinkError, Socket, send_now};
+use super::watch::Watch;
 use super::wire::variants;
 use crate::library::{Level, Log};
 use crate::log::Limited;

@@ -10,8 +10,8 @@ use taceva_core::{
 };
 
 use crate::child::array::{get, memory, put};
-use crate::child::keeper::plain;
 use crate::child::memory::SharedMemory;
+use crate::child::plain::plain;
 use crate::child::socket::{Caller, LinkError, Socket, send_now};
 use crate::child::start::Child;
 use crate::child::wire::{Failure, ModelAnswer, ModelCall, ModelEvent, ModelWord};
