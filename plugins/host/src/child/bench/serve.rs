@@ -5,12 +5,15 @@ use std::sync::Arc;
 
 use taceva_core::{DriverError, SimulatedBench};
 
-use super::device::{guarded, start};
+use crate::child::guarded::{guarded, start};
 use crate::child::socket::Socket;
 use crate::child::wire::{BenchAnswer, BenchCall, Failure};
 
 /// Answers calls to `bench` until the host closes its end.
-pub(super) fn serve(bench: Arc<dyn SimulatedBench>, calls: OwnedFd) -> Result<(), Failure> {
+pub(in crate::child) fn serve(
+    bench: Arc<dyn SimulatedBench>,
+    calls: OwnedFd,
+) -> Result<(), Failure> {
     let mut calls = Socket::from(calls);
     start("taceva-bench", move || {
         while let Ok((sequence, call)) = calls.receive::<(u32, BenchCall)>() {

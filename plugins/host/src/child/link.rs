@@ -6,15 +6,15 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
-use taceva_core::{Deadline, DriverError, DriverKey, ErrorKind, Halt, Interrupt, Stamp};
+use taceva_core::{Deadline, DriverError, DriverKey, ErrorKind, Halt, Interrupt};
 
-use crate::child::keeper::CallId;
-use crate::child::socket::{Caller, LinkError, Socket, send_now};
-use crate::child::start::{Child, Life};
-use crate::child::wire::{Answer, Call, Urgent};
-
-/// What a device is asked for that nobody waits for any more.
-pub(crate) const CLOSING: &str = "close the device";
+use super::fate::{CLOSING, Fate};
+use super::life::Life;
+use super::reply::Reply;
+use super::socket::{Caller, LinkError, Socket, send_now};
+use super::start::Child;
+use super::watch::CallId;
+use super::wire::{Answer, Call, Urgent};
 
 /// The connection to one open device: its calls, and what goes round them. Dropping it closes the device.
 pub(crate) struct Link {
@@ -54,29 +54,38 @@ impl Link {
         Arc::clone(&self.urgent) as Arc<dyn Halt>
     }
 
-    /// Makes a call that has a deadline.
-    pub(super) fn call(
+    /// Asks for an operation that has a deadline.
+    pub(super) fn ask<R: Reply>(
         &mut self,
         call: &Call,
         doing: &'static str,
         deadline: Deadline,
-    ) -> Result<Answer, DriverError> {
+    ) -> Result<R, DriverError> {
         let grace = self.child.life().patience.grace;
-        self.ask(call, &[], doing, deadline.remaining().saturating_add(grace))
+        let after = deadline.remaining().saturating_add(grace);
+        let answer = self.call(call, &[], doing, after)?;
+        self.reply(answer, doing)
     }
 
-    /// Makes a call that has none, with files beside it.
-    pub(super) fn call_without_deadline(
+    /// Asks for an operation that has none, with files beside it.
+    pub(super) fn ask_without_deadline<R: Reply>(
         &mut self,
         call: &Call,
         files: &[BorrowedFd<'_>],
         doing: &'static str,
-    ) -> Result<Answer, DriverError> {
+    ) -> Result<R, DriverError> {
         let after = self.child.life().patience.open;
-        self.ask(call, files, doing, after)
+        let answer = self.call(call, files, doing, after)?;
+        self.reply(answer, doing)
     }
 
-    fn ask(
+    /// Asks the device, which may be a sensor too, to set a scene.
+    pub(super) fn set_light(&mut self, scene: &str, deadline: Deadline) -> Result<(), DriverError> {
+        let scene = scene.to_owned();
+        self.ask(&Call::Light { scene, deadline }, "set the light", deadline)
+    }
+
+    fn call(
         &mut self,
         call: &Call,
         files: &[BorrowedFd<'_>],
@@ -96,39 +105,20 @@ impl Link {
         }
     }
 
-    /// Ends a child that answered something else than it was asked.
-    pub(super) fn other_answer(&self, doing: &'static str) -> DriverError {
-        let error = self.child.life().broke("the answer to another question");
-        error.of(&self.driver, doing)
+    /// What was asked for, if it is that and a reading; a child that answers something else is ended.
+    fn reply<R: Reply>(&self, answer: Answer, doing: &'static str) -> Result<R, DriverError> {
+        let Some(reply) = R::from_answer(answer) else {
+            let error = self.child.life().broke("the answer to another question");
+            return Err(error.of(&self.driver, doing));
+        };
+        reply.check().map_err(|why| self.fault(doing, why))?;
+        Ok(reply)
     }
 
     /// Ends a child that broke a rule.
     pub(super) fn broke(&self, what: &str) -> DriverError {
         let error = self.child.life().broke(what);
         error.of(&self.driver, "open the device")
-    }
-
-    /// A call whose answer says nothing.
-    pub(super) fn done(
-        &mut self,
-        call: &Call,
-        doing: &'static str,
-        deadline: Deadline,
-    ) -> Result<(), DriverError> {
-        match self.call(call, doing, deadline)? {
-            Answer::Done {} => Ok(()),
-            _ => Err(self.other_answer(doing)),
-        }
-    }
-
-    /// Refuses a time that is none.
-    pub(super) fn checked(&self, stamp: Stamp, doing: &'static str) -> Result<Stamp, DriverError> {
-        let is_time = |time_s: f64| time_s >= 0.0 && time_s.is_finite();
-        if is_time(stamp.valid_s) && stamp.received_s.is_none_or(is_time) {
-            return Ok(stamp);
-        }
-        let why = format!("a stamp of {} s, expected a time", stamp.valid_s);
-        Err(self.fault(doing, why))
     }
 
     /// A fault of the device: it gave something that is no reading.
@@ -142,7 +132,7 @@ impl Drop for Link {
         self.urgent.is_closed.store(true, Ordering::Release);
         let after = self.child.life().patience.close;
         // A child that is gone has closed everything; one that hangs is ended, which its host tells.
-        let _ = self.ask(&Call::Close {}, &[], CLOSING, after);
+        let _ = self.call(&Call::Close {}, &[], CLOSING, after);
     }
 }
 
@@ -193,9 +183,7 @@ impl Interrupt for UrgentLink {
             // It reads nothing any more: its thread for what is urgent hangs.
             Err(LinkError::Breach(_)) => {
                 let what = "interrupts are not taken any more".to_owned();
-                self.life
-                    .watch
-                    .condemn(crate::child::fate::Fate::Breach { what });
+                self.life.watch.condemn(Fate::Breach { what });
             }
             Err(LinkError::Closed | LinkError::Unsendable(_)) => {}
         }

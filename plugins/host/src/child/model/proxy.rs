@@ -10,8 +10,8 @@ use taceva_core::{
 };
 
 use crate::child::array::{get, memory, put};
-use crate::child::keeper::plain;
 use crate::child::memory::SharedMemory;
+use crate::child::plain::plain;
 use crate::child::socket::{Caller, LinkError, Socket, send_now};
 use crate::child::start::Child;
 use crate::child::wire::{Failure, ModelAnswer, ModelCall, ModelEvent, ModelWord};
@@ -49,13 +49,13 @@ impl ModelProxy {
         let failed = |failure: Failure| of_failure(&estimator, &failure);
         loop {
             if is_cancelled.is_none() && progress.is_cancelled() {
-                // One that cannot be told is gone, or ends by its time.
+                // One that cannot be reached is gone, or ends by its time.
                 let _ = send_now(talk.as_fd(), &ModelWord::Cancel {});
                 let life = child.life();
                 is_cancelled = Some(life.watch.begin("end a fit", life.patience.open));
             }
             let mut polled = [PollFd::new(&talk, PollFlags::IN)];
-            // An interrupted poll has told nothing.
+            // An interrupted poll says nothing.
             if !matches!(poll(&mut polled, Some(&ASKED_EVERY)), Ok(1..)) {
                 continue;
             }

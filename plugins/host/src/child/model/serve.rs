@@ -6,15 +6,16 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use taceva_core::{Args, ErrorKind, Features, ModelError, Progress};
 
-use super::device::{guarded, start};
+use crate::child::arguments::arguments;
 use crate::child::array::{OwnedSet, get, put};
+use crate::child::guarded::{guarded, start};
 use crate::child::memory::SharedMemory;
 use crate::child::socket::{LinkError, Socket, send_now, try_receive};
 use crate::child::wire::{Failure, ModelAnswer, ModelCall, ModelEvent, ModelOrder, ModelWord};
 use crate::session::{FitRequest, Saved, SavedRegressor, Session};
 
 /// Makes a model and serves it, on a thread of its own.
-pub(super) fn serve(
+pub(in crate::child) fn serve(
     session: Arc<dyn Session>,
     order: ModelOrder,
     files: Vec<OwnedFd>,
@@ -54,7 +55,7 @@ fn make(
             training,
             validation,
         } => {
-            let settings: Args = super::arguments(&settings)?;
+            let settings: Args = arguments(&settings)?;
             let training = OwnedSet::take(training, &mut next()?)?;
             let validation = match validation {
                 Some(shape) => Some(OwnedSet::take(shape, &mut next()?)?),
