@@ -127,7 +127,7 @@ impl MetricPlan {
         self
     }
 
-    /// The same plan with another seed of the hash that deals contact locations into clusters.
+    /// The same plan with another seed of the hash that assigns contact locations to clusters.
     #[must_use]
     pub fn with_seed(self, seed: u64) -> MetricPlan {
         MetricPlan { seed, ..self }
@@ -157,7 +157,7 @@ impl MetricPlan {
     /// ask which samples belong together keep their contact locations.
     ///
     /// Presses at one location are not independent: their intervals would hold the truth too seldom (`docs/coverage.md`). Samples that are equal
-    /// in every channel share a cluster, and more than [`NAMED_CLUSTERS`](crate::NAMED_CLUSTERS) are dealt into
+    /// in every channel share a cluster, and more than [`NAMED_CLUSTERS`](crate::NAMED_CLUSTERS) are assigned by hash to
     /// [`HASHED_CLUSTERS`](crate::HASHED_CLUSTERS), so that scores depend on the set of samples alone.
     ///
     /// ```
@@ -229,7 +229,7 @@ impl MetricPlan {
         self.fields
     }
 
-    /// The seed of the hash that deals contact locations into clusters.
+    /// The seed of the hash that assigns contact locations to clusters.
     pub fn seed(&self) -> u64 {
         self.seed
     }

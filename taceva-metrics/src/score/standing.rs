@@ -27,7 +27,7 @@ pub enum Standing {
     /// It takes part.
     #[default]
     Counts,
-    /// It takes part, and a reader is told: nothing says whether the model does better than a constant.
+    /// It takes part and is marked: nothing shows whether the model does better than a constant.
     SkillUnknown,
     /// It takes no part: more than [`GREATEST_BOUNDED_SHARE`] of its predictions lie beyond the bounds of the model.
     Bounded,

@@ -9,7 +9,7 @@ use crate::exact::merge::Merge;
 
 /// Distinct locations up to which each is a cluster of its own.
 pub const NAMED_CLUSTERS: usize = 64;
-/// Clusters that more locations than that are dealt into.
+/// Number of clusters to which more locations than that are assigned by hash.
 pub const HASHED_CLUSTERS: usize = 32;
 
 /// One summary a cluster of samples.
