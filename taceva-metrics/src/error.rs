@@ -144,6 +144,7 @@ impl Error for MetricError {}
 
 /// A metric or group that nobody defined.
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct UnknownMetric {
     /// The name as given.
     pub name: String,

@@ -8,7 +8,7 @@ use crate::families::accuracy::EPSILON;
 /// Greatest magnitude of a value that is a sample: sums, differences and means of two such values stay finite.
 pub const GREATEST: f64 = taceva_core::MAGNITUDE_MAX;
 
-/// An estimate and its reference: two values, or two columns.
+/// An estimate and its reference: two values, or two columns. A plain pair, which gets no further fields.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Paired<T> {
     /// ŷ: what the model says.

@@ -99,7 +99,7 @@ impl Variant {
     }
 }
 
-/// A number of samples, bins or the like.
+/// A number of samples, bins or the like: a plain named value, which gets no further fields.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Count {
     /// What was counted: `outside`, `bins_used`.
@@ -108,7 +108,7 @@ pub struct Count {
     pub value: u64,
 }
 
-/// A constant of a definition.
+/// A constant of a definition: a plain named value, which gets no further fields.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Parameter {
     /// What it is called: `eps`, `gate`.

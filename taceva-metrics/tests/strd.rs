@@ -43,10 +43,7 @@ fn datasets() -> Vec<Dataset> {
 /// Sums of the values as truths, beside their least as the estimate: all differences are exact and none is negative, so that
 /// the variance of the errors is that of the values.
 fn sums(values: &[f64], isa: Isa) -> PairSums {
-    let spec = PairSpec {
-        streams: Streams::ALL,
-        gate: None,
-    };
+    let spec = PairSpec::new(Streams::ALL);
     let mut sums = PairSums::with_isa(spec, isa).expect("it is available");
     let least = values.iter().copied().fold(f64::INFINITY, f64::min);
     let estimate = vec![least; values.len()];

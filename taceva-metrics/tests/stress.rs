@@ -71,10 +71,7 @@ fn more_rows_than_units_fit_into_a_word_are_settled_in_time() {
 }
 
 fn sums(columns: &Paired<Vec<f64>>, isa: Isa) -> PairSums {
-    let spec = PairSpec {
-        streams: Streams::ALL,
-        gate: None,
-    };
+    let spec = PairSpec::new(Streams::ALL);
     let mut sums = PairSums::with_isa(spec, isa).expect("it is available");
     sums.update(columns.as_slices());
     sums

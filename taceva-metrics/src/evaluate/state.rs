@@ -77,6 +77,7 @@ impl State {
 /// Counts and exact sums; the schema says of what.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
 pub struct Record {
     /// Counts, those of the schema in its order.
     pub counts: Vec<u64>,

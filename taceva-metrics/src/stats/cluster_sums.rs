@@ -10,6 +10,7 @@ use crate::paired::Paired;
 
 /// Samples of one cluster, and the sum of what is compared.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct ClusterSum {
     /// How many samples there are.
     pub n: u64,

@@ -5,6 +5,7 @@ use crate::score::COVERAGE;
 
 /// A few values of one quantity, as repeats gave them.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Repeats {
     /// Their mean.
     pub mean: f64,

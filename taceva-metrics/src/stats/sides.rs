@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-/// What there is of each of the two that are compared.
+/// What there is of each of the two that are compared: a plain pair, which gets no further fields.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Sides<T> {
     /// Of the one from which the other is subtracted.

@@ -3,7 +3,7 @@
 use serde::Serialize;
 use taceva_core::Progress;
 use taceva_metrics::bench::{
-    ALL_DIGITS, Kernel, Kind, Order, Case, Scores, digits, nasty_inputs, shuffled, stream_sum,
+    ALL_DIGITS, Case, Kernel, Kind, Order, Scores, digits, nasty_inputs, shuffled, stream_sum,
 };
 use taceva_metrics::{Isa, Paired};
 
