@@ -23,6 +23,32 @@ use verify::read_table;
 pub use pass::{Pass, StreamReport};
 
 /// A recording: its header, its labels in memory, and its frames on disk, decoded when asked for.
+///
+/// ```
+/// # use taceva_core::{Channel, Channels, Clock, Frame, FrameInfo, PixelFormat, Readings, Sample};
+/// # use taceva_dataset::{Recorder, RecordingFacts, RecordingSpec, SensorFacts, Source};
+/// # let folder = tempfile::tempdir()?;
+/// # let path = folder.path().join("recording");
+/// # let facts = RecordingFacts::new(Source::Synthetic, Clock::Unknown, SensorFacts::new("my gel"));
+/// # let mut recorder = Recorder::create(&path, &RecordingSpec::new(facts, Channels::new([Channel::FZ])?))?;
+/// # let info = FrameInfo { width: 2, height: 1, format: PixelFormat::Gray8 };
+/// # for number in 0..2_u8 {
+/// #     recorder.append(&Sample {
+/// #         id: number.to_string(),
+/// #         truth: Readings::from_values([0.5]),
+/// #         frame: Some(Frame::new(info, vec![number, 90])?),
+/// #         ..Sample::default()
+/// #     })?;
+/// # }
+/// use taceva_dataset::Dataset;
+///
+/// # recorder.close()?;
+/// let dataset = Dataset::open(&path)?;
+/// assert_eq!(dataset.table().truth(0).get(1), Some(0.5));
+/// let frame = dataset.frame(1)?.ok_or("the second row has a frame")?;
+/// assert_eq!(frame.bytes(), [1, 90]);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Debug)]
 pub struct Dataset {
     folder: HeldFolder,

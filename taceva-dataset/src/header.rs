@@ -29,8 +29,31 @@ struct ChannelInfo {
     unit: Unit,
 }
 
-/// Everything `dataset.toml` says.
+/// The content of `dataset.toml`.
+///
+/// ```
+/// # use taceva_core::{Channel, Channels, Clock, Frame, FrameInfo, PixelFormat, Readings, Sample};
+/// # use taceva_dataset::{Recorder, RecordingFacts, RecordingSpec, SensorFacts, Source};
+/// # let folder = tempfile::tempdir()?;
+/// # let path = folder.path().join("recording");
+/// # let facts = RecordingFacts::new(Source::Synthetic, Clock::Unknown, SensorFacts::new("my gel"));
+/// # let mut recorder = Recorder::create(&path, &RecordingSpec::new(facts, Channels::new([Channel::FZ])?))?;
+/// # let info = FrameInfo { width: 2, height: 1, format: PixelFormat::Gray8 };
+/// # for number in 0..2_u8 {
+/// #     recorder.append(&Sample {
+/// #         id: number.to_string(),
+/// #         truth: Readings::from_values([0.5]),
+/// #         frame: Some(Frame::new(info, vec![number, 90])?),
+/// #         ..Sample::default()
+/// #     })?;
+/// # }
+/// let header = recorder.close()?;
+/// assert_eq!((header.sensor.model.as_str(), header.table.rows), ("my gel", 2));
+/// assert!(header.seal.is_sealed);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Header {
     /// The format of the folder.
     pub format: Version,
@@ -107,7 +130,7 @@ impl Header {
             true => taceva_seal::Version::Sealed,
             false => taceva_seal::Version::BeforeSeals,
         };
-        // TOML that is none is told by its line.
+        // A text that is no TOML is refused with its line.
         parse_toml::<toml::Table>(path, &text)?;
         let seal =
             taceva_seal::toml_text::check(&text, version).map_err(|source| DatasetError::Seal {

@@ -13,9 +13,10 @@ use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
 
 use sha2::{Digest as _, Sha256};
+use taceva_durable::parent_of;
 
 use crate::error::DatasetError;
-use crate::file::{open_regular, parent_of, sync_folder};
+use crate::file::{make_names_durable, open_regular};
 use crate::limits;
 
 const HEADER: usize = 4 + 1 + 8 + 8;
@@ -89,7 +90,7 @@ impl Journal {
             has_failed: false,
         };
         journal.append(RecordKind::Start, start)?;
-        sync_folder(parent_of(path))?;
+        make_names_durable(parent_of(path))?;
         Ok(journal)
     }
 
@@ -116,7 +117,7 @@ impl Journal {
         // A killed process leaves records and a name that nobody made durable: nothing may be appended behind them before.
         file.sync_all()
             .map_err(DatasetError::io("make durable", path))?;
-        sync_folder(parent_of(path))?;
+        make_names_durable(parent_of(path))?;
         let journal = Journal {
             file,
             path: path.to_owned(),

@@ -65,13 +65,13 @@ pub enum Mode {
     },
 }
 
-/// Time, the wish to stop, and whoever shows what happens.
+/// Clock, cancellation and the receiver of events.
 pub struct Controls<'a> {
     /// The clock that the stamps of the devices are of.
     pub clock: &'a mut dyn Timekeeper,
     /// Ends the run before its next motion.
     pub cancel: &'a Cancel,
-    /// Told what happens.
+    /// Is called with each event.
     pub events: &'a mut dyn FnMut(&Event),
 }
 

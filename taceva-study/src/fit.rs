@@ -36,7 +36,7 @@ pub struct Fitted {
 /// A long training keeps a checkpoint in `checkpoints` and resumes from it; models that are fitted in one go have none.
 ///
 /// # Errors
-/// [`StudyError`] if the request cannot be meant, the dataset cannot be read, or nothing can be learnt from it.
+/// [`StudyError`] if the request is not valid, the dataset cannot be read, or no model can be fitted to it.
 pub fn fit(
     dataset: &Dataset,
     request: &FitRequest,

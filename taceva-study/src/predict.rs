@@ -42,7 +42,7 @@ pub(crate) fn run(
     table(dataset, model, target, &numbers)
 }
 
-/// What `model` says of the rows of `target`, however far that lies from what it was taught, and, where it knows, by how much each prediction may be off.
+/// Predictions of `model` for the rows of `target`, not clipped to its bounds, and standard deviations where the model gives them.
 ///
 /// # Shapes
 /// `[rows, channels]`, row after row; behind it standard deviations in the same order, or nothing.

@@ -29,7 +29,7 @@ const UNSEALED_SCHEMA: &str = "taceva.state/1";
 /// The largest state file that is read: far above what 64 clusters of every family take.
 const LARGEST: u64 = 1 << 30;
 
-/// What some samples have left in the accumulators of a plan, with all that is needed to go on.
+/// The accumulators of a plan after some samples, with all that is needed to continue.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct StateFile {
@@ -59,7 +59,7 @@ struct ReadState {
 }
 
 impl StateFile {
-    /// What `evaluator` has seen.
+    /// The state of `evaluator`.
     ///
     /// # Errors
     /// [`StudyError::Scores`] for samples still collected that it cannot take.
@@ -83,8 +83,8 @@ impl StateFile {
         })
     }
 
-    /// The scores of `evaluator`, which has seen what is kept here: with the share of predictions beyond bounds, and told whether the
-    /// model has seen the samples before.
+    /// The scores of `evaluator`, which has seen what is kept here: with the share of predictions beyond bounds, and whether the
+    /// model was fitted on the samples.
     ///
     /// # Errors
     /// [`StudyError::Scores`] for samples still collected that it cannot take.

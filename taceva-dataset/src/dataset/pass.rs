@@ -8,19 +8,111 @@ use super::Dataset;
 use crate::error::DatasetError;
 use crate::parallel::ordered_map;
 
-/// Which rows to go through, how, and who listens.
+/// Which rows a pass goes through, in which order, on how many threads, and what receives its progress.
+///
+/// ```
+/// # use taceva_core::{Channel, Channels, Clock, Frame, FrameInfo, PixelFormat, Readings, Sample};
+/// # use taceva_dataset::{Recorder, RecordingFacts, RecordingSpec, SensorFacts, Source};
+/// # let folder = tempfile::tempdir()?;
+/// # let path = folder.path().join("recording");
+/// # let facts = RecordingFacts::new(Source::Synthetic, Clock::Unknown, SensorFacts::new("my gel"));
+/// # let mut recorder = Recorder::create(&path, &RecordingSpec::new(facts, Channels::new([Channel::FZ])?))?;
+/// # let info = FrameInfo { width: 2, height: 1, format: PixelFormat::Gray8 };
+/// # for number in 0..2_u8 {
+/// #     recorder.append(&Sample {
+/// #         id: number.to_string(),
+/// #         truth: Readings::from_values([0.5]),
+/// #         frame: Some(Frame::new(info, vec![number, 90])?),
+/// #         ..Sample::default()
+/// #     })?;
+/// # }
+/// use std::num::NonZeroUsize;
+///
+/// use taceva_core::Silent;
+/// use taceva_dataset::{Dataset, Pass};
+///
+/// # recorder.close()?;
+/// let dataset = Dataset::open(&path)?;
+/// let rows = dataset.all_rows();
+/// let mut brightest = Vec::new();
+/// dataset.map_frames(
+///     Pass::new(&rows, NonZeroUsize::MIN, &Silent),
+///     |_row, frame| frame.samples().max(),
+///     |_row, value| {
+///         brightest.push(value);
+///         Ok(())
+///     },
+/// )?;
+/// assert_eq!(brightest, [Some(90), Some(90)]);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Copy)]
+#[non_exhaustive]
 pub struct Pass<'a> {
     /// The rows, from 0, in the order in which they are wanted.
     pub rows: &'a [usize],
     /// Threads that read and decode.
     pub jobs: NonZeroUsize,
-    /// Hears of each row and may stop the pass.
+    /// Receives each row that is done, and may cancel the pass.
     pub progress: &'a dyn Progress,
 }
 
+impl<'a> Pass<'a> {
+    /// A pass over `rows` on `jobs` threads.
+    pub fn new(rows: &'a [usize], jobs: NonZeroUsize, progress: &'a dyn Progress) -> Pass<'a> {
+        Pass {
+            rows,
+            jobs,
+            progress,
+        }
+    }
+}
+
 /// What a pass over samples did.
+///
+/// ```
+/// # use taceva_core::{Channel, Channels, Clock, Frame, FrameInfo, PixelFormat, Readings, Sample};
+/// # use taceva_dataset::{Recorder, RecordingFacts, RecordingSpec, SensorFacts, Source};
+/// # let folder = tempfile::tempdir()?;
+/// # let path = folder.path().join("recording");
+/// # let facts = RecordingFacts::new(Source::Synthetic, Clock::Unknown, SensorFacts::new("my gel"));
+/// # let mut recorder = Recorder::create(&path, &RecordingSpec::new(facts, Channels::new([Channel::FZ])?))?;
+/// # let info = FrameInfo { width: 2, height: 1, format: PixelFormat::Gray8 };
+/// # for number in 0..2_u8 {
+/// #     recorder.append(&Sample {
+/// #         id: number.to_string(),
+/// #         truth: Readings::from_values([0.5]),
+/// #         frame: Some(Frame::new(info, vec![number, 90])?),
+/// #         ..Sample::default()
+/// #     })?;
+/// # }
+/// use std::num::NonZeroUsize;
+///
+/// use taceva_core::{FieldSet, SampleSink, Silent, SinkError};
+/// use taceva_dataset::{Dataset, Pass};
+///
+/// /// Counts samples; it reads no frame.
+/// struct Count(u64);
+///
+/// impl SampleSink for Count {
+///     fn fields(&self) -> FieldSet {
+///         FieldSet::PAIRS
+///     }
+///     fn accept(&mut self, _: &Sample) -> Result<(), SinkError> {
+///         self.0 += 1;
+///         Ok(())
+///     }
+/// }
+///
+/// # recorder.close()?;
+/// let dataset = Dataset::open(&path)?;
+/// let (rows, mut count) = (dataset.all_rows(), Count(0));
+/// let report = dataset.stream(Pass::new(&rows, NonZeroUsize::MIN, &Silent), &mut count)?;
+/// assert_eq!((report.samples, report.frames_decoded, count.0), (2, 0, 2));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct StreamReport {
     /// Samples handed to the sink.
     pub samples: u64,

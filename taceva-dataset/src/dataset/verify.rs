@@ -29,7 +29,7 @@ impl Dataset {
         Ok(())
     }
 
-    /// Whether header and table tell one story. Paths are checked here once, so that reading a frame only joins them.
+    /// Whether header and table agree. Paths are checked here once, so that reading a frame only joins them.
     pub(super) fn check_consistency(&self) -> Result<(), DatasetError> {
         let damaged = |name: &str, problem: String| DatasetError::Damaged {
             path: self.path().join(name),

@@ -6,7 +6,13 @@ use taceva_core::FrameInfo;
 use crate::decode::ChannelOrder;
 use crate::digest::Digest;
 
-/// Where the samples come from; carried into every report.
+/// Where the samples come from; carried into every report. Exhaustive, because every reader must say what it makes of each.
+///
+/// ```
+/// use taceva_dataset::Source;
+///
+/// assert_eq!(Source::default(), Source::Recorded);
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Source {
@@ -19,18 +25,25 @@ pub enum Source {
     Synthetic,
 }
 
-/// A fact that the lab may have forgotten to write down.
+/// A fact that a lab may not know.
+///
+/// ```
+/// use taceva_dataset::Known;
+///
+/// assert_eq!(Known::Is(true).known(), Some(true));
+/// assert_eq!(Known::<bool>::Unknown.known(), None);
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Known<T> {
     /// Written down.
     Is(T),
-    /// Nobody knows.
+    /// Not known.
     #[default]
     Unknown,
 }
 
 impl<T: Copy> Known<T> {
-    /// The fact, if somebody wrote it down.
+    /// The fact, if it is known.
     pub fn known(self) -> Option<T> {
         match self {
             Known::Is(fact) => Some(fact),
@@ -73,7 +86,16 @@ impl<'de> Deserialize<'de> for Known<bool> {
     }
 }
 
-/// Which sensor it was. `"unknown"` is an answer, silence is not.
+/// Which sensor it was. A file must state each fact; `"unknown"` is accepted, a missing key is not.
+///
+/// ```
+/// use taceva_dataset::{Known, SensorFacts};
+///
+/// let sensor = SensorFacts::new("DIGIT").with_serial("D20123").with_opaque(true);
+/// assert_eq!(sensor.gel, "unknown");
+/// assert_eq!(sensor.opaque, Known::Is(true));
+/// ```
+#[non_exhaustive]
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SensorFacts {
@@ -87,7 +109,69 @@ pub struct SensorFacts {
     pub opaque: Known<bool>,
 }
 
+impl SensorFacts {
+    /// A sensor of `model`; its serial number, its gel and whether it is opaque are unknown.
+    pub fn new(model: impl Into<String>) -> SensorFacts {
+        SensorFacts {
+            model: model.into(),
+            serial: "unknown".to_owned(),
+            gel: "unknown".to_owned(),
+            opaque: Known::Unknown,
+        }
+    }
+
+    /// The same with the serial number of the unit.
+    #[must_use]
+    pub fn with_serial(self, serial: impl Into<String>) -> SensorFacts {
+        SensorFacts {
+            serial: serial.into(),
+            ..self
+        }
+    }
+
+    /// The same with the id of the gel.
+    #[must_use]
+    pub fn with_gel(self, gel: impl Into<String>) -> SensorFacts {
+        SensorFacts {
+            gel: gel.into(),
+            ..self
+        }
+    }
+
+    /// The same, where it is known whether ambient light cannot reach the camera.
+    #[must_use]
+    pub fn with_opaque(self, opaque: bool) -> SensorFacts {
+        SensorFacts {
+            opaque: Known::Is(opaque),
+            ..self
+        }
+    }
+}
+
 /// What all frames of a recording share.
+///
+/// ```
+/// # use taceva_core::{Channel, Channels, Clock, Frame, FrameInfo, PixelFormat, Readings, Sample};
+/// # use taceva_dataset::{Recorder, RecordingFacts, RecordingSpec, SensorFacts, Source};
+/// # let folder = tempfile::tempdir()?;
+/// # let path = folder.path().join("recording");
+/// # let facts = RecordingFacts::new(Source::Synthetic, Clock::Unknown, SensorFacts::new("my gel"));
+/// # let mut recorder = Recorder::create(&path, &RecordingSpec::new(facts, Channels::new([Channel::FZ])?))?;
+/// # let info = FrameInfo { width: 2, height: 1, format: PixelFormat::Gray8 };
+/// # for number in 0..2_u8 {
+/// #     recorder.append(&Sample {
+/// #         id: number.to_string(),
+/// #         truth: Readings::from_values([0.5]),
+/// #         frame: Some(Frame::new(info, vec![number, 90])?),
+/// #         ..Sample::default()
+/// #     })?;
+/// # }
+/// let frames = recorder.close()?.frames.ok_or("two frames were recorded")?;
+/// assert_eq!((frames.count, frames.info.width), (2, 2));
+/// assert_eq!(frames.reference, None);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[non_exhaustive]
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct FramesInfo {
     /// How many there are.
@@ -103,6 +187,30 @@ pub struct FramesInfo {
 }
 
 /// The frame without contact.
+///
+/// ```
+/// # use taceva_core::{Channel, Channels, Clock, Frame, FrameInfo, PixelFormat, Readings, Sample};
+/// # use taceva_dataset::{Recorder, RecordingFacts, RecordingSpec, SensorFacts, Source};
+/// # let folder = tempfile::tempdir()?;
+/// # let path = folder.path().join("recording");
+/// # let facts = RecordingFacts::new(Source::Synthetic, Clock::Unknown, SensorFacts::new("my gel"));
+/// # let mut recorder = Recorder::create(&path, &RecordingSpec::new(facts, Channels::new([Channel::FZ])?))?;
+/// # let info = FrameInfo { width: 2, height: 1, format: PixelFormat::Gray8 };
+/// # for number in 0..2_u8 {
+/// #     recorder.append(&Sample {
+/// #         id: number.to_string(),
+/// #         truth: Readings::from_values([0.5]),
+/// #         frame: Some(Frame::new(info, vec![number, 90])?),
+/// #         ..Sample::default()
+/// #     })?;
+/// # }
+/// recorder.append_reference(&Frame::new(info, vec![7, 7])?)?;
+/// let frames = recorder.close()?.frames.ok_or("frames were recorded")?;
+/// let reference = frames.reference.ok_or("a frame without contact was recorded")?;
+/// assert!(path.join(&reference.path).is_file());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[non_exhaustive]
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct ReferenceInfo {
     /// Relative to the folder of the dataset.
@@ -112,6 +220,31 @@ pub struct ReferenceInfo {
 }
 
 /// What `samples.parquet` must be.
+///
+/// ```
+/// # use taceva_core::{Channel, Channels, Clock, Frame, FrameInfo, PixelFormat, Readings, Sample};
+/// # use taceva_dataset::{Recorder, RecordingFacts, RecordingSpec, SensorFacts, Source};
+/// # let folder = tempfile::tempdir()?;
+/// # let path = folder.path().join("recording");
+/// # let facts = RecordingFacts::new(Source::Synthetic, Clock::Unknown, SensorFacts::new("my gel"));
+/// # let mut recorder = Recorder::create(&path, &RecordingSpec::new(facts, Channels::new([Channel::FZ])?))?;
+/// # let info = FrameInfo { width: 2, height: 1, format: PixelFormat::Gray8 };
+/// # for number in 0..2_u8 {
+/// #     recorder.append(&Sample {
+/// #         id: number.to_string(),
+/// #         truth: Readings::from_values([0.5]),
+/// #         frame: Some(Frame::new(info, vec![number, 90])?),
+/// #         ..Sample::default()
+/// #     })?;
+/// # }
+/// use taceva_dataset::Digest;
+///
+/// let table = recorder.close()?.table;
+/// assert_eq!(table.rows, 2);
+/// assert_eq!(table.sha256, Digest::of(&std::fs::read(path.join("samples.parquet"))?));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct TableInfo {
     /// Number of samples.

@@ -11,25 +11,18 @@ use taceva_core::{
     Channel, Channels, Clock, Frame, FrameInfo, GratingKind, Nanometre, Phase, PixelFormat,
     Readings, Sample, Stamp,
 };
-use taceva_dataset::{
-    Dataset, Known, Recorder, RecordingFacts, RecordingSpec, SensorFacts, Source,
-};
+use taceva_dataset::{Dataset, Recorder, RecordingFacts, RecordingSpec, SensorFacts, Source};
 
 fn spec() -> RecordingSpec {
-    RecordingSpec {
-        facts: RecordingFacts {
-            source: Source::Simulated,
-            clock: Clock::Monotonic,
-            sensor: SensorFacts {
-                model: "bench".into(),
-                serial: "1".into(),
-                gel: "2".into(),
-                opaque: Known::Is(false),
-            },
-            footprint: None,
-        },
-        channels: Channels::new([Channel::PZ, Channel::FZ]).expect("distinct"),
-    }
+    let sensor = SensorFacts::new("bench")
+        .with_serial("1")
+        .with_gel("2")
+        .with_opaque(false);
+    let facts = RecordingFacts::new(Source::Simulated, Clock::Monotonic, sensor);
+    RecordingSpec::new(
+        facts,
+        Channels::new([Channel::PZ, Channel::FZ]).expect("distinct"),
+    )
 }
 
 fn frame(seed: u8) -> Frame {

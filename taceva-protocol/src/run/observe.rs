@@ -15,7 +15,7 @@ pub(super) struct Observed {
     pub(super) frame: Option<Frame>,
 }
 
-/// Observes what is there after `before`; force and pose are read before and after the picture and told for its moment.
+/// Observes the state after `before`; force and pose are read before and after the picture and interpolated to its time.
 pub(super) fn observe(
     before: Look,
     tip: &mut Tip<'_>,

@@ -13,7 +13,7 @@ use crate::rows::{
     DataPart, Divided, Need, chosen_channels, require_samples, seen_channels, usable,
 };
 
-/// A request made definite.
+/// A request applied to a dataset: its model, channels and rows.
 pub(crate) struct FitPlan<'a> {
     pub(super) dataset: &'a Dataset,
     pub(super) model: ChosenModel,
@@ -93,7 +93,7 @@ impl<'a> FitPlan<'a> {
         self.model.reads_features()
     }
 
-    /// What is taken of frames; where some of it is open, what the model asks for.
+    /// The features of frames; where some of them are still to be chosen, those that the model asks for.
     pub(crate) fn features(&self) -> FeatureSpec {
         self.features
     }
@@ -133,8 +133,8 @@ impl<'a> FitPlan<'a> {
         );
     }
 
-    /// From now on puts a long training aside, and goes on from what is found there.
+    /// Keeps checkpoints of a long training from now on, and resumes from one that is there.
     pub(crate) fn keep_checkpoints(&mut self, checkpoints: Checkpoints) {
-        self.estimator.put_aside(checkpoints);
+        self.estimator.keep_checkpoints(checkpoints);
     }
 }

@@ -20,7 +20,7 @@ pub struct FitRequest {
 }
 
 impl FitRequest {
-    /// Whether its model and settings can be meant; no data is looked at.
+    /// Whether its model and settings are valid; no data is read.
     ///
     /// # Errors
     /// [`StudyError`] for a model that does not exist, or a setting that it does not have.

@@ -7,7 +7,7 @@ use taceva_core::{Channels, Column};
 use crate::bounded::Bounded;
 use crate::rows::DataPart;
 
-/// Predictions of some rows of a dataset, beside what is true of them.
+/// Predictions of some rows of a dataset, with their truth.
 #[derive(Debug)]
 pub struct Predicted {
     pub(super) part: DataPart,

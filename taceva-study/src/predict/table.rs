@@ -8,8 +8,9 @@ use taceva_models::Model;
 
 use super::{Predicted, Target};
 use crate::error::StudyError;
+use crate::rows::BESIDE_CHANNELS;
 
-/// `numbers` beside what the table of `dataset` says of the same rows.
+/// The numbers of a model with the labels of the same rows.
 pub(crate) fn table(
     dataset: &Dataset,
     model: &Model,
@@ -71,19 +72,8 @@ fn constants(model: &Model) -> BTreeMap<String, f64> {
         .collect()
 }
 
-/// What else the table says of `rows`, of the columns that `score` reads.
+/// The other columns of the table for `rows` that `score` reads.
 fn beside(dataset: &Dataset, rows: &[usize]) -> Vec<(&'static str, Vec<Option<String>>)> {
-    const READ_BY_SCORE: [Field; 9] = [
-        Field::UnitId,
-        Field::Scene,
-        Field::DepthStep,
-        Field::Repeat,
-        Field::Phase,
-        Field::Stamp,
-        Field::Kind,
-        Field::Spacing,
-        Field::Intensity,
-    ];
     let column = |field: Field| {
         let texts = dataset.table().as_text(field.name())?;
         Some((
@@ -91,10 +81,14 @@ fn beside(dataset: &Dataset, rows: &[usize]) -> Vec<(&'static str, Vec<Option<St
             rows.iter().map(|&row| texts[row].clone()).collect(),
         ))
     };
-    READ_BY_SCORE.into_iter().filter_map(column).collect()
+    // Points have a column of their own.
+    let others = BESIDE_CHANNELS
+        .into_iter()
+        .filter(|field| *field != Field::Point);
+    others.filter_map(column).collect()
 }
 
-/// What is true of `rows`; a channel that the dataset has not is absent in every row.
+/// The truth of `rows`; a channel that the dataset does not have is absent in every row.
 pub(crate) fn truth(
     dataset: &Dataset,
     channel: &taceva_core::Channel,

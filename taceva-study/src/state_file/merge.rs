@@ -10,7 +10,7 @@ use crate::error::StudyError;
 use crate::report::EvaluationReport;
 use crate::taken::{AllTaken, Taken};
 
-/// The scores of several states together, and their joined state.
+/// The scores of several states together, and the merged state.
 ///
 /// # Errors
 /// [`StudyError::State`] naming the first file that does not belong with the first; [`StudyError::Request`] for no file.
@@ -59,7 +59,7 @@ pub fn merge(paths: &[PathBuf]) -> Result<(EvaluationReport, StateFile), StudyEr
         let ReadState { file, digest } = StateFile::read_whole(path)?;
         take_rows(path, &digest, &file.taken)?;
         take(path, &file)?;
-        // Models that were taught otherwise have no common constant: skill is measured by the mean of truth there.
+        // Models that were fitted on other samples have no common constant: skill is measured by the mean of truth there.
         constants.retain(|channel, constant| {
             let other = file.plan.constants.get(channel);
             other.is_some_and(|other| other.to_bits() == constant.to_bits())

@@ -29,7 +29,7 @@ pub(super) struct WrittenPlan {
     gate_n: f64,
     smoothing_window: u32,
     resolution_tolerance_nm: i64,
-    /// What skill is measured by, by channel, where it is known and the same of all that was joined.
+    /// The constants that skill is measured by, by channel, where they are known and the same in all states.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub(super) constants: BTreeMap<String, f64>,
 }
