@@ -9,6 +9,12 @@ use crate::families::accuracy::EPSILON;
 pub const GREATEST: f64 = taceva_core::MAGNITUDE_MAX;
 
 /// An estimate and its reference: two values, or two columns. A plain pair, which gets no further fields.
+///
+/// ```
+/// use taceva_metrics::Paired;
+/// let pair = Paired { estimate: 0.5, reference: 0.75 };
+/// assert_eq!(pair.residual(), 0.25);
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Paired<T> {
     /// ŷ: what the model says.

@@ -24,6 +24,12 @@ pub struct Case {
 }
 
 /// What the values are like; y is drawn first, then ŷ; `noise` is about a standard deviation.
+///
+/// ```
+/// use taceva_metrics::bench::{Case, Kind, Order};
+/// let columns = Case { kind: Kind::Met { value: 2.0 }, rows: 3, seed: 1, order: Order::AsMade }.columns();
+/// assert_eq!(columns.estimate, columns.reference);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Kind {
@@ -118,6 +124,11 @@ pub enum Kind {
 }
 
 /// In which order rows stand.
+///
+/// ```
+/// use taceva_metrics::bench::Order;
+/// assert_ne!(Order::Shuffled(1), Order::Shuffled(2));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Order {

@@ -13,6 +13,11 @@ use crate::paired::Paired;
 /// A way to form MAE, R² and sMAPE of two columns.
 ///
 /// All but [`Exact`](Kernel::Exact) round at every step, each as a library that sums so would.
+///
+/// ```
+/// use taceva_metrics::bench::Kernel;
+/// assert!(Kernel::available().iter().any(|kernel| kernel.is_exact()));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Kernel {
@@ -35,6 +40,12 @@ pub enum Kernel {
 }
 
 /// What a kernel found; `None` where it found no number.
+///
+/// ```
+/// use taceva_metrics::{Paired, bench::Kernel};
+/// let scores = Kernel::Naive.run(Paired { estimate: &[0.5, 0.5], reference: &[0.25, 0.5] });
+/// assert_eq!(scores.mae, Some(0.125));
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Scores {
     /// Mean absolute error, in the unit of the columns.

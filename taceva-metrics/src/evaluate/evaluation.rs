@@ -14,6 +14,16 @@ use crate::score::Score;
 use crate::score::standing::{self, Standing};
 
 /// Every score of an evaluation, in the order of reports, and what was left out.
+///
+/// ```
+/// use taceva_metrics::{Channel, Evaluator};
+/// let mut evaluator = Evaluator::of_channels([Channel::FZ])?;
+/// evaluator.update_pairs(Channel::FZ, &[0.25, 0.5], &[0.5, 0.5])?;
+/// let evaluation = evaluator.finish()?;
+/// assert!(evaluation.scores().any(|(metric, channel, _)| metric.id == "rmse" && channel == "Fz"));
+/// assert!(evaluation.to_string().starts_with("metric"));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct Evaluation {
     entries: Vec<Entry>,

@@ -77,6 +77,13 @@ impl Default for SensorFacts {
 }
 
 /// A fact without which a metric has no value.
+///
+/// ```
+/// use taceva_metrics::{Fact, catalogue};
+/// let uniformity = catalogue::find("uniformity").ok_or("a metric")?;
+/// assert!(uniformity.facts.contains(&Fact::Footprint));
+/// # Ok::<(), &str>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Fact {

@@ -21,6 +21,12 @@ pub const GREATEST_BOUNDED_SHARE: f64 = 0.05;
 const ROUNDING: f64 = 1e-9;
 
 /// Whether a score takes part in verdicts, and if not, why; of two, the greater one is the worse.
+///
+/// ```
+/// use taceva_metrics::Standing;
+/// assert!(Standing::SkillUnknown.takes_part() && !Standing::NoSkill.takes_part());
+/// assert_eq!(Standing::ALL.into_iter().max(), Some(Standing::NoSkill));
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
 #[non_exhaustive]
 pub enum Standing {

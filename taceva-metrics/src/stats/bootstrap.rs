@@ -77,6 +77,10 @@ impl PoissonBootstrap {
 }
 
 /// How an interval is read off bootstrap replicates.
+///
+/// ```
+/// assert_eq!(taceva_metrics::BootstrapEnds::Percentile.to_string(), "percentile");
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum BootstrapEnds {
