@@ -1,4 +1,4 @@
-//! Test inputs as recipes: a few numbers from which every machine makes the same columns, bit for bit.
+//! Test inputs as cases: a few numbers from which every machine makes the same columns, bit for bit.
 
 use super::numbers::Numbers;
 use crate::paired::Paired;
@@ -6,13 +6,13 @@ use crate::paired::Paired;
 /// How to make two columns.
 ///
 /// ```
-/// use taceva_metrics::bench::{Kind, Order, Recipe};
+/// use taceva_metrics::bench::{Kind, Order, Case};
 /// let kind = Kind::Lab { low: -12.5, high: 12.5, noise: 0.3 };
-/// let recipe = Recipe { kind, rows: 1600, seed: 1, order: Order::AsMade };
-/// assert_eq!(recipe.columns().reference.len(), 1600);
+/// let case = Case { kind, rows: 1600, seed: 1, order: Order::AsMade };
+/// assert_eq!(case.columns().reference.len(), 1600);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Recipe {
+pub struct Case {
     /// What the values are like.
     pub kind: Kind,
     /// How many.
@@ -24,6 +24,12 @@ pub struct Recipe {
 }
 
 /// What the values are like; y is drawn first, then ŷ; `noise` is about a standard deviation.
+///
+/// ```
+/// use taceva_metrics::bench::{Case, Kind, Order};
+/// let columns = Case { kind: Kind::Met { value: 2.0 }, rows: 3, seed: 1, order: Order::AsMade }.columns();
+/// assert_eq!(columns.estimate, columns.reference);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Kind {
@@ -118,6 +124,11 @@ pub enum Kind {
 }
 
 /// In which order rows stand.
+///
+/// ```
+/// use taceva_metrics::bench::Order;
+/// assert_ne!(Order::Shuffled(1), Order::Shuffled(2));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Order {
@@ -131,7 +142,7 @@ pub enum Order {
     Shuffled(u64),
 }
 
-impl Recipe {
+impl Case {
     /// The columns.
     pub fn columns(&self) -> Paired<Vec<f64>> {
         let mut random = Numbers::new(self.seed);
@@ -213,15 +224,15 @@ impl Kind {
 
 #[expect(
     clippy::cast_possible_truncation,
-    reason = "rounding to binary32 is what the recipe says"
+    reason = "rounding to binary32 is what the case says"
 )]
 fn to_single(value: f64) -> f64 {
     f64::from(value as f32)
 }
 
 /// Inputs that usual ways to sum get wrong, by name; the first one is harmless.
-pub fn nasty_inputs() -> impl Iterator<Item = (&'static str, Recipe)> {
-    let recipe = |kind, rows, order| Recipe {
+pub fn nasty_inputs() -> impl Iterator<Item = (&'static str, Case)> {
+    let case = |kind, rows, order| Case {
         kind,
         rows,
         seed: 20_261_121,
@@ -283,5 +294,5 @@ pub fn nasty_inputs() -> impl Iterator<Item = (&'static str, Recipe)> {
     ];
     inputs
         .into_iter()
-        .map(move |(name, kind, order)| (name, recipe(kind, 20_011, order)))
+        .map(move |(name, kind, order)| (name, case(kind, 20_011, order)))
 }

@@ -12,10 +12,15 @@ use crate::paired::Paired;
 
 /// A way to form MAE, R² and sMAPE of two columns.
 ///
-/// All but [`Exact`](Contender::Exact) round at every step, each as a library that sums so would.
+/// All but [`Exact`](Kernel::Exact) round at every step, each as a library that sums so would.
+///
+/// ```
+/// use taceva_metrics::bench::Kernel;
+/// assert!(Kernel::available().iter().any(|kernel| kernel.is_exact()));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
-pub enum Contender {
+pub enum Kernel {
     /// One pass in binary64, SST by the textbook: Σy² − (Σy)² / n.
     Naive,
     /// The same with the sums in binary32.
@@ -34,7 +39,13 @@ pub enum Contender {
     Exact(Isa),
 }
 
-/// What a contender found; `None` where it found no number.
+/// What a kernel found; `None` where it found no number.
+///
+/// ```
+/// use taceva_metrics::{Paired, bench::Kernel};
+/// let scores = Kernel::Naive.run(Paired { estimate: &[0.5, 0.5], reference: &[0.25, 0.5] });
+/// assert_eq!(scores.mae, Some(0.125));
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Scores {
     /// Mean absolute error, in the unit of the columns.
@@ -45,39 +56,39 @@ pub struct Scores {
     pub smape: Option<f64>,
 }
 
-impl Contender {
+impl Kernel {
     /// Those that this machine can run, ours last and the widest vectors before the others.
-    pub fn available() -> Vec<Contender> {
+    pub fn available() -> Vec<Kernel> {
         let rounding = [
-            Contender::Naive,
-            Contender::Single,
-            Contender::TwoPass,
-            Contender::Pairwise,
-            Contender::Kahan,
-            Contender::Neumaier,
-            Contender::Welford,
+            Kernel::Naive,
+            Kernel::Single,
+            Kernel::TwoPass,
+            Kernel::Pairwise,
+            Kernel::Kahan,
+            Kernel::Neumaier,
+            Kernel::Welford,
         ];
-        let exact = Isa::available().into_iter().map(Contender::Exact);
+        let exact = Isa::available().into_iter().map(Kernel::Exact);
         rounding.into_iter().chain(exact).collect()
     }
 
     /// A name for tables: `two-pass`, `exact avx2`.
     pub fn name(self) -> String {
         match self {
-            Contender::Naive => "naive f64".to_owned(),
-            Contender::Single => "naive f32".to_owned(),
-            Contender::TwoPass => "two-pass".to_owned(),
-            Contender::Pairwise => "pairwise".to_owned(),
-            Contender::Kahan => "Kahan".to_owned(),
-            Contender::Neumaier => "Neumaier".to_owned(),
-            Contender::Welford => "Welford".to_owned(),
-            Contender::Exact(isa) => format!("exact {isa}"),
+            Kernel::Naive => "naive f64".to_owned(),
+            Kernel::Single => "naive f32".to_owned(),
+            Kernel::TwoPass => "two-pass".to_owned(),
+            Kernel::Pairwise => "pairwise".to_owned(),
+            Kernel::Kahan => "Kahan".to_owned(),
+            Kernel::Neumaier => "Neumaier".to_owned(),
+            Kernel::Welford => "Welford".to_owned(),
+            Kernel::Exact(isa) => format!("exact {isa}"),
         }
     }
 
     /// Whether nothing is rounded before the end.
     pub fn is_exact(self) -> bool {
-        matches!(self, Contender::Exact(_))
+        matches!(self, Kernel::Exact(_))
     }
 
     /// All three scores.
@@ -86,31 +97,29 @@ impl Contender {
     /// `pairs.estimate`, `pairs.reference`: one length.
     pub fn run(self, pairs: Paired<&[f64]>) -> Scores {
         match self {
-            Contender::Naive => one_pass::<Plain>(pairs),
-            Contender::Single => one_pass::<Single>(pairs),
-            Contender::TwoPass => two_pass(pairs),
-            Contender::Pairwise => in_halves(pairs),
-            Contender::Kahan => one_pass::<Kahan>(pairs),
-            Contender::Neumaier => one_pass::<Neumaier>(pairs),
-            Contender::Welford => welford(pairs),
-            Contender::Exact(isa) => Scores::of(&exact(isa, THREE_SCORES, pairs)),
+            Kernel::Naive => one_pass::<Plain>(pairs),
+            Kernel::Single => one_pass::<Single>(pairs),
+            Kernel::TwoPass => two_pass(pairs),
+            Kernel::Pairwise => in_halves(pairs),
+            Kernel::Kahan => one_pass::<Kahan>(pairs),
+            Kernel::Neumaier => one_pass::<Neumaier>(pairs),
+            Kernel::Welford => welford(pairs),
+            Kernel::Exact(isa) => Scores::of(&exact(isa, THREE_SCORES, pairs)),
         }
     }
 
     /// The mean absolute error alone.
     pub fn run_mae(self, pairs: Paired<&[f64]>) -> Option<f64> {
         match self {
-            Contender::Naive | Contender::TwoPass | Contender::Welford => {
-                mean_error::<Plain>(pairs)
-            }
-            Contender::Single => mean_error::<Single>(pairs),
-            Contender::Kahan => mean_error::<Kahan>(pairs),
-            Contender::Neumaier => mean_error::<Neumaier>(pairs),
-            Contender::Pairwise => {
+            Kernel::Naive | Kernel::TwoPass | Kernel::Welford => mean_error::<Plain>(pairs),
+            Kernel::Single => mean_error::<Single>(pairs),
+            Kernel::Kahan => mean_error::<Kahan>(pairs),
+            Kernel::Neumaier => mean_error::<Neumaier>(pairs),
+            Kernel::Pairwise => {
                 let rows: Vec<Paired<f64>> = pairs.iter().collect();
                 number(pairwise(&rows, &|pair| pair.residual().abs()) / length(pairs))
             }
-            Contender::Exact(isa) => {
+            Kernel::Exact(isa) => {
                 let streams = Streams::of(&[Stream::Absolute]);
                 score(&MAE, &exact(isa, streams, pairs))
             }
@@ -277,28 +286,24 @@ mod tests {
             estimate: &[1.0, 2.0, 6.0, 7.0][..],
             reference: &[1.0, 4.0, 4.0, 7.0],
         };
-        for contender in Contender::available() {
-            let scores = contender.run(pairs);
-            assert_eq!(scores.mae, Some(1.0), "{}", contender.name());
-            assert_eq!(contender.run_mae(pairs), Some(1.0), "{}", contender.name());
+        for kernel in Kernel::available() {
+            let scores = kernel.run(pairs);
+            assert_eq!(scores.mae, Some(1.0), "{}", kernel.name());
+            assert_eq!(kernel.run_mae(pairs), Some(1.0), "{}", kernel.name());
             let r2 = scores.r2.expect("the truth varies");
-            assert!(
-                (r2 - (1.0 - 8.0 / 18.0)).abs() < 1e-6,
-                "{}",
-                contender.name()
-            );
+            assert!((r2 - (1.0 - 8.0 / 18.0)).abs() < 1e-6, "{}", kernel.name());
         }
         assert_eq!(
-            Contender::truth(pairs),
-            Contender::Exact(Isa::Portable).run(pairs)
+            Kernel::truth(pairs),
+            Kernel::Exact(Isa::Portable).run(pairs)
         );
     }
 
     #[test]
     fn nothing_has_no_scores() {
-        for contender in Contender::available() {
-            assert_eq!(contender.run(Paired::default()), Scores::default());
-            assert_eq!(contender.run_mae(Paired::default()), None);
+        for kernel in Kernel::available() {
+            assert_eq!(kernel.run(Paired::default()), Scores::default());
+            assert_eq!(kernel.run_mae(Paired::default()), None);
         }
     }
 }

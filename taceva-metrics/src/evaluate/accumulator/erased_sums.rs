@@ -5,16 +5,16 @@ use std::any::Any;
 use crate::exact::merge::Merge;
 
 /// The sums of every part of one family: a `Vec` of its sums.
-pub(crate) struct Parts(Box<dyn AnyParts>);
+pub(crate) struct ErasedSums(Box<dyn AnySums>);
 
 /// What is done with parts whose type is not known.
-trait AnyParts: Any + Send {
+trait AnySums: Any + Send {
     fn merge(&mut self, other: &dyn Any);
     fn merge_times(&mut self, other: &dyn Any, times: u32);
-    fn copy(&self) -> Parts;
+    fn copy(&self) -> ErasedSums;
 }
 
-impl<S: Merge + Clone + Send + 'static> AnyParts for Vec<S> {
+impl<S: Merge + Clone + Send + 'static> AnySums for Vec<S> {
     fn merge(&mut self, other: &dyn Any) {
         Merge::merge(self, typed::<S>(other));
     }
@@ -23,8 +23,8 @@ impl<S: Merge + Clone + Send + 'static> AnyParts for Vec<S> {
         Merge::merge_times(self, typed::<S>(other), times);
     }
 
-    fn copy(&self) -> Parts {
-        Parts::new(self.clone())
+    fn copy(&self) -> ErasedSums {
+        ErasedSums::new(self.clone())
     }
 }
 
@@ -35,9 +35,9 @@ fn typed<S: 'static>(parts: &dyn Any) -> &Vec<S> {
 /// Why a type is the one that is asked for: an accumulator has one family, which made all its parts.
 const ONE_FAMILY: &str = "parts of one family";
 
-impl Parts {
-    pub(super) fn new<S: Merge + Clone + Send + 'static>(sums: Vec<S>) -> Parts {
-        Parts(Box::new(sums))
+impl ErasedSums {
+    pub(super) fn new<S: Merge + Clone + Send + 'static>(sums: Vec<S>) -> ErasedSums {
+        ErasedSums(Box::new(sums))
     }
 
     /// The sums, whose type is that of the family they belong to.
@@ -52,18 +52,18 @@ impl Parts {
     }
 }
 
-impl Clone for Parts {
-    fn clone(&self) -> Parts {
+impl Clone for ErasedSums {
+    fn clone(&self) -> ErasedSums {
         self.0.copy()
     }
 }
 
-impl Merge for Parts {
-    fn merge(&mut self, other: &Parts) {
+impl Merge for ErasedSums {
+    fn merge(&mut self, other: &ErasedSums) {
         self.0.merge(&*other.0);
     }
 
-    fn merge_times(&mut self, other: &Parts, times: u32) {
+    fn merge_times(&mut self, other: &ErasedSums, times: u32) {
         self.0.merge_times(&*other.0, times);
     }
 }

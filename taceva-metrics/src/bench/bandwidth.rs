@@ -1,4 +1,4 @@
-//! The least that any summation takes.
+//! What reading the columns takes: the bandwidth of the memory, which no kernel can exceed.
 
 use taceva_core::Isa;
 
@@ -12,12 +12,12 @@ const IN_FLIGHT: usize = 4;
 /// the columns from memory takes at least this long, whatever is made of them.
 pub fn stream_sum(pairs: Paired<&[f64]>) -> f64 {
     let widest = Isa::available().into_iter().find_map(Machine::with);
-    widest.unwrap_or_else(Machine::detect).run(Floor(pairs))
+    widest.unwrap_or_else(Machine::detect).run(Reading(pairs))
 }
 
-struct Floor<'a>(Paired<&'a [f64]>);
+struct Reading<'a>(Paired<&'a [f64]>);
 
-impl Job for Floor<'_> {
+impl Job for Reading<'_> {
     type Output = f64;
 
     #[inline(always)]
