@@ -2,7 +2,7 @@
 
 use faer::Mat;
 use rayon::prelude::*;
-use taceva_core::{Estimator, Features, ModelError, Progress, Regressor, TrainingSet};
+use taceva_core::{Features, ModelError, Progress, Regressor, TrainingSet};
 
 use super::bins::Binned;
 use super::grow::{Growth, Samples};
@@ -12,7 +12,7 @@ use crate::random::SplitMix64;
 use crate::registry::ModelInfo;
 use crate::settings::{SettingError, SettingInfo, Settings, number};
 use crate::training::choice::Choice;
-use crate::training::fit::{ModelEstimator, ModelFit, ModelRegressor};
+use crate::training::fit::{ModelEstimator, ModelFit, ModelRegressor, estimator};
 use crate::training::output::OutputScale;
 use crate::training::problem::{Problem, centred};
 use crate::training::progress::{Stage, interrupted};
@@ -212,19 +212,4 @@ impl ModelEstimator for RandomForest {
     }
 }
 
-impl Estimator for RandomForest {
-    fn name(&self) -> &'static str {
-        RandomForest::INFO.name
-    }
-
-    fn fit(
-        &self,
-        training: &TrainingSet<'_>,
-        validation: Option<&TrainingSet<'_>>,
-        progress: &dyn Progress,
-    ) -> Result<Box<dyn Regressor>, ModelError> {
-        Ok(Box::new(
-            self.fit_model(training, validation, progress)?.regressor,
-        ))
-    }
-}
+estimator!(RandomForest, |_| RandomForest::INFO.name);
