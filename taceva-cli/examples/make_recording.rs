@@ -10,12 +10,11 @@
 
 use std::path::Path;
 
+use taceva_core::random::mix;
 use taceva_core::{
     Channel, Channels, Clock, Frame, FrameInfo, PixelFormat, Readings, Sample, Stamp,
 };
-use taceva_dataset::{
-    Footprint, Known, Recorder, RecordingFacts, RecordingSpec, SensorFacts, Shape, Source,
-};
+use taceva_dataset::{Footprint, Recorder, RecordingFacts, RecordingSpec, SensorFacts, Source};
 
 const SIZE: u32 = 96;
 const POINTS: u32 = 200;
@@ -133,35 +132,14 @@ fn unit_draw(seed: u64, point: u32, step: u32, purpose: u32) -> f64 {
     f64::from(u32::try_from(place >> 32).unwrap_or_default()) / 4_294_967_296.0
 }
 
-/// The finaliser of splitmix64.
-fn mix(state: u64) -> u64 {
-    let state = state.wrapping_add(0x9E37_79B9_7F4A_7C15);
-    let state = (state ^ state >> 30).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-    let state = (state ^ state >> 27).wrapping_mul(0x94D0_49BB_1331_11EB);
-    state ^ state >> 31
-}
-
 fn record(path: &Path) -> Result<(), Box<dyn std::error::Error>> {
-    let spec = RecordingSpec {
-        facts: RecordingFacts {
-            source: Source::Synthetic,
-            clock: Clock::Monotonic,
-            sensor: SensorFacts {
-                model: "drawn marker gel".to_owned(),
-                serial: "none".to_owned(),
-                gel: "none".to_owned(),
-                opaque: Known::Is(true),
-            },
-            footprint: Some(Footprint {
-                shape: Shape::Disc,
-                radius_mm: Some(RADIUS_MM),
-                half_x_mm: None,
-                half_y_mm: None,
-                depth_max_mm: Some(1.5),
-            }),
-        },
-        channels: Channels::new(Channel::SIX)?,
-    };
+    let sensor = SensorFacts::new("drawn marker gel")
+        .with_serial("none")
+        .with_gel("none")
+        .with_opaque(true);
+    let facts = RecordingFacts::new(Source::Synthetic, Clock::Monotonic, sensor)
+        .with_footprint(Footprint::disc(RADIUS_MM).with_depth_max(1.5));
+    let spec = RecordingSpec::new(facts, Channels::new(Channel::SIX)?);
     let mut recorder = Recorder::create(path, &spec)?;
     let untouched = Press {
         x_mm: 0.0,

@@ -30,7 +30,7 @@ use std::path::Path;
 
 use taceva_dataset::Dataset;
 use taceva_models::{Models, Settings};
-use taceva_study::{Cache, EvaluationReport, FitRequest, Part, Plan, StudyError, Work};
+use taceva_study::{Cache, DataPart, EvaluationReport, FitRequest, Plan, StudyError, Work};
 
 use crate::args::{Everywhere, PartArg, PluginArgs, SettingArgs, SplitArgs};
 use crate::exit;
@@ -185,17 +185,17 @@ pub(crate) fn fit_request(
         settings: Settings::parse(words).map_err(StudyError::from)?,
         channels: settings.channels.clone(),
         split: split.split.clone(),
-        seed: split.seed,
+        seed: split.seed.value,
     })
 }
 
-impl From<PartArg> for Part {
-    fn from(part: PartArg) -> Part {
+impl From<PartArg> for DataPart {
+    fn from(part: PartArg) -> DataPart {
         match part {
-            PartArg::Train => Part::Train,
-            PartArg::Validation => Part::Validation,
-            PartArg::Test => Part::Test,
-            PartArg::All => Part::All,
+            PartArg::Train => DataPart::Train,
+            PartArg::Validation => DataPart::Validation,
+            PartArg::Test => DataPart::Test,
+            PartArg::All => DataPart::All,
         }
     }
 }

@@ -1,27 +1,25 @@
-//! How results look. Each file is one form: a pure function of a finished report.
+//! How results look: pure functions of finished reports.
 
 mod bench;
 mod chart;
 mod check;
-mod csv;
 pub(crate) mod devices;
-mod grid;
 mod json;
-mod latex;
 mod line;
-mod markdown;
 mod number;
 pub(crate) mod page;
 pub(crate) mod plan;
 pub(crate) mod plugin;
 pub(crate) mod plugin_check;
 mod profile;
+mod scores;
 mod text;
 mod thumbnail;
 pub(crate) mod triple;
 
 use std::io::{self, Write};
 
+use taceva_report::Layout;
 use taceva_study::bench::KernelBench;
 use taceva_study::{CheckReport, EvaluationReport};
 
@@ -36,9 +34,12 @@ pub(crate) fn evaluation(
     match format {
         Format::Text => text::write(report, out),
         Format::Json => json::write_sealed(report, out),
-        Format::Csv => csv::write(report, out),
-        Format::Md => markdown::write(report, out),
-        Format::Tex => latex::write(report, out),
+        Format::Csv => out.write_all(scores::every_number(report).csv().as_bytes()),
+        Format::Md => out.write_all(scores::for_pages(report).markdown().as_bytes()),
+        Format::Tex => {
+            let table = scores::by_channel(report).latex(Layout::Float);
+            out.write_all(table.as_bytes())
+        }
     }
 }
 
@@ -85,9 +86,12 @@ pub(crate) fn findings(
     match format {
         Format::Text => check::text(report, out),
         Format::Json => json::write(report, out),
-        Format::Csv => check::csv(report, out),
-        Format::Md => check::markdown(report, out),
-        Format::Tex => check::latex(report, out),
+        Format::Csv => out.write_all(check::every_column(report).csv().as_bytes()),
+        Format::Md => out.write_all(check::main_columns(report).markdown().as_bytes()),
+        Format::Tex => {
+            let table = check::main_columns(report).latex(Layout::Rows);
+            out.write_all(table.as_bytes())
+        }
     }
 }
 
@@ -100,9 +104,12 @@ pub(crate) fn kernel_bench(
     match format {
         Format::Text => bench::text(bench, out),
         Format::Json => json::write(bench, out),
-        Format::Csv => bench::csv(bench, out),
-        Format::Md => bench::markdown(bench, out),
-        Format::Tex => bench::latex(bench, out),
+        Format::Csv => out.write_all(bench::every_number(bench).csv().as_bytes()),
+        Format::Md => out.write_all(bench::for_pages(bench).markdown().as_bytes()),
+        Format::Tex => {
+            let table = bench::rows(bench).latex(Layout::Rows);
+            out.write_all(table.as_bytes())
+        }
     }
 }
 

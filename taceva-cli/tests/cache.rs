@@ -9,7 +9,7 @@ use std::process::Stdio;
 use serde_json::Value;
 use support::Bench;
 
-/// One sensor with a model that is fitted and boards whose spacings are told, a few presses each.
+/// One sensor with a model that is fitted and boards whose spacings are predicted, a few presses each.
 const SMALL: &str = r#"scene_version = 1
 name = "small"
 seed = 7
@@ -22,7 +22,7 @@ protocol = { calibration = { points = 8, indentations = 2 }, gratings = { step_m
 "#;
 
 /// The stages of [`SMALL`], in order.
-const STAGES: [&str; 4] = ["acquire", "fit", "predict", "tell"];
+const STAGES: [&str; 4] = ["acquire", "fit", "predict", "classify"];
 
 fn with_small() -> Bench {
     let bench = Bench::with_cache();
@@ -131,7 +131,7 @@ fn another_setting_of_the_model_presses_nothing_again() {
     bench.ok("run small.toml --out first -q");
     bench.write("other.toml", &SMALL.replace("8x8", "6x6"));
     bench.ok("run other.toml --out other -q");
-    assert_eq!(reused(&bench, "other"), ["acquire", "tell"]);
+    assert_eq!(reused(&bench, "other"), ["acquire", "classify"]);
     bench.ok("run other.toml --out bare --no-cache -q");
     assert_eq!(written(&bench, "other"), written(&bench, "bare"));
 }
@@ -176,7 +176,7 @@ fn a_damaged_entry_is_removed_and_made_again() {
         ("acquire", of_run("frames/reference.png")),
         ("fit", entry(&cache, "fit")),
         ("predict", entry(&cache, "predict")),
-        ("tell", entry(&cache, "tell")),
+        ("classify", entry(&cache, "classify")),
     ];
     let mut last = "first".to_owned();
     for (number, (stage, file)) in damages.iter().enumerate() {
@@ -212,13 +212,13 @@ fn a_recording_that_its_run_took_along_or_exchanged_is_pressed_again() {
     fs::rename(bench.path("first"), bench.path("elsewhere")).expect("moved");
     let gone = bench.run("run small.toml --out second --cache kept");
     assert!(!gone.err.contains("made anew"), "{}", gone.err);
-    assert_eq!(reused(&bench, "second"), ["fit", "predict", "tell"]);
+    assert_eq!(reused(&bench, "second"), ["fit", "predict", "classify"]);
     assert_eq!(written(&bench, "second"), whole);
     // Another recording, whole in itself, where the one that was noted lay.
     bench.ok("run small.toml --out second --force --seed 8 --cache kept -q");
     let exchanged = bench.run("run small.toml --out third --cache kept");
     assert!(exchanged.err.contains("made anew"), "{}", exchanged.err);
-    assert_eq!(reused(&bench, "third"), ["fit", "predict", "tell"]);
+    assert_eq!(reused(&bench, "third"), ["fit", "predict", "classify"]);
     assert_eq!(written(&bench, "third"), whole);
     // The same file, not a second one.
     #[cfg(unix)]
@@ -244,7 +244,7 @@ fn an_entry_of_another_layout_and_a_half_written_one_are_never_read() {
     let recording = entry(&bench.path("kept"), "acquire");
     fs::rename(recording, bench.path("kept/2/partial/1-0")).expect("moved");
     bench.ok("run small.toml --out third --cache kept -q");
-    assert_eq!(reused(&bench, "third"), ["fit", "predict", "tell"]);
+    assert_eq!(reused(&bench, "third"), ["fit", "predict", "classify"]);
     assert_eq!(written(&bench, "first"), written(&bench, "third"));
 }
 

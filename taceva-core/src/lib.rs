@@ -21,6 +21,7 @@ mod outcome;
 mod phase;
 mod progress;
 mod quantity;
+pub mod random;
 mod registry;
 mod sample;
 mod shown;

@@ -77,7 +77,7 @@ fn a_header_edited_by_hand_is_noticed_where_it_decides_a_number() {
 
 #[test]
 fn mutated_maps_are_refused_or_understood() {
-    let mut random = Random(1);
+    let mut random = Random::new(1);
     for _ in 0..3_000 {
         let text = random.mutated(MAP.as_bytes());
         if let Ok(text) = String::from_utf8(text) {
@@ -90,7 +90,7 @@ fn mutated_maps_are_refused_or_understood() {
 fn mutated_tables_are_refused_or_understood() {
     let lab = Lab::new();
     let original = fs::read(lab.path("source/labels.csv")).expect("read");
-    let mut random = Random(2);
+    let mut random = Random::new(2);
     for _ in 0..2_000 {
         let bytes = random.mutated(&original);
         lab.write("source/fuzz.csv", &bytes);
@@ -122,7 +122,7 @@ fn mutated_arrays_are_refused_or_understood() {
         "column = \"file\"",
         "array = \"frames.npy\"\nindex = \"x\"",
     );
-    let mut random = Random(3);
+    let mut random = Random::new(3);
     for _ in 0..200 {
         lab.write("source/frames.npy", &random.mutated(&file));
         if lab.import().is_ok() {
@@ -138,7 +138,7 @@ fn mutated_datasets_are_refused_or_are_the_one_that_was_written() {
     lab.import().expect("imported");
     let original = whole(&lab).expect("whole");
     let files = contents(&lab.path("set"));
-    let mut random = Random(4);
+    let mut random = Random::new(4);
     for _ in 0..600 {
         let (name, bytes) = &files[random.below(files.len())];
         let path = lab.path("set").join(name);

@@ -1,24 +1,22 @@
 //! Random numbers that depend on what they are for, not on what was drawn before.
 
-/// The number at `index` of the stream that `seed` and `purpose` name: SplitMix64's output function over a mixed counter.
-///
-/// # Reference
-/// Steele, Lea and Flood, "Fast splittable pseudorandom number generators" (2014), figure 16; constants of `mix64` variant 13 by Stafford.
-pub(crate) fn draw(seed: u64, purpose: u64, index: u64) -> u64 {
-    const GOLDEN: u64 = 0x9e37_79b9_7f4a_7c15;
-    let stream = mix(seed.wrapping_add(GOLDEN)).wrapping_add(mix(purpose.wrapping_mul(GOLDEN)));
-    mix(stream.wrapping_add(index.wrapping_add(1).wrapping_mul(GOLDEN)))
-}
+use taceva_core::random::{Draws, STEP, finalise, mix};
 
-const fn mix(state: u64) -> u64 {
-    let state = (state ^ (state >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-    let state = (state ^ (state >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-    state ^ (state >> 31)
+/// The number at `index` of the stream that `seed` and `purpose` name.
+pub(crate) fn draw(seed: u64, purpose: u64, index: u64) -> u64 {
+    let stream = mix(seed).wrapping_add(finalise(purpose.wrapping_mul(STEP)));
+    Draws::new(stream).bits(index)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn numbers_keep_their_values() {
+        assert_eq!(draw(1, 2, 3), 13_809_670_449_062_645_622);
+        assert_eq!(draw(0, 0, 0), 12_035_550_249_420_947_055);
+    }
 
     #[test]
     fn bits_of_neighbouring_draws_are_unlike_each_other() {

@@ -9,7 +9,8 @@ mod recipe;
 
 use std::path::PathBuf;
 
-use recipe::{Case, SplitMix64, read_cases};
+use recipe::{Case, read_cases};
+use taceva_core::random::SplitMix64;
 use taceva_core::{Batch, Channel, Channels, Column, FieldSet};
 use taceva_metrics::{
     Evaluation, Evaluator, Isa, MetricPlan, PairSpec, PairSums, Paired, Stream, Streams,
@@ -191,7 +192,7 @@ fn every_golden_value_is_met_bit_for_bit_however_the_samples_come() {
     let cases = cases();
     let mut values = 0;
     for case in &cases {
-        let mut random = SplitMix64(case.truth.len() as u64);
+        let mut random = SplitMix64::new(case.truth.len() as u64);
         Outcome::of(&case.truth, &case.prediction).check(case, "in order");
 
         let chunks = shuffled_chunks(case, &mut random);

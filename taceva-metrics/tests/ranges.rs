@@ -10,7 +10,7 @@ use taceva_core::{
 };
 use taceva_metrics::{
     BootstrapEnds, Evaluation, Evaluator, Interval, IntervalMethod, MetricPlan, PoissonBootstrap,
-    Range, SensorFacts, catalogue,
+    Range, SensorFacts, UndefinedReason, catalogue,
 };
 
 /// Every metric of a sensor of which everything is known.
@@ -251,6 +251,58 @@ fn every_metric_that_can_have_an_interval_is_among_those_tried() {
     }
     let metrics = catalogue::ALL.iter().map(|metric| metric.id);
     let absent: Vec<&str> = metrics.filter(|metric| !found.contains(*metric)).collect();
-    // What is read off all times at once has none; units are compared by surfaces, which these samples have not.
-    assert_eq!(absent, ["inter_sensor", "intrinsic"], "{found:?}");
+    // Greatest values and what is read off all times at once have none; units are compared by surfaces, which these samples have not.
+    let expected = [
+        "linearity",
+        "crosstalk",
+        "bias_level",
+        "inter_sensor",
+        "intrinsic",
+    ];
+    assert!(absent.iter().all(|id| expected.contains(id)), "{absent:?}");
+    assert_eq!(absent.len(), expected.len(), "{absent:?} {found:?}");
+}
+
+#[test]
+fn a_greatest_value_has_no_interval_and_says_why() {
+    let presses = (0..120)
+        .map(|at| [0.37, 0.61, 0.83, 0.29].map(|step: f64| (f64::from(at) * step).fract()))
+        .collect();
+    let recording = Recording {
+        points: 13,
+        errors: Errors::Spread,
+        presses,
+        phases: false,
+    };
+    let samples = recording.samples();
+    let bootstrap = PoissonBootstrap {
+        replicates: 39,
+        seed: 1,
+        ends: BootstrapEnds::Normal,
+    };
+    let why = Interval::Undefined(UndefinedReason::Greatest);
+    for method in [
+        IntervalMethod::Jackknife,
+        IntervalMethod::PoissonBootstrap(bootstrap),
+    ] {
+        let evaluation = evaluate(&plan().with_interval_method(method), &samples);
+        let mut greatest = BTreeSet::new();
+        for (metric, label, score) in evaluation.scores() {
+            if score.value.scalar().is_some() && metric.range == Range::Greatest {
+                assert_eq!(score.interval, why, "{} {label}", metric.id);
+                greatest.insert(metric.id);
+            }
+            for variant in &score.variants {
+                if variant.range == Range::Greatest {
+                    assert_eq!(variant.interval, Some(why), "{} {label}", variant.name);
+                    greatest.insert(&variant.name);
+                }
+            }
+        }
+        let found: Vec<&str> = greatest.into_iter().collect();
+        assert_eq!(
+            found,
+            ["bias_level", "crosstalk", "greatest_deviation", "linearity"]
+        );
+    }
 }

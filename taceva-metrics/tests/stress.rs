@@ -5,7 +5,8 @@ mod program;
 
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
-use taceva_metrics::kernels::{Contender, SplitMix64, nasty_inputs, shuffled};
+use taceva_core::random::SplitMix64;
+use taceva_metrics::bench::{Contender, nasty_inputs, shuffled};
 use taceva_metrics::{Isa, PairSpec, PairSums, Paired, Stream, Streams};
 
 const PROGRAMS: u64 = 20_000;
@@ -14,10 +15,10 @@ const PROGRAMS: u64 = 20_000;
 fn no_program_of_random_bytes_panics() {
     let mut done = [0; 3];
     for seed in 0..PROGRAMS {
-        let mut random = SplitMix64(seed);
+        let mut random = SplitMix64::new(seed);
         let length = random.below(200);
         let bytes: Vec<u8> = (0..length)
-            .map(|_| random.word().to_le_bytes()[0])
+            .map(|_| random.next_u64().to_le_bytes()[0])
             .collect();
         let counts = program::run(&bytes);
         done.iter_mut()

@@ -43,7 +43,7 @@ fn number(value: &Value) -> f64 {
 
 /// The repeats of the recipe; those that it drops are presses of which the prediction is no number.
 fn repeats(params: &Value) -> Vec<Sample> {
-    let mut random = Random(whole(&params["seed"]));
+    let mut random = Random::new(whole(&params["seed"]));
     let count = |key: &str| u32::try_from(whole(&params[key])).expect("a small count");
     let [z0, dz, sd] = ["z0", "dz", "sd"].map(|key| real(&params[key]));
     let mut samples = Vec::new();

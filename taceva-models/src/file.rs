@@ -2,7 +2,6 @@
 
 mod bytes;
 mod disk;
-pub(crate) mod durable;
 mod error;
 mod read;
 mod seal;

@@ -8,7 +8,6 @@ mod file;
 mod linalg;
 mod model;
 mod models;
-mod random;
 mod registry;
 mod settings;
 mod split;

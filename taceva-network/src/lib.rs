@@ -15,7 +15,6 @@ mod optimizer;
 mod panel;
 mod planes;
 mod predictor;
-mod random;
 mod schedule;
 mod scratch;
 mod simd;

@@ -15,10 +15,10 @@ use crate::head::Head;
 use crate::machine::Machine;
 use crate::normed::{Back, Normed};
 use crate::planes::Planes;
-use crate::random::Draws;
 use crate::scratch::Scratch;
 use crate::stage::{Stage, StageSpace, Standing};
 use crate::update::Update;
+use taceva_core::random::Draws;
 
 /// The weights of an architecture, with the running moments of its normalisations.
 #[derive(Clone, Debug)]

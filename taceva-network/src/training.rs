@@ -24,7 +24,7 @@ use serde::{Deserialize, Serialize};
 use crate::architecture::Architecture;
 use crate::error::{NetworkError, Part};
 use crate::network::Network;
-use crate::random::Draws;
+use taceva_core::random::Draws;
 
 /// A training that goes on.
 ///

@@ -1,8 +1,9 @@
 //! Numbers drawn by counter: each is a function of the seed, what it is for, and its place, never of what was drawn before.
 
+use taceva_core::random::{STEP, mix};
 use taceva_core::{Footprint, Nanometre};
 
-use crate::digest::fnv_1a;
+use crate::content_id::fnv_1a;
 
 /// A source of numbers for one purpose.
 #[derive(Clone, Copy, Debug)]
@@ -17,13 +18,13 @@ impl Draws {
     /// The numbers that `seed` gives for `purpose`.
     pub(crate) fn new(seed: u64, purpose: &str) -> Draws {
         Draws {
-            key: mixed(seed ^ fnv_1a(purpose.as_bytes())),
+            key: mix(seed ^ fnv_1a(purpose.as_bytes())),
         }
     }
 
     /// 64 random bits at `place`.
     pub(crate) fn bits(self, place: [u64; 2]) -> u64 {
-        mixed(mixed(self.key ^ place[0].wrapping_mul(GOLDEN)) ^ place[1].wrapping_mul(GOLDEN))
+        mix(mix(self.key ^ place[0].wrapping_mul(STEP)) ^ place[1].wrapping_mul(STEP))
     }
 
     /// A whole number from `least` to `greatest`, both included.
@@ -47,29 +48,14 @@ impl Draws {
     }
 }
 
-/// 2⁶⁴ over the golden ratio: neighbouring counters become distant words.
-const GOLDEN: u64 = 0x9e37_79b9_7f4a_7c15;
-
-/// The finalizer of SplitMix64 (Steele, Lea and Flood, 2014): every bit in changes half the bits out.
-fn mixed(word: u64) -> u64 {
-    let word = word.wrapping_add(GOLDEN);
-    let word = (word ^ (word >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-    let word = (word ^ (word >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-    word ^ (word >> 31)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
-    fn the_first_words_are_those_of_splitmix64() {
-        // Reference output of SplitMix64 from the state 1234567.
-        assert_eq!(mixed(1_234_567), 6_457_827_717_110_365_317);
-        assert_eq!(
-            mixed(1_234_567_u64.wrapping_add(GOLDEN)),
-            3_203_168_211_198_807_973
-        );
+    fn numbers_keep_their_values() {
+        let draws = Draws::new(7, "spatial");
+        assert_eq!(draws.bits([3, 4]), 6_457_705_831_062_634_958);
     }
 
     #[test]

@@ -1,4 +1,4 @@
-//! The limits of a rig: the tightest that anybody states. Nothing switches them off, nothing loosens them.
+//! The limits of a rig: the tightest that scene, study or device states. They cannot be switched off or loosened.
 
 use taceva_core::{DriverSource, Millimetre, Newton, Wrench};
 
@@ -10,7 +10,7 @@ use crate::source::RigInfo;
 /// # Units
 /// mm, N and mm/s.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
-pub struct Limits {
+pub struct RigLimits {
     /// The deepest indentation, from the first contact.
     pub depth_max: Millimetre,
     /// The greatest normal force.
@@ -72,7 +72,7 @@ impl Overshoot {
     }
 }
 
-impl Limits {
+impl RigLimits {
     /// Whether a tip may rest at this depth under this force.
     pub(crate) fn hold(&self, depth_mm: f64, wrench: &Wrench) -> bool {
         let [x, y, z] = wrench.force.map(|force| force.0);
@@ -89,7 +89,7 @@ struct Stated {
 }
 
 /// The limits of `study` on `rig`.
-pub(crate) fn limits(scene: &Scene, study: &Study, rig: &RigInfo) -> Result<Limits, SceneError> {
+pub(crate) fn limits(scene: &Scene, study: &Study, rig: &RigInfo) -> Result<RigLimits, SceneError> {
     let LimitSpec {
         depth_max_mm,
         normal_max_n,
@@ -136,7 +136,7 @@ pub(crate) fn limits(scene: &Scene, study: &Study, rig: &RigInfo) -> Result<Limi
         .iter()
         .filter_map(|device| device.as_ref())
         .all(|device| device.source() == DriverSource::Simulated);
-    Ok(Limits {
+    Ok(RigLimits {
         depth_max: Millimetre(depth_max.limit),
         normal_max: Newton(normal_max.limit),
         shear_max: Newton(shear_max.map_or(normal_max.limit, |stated| stated.limit)),

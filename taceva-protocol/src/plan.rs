@@ -1,23 +1,23 @@
 //! From what is wanted to what is done: pure passes that remove and merge, never add, and leave a reason each time.
 //!
-//! `supply → applicability → phases → share → fields → check → cost`, one pass a file.
+//! `collect → resolve → applicability → phases → merge → fields → check → cost`, one pass a file.
 
 mod applicability;
 mod check;
+mod collect;
 mod cost;
-mod draft;
 mod explain;
 mod facts;
 mod fields;
+mod merge;
 mod phases;
 mod reason;
-mod share;
-mod supply;
+mod resolve;
 #[cfg(test)]
 pub(crate) mod tests;
 
+pub use collect::{Fit, PlannedMetric, PlannedPress};
 pub use cost::Cost;
-pub use draft::{Fit, PlannedMetric, PlannedPress};
 pub use reason::{Cause, PlanReason, PlanSkip, Subject};
 
 use taceva_core::{
@@ -25,13 +25,13 @@ use taceva_core::{
 };
 use taceva_metrics::{SensorFacts, catalogue};
 
-use crate::digest::{Digest, Hasher};
-use crate::limits::Limits;
+use crate::content_id::{ContentId, Hasher};
+use crate::limits::RigLimits;
 use crate::phase::PhaseKind;
 use crate::scene::{Contact, Scene, SceneError, SceneProblem, Study};
 use crate::source::SourceInfo;
-use draft::Draft;
-pub(crate) use draft::{MetricNeeds, SURFACE};
+use collect::Collected;
+pub(crate) use collect::{MetricNeeds, SURFACE};
 use facts::{Gather, StudyFacts};
 
 /// What is done for one sensor, what is not, and why. [`Display`](std::fmt::Display) explains it.
@@ -58,7 +58,7 @@ pub struct Plan {
     /// What is left out, and why.
     pub skipped: Vec<PlanSkip>,
     /// The limits of every motion; absent where nothing moves.
-    pub limits: Option<Limits>,
+    pub limits: Option<RigLimits>,
     /// How contact is searched for and held.
     pub contact: Contact,
     /// Where the sensor senses.
@@ -75,7 +75,7 @@ impl Plan {
     /// The name of what is acquired: a recording begun under another digest is not continued.
     ///
     /// Metrics are not in it, so that a finished acquisition serves a scene that wants fewer of them from the same presses.
-    pub fn digest(&self) -> Digest {
+    pub fn digest(&self) -> ContentId {
         let contact = &self.contact;
         let hasher = Hasher::new("taceva.plan/1")
             .number(contact.step_mm.value)
@@ -103,7 +103,7 @@ impl Plan {
         Channels::new(channels).unwrap_or_default()
     }
 
-    /// What metrics are told of the sensor; the scene of light that others are compared with is that of calibration.
+    /// The facts of the sensor that metrics read; the scene of light that others are compared with is that of calibration.
     pub fn sensor_facts(&self) -> SensorFacts {
         let depth_max_mm = self.limits.as_ref().map(|limits| limits.depth_max.0);
         let footprint = self
@@ -174,21 +174,21 @@ pub(crate) fn plan_study(
         lights: &lights,
     };
     let facts = gather.facts()?;
-    let draft = check::is_drawable(&facts)
-        .and_then(|()| refine(Draft::everything(needs, &facts), &facts))
+    let collected = check::is_drawable(&facts)
+        .and_then(|()| refine(Collected::everything(needs, &facts), &facts))
         .map_err(|problem| scene.text.error(None, problem))?;
-    let cost = cost::cost(&draft.presses, &facts);
+    let cost = cost::cost(&collected.presses, &facts);
     Ok(Plan {
         name: study.name.clone(),
-        metrics: draft.metrics,
-        phases: draft.phases,
-        presses: draft.presses,
-        fits: draft.fits,
-        fields: draft.fields,
-        channels: draft.channels,
+        metrics: collected.metrics,
+        phases: collected.phases,
+        presses: collected.presses,
+        fits: collected.fits,
+        fields: collected.fields,
+        channels: collected.channels,
         units: units.clone(),
         lights: lights.clone(),
-        skipped: draft.skipped,
+        skipped: collected.skipped,
         limits: facts.limits,
         contact: scene.protocol.contact.clone(),
         footprint: facts.footprint,
@@ -199,13 +199,13 @@ pub(crate) fn plan_study(
 }
 
 /// All passes, in order.
-fn refine(draft: Draft, facts: &StudyFacts<'_>) -> Result<Draft, SceneProblem> {
-    let draft = supply::pass(draft, facts);
-    let draft = applicability::pass(draft, facts);
-    let draft = phases::pass(draft, facts);
-    let draft = share::pass(draft, facts);
-    let draft = fields::pass(draft, facts);
-    check::pass(draft, facts)
+fn refine(collected: Collected, facts: &StudyFacts<'_>) -> Result<Collected, SceneProblem> {
+    let collected = resolve::pass(collected, facts);
+    let collected = applicability::pass(collected, facts);
+    let collected = phases::pass(collected, facts);
+    let collected = merge::pass(collected, facts);
+    let collected = fields::pass(collected, facts);
+    check::pass(collected, facts)
 }
 
 /// Refuses a metric that somebody named by itself and that no study can give.

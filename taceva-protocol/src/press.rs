@@ -2,7 +2,7 @@
 
 use taceva_core::{Nanometre, Phase, Specimen};
 
-use crate::digest::{Digest, Hasher};
+use crate::content_id::{ContentId, Hasher};
 
 /// One approach, what is done in contact, and the retreat.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -33,13 +33,13 @@ pub enum Motion {
     },
     /// The first contact alone: how high the surface is.
     Touch,
-    /// First contact, then these stations in order.
-    Indent(Vec<Station>),
+    /// First contact, then these waypoints in order.
+    Indent(Vec<Waypoint>),
 }
 
 /// A place of the tip at which it rests and a sample is taken, seen from the first contact.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Station {
+pub struct Waypoint {
     /// How deep, from the first contact.
     pub depth: Nanometre,
     /// How far along x and y, from the place of the press.
@@ -50,7 +50,7 @@ pub struct Station {
 
 impl Press {
     /// Its name; equal presses have equal names.
-    pub fn id(&self) -> Digest {
+    pub fn id(&self) -> ContentId {
         let hasher = Hasher::new("taceva.press/1")
             .text(&self.unit)
             .text(self.light.as_deref().unwrap_or_default());
@@ -66,14 +66,14 @@ impl Press {
         match &self.motion {
             Motion::Rest { frames } => hasher.text("rest").whole(i64::from(*frames)),
             Motion::Touch => hasher.text("touch"),
-            Motion::Indent(stations) => {
-                let start = hasher.text("indent").count(stations.len());
-                stations.iter().fold(start, |hasher, station| {
+            Motion::Indent(waypoints) => {
+                let start = hasher.text("indent").count(waypoints.len());
+                waypoints.iter().fold(start, |hasher, waypoint| {
                     hasher
-                        .whole(station.depth.0)
-                        .whole(station.shear[0].0)
-                        .whole(station.shear[1].0)
-                        .text(station.phase.name())
+                        .whole(waypoint.depth.0)
+                        .whole(waypoint.shear[0].0)
+                        .whole(waypoint.shear[1].0)
+                        .text(waypoint.phase.name())
                 })
             }
         }
@@ -96,14 +96,14 @@ impl Press {
         match &self.motion {
             Motion::Rest { frames } => usize::try_from(*frames).unwrap_or(usize::MAX),
             Motion::Touch => 1,
-            Motion::Indent(stations) => stations.len(),
+            Motion::Indent(waypoints) => waypoints.len(),
         }
     }
 
-    /// Its stations; none unless it indents.
-    pub fn stations(&self) -> &[Station] {
+    /// Its waypoints; none unless it indents.
+    pub fn waypoints(&self) -> &[Waypoint] {
         match &self.motion {
-            Motion::Indent(stations) => stations,
+            Motion::Indent(waypoints) => waypoints,
             Motion::Rest { .. } | Motion::Touch => &[],
         }
     }
@@ -123,7 +123,7 @@ mod tests {
             place: [Nanometre(1_500_000), Nanometre(-250_000)],
             turn_millidegrees: 0,
             repeat: None,
-            motion: Motion::Indent(vec![Station {
+            motion: Motion::Indent(vec![Waypoint {
                 depth: Nanometre(100_000),
                 shear: [Nanometre(0); 2],
                 phase: Phase::Load,
@@ -153,7 +153,7 @@ mod tests {
             |press| press.motion = Motion::Touch,
             |press| press.motion = Motion::Rest { frames: 1 },
         ];
-        let mut ids: Vec<Digest> = changes
+        let mut ids: Vec<ContentId> = changes
             .iter()
             .map(|change| {
                 let mut changed = press();

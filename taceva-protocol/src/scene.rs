@@ -2,17 +2,19 @@
 
 mod builtin;
 mod check;
+mod classifier;
 mod counts;
 mod devices;
 mod error;
 mod limits;
 mod metrics;
 mod parse;
+mod renamed;
 mod setting;
 mod study;
-mod teller;
 
 pub use builtin::BuiltinScene;
+pub use classifier::GratingClassifier;
 pub use counts::{
     Calibration, Contact, Gratings, Hysteresis, Idle, LightSweep, Protocol, Repeatability, Spatial,
     SurfaceMap,
@@ -24,7 +26,6 @@ pub use metrics::{MetricSettings, MetricsSpec, ReportSpec};
 pub use parse::GREATEST_SCENE;
 pub use setting::Setting;
 pub use study::Study;
-pub use teller::GratingTeller;
 
 pub(crate) use parse::Text;
 
@@ -59,6 +60,8 @@ pub struct Scene {
     pub protocol: Protocol,
     /// How results are written.
     pub report: ReportSpec,
+    /// What its author should know: keys that have another name now.
+    pub notes: Vec<String>,
     pub(crate) text: Text,
 }
 

@@ -15,7 +15,7 @@ mod devices;
 mod disk;
 mod fault;
 mod journal;
-mod judge;
+mod oracle;
 mod record;
 mod scenario;
 #[cfg(test)]
@@ -23,5 +23,5 @@ mod tests;
 mod world;
 
 pub use fault::{FaultCounts, FaultKind};
-pub use judge::{Checks, HALT_WITHIN_S, Violation};
+pub use oracle::{Checks, HALT_WITHIN_S, Violation};
 pub use scenario::{SimulationReport, simulate};

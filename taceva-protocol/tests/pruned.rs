@@ -1,5 +1,6 @@
 //! A plan of fewer metrics leaves out presses, fields and channels, and changes no bit of the metrics that it keeps.
 
+use taceva_core::random::finalise;
 use taceva_core::{
     Axes, Descriptor, DescriptorSpec, DriverKey, DriverSource, Facts, Footprint, ForceFacts,
     FrameInfo, GratingKind, Hertz, LightingFacts, Nanometre, Newton, PixelFormat, Readings,
@@ -72,18 +73,11 @@ fn planned(want: &[&str]) -> Plan {
     plan(&scene, |_| source.clone()).expect("a plan").remove(0)
 }
 
-/// The finalizer of SplitMix64: 64 bits that are a function of `word` alone.
-fn mixed(word: u64) -> u64 {
-    let word = (word ^ (word >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-    let word = (word ^ (word >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-    word ^ (word >> 31)
-}
-
 /// A simulated error from −1 to 1, a function of the press, the sample and what it is for.
 fn error(planned: &PlannedPress, number: u32, purpose: u64) -> f64 {
     let id = planned.id.to_string();
     let press = u64::from_str_radix(&id[..16], 16).expect("hexadecimal");
-    let bits = mixed(press ^ mixed(u64::from(number) << 8 | purpose));
+    let bits = finalise(press ^ finalise(u64::from(number) << 8 | purpose));
     f64::from(u32::try_from(bits >> 32).expect("32 bits")) / f64::from(1_u32 << 31) - 1.0
 }
 
@@ -92,16 +86,16 @@ fn samples(plan: &Plan, planned: &PlannedPress) -> Vec<Sample> {
     let press = &planned.press;
     let count = u32::try_from(press.samples()).expect("few");
     let sample = |number: u32| {
-        let station = press.stations().get(usize::try_from(number).expect("few"));
-        let depth = station.map_or(0.0, |station| station.depth.to_millimetres());
-        let shear = station.map_or([0.0; 2], |station| {
-            station.shear.map(Nanometre::to_millimetres)
+        let waypoint = press.waypoints().get(usize::try_from(number).expect("few"));
+        let depth = waypoint.map_or(0.0, |waypoint| waypoint.depth.to_millimetres());
+        let shear = waypoint.map_or([0.0; 2], |waypoint| {
+            waypoint.shear.map(Nanometre::to_millimetres)
         });
         let [x, y] = press.place.map(Nanometre::to_millimetres);
         let value = |name: &str| match name {
             "Px" => Some(x + shear[0]),
             "Py" => Some(y + shear[1]),
-            "Pz" => station.map(|_| depth + 0.002 * error(planned, number, 1)),
+            "Pz" => waypoint.map(|_| depth + 0.002 * error(planned, number, 1)),
             "Fx" => Some(0.6 * shear[0] + 0.004 * error(planned, number, 2)),
             "Fy" => Some(0.6 * shear[1] + 0.004 * error(planned, number, 3)),
             "Fz" => Some(1.4 * depth + 0.004 * error(planned, number, 4)),
@@ -123,9 +117,9 @@ fn samples(plan: &Plan, planned: &PlannedPress) -> Vec<Sample> {
             unit_id: Some(press.unit.clone()),
             scene_id: press.light.clone(),
             point_id: Some(press.point_id()),
-            depth_step: station.map(|_| number),
+            depth_step: waypoint.map(|_| number),
             repeat: press.repeat,
-            phase: station.map(|station| station.phase),
+            phase: waypoint.map(|waypoint| waypoint.phase),
             stamp: Some(Stamp {
                 valid_s: 0.04 * moment,
                 received_s: None,
@@ -178,7 +172,7 @@ fn evaluate_of_pruned_equals_evaluate_of_everything() {
     let ids: Vec<&str> = catalogue::ALL.iter().map(|metric| metric.id).collect();
     assert_eq!(everything.metrics.len(), ids.len(), "{everything}");
     let alone = (0..ids.len()).map(|metric| 1_u64 << metric);
-    let drawn = (1..=40).map(|seed| mixed(seed) & mixed(seed << 32));
+    let drawn = (1..=40).map(|seed| finalise(seed) & finalise(seed << 32));
     let (mut compared, mut fewer_fields, mut fewer_presses) = (0, 0, 0);
     for subset in alone.chain(drawn) {
         let is_wanted = |(place, _): &(usize, &&str)| subset >> place & 1 == 1;

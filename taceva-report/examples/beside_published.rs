@@ -14,7 +14,7 @@ use std::error::Error;
 use std::io::Write as _;
 
 use taceva_metrics::Better;
-use taceva_report::{Listing, Printed, Study, catalogue};
+use taceva_report::{Printed, Study, Table, catalogue};
 
 const METRICS: [&str; 3] = ["mae", "r2", "smape"];
 const CHANNELS: [&str; 4] = ["Pxy", "Pz", "Fxy", "Fz"];
@@ -72,8 +72,8 @@ fn tables(texts: &[(String, String)]) -> Result<String, String> {
     if !sensors.iter().all(|other| other.keys().eq(first.keys())) {
         return Err("every seed needs results of the same sensors".to_owned());
     }
-    let listings = METRICS.map(|metric| listing(metric, &seeds));
-    Ok(listings.map(|listing| listing.markdown()).join("\n"))
+    let tables = METRICS.map(|metric| table(metric, &seeds));
+    Ok(tables.map(|table| table.markdown()).join("\n"))
 }
 
 fn seed(study: &Study) -> Option<u64> {
@@ -83,12 +83,12 @@ fn seed(study: &Study) -> Option<u64> {
 }
 
 /// The table of one metric, a row a channel.
-fn listing(metric: &str, seeds: &Seeds) -> Listing {
+fn table(metric: &str, seeds: &Seeds) -> Table {
     let names: Vec<&str> = seeds.values().next().map_or_else(Vec::new, |studies| {
         studies.keys().map(String::as_str).collect()
     });
     let head = [&[metric], &names[..], &["τ"]].concat();
-    let mut listing = Listing::new(metric, &head);
+    let mut table = Table::new(metric, head);
     let mut good = [0, 0];
     for channel in CHANNELS {
         let number = |name: &str, study: &Study| number(name, study, metric, channel);
@@ -117,14 +117,14 @@ fn listing(metric: &str, seeds: &Seeds) -> Listing {
         });
         let taus: Option<Vec<f64>> = taus.collect();
         cells.push(taus.map_or_else(|| "–".to_owned(), |taus| spread(&taus, TAU)));
-        listing.rows.push(cells);
+        table.push(cells);
     }
     let count = seeds.len();
-    listing.notes.push(format!(
+    table.note(format!(
         "{} of {} at least as good as published, mean of {count} seeds",
         good[0], good[1]
     ));
-    listing
+    table
 }
 
 fn better(metric: &str) -> Better {

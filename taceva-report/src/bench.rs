@@ -2,70 +2,57 @@
 
 use taceva_metrics::Better;
 
-use crate::listing::{Directions, Listing};
 use crate::number::{Printed, numeral};
 use crate::results::{DecodeBench, DecodeRow, ModelBench, ModelRow, ScaledError};
+use crate::table::{Column, Direction, Table};
 
 impl ModelBench {
     /// A row a model: what it takes, and the error of each channel with its interval.
-    pub fn listing(&self) -> Listing {
+    pub fn table(&self) -> Table {
+        // Times and errors alike: less is better.
+        let lower = |name: String| Column::new(name).direction(Direction::Is(Better::Lower));
         let channels = self.channels();
-        let mut head = [
-            "model",
-            "fit (s)",
-            "fit (processor s)",
-            "predict (s)",
-            "a frame (ms)",
-        ]
-        .map(str::to_owned)
-        .to_vec();
-        let unit = |channel: &&str| {
+        let mut columns = vec![Column::new("model")];
+        for (name, unit) in [
+            ("fit", "s"),
+            ("fit", "processor s"),
+            ("predict", "s"),
+            ("a frame", "ms"),
+        ] {
+            columns.push(lower(name.to_owned()).unit(unit));
+        }
+        columns.extend(channels.iter().map(|channel| {
             let mut errors = self.rows.iter().filter_map(|row| row.error(channel));
-            errors
-                .next()
-                .map_or_else(String::new, |error| format!(" ({})", error.unit))
-        };
-        head.extend(
-            channels
-                .iter()
-                .map(|channel| format!("MAE {channel}{}", unit(channel))),
-        );
+            Column {
+                unit: errors.next().map(|error| error.unit.to_string()),
+                ..lower(format!("MAE {channel}"))
+            }
+        }));
         let recording = &self.recording;
-        // Times and errors alike: less is better of all but the name and the last.
-        let lower = Some(Better::Lower);
-        let numbers = head.iter().skip(1).map(|_| lower);
-        let directions = std::iter::once(None).chain(numbers).chain([None]);
-        let directions = directions.collect();
-        head.push("front of".to_owned());
-        let mut listing = Listing {
-            directions: Directions::Columns(directions),
-            caption: format!("Models on {}, {}", recording.name, recording.sensor),
-            head,
-            rows: self.rows.iter().map(|row| row.cells(&channels)).collect(),
-            notes: Vec::new(),
-        };
+        columns.push(Column::new("front of"));
+        let caption = format!("Models on {}, {}", recording.name, recording.sensor);
+        let mut table = Table::new(caption, columns);
+        for row in &self.rows {
+            table.push(row.cells(&channels));
+        }
         if self.is_simulated() {
             let source = &recording.source;
-            listing.notes.push(format!(
+            table.note(format!(
                 "Nothing here was measured: the samples are {source}."
             ));
         }
-        listing.notes.push(format!(
+        table.note(format!(
             "Fitted on {} samples, scored on {}, split {}; {}, {} of {} cores. Intervals of 95 % by contact point.",
             recording.train, recording.test, recording.split, self.machine.cpu, self.machine.threads, self.machine.cores
         ));
-        listing.notes.push(
-            "front of: channels on which no model takes less processor time to fit without being shown, pair by pair, to be further off."
-                .to_owned(),
+        table.note(
+            "front of: channels on which no model takes less processor time to fit without being shown, pair by pair, to be further off.",
         );
-        let failed = self
-            .rows
-            .iter()
-            .filter_map(|row| Some((&row.model, row.failed.as_ref()?)));
-        listing
-            .notes
-            .extend(failed.map(|(model, why)| format!("{model}: {why}")));
-        listing
+        let rows = self.rows.iter();
+        for (model, why) in rows.filter_map(|row| Some((&row.model, row.failed.as_ref()?))) {
+            table.note(format!("{model}: {why}"));
+        }
+        table
     }
 }
 
@@ -98,23 +85,40 @@ impl ModelRow {
 
 impl DecodeBench {
     /// A row a scale: what decoding takes, the error of each channel, and how much more it is than at full size.
-    pub fn listing(&self) -> Listing {
+    pub fn table(&self) -> Table {
         let known = self.rows.iter().map(|row| &row.errors);
         let known: &[ScaledError] = known
             .max_by_key(|errors| errors.len())
             .map_or(&[], |all| all);
-        let mut head = ["scale", "pixels", "decode (ms)"]
-            .map(str::to_owned)
-            .to_vec();
-        let lower = Some(Better::Lower);
-        let mut directions = vec![None, None, lower];
+        let lower = |name: String, unit: String| {
+            let column = Column::new(name).unit(unit);
+            column.direction(Direction::Is(Better::Lower))
+        };
+        let mut columns = vec![Column::new("scale"), Column::new("pixels")];
+        columns.push(lower("decode".to_owned(), "ms".to_owned()));
         for own in known {
             let error = &own.error;
-            directions.extend([lower; 2]);
-            head.push(format!("MAE {} ({})", error.channel, error.unit));
-            head.push(format!("change of {} ({})", error.channel, error.unit));
+            let unit = error.unit.to_string();
+            columns.push(lower(format!("MAE {}", error.channel), unit.clone()));
+            columns.push(lower(format!("change of {}", error.channel), unit));
         }
+        let recording = &self.recording;
+        let caption = format!(
+            "JPEG decoded at a fraction of its size: {}, {}",
+            recording.name, recording.sensor
+        );
+        let mut table = Table::new(caption, columns);
         let channels: Vec<&str> = known.iter().map(|own| own.error.channel.as_str()).collect();
+        for row in &self.rows {
+            table.push(row.cells(&channels));
+        }
+        for note in self.notes() {
+            table.note(note);
+        }
+        table
+    }
+
+    fn notes(&self) -> Vec<String> {
         let recording = &self.recording;
         let model = format!("{} {}", self.model, self.settings);
         let mut notes = Vec::new();
@@ -132,16 +136,7 @@ impl DecodeBench {
         let failed = self.rows.iter();
         let failed = failed.filter_map(|row| Some((row.scale(), row.failed.as_ref()?)));
         notes.extend(failed.map(|(scale, why)| format!("{scale}: {why}")));
-        Listing {
-            caption: format!(
-                "JPEG decoded at a fraction of its size: {}, {}",
-                recording.name, recording.sensor
-            ),
-            head,
-            rows: self.rows.iter().map(|row| row.cells(&channels)).collect(),
-            notes,
-            directions: Directions::Columns(directions),
-        }
+        notes
     }
 }
 

@@ -33,7 +33,7 @@ pub(crate) use triple::cards as triples;
 use crate::escape::html;
 use crate::figures::figures as all_figures;
 use crate::results::Study;
-use crate::table::ScoreTable;
+use crate::scores::ScoreTable;
 
 /// What a report shows.
 #[derive(Clone, Copy, Debug)]

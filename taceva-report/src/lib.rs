@@ -11,10 +11,11 @@ mod figures;
 mod html;
 mod json;
 mod light;
-mod listing;
 mod number;
 mod results;
 mod samples;
+mod scores;
+mod short_digests;
 mod spread;
 mod table;
 mod tie;
@@ -36,7 +37,6 @@ pub use escape::{
 pub use figure::{DARK, Figure, LIGHT, SERIES, STYLE};
 pub use figures::{Contender, Race, decode_bench, figures, model_bench, names, race};
 pub use html::{Document, Pick, Picture, Report, Triple, picks, report};
-pub use listing::{Directions, Listing};
 pub use number::{Printed, spaced, with_interval};
 pub use results::{
     BENCH_SCHEMA, BenchMachine, BenchRecording, ChannelError, DecodeBench, DecodeRow,
@@ -44,8 +44,9 @@ pub use results::{
     ScaledError, Score, SeedScore, Skip, Study, Value, Variant,
 };
 pub use samples::{SampleChannel, Samples, SamplesError};
+pub use scores::{ScoreCell, ScoreRow, ScoreTable};
+pub use short_digests::short_digests;
 pub use table::{
-    ScoreCell, ScoreRow, ScoreTable, csv, latex, latex_column, latex_directed, latex_number,
-    latex_symbol, markdown,
+    Align, Cell, Column, Direction, Estimate, Layout, Row, Table, Words, latex_number, latex_symbol,
 };
 pub use tie::ties;

@@ -252,10 +252,10 @@ fn long_names_are_cut_on_the_first_screen_and_wrapped_below_it() {
 #[test]
 fn a_row_has_both_scores_their_difference_and_the_answer() {
     let comparison = of_metric(&errors(&[("one", 0.25), ("two", 0.75)]), "mae");
-    let listing = comparison.listing();
-    assert_eq!(listing.rows.len(), 1);
-    let row = &listing.rows[0];
-    assert_eq!(row.len(), listing.head.len());
+    let table = comparison.table();
+    assert_eq!(table.rows.len(), 1);
+    let row = table.rows[0].plain();
+    assert_eq!(row.len(), table.columns.len());
     assert_eq!(
         row[..7],
         ["mae", "Fz", "one", "two", "0.25", "0.75", "−0.5"]

@@ -7,7 +7,7 @@ mod support;
 use std::path::Path;
 
 use support::drawn;
-use taceva_report::{ScoreTable, Study, figures, latex, markdown};
+use taceva_report::{Layout, ScoreTable, Study, figures};
 
 /// How far numbers may lie apart: other machines round the last place of a sine otherwise.
 const NEAR: f64 = 0.11;
@@ -28,8 +28,9 @@ fn figures_are_as_they_were() {
 #[test]
 fn tables_are_as_they_were() {
     let table = ScoreTable::of(&studies()).headlines();
-    hold("scores.tex", &latex(&table, "Drawn, 5 % & more"));
-    hold("scores.md", &markdown(&table));
+    let papers = table.for_papers("Drawn, 5 % & more");
+    hold("scores.tex", &papers.latex(Layout::Float));
+    hold("scores.md", &table.for_pages().markdown());
 }
 
 fn hold(name: &str, found: &str) {

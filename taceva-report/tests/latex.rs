@@ -8,8 +8,8 @@ use latex::{assert_compiles, assert_fits_a_column};
 use support::drawn;
 use taceva_core::Unit;
 use taceva_report::{
-    Acceptance, BenchMachine, BenchRecording, ChannelError, CompareRequest, LimitsFile, ModelBench,
-    ModelRow, Need, ScoreTable, Study, accept, catalogue, choose, compare,
+    Acceptance, BenchMachine, BenchRecording, ChannelError, CompareRequest, Layout, LimitsFile,
+    ModelBench, ModelRow, Need, ScoreTable, Study, accept, catalogue, choose, compare,
 };
 
 /// A name of everything that LaTeX reads specially, and of what our own words hold.
@@ -23,17 +23,19 @@ fn studies() -> [Study; 2] {
 #[test]
 fn scores_compile() {
     let table = ScoreTable::of(&studies());
-    assert_compiles("scores", &taceva_report::latex(&table, NAME));
+    assert_compiles("scores", &table.for_papers(NAME).latex(Layout::Float));
     assert_compiles(
         "headlines",
-        &taceva_report::latex(&table.headlines(), "Drawn"),
+        &table.headlines().for_papers("Drawn").latex(Layout::Float),
     );
 }
 
 #[test]
 fn the_main_scores_fit_a_column() {
     let four = ["ViTacTip", "MagicTac", "GelSight", "GelSightWM"].map(|name| drawn(name, 60, 1.0));
-    let table = taceva_report::latex_column(&ScoreTable::of(&four), "Drawn");
+    let table = ScoreTable::of(&four)
+        .for_column("Drawn")
+        .latex(Layout::Column);
     for part in [
         "MAE $F_{xy}$ (N) $\\downarrow$",
         "$R^2$ $P_{z}$ $\\uparrow$",
@@ -42,7 +44,9 @@ fn the_main_scores_fit_a_column() {
         assert!(table.contains(part), "{part}: {table}");
     }
     assert_fits_a_column("main scores", &table);
-    let odd = taceva_report::latex_column(&ScoreTable::of(&studies()), NAME);
+    let odd = ScoreTable::of(&studies())
+        .for_column(NAME)
+        .latex(Layout::Column);
     assert_compiles("main scores of odd names", &odd);
 }
 
@@ -51,11 +55,11 @@ fn comparisons_compile() {
     let comparison = compare(&studies(), &CompareRequest::default());
     assert!(comparison.answers.len() > 10);
     // A page of paper has an end; the table of every answer goes over several.
-    let listing = comparison.listing();
-    for rows in listing.rows.chunks(30) {
-        let mut part = listing.clone();
+    let all = comparison.table();
+    for rows in all.rows.chunks(30) {
+        let mut part = all.clone();
         part.rows = rows.to_vec();
-        assert_compiles("comparison", &part.latex());
+        assert_compiles("comparison", &part.latex(Layout::Float));
     }
 }
 
@@ -63,12 +67,12 @@ fn comparisons_compile() {
 fn choices_and_the_catalogue_compile() {
     let needs = Need::parse("accurate shear, ambient light, rate >= 50 Hz").expect("needs");
     let choice = choose(&catalogue::all(), &needs);
-    assert_compiles("choice", &choice.listing().latex());
+    assert_compiles("choice", &choice.table().latex(Layout::Float));
     let all = catalogue::list(&catalogue::all());
-    assert_compiles("catalogue", &all.latex());
+    assert_compiles("catalogue", &all.latex(Layout::Float));
     let mut details = String::new();
     for sensor in catalogue::all() {
-        details += &catalogue::details(&sensor).latex();
+        details += &catalogue::details(&sensor).latex(Layout::Float);
         details += "\\clearpage\n";
     }
     assert_compiles("every sensor of the catalogue", &details);
@@ -89,7 +93,7 @@ fn data_sheets_compile() {
         date: Some("2026-11-22"),
         pictures: None,
     };
-    assert_compiles("acceptance", &acceptance.listing().latex());
+    assert_compiles("acceptance", &acceptance.table().latex(Layout::Float));
 }
 
 #[test]
@@ -109,5 +113,5 @@ fn benchmarks_of_models_compile() {
         }],
         ..ModelRow::default()
     });
-    assert_compiles("models", &bench.listing().latex());
+    assert_compiles("models", &bench.table().latex(Layout::Float));
 }

@@ -6,8 +6,7 @@ use std::time::{Duration, Instant};
 
 use support::drawn;
 use taceva_report::{
-    CompareRequest, Report, ScoreTable, Study, compare, csv, figures, latex, markdown, picks,
-    report,
+    CompareRequest, Layout, Report, ScoreTable, Study, compare, figures, picks, report,
 };
 
 fn page(studies: &[Study]) -> String {
@@ -202,13 +201,18 @@ fn bold_needs_more_than_the_best_value() {
         ScoreTable::of(&studies).headlines()
     };
     // Intervals of ±10 % of 0.1: 0.101 is no different, 0.2 is.
-    assert!(!latex(&table(1.01), "near").contains("textbf"));
-    let far = latex(&table(2.0), "far");
+    assert!(
+        !table(1.01)
+            .for_papers("near")
+            .latex(Layout::Float)
+            .contains("textbf")
+    );
+    let far = table(2.0).for_papers("far").latex(Layout::Float);
     assert!(
         far.contains("\\textbf{0.100}") && far.contains("\\toprule"),
         "{far}"
     );
-    assert!(markdown(&table(2.0)).contains("**0.100**"));
+    assert!(table(2.0).for_pages().markdown().contains("**0.100**"));
 }
 
 #[test]
@@ -234,7 +238,7 @@ fn every_naughty_string_is_only_words() {
         );
         assert_eq!(page.matches("<script").count(), 1, "{text:?}");
         let table = ScoreTable::of(&studies);
-        for line in csv(&table).lines() {
+        for line in table.every_number().csv().lines() {
             assert!(!line.starts_with(['=', '+', '-', '@']), "{text:?}: {line}");
         }
         let comparison = compare(&studies, &CompareRequest::default());

@@ -7,9 +7,9 @@ use taceva_dataset::Dataset;
 use taceva_metrics::{MetricPlan, catalogue};
 use taceva_models::NORMAL_95;
 
+use crate::accumulate::{Columns, accumulate};
 use crate::error::StudyError;
 use crate::predict::Predicted;
-use crate::tally::{Columns, tally};
 
 /// What part of `predicted`, the rows `rows` of `dataset`, lies within 1.96 of its own standard deviations of the truth, channel by channel
 /// with an interval by contact point; `None` of a model that does not know how sure it is.
@@ -55,7 +55,7 @@ pub(crate) fn calibration_note(
         table: dataset.table(),
         rows,
     };
-    let evaluation = tally(&columns, &plan, jobs)?.finish()?;
+    let evaluation = accumulate(&columns, &plan, jobs)?.finish()?;
     let text = |channel: &str| {
         let score = evaluation.score(share.id, channel)?;
         let percent = |value: f64| 100.0 * value.clamp(0.0, 1.0);
@@ -72,7 +72,7 @@ pub(crate) fn calibration_note(
     let shares: Vec<String> = shares.filter_map(|channel| text(channel.name())).collect();
     Ok((!shares.is_empty()).then(|| {
         format!(
-            "within 1.96 predicted standard deviations of the truth lie {}; 95 % do where deviations are rightly told",
+            "within 1.96 predicted standard deviations of the truth lie {}; 95 % would if the deviations were calibrated",
             shares.join(", ")
         )
     }))

@@ -19,7 +19,7 @@ use crate::plan::Plan;
 use crate::predict::{self, Predicted, Target};
 use crate::provenance::{ModelProvenance, Provenance, chosen_notes};
 use crate::report::EvaluationReport;
-use crate::rows::{Divided, Part};
+use crate::rows::{DataPart, Divided};
 use crate::samples::Samples;
 use crate::skill::with_skill;
 use crate::state_file::StateFile;
@@ -37,12 +37,12 @@ pub struct EvaluateRequest {
     /// Metrics and groups by name.
     pub metrics: Vec<String>,
     /// The part that is scored; what the model has not seen, if `None`.
-    pub part: Option<Part>,
+    pub part: Option<DataPart>,
     /// What is known of the sensor beyond the dataset's header.
     pub sensor: Option<SensorFile>,
 }
 
-/// Where the model comes from.
+/// The model: to be fitted, or finished.
 #[derive(Debug)]
 pub enum ModelChoice {
     /// Fitted on the training part first.
@@ -65,7 +65,7 @@ pub struct Evaluated {
 /// Says what [`evaluate`] would do; reads no frame.
 ///
 /// # Errors
-/// [`StudyError`] if the request cannot be meant.
+/// [`StudyError`] if the request is not valid.
 pub fn evaluate_plan(dataset: &Dataset, request: &EvaluateRequest) -> Result<Plan, StudyError> {
     let mut plan = Plan::default();
     let rows = dataset.table().rows();
@@ -117,7 +117,7 @@ pub fn evaluate_plan(dataset: &Dataset, request: &EvaluateRequest) -> Result<Pla
 /// Evaluates `dataset`: fits the model if that was asked for, predicts what it has not seen, and scores.
 ///
 /// # Errors
-/// [`StudyError`] if the request cannot be meant, the model does not fit the dataset, or the dataset cannot be read.
+/// [`StudyError`] if the request is not valid, the model does not fit the dataset, or the dataset cannot be read.
 pub fn evaluate(
     dataset: &Dataset,
     request: &EvaluateRequest,
@@ -233,7 +233,7 @@ pub(crate) fn score(
 }
 
 fn divided_as(divided: &Divided) -> String {
-    let parts = [Part::Train, Part::Validation, Part::Test];
+    let parts = [DataPart::Train, DataPart::Validation, DataPart::Test];
     let counts: Vec<String> = parts
         .iter()
         .map(|part| format!("{} {}", part.name(), divided.rows(*part).len()))
@@ -246,14 +246,14 @@ fn divided_as(divided: &Divided) -> String {
     )
 }
 
-/// That scores are no measure of what a model has not seen.
+/// A note that scores are of samples that the model was fitted on.
 fn seen_note(target: &Target) -> Option<String> {
     let divided = target.divided.as_ref()?;
     let is_seen = match target.part {
-        Part::Train | Part::Validation | Part::All => true,
-        Part::Test => false,
+        DataPart::Train | DataPart::Validation | DataPart::All => true,
+        DataPart::Test => false,
     };
-    (is_seen && !divided.rows(Part::Train).is_empty()).then(|| {
+    (is_seen && !divided.rows(DataPart::Train).is_empty()).then(|| {
         format!(
             "scored on the part `{}`, which the model has seen: this is no test",
             target.part.name()

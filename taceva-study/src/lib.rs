@@ -1,12 +1,13 @@
 #![doc = include_str!("../README.md")]
 
+mod accumulate;
 mod acquire;
 pub mod bench;
 mod bounded;
 mod cache;
 mod calibration;
 pub mod check;
-mod durable;
+mod classifier;
 mod effort;
 mod error;
 mod evaluate;
@@ -29,13 +30,11 @@ mod stage;
 mod state_file;
 mod subject;
 mod taken;
-mod tally;
-mod teller;
 mod work;
 
 pub use acquire::{Surroundings, SurroundingsOf, Upcoming, Workshop};
 pub use cache::{
-    Cache, CacheEntry, Pruning, Stage, StageRecord, cache_entries, pruned, remove_entry,
+    Cache, CacheEntry, CachedStage, Pruning, StageRecord, cache_entries, pruned, remove_entry,
 };
 pub use check::{CheckReport, CheckRequest, Finding, Severity, check, check_plan};
 pub use effort::Effort;
@@ -47,7 +46,7 @@ pub use plan::{Plan, Step};
 pub use predict::{Predicted, predict};
 pub use provenance::{ModelProvenance, Provenance};
 pub use report::{EVALUATION_SCHEMA, EvaluationReport};
-pub use rows::{Divided, Part};
+pub use rows::{DataPart, Divided};
 pub use run::{Existing, RunFolder, run_scene};
 pub use samples::Samples;
 pub use scene::{Instead, PlannedScene, PlannedStudy, SceneText};

@@ -8,7 +8,7 @@ use taceva_dataset::Dataset;
 use taceva_models::{ChosenBy, Model};
 
 use crate::error::StudyError;
-use crate::rows::Part;
+use crate::rows::DataPart;
 
 /// From what, and how, a result was made.
 ///
@@ -61,7 +61,7 @@ pub struct Provenance {
 }
 
 impl Provenance {
-    /// What `dataset` itself tells.
+    /// The provenance of `dataset` itself.
     pub(crate) fn of(dataset: &Dataset) -> Provenance {
         let digest = dataset.digest().to_string();
         let presses = &dataset.header().presses;
@@ -95,7 +95,7 @@ impl Provenance {
 
     /// Whether the model was fitted on some of the samples that were scored, so that its skill on others stays unknown.
     pub(crate) fn is_of_seen_samples(&self) -> bool {
-        let is_test = |part: &str| part == Part::Test.name();
+        let is_test = |part: &str| part == DataPart::Test.name();
         self.split.is_some() && self.part.as_deref().is_some_and(|part| !is_test(part))
     }
 

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use taceva_core::{Channel, Channels, shown};
+use taceva_core::{Channel, Channels, Field, shown};
 use taceva_dataset::{Dataset, Table};
 use taceva_models::{
     Model, Part as SplitPart, Split, SplitInput, SplitKind, SplitManifest, SplitSpec,
@@ -11,9 +11,23 @@ use taceva_models::{
 use crate::error::StudyError;
 use crate::planned_rows::{self, PlannedRows};
 
+/// What a table of samples says beside channels, in its order.
+pub(crate) const BESIDE_CHANNELS: [Field; 10] = [
+    Field::Point,
+    Field::UnitId,
+    Field::Scene,
+    Field::DepthStep,
+    Field::Repeat,
+    Field::Phase,
+    Field::Stamp,
+    Field::Kind,
+    Field::Spacing,
+    Field::Intensity,
+];
+
 /// The part of a dataset that is looked at.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Part {
+pub enum DataPart {
     /// What a model was fitted on.
     Train,
     /// What its settings were chosen on.
@@ -24,14 +38,14 @@ pub enum Part {
     All,
 }
 
-impl Part {
+impl DataPart {
     /// The word used in results.
     pub const fn name(self) -> &'static str {
         match self {
-            Part::Train => "train",
-            Part::Validation => "validation",
-            Part::Test => "test",
-            Part::All => "all",
+            DataPart::Train => "train",
+            DataPart::Validation => "validation",
+            DataPart::Test => "test",
+            DataPart::All => "all",
         }
     }
 }
@@ -154,12 +168,12 @@ impl Divided {
     }
 
     /// The rows of a part, ascending.
-    pub fn rows(&self, part: Part) -> Vec<usize> {
+    pub fn rows(&self, part: DataPart) -> Vec<usize> {
         match part {
-            Part::Train => self.split.rows(SplitPart::Train).to_vec(),
-            Part::Validation => self.split.rows(SplitPart::Validation).to_vec(),
-            Part::Test => self.split.rows(SplitPart::Test).to_vec(),
-            Part::All => {
+            DataPart::Train => self.split.rows(SplitPart::Train).to_vec(),
+            DataPart::Validation => self.split.rows(SplitPart::Validation).to_vec(),
+            DataPart::Test => self.split.rows(SplitPart::Test).to_vec(),
+            DataPart::All => {
                 let split = &self.split;
                 let mut rows = [
                     &split.train[..],
@@ -203,7 +217,7 @@ impl Divided {
 
     /// Samples a part, for provenance.
     pub(crate) fn counts(&self) -> BTreeMap<String, usize> {
-        let parts = [Part::Train, Part::Validation, Part::Test]
+        let parts = [DataPart::Train, DataPart::Validation, DataPart::Test]
             .map(|part| (part.name().to_owned(), self.rows(part).len()));
         let left_out = (!self.split.left_out.is_empty())
             .then(|| ("left_out".to_owned(), self.split.left_out.len()));

@@ -2,26 +2,28 @@
 
 mod instead;
 mod rig;
+mod settings;
 mod text;
 
-use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use serde::ser::{Serialize, SerializeStruct, Serializer};
 use taceva_core::FieldSet;
 use taceva_dataset::{Dataset, Known};
 use taceva_drivers::Drivers;
-use taceva_models::{Models, SettingError, Settings};
+use taceva_models::Models;
 use taceva_protocol::{
-    GratingTeller, Plan, RecordingInfo, Scene, SceneError, SceneProblem, SourceInfo, Study, plan,
+    GratingClassifier, Plan, RecordingInfo, Scene, SceneError, SceneProblem, SourceInfo, Study,
+    plan,
 };
 
+use crate::classifier::SpacingClassifier;
 use crate::error::StudyError;
 use crate::fit::{FitRequest, Recipe};
-use crate::teller::Teller;
 
 pub use instead::Instead;
 pub(crate) use rig::RigSpec;
+pub(crate) use settings::settings_of;
 pub use text::SceneText;
 
 /// A scene with the plan of each of its studies.
@@ -142,16 +144,16 @@ impl PlannedScene {
                     })?;
             }
         }
-        self.teller().map(drop)
+        self.classifier(models).map(drop)
     }
 
-    /// What tells the spacing of gratings.
+    /// The classifier of the spacings of gratings.
     ///
     /// # Errors
-    /// [`StudyError::Scene`] with the line of settings that it does not take.
-    pub(crate) fn teller(&self) -> Result<Teller, StudyError> {
+    /// [`StudyError::Scene`] with the line of settings that it does not take, or of a model that is not there.
+    pub(crate) fn classifier(&self, models: &Models) -> Result<SpacingClassifier, StudyError> {
         let gratings = &self.scene.protocol.gratings;
-        Teller::of(gratings).map_err(|error| {
+        SpacingClassifier::of(gratings, models).map_err(|error| {
             let problem = SceneProblem::Contradiction(error.to_string());
             self.text.error(gratings.set.at(), problem)
         })
@@ -188,22 +190,7 @@ impl PlannedStudy {
     }
 }
 
-/// Settings as a scene writes them, by name.
-///
-/// # Errors
-/// [`SettingError`] for a name that is none.
-pub(crate) fn settings_of(set: &BTreeMap<String, toml::Value>) -> Result<Settings, SettingError> {
-    let words: Vec<String> = set
-        .iter()
-        .map(|(key, value)| match value {
-            toml::Value::String(text) => format!("{key}={text}"),
-            other => format!("{key}={other}"),
-        })
-        .collect();
-    Settings::parse(words.iter().map(String::as_str))
-}
-
-/// What a study is fed from, for the planner and for those who carry the plan out.
+/// The source of the samples of a study, for the planner and for the run.
 struct Source {
     info: SourceInfo,
     source: StudySource,
@@ -264,17 +251,17 @@ impl Serialize for PlannedScene {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let plans: Vec<&Plan> = self.studies.iter().map(|study| &study.plan).collect();
         let gratings = &self.scene.protocol.gratings;
-        let (told_by, set) = (gratings.told_by.value, &gratings.set.value);
-        let is_told_otherwise = told_by != GratingTeller::default();
-        let fields = 4 + 2 * usize::from(is_told_otherwise);
+        let (classified_by, set) = (gratings.classified_by.value, &gratings.set.value);
+        let is_classified_otherwise = classified_by != GratingClassifier::default();
+        let fields = 4 + 2 * usize::from(is_classified_otherwise);
         let mut scene = serializer.serialize_struct("PlannedScene", fields)?;
         scene.serialize_field("schema", "taceva.plans/1")?;
         scene.serialize_field("scene", &self.scene.name)?;
         scene.serialize_field("seed", &self.scene.seed)?;
         scene.serialize_field("studies", &plans)?;
-        // Results depend on it, so that a run with another teller is another run.
-        if is_told_otherwise {
-            scene.serialize_field("gratings_told_by", &told_by)?;
+        // Results depend on it, so that a run with another classifier is another run.
+        if is_classified_otherwise {
+            scene.serialize_field("gratings_classified_by", &classified_by)?;
             scene.serialize_field("gratings_set", set)?;
         }
         scene.end()

@@ -2,17 +2,16 @@
 
 mod fields;
 mod paired_rows;
+mod request;
 mod tables;
 
 use std::collections::BTreeMap;
-use std::num::NonZeroUsize;
-use std::path::PathBuf;
-use taceva_core::shown;
 
-use taceva_core::{Channel, Column, Progress, Unit};
+use taceva_core::{Channel, Column, Progress, shown};
 use taceva_dataset::{CsvTable, SensorFile};
 use taceva_metrics::{MetricPlan, SensorFacts, catalogue};
 
+use crate::accumulate::{self, Rows};
 use crate::bounded::Bounded;
 use crate::error::StudyError;
 use crate::facts;
@@ -24,30 +23,12 @@ use crate::skill::with_skill;
 use crate::state_file::StateFile;
 use crate::subject::Subject;
 use crate::taken::Taken;
-use crate::tally::{self, Rows};
 
 use fields::Place;
 use paired_rows::PairedRows;
 use tables::Pairing;
 
-/// What to score.
-#[derive(Clone, Debug)]
-pub struct ScoreRequest {
-    /// The table of what is true.
-    pub truth: PathBuf,
-    /// The table of what was predicted.
-    pub prediction: PathBuf,
-    /// Units of channels beside the six; those not named have the unit 1.
-    pub units: Vec<(String, Unit)>,
-    /// What is known of the sensor: a file with footprint, greatest depth, opacity.
-    pub sensor: Option<PathBuf>,
-    /// Metrics and groups by name.
-    pub metrics: Vec<String>,
-    /// Whether cells that are no finite number are counted instead of refused.
-    pub allow_invalid: bool,
-    /// Threads.
-    pub jobs: NonZeroUsize,
-}
+pub use request::ScoreRequest;
 
 /// Finished scores of two tables.
 #[derive(Debug)]
@@ -185,7 +166,7 @@ impl Scoring {
 
     fn evaluate(&self) -> Result<Scored, StudyError> {
         let rows = PairedRows::of(self)?;
-        let mut evaluator = tally::tally(&rows, &self.metrics, self.request.jobs)?;
+        let mut evaluator = accumulate::accumulate(&rows, &self.metrics, self.request.jobs)?;
         let provenance = Provenance {
             taceva: env!("CARGO_PKG_VERSION").to_owned(),
             notes: tables::same_bytes_note(&self.digests).into_iter().collect(),

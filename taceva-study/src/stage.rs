@@ -1,18 +1,17 @@
-//! From the recording of a study to its report: fit, predict and score, each on the presses that the plan means for it.
+//! From the recording of a study to its report: fit, predict and score, each on the presses that the plan assigns to it.
 
-mod deal;
+mod context;
 mod gratings;
+mod phase_rows;
 mod score;
-
-use std::path::Path;
 
 use taceva_dataset::Dataset;
 use taceva_metrics::Evaluation;
-use taceva_models::{Checkpoints, Model, Models};
+use taceva_models::{Checkpoints, Model};
 use taceva_protocol::PhaseKind;
 
 use crate::acquire::retried;
-use crate::cache::{Key, Stage, StudyCache};
+use crate::cache::{CachedStage, Key};
 use crate::calibration::calibration_note;
 use crate::error::StudyError;
 use crate::fit::{FitPlan, FitRequest, Recipe};
@@ -20,62 +19,59 @@ use crate::over_seeds::OverSeeds;
 use crate::predict::{self, Predicted, Target};
 use crate::provenance::{ModelProvenance, Provenance, chosen_notes};
 use crate::report::EvaluationReport;
-use crate::rows::{Divided, Need, Part, usable};
+use crate::rows::{DataPart, Divided, Need, usable};
 use crate::samples::Samples;
 use crate::scene::{PlannedScene, PlannedStudy};
 use crate::subject::Subject;
-use crate::work::Work;
 
-use deal::{Deal, seen};
-use gratings::ToldSpacings;
+pub(crate) use context::RunContext;
+use gratings::PredictedSpacings;
+use phase_rows::{PhaseRows, seen};
 use score::{Scores, score};
-
-/// How the stages of a study are carried out, where their results are found and kept, and the models there are.
-#[derive(Clone, Copy)]
-pub(crate) struct Means<'a> {
-    pub(crate) work: Work<'a>,
-    pub(crate) cache: StudyCache<'a>,
-    pub(crate) models: &'a Models,
-    /// Where a long training is put aside.
-    pub(crate) checkpoint: &'a Path,
-}
 
 /// The report of `study`, whose recording is `dataset`.
 pub(crate) fn assess(
     scene: &PlannedScene,
     study: &PlannedStudy,
     dataset: &Dataset,
-    means: Means<'_>,
+    context: RunContext<'_>,
 ) -> Result<EvaluationReport, StudyError> {
-    let deal = Deal::new(study, dataset);
+    let phase_rows = PhaseRows::new(study, dataset);
     let first = scene.seeds.first().copied();
-    let learnt = Learnt::new((scene, study), dataset, &deal, means, first)?;
+    let learnt = Learnt::new((scene, study), dataset, &phase_rows, context, first)?;
     let predicted = learnt
         .as_ref()
-        .map(|learnt| learnt.predict(study, dataset, &deal, means))
+        .map(|learnt| learnt.predict(study, dataset, &phase_rows, context))
         .transpose()?;
-    let teller = scene.teller()?;
-    let told = deal
+    let classifier = scene.classifier(context.models)?;
+    let spacings = phase_rows
         .reads_spacings()
-        .then(|| ToldSpacings::of(dataset, deal.rows(PhaseKind::Gratings), &teller, means))
+        .then(|| {
+            PredictedSpacings::of(
+                dataset,
+                phase_rows.rows(PhaseKind::Gratings),
+                &classifier,
+                context,
+            )
+        })
         .transpose()?;
     let scores_of = |predicted: Option<&(Predicted, Vec<usize>)>| {
         score(&Scores {
             scene,
             study,
             dataset,
-            deal: &deal,
+            phase_rows: &phase_rows,
             predicted,
-            told: told.as_ref(),
-            jobs: means.work.jobs,
+            predicted_spacings: spacings.as_ref(),
+            jobs: context.work.jobs,
         })
     };
     let (evaluation, mut notes) = scores_of(predicted.as_ref())?;
     let mut others = Vec::new();
     for seed in scene.seeds.iter().skip(1) {
-        let learnt = Learnt::new((scene, study), dataset, &deal, means, Some(*seed))?;
+        let learnt = Learnt::new((scene, study), dataset, &phase_rows, context, Some(*seed))?;
         if let Some(learnt) = learnt {
-            let predicted = learnt.predict(study, dataset, &deal, means)?;
+            let predicted = learnt.predict(study, dataset, &phase_rows, context)?;
             others.push(scores_of(Some(&predicted))?.0);
         }
     }
@@ -83,14 +79,14 @@ pub(crate) fn assess(
         let evaluations: Vec<&Evaluation> = [&evaluation].into_iter().chain(&others).collect();
         OverSeeds::of(&scene.seeds, &evaluations)
     });
-    notes.extend(told.as_ref().map(|_| teller.note().to_owned()));
-    notes.extend(deal.shortfall());
+    notes.extend(spacings.as_ref().map(|_| classifier.note().to_owned()));
+    notes.extend(phase_rows.shortfall());
     notes.extend(retried::note(dataset.path()));
     if let Some((predicted, rows)) = &predicted {
         notes.extend(predicted.bounded_note());
-        let calibration = deal.rows(PhaseKind::Calibration);
+        let calibration = phase_rows.rows(PhaseKind::Calibration);
         let counts = |row: usize| calibration.binary_search(&row).is_ok();
-        let jobs = means.work.jobs;
+        let jobs = context.work.jobs;
         notes.extend(calibration_note(dataset, (predicted, rows), counts, jobs)?);
     }
     notes.extend(learnt.iter().flat_map(|learnt| chosen_notes(&learnt.model)));
@@ -100,7 +96,7 @@ pub(crate) fn assess(
         predicted
             .as_ref()
             .map(|(predicted, _)| predicted.frames_decoded),
-        told.as_ref().map(|told| told.frames_decoded),
+        spacings.as_ref().map(|spacings| spacings.frames_decoded),
     ];
     let provenance = Provenance {
         model: learnt
@@ -116,7 +112,7 @@ pub(crate) fn assess(
     };
     let rows = dataset.all_rows();
     let mut samples = Samples::of(dataset, &rows)?;
-    if let Some(parts) = deal.protocol() {
+    if let Some(parts) = phase_rows.protocol() {
         samples = samples.with_protocol(&rows, &parts);
     }
     if let Some((predicted, of_rows)) = &predicted {
@@ -127,7 +123,7 @@ pub(crate) fn assess(
     Ok(report.with_samples(samples))
 }
 
-/// The model of a study, and what it has seen.
+/// The model of a study, and the split it was fitted on.
 struct Learnt {
     model: Model,
     divided: Option<Divided>,
@@ -139,15 +135,15 @@ impl Learnt {
     fn new(
         (scene, study): (&PlannedScene, &PlannedStudy),
         dataset: &Dataset,
-        deal: &Deal<'_>,
-        means: Means<'_>,
+        phase_rows: &PhaseRows<'_>,
+        context: RunContext<'_>,
         seed: Option<u64>,
     ) -> Result<Option<Learnt>, StudyError> {
-        if !deal.reads_predictions() {
+        if !phase_rows.reads_predictions() {
             return Ok(None);
         }
         if let Some(file) = study.model_file() {
-            let model = means
+            let model = context
                 .models
                 .open(&scene.text.folder.join(file))
                 .map_err(|error| StudyError::Request(error.to_string()))?;
@@ -157,32 +153,32 @@ impl Learnt {
                 frames_decoded: 0,
             }));
         }
-        let Some(request) = study.fit_request(scene.scene.seed, means.models) else {
+        let Some(request) = study.fit_request(scene.scene.seed, context.models) else {
             return Ok(None);
         };
         let mut request = FitRequest {
-            channels: deal.predicted_channels(),
+            channels: phase_rows.predicted_channels(),
             ..request?
         };
         if let Some(seed) = seed {
             request = request.with_seed(seed)?;
         }
         let recipe = Recipe::of(&request)?;
-        let divided = deal.divided(&request)?;
+        let divided = phase_rows.divided(&request)?;
         let mut plan = FitPlan::on(dataset, &request, recipe, divided.clone())?;
-        // One training at a time is put aside: of several seeds those that are finished are in the cache.
+        // One training at a time has a checkpoint: of several seeds those that are finished are in the cache.
         if seed == scene.seeds.first().copied() {
-            plan.put_aside(Checkpoints::at(means.checkpoint.to_owned()));
+            plan.keep_checkpoints(Checkpoints::at(context.checkpoint.to_owned()));
         }
-        let key = Key::of(Stage::Fit)
+        let key = Key::of(CachedStage::Fit)
             .part("dataset", &dataset.digest().to_string())
             .whole("request", &request)
             .whole("divided", &divided)
             .finish();
         let frames_decoded = plan.frames_to_decode();
-        let model = means
+        let model = context
             .cache
-            .value(&key, || Ok(plan.run(means.work)?.model))?;
+            .value(&key, || Ok(plan.run(context.work)?.model))?;
         Ok(Some(Learnt {
             model,
             divided: Some(divided),
@@ -190,19 +186,19 @@ impl Learnt {
         }))
     }
 
-    /// Predictions of everything that a metric reads one of and that the model has not seen.
+    /// Predictions of all rows that a metric reads and that the model was not fitted on.
     fn predict(
         &self,
         study: &PlannedStudy,
         dataset: &Dataset,
-        deal: &Deal<'_>,
-        Means { work, cache, .. }: Means<'_>,
+        phase_rows: &PhaseRows<'_>,
+        RunContext { work, cache, .. }: RunContext<'_>,
     ) -> Result<(Predicted, Vec<usize>), StudyError> {
         let seen = self.divided.as_ref().map_or_else(Vec::new, seen);
-        let phases = deal.predicted_phases();
+        let phases = phase_rows.predicted_phases();
         let mut rows: Vec<usize> = phases
             .into_iter()
-            .flat_map(|kind| deal.rows(kind))
+            .flat_map(|kind| phase_rows.rows(kind))
             .collect();
         rows.sort_unstable();
         rows.dedup();
@@ -219,12 +215,12 @@ impl Learnt {
             )));
         }
         let target = Target {
-            part: Part::All,
+            part: DataPart::All,
             left_out: rows.len() - usable.len(),
             rows: usable,
             divided: None,
         };
-        let key = Key::of(Stage::Predict)
+        let key = Key::of(CachedStage::Predict)
             .part("dataset", &dataset.digest().to_string())
             .part("model", &self.model.digest()?)
             .whole("rows", &target.rows)

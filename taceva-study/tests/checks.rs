@@ -69,14 +69,10 @@ impl Recording {
     }
 
     fn write(self, path: &Path) -> Dataset {
-        let facts = RecordingFacts {
-            source: Source::Synthetic,
-            clock: self.clock,
-            sensor: self.facts,
-            footprint: None,
-        };
+        let facts = RecordingFacts::new(Source::Synthetic, self.clock, self.facts);
         let channels = Channels::new(self.channels).expect("distinct");
-        let mut recorder = Recorder::create(path, &RecordingSpec { facts, channels }).expect("new");
+        let spec = RecordingSpec::new(facts, channels);
+        let mut recorder = Recorder::create(path, &spec).expect("new");
         if let Some(reference) = &self.reference {
             recorder.append_reference(reference).expect("recorded");
         }

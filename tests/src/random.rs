@@ -1,34 +1,39 @@
 //! Numbers drawn from a seed, the same on every machine.
 
-/// The generator splitmix64: good enough to choose moments and bits, and four lines long.
-#[derive(Clone, Copy, Debug)]
-pub struct Random(u64);
+use taceva_core::random::{SplitMix64, scaled};
+
+/// The generator SplitMix64: good enough to choose moments and bits.
+#[derive(Clone, Debug)]
+pub struct Random(SplitMix64);
 
 impl Random {
     /// The generator of `seed`.
     pub fn new(seed: u64) -> Random {
-        Random(seed)
+        Random(SplitMix64::new(seed))
     }
 
     /// The next 64 bits.
     pub fn bits(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let mut state = self.0;
-        state = (state ^ state >> 30).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        state = (state ^ state >> 27).wrapping_mul(0x94D0_49BB_1331_11EB);
-        state ^ state >> 31
+        self.0.next_u64()
     }
 
     /// A number below `end`; 0 if there is none.
     pub fn below(&mut self, end: usize) -> usize {
-        let drawn = u128::from(self.bits()) * end as u128;
-        usize::try_from(drawn >> 64).unwrap_or(0)
+        usize::try_from(scaled(self.bits(), end as u64)).expect("below a usize")
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn numbers_keep_their_values() {
+        let mut random = Random::new(1);
+        let numbers = std::array::from_fn(|_| random.below(1000));
+        assert_eq!(numbers, [566, 745, 971, 444, 444, 762, 877, 523]);
+        assert_eq!(random.bits(), 5_266_705_631_892_356_520);
+    }
 
     #[test]
     fn every_number_below_the_end_is_drawn_and_no_other() {

@@ -90,7 +90,7 @@ fn check(trial: &Trial, planned: &PlannedPress, log: &Log) {
     let (samples, wanted) = (&record.samples, planned.press.samples());
     match record.outcome {
         PressOutcome::Complete => assert_eq!(samples.len(), wanted, "{name}"),
-        // Stations that a limit kept out of reach are left out; the first of them is seen where the tip stopped.
+        // Waypoints that a limit kept out of reach are left out; the first of them is seen where the tip stopped.
         PressOutcome::Limited(_) => {
             assert!(limited(record) > 0 && samples.len() <= wanted, "{name}");
         }
@@ -120,7 +120,7 @@ fn check(trial: &Trial, planned: &PlannedPress, log: &Log) {
     check_forces(trial, planned, record);
 }
 
-/// Samples that a limit kept from their station.
+/// Samples that a limit kept from their waypoint.
 fn limited(record: &PressRecord) -> usize {
     let samples = record.samples.iter();
     samples.filter(|sample| sample.limited_by.is_some()).count()
@@ -142,18 +142,18 @@ fn check_forces(trial: &Trial, planned: &PlannedPress, record: &PressRecord) {
     let depth = channels
         .position(|name| name == "Pz")
         .expect("it is measured");
-    let stations = planned.press.stations();
+    let waypoints = planned.press.waypoints();
     let curve: Vec<(f64, f64)> = record
         .samples
         .iter()
-        .filter_map(|sample| Some((stations.get(number(sample))?, sample)))
-        .filter(|(station, _)| station.shear == [Nanometre(0); 2])
-        .map(|(station, sample)| {
+        .filter_map(|sample| Some((waypoints.get(number(sample))?, sample)))
+        .filter(|(waypoint, _)| waypoint.shear == [Nanometre(0); 2])
+        .map(|(waypoint, sample)| {
             let [depth_mm, force_n] =
                 [depth, channel].map(|place| sample.truth.get(place).expect("it is read"));
             let was_reached = sample.depth_step.is_some();
             let depth_mm = if was_reached {
-                station.depth.to_millimetres()
+                waypoint.depth.to_millimetres()
             } else {
                 depth_mm
             };
@@ -187,7 +187,7 @@ fn presses_that_a_limit_ends_come_out_of_the_gel_by_their_stations_and_are_resum
     for planned in trial.plan.presses_of(PhaseKind::LoadUnload) {
         let mut records = log.records.iter().filter(is_limited);
         let record = records.find(|record| record.press == planned.id);
-        let record = record.expect("no place of the gel bears the deepest station");
+        let record = record.expect("no place of the gel bears the deepest waypoint");
         let out = record.samples.iter();
         let out = out.filter(|sample| sample.phase == Some(Phase::Unload));
         assert_eq!(2 * out.count(), record.samples.len());

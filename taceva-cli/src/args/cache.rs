@@ -4,7 +4,7 @@ use std::path::PathBuf;
 use std::time::Duration;
 
 use clap::{ArgGroup, Args, Subcommand, ValueEnum};
-use taceva_study::Stage;
+use taceva_study::CachedStage;
 
 use super::Output;
 
@@ -71,18 +71,19 @@ pub(crate) enum StageArg {
     Fit,
     /// Predictions
     Predict,
-    /// Told spacings of gratings
-    Tell,
+    /// Predicted spacings of gratings
+    #[value(alias = "tell")]
+    Classify,
 }
 
-impl From<StageArg> for Stage {
-    fn from(kind: StageArg) -> Stage {
+impl From<StageArg> for CachedStage {
+    fn from(kind: StageArg) -> CachedStage {
         match kind {
-            StageArg::Acquire => Stage::Acquire,
-            StageArg::Features => Stage::Features,
-            StageArg::Fit => Stage::Fit,
-            StageArg::Predict => Stage::Predict,
-            StageArg::Tell => Stage::Tell,
+            StageArg::Acquire => CachedStage::Acquire,
+            StageArg::Features => CachedStage::Features,
+            StageArg::Fit => CachedStage::Fit,
+            StageArg::Predict => CachedStage::Predict,
+            StageArg::Classify => CachedStage::Classify,
         }
     }
 }

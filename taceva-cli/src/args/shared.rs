@@ -1,32 +1,30 @@
-//! What several commands have in common: models, splits and the form of results.
+//! Options that several commands have in common, each described once.
 
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 
+/// The names of models, for the two options that take one.
+const MODEL_HELP: &str = "\
+The model to fit: baseline, ridge, pls, elastic-net, kernel-ridge, svr, gaussian-process, knn, lda, random-forest, \
+gradient-boosting, cnn, resnet10, resnet18, resnet34; auto: the one with the least error on groups left out; one of a library: \
+linfa/linear, linfa/pls, linfa/elastic-net, linfa/svr, linfa/logistic, smartcore/ridge, smartcore/lasso, smartcore/svr, \
+smartcore/knn, smartcore/random-forest, smartcore/extra-trees, smartcore/gradient-boosting, which can be stopped only between two \
+fits of the library; or one of a plugin, ID/KEY";
+
 /// A model to fit, and its settings.
 #[derive(Debug, Args)]
 pub(crate) struct ModelArgs {
-    /// The model: baseline, ridge, pls, elastic-net, kernel-ridge, svr, gaussian-process, knn, lda, random-forest,
-    /// gradient-boosting, cnn, resnet10, resnet18, resnet34; auto: the one that does best on groups left out; one of a library:
-    /// linfa/linear, linfa/pls, linfa/elastic-net, linfa/svr, linfa/logistic, smartcore/ridge, smartcore/lasso, smartcore/svr,
-    /// smartcore/knn, smartcore/random-forest, smartcore/extra-trees, smartcore/gradient-boosting, which stop between two of the
-    /// library's fits only; or that of a plugin, ID/KEY
-    #[arg(long = "model", value_name = "NAME")]
+    #[arg(long = "model", value_name = "NAME", help = MODEL_HELP)]
     pub(crate) name: String,
     #[command(flatten)]
     pub(crate) settings: SettingArgs,
 }
 
-/// As [`ModelArgs`], where a fitted model may stand instead.
+/// As [`ModelArgs`], where a fitted model can be given instead.
 #[derive(Debug, Args)]
 pub(crate) struct OptionalModelArgs {
-    /// The model to fit: baseline, ridge, pls, elastic-net, kernel-ridge, svr, gaussian-process, knn, lda, random-forest,
-    /// gradient-boosting, cnn, resnet10, resnet18, resnet34; auto: the one that does best on groups left out; one of a library:
-    /// linfa/linear, linfa/pls, linfa/elastic-net, linfa/svr, linfa/logistic, smartcore/ridge, smartcore/lasso, smartcore/svr,
-    /// smartcore/knn, smartcore/random-forest, smartcore/extra-trees, smartcore/gradient-boosting, which stop between two of the
-    /// library's fits only; or that of a plugin, ID/KEY
-    #[arg(long = "model", value_name = "NAME")]
+    #[arg(long = "model", value_name = "NAME", help = MODEL_HELP)]
     pub(crate) name: Option<String>,
     #[command(flatten)]
     pub(crate) settings: SettingArgs,
@@ -45,47 +43,112 @@ pub(crate) struct SettingArgs {
 
 #[derive(Debug, Args)]
 pub(crate) struct SplitArgs {
-    /// How samples are divided: random, chronological, by-point, declared,
-    /// by-column:NAME[=train:1,2;val:3;test:4], or all: every sample is learnt from, for a final model [default: by-point where points have repeats, else random]
+    /// How samples are divided: random, chronological, by-point, declared, by-column:NAME[=train:1,2;val:3;test:4], or all: every sample is
+    /// trained on, for a final model [default: by-point where points have repeats, else random]
     #[arg(long, value_name = "SPLIT")]
     pub(crate) split: Option<String>,
-    /// The seed of everything that is drawn
-    #[arg(long, value_name = "N", default_value_t = 0)]
-    pub(crate) seed: u64,
+    #[command(flatten)]
+    pub(crate) seed: SeedArgs,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct SeedArgs {
+    /// The seed of all random numbers
+    #[arg(id = "seed", long, value_name = "N", default_value_t = 0)]
+    pub(crate) value: u64,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct SplitOutArgs {
+    /// Write the ids of the training, validation and test samples as JSON
+    #[arg(id = "split_out", long, value_name = "SPLIT.json")]
+    pub(crate) path: Option<PathBuf>,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct PartArgs {
+    /// The part of the dataset [default: test, or all if the model was fitted on another dataset]
+    #[arg(id = "part", long, value_enum)]
+    pub(crate) name: Option<PartArg>,
 }
 
 #[derive(Debug, Args)]
 pub(crate) struct CacheArgs {
-    /// Where what was made before is found and kept: features of frames, and of a run its simulated recordings, models and predictions
-    /// [default: taceva in the user's cache folder]
+    /// The folder in which results of earlier commands are found and kept: features of frames, and simulated recordings, models and
+    /// predictions of runs [default: taceva in the user's cache folder]
     #[arg(long, value_name = "DIR", conflicts_with = "no_cache")]
     pub(crate) cache: Option<PathBuf>,
-    /// Make everything anew, and keep nothing
+    /// Compute everything anew, and keep nothing
     #[arg(long)]
     pub(crate) no_cache: bool,
 }
 
+/// What is scored, and what is written beside the scores.
 #[derive(Debug, Args)]
-pub(crate) struct Output {
-    /// The form of the result
-    #[arg(long, value_enum, default_value_t = Format::Text)]
-    pub(crate) format: Format,
+pub(crate) struct ScoringArgs {
+    /// Metrics, separated by commas: ids, or the groups accuracy and all
+    #[arg(
+        long,
+        value_name = "METRICS",
+        value_delimiter = ',',
+        default_value = "all"
+    )]
+    pub(crate) metrics: Vec<String>,
+    /// Facts about the sensor: footprint, greatest depth, opacity; metrics that need a fact that is missing are skipped
+    #[arg(long, value_name = "SENSOR.toml")]
+    pub(crate) sensor: Option<PathBuf>,
+    /// Write the sums behind the scores, for `taceva merge`
+    #[arg(long, value_name = "STATE")]
+    pub(crate) state_out: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) page: PageArgs,
+    /// Write every figure into this folder, as SVG and PDF
+    #[arg(long, value_name = "FOLDER")]
+    pub(crate) figures: Option<PathBuf>,
+    /// Write truth and prediction of every sample as CSV, for `taceva compare`
+    #[arg(long, value_name = "SAMPLES.csv")]
+    pub(crate) samples_out: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) explain: ExplainArgs,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct PageArgs {
+    /// Write the result as a page: one HTML file that needs no network
+    #[arg(id = "html", long, value_name = "FILE.html")]
+    pub(crate) path: Option<PathBuf>,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct ExplainArgs {
+    /// Print what the command would do, and stop
+    #[arg(id = "explain", long)]
+    pub(crate) is_wanted: bool,
+}
+
+/// Format and place of a result; `F` lists the formats.
+#[derive(Debug, Args)]
+pub(crate) struct Output<F: ValueEnum + Default + Send + Sync + 'static = Format> {
+    /// The format of the result
+    #[arg(long, value_enum, default_value_t)]
+    pub(crate) format: F,
     /// Write the result to a file instead of standard output
     #[arg(long = "out", value_name = "PATH")]
     pub(crate) path: Option<PathBuf>,
-    /// Replace a file that stands there already
+    /// Replace files that exist already
     #[arg(long)]
     pub(crate) force: bool,
 }
 
-/// The form of a result.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+/// The format of a table of results.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 pub(crate) enum Format {
     /// For people
+    #[default]
     Text,
-    /// For programs; the key `schema` says which form it has
+    /// For programs; the key `schema` names its form
     Json,
-    /// One row a score or finding
+    /// One row for each score or finding
     Csv,
     /// A Markdown table
     Md,
@@ -93,14 +156,24 @@ pub(crate) enum Format {
     Tex,
 }
 
+/// The format of a list or a plan.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub(crate) enum ListFormat {
+    /// For people
+    #[default]
+    Text,
+    /// For programs; the key `schema` names its form
+    Json,
+}
+
 /// The part of a dataset.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum PartArg {
-    /// What the model was fitted on
+    /// Samples that the model was fitted on
     Train,
-    /// What its settings were chosen on
+    /// Samples that its settings were chosen on
     Validation,
-    /// What it has not seen
+    /// Samples that it has not seen
     Test,
     /// Every sample
     All,

@@ -54,7 +54,7 @@ pub(crate) fn run(args: &Accept, context: &Context) -> anyhow::Result<u8> {
         date: Some(&date),
         pictures: pictures.as_ref(),
     };
-    results::write(&acceptance.listing(), &args.output, || acceptance.json())?;
+    results::write(&acceptance.table(), &args.output, || acceptance.json())?;
     if let Some(path) = &args.html {
         let page = acceptance.page();
         output::write(Some(path), |out| out.write_all(page.as_bytes()))?;

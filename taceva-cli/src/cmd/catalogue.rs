@@ -33,11 +33,11 @@ fn show(args: &CatalogueShow) -> anyhow::Result<u8> {
     write(&args.output, &catalogue::details(&sensor))
 }
 
-fn write(args: &Output, listing: &taceva_report::Listing) -> anyhow::Result<u8> {
+fn write(args: &Output, table: &taceva_report::Table) -> anyhow::Result<u8> {
     if let Some(path) = &args.path {
         output::check_free(path, args.force)?;
     }
-    results::write(listing, args, || listing.json("taceva.catalogue/1"))?;
+    results::write(table, args, || table.json("taceva.catalogue/1"))?;
     Ok(exit::DONE)
 }
 

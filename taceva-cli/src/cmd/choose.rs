@@ -34,7 +34,7 @@ pub(crate) fn run(args: &Choose, _context: &Context) -> anyhow::Result<u8> {
         }
     };
     let choice = choose(&sensors, &needs);
-    results::write(&choice.listing(), &args.output, || choice.json())?;
+    results::write(&choice.table(), &args.output, || choice.json())?;
     if let Some(path) = &args.html {
         let words: Vec<&str> = needs.iter().map(|need| need.words.as_str()).collect();
         let page = choice.page(&words.join(", "));

@@ -35,17 +35,17 @@ pub(crate) fn run(args: &Compare, context: &Context) -> anyhow::Result<u8> {
     let comparison = compare(&studies, &request);
     // Only a terminal has no room for whole lines.
     let is_seen = args.output.path.is_none() && std::io::stdout().is_terminal();
-    let text = match args.output.format {
-        Format::Text if args.all => comparison.text(),
-        Format::Text => comparison.overview(is_seen.then_some(OVERVIEW_WIDTH)),
-        Format::Json => comparison.json(),
-        Format::Csv => comparison.listing().csv(),
-        Format::Md => comparison.listing().markdown(),
-        Format::Tex => comparison.listing().latex(),
-    };
-    output::write(args.output.path.as_deref(), |out| {
-        out.write_all(text.as_bytes())
-    })?;
+    if args.output.format == Format::Text {
+        let text = match args.all {
+            true => comparison.text(),
+            false => comparison.overview(is_seen.then_some(OVERVIEW_WIDTH)),
+        };
+        output::write(args.output.path.as_deref(), |out| {
+            out.write_all(text.as_bytes())
+        })?;
+    } else {
+        results::write(&comparison.table(), &args.output, || comparison.json())?;
+    }
     if let Some(path) = &args.html {
         let page = comparison.page(&studies);
         output::write(Some(path), |out| out.write_all(page.as_bytes()))?;

@@ -1,7 +1,7 @@
 //! `taceva evaluate`.
 
 use taceva_dataset::SensorFile;
-use taceva_study::{Effort, EvaluateRequest, ModelChoice, Part, evaluate, evaluate_plan};
+use taceva_study::{DataPart, Effort, EvaluateRequest, ModelChoice, evaluate, evaluate_plan};
 
 use super::{Context, Usage, cache, effort, fit_request, open};
 use crate::args::Evaluate;
@@ -42,7 +42,7 @@ pub(crate) fn run(args: &Evaluate, context: &Context) -> anyhow::Result<u8> {
     let request = EvaluateRequest {
         model,
         metrics: args.metrics.clone(),
-        part: args.part.map(Part::from),
+        part: args.part.map(DataPart::from),
         sensor: args.sensor.as_deref().map(SensorFile::read).transpose()?,
     };
     if args.explain {

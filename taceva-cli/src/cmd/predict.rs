@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 use taceva_core::shown;
 
-use taceva_study::{Part, predict};
+use taceva_study::{DataPart, predict};
 
 use super::{Context, Usage, cache, open};
 use crate::args::Predict;
@@ -36,7 +36,7 @@ pub(crate) fn run(args: &Predict, context: &Context) -> anyhow::Result<u8> {
     }
     let cache = cache::of(&args.cache);
     let work = context.work(cache.as_ref());
-    let predicted = predict(&dataset, &model, args.part.map(Part::from), work)?;
+    let predicted = predict(&dataset, &model, args.part.map(DataPart::from), work)?;
     cache::note(cache.as_ref(), context);
     output::write(Some(&args.out), |out| match args.unbounded {
         true => predicted.write_unbounded_predictions(out),

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use taceva_core::shown;
 
 use anyhow::Context as _;
-use taceva_report::{Listing, Study, catalogue, escape_terminal};
+use taceva_report::{Layout, Study, Table, catalogue, escape_terminal};
 
 use super::Usage;
 use crate::args::{Format, Output};
@@ -96,16 +96,16 @@ fn find(path: &Path) -> anyhow::Result<Found> {
 
 /// Writes rows where and in the form that was asked for; `json` makes the one that is no table.
 pub(super) fn write(
-    listing: &Listing,
+    table: &Table,
     to: &Output,
     json: impl FnOnce() -> String,
 ) -> anyhow::Result<()> {
     let text = match to.format {
-        Format::Text => listing.text(),
+        Format::Text => table.text(),
         Format::Json => json(),
-        Format::Csv => listing.csv(),
-        Format::Md => listing.markdown(),
-        Format::Tex => listing.latex(),
+        Format::Csv => table.csv(),
+        Format::Md => table.markdown(),
+        Format::Tex => table.latex(Layout::Float),
     };
     output::write_as(to.format, to.path.as_deref(), |out| {
         out.write_all(text.as_bytes())

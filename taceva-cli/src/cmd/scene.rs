@@ -39,6 +39,9 @@ pub(super) fn tell_cost(
     target: &Path,
     context: &Context,
 ) -> anyhow::Result<()> {
+    for note in &planned.scene.notes {
+        context.say(format_args!("{note}"));
+    }
     let costs = || planned.studies.iter().map(|study| study.plan.cost);
     let presses: u64 = costs().map(|cost| cost.presses).sum();
     if presses == 0 {

@@ -3,25 +3,8 @@
 use std::io::{self, Write};
 
 use taceva_metrics::Better;
-use taceva_study::bench::{KernelBench, KernelRow};
-
-use super::latex::escape;
-use super::text::table;
-
-/// The names of the columns, with the direction of each number.
-fn head() -> [String; 8] {
-    let (lower, higher) = (Better::Lower, Better::Higher);
-    [
-        "scores".to_owned(),
-        "kernel".to_owned(),
-        lower.beside("ns/pair"),
-        lower.beside("median"),
-        lower.beside("× floor"),
-        higher.beside("digits"),
-        "order-free".to_owned(),
-        "Pareto".to_owned(),
-    ]
-}
+use taceva_report::{Align, Column, Direction, Table};
+use taceva_study::bench::KernelBench;
 
 /// For people.
 pub(super) fn text(bench: &KernelBench, out: &mut dyn Write) -> io::Result<()> {
@@ -45,7 +28,7 @@ pub(super) fn text(bench: &KernelBench, out: &mut dyn Write) -> io::Result<()> {
         "floor    {}: {:.3} ns a pair, {:.1} GB/s\n",
         bench.floor.name, bench.floor.ns_per_pair.best, bench.floor.gb_per_s
     )?;
-    table(head().each_ref().map(String::as_str), &cells(bench), out)?;
+    out.write_all(rows(bench).text().as_bytes())?;
     writeln!(
         out,
         "\ndigits: the fewest right decimal digits of any score on any input; 17.3 is every bit"
@@ -56,10 +39,9 @@ pub(super) fn text(bench: &KernelBench, out: &mut dyn Write) -> io::Result<()> {
     Ok(())
 }
 
-/// For programs that read tables.
-pub(super) fn csv(bench: &KernelBench, out: &mut dyn Write) -> io::Result<()> {
-    let mut writer = csv::Writer::from_writer(out);
-    writer.write_record([
+/// Every number, for programs.
+pub(super) fn every_number(bench: &KernelBench) -> Table {
+    let names = [
         "scores",
         "kernel",
         "isa",
@@ -71,63 +53,48 @@ pub(super) fn csv(bench: &KernelBench, out: &mut dyn Write) -> io::Result<()> {
         "digits_min",
         "order_free",
         "pareto",
-    ])?;
+    ];
+    let mut table = Table::new("Kernels", names);
     for row in &bench.rows {
-        let thread = |pick: fn(&taceva_study::bench::Spread) -> f64| {
-            let time = row.thread_ns_per_pair.as_ref().map(pick);
-            time.map_or_else(String::new, |time| time.to_string())
-        };
-        writer.write_record([
-            row.scores,
-            &row.name,
-            row.isa.as_deref().unwrap_or_default(),
-            &row.ns_per_pair.best.to_string(),
-            &row.ns_per_pair.median.to_string(),
-            &thread(|time| time.best),
-            &thread(|time| time.median),
-            &row.times_floor.to_string(),
-            &row.digits_min.to_string(),
-            &row.order_free.to_string(),
-            &row.pareto.to_string(),
-        ])?;
+        let thread = row.thread_ns_per_pair.as_ref();
+        let number = |value: Option<f64>| value.map_or_else(String::new, |value| value.to_string());
+        table.push([
+            row.scores.to_owned(),
+            row.name.clone(),
+            row.isa.clone().unwrap_or_default(),
+            row.ns_per_pair.best.to_string(),
+            row.ns_per_pair.median.to_string(),
+            number(thread.map(|time| time.best)),
+            number(thread.map(|time| time.median)),
+            row.times_floor.to_string(),
+            row.digits_min.to_string(),
+            row.order_free.to_string(),
+            row.pareto.to_string(),
+        ]);
     }
-    writer.flush()
+    table
 }
 
-/// For pages.
-pub(super) fn markdown(bench: &KernelBench, out: &mut dyn Write) -> io::Result<()> {
-    writeln!(out, "| {} |", head().join(" | "))?;
-    writeln!(out, "|---|---|---:|---:|---:|---:|---|---|")?;
-    for row in cells(bench) {
-        writeln!(out, "| {} |", row.join(" | "))?;
-    }
-    writeln!(
-        out,
-        "\n{}, one thread, 6 channels × {} rows, best of {}; floor {:.3} ns a pair ({:.1} GB/s).",
-        bench.machine.cpu,
-        bench.rows_timed,
-        bench.rounds,
-        bench.floor.ns_per_pair.best,
-        bench.floor.gb_per_s
-    )
-}
-
-/// For papers.
-pub(super) fn latex(bench: &KernelBench, out: &mut dyn Write) -> io::Result<()> {
-    writeln!(out, "% needs \\usepackage{{booktabs}}")?;
-    writeln!(out, "\\begin{{tabular}}{{llrrrrll}}\n  \\toprule")?;
-    let head = head().map(|name| escape(&name));
-    writeln!(out, "  {} \\\\\n  \\midrule", head.join(" & "))?;
-    for row in cells(bench) {
-        writeln!(out, "  {} \\\\", row.map(|cell| escape(&cell)).join(" & "))?;
-    }
-    writeln!(out, "  \\bottomrule\n\\end{{tabular}}")
-}
-
-fn cells(bench: &KernelBench) -> Vec<[String; 8]> {
+/// A row a kernel.
+pub(super) fn rows(bench: &KernelBench) -> Table {
+    let number = |name: &str, better: Better| {
+        let column = Column::new(name).direction(Direction::Is(better));
+        column.align(Align::Right)
+    };
+    let columns = [
+        Column::new("scores"),
+        Column::new("kernel"),
+        number("ns/pair", Better::Lower),
+        number("median", Better::Lower),
+        number("× floor", Better::Lower),
+        number("digits", Better::Higher),
+        Column::new("order-free"),
+        Column::new("Pareto"),
+    ];
+    let mut table = Table::new("", columns);
     let word = |yes: bool| if yes { "yes" } else { "" }.to_owned();
-    let row = |row: &KernelRow| {
-        [
+    for row in &bench.rows {
+        table.push([
             row.scores.to_owned(),
             row.name.clone(),
             format!("{:.3}", row.ns_per_pair.best),
@@ -136,9 +103,23 @@ fn cells(bench: &KernelBench) -> Vec<[String; 8]> {
             format!("{:.1}", row.digits_min),
             word(row.order_free),
             word(row.pareto),
-        ]
-    };
-    bench.rows.iter().map(row).collect()
+        ]);
+    }
+    table
+}
+
+/// The same, with what was measured in a sentence below.
+pub(super) fn for_pages(bench: &KernelBench) -> Table {
+    let mut table = rows(bench);
+    table.note(format!(
+        "{}, one thread, 6 channels × {} rows, best of {}; floor {:.3} ns a pair ({:.1} GB/s).",
+        bench.machine.cpu,
+        bench.rows_timed,
+        bench.rounds,
+        bench.floor.ns_per_pair.best,
+        bench.floor.gb_per_s
+    ));
+    table
 }
 
 /// For each input, the candidate that has fewest digits on it.

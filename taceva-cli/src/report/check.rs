@@ -2,7 +2,7 @@
 
 use std::io::{self, Write};
 
-use taceva_report::{escape_csv, escape_latex as escape, escape_markdown};
+use taceva_report::Table;
 use taceva_study::{CheckReport, Finding};
 
 pub(super) fn text(report: &CheckReport, out: &mut dyn Write) -> io::Result<()> {
@@ -43,56 +43,37 @@ pub(super) fn text(report: &CheckReport, out: &mut dyn Write) -> io::Result<()> 
     )
 }
 
-pub(super) fn csv(report: &CheckReport, out: &mut dyn Write) -> io::Result<()> {
-    let mut writer = csv::Writer::from_writer(out);
-    writer.write_record([
+/// Everything that is known of each finding.
+pub(super) fn every_column(report: &CheckReport) -> Table {
+    let names = [
         "code", "name", "severity", "message", "count", "samples", "hint",
-    ])?;
+    ];
+    let mut table = Table::new("Findings", names);
     for finding in &report.findings {
-        writer.write_record([
-            finding.code,
-            finding.name,
-            &finding.severity.to_string(),
-            &escape_csv(&finding.message),
-            &finding.count.to_string(),
-            &escape_csv(&finding.samples.join(" ")),
-            finding.hint,
-        ])?;
+        table.push([
+            finding.code.to_owned(),
+            finding.name.to_owned(),
+            finding.severity.to_string(),
+            finding.message.clone(),
+            finding.count.to_string(),
+            finding.samples.join(" "),
+            finding.hint.to_owned(),
+        ]);
     }
-    writer.flush()
+    table
 }
 
-pub(super) fn markdown(report: &CheckReport, out: &mut dyn Write) -> io::Result<()> {
-    writeln!(out, "| code | severity | finding |")?;
-    writeln!(out, "|---|---|---|")?;
+/// What was found and how bad it is.
+pub(super) fn main_columns(report: &CheckReport) -> Table {
+    let mut table = Table::new("Findings", ["code", "severity", "finding"]);
     for finding in &report.findings {
-        writeln!(
-            out,
-            "| {} | {} | {} |",
-            finding.code,
-            finding.severity,
-            escape_markdown(&finding.message)
-        )?;
+        table.push([
+            finding.code.to_owned(),
+            finding.severity.to_string(),
+            finding.message.clone(),
+        ]);
     }
-    Ok(())
-}
-
-pub(super) fn latex(report: &CheckReport, out: &mut dyn Write) -> io::Result<()> {
-    writeln!(out, "\\begin{{tabular}}{{lll}}")?;
-    writeln!(out, "  \\toprule")?;
-    writeln!(out, "  code & severity & finding \\\\")?;
-    writeln!(out, "  \\midrule")?;
-    for finding in &report.findings {
-        writeln!(
-            out,
-            "  {} & {} & {} \\\\",
-            finding.code,
-            finding.severity,
-            escape(&finding.message)
-        )?;
-    }
-    writeln!(out, "  \\bottomrule")?;
-    writeln!(out, "\\end{{tabular}}")
+    table
 }
 
 fn samples(finding: &Finding) -> String {

@@ -9,7 +9,7 @@ use taceva_core::shown;
 use anyhow::Context as _;
 use taceva_dataset::Dataset;
 use taceva_report::{
-    Picture, Report, Samples, ScoreTable, Study, Triple, escape_csv, figures, picks,
+    Layout, Picture, Report, Samples, ScoreTable, Study, Triple, escape_csv, figures, picks,
 };
 use taceva_study::EvaluationReport;
 
@@ -98,16 +98,20 @@ impl Page {
             _ => " Nothing here was measured where samples are simulated.",
         };
         let caption = format!("{}: scores with 95 % intervals.{note}", self.title);
+        let main_caption = format!("{}: main scores.{note}", self.title);
         for (name, text) in [
-            ("scores.csv", taceva_report::csv(&table)),
+            ("scores.csv", table.every_number().csv()),
             (
                 "scores.md",
-                format!("{caption}\n\n{}", taceva_report::markdown(&headlines)),
+                format!("{caption}\n\n{}", headlines.for_pages().markdown()),
             ),
-            ("scores.tex", taceva_report::latex(&headlines, &caption)),
+            (
+                "scores.tex",
+                headlines.for_papers(&caption).latex(Layout::Float),
+            ),
             (
                 "scores-main.tex",
-                taceva_report::latex_column(&table, &format!("{}: main scores.{note}", self.title)),
+                table.for_column(&main_caption).latex(Layout::Column),
             ),
         ] {
             let path = folder.join(name);

@@ -4,13 +4,13 @@ use std::io::{self, Write};
 
 use taceva_core::PressOutcome;
 use taceva_metrics::{Better, catalogue};
-use taceva_report::{Study, escape_terminal};
+use taceva_report::{Align, Column, Study, Table, escape_terminal, short_digests};
 use taceva_study::EvaluationReport;
 
 use super::line::{Line, lines, standings};
 use super::number::printed;
 use super::page;
-use super::text::{over_seeds, presses, with_short_digests};
+use super::text::{over_seeds, presses};
 
 /// A channel and the plane that says the same of it and its neighbour.
 const IN_PLANES: [(&str, &str); 4] = [("Px", "Pxy"), ("Py", "Pxy"), ("Fx", "Fxy"), ("Fy", "Fxy")];
@@ -30,7 +30,7 @@ pub(super) fn write(reports: &[EvaluationReport], out: &mut dyn Write) -> io::Re
     }
     for report in reports {
         let subject = &report.subject;
-        let gel = with_short_digests(&subject.gel);
+        let gel = short_digests(&subject.gel);
         let [sensor, serial, gel] =
             [&subject.sensor, &subject.serial, &gel].map(|name| escape_terminal(name));
         write!(out, "{sensor}   serial {serial}   gel {gel}")?;
@@ -44,7 +44,8 @@ pub(super) fn write(reports: &[EvaluationReport], out: &mut dyn Write) -> io::Re
         .zip(&lines)
         .map(|(report, lines)| published(report, lines, &rows))
         .collect();
-    let mut table = vec![head(reports, &published)];
+    let mut table = Table::new("", columns(reports, &published));
+    let mut last = String::new();
     for (number, row) in rows.into_iter().enumerate() {
         let mut cells = Vec::new();
         for (lines, published) in lines.iter().zip(&published) {
@@ -52,10 +53,15 @@ pub(super) fn write(reports: &[EvaluationReport], out: &mut dyn Write) -> io::Re
             cells.extend(published.get(number).cloned());
         }
         let [metric, channel, unit] = row;
-        let named = Better::named(&metric);
+        // A metric is named once, above its channels.
+        let named = match metric == last {
+            true => String::new(),
+            false => Better::named(&metric),
+        };
+        last = metric;
         table.push([vec![named, channel], cells, vec![unit]].concat());
     }
-    print(&table, out)?;
+    out.write_all(table.text().as_bytes())?;
     for report in reports.iter().filter(|report| report.over_seeds.is_some()) {
         writeln!(out, "\n{}", escape_terminal(&report.subject.sensor))?;
         over_seeds(report, out)?;
@@ -132,18 +138,18 @@ fn published(report: &EvaluationReport, lines: &[Line<'_>], rows: &[Row]) -> Vec
         .collect()
 }
 
-fn head(reports: &[EvaluationReport], published: &[Vec<String>]) -> Vec<String> {
+/// Words to the left, numbers to the right.
+fn columns(reports: &[EvaluationReport], published: &[Vec<String>]) -> Vec<Column> {
     let sensors = reports.iter().zip(published).flat_map(|(report, cells)| {
-        let beside = (!cells.is_empty()).then(|| "published".to_owned());
-        [escape_terminal(&report.subject.sensor)]
-            .into_iter()
-            .chain(beside)
+        let beside = (!cells.is_empty()).then_some("published");
+        [report.subject.sensor.as_str()].into_iter().chain(beside)
     });
+    let words = |name: &str| Column::new(name).align(Align::Left);
     ["metric", "channel"]
-        .map(str::to_owned)
+        .map(words)
         .into_iter()
-        .chain(sensors)
-        .chain(["unit".to_owned()])
+        .chain(sensors.map(|name| Column::new(name).align(Align::Right)))
+        .chain([words("unit")])
         .collect()
 }
 
@@ -194,33 +200,4 @@ fn cell(lines: &[Line<'_>], row: &Row) -> String {
     printed
         .filter(|value| !value.is_empty())
         .unwrap_or_else(|| "–".to_owned())
-}
-
-/// Words to the left, numbers to the right; a metric is named once.
-fn print(table: &[Vec<String>], out: &mut dyn Write) -> io::Result<()> {
-    let columns = table.first().map_or(0, Vec::len);
-    let width = |column: usize| {
-        let cells = table.iter().map(|row| row[column].chars().count());
-        cells.max().unwrap_or(0)
-    };
-    let widths: Vec<usize> = (0..columns).map(width).collect();
-    let mut last = "";
-    for row in table {
-        let mut line = String::new();
-        for (column, (cell, width)) in row.iter().zip(&widths).enumerate() {
-            let cell = if column == 0 && cell == last {
-                ""
-            } else {
-                cell
-            };
-            line += &if column < 2 || column + 1 == columns {
-                format!("{cell:<width$}  ")
-            } else {
-                format!("{cell:>width$}  ")
-            };
-        }
-        last = &row[0];
-        writeln!(out, "{}", line.trim_end())?;
-    }
-    Ok(())
 }

@@ -4,55 +4,52 @@ use std::io::{self, Write};
 
 use taceva_core::{Limit, PressOutcome};
 use taceva_metrics::Better;
-use taceva_report::escape_terminal;
+use taceva_report::{Align, Column, Table, escape_terminal, short_digests};
 use taceva_study::EvaluationReport;
 
-use super::line::{flags, pictures, read_lines, standings};
+use super::line::{Line, flags, pictures, read_lines, standings};
 use super::number::printed;
 
 pub(super) fn write(report: &EvaluationReport, out: &mut dyn Write) -> io::Result<()> {
     heading(report, out)?;
     let mut last = String::new();
-    let rows: Vec<[String; 6]> = read_lines(&report.evaluation)
-        .iter()
-        .map(|line| {
-            // A metric is named once, above its channels.
-            let is_new = last != line.name;
-            last.clone_from(&line.name);
-            let printed = printed(line);
-            let interval = printed
-                .interval
-                .map(|[low, high]| format!("{low} … {high}"));
-            let n = match (line.is_headline, line.score.n_invalid) {
-                (false, _) => String::new(),
-                (true, 0) => line.score.n.to_string(),
-                (true, invalid) => format!("{} (+{invalid} invalid)", line.score.n),
-            };
-            [
-                if is_new {
-                    line.shown_name()
-                } else {
-                    String::new()
-                },
-                line.channel.to_owned(),
-                if printed.value.is_empty() {
-                    "–".to_owned()
-                } else {
-                    printed.value
-                },
-                unit(line.unit.symbol()),
-                interval.or(printed.reason).unwrap_or_default(),
-                n,
-            ]
-        })
-        .collect();
-    table(
-        ["metric", "channel", "value", "unit", "95 % interval", "n"],
-        &rows,
-        out,
-    )?;
+    let mut table = by_cell(["metric", "channel", "value", "unit", "95 % interval", "n"]);
+    for line in read_lines(&report.evaluation) {
+        // A metric is named once, above its channels.
+        let name = match last == line.name {
+            true => String::new(),
+            false => line.shown_name(),
+        };
+        table.push(cells(name, &line));
+        last = line.name;
+    }
+    out.write_all(table.text().as_bytes())?;
     over_seeds(report, out)?;
     footer(report, out)
+}
+
+/// A line of the table, begun with `name`.
+fn cells(name: String, line: &Line<'_>) -> [String; 6] {
+    let printed = printed(line);
+    let interval = printed
+        .interval
+        .map(|[low, high]| format!("{low} … {high}"));
+    let n = match (line.is_headline, line.score.n_invalid) {
+        (false, _) => String::new(),
+        (true, 0) => line.score.n.to_string(),
+        (true, invalid) => format!("{} (+{invalid} invalid)", line.score.n),
+    };
+    [
+        name,
+        line.channel.to_owned(),
+        match printed.value.is_empty() {
+            true => "–".to_owned(),
+            false => printed.value,
+        },
+        unit(line.unit.symbol()),
+        interval.or(printed.reason).unwrap_or_default(),
+        n,
+    ]
 }
 
 /// How far scores go up and down with the seed of the training, apart from intervals by contact point.
@@ -67,33 +64,26 @@ pub(super) fn over_seeds(report: &EvaluationReport, out: &mut dyn Write) -> io::
         seeds.join(", ")
     )?;
     let number = |value: f64| format!("{value:.3}");
-    let rows: Vec<[String; 6]> = over
-        .scores
-        .iter()
-        .map(|score| {
-            let [low, high] = score.interval.map(number);
-            [
-                Better::named(score.metric),
-                score.channel.clone(),
-                number(score.mean),
-                unit(score.unit),
-                format!("{low} … {high}"),
-                number(score.standard_deviation),
-            ]
-        })
-        .collect();
-    table(
-        [
-            "metric",
-            "channel",
-            "mean",
-            "unit",
-            "95 % interval of the mean",
-            "standard deviation",
-        ],
-        &rows,
-        out,
-    )
+    let mut table = by_cell([
+        "metric",
+        "channel",
+        "mean",
+        "unit",
+        "95 % interval of the mean",
+        "standard deviation",
+    ]);
+    for score in &over.scores {
+        let [low, high] = score.interval.map(number);
+        table.push([
+            Better::named(score.metric),
+            score.channel.clone(),
+            number(score.mean),
+            unit(score.unit),
+            format!("{low} … {high}"),
+            number(score.standard_deviation),
+        ]);
+    }
+    out.write_all(table.text().as_bytes())
 }
 
 fn heading(report: &EvaluationReport, out: &mut dyn Write) -> io::Result<()> {
@@ -102,7 +92,7 @@ fn heading(report: &EvaluationReport, out: &mut dyn Write) -> io::Result<()> {
     if subject.source == "unknown" {
         writeln!(out, "Scores of two tables")?;
     } else {
-        let gel = with_short_digests(&subject.gel);
+        let gel = short_digests(&subject.gel);
         let [sensor, serial, gel] =
             [&subject.sensor, &subject.serial, &gel].map(|name| escape_terminal(name));
         let source = &subject.source;
@@ -220,77 +210,8 @@ fn unit(symbol: &str) -> String {
     }
 }
 
-/// Columns as wide as their longest cell; numbers to the right.
-pub(super) fn table<const N: usize>(
-    head: [&str; N],
-    rows: &[[String; N]],
-    out: &mut dyn Write,
-) -> io::Result<()> {
-    let width = |column: usize| {
-        let cells = rows.iter().map(|row| row[column].chars().count());
-        cells
-            .chain([head[column].chars().count()])
-            .max()
-            .unwrap_or(0)
-    };
-    let widths: [usize; N] = std::array::from_fn(width);
-    let is_number = |cell: &str| cell.parse::<f64>().is_ok();
-    let head = head.map(str::to_owned);
-    for (position, row) in std::iter::once(&head).chain(rows).enumerate() {
-        let cells: Vec<String> = row
-            .iter()
-            .enumerate()
-            .map(|(column, cell)| {
-                let width = widths[column];
-                let to_the_right = is_number(cell)
-                    || (position == 0 && rows.iter().any(|row| is_number(&row[column])));
-                if to_the_right {
-                    format!("{cell:>width$}")
-                } else {
-                    format!("{cell:<width$}")
-                }
-            })
-            .collect();
-        writeln!(out, "{}", cells.join("  ").trim_end())?;
-    }
-    Ok(())
-}
-/// `text` with the first 12 digits of each digest in it; files hold all 64.
-pub(super) fn with_short_digests(text: &str) -> String {
-    const DIGITS: usize = 64;
-    const SHOWN: usize = 12;
-    let mut short = String::with_capacity(text.len());
-    let mut rest = text;
-    while let Some(at) = rest.find(|digit: char| digit.is_ascii_hexdigit()) {
-        let (before, from) = rest.split_at(at);
-        let end = from.find(|digit: char| !digit.is_ascii_hexdigit());
-        let (digits, after) = from.split_at(end.unwrap_or(from.len()));
-        short.push_str(before);
-        match digits.len() {
-            DIGITS => short.extend([&digits[..SHOWN], "…"]),
-            _ => short.push_str(digits),
-        }
-        rest = after;
-    }
-    short.push_str(rest);
-    short
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn digests_are_shown_by_their_first_digits_and_other_words_whole() {
-        let digest = "0f".repeat(32);
-        let text = format!(
-            "bench 2, parameters {digest}, seed 7, faded Ünter {}",
-            &digest[1..]
-        );
-        let expected = format!(
-            "bench 2, parameters 0f0f0f0f0f0f…, seed 7, faded Ünter {}",
-            &digest[1..]
-        );
-        assert_eq!(with_short_digests(&text), expected);
-    }
+/// A table without caption, whose numbers stand to the right one by one.
+fn by_cell<const N: usize>(names: [&str; N]) -> Table {
+    let columns = names.map(|name| Column::new(name).align(Align::ByCell));
+    Table::new("", columns)
 }

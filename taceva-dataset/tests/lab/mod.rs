@@ -8,6 +8,7 @@ use std::path::{Path, PathBuf};
 
 use image::{DynamicImage, GrayImage, ImageFormat, Luma, Rgb, RgbImage};
 use taceva_core::Silent;
+use taceva_core::random::SplitMix64;
 use taceva_dataset::{DatasetError, ImportMap, ImportPlan, ImportReport};
 use tempfile::TempDir;
 
@@ -194,16 +195,16 @@ fn encoded(image: DynamicImage, format: ImageFormat) -> Vec<u8> {
     bytes
 }
 
-/// Random numbers that are the same each time (Steele, Lea & Flood 2014: SplitMix64).
-pub(crate) struct Random(pub(crate) u64);
+/// Random numbers that are the same each time.
+pub(crate) struct Random(SplitMix64);
 
 impl Random {
+    pub(crate) fn new(seed: u64) -> Random {
+        Random(SplitMix64::new(seed))
+    }
+
     pub(crate) fn below(&mut self, limit: usize) -> usize {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut mixed = self.0;
-        mixed = (mixed ^ (mixed >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        mixed = (mixed ^ (mixed >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        usize::try_from((mixed ^ (mixed >> 31)) % limit as u64).expect("below a usize")
+        usize::try_from(self.0.next_u64() % limit as u64).expect("below a usize")
     }
 
     /// `bytes` with a few random changes: overwritten, cut, doubled or removed.

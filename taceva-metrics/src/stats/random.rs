@@ -1,16 +1,21 @@
 //! Random bits by counting: each draw is a function of a seed and of what it is for, so that no order can change it.
 
-use crate::clusters::splitmix64;
+use taceva_core::random::mix;
 
 /// 64 random bits, those of the pair `(major, minor)` under `seed`:
-/// splitmix64(splitmix64(splitmix64(seed) ⊕ major) ⊕ minor).
+/// mix(mix(mix(seed) ⊕ major) ⊕ minor).
 pub(super) fn bits(seed: u64, major: u64, minor: u64) -> u64 {
-    splitmix64(splitmix64(splitmix64(seed) ^ major) ^ minor)
+    mix(mix(mix(seed) ^ major) ^ minor)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn bits_keep_their_values() {
+        assert_eq!(bits(7, 1, 2), 1_650_069_959_653_123_811);
+    }
 
     #[test]
     fn neighbouring_counters_differ_in_about_half_of_their_bits() {

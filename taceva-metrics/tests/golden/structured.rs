@@ -11,6 +11,7 @@
 use std::path::PathBuf;
 
 use serde_json::Value;
+use taceva_core::random::SplitMix64;
 use taceva_core::{Sample, SampleSink};
 use taceva_metrics::{Evaluation, Evaluator, MetricPlan, State};
 
@@ -83,14 +84,15 @@ pub(crate) fn exact(value: &Value) -> f64 {
 }
 
 /// The generator of the recipes.
-pub(crate) struct Random(pub(crate) u64);
+pub(crate) struct Random(SplitMix64);
 
 impl Random {
+    pub(crate) fn new(seed: u64) -> Random {
+        Random(SplitMix64::new(seed))
+    }
+
     pub(crate) fn next(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mixed = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        let mixed = (mixed ^ (mixed >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        mixed ^ (mixed >> 31)
+        self.0.next_u64()
     }
 
     /// `next() % bound`.
@@ -105,9 +107,8 @@ impl Random {
     }
 
     /// `u()`.
-    #[expect(clippy::cast_precision_loss, reason = "53 bits")]
     pub(crate) fn unit(&mut self) -> f64 {
-        (self.next() >> 11) as f64 * (1.0 / 9_007_199_254_740_992.0)
+        self.0.unit()
     }
 
     /// `g()`.
@@ -127,7 +128,7 @@ pub(crate) fn in_every_way(
         evaluator
     };
     let finish = |evaluator: Evaluator| evaluator.finish().expect("the plan's channels");
-    let mut random = Random(samples.len() as u64);
+    let mut random = Random::new(samples.len() as u64);
     let mut parts: Vec<Vec<&Sample>> = vec![Vec::new(); 7];
     for sample in samples {
         let part = random.index(parts.len());

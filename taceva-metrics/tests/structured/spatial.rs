@@ -26,7 +26,7 @@ fn spatial_robustness_is_formed_in_whole_nanometres() {
         100,
         "the definition has a hundred bins"
     );
-    let mut random = Random(whole(&params["seed"]));
+    let mut random = Random::new(whole(&params["seed"]));
     let samples: Vec<Sample> = (0..usize::try_from(whole(&params["n"])).expect("a count"))
         .map(|row| {
             let (mut x, mut y);

@@ -46,7 +46,7 @@ fn success_rates_are_the_counts_of_whole_nanometres() {
         signed(&params["hi"]),
     );
     let n = whole(&params["n"]);
-    let mut random = Random(whole(&params["seed"]));
+    let mut random = Random::new(whole(&params["seed"]));
     let samples: Vec<Sample> = (0..usize::try_from(n).expect("a count"))
         .map(|row| {
             let level = low + random.below(high - low + 1);

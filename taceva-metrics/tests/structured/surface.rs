@@ -26,7 +26,7 @@ fn sensitivity_and_uniformity_are_rationals_rounded_once() {
     let half = signed(&params["R_nm"]);
     let bins = signed(&params["G"]);
     let gate = real(&params["gate_N"]);
-    let mut random = Random(whole(&params["seed"]));
+    let mut random = Random::new(whole(&params["seed"]));
     let samples: Vec<Sample> = (0..usize::try_from(whole(&params["n"])).expect("a count"))
         .map(|row| {
             let mut x = random.below(2 * half + 1) - half;

@@ -8,6 +8,7 @@
 use std::f64::consts::FRAC_2_PI;
 use std::ops::{AddAssign, Range};
 
+use taceva_core::random::SplitMix64;
 use taceva_core::{
     Channel, Channels, Field, FieldSet, Footprint, GratingKind, Nanometre, Readings, Sample,
     SampleSink,
@@ -253,7 +254,7 @@ impl Press {
 impl Design {
     /// The presses of one run: Gaussian errors, whose spread is a location's own, as its compliance is.
     fn presses(self, run: u32, by_sample: bool) -> Vec<Press> {
-        let mut random = Random(u64::from(run) << 32 | u64::from(self.locations));
+        let mut random = Random::new(u64::from(run) << 32 | u64::from(self.locations));
         let mut presses = Vec::new();
         for location in 0..self.locations {
             let deviation_n = DEVIATION_N * relative_spread(random.unit());
@@ -339,21 +340,17 @@ pub(crate) fn expected() -> Each<f64> {
     ]
 }
 
-/// SplitMix64 (Steele, Lea, Flood 2014).
-struct Random(u64);
+/// Random numbers of one simulation.
+struct Random(SplitMix64);
 
 impl Random {
-    fn next(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut mixed = self.0;
-        mixed = (mixed ^ (mixed >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        mixed = (mixed ^ (mixed >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        mixed ^ (mixed >> 31)
+    fn new(seed: u64) -> Random {
+        Random(SplitMix64::new(seed))
     }
 
     /// In 0..1, neither end included.
     fn unit(&mut self) -> f64 {
-        let high = u32::try_from(self.next() >> 32).expect("32 bits are left");
+        let high = u32::try_from(self.0.next_u64() >> 32).expect("32 bits are left");
         (f64::from(high) + 0.5) / 4_294_967_296.0
     }
 

@@ -3,7 +3,7 @@
 use taceva_core::{Frame, FrameInfo, PixelFormat};
 
 use super::markers::Polarity;
-use crate::random::SplitMix64;
+use taceva_core::random::SplitMix64;
 
 /// A frame of random bytes.
 pub(super) fn noise(width: u32, height: u32, format: PixelFormat, seed: u64) -> Frame {

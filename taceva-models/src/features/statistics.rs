@@ -140,8 +140,8 @@ mod tests {
     use super::*;
     use crate::features::drawn::noise;
     use crate::features::{Extractor, FeatureKind};
-    use crate::random::SplitMix64;
     use taceva_core::PixelFormat;
+    use taceva_core::random::SplitMix64;
 
     fn spec(width: u32, height: u32, color: Color) -> FeatureSpec {
         FeatureSpec {

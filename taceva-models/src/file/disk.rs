@@ -7,7 +7,6 @@ use std::path::{Path, PathBuf};
 use sha2::{Digest, Sha256};
 
 use super::bytes::FILE_MAX;
-use super::durable;
 use super::error::FormatError;
 use crate::model::Model;
 use crate::models::Models;
@@ -85,7 +84,7 @@ fn write_whole(path: &Path, bytes: &[u8]) -> io::Result<()> {
         name.to_string_lossy(),
         std::process::id()
     ));
-    durable::replace(path, &beside, |beside| {
+    taceva_durable::replace(path, &beside, |beside| {
         File::create_new(beside)?.write_all(bytes)
     })
 }

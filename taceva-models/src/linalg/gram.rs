@@ -133,7 +133,7 @@ mod tests {
     #[test]
     fn tiles_and_slabs_make_the_whole_product() {
         let (samples, width) = (300, 1100);
-        let mut random = crate::random::SplitMix64::new(3);
+        let mut random = taceva_core::random::SplitMix64::new(3);
         let values = (0..samples * width)
             .map(|_| f32::from(random.next_u64().to_le_bytes()[0]))
             .collect();

@@ -7,8 +7,8 @@ use serde::{Deserialize, Serialize};
 
 use super::error::SplitError;
 use super::spec::{ColumnSplit, Fractions, SplitKind, SplitSpec};
-use crate::random::SplitMix64;
 use crate::settings::Suggestion;
+use taceva_core::random::SplitMix64;
 
 /// What a sample is used for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]

@@ -6,7 +6,7 @@ use super::*;
 use crate::machine::Machine;
 use crate::panel::Aligned;
 use crate::planes::Planes;
-use crate::random::Draws;
+use taceva_core::random::Draws;
 
 fn random(length: usize, seed: u64) -> Vec<f32> {
     let draws = Draws::new(seed);

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use crate::architecture::Architecture;
 use crate::error::NetworkError;
 use crate::planes::Picture;
-use crate::random::Draws;
+use taceva_core::random::Draws;
 
 /// How pictures are changed before each step; the default changes nothing.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]

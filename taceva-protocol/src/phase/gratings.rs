@@ -2,7 +2,7 @@
 
 use taceva_core::{Nanometre, Specimen};
 
-use super::{Ground, PhaseKind, straight};
+use super::{PhaseInputs, PhaseKind, straight};
 use crate::press::{Motion, Press};
 use crate::specimen::spacings;
 
@@ -10,14 +10,14 @@ use crate::specimen::spacings;
 const HALF_TURN: i64 = 180_000;
 
 /// Board after board, because boards are exchanged by hand.
-pub(super) fn presses(ground: &Ground<'_>) -> Vec<Press> {
-    let draws = ground.draws(PhaseKind::Gratings);
-    let spec = &ground.protocol.gratings;
+pub(super) fn presses(inputs: &PhaseInputs<'_>) -> Vec<Press> {
+    let draws = inputs.draws(PhaseKind::Gratings);
+    let spec = &inputs.protocol.gratings;
     let Ok(spacings) = spacings(spec) else {
         // Refused when the scene was read.
         return Vec::new();
     };
-    let depth = fraction_of(ground.depth_max, spec.depth_fraction.value);
+    let depth = fraction_of(inputs.depth_max, spec.depth_fraction.value);
     let boards = spec.kinds.value.iter().flat_map(|kind| {
         let spacings = spacings.iter();
         spacings.map(move |spacing| Specimen::Grating {
@@ -37,7 +37,7 @@ pub(super) fn presses(ground: &Ground<'_>) -> Vec<Press> {
                     turn_millidegrees,
                     // Two equal angles are two presses all the same.
                     repeat: Some(press),
-                    ..ground.press([Nanometre(0); 2], Motion::Indent(vec![straight(depth)]))
+                    ..inputs.press([Nanometre(0); 2], Motion::Indent(vec![straight(depth)]))
                 }
             })
         })

@@ -2,11 +2,11 @@
 
 use taceva_core::Nanometre;
 
-use super::Ground;
+use super::PhaseInputs;
 use crate::press::{Motion, Press};
 
 /// One visit above the centre, in the light of calibration.
-pub(super) fn presses(ground: &Ground<'_>) -> Vec<Press> {
-    let frames = ground.protocol.idle.frames.value;
-    vec![ground.press([Nanometre(0); 2], Motion::Rest { frames })]
+pub(super) fn presses(inputs: &PhaseInputs<'_>) -> Vec<Press> {
+    let frames = inputs.protocol.idle.frames.value;
+    vec![inputs.press([Nanometre(0); 2], Motion::Rest { frames })]
 }

@@ -1,17 +1,17 @@
 //! The first held-out presses again in every scene of light; in that of calibration they are the held-out presses themselves.
 
-use super::{Ground, spatial};
+use super::{PhaseInputs, spatial};
 use crate::press::Press;
 
 /// Scene after scene, because a light takes time to become steady; none where the light cannot be set.
-pub(super) fn presses(ground: &Ground<'_>) -> Vec<Press> {
-    let points = u64::from(ground.protocol.lighting.points.value);
-    let lights = ground.lights.iter();
+pub(super) fn presses(inputs: &PhaseInputs<'_>) -> Vec<Press> {
+    let points = u64::from(inputs.protocol.lighting.points.value);
+    let lights = inputs.lights.iter();
     lights
         .flat_map(|light| {
             (0..points).map(move |point| Press {
                 light: Some(light.clone()),
-                ..spatial::press(ground, point)
+                ..spatial::press(inputs, point)
             })
         })
         .collect()

@@ -2,24 +2,24 @@
 
 use taceva_core::Phase;
 
-use super::{Ground, PhaseKind, straight};
-use crate::press::{Motion, Press, Station};
+use super::{PhaseInputs, PhaseKind, straight};
+use crate::press::{Motion, Press, Waypoint};
 
-/// One visit a point; the deepest station belongs to both branches and is visited once for each.
-pub(super) fn presses(ground: &Ground<'_>) -> Vec<Press> {
-    let draws = ground.draws(PhaseKind::LoadUnload);
-    let spec = &ground.protocol.hysteresis;
-    let depths = ground.staircase(spec.depth_step_mm.value);
+/// One visit a point; the deepest waypoint belongs to both branches and is visited once for each.
+pub(super) fn presses(inputs: &PhaseInputs<'_>) -> Vec<Press> {
+    let draws = inputs.draws(PhaseKind::LoadUnload);
+    let spec = &inputs.protocol.hysteresis;
+    let depths = inputs.staircase(spec.depth_step_mm.value);
     let load = depths.iter().copied().map(straight);
-    let unload = depths.iter().rev().map(|depth| Station {
+    let unload = depths.iter().rev().map(|depth| Waypoint {
         phase: Phase::Unload,
         ..straight(*depth)
     });
-    let stations: Vec<Station> = load.chain(unload).collect();
+    let waypoints: Vec<Waypoint> = load.chain(unload).collect();
     (0..u64::from(spec.points.value))
         .map(|point| {
-            let place = draws.place(&ground.footprint, point);
-            ground.press(place, Motion::Indent(stations.clone()))
+            let place = draws.place(&inputs.footprint, point);
+            inputs.press(place, Motion::Indent(waypoints.clone()))
         })
         .collect()
 }

@@ -2,22 +2,22 @@
 
 use taceva_core::{Nanometre, Phase};
 
-use super::{Ground, PhaseKind, nanometres, straight};
-use crate::press::{Motion, Press, Station};
+use super::{PhaseInputs, PhaseKind, nanometres, straight};
+use crate::press::{Motion, Press, Waypoint};
 
 /// Trial after trial at a point, each to every depth; with markers a shear at the greatest depth ends it.
-pub(super) fn presses(ground: &Ground<'_>) -> Vec<Press> {
-    let draws = ground.draws(PhaseKind::Repeatability);
-    let spec = &ground.protocol.repeatability;
-    let depths = ground.staircase(spec.depth_step_mm.value);
+pub(super) fn presses(inputs: &PhaseInputs<'_>) -> Vec<Press> {
+    let draws = inputs.draws(PhaseKind::Repeatability);
+    let spec = &inputs.protocol.repeatability;
+    let depths = inputs.staircase(spec.depth_step_mm.value);
     let shear_mm = spec.shear_mm.value;
-    let sheared = depths.last().filter(|_| ground.markers && shear_mm > 0.0);
-    let sheared = sheared.map(|depth| Station {
+    let sheared = depths.last().filter(|_| inputs.markers && shear_mm > 0.0);
+    let sheared = sheared.map(|depth| Waypoint {
         depth: *depth,
         shear: [nanometres(shear_mm), Nanometre(0)],
         phase: Phase::Load,
     });
-    let stations: Vec<Station> = depths
+    let waypoints: Vec<Waypoint> = depths
         .iter()
         .copied()
         .map(straight)
@@ -25,11 +25,11 @@ pub(super) fn presses(ground: &Ground<'_>) -> Vec<Press> {
         .collect();
     (0..u64::from(spec.points.value))
         .flat_map(|point| {
-            let place = draws.place(&ground.footprint, point);
-            let stations = &stations;
+            let place = draws.place(&inputs.footprint, point);
+            let waypoints = &waypoints;
             (0..spec.trials.value).map(move |trial| Press {
                 repeat: Some(trial),
-                ..ground.press(place, Motion::Indent(stations.clone()))
+                ..inputs.press(place, Motion::Indent(waypoints.clone()))
             })
         })
         .collect()

@@ -2,27 +2,33 @@
 
 use taceva_core::{Field, SkipReason};
 
-use super::draft::{Draft, PlannedMetric};
+use super::collect::{Collected, PlannedMetric};
 use super::facts::StudyFacts;
 use super::reason::{PlanReason, Subject};
 use crate::phase::PhaseKind;
 
 /// Removes metrics that are not wanted or do not apply, and channels of those that apply in part.
-pub(super) fn pass(mut draft: Draft, facts: &StudyFacts<'_>) -> Draft {
-    for mut metric in std::mem::take(&mut draft.metrics) {
-        if let Some(reason) = obstacle(&metric, &draft, facts) {
-            draft.skip(Subject::Metric(metric.id), reason);
+pub(super) fn pass(mut collected: Collected, facts: &StudyFacts<'_>) -> Collected {
+    for mut metric in std::mem::take(&mut collected.metrics) {
+        if let Some(reason) = obstacle(&metric, &collected, facts) {
+            collected.skip(Subject::Metric(metric.id), reason);
             continue;
         }
-        metric.channels.retain(|name| draft.channels.contains(name));
-        narrow_shear(&mut metric, &mut draft, facts);
-        draft.metrics.push(metric);
+        metric
+            .channels
+            .retain(|name| collected.channels.contains(name));
+        narrow_shear(&mut metric, &mut collected, facts);
+        collected.metrics.push(metric);
     }
-    draft
+    collected
 }
 
 /// What keeps `metric` from having a value.
-fn obstacle(metric: &PlannedMetric, draft: &Draft, facts: &StudyFacts<'_>) -> Option<PlanReason> {
+fn obstacle(
+    metric: &PlannedMetric,
+    collected: &Collected,
+    facts: &StudyFacts<'_>,
+) -> Option<PlanReason> {
     let wanted = facts.wanted.as_ref();
     if wanted.is_some_and(|wanted| !wanted.contains(&metric.id.as_str())) {
         return Some(PlanReason::Skip(SkipReason::NotWanted));
@@ -32,37 +38,39 @@ fn obstacle(metric: &PlannedMetric, draft: &Draft, facts: &StudyFacts<'_>) -> Op
         return Some(PlanReason::Skip(SkipReason::GelIsOpaque));
     }
     let needs_pictures = metric.phase == PhaseKind::Idle && !facts.is_recording();
-    if needs_pictures && let Some(reason) = draft.reason_of(&Subject::Field(Field::Frame)) {
+    if needs_pictures && let Some(reason) = collected.reason_of(&Subject::Field(Field::Frame)) {
         return Some(reason.clone());
     }
     let absent_field = metric
         .fields
         .iter()
-        .find(|field| !draft.fields.contains(*field));
+        .find(|field| !collected.fields.contains(*field));
     if let Some(field) = absent_field {
         let absent = || PlanReason::Skip(SkipReason::FieldAbsent(field));
-        let known = draft.reason_of(&Subject::Field(field)).cloned();
+        let known = collected.reason_of(&Subject::Field(field)).cloned();
         return Some(known.unwrap_or_else(absent));
     }
     let absent_channel = metric
         .required
         .iter()
-        .find(|name| !draft.channels.contains(name));
+        .find(|name| !collected.channels.contains(name));
     if let Some(name) = absent_channel {
         let absent = || PlanReason::Skip(SkipReason::ChannelAbsent(name.clone()));
-        let known = draft.reason_of(&Subject::Channel(name.clone())).cloned();
+        let known = collected
+            .reason_of(&Subject::Channel(name.clone()))
+            .cloned();
         return Some(known.unwrap_or_else(absent));
     }
     if let Some(reason) = metric.facts.iter().find_map(|fact| facts.absent(*fact)) {
         return Some(PlanReason::Skip(reason));
     }
     let is_pressed = |kind| {
-        draft
+        collected
             .presses
             .iter()
             .any(|press| press.phases.contains(&kind))
     };
-    let fitted_on = draft
+    let fitted_on = collected
         .fits
         .iter()
         .filter(|fit| metric.fields.contains(fit.field))
@@ -75,7 +83,7 @@ fn obstacle(metric: &PlannedMetric, draft: &Draft, facts: &StudyFacts<'_>) -> Op
 }
 
 /// Without markers nothing in the picture follows shear, so how far it repeats says nothing about the sensor (TacEva 2025).
-fn narrow_shear(metric: &mut PlannedMetric, draft: &mut Draft, facts: &StudyFacts<'_>) {
+fn narrow_shear(metric: &mut PlannedMetric, collected: &mut Collected, facts: &StudyFacts<'_>) {
     let reads_repeats =
         metric.phase == PhaseKind::Repeatability && metric.fields.contains(Field::Prediction);
     if facts.markers != Some(false) || !reads_repeats {
@@ -91,6 +99,6 @@ fn narrow_shear(metric: &mut PlannedMetric, draft: &mut Draft, facts: &StudyFact
     if !shear.is_empty() {
         metric.channels.retain(|name| !is_shear(name));
         let part = format!("{} ({})", metric.id, shear.join(", "));
-        draft.skip(Subject::Metric(part), PlanReason::NoMarkers);
+        collected.skip(Subject::Metric(part), PlanReason::NoMarkers);
     }
 }

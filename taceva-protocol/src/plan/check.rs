@@ -1,10 +1,10 @@
-//! Pass 6: the gate. It removes nothing; a plan that would do the impossible does not leave it.
+//! Pass 6: consistency. It removes nothing, and refuses a plan that contradicts itself or its limits.
 
 use std::collections::BTreeSet;
 
 use taceva_core::Nanometre;
 
-use super::draft::{Draft, PlannedPress};
+use super::collect::{Collected, PlannedPress};
 use super::facts::StudyFacts;
 use crate::phase::PhaseKind;
 use crate::scene::SceneProblem;
@@ -14,12 +14,12 @@ const GREATEST_PRESSES: u64 = 1_000_000;
 
 /// Refuses a protocol of more presses than can be drawn, before any is.
 pub(super) fn is_drawable(facts: &StudyFacts<'_>) -> Result<(), SceneProblem> {
-    let Some(ground) = &facts.ground else {
+    let Some(phase_inputs) = &facts.phase_inputs else {
         return Ok(());
     };
     let found = PhaseKind::ALL
         .into_iter()
-        .map(|kind| ground.count(kind))
+        .map(|kind| phase_inputs.count(kind))
         .sum();
     if found <= GREATEST_PRESSES {
         return Ok(());
@@ -30,25 +30,28 @@ pub(super) fn is_drawable(facts: &StudyFacts<'_>) -> Result<(), SceneProblem> {
     })
 }
 
-/// Lets `draft` through if every need is met, no press comes twice, and none leaves the limits or the surface.
-pub(super) fn pass(draft: Draft, facts: &StudyFacts<'_>) -> Result<Draft, SceneProblem> {
-    match fault(&draft, facts) {
+/// Lets `collected` through if every need is met, no press comes twice, and none leaves the limits or the surface.
+pub(super) fn pass(
+    collected: Collected,
+    facts: &StudyFacts<'_>,
+) -> Result<Collected, SceneProblem> {
+    match fault(&collected, facts) {
         Some(fault) => Err(SceneProblem::Contradiction(fault)),
-        None => Ok(draft),
+        None => Ok(collected),
     }
 }
 
-fn fault(draft: &Draft, facts: &StudyFacts<'_>) -> Option<String> {
-    let ids: BTreeSet<_> = draft.presses.iter().map(|press| press.id).collect();
-    if ids.len() != draft.presses.len() {
+fn fault(collected: &Collected, facts: &StudyFacts<'_>) -> Option<String> {
+    let ids: BTreeSet<_> = collected.presses.iter().map(|press| press.id).collect();
+    if ids.len() != collected.presses.len() {
         return Some("two presses of the plan have one name".to_owned());
     }
-    let unmet = draft.metrics.iter().find_map(|metric| {
+    let unmet = collected.metrics.iter().find_map(|metric| {
         let absent = metric
             .fields
             .iter()
-            .find(|field| !draft.fields.contains(*field));
-        let pressed = facts.is_recording() || draft.phases.contains(&metric.phase);
+            .find(|field| !collected.fields.contains(*field));
+        let pressed = facts.is_recording() || collected.phases.contains(&metric.phase);
         match (absent, pressed) {
             (Some(field), _) => Some(format!(
                 "`{}` reads `{field}`, which the plan left out",
@@ -62,14 +65,15 @@ fn fault(draft: &Draft, facts: &StudyFacts<'_>) -> Option<String> {
         }
     });
     unmet.or_else(|| {
-        let ground = facts.ground.as_ref()?;
+        let phase_inputs = facts.phase_inputs.as_ref()?;
         let beyond = |press: &&PlannedPress| {
             let [x, y] = press.press.place;
-            let too_deep = |depth: Nanometre| depth > ground.depth_max;
-            let mut stations = press.press.stations().iter();
-            !ground.footprint.contains(x, y) || stations.any(|station| too_deep(station.depth))
+            let too_deep = |depth: Nanometre| depth > phase_inputs.depth_max;
+            let mut waypoints = press.press.waypoints().iter();
+            !phase_inputs.footprint.contains(x, y)
+                || waypoints.any(|waypoint| too_deep(waypoint.depth))
         };
-        let press = draft.presses.iter().find(beyond)?;
+        let press = collected.presses.iter().find(beyond)?;
         Some(format!(
             "press {} leaves the surface or the depth limit",
             press.id

@@ -1,8 +1,8 @@
-//! Pass 7: what a plan will cost. An estimate for people; nothing is decided by it.
+//! Pass 7: what a plan will cost. An estimate for readers; nothing is decided by it.
 
 use taceva_core::{FrameInfo, Nanometre};
 
-use super::draft::PlannedPress;
+use super::collect::PlannedPress;
 use super::facts::StudyFacts;
 use crate::press::Motion;
 use crate::scene::Contact;
@@ -29,7 +29,7 @@ const LOOK_S: f64 = 0.005;
 
 /// The cost of `presses`.
 pub(super) fn cost(presses: &[PlannedPress], facts: &StudyFacts<'_>) -> Cost {
-    let Some(ground) = &facts.ground else {
+    let Some(phase_inputs) = &facts.phase_inputs else {
         return Cost::default();
     };
     let samples = |press: &PlannedPress| press.press.samples() as u64;
@@ -37,7 +37,7 @@ pub(super) fn cost(presses: &[PlannedPress], facts: &StudyFacts<'_>) -> Cost {
     let frames: u64 = seen.map(samples).sum();
     let bytes = facts.frame.as_ref().and_then(FrameInfo::byte_len);
     let price = Price {
-        contact: &ground.protocol.contact,
+        contact: &phase_inputs.protocol.contact,
         frame_s: 1.0 / facts.frame_rate.unwrap_or(UNKNOWN_RATE),
         travel_mm_s: facts
             .limits
@@ -78,15 +78,15 @@ impl Price<'_> {
         match &press.press.motion {
             Motion::Rest { frames } => travel + f64::from(*frames) * self.frame_s,
             Motion::Touch => travel + self.search() + rest + frame,
-            Motion::Indent(stations) => {
+            Motion::Indent(waypoints) => {
                 let mut at = (Nanometre(0), [Nanometre(0); 2]);
                 let mut seconds = travel + self.search();
-                for station in stations {
-                    let sideways = distance(at.1, station.shear);
-                    let way = (station.depth.0 - at.0.0).unsigned_abs();
+                for waypoint in waypoints {
+                    let sideways = distance(at.1, waypoint.shear);
+                    let way = (waypoint.depth.0 - at.0.0).unsigned_abs();
                     let way = Nanometre(i64::try_from(way).unwrap_or(i64::MAX)).to_millimetres();
                     seconds += self.guarded(way + sideways) + rest + frame;
-                    at = (station.depth, station.shear);
+                    at = (waypoint.depth, waypoint.shear);
                 }
                 let back = at.0.to_millimetres() + self.contact.clearance_mm.value;
                 seconds + back / self.travel_mm_s
@@ -117,7 +117,7 @@ mod tests {
     use super::*;
     use crate::plan::plan_study;
     use crate::plan::tests::bench::{SMALL, paper_metrics, rig_of, sensor};
-    use crate::press::Station;
+    use crate::press::Waypoint;
     use crate::scene::Scene;
     use crate::source::SourceInfo;
 
@@ -168,20 +168,20 @@ mod tests {
 
     #[test]
     fn stations_cost_their_ways_down_sideways_and_up_and_the_way_back() {
-        let station = |depth, sideways, phase| Station {
+        let waypoint = |depth, sideways, phase| Waypoint {
             depth: Nanometre(depth),
             shear: [Nanometre(sideways), Nanometre(0)],
             phase,
         };
-        let stations = vec![
-            station(500_000, 0, Phase::Load),
-            station(250_000, 250_000, Phase::Unload),
+        let waypoints = vec![
+            waypoint(500_000, 0, Phase::Load),
+            waypoint(250_000, 250_000, Phase::Unload),
         ];
         let search = 0.5 + 8.0 * 0.005;
         // Half a millimetre each, the second a quarter up and a quarter sideways: four looks.
-        let station = 0.25 + 4.0 * 0.005 + 0.5 + 0.25;
+        let waypoint = 0.25 + 4.0 * 0.005 + 0.5 + 0.25;
         let back = (0.25 + 1.0) / 8.0;
-        let expected = 0.625 + search + 2.0 * station + back;
-        assert_takes(Motion::Indent(stations), true, expected);
+        let expected = 0.625 + search + 2.0 * waypoint + back;
+        assert_takes(Motion::Indent(waypoints), true, expected);
     }
 }

@@ -7,9 +7,9 @@ use taceva_core::{
 };
 use taceva_metrics::Fact;
 
-use super::draft::{CHANNELS, SURFACE};
-use crate::limits::{Limits, limits};
-use crate::phase::{Ground, PhaseKind};
+use super::collect::{CHANNELS, SURFACE};
+use crate::limits::{RigLimits, limits};
+use crate::phase::{PhaseInputs, PhaseKind};
 use crate::scene::{Scene, SceneError, SceneProblem, Setting, Study};
 use crate::source::{RecordingInfo, RigInfo, SourceInfo};
 
@@ -21,9 +21,9 @@ pub(crate) enum ModelChoice {
     Estimator,
 }
 
-/// Who could supply the fields of samples.
+/// The source of the fields of samples.
 #[derive(Clone, Debug)]
-pub(crate) enum Supplier {
+pub(crate) enum FieldSource {
     Rig {
         sensor: bool,
         robot: bool,
@@ -38,7 +38,7 @@ pub(crate) enum Supplier {
 /// What the passes read.
 #[derive(Clone, Debug)]
 pub(crate) struct StudyFacts<'a> {
-    pub(crate) supplier: Supplier,
+    pub(crate) field_source: FieldSource,
     pub(crate) opaque: Option<bool>,
     pub(crate) markers: Option<bool>,
     pub(crate) model: ModelChoice,
@@ -47,8 +47,8 @@ pub(crate) struct StudyFacts<'a> {
     /// The metrics that are wanted; all when absent.
     pub(crate) wanted: Option<Vec<&'static str>>,
     /// What presses are drawn from; absent where nothing is pressed.
-    pub(crate) ground: Option<Ground<'a>>,
-    pub(crate) limits: Option<Limits>,
+    pub(crate) phase_inputs: Option<PhaseInputs<'a>>,
+    pub(crate) limits: Option<RigLimits>,
     pub(crate) frame: Option<FrameInfo>,
     pub(crate) footprint: Option<Footprint>,
     /// Frames a second.
@@ -58,9 +58,9 @@ pub(crate) struct StudyFacts<'a> {
 impl StudyFacts<'_> {
     /// The channels that the source might measure.
     pub(crate) fn all_channels(&self) -> Vec<String> {
-        match &self.supplier {
-            Supplier::Rig { .. } => CHANNELS.map(str::to_owned).to_vec(),
-            Supplier::Recording { channels, .. } => channels.clone(),
+        match &self.field_source {
+            FieldSource::Rig { .. } => CHANNELS.map(str::to_owned).to_vec(),
+            FieldSource::Recording { channels, .. } => channels.clone(),
         }
     }
 
@@ -96,7 +96,7 @@ impl StudyFacts<'_> {
 
     /// Whether the source is a recording.
     pub(crate) fn is_recording(&self) -> bool {
-        matches!(self.supplier, Supplier::Recording { .. })
+        matches!(self.field_source, FieldSource::Recording { .. })
     }
 }
 
@@ -141,11 +141,11 @@ impl<'a> Gather<'a> {
             Some(_) => Some(limits(scene, study, rig)?),
             None => None,
         };
-        let ground = match (&limits, footprint) {
+        let phase_inputs = match (&limits, footprint) {
             (Some(limits), Some(footprint)) => {
                 self.depths(limits)?;
                 self.workspace(rig, &footprint)?;
-                Some(Ground {
+                Some(PhaseInputs {
                     protocol: &scene.protocol,
                     footprint,
                     depth_max: whole_nanometres_within(limits.depth_max.0),
@@ -158,7 +158,7 @@ impl<'a> Gather<'a> {
             _ => None,
         };
         Ok(StudyFacts {
-            supplier: Supplier::Rig {
+            field_source: FieldSource::Rig {
                 sensor: rig.sensor.is_some(),
                 robot: rig.robot.is_some(),
                 force: axes,
@@ -169,7 +169,7 @@ impl<'a> Gather<'a> {
             units: self.units.to_vec(),
             lights: self.lights.to_vec(),
             wanted: self.wanted(),
-            ground,
+            phase_inputs,
             limits,
             frame: sensor.and_then(|sensor| sensor.frame),
             footprint,
@@ -181,7 +181,7 @@ impl<'a> Gather<'a> {
         let opaque = self.agreed("opaque", self.study.sensor.opaque, recording.opaque)?;
         let named = recording.channels.iter().map(Channel::name);
         Ok(StudyFacts {
-            supplier: Supplier::Recording {
+            field_source: FieldSource::Recording {
                 fields: recording.fields,
                 channels: named.map(str::to_owned).collect(),
             },
@@ -191,7 +191,7 @@ impl<'a> Gather<'a> {
             units: Vec::new(),
             lights: Vec::new(),
             wanted: self.wanted(),
-            ground: None,
+            phase_inputs: None,
             limits: None,
             frame: recording.frame,
             footprint: self.footprint(recording.footprint)?,
@@ -219,7 +219,7 @@ impl<'a> Gather<'a> {
     }
 
     /// Refuses depths of the protocol that the limit forbids.
-    fn depths(&self, limits: &Limits) -> Result<(), SceneError> {
+    fn depths(&self, limits: &RigLimits) -> Result<(), SceneError> {
         let protocol = &self.scene.protocol;
         for (key, depth) in [
             ("depth_min_mm", protocol.calibration.depth_min_mm),

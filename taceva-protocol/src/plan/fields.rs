@@ -1,57 +1,57 @@
-//! Pass 5: what nobody reads is not recorded, and pictures nobody looks at are not taken.
+//! Pass 5: fields that nothing reads are not recorded, and pictures that nothing reads are not taken.
 
 use taceva_core::{Field, FieldSet};
 
-use super::draft::{Draft, PlannedMetric, SURFACE};
+use super::collect::{Collected, PlannedMetric, SURFACE};
 use super::facts::StudyFacts;
 use super::reason::{PlanReason, Subject};
 use crate::phase::PhaseKind;
 
-/// Removes fields that no kept metric or model reads, and the pictures of presses that none looks at.
-pub(super) fn pass(mut draft: Draft, facts: &StudyFacts<'_>) -> Draft {
-    let of_metrics = draft.metrics.iter().map(|metric| metric.fields);
+/// Removes fields that no kept metric or model reads, and the pictures of presses of which none reads any.
+pub(super) fn pass(mut collected: Collected, facts: &StudyFacts<'_>) -> Collected {
+    let of_metrics = collected.metrics.iter().map(|metric| metric.fields);
     let read = of_metrics.fold(FieldSet::EMPTY, |all, fields| all | fields);
-    let seen = draft
+    let seen = collected
         .phases
         .iter()
-        .any(|kind| draft.looks_at_pictures(*kind));
+        .any(|kind| collected.looks_at_pictures(*kind));
     let of_models = [Field::Prediction, Field::PredictedSpacing];
     let predicted = of_models.into_iter().any(|field| read.contains(field));
     let needed = match (
-        seen || predicted || !draft.fits.is_empty(),
-        draft.metrics.is_empty(),
+        seen || predicted || !collected.fits.is_empty(),
+        collected.metrics.is_empty(),
     ) {
         (true, _) => read.with(Field::Frame).with(Field::Point),
         (false, false) => read.with(Field::Point),
         (false, true) => read,
     };
-    let needed = match draft.phases.contains(&PhaseKind::Idle) {
+    let needed = match collected.phases.contains(&PhaseKind::Idle) {
         true => needed.with(Field::Stamp),
         false => needed,
     };
-    for field in draft.fields.iter().collect::<Vec<Field>>() {
+    for field in collected.fields.iter().collect::<Vec<Field>>() {
         if !needed.contains(field) {
-            draft.fields = draft.fields.without(field);
-            draft.skip(Subject::Field(field), PlanReason::NoMetricNeeds);
+            collected.fields = collected.fields.without(field);
+            collected.skip(Subject::Field(field), PlanReason::NoMetricNeeds);
         }
     }
     let feels = |metric: &PlannedMetric| metric.phase == PhaseKind::SurfaceMap;
     if !facts.is_recording()
-        && draft.channels.iter().any(|name| name == SURFACE)
-        && !draft.metrics.iter().any(feels)
+        && collected.channels.iter().any(|name| name == SURFACE)
+        && !collected.metrics.iter().any(feels)
     {
-        draft.channels.retain(|name| name != SURFACE);
+        collected.channels.retain(|name| name != SURFACE);
         let height = Subject::Channel(SURFACE.to_owned());
-        draft.skip(height, PlanReason::NoMetricNeeds);
+        collected.skip(height, PlanReason::NoMetricNeeds);
     }
-    let seen: Vec<_> = draft
+    let seen: Vec<_> = collected
         .phases
         .iter()
         .copied()
-        .filter(|kind| draft.looks_at_pictures(*kind))
+        .filter(|kind| collected.looks_at_pictures(*kind))
         .collect();
-    for press in &mut draft.presses {
+    for press in &mut collected.presses {
         press.frames &= press.phases.iter().any(|kind| seen.contains(kind));
     }
-    draft
+    collected
 }

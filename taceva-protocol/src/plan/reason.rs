@@ -61,8 +61,8 @@ impl fmt::Display for Subject {
 pub enum PlanReason {
     /// A reason that any stream of samples may have.
     Skip(SkipReason),
-    /// A field that nobody supplies, and what is missing in the chain that would.
-    Unsupplied {
+    /// A field without a source, and what its source would need.
+    Unresolved {
         /// The field.
         field: Field,
         /// What is missing.
@@ -88,7 +88,7 @@ pub enum PlanReason {
     },
 }
 
-/// What is missing for somebody to supply a field.
+/// What is missing for a field or channel to have a source.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Cause {
@@ -149,7 +149,7 @@ impl PlanReason {
     /// One of each kind, so that tests can visit every line.
     pub fn all() -> Vec<PlanReason> {
         let skips = SkipReason::all().into_iter().map(PlanReason::Skip);
-        let causes = Cause::ALL.into_iter().map(|cause| PlanReason::Unsupplied {
+        let causes = Cause::ALL.into_iter().map(|cause| PlanReason::Unresolved {
             field: Field::Prediction,
             cause,
         });
@@ -175,7 +175,7 @@ impl fmt::Display for PlanReason {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             PlanReason::Skip(reason) => write!(f, "{reason}"),
-            PlanReason::Unsupplied { field, cause } => write!(f, "needs `{field}` ← needs {cause}"),
+            PlanReason::Unresolved { field, cause } => write!(f, "needs `{field}` ← needs {cause}"),
             PlanReason::Unmeasured { channel, cause } => {
                 write!(f, "needs `{channel}` ← needs {cause}")
             }
@@ -200,7 +200,7 @@ mod tests {
     fn place(reason: &PlanReason) -> usize {
         match reason {
             PlanReason::Skip(_) => 0,
-            PlanReason::Unsupplied { .. } => 1,
+            PlanReason::Unresolved { .. } => 1,
             PlanReason::Unmeasured { .. } => 2,
             PlanReason::NoMarkers => 3,
             PlanReason::NoMetricNeeds => 4,
@@ -231,7 +231,7 @@ mod tests {
         assert_eq!(causes, (0..9).collect::<Vec<_>>());
         for cause in Cause::ALL {
             let field = Field::Prediction;
-            assert!(PlanReason::all().contains(&PlanReason::Unsupplied { field, cause }));
+            assert!(PlanReason::all().contains(&PlanReason::Unresolved { field, cause }));
         }
     }
 

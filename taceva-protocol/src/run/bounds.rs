@@ -21,8 +21,11 @@ impl Bounds {
     /// Over the surface and the shears of `plan`, from `height_mm` above the clearance down to the end of the search.
     pub(super) fn of(plan: &Plan, height_mm: f64) -> Option<Bounds> {
         let [half_x, half_y] = plan.footprint.as_ref().map(Footprint::half_extent)?;
-        let shear = plan.presses.iter().flat_map(|press| press.press.stations());
-        let shear = shear.flat_map(|station| station.shear);
+        let shear = plan
+            .presses
+            .iter()
+            .flat_map(|press| press.press.waypoints());
+        let shear = shear.flat_map(|waypoint| waypoint.shear);
         let shear = shear.map(|shear| shear.0.abs()).max().unwrap_or(0);
         let side = |half: Nanometre| Nanometre(half.0 + shear).to_millimetres() + ROUNDING_MM;
         let limits = plan.limits.as_ref()?;
@@ -60,7 +63,7 @@ mod tests {
     use super::*;
     use crate::plan::plan_study;
     use crate::plan::tests::bench::{SMALL, paper_metrics, rig_of, sensor};
-    use crate::press::{Motion, Station};
+    use crate::press::{Motion, Waypoint};
     use crate::scene::Scene;
     use crate::source::SourceInfo;
 
@@ -75,16 +78,16 @@ mod tests {
         plan.contact.search_mm.value = 0.5;
         plan.limits.as_mut().expect("it moves").depth_max = Millimetre(1.0);
         plan.presses.truncate(1);
-        let sheared = |shear| Station {
+        let sheared = |shear| Waypoint {
             depth: Nanometre(500_000),
             shear,
             phase: Phase::Load,
         };
-        let stations = [
+        let waypoints = [
             [Nanometre(125_000), Nanometre(0)],
             [Nanometre(0), Nanometre(-250_000)],
         ];
-        plan.presses[0].press.motion = Motion::Indent(stations.map(sheared).to_vec());
+        plan.presses[0].press.motion = Motion::Indent(waypoints.map(sheared).to_vec());
         plan
     }
 

@@ -5,13 +5,13 @@ use std::fmt;
 use taceva_core::{DriverError, SinkError};
 
 use super::trip::Trip;
-use crate::digest::Digest;
+use crate::content_id::ContentId;
 
 /// A run that stopped before its end. Everything finished is durable, and the same call resumes it.
 #[derive(Debug)]
 pub struct RunError {
     /// The press that was not finished, if one had begun; it will be made again from its start.
-    pub press: Option<Digest>,
+    pub press: Option<ContentId>,
     /// Why.
     pub cause: StopCause,
     /// Where the tip was left.

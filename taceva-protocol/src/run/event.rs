@@ -3,7 +3,7 @@
 use taceva_core::{Millimetre, PressOutcome, Specimen};
 
 use super::trip::Trip;
-use crate::digest::Digest;
+use crate::content_id::ContentId;
 
 /// Something that happened.
 #[derive(Clone, Debug, PartialEq)]
@@ -23,7 +23,7 @@ pub enum Event {
     /// A press begins.
     Approaching {
         /// Which.
-        press: Digest,
+        press: ContentId,
         /// Its number among the presses of this unit, from 1.
         number: usize,
     },
@@ -46,10 +46,10 @@ pub enum Event {
     /// A press is finished and durable.
     Finished {
         /// Which.
-        press: Digest,
+        press: ContentId,
         /// How it ended.
         outcome: PressOutcome,
     },
     /// A place was visited in the air, in a dry run.
-    Rehearsed(Digest),
+    Rehearsed(ContentId),
 }

@@ -1,39 +1,40 @@
-//! The stations of a press, and what is left of them once a limit of the gel was reached.
+//! The waypoints of a press, and what is left of them once a limit of the gel was reached.
 
 use taceva_core::{Limit, Nanometre, Phase, PressOutcome};
 
 use super::error::StopCause;
 use super::event::Event;
-use super::station::{Gathered, Spot};
+use super::sample::{Gathered, Spot};
+use super::session::Run;
 use super::tip::{Step, Tip};
-use super::{PlannedPress, Run};
-use crate::press::Station;
+use crate::plan::PlannedPress;
+use crate::press::Waypoint;
 
-/// Times that the tip draws back at one station, each a segment at least: noise at the limit takes one or two.
+/// Times that the tip draws back at one waypoint, each a segment at least: noise at the limit takes one or two.
 const DRAW_BACKS: u32 = 32;
 
 impl Run<'_> {
-    /// Visits the stations below a first contact at `height_mm`.
+    /// Visits the waypoints below a first contact at `height_mm`.
     ///
-    /// Where a limit of the gel stops the tip, it draws back to where it may rest, and the sample of that station is taken there. What lies
-    /// deeper is left out; a press that comes out by stations does so from there.
+    /// Where a limit of the gel stops the tip, it draws back to where it may rest, and the sample of that waypoint is taken there. What lies
+    /// deeper is left out; a press that comes out by waypoints does so from there.
     pub(super) fn indent(
         &mut self,
         planned: &PlannedPress,
         height_mm: f64,
         gathered: &mut Gathered,
     ) -> Step<PressOutcome> {
-        let stations = planned.press.stations();
+        let waypoints = planned.press.waypoints();
         let (mut ended_by, mut reached) = (None, None);
-        for (place, number) in (0..stations.len()).zip(0..) {
+        for (place, number) in (0..waypoints.len()).zip(0..) {
             let spot = match reached {
-                Some((limit, reached_mm)) => match after_limit(stations, place, reached_mm) {
+                Some((limit, reached_mm)) => match after_limit(waypoints, place, reached_mm) {
                     Visit::Not => continue,
                     Visit::WhereItIs => Spot {
                         limited_by: Some(limit),
                         ..Spot::reached(number, height_mm)
                     },
-                    Visit::Station => Spot::reached(number, height_mm),
+                    Visit::Waypoint => Spot::reached(number, height_mm),
                 },
                 None => Spot::reached(number, height_mm),
             };
@@ -54,15 +55,15 @@ impl Run<'_> {
         Ok(ended_by.map_or(PressOutcome::Complete, PressOutcome::Limited))
     }
 
-    /// Goes to a station, unless the tip is to be seen where it is, and takes its sample.
+    /// Goes to a waypoint, unless the tip is to be seen where it is, and takes its sample.
     fn visit(&mut self, planned: &PlannedPress, spot: Spot, gathered: &mut Gathered) -> Step<()> {
         let press = &planned.press;
-        let station = usize::try_from(spot.number)
+        let waypoint = usize::try_from(spot.number)
             .ok()
-            .and_then(|number| press.stations().get(number))
+            .and_then(|number| press.waypoints().get(number))
             .filter(|_| spot.limited_by.is_none());
-        if let Some(Station { depth, shear, .. }) = station {
-            let target = Tip::station(press.place, *shear, spot.zero_mm, *depth);
+        if let Some(Waypoint { depth, shear, .. }) = waypoint {
+            let target = Tip::waypoint(press.place, *shear, spot.zero_mm, *depth);
             self.tip.approach(target)?;
         }
         let rested = self.tip.settle()?;
@@ -79,7 +80,7 @@ impl Run<'_> {
         Ok(limit)
     }
 
-    /// Takes the sample of a station that a limit keeps out of reach as near to it as the tip may rest; the depth there, in mm.
+    /// Takes the sample of a waypoint that a limit keeps out of reach as near to it as the tip may rest; the depth there, in mm.
     fn visit_at_limit(
         &mut self,
         planned: &PlannedPress,
@@ -99,7 +100,7 @@ impl Run<'_> {
     }
 }
 
-/// What becomes of a station after a limit.
+/// What becomes of a waypoint after a limit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Visit {
     /// It is left out.
@@ -107,21 +108,21 @@ enum Visit {
     /// It is the turning point: its sample is taken at the depth that was reached.
     WhereItIs,
     /// It is visited.
-    Station,
+    Waypoint,
 }
 
-/// What becomes of the station at `place` after a limit stopped the tip at `reached_mm`.
-fn after_limit(stations: &[Station], place: usize, reached_mm: f64) -> Visit {
-    let is_on_way_out = |station: &Station| station.phase == Phase::Unload;
+/// What becomes of the waypoint at `place` after a limit stopped the tip at `reached_mm`.
+fn after_limit(waypoints: &[Waypoint], place: usize, reached_mm: f64) -> Visit {
+    let is_on_way_out = |waypoint: &Waypoint| waypoint.phase == Phase::Unload;
     let is_deeper = |depth: Nanometre| depth.to_millimetres() > reached_mm;
-    let station = &stations[place];
-    let next = stations.get(place + 1);
+    let waypoint = &waypoints[place];
+    let next = waypoints.get(place + 1);
     let next_is_deeper = next.is_some_and(|next| is_on_way_out(next) && is_deeper(next.depth));
-    match (is_on_way_out(station), is_deeper(station.depth)) {
+    match (is_on_way_out(waypoint), is_deeper(waypoint.depth)) {
         (false, _) => Visit::Not,
         (true, true) if next_is_deeper => Visit::Not,
         (true, true) => Visit::WhereItIs,
-        (true, false) => Visit::Station,
+        (true, false) => Visit::Waypoint,
     }
 }
 
@@ -130,26 +131,26 @@ mod tests {
     use taceva_core::{Frame, SinkError};
 
     use super::*;
-    use crate::digest::Digest;
+    use crate::content_id::ContentId;
     use crate::press::Motion;
     use crate::run::rig::{CONTACT_MM, Rig, plan};
     use crate::run::{Cancel, Controls, Devices, Mode, PressLog, PressRecord, RunSpec, run};
 
     #[test]
     fn after_a_limit_the_way_out_begins_where_the_way_in_ended() {
-        let station = |depth: i64, phase| Station {
+        let waypoint = |depth: i64, phase| Waypoint {
             depth: Nanometre(depth * 100_000),
             shear: [Nanometre(0); 2],
             phase,
         };
-        let load = (1..=4).map(|depth| station(depth, Phase::Load));
-        let unload = (1..=4).rev().map(|depth| station(depth, Phase::Unload));
-        let stations: Vec<Station> = load.chain(unload).collect();
+        let load = (1..=4).map(|depth| waypoint(depth, Phase::Load));
+        let unload = (1..=4).rev().map(|depth| waypoint(depth, Phase::Unload));
+        let waypoints: Vec<Waypoint> = load.chain(unload).collect();
         let visits = |reached_mm| {
-            let visits = (3..8).map(|place| after_limit(&stations, place, reached_mm));
+            let visits = (3..8).map(|place| after_limit(&waypoints, place, reached_mm));
             visits.collect::<Vec<_>>()
         };
-        use Visit::{Not, Station as Visited, WhereItIs};
+        use Visit::{Not, Waypoint as Visited, WhereItIs};
         assert_eq!(visits(0.25), [Not, Not, WhereItIs, Visited, Visited]);
         assert_eq!(visits(0.05), [Not, Not, Not, Not, WhereItIs]);
         // A depth that was just reached is visited on the way out.
@@ -162,7 +163,7 @@ mod tests {
     struct Memory(Vec<PressRecord>);
 
     impl PressLog for Memory {
-        fn is_finished(&self, _: Digest) -> bool {
+        fn is_finished(&self, _: ContentId) -> bool {
             false
         }
         fn append(&mut self, record: &PressRecord) -> Result<(), SinkError> {
@@ -195,7 +196,7 @@ mod tests {
         planned.frames = false;
         planned.press.light = None;
         planned.press.place = [Nanometre(0); 2];
-        planned.press.motion = Motion::Indent(vec![Station {
+        planned.press.motion = Motion::Indent(vec![Waypoint {
             depth: Nanometre(1_000_000),
             shear: [Nanometre(0); 2],
             phase: Phase::Load,

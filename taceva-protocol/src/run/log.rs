@@ -2,12 +2,12 @@
 
 use taceva_core::{Frame, PressOutcome, Sample, SinkError};
 
-use crate::digest::Digest;
+use crate::content_id::ContentId;
 
 /// A record of finished presses that outlives the process.
 pub trait PressLog {
     /// Whether `press` was appended, in this run or an earlier one.
-    fn is_finished(&self, press: Digest) -> bool;
+    fn is_finished(&self, press: ContentId) -> bool;
 
     /// Takes a whole press and returns once it is durable: all of it, or, after an interruption, none.
     ///
@@ -27,14 +27,14 @@ pub trait PressLog {
 #[derive(Clone, Debug, PartialEq)]
 pub struct PressRecord {
     /// Its name.
-    pub press: Digest,
+    pub press: ContentId,
     /// How it ended.
     pub outcome: PressOutcome,
-    /// Its samples in order, called `<press>/<number>`, where the number is that of the station or picture in the press: those that a
+    /// Its samples in order, called `<press>/<number>`, where the number is that of the waypoint or picture in the press: those that a
     /// limited press left out are not there.
     ///
     /// Truth is in the channels of the plan, in its order. `Pz` is the depth from the first contact, `surface_z` the height in the
     /// sensor's frame at which a surface was felt, positive into the gel; each is absent where the other is meant. Those that a limit kept
-    /// from their station name it and have no `depth_step`.
+    /// from their waypoint name it and have no `depth_step`.
     pub samples: Vec<Sample>,
 }

@@ -4,7 +4,7 @@ use std::time::Duration;
 
 use taceva_core::{Millimetre, Point, Pose};
 
-use super::supervisor::Stage;
+use super::supervisor::MotionStage;
 use super::tip::{Step, Tip};
 
 /// Above the first contact by this much the tip is in the air again, in mm.
@@ -50,7 +50,8 @@ impl Tip<'_> {
             }
         }
         let now_s = self.clock.now_s();
-        self.supervisor.watch(Stage::Press { height_mm }, now_s);
+        self.supervisor
+            .watch(MotionStage::Press { height_mm }, now_s);
         Ok(())
     }
 
@@ -60,14 +61,15 @@ impl Tip<'_> {
         self.find_pose()?;
         let now_s = self.clock.now_s();
         self.supervisor.watch(
-            Stage::Retreat {
+            MotionStage::Retreat {
                 force_n: f64::INFINITY,
             },
             now_s,
         );
         let force_n = self.look()?.wrench.force[2].0;
         let now_s = self.clock.now_s();
-        self.supervisor.watch(Stage::Retreat { force_n }, now_s);
+        self.supervisor
+            .watch(MotionStage::Retreat { force_n }, now_s);
         Ok(())
     }
 
@@ -106,7 +108,7 @@ impl Tip<'_> {
         }
         let now_s = self.clock.now_s();
         self.supervisor.watch(
-            Stage::Retreat {
+            MotionStage::Retreat {
                 force_n: f64::INFINITY,
             },
             now_s,

@@ -7,7 +7,7 @@ use std::sync::Arc;
 use taceva_core::{Halt, Pose, Stamp, Wrench, check_pose, check_wrench};
 
 use super::trip::Trip;
-use crate::limits::{FROZEN_READINGS, Limits};
+use crate::limits::{FROZEN_READINGS, RigLimits};
 
 /// A reading older than this says nothing about now, in s: three periods of a transducer of 60 Hz.
 pub(crate) const STALE_S: f64 = 0.05;
@@ -20,7 +20,7 @@ const RATE_SPAN_S: f64 = 0.005;
 /// While the tip retreats the force may be this much above that of the halt, in N: the noise of a transducer.
 const RETREAT_MARGIN_N: f64 = 0.05;
 
-/// What it is told.
+/// A reading that the supervisor checks.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Observation {
@@ -35,14 +35,14 @@ pub enum Observation {
         /// Where it should be.
         target: Pose,
     },
-    /// Nothing was said; time passed.
+    /// No reading; time passed.
     Silence,
 }
 
 /// In which part of a press the tip is: what is allowed depends on it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
-pub enum Stage {
+pub enum MotionStage {
     /// In the air: force above `threshold_n` is a collision.
     Travel {
         /// The force that counts as contact.
@@ -64,9 +64,9 @@ pub enum Stage {
 
 /// Halts a robot as soon as a reading says so, and holds it halted until somebody asks for another stage.
 pub struct Supervisor {
-    limits: Limits,
+    limits: RigLimits,
     halt: Arc<dyn Halt>,
-    stage: Stage,
+    stage: MotionStage,
     last: Option<(Wrench, f64)>,
     /// When the last force or, before one, the watch began.
     heard_s: f64,
@@ -77,11 +77,11 @@ pub struct Supervisor {
 
 impl Supervisor {
     /// A supervisor with these limits over the robot that `halt` stops.
-    pub fn new(limits: Limits, halt: Arc<dyn Halt>) -> Supervisor {
+    pub fn new(limits: RigLimits, halt: Arc<dyn Halt>) -> Supervisor {
         Supervisor {
             limits,
             halt,
-            stage: Stage::Search,
+            stage: MotionStage::Search,
             last: None,
             heard_s: f64::NEG_INFINITY,
             equal: 0,
@@ -91,12 +91,12 @@ impl Supervisor {
     }
 
     /// Begins to watch `stage` at `now_s`; until then the tip rested, and silence meant nothing. A halt is forgotten.
-    pub fn watch(&mut self, stage: Stage, now_s: f64) {
+    pub fn watch(&mut self, stage: MotionStage, now_s: f64) {
         self.stage = stage;
         self.heard_s = now_s;
         self.tripped = None;
         // In the air the zero of the transducer may have moved; from the search on a frozen signal must not slip through.
-        if let Stage::Travel { .. } = stage {
+        if let MotionStage::Travel { .. } = stage {
             self.last = None;
             self.equal = 0;
         }
@@ -194,10 +194,10 @@ impl Supervisor {
             0.0
         };
         match self.stage {
-            Stage::Travel { threshold_n } if z.abs() > threshold_n => {
+            MotionStage::Travel { threshold_n } if z.abs() > threshold_n => {
                 Some(Trip::UnexpectedContact { force_n: z })
             }
-            Stage::Retreat { force_n } => (z > force_n.max(normal_max) + RETREAT_MARGIN_N)
+            MotionStage::Retreat { force_n } => (z > force_n.max(normal_max) + RETREAT_MARGIN_N)
                 .then_some(Trip::UnexpectedContact { force_n: z }),
             _ if z.abs() > normal_max => Some(Trip::NormalForce {
                 force_n: z,
@@ -220,7 +220,7 @@ impl Supervisor {
         if age_s > STALE_S {
             return Some(Trip::StalePose { age_s });
         }
-        if let Stage::Press { height_mm } = self.stage {
+        if let MotionStage::Press { height_mm } = self.stage {
             let depth_mm = pose.position.z.0 - height_mm;
             let limit_mm = self.limits.depth_max.0;
             // A tip that reaches the limit itself does what it was allowed; the robot's own noise is not a trespass.

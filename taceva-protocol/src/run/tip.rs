@@ -10,7 +10,7 @@ use taceva_core::{
 use super::align::Look;
 use super::bounds::Bounds;
 use super::error::StopCause;
-use super::supervisor::{Observation, Stage, Supervisor, distance};
+use super::supervisor::{MotionStage, Observation, Supervisor, distance};
 use super::time::{Cancel, Timekeeper};
 use super::trip::Trip;
 use crate::limits::FROZEN_READINGS;
@@ -142,7 +142,7 @@ impl<'a> Tip<'a> {
     /// Goes down step by step until the gel is felt; the height of the tip then, or `None` at the end of the search.
     pub(super) fn search(&mut self) -> Step<Option<Look>> {
         let now_s = self.clock.now_s();
-        self.supervisor.watch(Stage::Search, now_s);
+        self.supervisor.watch(MotionStage::Search, now_s);
         let start = self.target.position.z.0;
         // Until it is felt, the gel may be anywhere below.
         self.contact_mm = Some(start);
@@ -157,7 +157,8 @@ impl<'a> Tip<'a> {
                 let height_mm = look.pose.position.z.0;
                 self.contact_mm = Some(height_mm);
                 let now_s = self.clock.now_s();
-                self.supervisor.watch(Stage::Press { height_mm }, now_s);
+                self.supervisor
+                    .watch(MotionStage::Press { height_mm }, now_s);
                 return Ok(Some(look));
             }
         }
@@ -207,7 +208,8 @@ impl<'a> Tip<'a> {
 
     fn watch_travel(&mut self, threshold_n: f64) {
         let now_s = self.clock.now_s();
-        self.supervisor.watch(Stage::Travel { threshold_n }, now_s);
+        self.supervisor
+            .watch(MotionStage::Travel { threshold_n }, now_s);
     }
 
     pub(super) fn clear_halt(&mut self) -> Step<()> {
@@ -315,8 +317,8 @@ impl<'a> Tip<'a> {
             .map_err(StopCause::Tripped)
     }
 
-    /// The place of a station: over `place`, sheared, at `depth` below `height_mm`.
-    pub(super) fn station(
+    /// The place of a waypoint: over `place`, sheared, at `depth` below `height_mm`.
+    pub(super) fn waypoint(
         place: [Nanometre; 2],
         shear: [Nanometre; 2],
         height_mm: f64,
@@ -376,7 +378,7 @@ mod tests {
     fn a_station_is_beside_its_place_by_its_shear_and_below_the_contact_by_its_depth() {
         let [place, shear] = [[4_000_000, -3_000_000], [500_000, 250_000]];
         let [place, shear] = [place, shear].map(|pair| pair.map(Nanometre));
-        let station = Tip::station(place, shear, 0.25, Nanometre(750_000));
-        assert!(station.iter().eq(&[4.5, -2.75, 1.0]), "{station:?}");
+        let waypoint = Tip::waypoint(place, shear, 0.25, Nanometre(750_000));
+        assert!(waypoint.iter().eq(&[4.5, -2.75, 1.0]), "{waypoint:?}");
     }
 }

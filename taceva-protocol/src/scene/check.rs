@@ -15,6 +15,7 @@ use super::error::{SceneError, SceneProblem};
 use super::limits::LimitSpec;
 use super::metrics::{MetricsSpec, ReportSpec};
 use super::parse::Text;
+use super::renamed;
 use super::setting::Setting;
 use super::study::Study;
 
@@ -75,6 +76,7 @@ pub(super) fn checked(text: Text) -> Result<Scene, SceneError> {
         metrics: written.metrics,
         protocol: written.protocol,
         report: written.report,
+        notes: renamed::notes(&text),
         text,
     })
 }

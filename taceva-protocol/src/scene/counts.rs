@@ -1,12 +1,12 @@
-//! How many presses of which kind: the counts of a protocol, with those of the paper where a scene says nothing.
+//! How many presses of which kind: the counts of a protocol, with those of the paper as defaults.
 
 use std::collections::BTreeMap;
 
 use serde::Deserialize;
 use taceva_core::GratingKind;
 
+use super::classifier::GratingClassifier;
 use super::setting::Setting;
-use super::teller::GratingTeller;
 
 /// Declares a table of settings with its defaults.
 macro_rules! table {
@@ -114,9 +114,10 @@ table! {
         presses: u32 = 100,
         /// The depth of each press as a fraction of the greatest.
         depth_fraction: f64 = 0.5,
-        /// What tells the spacing of each press from its picture.
-        told_by: GratingTeller = GratingTeller::Spectrum,
-        /// Settings of a network that tells, and of what it sees of a picture, by name.
+        /// What classifies the spacing of each press from its picture.
+        #[serde(alias = "told_by")]
+        classified_by: GratingClassifier = GratingClassifier::Spectrum,
+        /// Settings of a network that classifies, and of its features, by name.
         set: BTreeMap<String, toml::Value> = BTreeMap::new(),
     }
 }

@@ -1,9 +1,10 @@
-//! The text of a scene: read strictly, and asked for lines when something is refused.
+//! The text of a scene: read strictly, with the line of whatever is refused.
 
 use serde::de::DeserializeOwned;
 use taceva_core::shown;
 
 use super::error::{SceneError, SceneProblem, nearest};
+use super::renamed::RENAMED;
 
 /// The largest text that is read as a scene, in bytes.
 pub const GREATEST_SCENE: usize = 1 << 20;
@@ -65,6 +66,11 @@ impl Text {
         self.error(at, problem)
     }
 
+    /// `note` about the text, with its name.
+    pub(crate) fn note(&self, note: &str) -> String {
+        format!("{}: {note}", self.source_name)
+    }
+
     fn line(&self, at: usize) -> u64 {
         let before = self.text.bytes().take(at);
         1 + before.filter(|byte| *byte == b'\n').count() as u64
@@ -75,11 +81,27 @@ impl Text {
 fn explained(message: &str) -> SceneProblem {
     let quoted: Vec<&str> = message.split('`').skip(1).step_by(2).collect();
     match quoted.as_slice() {
-        [wrong, known @ ..] if message.starts_with("unknown field") => SceneProblem::UnknownKey {
-            key: shown(wrong).to_string(),
-            nearest: nearest(wrong, known.iter().copied()),
-            known: known.join(", "),
-        },
+        [wrong, known @ ..] if message.starts_with("unknown field") => {
+            let known = known.iter().copied();
+            let known: Vec<&str> = known
+                .filter(|name| RENAMED.iter().all(|key| key.before != *name))
+                .collect();
+            SceneProblem::UnknownKey {
+                key: shown(wrong).to_string(),
+                nearest: nearest(wrong, known.iter().copied()),
+                known: known.join(", "),
+            }
+        }
+        // TOML refuses a key that is there twice by another message: here one of two is an old name.
+        [twice] if message.starts_with("duplicate field") => {
+            match RENAMED.iter().find(|key| key.now == *twice) {
+                Some(key) => SceneProblem::Contradiction(format!(
+                    "`{}` and `{}` are one key: write the second alone",
+                    key.before, key.now
+                )),
+                None => SceneProblem::Syntax(shown(message).to_string()),
+            }
+        }
         [missing] if message.starts_with("missing field") => {
             SceneProblem::MissingKey(shown(*missing).to_string())
         }

@@ -5,18 +5,18 @@ use std::collections::BTreeSet;
 use taceva_core::{Frame, PressOutcome, SinkError};
 
 use super::disk::Disk;
-use crate::digest::{Digest, fnv_1a};
+use crate::content_id::{ContentId, fnv_1a};
 use crate::run::{PressLog, PressRecord};
 
 /// A press as it was recorded.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Entry {
-    pub(super) press: Digest,
+    pub(super) press: ContentId,
     pub(super) outcome: PressOutcome,
     pub(super) samples: Vec<EntrySample>,
 }
 
-/// What the judge compares with the truth.
+/// What the oracle compares with the truth.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct EntrySample {
     pub(super) number: u32,
@@ -25,21 +25,21 @@ pub(super) struct EntrySample {
     pub(super) force_n: f64,
     /// Time, height and force as the frame shows them.
     pub(super) frame: Option<[f64; 3]>,
-    /// Whether a limit kept the tip from the station.
+    /// Whether a limit kept the tip from the waypoint.
     pub(super) is_limited: bool,
 }
 
 /// The log.
 pub(super) struct Journal<'a> {
     disk: &'a mut Disk,
-    finished: BTreeSet<Digest>,
+    finished: BTreeSet<ContentId>,
     /// What was acknowledged, ever: kept outside of the process, to be compared with what is left.
-    acknowledged: &'a mut Vec<Digest>,
+    acknowledged: &'a mut Vec<ContentId>,
 }
 
 impl<'a> Journal<'a> {
     /// Opens the log, cutting away a torn tail.
-    pub(super) fn open(disk: &'a mut Disk, acknowledged: &'a mut Vec<Digest>) -> Journal<'a> {
+    pub(super) fn open(disk: &'a mut Disk, acknowledged: &'a mut Vec<ContentId>) -> Journal<'a> {
         let (entries, whole) = entries(&disk.read());
         disk.cut(whole);
         Journal {
@@ -51,7 +51,7 @@ impl<'a> Journal<'a> {
 }
 
 impl PressLog for Journal<'_> {
-    fn is_finished(&self, press: Digest) -> bool {
+    fn is_finished(&self, press: ContentId) -> bool {
         self.finished.contains(&press)
     }
 
@@ -124,7 +124,7 @@ fn encode(record: &PressRecord) -> Result<Vec<u8>, SinkError> {
 }
 
 fn decode(payload: &[u8]) -> Option<Entry> {
-    let press = Digest::from_hex(std::str::from_utf8(payload.get(..32)?).ok()?)?;
+    let press = ContentId::from_hex(std::str::from_utf8(payload.get(..32)?).ok()?)?;
     let outcome = *PressOutcome::ALL.get(usize::from(*payload.get(32)?))?;
     let samples = payload.get(33..)?.chunks_exact(SAMPLE).map(|sample| {
         let value = |at: usize| Some(f64::from_le_bytes(sample.get(at..at + 8)?.try_into().ok()?));

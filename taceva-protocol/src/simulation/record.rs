@@ -5,13 +5,13 @@ use std::collections::BTreeSet;
 use taceva_core::{Phase, PressOutcome};
 
 use super::journal::{Entry, EntrySample, entries};
-use super::judge::Violation;
+use super::oracle::Violation;
 use super::world::Gel;
-use crate::digest::Digest;
+use crate::content_id::ContentId;
 use crate::plan::{Plan, PlannedPress};
 use crate::press::Motion;
 
-/// A robot that sticks in the last segment of a way leaves its sample so far from the station; the label says where it really was.
+/// How far a sample may be from its waypoint where the robot stuck in the last segment; the label holds the true place.
 const LAG_MM: f64 = 0.015 + 1e-6;
 
 /// What was found in a record.
@@ -22,7 +22,12 @@ pub(super) struct Found {
 }
 
 /// Compares what is on the disk with what was planned, acknowledged and true.
-pub(super) fn judge_log(plan: &Plan, kept: &[Entry], acknowledged: &[Digest], gel: &Gel) -> Found {
+pub(super) fn judge_log(
+    plan: &Plan,
+    kept: &[Entry],
+    acknowledged: &[ContentId],
+    gel: &Gel,
+) -> Found {
     let mut found = Found {
         violations: Vec::new(),
         samples: 0,
@@ -47,18 +52,18 @@ pub(super) fn judge_log(plan: &Plan, kept: &[Entry], acknowledged: &[Digest], ge
     found
 }
 
-/// A press whose way out has not the stations of its way in, although it was planned so. One may lack: a limit just below a station leaves
+/// A press whose way out has not the waypoints of its way in, although it was planned so. One may lack: a limit just below a waypoint leaves
 /// its way in with two samples nearly as deep.
 fn one_sided(planned: &PlannedPress, entry: &Entry) -> Option<Violation> {
-    let stations = planned.press.stations();
+    let waypoints = planned.press.waypoints();
     let on_way_out = |sample: &&EntrySample| {
-        let station = usize::try_from(sample.number).ok();
-        let station = station.and_then(|number| stations.get(number));
-        station.is_some_and(|station| station.phase == Phase::Unload)
+        let waypoint = usize::try_from(sample.number).ok();
+        let waypoint = waypoint.and_then(|number| waypoints.get(number));
+        waypoint.is_some_and(|waypoint| waypoint.phase == Phase::Unload)
     };
-    let comes_out = stations
+    let comes_out = waypoints
         .iter()
-        .any(|station| station.phase == Phase::Unload);
+        .any(|waypoint| waypoint.phase == Phase::Unload);
     let samples = entry.samples.len();
     let out = entry.samples.iter().filter(on_way_out).count();
     (comes_out && !(2 * out..=2 * out + 1).contains(&samples)).then(|| {
@@ -71,15 +76,15 @@ fn one_sided(planned: &PlannedPress, entry: &Entry) -> Option<Violation> {
 }
 
 /// What was acknowledged and is not in the file any more: a press that is made again was lost all the same.
-pub(super) fn missing(file: &[u8], acknowledged: &[Digest]) -> Vec<Violation> {
+pub(super) fn missing(file: &[u8], acknowledged: &[ContentId]) -> Vec<Violation> {
     let (kept, _) = entries(file);
     let seen = kept.iter().map(|entry| entry.press).collect();
     lost(&seen, acknowledged).collect()
 }
 
 fn lost<'a>(
-    seen: &'a BTreeSet<Digest>,
-    acknowledged: &'a [Digest],
+    seen: &'a BTreeSet<ContentId>,
+    acknowledged: &'a [ContentId],
 ) -> impl Iterator<Item = Violation> + 'a {
     let gone = acknowledged.iter().filter(|press| !seen.contains(press));
     gone.map(|press| Violation::Lost(press.to_string()))
@@ -111,17 +116,17 @@ impl Found {
             self.violations.push(Violation::Invented(what));
         }
         self.violations.extend(one_sided(planned, entry));
-        let stations = planned.press.stations();
+        let waypoints = planned.press.waypoints();
         let mut height = None;
         for sample in &entry.samples {
             let place = sample.number;
             self.samples += 1;
             let mut untrue = |what: String| self.violations.push(Violation::Untrue(what));
-            let station = usize::try_from(place)
+            let waypoint = usize::try_from(place)
                 .ok()
-                .and_then(|place| stations.get(place));
-            if let Some(station) = station {
-                let depth_mm = station.depth.to_millimetres();
+                .and_then(|place| waypoints.get(place));
+            if let Some(waypoint) = waypoint {
+                let depth_mm = waypoint.depth.to_millimetres();
                 let off_mm = sample.depth_mm - depth_mm;
                 if off_mm > LAG_MM || (off_mm < -LAG_MM && !sample.is_limited) {
                     untrue(format!(

@@ -11,7 +11,7 @@ use super::devices::{FRAME, SimulatedForce, SimulatedRobot, SimulatedSensor};
 use super::disk::Disk;
 use super::fault::{FaultCounts, Faults, fraction};
 use super::journal::{Journal, entries};
-use super::judge::{Checks, Judge, Stated, Violation};
+use super::oracle::{Checks, Oracle, Stated, Violation};
 use super::record::{judge_log, missing};
 use super::world::{Gel, Killed, Sabotage, Shared};
 use crate::draw::Draws;
@@ -27,7 +27,7 @@ pub struct SimulationReport {
     pub seed: u64,
     /// What must never happen and did.
     pub violations: Vec<Violation>,
-    /// How often each kind of fault struck.
+    /// How often each kind of fault occurred.
     pub struck: FaultCounts,
     /// How often each thing that must hold was looked at.
     pub checks: Checks,
@@ -37,7 +37,7 @@ pub struct SimulationReport {
     pub simulated_s: f64,
 }
 
-/// Faults are few and end; whoever needs more processes than this goes round in circles.
+/// Faults are few and end; more processes than this make no progress.
 const MOST_PROCESSES: u32 = 40;
 /// Between two processes a person looks at the rig, in s.
 const REPAIR_S: f64 = 3.0;
@@ -85,7 +85,7 @@ pub(super) fn simulate_with(seed: u64, sabotage: Sabotage) -> SimulationReport {
     let faults = Faults::draw(draws, plan.cost.minutes * 60.0);
     let shared = Shared::new(
         gel,
-        Judge::new(stated),
+        Oracle::new(stated),
         faults,
         Draws::new(seed, "readings"),
     );
@@ -118,10 +118,10 @@ pub(super) fn simulate_with(seed: u64, sabotage: Sabotage) -> SimulationReport {
         let what = format!("after {processes} processes");
         found.violations.push(Violation::Unfinished(what));
     }
-    let mut violations = std::mem::take(&mut world.judge.violations);
+    let mut violations = std::mem::take(&mut world.oracle.violations);
     violations.append(&mut lost);
     violations.append(&mut found.violations);
-    let mut checks = world.judge.checks;
+    let mut checks = world.oracle.checks;
     checks.samples = found.samples;
     SimulationReport {
         seed,
@@ -153,7 +153,7 @@ fn process(
     plan: &Plan,
     shared: &Shared,
     disk: &mut Disk,
-    acknowledged: &mut Vec<crate::Digest>,
+    acknowledged: &mut Vec<crate::ContentId>,
 ) -> Ended {
     let cancel = Cancel::new();
     shared.world().cancel = cancel.clone();
@@ -190,10 +190,10 @@ fn process(
     }
 }
 
-/// A person frees the tip if it was left in place; whoever was killed left it wherever it was, for the next process to find.
+/// A person frees the tip if it was left in place; a killed process left it wherever it was.
 fn repair(shared: &Shared, left: Left) {
     let mut world = shared.world();
-    world.judge.killed();
+    world.oracle.killed();
     world.pass(REPAIR_S);
     world.halted = false;
     if left == Left::InPlace {

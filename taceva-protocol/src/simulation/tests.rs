@@ -11,7 +11,7 @@ use self::bench::{Bench, HARD, Memory, SOFT};
 use super::devices::{SimulatedForce, SimulatedRobot, SimulatedSensor};
 use super::fault::{FaultKind, Faults};
 use super::world::Gel;
-use crate::digest::Digest;
+use crate::content_id::ContentId;
 use crate::press::Motion;
 use crate::run::{
     Controls, Devices, Event, Left, Mode, PressLog, PressRecord, RunSpec, SpecimenChanger,
@@ -28,7 +28,7 @@ fn a_whole_run_makes_every_press_once_and_leaves_the_tip_above_the_gel() {
         (report.made, report.resumed, report.limited),
         (presses, 0, 0)
     );
-    let made: BTreeSet<Digest> = log.records.iter().map(|record| record.press).collect();
+    let made: BTreeSet<ContentId> = log.records.iter().map(|record| record.press).collect();
     assert_eq!(made.len(), presses);
     assert_eq!(report.samples as u64, bench.plan.cost.samples);
     assert!(bench.height() <= -bench.plan.contact.clearance_mm.value);
@@ -104,15 +104,15 @@ fn a_press_that_reaches_the_limit_of_force_ends_there_and_the_run_goes_on() {
     let depth = depth.expect("depth is recorded");
     let most_mm = HARD.normal_max_n / HARD.stiffness_n_mm;
     for record in limited {
-        let stations = of_plan(record).press.stations();
+        let waypoints = of_plan(record).press.waypoints();
         for (sample, next) in record.samples.iter().zip(record.samples.iter().skip(1)) {
             assert!(sample.stamp.expect("stamped").valid_s < next.stamp.expect("stamped").valid_s);
         }
         let at_limit = |sample: &&Sample| sample.limited_by == Some(Limit::NormalForce);
         let stopped: Vec<&Sample> = record.samples.iter().filter(at_limit).collect();
-        let comes_out = stations
+        let comes_out = waypoints
             .iter()
-            .any(|station| station.phase == Phase::Unload);
+            .any(|waypoint| waypoint.phase == Phase::Unload);
         assert_eq!(stopped.len(), if comes_out { 2 } else { 1 }, "{record:?}");
         for sample in stopped {
             let depth_mm = sample.truth.get(depth).expect("measured");
@@ -130,7 +130,7 @@ fn a_press_that_reaches_the_limit_of_force_ends_there_and_the_run_goes_on() {
             .count();
         assert_eq!(2 * out, if comes_out { record.samples.len() } else { 0 });
     }
-    assert_eq!(bench.shared.world().judge.violations, []);
+    assert_eq!(bench.shared.world().oracle.violations, []);
     let halted = bench
         .events
         .iter()
@@ -150,8 +150,8 @@ fn a_force_that_comes_late_costs_time_and_no_way() {
         .run(Mode::Acquire, &mut log)
         .expect("slow is no fault");
     assert!(report.limited > 0);
-    assert_eq!(bench.shared.world().judge.violations, []);
-    let checks = bench.shared.world().judge.checks;
+    assert_eq!(bench.shared.world().oracle.violations, []);
+    let checks = bench.shared.world().oracle.checks;
     assert!(checks.greatest_force > 0.97, "{checks:?}");
 }
 
@@ -177,13 +177,16 @@ fn a_rehearsal_visits_every_place_touches_nothing_and_records_nothing() {
     assert!(log.records.is_empty());
     assert!(bench.height() < -19.0);
     let world = bench.shared.world();
-    assert!(world.judge.checks.greatest_force <= 0.0, "never in contact");
+    assert!(
+        world.oracle.checks.greatest_force <= 0.0,
+        "never in contact"
+    );
 }
 
 #[test]
 fn a_rehearsal_goes_as_far_above_the_height_of_travel_as_it_is_told() {
     let mut bench = Bench::new(SOFT);
-    // Presses without stations, after which the tip is where it went first.
+    // Presses without waypoints, after which the tip is where it went first.
     let presses = &mut bench.plan.presses;
     presses.retain(|press| matches!(press.press.motion, Motion::Rest { .. }));
     assert!(!bench.plan.presses.is_empty());

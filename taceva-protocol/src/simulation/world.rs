@@ -1,9 +1,9 @@
-//! The world of a simulation: a tip on a spring, a clock that only calls advance, and faults that strike calls.
+//! The world of a simulation: a tip on a spring, a clock that only calls advance, and faults of calls.
 
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use super::fault::{FaultKind, Faults, fraction};
-use super::judge::{Ended, Judge, SILENCE, TOO_HARD};
+use super::oracle::{Ended, Oracle, SILENCE, TOO_HARD};
 use crate::draw::Draws;
 use crate::run::{Cancel, Timekeeper};
 
@@ -59,7 +59,7 @@ pub(super) struct World {
     touched: Option<[f64; 2]>,
     pub(super) halted: bool,
     pub(super) gel: Gel,
-    pub(super) judge: Judge,
+    pub(super) oracle: Oracle,
     pub(super) faults: Faults,
     pub(super) cancel: Cancel,
     draws: Draws,
@@ -68,19 +68,19 @@ pub(super) struct World {
     last_force: Option<[f64; 3]>,
     /// Since when the transducer shows an old force.
     frozen: bool,
-    /// Since when somebody listens to a transducer that says nothing.
+    /// Since when a reading is awaited from a transducer that gives none.
     listening_s: Option<f64>,
     last_frame_s: f64,
     pub(super) sabotage: Sabotage,
 }
 
-/// A mistake planted in the world or in the rig, so that tests see the judge find it.
+/// A mistake planted in the world or in the rig, so that tests see the oracle find it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(not(test), expect(dead_code, reason = "mistakes are planted by tests"))]
 pub(super) enum Sabotage {
     /// None: the rig as it is.
     Nothing,
-    /// The supervisor is told limits half as tight again.
+    /// The supervisor has limits that are half as large again.
     LooseLimits,
     /// Halts take longer than they may.
     SlowHalt,
@@ -90,15 +90,15 @@ pub(super) enum Sabotage {
     OldFrames,
 }
 
-/// The world as devices, disk and clock share it.
+/// The world, shared by devices, disk and clock.
 #[derive(Clone)]
 pub(super) struct Shared(Arc<Mutex<World>>);
 
-/// What is thrown when the process is killed: it is no error that code could handle.
+/// The panic payload of a killed process, which no code handles as an error.
 pub(super) struct Killed;
 
 impl Shared {
-    pub(super) fn new(gel: Gel, judge: Judge, faults: Faults, draws: Draws) -> Shared {
+    pub(super) fn new(gel: Gel, oracle: Oracle, faults: Faults, draws: Draws) -> Shared {
         // Parked beside the gel and above it.
         let parked = [30.0, 5.0, -8.0];
         Shared(Arc::new(Mutex::new(World {
@@ -113,7 +113,7 @@ impl Shared {
             touched: None,
             halted: false,
             gel,
-            judge,
+            oracle,
             faults,
             cancel: Cancel::new(),
             draws,
@@ -127,17 +127,17 @@ impl Shared {
         })))
     }
 
-    /// The world; a kill while it was held left it whole, because kills come between calls.
+    /// The world. Kills come between calls, so a poisoned lock still holds a consistent world.
     pub(super) fn world(&self) -> MutexGuard<'_, World> {
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Lets the process die here, if it is due.
+    /// Ends the process here, if a kill is due.
     pub(super) fn survive(&self) {
         let mut world = self.world();
         let now_s = world.now_s;
         if world.faults.strike_once(FaultKind::Kill, now_s) {
-            world.judge.killed();
+            world.oracle.killed();
             drop(world);
             // Unlike a panic it is not reported: nothing went wrong in the program.
             std::panic::resume_unwind(Box::new(Killed));
@@ -163,10 +163,10 @@ impl World {
     /// Lets time pass.
     pub(super) fn pass(&mut self, seconds: f64) {
         self.now_s += seconds;
-        self.judge.passed(self.now_s);
+        self.oracle.passed(self.now_s);
     }
 
-    /// Ends a halt; whoever listens from now on listens anew.
+    /// Ends a halt, and forgets since when readings were missing.
     pub(super) fn release(&mut self) {
         self.halted = false;
         self.listening_s = None;
@@ -188,7 +188,7 @@ impl World {
     /// From `since_s` on the robot must be halted; one that is halted already needs no halt.
     fn hazard(&mut self, hazard: &'static str, since_s: f64) {
         if !self.halted {
-            self.judge.hazard(hazard, since_s);
+            self.oracle.hazard(hazard, since_s);
         }
     }
 
@@ -230,7 +230,7 @@ impl World {
             let bound = self.gel.normal_max_n + self.gel.noise_n;
             let passes = after > before && after > bound;
             if passes && self.frozen {
-                self.judge.overlooked();
+                self.oracle.overlooked();
             } else if passes {
                 let part = ((bound - before) / (after - before)).max(0.0);
                 self.hazard(TOO_HARD, start_s + part * seconds);
@@ -248,7 +248,7 @@ impl World {
         let is_inward = self.depth(self.tip) > indented_mm;
         self.touched = (self.depth(self.tip) > 0.0).then_some(self.touched.unwrap_or([x, y]));
         let depth_mm = self.touched.map_or(0.0, |place| z - self.surface(place));
-        self.judge.moved(Ended {
+        self.oracle.moved(Ended {
             depth_mm,
             force_n: self.force(self.tip),
             is_inward,
@@ -261,13 +261,13 @@ impl World {
         if self.faults.strike(FaultKind::Silence, self.now_s) {
             let listening_s = *self.listening_s.get_or_insert(self.now_s);
             // What the force is, nobody can know until it speaks; the tip rests meanwhile.
-            self.judge.blinded();
+            self.oracle.blinded();
             self.hazard(SILENCE, listening_s + STALE_AFTER_S);
             self.pass(deadline_s);
             return None;
         }
         self.listening_s = None;
-        self.judge.heard();
+        self.oracle.heard();
         let next_s = ((self.now_s / READING_S).floor() + 1.0) * READING_S;
         self.pass(next_s - self.now_s);
         self.readings += 1;
@@ -284,8 +284,8 @@ impl World {
             force = last;
         }
         if self.frozen {
-            self.judge.blinded();
-        } else if valid_s >= self.motion.end_s && self.judge.sighted() {
+            self.oracle.blinded();
+        } else if valid_s >= self.motion.end_s && self.oracle.sighted() {
             self.hazard(TOO_HARD, self.now_s);
         }
         self.last_force = Some(force);

@@ -68,11 +68,11 @@ fn a_value_of_another_type_names_its_line_and_what_was_expected() {
 }
 
 #[test]
-fn gratings_are_told_by_what_there_is() {
-    let error = with("[protocol.gratings]\ntold_by = \"cnm\"");
+fn gratings_are_classified_by_what_there_is() {
+    let error = with("[protocol.gratings]\nclassified_by = \"cnm\"");
     assert!(
         error.starts_with("s.toml, line 10: ")
-            && error.contains("expected one of `spectrum`, `cnn`, `cnn-length`"),
+            && error.contains("expected one of `spectrum`, `linfa/logistic`, `cnn`, `cnn-length`"),
         "{error}"
     );
 }

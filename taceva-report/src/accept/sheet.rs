@@ -6,10 +6,11 @@ use taceva_metrics::Better;
 use super::{Finding, Limit};
 use crate::escape::html;
 use crate::html::{Document, Triple, badge, glossary, triples};
-use crate::listing::{Directions, Listing};
 use crate::number::numeral;
 use crate::results::Study;
 use crate::samples::SampleChannel;
+use crate::short_digests::short_digests;
+use crate::table::{Cell, Column, Table};
 
 /// The schema of an acceptance as JSON. 1.1: each finding says which values are good.
 pub const ACCEPTANCE_SCHEMA: &str = "taceva.acceptance/1.1";
@@ -36,7 +37,7 @@ impl Acceptance<'_> {
     }
 
     /// A row a limit.
-    pub fn listing(&self) -> Listing {
+    pub fn table(&self) -> Table {
         let verdict = if self.is_passed() { "passed" } else { "failed" };
         let name = match self.name {
             "" => String::new(),
@@ -49,18 +50,18 @@ impl Acceptance<'_> {
             "{}, serial {}: {verdict}{name}{date}",
             self.study.sensor, self.study.serial
         );
-        let head = [
-            "metric", "channel", "limit", "value", "95 %", "unit", "n", "verdict", "why",
+        let others = [
+            "channel", "limit", "value", "95 %", "unit", "n", "verdict", "why",
         ];
-        let mut listing = Listing::new(&caption, &head);
-        listing.rows = self.findings.iter().map(row).collect();
-        listing.directions = Directions::of_metrics(&listing.rows, 0);
-        if self.study.is_simulated() {
-            listing
-                .notes
-                .push("Nothing here was measured: the samples are simulated.".to_owned());
+        let columns = [Column::of_metrics()].into_iter();
+        let mut table = Table::new(caption, columns.chain(others.map(Column::new)));
+        for finding in self.findings {
+            table.push(row(finding));
         }
-        listing
+        if self.study.is_simulated() {
+            table.note("Nothing here was measured: the samples are simulated.");
+        }
+        table
     }
 
     /// As JSON of [`ACCEPTANCE_SCHEMA`].
@@ -108,7 +109,7 @@ impl Acceptance<'_> {
             triples(std::slice::from_ref(study), pictures)
         );
         document.section("unit", "Unit", &unit);
-        document.section("limits", "Limits", &self.listing().html_with_metrics());
+        document.section("limits", "Limits", &self.table().html_with_links());
         let named = self
             .findings
             .iter()
@@ -132,7 +133,7 @@ impl Acceptance<'_> {
         let mut entries = vec![
             ("sensor", study.sensor.clone()),
             ("serial", study.serial.clone()),
-            ("gel", study.gel.clone()),
+            ("gel", short_digests(&study.gel)),
         ];
         entries.extend(self.date.map(|date| ("date", date.to_owned())));
         entries.push(("samples", study.source.clone()));
@@ -152,7 +153,7 @@ impl Acceptance<'_> {
                 .iter()
                 .map(|model| ("model", model.clone())),
         );
-        entries.extend(known.map(|(name, text)| (name.as_str(), text.clone())));
+        entries.extend(known.map(|(name, text)| (name.as_str(), short_digests(text))));
         let entries = entries
             .iter()
             .map(|(name, text)| format!("<dt>{}</dt><dd>{}</dd>", html(name), html(text)));
@@ -178,23 +179,23 @@ fn ranges(study: &Study) -> String {
     ranges.join("; ")
 }
 
-fn row(finding: &Finding) -> Vec<String> {
+fn row(finding: &Finding) -> [Cell; 9] {
     let limit = &finding.limit;
     let dash = || "–".to_owned();
     let interval = finding.ends.map_or_else(dash, |ends| {
         let [low, high] = ends.map(numeral);
         format!("{low} … {high}")
     });
-    vec![
-        limit.metric.clone(),
-        limit.channel.clone(),
-        bounds(limit),
-        finding.value.map_or_else(dash, numeral),
-        interval,
-        limit.unit.clone(),
-        finding.n.to_string(),
-        if finding.is_kept { "pass" } else { "FAIL" }.to_owned(),
-        finding.reason.clone().unwrap_or_default(),
+    [
+        limit.metric.clone().into(),
+        limit.channel.clone().into(),
+        bounds(limit).into(),
+        finding.value.map_or_else(dash, numeral).into(),
+        interval.into(),
+        limit.unit.clone().into(),
+        finding.n.to_string().into(),
+        Cell::Verdict(finding.is_kept),
+        finding.reason.clone().unwrap_or_default().into(),
     ]
 }
 

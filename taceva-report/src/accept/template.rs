@@ -6,7 +6,7 @@ use super::LIMITS_VERSION;
 use crate::escape::terminal;
 use crate::number::{Printed, spaced};
 use crate::results::{Interval, Score, Study};
-use crate::table::ScoreTable;
+use crate::scores::ScoreTable;
 
 /// How much worse than what was measured a limit is, as a part of the value.
 const MARGIN: f64 = 0.2;

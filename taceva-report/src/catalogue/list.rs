@@ -3,28 +3,30 @@
 use taceva_metrics::Better;
 
 use super::{Kind, Sensor};
-use crate::listing::{Directions, Listing};
 use crate::number::numeral;
+use crate::table::{Column, Direction, Table};
 
 /// A row a sensor; studies of sensors are named below the rows.
-pub fn list(sensors: &[Sensor]) -> Listing {
-    let head = [
-        "sensor",
-        "mechanism",
-        "light kept out",
-        "MAE Pxy (mm)",
-        "MAE Pz (mm)",
-        "MAE Fxy (N)",
-        "MAE Fz (N)",
-        "rate (Hz)",
-        "numbers",
+pub fn list(sensors: &[Sensor]) -> Table {
+    let error = |name: &str, unit: &str| {
+        let column = Column::new(name).unit(unit);
+        column.direction(Direction::Is(Better::Lower))
+    };
+    let columns = [
+        Column::new("sensor"),
+        Column::new("mechanism"),
+        Column::new("light kept out"),
+        error("MAE Pxy", "mm"),
+        error("MAE Pz", "mm"),
+        error("MAE Fxy", "N"),
+        error("MAE Fz", "N"),
+        Column::new("rate").unit("Hz"),
+        Column::new("numbers"),
     ];
-    let mut listing = Listing::new(
+    let mut table = Table::new(
         "Catalogue of vision-based tactile sensors, as published",
-        &head,
+        columns,
     );
-    let of_head = |name: &&str| name.starts_with("MAE").then_some(Better::Lower);
-    listing.directions = Directions::Columns(head.iter().map(of_head).collect());
     let is_sensor = |entry: &&Sensor| entry.kind == Kind::Sensor;
     for sensor in sensors.iter().filter(is_sensor) {
         let number = |value: Option<f64>| value.map_or_else(|| "–".to_owned(), numeral);
@@ -32,7 +34,7 @@ pub fn list(sensors: &[Sensor]) -> Listing {
         let opaque = sensor
             .opaque
             .map_or("–", |opaque| if opaque { "yes" } else { "no" });
-        listing.rows.push(vec![
+        table.push([
             sensor.name.clone(),
             sensor.mechanism.join("+"),
             opaque.to_owned(),
@@ -44,25 +46,24 @@ pub fn list(sensors: &[Sensor]) -> Listing {
             sensor.known().to_string(),
         ]);
     }
-    listing.notes.push("A dash: no number of that definition is known here. The last column counts all that are; `taceva catalogue show NAME` gives each with its source, definition and conditions.".to_owned());
+    table.note("A dash: no number of that definition is known here. The last column counts all that are; `taceva catalogue show NAME` gives each with its source, definition and conditions.");
     let studies: Vec<&str> = sensors
         .iter()
         .filter(|entry| entry.kind == Kind::Study)
         .map(|entry| entry.name.as_str())
         .collect();
     if !studies.is_empty() {
-        listing.notes.push(format!(
+        table.note(format!(
             "Studies of sensors, which have rows of their own nowhere: {}.",
             studies.join(", ")
         ));
     }
-    listing
+    table
 }
 
 /// Every published number of a sensor, with source and conditions.
-pub fn details(sensor: &Sensor) -> Listing {
-    let head = [
-        "metric",
+pub fn details(sensor: &Sensor) -> Table {
+    let others = [
         "channel",
         "value",
         "unit",
@@ -74,7 +75,11 @@ pub fn details(sensor: &Sensor) -> Listing {
         Kind::Sensor => sensor.mechanism.join("+"),
         Kind::Study => "a study of sensors, no sensor".to_owned(),
     };
-    let mut listing = Listing::new(&format!("{} ({kind})", sensor.name), &head);
+    let columns = [Column::of_metrics()].into_iter();
+    let mut table = Table::new(
+        format!("{} ({kind})", sensor.name),
+        columns.chain(others.map(Column::new)),
+    );
     let built = |metric: &str, channel: &str, value: f64, unit: &str, source: &str| {
         let value = value.to_string();
         [metric, channel, &value, unit, source, "", ""]
@@ -88,9 +93,7 @@ pub fn details(sensor: &Sensor) -> Listing {
             ("field_of_view", of.field_of_view_mm2, "mm²"),
             ("frame_rate", of.frame_rate_hz, "Hz"),
         ] {
-            listing
-                .rows
-                .push(built("intrinsic", name, value, unit, &of.source));
+            table.push(built("intrinsic", name, value, unit, &of.source));
         }
     }
     if let Some(of) = &sensor.limits {
@@ -99,9 +102,7 @@ pub fn details(sensor: &Sensor) -> Listing {
             ("Fz", of.fz_max_n, "N"),
             ("radius", of.radius_max_mm, "mm"),
         ] {
-            listing
-                .rows
-                .push(built("greatest", name, value, unit, &of.source));
+            table.push(built("greatest", name, value, unit, &of.source));
         }
     }
     for result in &sensor.results {
@@ -118,11 +119,10 @@ pub fn details(sensor: &Sensor) -> Listing {
             &result.definition,
             &conditions,
         ];
-        listing.rows.push(row.map(ToOwned::to_owned).to_vec());
+        table.push(row.map(ToOwned::to_owned));
     }
-    listing.directions = Directions::of_metrics(&listing.rows, 0);
     for missing in &sensor.missing {
-        listing.notes.push(format!(
+        table.note(format!(
             "No number of {}: {}.",
             missing.metric, missing.reason
         ));
@@ -137,9 +137,7 @@ pub fn details(sensor: &Sensor) -> Listing {
     for word in ["yes", "partial", "no"] {
         let names = of(word);
         if !names.is_empty() {
-            listing
-                .notes
-                .push(format!("Reported by the work itself, {word}: {names}."));
+            table.note(format!("Reported by the work itself, {word}: {names}."));
         }
     }
     for source in &sensor.sources {
@@ -147,9 +145,7 @@ pub fn details(sensor: &Sensor) -> Listing {
             .link
             .as_ref()
             .map_or_else(String::new, |link| format!(" {link}"));
-        listing
-            .notes
-            .push(format!("Source `{}`: {}{link}", source.id, source.text));
+        table.note(format!("Source `{}`: {}{link}", source.id, source.text));
     }
-    listing
+    table
 }

@@ -46,7 +46,7 @@ fn index(sensors: &[Sensor], ours: &[Study]) -> String {
          <div class=\"scroll\" tabindex=\"0\" role=\"group\" aria-label=\"Sensors\"><table class=\"sorts\"><thead><tr><th scope=\"col\">sensor</th><th scope=\"col\">mechanism</th>\
          <th scope=\"col\" class=\"r\">MAE Pxy (mm) ↓</th><th scope=\"col\" class=\"r\">MAE Pz (mm) ↓</th><th scope=\"col\" class=\"r\">MAE Fxy (N) ↓</th>\
          <th scope=\"col\" class=\"r\">MAE Fz (N) ↓</th><th scope=\"col\" class=\"r\">rate (Hz)</th><th scope=\"col\" class=\"r\">reported</th></tr></thead><tbody>\n{rows}</tbody></table></div>\n\
-         <p class=\"note\">A dash: no number is known here. IMM maps intensity, MDM displacements of markers, MFM fuses modalities. The last column counts which of ten properties the work itself reports.</p>"
+         <p class=\"note\">A dash: no number of that metric and unit is known here. The page of a sensor has every number that is. IMM maps intensity, MDM displacements of markers, MFM fuses modalities. The last column counts which of ten properties the work itself reports.</p>"
     );
     document.section("sensors", "Sensors", &list);
     let studies: String = of_kind(Kind::Study).map(study).collect();

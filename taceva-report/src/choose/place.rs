@@ -98,7 +98,7 @@ mod tests {
         assert_eq!(tied.places(), [1, 1, 3]);
         assert_eq!(tied.headline(), "a and b tie for first");
         assert_eq!([0, 1, 2].map(|at| tied.is_tied(at)), [true, true, false]);
-        assert_eq!(tied.listing().rows[1][0], "1 (tie)");
+        assert_eq!(tied.table().rows[1].plain()[0], "1 (tie)");
         assert!(tied.json().contains("\"tied\": true"));
         let behind = choice(&[("a", 1.0), ("b", 0.5), ("c", 0.5)], false);
         assert_eq!(behind.headline(), "a first, b and c tie for second");

@@ -6,8 +6,8 @@ use super::{Candidate, Choice, Dropped, Step};
 use crate::escape::html;
 use crate::figures::listed;
 use crate::html::Document;
-use crate::listing::{Directions, Listing};
 use crate::number::fixed;
+use crate::table::{Column, Direction, Table};
 
 /// The schema of a choice as JSON. 1.1: `open` lists those of which it is not known whether they meet a hard need. 1.2: each step
 /// says which numbers are good. 1.3: each that is ranked has a place, and says whether it is tied.
@@ -15,18 +15,17 @@ pub const CHOICE_SCHEMA: &str = "taceva.choice/1.3";
 
 impl Choice {
     /// A row a sensor, need and number; the best sensor first, those that were dropped last.
-    pub fn listing(&self) -> Listing {
-        let head = [
-            "place",
-            "sensor",
-            "need",
-            "looked at",
-            "number",
-            "share of the best",
-            "mean share",
+    pub fn table(&self) -> Table {
+        let columns = [
+            Column::new("place"),
+            Column::new("sensor"),
+            Column::new("need"),
+            Column::new("looked at").direction(Direction::OfRows),
+            Column::new("number"),
+            Column::new("share of the best"),
+            Column::new("mean share"),
         ];
-        let mut listing = Listing::new(&self.headline(), &head);
-        let mut of = Vec::new();
+        let mut table = Table::new(self.headline(), columns);
         for ((at, candidate), place) in self.ranked.iter().enumerate().zip(self.places()) {
             let place = match self.is_tied(at) {
                 true => format!("{place} (tie)"),
@@ -34,9 +33,8 @@ impl Choice {
             };
             for (number, step) in candidate.steps.iter().enumerate() {
                 let is_first = number == 0;
-                of.push(Some(step.property.better()));
                 let once = |text: String| if is_first { text } else { String::new() };
-                listing.rows.push(vec![
+                let cells = [
                     once(place.clone()),
                     once(candidate.name.clone()),
                     step.need.clone(),
@@ -44,32 +42,26 @@ impl Choice {
                     shown(step),
                     step.share.map_or_else(String::new, |share| fixed(share, 2)),
                     once(fixed(candidate.share, 2)),
-                ]);
+                ];
+                table.push_directed(Some(step.property.better()), cells);
             }
         }
-        listing.directions = Directions::Rows { column: 3, of };
         for open in &self.open {
-            listing
-                .notes
-                .push(format!("Open: {}: {}.", open.name, open.reason));
+            table.note(format!("Open: {}: {}.", open.name, open.reason));
         }
         for dropped in &self.dropped {
-            listing
-                .notes
-                .push(format!("Dropped: {}: {}.", dropped.name, dropped.reason));
+            table.note(format!("Dropped: {}: {}.", dropped.name, dropped.reason));
         }
         for barred in &self.barred {
-            listing
-                .notes
-                .push(format!("Not ranked: {}: {}.", barred.name, barred.reason));
+            table.note(format!("Not ranked: {}: {}.", barred.name, barred.reason));
         }
         if !self.unknown.is_empty() {
-            listing.notes.push(format!(
+            table.note(format!(
                 "Nothing is known of what is asked: {}.",
                 self.unknown.join(", ")
             ));
         }
-        listing
+        table
     }
 
     /// The answer in a sentence.
@@ -130,9 +122,9 @@ impl Choice {
         document.lead(&format!("<p class=\"lead\">Needs: {}</p>", html(needs)));
         let answer = format!("<p><strong>{}.</strong></p>", html(&self.headline()));
         document.section("answer", "Answer", &answer);
-        let mut listing = self.listing();
-        "Every number that was looked at".clone_into(&mut listing.caption);
-        document.section("steps", "How it came about", &listing.html());
+        let mut table = self.table();
+        "Every number that was looked at".clone_into(&mut table.caption);
+        document.section("steps", "How it came about", &table.html());
         document.finish()
     }
 }

@@ -8,16 +8,15 @@ use super::{Answer, Comparison, Decision};
 use crate::escape::{html, terminal};
 use crate::figures::{figures, listed};
 use crate::html::{Document, counted, figure, fold, folded_glossary, lead, score_link};
-use crate::listing::{Directions, Listing};
 use crate::number::{numeral, significant, spaced};
 use crate::results::Study;
+use crate::table::{Column, Table};
 
 /// The schema of a comparison as JSON.
 pub const COMPARISON_SCHEMA: &str = "taceva.comparison/2";
 
-/// The names of the columns of every answer.
-const HEAD: [&str; 13] = [
-    "metric",
+/// The names of the columns of every answer, but for the metric.
+const HEAD: [&str; 12] = [
     "channel",
     "A",
     "B",
@@ -34,13 +33,16 @@ const HEAD: [&str; 13] = [
 
 impl Comparison {
     /// A row an answer.
-    pub fn listing(&self) -> Listing {
-        let mut listing = Listing::new("Comparison", &HEAD);
-        let answers = self.answers.iter();
-        listing.rows = answers.map(|answer| self.row(answer)).collect();
-        listing.directions = Directions::of_metrics(&listing.rows, 0);
-        listing.notes = self.rules();
-        listing
+    pub fn table(&self) -> Table {
+        let columns = [Column::of_metrics()].into_iter();
+        let mut table = Table::new("Comparison", columns.chain(HEAD.map(Column::new)));
+        for answer in &self.answers {
+            table.push(self.row(answer));
+        }
+        for rule in self.rules() {
+            table.note(rule);
+        }
+        table
     }
 
     /// How the answers were found.
@@ -230,7 +232,7 @@ impl Comparison {
             let holds = counted(self.won().len(), "line");
             fold("shown-all", "All that is shown to differ", &holds, &list)
         };
-        let table = self.listing().html_with_metrics();
+        let table = self.table().html_with_links();
         let holds = counted(self.answers.len(), "answer");
         format!(
             "{shown}{}",

@@ -4,7 +4,7 @@ use super::figures::one as figure;
 use super::tables::table;
 use super::themes::is_radar;
 use crate::figure::Figure;
-use crate::table::{ScoreRow, ScoreTable};
+use crate::scores::{ScoreRow, ScoreTable};
 
 /// The main table and the radars; nothing where there is neither.
 pub(super) fn section(table: &ScoreTable, figures: &[Figure]) -> Option<String> {

@@ -9,7 +9,8 @@ use super::studied::{points, span, whole};
 use crate::escape::html;
 use crate::figures::{listed, names};
 use crate::results::Study;
-use crate::table::ScoreTable;
+use crate::scores::ScoreTable;
+use crate::short_digests::short_digests;
 
 /// The study whose metrics these are, as its publisher names it.
 const STUDY: &str = "@article{taceva-study,\n  author  = {Cong and others},\n  title   = {{TacEva}},\n  journal = {Advanced Intelligent Systems},\n  year    = {2026},\n  doi     = {10.1002/aisy.202501179}\n}";
@@ -231,23 +232,6 @@ fn plain(text: &str) -> String {
         .replace('&', "and")
 }
 
-/// A text whose digests are cut to what tells them apart; provenance has them whole.
-fn without_digests(text: &str) -> String {
-    let is_digest = |word: &str| {
-        let digits = word.trim_end_matches(',');
-        digits.len() >= 40 && digits.chars().all(|letter| letter.is_ascii_hexdigit())
-    };
-    let words = text.split(' ').map(|word| match is_digest(word) {
-        true => {
-            let start: String = word.chars().take(12).collect();
-            let end = if word.ends_with(',') { "…," } else { "…" };
-            start + end
-        }
-        false => word.to_owned(),
-    });
-    words.collect::<Vec<_>>().join(" ")
-}
-
 /// The sensors in a table.
 fn sensors(studies: &[Study]) -> String {
     let mut out = String::from(
@@ -260,7 +244,7 @@ fn sensors(studies: &[Study]) -> String {
             "<tr><th scope=\"row\">{}</th><td class=\"wrap\">{}</td><td class=\"wrap\">{}</td><td>{}</td><td class=\"wrap\">{}</td><td class=\"wrap\">{}</td></tr>\n",
             html(&name),
             html(&study.serial),
-            html(&without_digests(&study.gel)),
+            html(&short_digests(&study.gel)),
             html(&study.source),
             html(study.made.model.as_deref().unwrap_or("–")),
             html(split.map_or("–", |(_, split)| split))

@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use crate::escape::html;
 use crate::figures::names;
 use crate::results::Study;
-use crate::table::ScoreTable;
+use crate::scores::ScoreTable;
 
 pub(super) fn section(studies: &[Study], table: &ScoreTable) -> String {
     let mut out = String::new();

@@ -8,8 +8,8 @@ use crate::figures::{listed, names};
 use crate::light::{self, is_low};
 use crate::number::{minus, spaced};
 use crate::results::{Score, Study};
+use crate::scores::{ScoreCell, ScoreRow, ScoreTable};
 use crate::spread;
-use crate::table::{ScoreCell, ScoreRow, ScoreTable};
 use crate::tie::{best, tie};
 
 /// What stands below the title.

@@ -5,7 +5,7 @@ use taceva_core::Unit;
 use super::glossary::metric_link;
 use crate::escape::html;
 use crate::number::minus;
-use crate::table::{ScoreCell, ScoreRow};
+use crate::scores::{ScoreCell, ScoreRow};
 
 /// A table that sorts; nothing without rows. `id` is a word, `title` plain text.
 pub(super) fn table(id: &str, title: &str, names: &[String], rows: &[&ScoreRow]) -> String {

@@ -4,7 +4,7 @@ use super::figures::one as figure;
 use super::fold::{counted, fold};
 use super::tables::table;
 use crate::figure::Figure;
-use crate::table::{ScoreRow, ScoreTable};
+use crate::scores::{ScoreRow, ScoreTable};
 
 /// What is read together.
 struct Theme {

@@ -1,74 +1,116 @@
-//! For papers: the main scores in the width of one column.
+//! What a column of a table holds.
 
-use super::latex::{cell, symbol};
-use super::notation::{directed, metric};
-use super::{ScoreCell, ScoreTable};
-use crate::escape::latex as escape;
+use taceva_metrics::Better;
 
-/// Letters of all names that a column has room for in the size of its numbers.
-const LETTERS: usize = 28;
+use super::Words;
 
-/// The main rows of a table as LaTeX with booktabs, as wide as a column: symbols of the field, one line a score, no intervals; the long table
-/// has them. A value is bold only where it is shown to be better than all others of its row.
-pub fn latex_column(table: &ScoreTable, caption: &str) -> String {
-    let main = table.main();
-    let columns = main.names.len();
-    let letters: usize = main.names.iter().map(|name| name.chars().count()).sum();
-    let small = match letters {
-        0..=LETTERS => "",
-        _ => "\\scriptsize ",
-    };
-    let names = main
-        .names
-        .iter()
-        .map(|name| format!("{small}{}", escape(name)));
-    let names: Vec<String> = names.collect();
-    let size = match columns {
-        0..=4 => "\\footnotesize",
-        _ => "\\scriptsize",
-    };
-    let mut out = format!(
-        "% needs \\usepackage{{booktabs}}\n\\begin{{table}}\n  \\caption{{{}}}\n  {size}\\setlength{{\\tabcolsep}}{{2pt}}\n",
-        escape(caption)
-    );
-    out += &format!(
-        "  \\begin{{tabular*}}{{\\columnwidth}}{{@{{}}l@{{\\extracolsep{{\\fill}}}}{}@{{}}}}\n    \\toprule\n     & {} \\\\\n    \\midrule\n",
-        "r".repeat(columns),
-        names.join(" & ")
-    );
-    for row in &main.rows {
-        let unit = match row.unit.symbol() {
-            "1" => String::new(),
-            symbol => format!(" ({})", escape(symbol)),
-        };
-        let cells: Vec<String> = row.cells.iter().map(|of| short_cell(of.as_ref())).collect();
-        out += &format!(
-            "    {} & {} \\\\\n",
-            directed(
-                &row.metric,
-                &format!("{} {}{unit}", metric(&row.metric), symbol(&row.channel))
-            ),
-            cells.join(" & ")
-        );
-    }
-    out += "    \\bottomrule\n  \\end{tabular*}\n";
-    if main.rows.iter().any(|row| row.metric == "repeatability") {
-        out += "\n  \\footnotesize $\\sigma_{\\mathrm{rep}}$: repeatability.\n";
-    }
-    if columns > 1 {
-        out += "\n  \\footnotesize Bold: better than every other sensor at a level of 5\\,\\% after Holm's adjustment.\n";
-    }
-    out + "\\end{table}\n"
+/// A column: what its cells are, in which unit, and which of them are good.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Column {
+    /// What its cells are.
+    pub name: Words,
+    /// Their unit, where all have the same.
+    pub unit: Option<String>,
+    /// Which of them are good.
+    pub direction: Direction,
+    /// On which side they stand.
+    pub align: Align,
 }
 
-/// A value with at most three digits: a column has no room for more, and the long table has them.
-fn short_cell(of: Option<&ScoreCell>) -> String {
-    let Some(value) = of.and_then(|of| of.value) else {
-        return cell(of);
-    };
-    let mut short = of.cloned();
-    if let Some(short) = &mut short {
-        short.printed.value = crate::number::numeral(value);
+/// Which numbers are good: a sign for people, a word for programs.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Direction {
+    /// They are no scores.
+    #[default]
+    None,
+    /// All of the column alike: people find the sign in the head; programs know the column by its name.
+    Is(Better),
+    /// Row by row, as the metric or variant says that the cell of this column names: people find the sign behind it, programs the word in a
+    /// column `better` beside it.
+    OfMetrics,
+    /// The same, as [`Row::better`](super::Row::better) says.
+    OfRows,
+}
+
+/// On which side cells stand.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Align {
+    /// To the right where the column holds numbers only.
+    #[default]
+    Auto,
+    /// To the left.
+    Left,
+    /// To the right.
+    Right,
+    /// In plain text each number to the right and other cells to the left; elsewhere as [`Align::Auto`].
+    ByCell,
+}
+
+impl Direction {
+    /// Whether each row has its own.
+    pub(super) fn is_by_row(self) -> bool {
+        matches!(self, Direction::OfMetrics | Direction::OfRows)
     }
-    cell(short.as_ref())
+}
+
+impl Column {
+    /// A column without unit and direction.
+    pub fn new(name: impl Into<Words>) -> Column {
+        Column {
+            name: name.into(),
+            ..Column::default()
+        }
+    }
+
+    /// A column of names of metrics or variants.
+    pub fn of_metrics() -> Column {
+        Column::new("metric").direction(Direction::OfMetrics)
+    }
+
+    /// The same with a unit.
+    #[must_use]
+    pub fn unit(self, unit: impl Into<String>) -> Column {
+        Column {
+            unit: Some(unit.into()),
+            ..self
+        }
+    }
+
+    /// The same with a direction.
+    #[must_use]
+    pub fn direction(self, direction: Direction) -> Column {
+        Column { direction, ..self }
+    }
+
+    /// The same on another side.
+    #[must_use]
+    pub fn align(self, align: Align) -> Column {
+        Column { align, ..self }
+    }
+
+    /// Name and unit: `fit (s)`.
+    pub fn title(&self) -> String {
+        match &self.unit {
+            Some(unit) => format!("{} ({unit})", self.name.plain()),
+            None => self.name.plain().to_owned(),
+        }
+    }
+
+    /// The head as people read it, with the sign of its direction.
+    pub(super) fn head(&self) -> Words {
+        let words = match &self.unit {
+            Some(_) => Words::new(self.title()),
+            None => self.name.clone(),
+        };
+        match self.direction {
+            Direction::Is(better) => words.directed(Some(better)),
+            _ => words,
+        }
+    }
+}
+
+impl From<&str> for Column {
+    fn from(name: &str) -> Column {
+        Column::new(name)
+    }
 }

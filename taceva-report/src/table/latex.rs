@@ -1,87 +1,128 @@
-//! For papers: a booktabs table, a row a score, a column a study.
+//! Tables as LaTeX with booktabs.
 
-use super::notation::{directed, metric};
-use super::{ScoreCell, ScoreTable};
+use super::{Row, Table, Words};
 use crate::escape::latex as escape;
 
-/// A table as LaTeX with booktabs. A value is bold only where it is shown to be better than all others of its row: the table says so below.
-pub fn latex(table: &ScoreTable, caption: &str) -> String {
-    let columns = table.names.len();
-    let names: Vec<String> = table.names.iter().map(|name| escape(name)).collect();
-    let mut out = String::from("% needs \\usepackage{booktabs}\n\\begin{table}\n");
-    out += &format!("  \\caption{{{}}}\n", escape(caption));
-    out += &format!("  \\begin{{tabular}}{{lll{}}}\n", "r".repeat(columns));
-    out += "    \\toprule\n";
-    out += &format!(
-        "    metric & channel & unit & {} \\\\\n    \\midrule\n",
-        names.join(" & ")
-    );
-    let mut last = "";
-    for row in &table.rows {
-        let metric = if row.metric == last {
-            ""
-        } else {
-            row.metric.as_str()
-        };
-        if !last.is_empty() && !metric.is_empty() {
-            out += "    \\addlinespace\n";
-        }
-        last = &row.metric;
-        let cells: Vec<String> = row
-            .cells
-            .iter()
-            .map(|cell| self::cell(cell.as_ref()))
-            .collect();
-        let unit = match row.unit.symbol() {
-            "1" => String::new(),
-            symbol => escape(symbol),
-        };
-        out += &format!(
-            "    {} & {} & {unit} & {} \\\\\n",
-            directed(metric, &self::metric(metric)),
-            symbol(&row.channel),
-            cells.join(" & ")
-        );
-        let intervals: Vec<String> = row
-            .cells
-            .iter()
-            .map(|cell| interval(cell.as_ref()))
-            .collect();
-        if intervals.iter().any(|interval| !interval.is_empty()) {
-            out += &format!("     & & & {} \\\\\n", intervals.join(" & "));
-        }
-    }
-    out += "    \\bottomrule\n  \\end{tabular}\n";
-    if columns > 1 {
-        out += "\n  \\footnotesize Bold: better than every other sensor that takes part in verdicts, at a level of 5\\,\\% after Holm's adjustment.\n";
-    }
-    out += "\\end{table}\n";
-    out
+/// Letters of all names that a column of a page has room for in the size of its numbers.
+const LETTERS: usize = 28;
+/// Columns beyond which numbers of a table as wide as a column of a page are set smaller.
+const COLUMNS: usize = 5;
+
+/// How a table is placed on a page of paper.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Layout {
+    /// As a float with caption and notes.
+    #[default]
+    Float,
+    /// The same, as wide as a column of the page, in small letters.
+    Column,
+    /// The rows alone.
+    Rows,
 }
 
-pub(super) fn cell(cell: Option<&ScoreCell>) -> String {
-    let Some(cell) = cell.filter(|cell| !cell.printed.value.is_empty()) else {
-        return "--".to_owned();
-    };
-    let value = number(&cell.printed.value);
-    match cell.is_best {
-        true => format!("\\textbf{{{value}}}"),
-        false => value,
+impl Table {
+    /// As LaTeX with booktabs, placed as `layout` says.
+    pub fn latex(&self, layout: Layout) -> String {
+        let mut out = String::from("% needs \\usepackage{booktabs}\n");
+        if layout == Layout::Rows {
+            out += &format!("\\begin{{tabular}}{{{}}}\n", self.sides());
+            out += &self.latex_rows("  ", "");
+            return out + "\\end{tabular}\n";
+        }
+        out += "\\begin{table}\n";
+        if !self.caption.is_empty() {
+            out += &format!("  \\caption{{{}}}\n", escape(&self.caption));
+        }
+        match layout {
+            Layout::Column => {
+                out += &format!(
+                    "  {}\\setlength{{\\tabcolsep}}{{2pt}}\n  \\begin{{tabular*}}{{\\columnwidth}}{{@{{}}l@{{\\extracolsep{{\\fill}}}}{}@{{}}}}\n",
+                    self.size(),
+                    self.sides().get(1..).unwrap_or_default()
+                );
+                out += &self.latex_rows("    ", self.size_of_names());
+                out += "  \\end{tabular*}\n";
+            }
+            _ => {
+                out += &format!("  \\begin{{tabular}}{{{}}}\n", self.sides());
+                out += &self.latex_rows("    ", "");
+                out += "  \\end{tabular}\n";
+            }
+        }
+        for note in &self.notes {
+            out += &format!("\n  \\footnotesize {}\n", note.in_latex());
+        }
+        out + "\\end{table}\n"
+    }
+
+    /// A letter for the side of each column.
+    fn sides(&self) -> String {
+        let sides = (0..self.columns.len()).map(|column| match self.is_right(column) {
+            true => 'r',
+            false => 'l',
+        });
+        sides.collect()
+    }
+
+    /// The size of numbers in a column of a page.
+    fn size(&self) -> &'static str {
+        match self.columns.len() {
+            0..=COLUMNS => "\\footnotesize",
+            _ => "\\scriptsize",
+        }
+    }
+
+    /// The size of the heads in a column of a page, where they have no room in that of the numbers.
+    fn size_of_names(&self) -> &'static str {
+        let names = self.columns.iter().map(|column| column.name.plain());
+        match names.map(|name| name.chars().count()).sum() {
+            0..=LETTERS => "",
+            _ => "\\scriptsize ",
+        }
+    }
+
+    /// Heads and rows between the rules of booktabs, the heads in the size `small`.
+    fn latex_rows(&self, indent: &str, small: &str) -> String {
+        let heads = self.columns.iter().map(|column| {
+            let head = column.head().in_latex();
+            match head.is_empty() {
+                true => head,
+                false => format!("{small}{head}"),
+            }
+        });
+        let mut out = format!("{indent}\\toprule\n");
+        out += &line(indent, &heads.collect::<Vec<_>>());
+        out += &format!("{indent}\\midrule\n");
+        for row in &self.rows {
+            if row.begins_group {
+                out += &format!("{indent}\\addlinespace\n");
+            }
+            let cells = self.words_of(row);
+            let cells: Vec<String> = cells.iter().map(Words::in_latex).collect();
+            out += &line(indent, &cells);
+            out += &below(indent, row);
+        }
+        out + &format!("{indent}\\bottomrule\n")
     }
 }
 
-fn interval(cell: Option<&ScoreCell>) -> String {
-    let ends = cell.and_then(|cell| cell.printed.interval.as_ref());
-    let ends = ends.map(|[low, high]| format!("[{}, {}]", number(low), number(high)));
-    let remark = cell.and_then(ScoreCell::remark);
-    let said: Vec<String> = ends
+fn line(indent: &str, cells: &[String]) -> String {
+    format!("{indent}{} \\\\\n", cells.join(" & "))
+}
+
+/// The line below a row that has intervals.
+fn below(indent: &str, row: &Row) -> String {
+    let cells: Vec<Option<String>> = row.cells.iter().map(|cell| cell.latex_below()).collect();
+    if cells.iter().flatten().all(String::is_empty) {
+        return String::new();
+    }
+    let words = cells.iter().take_while(|cell| cell.is_none()).count();
+    let rest: Vec<String> = cells
         .into_iter()
-        .chain(remark.map(|remark| escape(&remark)))
+        .skip(words)
+        .map(Option::unwrap_or_default)
         .collect();
-    match said.is_empty() {
-        true => String::new(),
-        false => format!("\\scriptsize {}", said.join(", ")),
-    }
+    format!("{indent}{} {} \\\\\n", " &".repeat(words), rest.join(" & "))
 }
 
 /// A printed number as papers set it: a minus as wide as a plus, and `2.3e-7` with its power of ten; what is no number is escaped.

@@ -4,13 +4,13 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use taceva_core::{Frame, Nanometre, Sample, SinkError};
 use taceva_dataset::Recorder;
-use taceva_protocol::{Digest, Plan, PlannedPress, PressLog, PressRecord};
+use taceva_protocol::{ContentId, Plan, PlannedPress, PressLog, PressRecord};
 
 /// The presses of a recording that is being made.
 pub(super) struct RecordedPresses {
     recorder: Recorder,
     /// Presses that are recorded and made again all the same.
-    relived: BTreeSet<Digest>,
+    relived: BTreeSet<ContentId>,
     /// The rows of their samples, by name.
     rows: BTreeMap<String, usize>,
 }
@@ -33,7 +33,7 @@ impl RecordedPresses {
             .filter(|press| !is_recorded(press))
             .map(|press| press.press.place)
             .collect();
-        let relived: BTreeSet<Digest> = of_unit()
+        let relived: BTreeSet<ContentId> = of_unit()
             .filter(is_recorded)
             .filter(|press| missing.contains(&press.press.place))
             .map(|press| press.id)
@@ -49,7 +49,7 @@ impl RecordedPresses {
         self.recorder
     }
 
-    fn has(&self, press: Digest) -> bool {
+    fn has(&self, press: ContentId) -> bool {
         self.recorder.has_press(&press.to_string())
     }
 
@@ -78,7 +78,7 @@ impl RecordedPresses {
 }
 
 impl PressLog for RecordedPresses {
-    fn is_finished(&self, press: Digest) -> bool {
+    fn is_finished(&self, press: ContentId) -> bool {
         self.has(press) && !self.relived.contains(&press)
     }
 

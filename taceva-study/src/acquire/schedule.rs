@@ -12,15 +12,15 @@ pub(super) struct Schedule {
 
 /// For the way there, the search for contact and the way back.
 const WAY: Duration = Duration::from_secs(240);
-/// For a station: its way, its rest and its picture.
-const STATION: Duration = Duration::from_secs(2);
+/// For a waypoint: its way, its rest and its picture.
+const WAYPOINT: Duration = Duration::from_secs(2);
 
 impl Schedule {
     pub(super) fn of(plan: &Plan) -> Schedule {
         let samples = plan.presses.iter().map(|press| press.press.samples());
         let most = u32::try_from(samples.max().unwrap_or(0)).unwrap_or(u32::MAX);
         Schedule {
-            slot: WAY.saturating_add(STATION.saturating_mul(most)),
+            slot: WAY.saturating_add(WAYPOINT.saturating_mul(most)),
         }
     }
 

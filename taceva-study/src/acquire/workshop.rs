@@ -6,7 +6,7 @@ use std::time::Duration;
 use taceva_core::{Progress, Rig, SimulatedBench};
 use taceva_drivers::{Drivers, Selector};
 use taceva_models::Models;
-use taceva_protocol::{Digest, SpecimenChanger, Timekeeper};
+use taceva_protocol::{ContentId, SpecimenChanger, Timekeeper};
 
 use crate::cache::Cache;
 
@@ -16,7 +16,7 @@ pub struct Surroundings {
     pub clock: Box<dyn Timekeeper>,
     /// Who exchanges what the robot carries; without one a single specimen serves every press.
     pub specimens: Option<Box<dyn SpecimenChanger>>,
-    /// Told of each press before the tip goes there.
+    /// Is called with each press before the tip moves there.
     pub upcoming: Option<Box<dyn FnMut(Upcoming)>>,
     /// What the recording calls the gel.
     pub gel: Option<String>,
@@ -33,7 +33,7 @@ pub struct Surroundings {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Upcoming {
     /// Its name.
-    pub press: Digest,
+    pub press: ContentId,
     /// When it begins by the clock of the rig, on a schedule that leaves every press ample time: a rig whose time can be
     /// turned gives the same times to a press whether the run was interrupted or not.
     pub begins: Duration,
@@ -53,6 +53,6 @@ pub struct Workshop<'a> {
     pub surroundings: SurroundingsOf<'a>,
     /// Where finished stages are found and kept, if anywhere.
     pub cache: Option<&'a Cache>,
-    /// Whoever listens, and may wish to stop.
+    /// Receives progress, and may cancel.
     pub progress: &'a dyn Progress,
 }

@@ -11,7 +11,7 @@ use super::models::{Raced, TrialError, unfitted};
 use super::paired::{absolute_errors, difference};
 use crate::error::StudyError;
 use crate::fit::FitRequest;
-use crate::rows::{Divided, Part};
+use crate::rows::{DataPart, Divided};
 use crate::work::Work;
 
 /// Frames that are decoded one by one.
@@ -61,7 +61,7 @@ pub struct DecodeTrials {
 /// A scale at which frames are too small for the features is a row that says so.
 ///
 /// # Errors
-/// [`StudyError`] if the request cannot be meant, the recording has frames that are no JPEG or cannot be read, or `work` asks to stop.
+/// [`StudyError`] if the request is not valid, the recording has frames that are no JPEG or cannot be read, or `work` asks to stop.
 pub fn decode(
     path: &Path,
     request: &FitRequest,
@@ -104,8 +104,8 @@ pub fn decode(
     work.progress.end();
     Ok(DecodeTrials {
         split: format!("{}, seed {}", divided.spec, divided.seed),
-        train: divided.rows(Part::Train).len(),
-        test: divided.rows(Part::Test).len(),
+        train: divided.rows(DataPart::Train).len(),
+        test: divided.rows(DataPart::Test).len(),
         rows,
     })
 }

@@ -15,7 +15,7 @@ use crate::error::StudyError;
 use crate::evaluate::{EvaluateRequest, ModelChoice, score};
 use crate::fit::{FitRequest, fit};
 use crate::predict::{self, Predicted, Target, extractor};
-use crate::rows::{Divided, Part};
+use crate::rows::{DataPart, Divided};
 use crate::work::Work;
 
 /// The error that models are compared by.
@@ -144,8 +144,8 @@ pub fn models(
     front::mark(&mut raced);
     Ok(ModelTrials {
         split: format!("{}, seed {}", divided.spec, divided.seed),
-        train: divided.rows(Part::Train).len(),
-        test: divided.rows(Part::Test).len(),
+        train: divided.rows(DataPart::Train).len(),
+        test: divided.rows(DataPart::Test).len(),
         rows: raced.into_iter().map(|(row, _)| row).collect(),
     })
 }
@@ -288,11 +288,7 @@ fn latency(
     let rows = &target.rows[..target.rows.len().min(SINGLES)];
     if model.reads_features() {
         let extractor = extractor(dataset, model)?;
-        let pass = Pass {
-            rows,
-            jobs: NonZeroUsize::MIN,
-            progress,
-        };
+        let pass = Pass::new(rows, NonZeroUsize::MIN, progress);
         let predict = |frame| -> Result<f64, StudyError> {
             let start = Instant::now();
             let mut sample = vec![0.0; shape.len()];

@@ -10,7 +10,7 @@ use taceva_dataset::Dataset;
 use taceva_models::{Extractor, FeatureSpec};
 
 use super::value::Kept;
-use super::{ABANDONED, Cache, Key, Stage, remove};
+use super::{ABANDONED, Cache, CachedStage, Key, remove};
 use crate::error::StudyError;
 
 /// What is kept of features altogether, in bytes.
@@ -36,7 +36,7 @@ impl Cache {
             pca: None,
             ..*extractor.spec()
         };
-        let key = Key::of(Stage::Features)
+        let key = Key::of(CachedStage::Features)
             .part("dataset", &dataset.digest().to_string())
             .whole("frame", &extractor.frame_info())
             .whole("features", &spec)

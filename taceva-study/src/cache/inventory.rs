@@ -5,7 +5,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, SystemTime};
 
-use super::key::Stage;
+use super::key::CachedStage;
 use super::{ABANDONED, BEFORE, LAYOUT, PARTIAL, remove};
 
 /// The digits of a key.
@@ -15,7 +15,7 @@ const DIGITS: usize = 64;
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct CacheEntry {
     /// The stage that it is a result of; none of what is half written.
-    pub stage: Option<Stage>,
+    pub stage: Option<CachedStage>,
     /// The digits of its key, or the name of what is half written.
     pub name: String,
     /// Where it lies.
@@ -33,7 +33,7 @@ pub struct CacheEntry {
 impl CacheEntry {
     /// The word for its kind: that of its stage, or `partial`.
     pub fn kind(&self) -> &'static str {
-        self.stage.map_or(PARTIAL, Stage::name)
+        self.stage.map_or(PARTIAL, CachedStage::name)
     }
 
     /// How long nobody has looked at it; zero for what is from the future.
@@ -46,7 +46,7 @@ impl CacheEntry {
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Pruning {
     /// Only results of these stages; all of none.
-    pub stages: Vec<Stage>,
+    pub stages: Vec<CachedStage>,
     /// What nobody has looked at for longer.
     pub older_than: Option<Duration>,
     /// What is beyond so many bytes altogether, of those not looked at for longest first.
@@ -55,7 +55,7 @@ pub struct Pruning {
 
 /// Everything that is kept in `folder`, by kind, the longest unused first; a folder that is not there holds nothing.
 ///
-/// Only what this program writes is listed: anything else that lies there is none of its business.
+/// Only what this program writes is listed: other files there are ignored.
 ///
 /// # Errors
 /// If the folder cannot be read.
@@ -63,8 +63,13 @@ pub fn cache_entries(folder: &Path) -> io::Result<Vec<CacheEntry>> {
     let mut entries = Vec::new();
     // What earlier versions kept is never read again, and takes its room until somebody prunes it.
     for layout in [BEFORE, LAYOUT].map(|layout| folder.join(layout)) {
-        for stage in Stage::ALL {
-            gather(&layout.join(stage.name()), Some(stage), &mut entries)?;
+        for stage in CachedStage::ALL {
+            for name in [Some(stage.name()), stage.name_before()]
+                .into_iter()
+                .flatten()
+            {
+                gather(&layout.join(name), Some(stage), &mut entries)?;
+            }
         }
         gather(&layout.join(PARTIAL), None, &mut entries)?;
     }
@@ -74,7 +79,11 @@ pub fn cache_entries(folder: &Path) -> io::Result<Vec<CacheEntry>> {
     Ok(entries)
 }
 
-fn gather(folder: &Path, stage: Option<Stage>, entries: &mut Vec<CacheEntry>) -> io::Result<()> {
+fn gather(
+    folder: &Path,
+    stage: Option<CachedStage>,
+    entries: &mut Vec<CacheEntry>,
+) -> io::Result<()> {
     let found = match fs::read_dir(folder) {
         Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(()),
         found => found?,
@@ -217,7 +226,7 @@ mod tests {
     const HOUR: Duration = Duration::from_secs(3600);
 
     /// A cache with a file of `bytes` for each stage and age, in hours.
-    fn cache(kept: &[(Stage, u64, usize)]) -> (tempfile::TempDir, Vec<CacheEntry>) {
+    fn cache(kept: &[(CachedStage, u64, usize)]) -> (tempfile::TempDir, Vec<CacheEntry>) {
         let folder = tempfile::tempdir().expect("a folder");
         for (number, (stage, hours, bytes)) in kept.iter().enumerate() {
             let path = folder.path().join(LAYOUT).join(stage.name());
@@ -242,7 +251,7 @@ mod tests {
 
     #[test]
     fn what_is_not_of_this_program_is_neither_listed_nor_removed() {
-        let (folder, _) = cache(&[(Stage::Fit, 1, 10)]);
+        let (folder, _) = cache(&[(CachedStage::Fit, 1, 10)]);
         let layout = folder.path().join(LAYOUT);
         for stranger in ["fit/notes.txt", "fit/0123", "mine", "../thesis.tex"] {
             fs::write(layout.join(stranger), "keep me").expect("written");
@@ -265,9 +274,9 @@ mod tests {
     #[test]
     fn the_longest_unused_go_first_until_the_rest_fits() {
         let kept = [
-            (Stage::Fit, 3, 100),
-            (Stage::Features, 9, 100),
-            (Stage::Predict, 1, 100),
+            (CachedStage::Fit, 3, 100),
+            (CachedStage::Features, 9, 100),
+            (CachedStage::Predict, 1, 100),
         ];
         let (_folder, entries) = cache(&kept);
         let keep = |bytes| Pruning {
@@ -279,7 +288,7 @@ mod tests {
         assert_eq!(gone(&keep(299)), ["1"]);
         assert_eq!(gone(&keep(100)), ["1", ""]);
         let features = Pruning {
-            stages: vec![Stage::Predict],
+            stages: vec![CachedStage::Predict],
             keep: Some(0),
             ..Pruning::default()
         };

@@ -4,41 +4,49 @@ use std::fmt::{self, Debug};
 
 use taceva_dataset::Digest;
 
-/// A part of a run whose result is kept.
+/// A stage of a run whose result is kept in the cache.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, serde::Serialize)]
 #[serde(rename_all = "lowercase")]
 #[non_exhaustive]
-pub enum Stage {
+pub enum CachedStage {
     /// The presses of a study: a recording.
     Acquire,
-    /// What a model sees of their frames.
+    /// The features of their frames.
     Features,
-    /// What is learnt of them: a model.
+    /// The fitted model.
     Fit,
-    /// What the model says of the presses that it has not seen.
+    /// Predictions of the presses that the model was not fitted on.
     Predict,
-    /// Which spacings the presses of gratings are taken for.
-    Tell,
+    /// The spacings that are predicted for presses on gratings.
+    Classify,
 }
 
-impl Stage {
+impl CachedStage {
     /// Every stage, in the order of a run.
-    pub const ALL: [Stage; 5] = [
-        Stage::Acquire,
-        Stage::Features,
-        Stage::Fit,
-        Stage::Predict,
-        Stage::Tell,
+    pub const ALL: [CachedStage; 5] = [
+        CachedStage::Acquire,
+        CachedStage::Features,
+        CachedStage::Fit,
+        CachedStage::Predict,
+        CachedStage::Classify,
     ];
 
     /// The word used in files and folders.
     pub const fn name(self) -> &'static str {
         match self {
-            Stage::Acquire => "acquire",
-            Stage::Features => "features",
-            Stage::Fit => "fit",
-            Stage::Predict => "predict",
-            Stage::Tell => "tell",
+            CachedStage::Acquire => "acquire",
+            CachedStage::Features => "features",
+            CachedStage::Fit => "fit",
+            CachedStage::Predict => "predict",
+            CachedStage::Classify => "classify",
+        }
+    }
+
+    /// The word that earlier versions used, where it was another.
+    pub(super) const fn name_before(self) -> Option<&'static str> {
+        match self {
+            CachedStage::Classify => Some("tell"),
+            _ => None,
         }
     }
 
@@ -47,14 +55,14 @@ impl Stage {
         match self {
             // 2: the recording says how its presses ended.
             // 3: the recording has a picture of the untouched gel.
-            Stage::Acquire => 3,
+            CachedStage::Acquire => 3,
             // 2: standard deviations follow the predictions.
             // 3: predictions are as the model gives them, beyond its bounds too.
-            Stage::Predict => 3,
+            CachedStage::Predict => 3,
             // 2: elastic nets end their descent earlier, Gaussian processes reach as far as they say.
             // 3: the card says the mean of the labels.
-            Stage::Fit => 3,
-            Stage::Features | Stage::Tell => 1,
+            CachedStage::Fit => 3,
+            CachedStage::Features | CachedStage::Classify => 1,
         }
     }
 }
@@ -62,13 +70,13 @@ impl Stage {
 /// The name of a stage's result.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Key {
-    stage: Stage,
+    stage: CachedStage,
     digest: Digest,
 }
 
 impl Key {
     /// The key of a result of `stage`, of which parts are to be named.
-    pub(crate) fn of(stage: Stage) -> KeyBuilder {
+    pub(crate) fn of(stage: CachedStage) -> KeyBuilder {
         let builder = KeyBuilder {
             stage,
             parts: Vec::new(),
@@ -79,7 +87,7 @@ impl Key {
             .part("taceva", env!("CARGO_PKG_VERSION"))
     }
 
-    pub(crate) fn stage(&self) -> Stage {
+    pub(crate) fn stage(&self) -> CachedStage {
         self.stage
     }
 
@@ -98,7 +106,7 @@ impl fmt::Display for Key {
 
 /// Parts of a key, each with its name and its length, so that no two sequences of parts run together.
 pub(crate) struct KeyBuilder {
-    stage: Stage,
+    stage: CachedStage,
     parts: Vec<u8>,
 }
 
@@ -131,16 +139,19 @@ mod tests {
     #[test]
     fn keys_differ_in_stage_name_and_part_and_parts_do_not_run_together() {
         let keys = [
-            Key::of(Stage::Fit).finish(),
-            Key::of(Stage::Tell).finish(),
-            Key::of(Stage::Fit).part("ab", "c").finish(),
-            Key::of(Stage::Fit).part("a", "bc").finish(),
-            Key::of(Stage::Fit).part("a", "b").part("c", "").finish(),
+            Key::of(CachedStage::Fit).finish(),
+            Key::of(CachedStage::Classify).finish(),
+            Key::of(CachedStage::Fit).part("ab", "c").finish(),
+            Key::of(CachedStage::Fit).part("a", "bc").finish(),
+            Key::of(CachedStage::Fit)
+                .part("a", "b")
+                .part("c", "")
+                .finish(),
         ];
         for (position, key) in keys.iter().enumerate() {
             assert!(keys[..position].iter().all(|other| other != key), "{key}");
         }
-        let again = Key::of(Stage::Fit).part("ab", "c").finish();
+        let again = Key::of(CachedStage::Fit).part("ab", "c").finish();
         assert_eq!(again.digits(), keys[2].digits());
     }
 }

@@ -5,7 +5,7 @@ use std::path::Path;
 use taceva_dataset::Dataset;
 
 use super::value::Kept;
-use super::{Cache, Key, Stage};
+use super::{Cache, CachedStage, Key};
 use crate::error::StudyError;
 
 /// A stage of a study, and whether its result was found rather than made.
@@ -14,7 +14,7 @@ pub struct StageRecord {
     /// The study.
     pub study: String,
     /// The stage.
-    pub stage: Stage,
+    pub stage: CachedStage,
     /// The digest of everything that its result is made from.
     pub key: String,
     /// Whether it was found.

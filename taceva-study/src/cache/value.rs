@@ -108,7 +108,7 @@ fn is_absent(error: &io::Error) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::super::Stage;
+    use super::super::CachedStage;
     use super::*;
 
     /// Numbers with one that is absent.
@@ -124,7 +124,7 @@ mod tests {
     fn what_is_kept_is_found_with_the_same_bits() {
         let folder = tempfile::tempdir().expect("a folder");
         let cache = Cache::new(folder.path().join("deep/cache"), String::new());
-        let key = Key::of(Stage::Predict).finish();
+        let key = Key::of(CachedStage::Predict).finish();
         assert_eq!(cache.take_value::<Column>(&key), None);
         cache.keep_value(&key, &numbers());
         let found: Column = cache.take_value(&key).expect("kept");
@@ -134,14 +134,14 @@ mod tests {
         };
         assert_eq!(bits(&found), bits(&numbers()));
         assert_eq!(cache.notes(), Vec::<String>::new());
-        let other = Key::of(Stage::Predict).part("seed", "2").finish();
+        let other = Key::of(CachedStage::Predict).part("seed", "2").finish();
         assert_eq!(cache.take_value::<Column>(&other), None);
     }
 
     #[test]
     fn nothing_half_written_and_nothing_altered_is_ever_read() {
         let folder = tempfile::tempdir().expect("a folder");
-        let key = Key::of(Stage::Tell).finish();
+        let key = Key::of(CachedStage::Classify).finish();
         let cache = Cache::new(folder.path().to_owned(), String::new());
         cache.keep_value(&key, &numbers());
         let entry = cache.entry(&key);
@@ -168,7 +168,7 @@ mod tests {
         let file = folder.path().join("file");
         fs::write(&file, "mine").expect("written");
         let cache = Cache::new(file.clone(), String::new());
-        for stage in [Stage::Fit, Stage::Predict] {
+        for stage in [CachedStage::Fit, CachedStage::Predict] {
             let key = Key::of(stage).finish();
             assert_eq!(cache.take_value::<Column>(&key), None);
             cache.keep_value(&key, &numbers());
@@ -184,7 +184,7 @@ mod tests {
     #[test]
     fn of_two_that_keep_one_thing_at_once_either_is_found_whole() {
         let folder = tempfile::tempdir().expect("a folder");
-        let key = Key::of(Stage::Tell).finish();
+        let key = Key::of(CachedStage::Classify).finish();
         let cache = Cache::new(folder.path().to_owned(), String::new());
         std::thread::scope(|scope| {
             for _ in 0..4 {

@@ -6,9 +6,9 @@ use taceva_core::{Column, Field};
 use taceva_dataset::Dataset;
 use taceva_metrics::{Evaluator, Metric, MetricPlan};
 
+use crate::accumulate::{Columns, accumulate};
 use crate::error::StudyError;
 use crate::predict::{Predicted, truth};
-use crate::tally::{Columns, tally};
 
 /// The metrics of a plan by the rows they read.
 pub(super) struct Passes<'a> {
@@ -22,7 +22,7 @@ pub(super) struct Passes<'a> {
 }
 
 impl<'a> Passes<'a> {
-    /// Deals the metrics of `plan`; where a part was asked for, every metric reads that part.
+    /// Assigns the metrics of `plan` to passes; where a part was asked for, every metric reads that part.
     pub(super) fn new(plan: &'a MetricPlan, is_part_asked_for: bool) -> Passes<'a> {
         let kept = plan.kept().iter().copied();
         let (of_truth, others): (Vec<_>, Vec<_>) =
@@ -38,7 +38,7 @@ impl<'a> Passes<'a> {
         }
     }
 
-    /// Takes in `predicted`, which are the rows `rows` of `dataset`, and of the rest what metrics of the truth alone read.
+    /// Accumulates `predicted`, which are the rows `rows` of `dataset`, and of the rest what metrics of the truth alone read.
     pub(super) fn run(
         &self,
         dataset: &Dataset,
@@ -59,7 +59,7 @@ impl<'a> Passes<'a> {
                 rows,
             };
             let plan = self.restricted(metrics)?;
-            total.merge(tally(&columns, &plan, jobs)?)?;
+            total.merge(accumulate(&columns, &plan, jobs)?)?;
         }
         if !self.of_truth.is_empty() {
             let rows = dataset.all_rows();
@@ -76,12 +76,12 @@ impl<'a> Passes<'a> {
                 rows: &rows,
             };
             let plan = self.restricted(&self.of_truth)?;
-            total.merge(tally(&columns, &plan, jobs)?)?;
+            total.merge(accumulate(&columns, &plan, jobs)?)?;
         }
         Ok(total)
     }
 
-    /// What a reader must know where two sets of rows were read.
+    /// A note where two sets of rows were read.
     pub(super) fn note(&self, dataset: &Dataset) -> Option<String> {
         let ids: Vec<&str> = self.of_truth.iter().map(|metric| metric.id).collect();
         let reads_predictions = !self.of_predictions.is_empty() || !self.of_unbounded.is_empty();

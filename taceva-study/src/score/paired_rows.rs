@@ -9,8 +9,8 @@ use taceva_metrics::MetricPlan;
 use super::Scoring;
 use super::fields::{self, Place};
 use super::tables::Pairing;
+use crate::accumulate::Rows;
 use crate::error::StudyError;
-use crate::tally::Rows;
 
 /// Both tables, row by row.
 pub(super) struct PairedRows<'a> {

@@ -1,5 +1,6 @@
 //! Which spacing each press of a grating is taken for, by a model that has not seen that press.
 
+mod model;
 mod network;
 mod spectrum;
 
@@ -8,20 +9,21 @@ use std::collections::BTreeMap;
 use taceva_core::{Column, GratingKind, Nanometre};
 use taceva_dataset::Dataset;
 
-use super::Means;
-use crate::cache::{Key, Stage};
+use self::spectrum::ByFold;
+use super::RunContext;
+use crate::cache::{CachedStage, Key};
+use crate::classifier::SpacingClassifier;
 use crate::error::StudyError;
 use crate::rows::{Need, usable};
-use crate::teller::Teller;
 
-/// Parts into which the presses of a board are dealt; each is predicted by what the others have taught.
+/// Parts of the presses of a board; each is predicted by a classifier fitted on the others.
 const FOLDS: usize = 3;
 
 /// What each row is taken for.
-type Told = BTreeMap<usize, Nanometre>;
+type SpacingOfRow = BTreeMap<usize, Nanometre>;
 
-/// Spacings as they were told.
-pub(super) struct ToldSpacings {
+/// The spacing that was predicted for each press on a grating.
+pub(super) struct PredictedSpacings {
     /// The rows of the dataset that were asked for, ascending.
     pub(super) rows: Vec<usize>,
     /// What each is taken for, in whole nm; absent where there is no picture.
@@ -29,44 +31,51 @@ pub(super) struct ToldSpacings {
     pub(super) frames_decoded: u64,
 }
 
-impl ToldSpacings {
-    /// Tells the spacings of `rows`, lines and dots apart.
+impl PredictedSpacings {
+    /// Predicts the spacings of `rows`, lines and dots apart.
     pub(super) fn of(
         dataset: &Dataset,
         rows: Vec<usize>,
-        teller: &Teller,
-        Means { work, cache, .. }: Means<'_>,
-    ) -> Result<ToldSpacings, StudyError> {
+        classifier: &SpacingClassifier,
+        RunContext { work, cache, .. }: RunContext<'_>,
+    ) -> Result<PredictedSpacings, StudyError> {
         let boards = boards(dataset, &rows);
-        let key = Key::of(Stage::Tell)
+        let key = Key::of(CachedStage::Classify)
             .part("dataset", &dataset.digest().to_string())
             .whole("rows", &rows)
-            .whole("teller", teller)
+            .whole("classifier", classifier)
             .finish();
         let spacings = cache.value(&key, || {
-            let mut told = Told::new();
+            let mut predicted = SpacingOfRow::new();
             for presses in boards.values() {
-                match teller {
-                    Teller::Spectrum => spectrum::tell(dataset, presses, work, &mut told)?,
-                    Teller::Network(network) => {
-                        network::tell(dataset, presses, (network, work), &mut told)?;
+                match classifier {
+                    SpacingClassifier::Spectrum => {
+                        let by = ByFold::Discriminants;
+                        spectrum::classify(dataset, presses, (by, work), &mut predicted)?
+                    }
+                    SpacingClassifier::Model(model) => {
+                        let by = ByFold::Model(model);
+                        spectrum::classify(dataset, presses, (by, work), &mut predicted)?
+                    }
+                    SpacingClassifier::Network(network) => {
+                        network::classify(dataset, presses, (network, work), &mut predicted)?;
                     }
                 }
             }
             let mut spacings = Column::default();
             for row in &rows {
-                spacings.push(told.get(row).map(|spacing| spacing.to_f64()));
+                spacings.push(predicted.get(row).map(|spacing| spacing.to_f64()));
             }
             Ok(spacings)
         })?;
         let presses: usize = boards.values().map(Vec::len).sum();
-        let times = match teller {
+        let times = match classifier {
             // Once for the mean picture, once for each picture itself.
-            Teller::Spectrum => 2,
-            Teller::Network(_) => 1,
+            SpacingClassifier::Spectrum | SpacingClassifier::Model(_) => 2,
+            SpacingClassifier::Network(_) => 1,
         };
         let frames_decoded = times * presses as u64;
-        Ok(ToldSpacings {
+        Ok(PredictedSpacings {
             rows,
             spacings,
             frames_decoded,
@@ -90,7 +99,7 @@ fn boards(dataset: &Dataset, rows: &[usize]) -> BTreeMap<GratingKind, Vec<(usize
     presses
 }
 
-/// The fold of each press: those of one board are dealt in turn.
+/// The fold of each press: those of one board are assigned in turn.
 fn folds(presses: &[(usize, Nanometre)]) -> Vec<usize> {
     let mut numbers: BTreeMap<Nanometre, usize> = BTreeMap::new();
     let folds = presses.iter().map(|(_, spacing)| {

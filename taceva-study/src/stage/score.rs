@@ -1,4 +1,4 @@
-//! Scores: each metric on the presses and the channels that the plan means for it.
+//! Scores: each metric on the presses and the channels that the plan assigns to it.
 
 use std::collections::BTreeMap;
 use std::num::NonZeroUsize;
@@ -9,30 +9,30 @@ use taceva_dataset::Dataset;
 use taceva_metrics::{Evaluation, Metric, MetricPlan};
 use taceva_protocol::{PhaseKind, PlanReason, Subject};
 
-use super::deal::Deal;
-use super::gratings::ToldSpacings;
+use super::gratings::PredictedSpacings;
+use super::phase_rows::PhaseRows;
+use crate::accumulate::{Columns, Rows, accumulate};
 use crate::error::StudyError;
 use crate::predict::{Predicted, truth};
 use crate::scene::{PlannedScene, PlannedStudy};
 use crate::skill::skill;
-use crate::tally::{Columns, Rows, tally};
 
 /// What is scored.
 pub(super) struct Scores<'a> {
     pub(super) scene: &'a PlannedScene,
     pub(super) study: &'a PlannedStudy,
     pub(super) dataset: &'a Dataset,
-    pub(super) deal: &'a Deal<'a>,
+    pub(super) phase_rows: &'a PhaseRows<'a>,
     /// What was predicted, and which rows of the dataset that is; ascending.
     pub(super) predicted: Option<&'a (Predicted, Vec<usize>)>,
-    /// Which spacings the presses of gratings were taken for.
-    pub(super) told: Option<&'a ToldSpacings>,
+    /// The spacings that were predicted for presses on gratings.
+    pub(super) predicted_spacings: Option<&'a PredictedSpacings>,
     pub(super) jobs: NonZeroUsize,
 }
 
 /// Metrics that are computed on the same rows and channels.
 #[derive(PartialEq, Eq, PartialOrd, Ord)]
-struct Ground {
+struct ScoreGroup {
     phase: PhaseKind,
     channels: Vec<String>,
     predictions: Option<Within>,
@@ -68,27 +68,27 @@ const OF_SENSOR: &str = "intrinsic";
 
 /// The scores, and what a reader must know of what was left out beyond what a skip can say.
 pub(super) fn score(scores: &Scores<'_>) -> Result<(Evaluation, Vec<String>), StudyError> {
-    let mut grounds: BTreeMap<Ground, Vec<&'static Metric>> = BTreeMap::new();
-    for (planned, metric) in scores.deal.metrics() {
-        let ground = Ground {
+    let mut groups: BTreeMap<ScoreGroup, Vec<&'static Metric>> = BTreeMap::new();
+    for (planned, metric) in scores.phase_rows.metrics() {
+        let group = ScoreGroup {
             phase: planned.phase,
             channels: planned.channels.clone(),
             predictions: Within::of(metric),
             of_sensor: metric.id == OF_SENSOR,
         };
-        grounds.entry(ground).or_default().push(metric);
+        groups.entry(group).or_default().push(metric);
     }
-    let is_asked_for = grounds
+    let is_asked_for = groups
         .values()
         .flatten()
         .any(|metric| metric.id == skill().id);
-    if let Some(ground) = scores.ground_of_skill().filter(|_| !is_asked_for) {
-        grounds.entry(ground).or_default().push(skill());
+    if let Some(group) = scores.skill_group().filter(|_| !is_asked_for) {
+        groups.entry(group).or_default().push(skill());
     }
     let (mut skipped, notes) = left_out(scores.study);
     let mut parts = Vec::new();
-    for (ground, metrics) in &grounds {
-        let part = scores.on(ground, metrics)?;
+    for (group, metrics) in &groups {
+        let part = scores.on(group, metrics)?;
         skipped.extend(part.skipped().iter().cloned());
         parts.push(part);
     }
@@ -96,13 +96,17 @@ pub(super) fn score(scores: &Scores<'_>) -> Result<(Evaluation, Vec<String>), St
 }
 
 impl Scores<'_> {
-    fn on(&self, ground: &Ground, metrics: &[&'static Metric]) -> Result<Evaluation, StudyError> {
-        let channels = self.channels(ground)?;
+    fn on(
+        &self,
+        group: &ScoreGroup,
+        metrics: &[&'static Metric],
+    ) -> Result<Evaluation, StudyError> {
+        let channels = self.channels(group)?;
         let Taken {
             rows,
             prediction,
             shares,
-        } = self.rows(ground, &channels);
+        } = self.rows(group, &channels);
         let truth: Vec<Column> = channels
             .iter()
             .map(|channel| truth(self.dataset, channel, &rows))
@@ -110,7 +114,7 @@ impl Scores<'_> {
         let table = self.dataset.table();
         let made = [
             self.predicted.map(|_| Field::Prediction),
-            self.told.map(|_| Field::PredictedSpacing),
+            self.predicted_spacings.map(|_| Field::PredictedSpacing),
         ];
         let made: FieldSet = made.into_iter().flatten().collect();
         let settings = self.scene.scene.metrics.settings.settings();
@@ -125,35 +129,37 @@ impl Scores<'_> {
             table,
             rows: &rows,
         };
-        let told = self.told.filter(|told| told.rows == rows);
+        let predicted_spacings = self
+            .predicted_spacings
+            .filter(|predicted_spacings| predicted_spacings.rows == rows);
         let samples = Samples {
             columns,
-            timed: ground.of_sensor.then(|| self.deal.rows(ground.phase)),
-            spacings: told.map(|told| &told.spacings),
+            timed: group.of_sensor.then(|| self.phase_rows.rows(group.phase)),
+            spacings: predicted_spacings.map(|predicted_spacings| &predicted_spacings.spacings),
         };
-        let evaluation = tally(&samples, &plan, self.jobs)?.finish()?;
+        let evaluation = accumulate(&samples, &plan, self.jobs)?.finish()?;
         Ok(evaluation.with_bounded_shares(&shares))
     }
 
     /// Where the skill of the model is shown: on the presses of the calibration that it has not seen, or, where there are none, on those of
     /// the part of the protocol that most predictions are of.
-    fn ground_of_skill(&self) -> Option<Ground> {
+    fn skill_group(&self) -> Option<ScoreGroup> {
         let (_, predicted) = self.predicted?;
         let count = |phase: PhaseKind| {
-            let rows = self.deal.rows(phase).into_iter();
+            let rows = self.phase_rows.rows(phase).into_iter();
             rows.filter(|row| predicted.binary_search(row).is_ok())
                 .count()
         };
         let phase = match count(PhaseKind::Calibration) {
             0 => {
-                let phases = self.deal.predicted_phases().into_iter();
+                let phases = self.phase_rows.predicted_phases().into_iter();
                 phases.max_by_key(|phase| count(*phase))?
             }
             _ => PhaseKind::Calibration,
         };
-        Some(Ground {
+        Some(ScoreGroup {
             phase,
-            channels: self.deal.predicted_channels(),
+            channels: self.phase_rows.predicted_channels(),
             predictions: Some(Within::Bounds),
             of_sensor: false,
         })
@@ -165,25 +171,21 @@ impl Scores<'_> {
         predicted.map_or_else(BTreeMap::new, |predicted| predicted.constants().clone())
     }
 
-    /// The channels of the recording that the metrics of `ground` look at.
-    fn channels(&self, ground: &Ground) -> Result<Channels, StudyError> {
+    /// The channels of the recording that the metrics of `group` look at.
+    fn channels(&self, group: &ScoreGroup) -> Result<Channels, StudyError> {
         let known = self.dataset.table().channels();
-        let chosen = ground
-            .channels
-            .iter()
-            .filter_map(|name| known.by_name(name));
+        let chosen = group.channels.iter().filter_map(|name| known.by_name(name));
         let chosen: Vec<Channel> = chosen.cloned().collect();
         Channels::new(chosen).map_err(|error| StudyError::Request(error.to_string()))
     }
 
-    /// The rows of `ground` and what is predicted of them; where a metric reads predictions, rows without one take no part.
-    fn rows(&self, ground: &Ground, channels: &Channels) -> Taken {
-        let rows = match ground.of_sensor {
+    /// The rows of `group` and what is predicted of them; where a metric reads predictions, rows without one take no part.
+    fn rows(&self, group: &ScoreGroup, channels: &Channels) -> Taken {
+        let rows = match group.of_sensor {
             true => self.dataset.all_rows(),
-            false => self.deal.rows(ground.phase),
+            false => self.phase_rows.rows(group.phase),
         };
-        let (Some(within), Some((predicted, of_rows))) = (ground.predictions, self.predicted)
-        else {
+        let (Some(within), Some((predicted, of_rows))) = (group.predictions, self.predicted) else {
             let mut nothing = Column::default();
             rows.iter().for_each(|_| nothing.push(None));
             return Taken {
@@ -225,7 +227,7 @@ struct Taken {
     shares: BTreeMap<String, f64>,
 }
 
-/// Rows with the spacings that were told of them, if any were.
+/// Rows with the spacings that were predicted for them, if any were.
 struct Samples<'a> {
     columns: Columns<'a>,
     /// The rows whose times count, ascending; those of all rows if absent.

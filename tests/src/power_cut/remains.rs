@@ -122,7 +122,7 @@ impl Choices {
                 .map(|remains| remains.len() - 1)
                 .collect();
             visit(&newest);
-            let mut random = self.random;
+            let mut random = self.random.clone();
             for _ in 0..COMBINATIONS {
                 for (position, remains) in positions.iter_mut().zip(&self.remains) {
                     *position = random.below(remains.len());

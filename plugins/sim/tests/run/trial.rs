@@ -7,17 +7,18 @@ use taceva_core::{
     Deadline, Device, DriverError, Factory, Frame, Rig, Sensor, SimulatedBench, SinkError, Stamp,
 };
 use taceva_protocol::{
-    Cancel, Controls, Devices, Digest, Event, Mode, Plan, PressLog, PressRecord, RigInfo, RunError,
-    RunSpec, Scene, SourceInfo, Specimen, SpecimenChanger, StopCause, Timekeeper, plan, run,
+    Cancel, ContentId, Controls, Devices, Event, Mode, Plan, PressLog, PressRecord, RigInfo,
+    RunError, RunSpec, Scene, SourceInfo, Specimen, SpecimenChanger, StopCause, Timekeeper, plan,
+    run,
 };
 use taceva_sim::{
     ForceTransducerFactory, LightingFactory, Model, RobotFactory, SensorFactory, SimulatedRig,
 };
 
-/// The clock and the hands of a rig.
-struct Hands(SimulatedRig);
+/// The clock of a simulated rig, which also changes its specimens.
+struct BenchClock(SimulatedRig);
 
-impl Timekeeper for Hands {
+impl Timekeeper for BenchClock {
     fn now_s(&self) -> f64 {
         Stamp::at(self.0.now()).valid_s
     }
@@ -27,7 +28,7 @@ impl Timekeeper for Hands {
     }
 }
 
-impl SpecimenChanger for Hands {
+impl SpecimenChanger for BenchClock {
     fn mount(&mut self, specimen: Specimen, _: Deadline) -> Result<(), DriverError> {
         SimulatedBench::mount(&self.0, specimen)
     }
@@ -36,13 +37,13 @@ impl SpecimenChanger for Hands {
 /// A log in memory.
 #[derive(Default)]
 pub(crate) struct Log {
-    finished: BTreeSet<Digest>,
+    finished: BTreeSet<ContentId>,
     pub(crate) records: Vec<PressRecord>,
     pub(crate) untouched: Vec<Frame>,
 }
 
 impl PressLog for Log {
-    fn is_finished(&self, press: Digest) -> bool {
+    fn is_finished(&self, press: ContentId) -> bool {
         self.finished.contains(&press)
     }
 
@@ -122,7 +123,7 @@ impl Trial {
         let mut force = open(&self.forces, "", &mut rig);
         let mut lighting = open(&self.lamps, "", &mut rig);
         let bench = SimulatedRig::of(&mut rig, "bench");
-        let (mut clock, mut hands) = (Hands(bench.clone()), Hands(bench.clone()));
+        let (mut clock, mut hands) = (BenchClock(bench.clone()), BenchClock(bench.clone()));
         let cancel = Cancel::new();
         let (mut begun, mut retried) = (0, 0);
         let mut events = |event: &Event| {
@@ -160,7 +161,7 @@ impl Trial {
 }
 
 /// A number that names a press.
-fn name(press: Digest) -> u64 {
+fn name(press: ContentId) -> u64 {
     let text = press.to_string();
     u64::from_str_radix(&text[..16], 16).expect("a digest is written in hexadecimal")
 }

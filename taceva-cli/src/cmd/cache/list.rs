@@ -7,7 +7,7 @@ use std::time::{Duration, SystemTime};
 
 use anyhow::Context as _;
 use serde_json::{Value, json};
-use taceva_report::Listing;
+use taceva_report::Table;
 use taceva_study::{CacheEntry, cache_entries};
 
 use super::amount::{age, bytes};
@@ -30,11 +30,11 @@ pub(super) fn run(args: &CacheList) -> anyhow::Result<u8> {
         .with_context(|| format!("cannot read {}", taceva_core::shown(&folder)))?;
     let used = runs_of(&args.runs)?;
     let now = SystemTime::now();
-    let listing = match args.entries {
+    let table = match args.entries {
         true => one_by_one(&folder, &entries, &used, now),
         false => by_kind(&folder, &entries, &used, now),
     };
-    results::write(&listing, &args.output, || {
+    results::write(&table, &args.output, || {
         json_of(&folder, &entries, &used, now)
     })?;
     Ok(exit::DONE)
@@ -81,7 +81,7 @@ fn note(text: &str, run: &Path, used: &mut Used) -> anyhow::Result<()> {
     Ok(())
 }
 
-fn by_kind(folder: &Path, entries: &[CacheEntry], used: &Used, now: SystemTime) -> Listing {
+fn by_kind(folder: &Path, entries: &[CacheEntry], used: &Used, now: SystemTime) -> Table {
     let head = [
         "kind",
         "entries",
@@ -91,7 +91,7 @@ fn by_kind(folder: &Path, entries: &[CacheEntry], used: &Used, now: SystemTime) 
         "longest unused",
         "in runs",
     ];
-    let mut listing = Listing::new(&caption(folder), &head);
+    let mut table = Table::new(caption(folder), head);
     let mut kinds: Vec<&str> = entries.iter().map(CacheEntry::kind).collect();
     kinds.dedup();
     for kind in kinds {
@@ -103,7 +103,7 @@ fn by_kind(folder: &Path, entries: &[CacheEntry], used: &Used, now: SystemTime) 
             .iter()
             .filter(|entry| used.contains_key(&entry.name))
             .count();
-        listing.rows.push(vec![
+        table.push([
             kind.to_owned(),
             of.len().to_string(),
             of.iter().map(|entry| entry.files).sum::<u64>().to_string(),
@@ -117,15 +117,15 @@ fn by_kind(folder: &Path, entries: &[CacheEntry], used: &Used, now: SystemTime) 
             in_runs.to_string(),
         ]);
     }
-    close(&mut listing, entries);
-    listing
+    close(&mut table, entries);
+    table
 }
 
-fn one_by_one(folder: &Path, entries: &[CacheEntry], used: &Used, now: SystemTime) -> Listing {
+fn one_by_one(folder: &Path, entries: &[CacheEntry], used: &Used, now: SystemTime) -> Table {
     let head = ["kind", "key", "files", "size", "unused for", "runs"];
-    let mut listing = Listing::new(&caption(folder), &head);
+    let mut table = Table::new(caption(folder), head);
     for entry in entries {
-        listing.rows.push(vec![
+        table.push([
             entry.kind().to_owned(),
             entry.name.chars().take(SHORT).collect(),
             entry.files.to_string(),
@@ -135,18 +135,18 @@ fn one_by_one(folder: &Path, entries: &[CacheEntry], used: &Used, now: SystemTim
                 .map_or_else(|| "–".to_owned(), |runs| runs.join(", ")),
         ]);
     }
-    close(&mut listing, entries);
-    listing
+    close(&mut table, entries);
+    table
 }
 
 fn caption(folder: &Path) -> String {
     format!("Kept for later runs in {}", taceva_core::shown(&folder))
 }
 
-fn close(listing: &mut Listing, entries: &[CacheEntry]) {
+fn close(table: &mut Table, entries: &[CacheEntry]) {
     let all = entries.iter().map(|entry| entry.bytes).sum();
     let own = entries.iter().map(|entry| entry.own_bytes).sum();
-    listing.notes.push(match entries.is_empty() {
+    table.note(match entries.is_empty() {
         true => "Nothing is kept there.".to_owned(),
         false => format!("{} altogether, of which {} are shared with no run; `taceva cache prune` removes what is old or too much.", bytes(all), bytes(own)),
     });

@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use taceva_core::{Deadline, DriverError, Rig, SimulatedBench, Specimen, Stamp};
 use taceva_drivers::Selector;
-use taceva_protocol::{Digest, SpecimenChanger, Timekeeper};
+use taceva_protocol::{ContentId, SpecimenChanger, Timekeeper};
 use taceva_sim::{MODEL_VERSION, Model};
 use taceva_study::{Surroundings, Upcoming};
 
@@ -39,7 +39,7 @@ pub(in crate::cmd) fn models() -> String {
 }
 
 /// The first 64 bits of the name of a press.
-fn name_of(press: Digest) -> u64 {
+fn name_of(press: ContentId) -> u64 {
     let digits = press.to_string();
     let first = digits
         .get(..16)

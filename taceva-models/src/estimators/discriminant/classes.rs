@@ -236,7 +236,7 @@ fn applied(matrix: &Mat<f64>, vector: &[f64]) -> Vec<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::random::SplitMix64;
+    use taceva_core::random::SplitMix64;
 
     /// Samples of two classes along x, with a scatter along the diagonal that is far wider than their distance.
     fn tilted(samples: usize, seed: u64) -> (Vec<Vec<f64>>, Vec<usize>) {

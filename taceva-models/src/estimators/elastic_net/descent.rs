@@ -96,7 +96,7 @@ pub(super) fn path(
 mod tests {
     use super::*;
     use crate::linalg::{Design, FeatureScale};
-    use crate::random::SplitMix64;
+    use taceva_core::random::SplitMix64;
     use taceva_core::{FeatureShape, Features, Silent};
 
     /// Samples of twelve features, and labels that two of them make.

@@ -156,7 +156,7 @@ mod tests {
 
     #[test]
     fn where_every_sample_is_a_landmark_products_are_the_kernel() {
-        let mut random = crate::random::SplitMix64::new(6);
+        let mut random = taceva_core::random::SplitMix64::new(6);
         let values = (0..40).map(|_| f32::from(random.next_u64().to_le_bytes()[0]));
         let values: Vec<f32> = values.collect();
         let features = Features::new(FeatureShape::flat(4), values).expect("ten samples");

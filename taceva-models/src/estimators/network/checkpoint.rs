@@ -14,8 +14,6 @@ use taceva_network::{Checkpoint, Trainer};
 pub use error::CheckpointError;
 pub(super) use identity::Identity;
 
-use crate::file::durable;
-
 /// Where checkpoints of a training are kept, and how often they are written.
 ///
 /// Nothing of this changes what is learnt: a training that is resumed ends with the same bits as one that was never interrupted.
@@ -103,7 +101,7 @@ impl Checkpoints {
     /// Puts `trainer`, whose training is `identity`, aside.
     fn put(&self, identity: &Identity, trainer: &Trainer<'_>) -> Result<(), CheckpointError> {
         let checkpoint = trainer.checkpoint().map_err(CheckpointError::Unread)?;
-        durable::replace(&self.path, &self.beside(), |beside| {
+        taceva_durable::replace(&self.path, &self.beside(), |beside| {
             bytes::write(identity, &checkpoint, File::create(beside)?)
         })
         .map_err(|source| CheckpointError::Write {

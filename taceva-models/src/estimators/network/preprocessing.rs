@@ -146,7 +146,7 @@ mod tests {
     };
 
     fn picture() -> Vec<f32> {
-        let mut random = crate::random::SplitMix64::new(3);
+        let mut random = taceva_core::random::SplitMix64::new(3);
         (0..SHAPE.len())
             .map(|_| f32::from(random.next_u64().to_le_bytes()[0]) / 255.0)
             .collect()

@@ -2,13 +2,13 @@
 
 use faer::Mat;
 use rayon::prelude::*;
+use taceva_core::random::SplitMix64;
 use taceva_core::{Features, ModelError, Progress, Regressor, TrainingSet};
 
 use super::bins::Binned;
 use super::grow::{Growth, Samples};
 use super::regressor::{Member, TreeRegressor};
 use crate::features::FeatureSpec;
-use crate::random::SplitMix64;
 use crate::registry::ModelInfo;
 use crate::settings::{SettingError, SettingInfo, Settings, number};
 use crate::training::choice::Choice;

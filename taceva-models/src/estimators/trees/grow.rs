@@ -4,7 +4,7 @@ use faer::Mat;
 use rayon::prelude::*;
 
 use super::bins::{BINS, Binned};
-use crate::random::SplitMix64;
+use taceva_core::random::SplitMix64;
 
 /// How far a tree grows.
 #[derive(Clone, Copy, Debug)]

@@ -6,7 +6,7 @@ use taceva_core::{
     ForceFacts, FrameInfo, Hertz, LightingFacts, Newton, PixelFormat, RobotFacts, SensorFacts,
 };
 
-use crate::plan::draft::MetricNeeds;
+use crate::plan::collect::MetricNeeds;
 use crate::source::RigInfo;
 
 fn descriptor(key: &'static str, facts: Facts) -> Descriptor {

@@ -52,8 +52,8 @@ fn channel(name: &str) -> Subject {
     Subject::Channel(name.to_owned())
 }
 
-fn unsupplied(field: Field, cause: Cause) -> PlanReason {
-    PlanReason::Unsupplied { field, cause }
+fn unresolved(field: Field, cause: Cause) -> PlanReason {
+    PlanReason::Unresolved { field, cause }
 }
 
 fn unmeasured(name: &str, cause: Cause) -> PlanReason {
@@ -135,27 +135,27 @@ fn scenes() -> Vec<(Plan, Subject, PlanReason)> {
         (
             few(&finished),
             metric("sr"),
-            unsupplied(Field::PredictedSpacing, Cause::NoEstimator),
+            unresolved(Field::PredictedSpacing, Cause::NoEstimator),
         ),
         (
             few(&no_model),
             metric("mae"),
-            unsupplied(Field::Prediction, Cause::NoModel),
+            unresolved(Field::Prediction, Cause::NoModel),
         ),
         (
             blind(),
             metric("mae"),
-            unsupplied(Field::Prediction, Cause::NoSensor),
+            unresolved(Field::Prediction, Cause::NoSensor),
         ),
         (
             blind(),
             metric("intrinsic"),
-            unsupplied(Field::Frame, Cause::NoSensor),
+            unresolved(Field::Frame, Cause::NoSensor),
         ),
         (
             no_robot(),
             metric("hysteresis"),
-            unsupplied(Field::Phase, Cause::NoRobot),
+            unresolved(Field::Phase, Cause::NoRobot),
         ),
         (no_robot(), channel("Px"), unmeasured("Px", Cause::NoRobot)),
         (
@@ -171,17 +171,17 @@ fn scenes() -> Vec<(Plan, Subject, PlanReason)> {
         (
             without(|rig| rig.lighting = None),
             metric("r_light"),
-            unsupplied(Field::Scene, Cause::NoLighting),
+            unresolved(Field::Scene, Cause::NoLighting),
         ),
         (
             few(&one_light),
             metric("r_light"),
-            unsupplied(Field::Scene, Cause::OneLight),
+            unresolved(Field::Scene, Cause::OneLight),
         ),
         (
             few(&one_unit),
             metric("inter_sensor"),
-            unsupplied(Field::UnitId, Cause::OneUnit),
+            unresolved(Field::UnitId, Cause::OneUnit),
         ),
         (
             of(&["hysteresis"]),
@@ -225,7 +225,7 @@ fn kind(reason: &PlanReason) -> String {
             let whole = format!("{skip:?}");
             whole.split('(').next().unwrap_or_default().to_owned()
         }
-        PlanReason::Unsupplied { cause, .. } | PlanReason::Unmeasured { cause, .. } => {
+        PlanReason::Unresolved { cause, .. } | PlanReason::Unmeasured { cause, .. } => {
             format!("{cause:?}")
         }
         PlanReason::NoMarkers => "NoMarkers".to_owned(),

@@ -20,8 +20,8 @@ impl Halt for Halts {
     }
 }
 
-fn watching(stage: Stage) -> (Supervisor, Arc<Halts>) {
-    let limits = Limits {
+fn watching(stage: MotionStage) -> (Supervisor, Arc<Halts>) {
+    let limits = RigLimits {
         depth_max: Millimetre(1.0),
         normal_max: Newton(1.83),
         shear_max: Newton(1.0),
@@ -61,10 +61,10 @@ fn at_height(z: f64) -> Pose {
     }
 }
 
-const PRESS: Stage = Stage::Press { height_mm: 0.2 };
+const PRESS: MotionStage = MotionStage::Press { height_mm: 0.2 };
 
 /// What one observation at 10.02 s trips in `stage`, and whether the robot was halted for it.
-fn trip(stage: Stage, observation: &Observation) -> Option<Trip> {
+fn trip(stage: MotionStage, observation: &Observation) -> Option<Trip> {
     let (mut supervisor, halts) = watching(stage);
     let tripped = supervisor.observe(observation, 10.02).err();
     assert_eq!(halts.0.load(Ordering::SeqCst), u32::from(tripped.is_some()));
@@ -153,14 +153,14 @@ fn a_tip_that_is_not_where_it_was_sent_halts() {
 
 #[test]
 fn a_force_in_the_air_halts() {
-    let air = Stage::Travel { threshold_n: 0.02 };
+    let air = MotionStage::Travel { threshold_n: 0.02 };
     let touched = trip(air, &Observation::Force(force(0.03), at(10.02)));
     assert_eq!(touched, Some(Trip::UnexpectedContact { force_n: 0.03 }));
 }
 
 #[test]
 fn a_force_that_rises_on_the_way_back_halts() {
-    let back = Stage::Retreat { force_n: 2.0 };
+    let back = MotionStage::Retreat { force_n: 2.0 };
     assert_eq!(trip(back, &Observation::Force(force(2.0), at(10.02))), None);
     assert!(trip(back, &Observation::Force(force(2.1), at(10.02))).is_some());
 }
@@ -205,6 +205,6 @@ fn a_halt_holds_until_another_stage_is_watched() {
     );
     assert!(supervisor.observe(&healthy, 10.0).is_err());
     assert_eq!(halts.0.load(Ordering::SeqCst), 2);
-    supervisor.watch(Stage::Retreat { force_n: 9.0 }, 10.0);
+    supervisor.watch(MotionStage::Retreat { force_n: 9.0 }, 10.0);
     assert_eq!(supervisor.observe(&healthy, 10.0), Ok(()));
 }

@@ -2,7 +2,7 @@
 
 use taceva_core::{Frame, SinkError};
 
-use crate::digest::Digest;
+use crate::content_id::ContentId;
 use crate::draw::Draws;
 use crate::plan::Plan;
 use crate::run::{
@@ -11,7 +11,7 @@ use crate::run::{
 };
 use crate::simulation::devices::{SimulatedForce, SimulatedRobot, SimulatedSensor};
 use crate::simulation::fault::Faults;
-use crate::simulation::judge::{Judge, Stated};
+use crate::simulation::oracle::{Oracle, Stated};
 use crate::simulation::scenario::scenario_plan;
 use crate::simulation::world::{Gel, Shared};
 
@@ -36,7 +36,7 @@ pub(super) struct Memory {
 }
 
 impl PressLog for Memory {
-    fn is_finished(&self, press: Digest) -> bool {
+    fn is_finished(&self, press: ContentId) -> bool {
         self.records.iter().any(|record| record.press == press)
     }
     fn append(&mut self, record: &PressRecord) -> Result<(), SinkError> {
@@ -69,7 +69,7 @@ impl Bench {
         let stated = Stated::new(limits, gel.stiffness_n_mm, gel.noise_n, 0.1, 0.02);
         let faultless = Faults::none();
         Bench {
-            shared: Shared::new(gel, Judge::new(stated), faultless, Draws::new(1, "test")),
+            shared: Shared::new(gel, Oracle::new(stated), faultless, Draws::new(1, "test")),
             plan,
             cancel: Cancel::new(),
             events: Vec::new(),

@@ -1,7 +1,7 @@
-//! Many seeds without a violation, and proof that the judge who says so is awake.
+//! Many seeds without a violation, and proof that the oracle who says so is awake.
 
 use crate::simulation::fault::{FaultCounts, FaultKind};
-use crate::simulation::judge::{Checks, HALT_WITHIN_S, Violation};
+use crate::simulation::oracle::{Checks, HALT_WITHIN_S, Violation};
 use crate::simulation::scenario::{simulate, simulate_with};
 use crate::simulation::world::Sabotage;
 

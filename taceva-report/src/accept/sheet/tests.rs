@@ -5,6 +5,7 @@ use serde_json::Value;
 use super::*;
 use crate::accept::{LimitsFile, accept};
 use crate::samples::Samples;
+use crate::table::Row;
 
 /// A simulated unit with two errors: one of 0.5 N between 0.375 N and 0.75 N, one of 0.25 mm without an interval.
 fn study() -> Study {
@@ -56,7 +57,7 @@ fn a_unit_passes_if_all_limits_are_kept_and_not_if_one_is_broken() {
         let verdict = if is_passed { "passed" } else { "failed" };
         let json: Value = serde_json::from_str(&sheet.json()).expect("JSON");
         assert_eq!(json["passed"], is_passed);
-        let caption = sheet.listing().caption;
+        let caption = sheet.table().caption;
         let expected = format!("drawn, serial 7: {verdict} by batch 3, 2026-11-22");
         assert_eq!(caption, expected);
     }
@@ -66,7 +67,7 @@ fn a_unit_passes_if_all_limits_are_kept_and_not_if_one_is_broken() {
 fn each_row_has_the_limit_what_was_found_and_why_it_is_not_enough() {
     let study = study();
     let findings = held(&study, &[KEPT, BROKEN, MISSING]);
-    let listing = sheet(&study, &findings).listing();
+    let table = sheet(&study, &findings).table();
     let expected = [
         [
             "mae",
@@ -102,9 +103,11 @@ fn each_row_has_the_limit_what_was_found_and_why_it_is_not_enough() {
             "there is no such score",
         ],
     ];
-    assert_eq!(listing.rows, expected);
+    let rows: Vec<Vec<String>> = table.rows.iter().map(Row::plain).collect();
+    assert_eq!(rows, expected);
+    let notes: Vec<&str> = table.notes.iter().map(|note| note.plain()).collect();
     assert_eq!(
-        listing.notes,
+        notes,
         ["Nothing here was measured: the samples are simulated."]
     );
 }
@@ -118,7 +121,7 @@ fn a_sheet_without_name_and_date_speaks_of_neither() {
         date: None,
         ..sheet(&study, &findings)
     };
-    assert_eq!(sheet.listing().caption, "drawn, serial 7: passed");
+    assert_eq!(sheet.table().caption, "drawn, serial 7: passed");
     assert!(!sheet.page().contains("<dt>date</dt>"));
 }
 

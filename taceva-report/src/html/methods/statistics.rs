@@ -6,7 +6,7 @@ use taceva_metrics::{Standing, catalogue};
 
 use crate::figures::listed;
 use crate::results::{Score, Study};
-use crate::table::ScoreTable;
+use crate::scores::ScoreTable;
 
 /// Intervals, tests and adjustment.
 pub(super) fn statistics(studies: &[Study], table: &ScoreTable) -> String {

@@ -1,23 +1,23 @@
-//! Spacings told by a network.
+//! Spacings predicted by a network.
 
 use taceva_core::{ModelError, Nanometre};
 use taceva_dataset::Dataset;
 
-use super::{FOLDS, Told, folds};
+use super::{FOLDS, SpacingOfRow, folds};
+use crate::classifier::NetworkClassifier;
 use crate::error::StudyError;
 use crate::features::{extract, extractor};
-use crate::teller::NetworkTeller;
 use crate::work::Work;
 
-/// Tells `presses`, whose pictures are in `dataset`, fold by fold.
-pub(super) fn tell(
+/// Classifies `presses`, whose pictures are in `dataset`, fold by fold.
+pub(super) fn classify(
     dataset: &Dataset,
     presses: &[(usize, Nanometre)],
-    (teller, work): (&NetworkTeller, Work<'_>),
-    told: &mut Told,
+    (classifier, work): (&NetworkClassifier, Work<'_>),
+    predicted: &mut SpacingOfRow,
 ) -> Result<(), StudyError> {
     let rows: Vec<usize> = presses.iter().map(|(row, _)| *row).collect();
-    let extractor = extractor(dataset, teller.features)?;
+    let extractor = extractor(dataset, classifier.features)?;
     let pictures = extract(dataset, &extractor, &rows, work)?;
     let folds = folds(presses);
     for fold in 0..FOLDS {
@@ -27,13 +27,13 @@ pub(super) fn tell(
             continue;
         }
         let spacings: Vec<Nanometre> = taught.iter().map(|&at| presses[at].1).collect();
-        let network = teller.estimator.fit_spacings(
+        let network = classifier.estimator.fit_spacings(
             (&pictures.select(&taught), &spacings),
-            teller.output,
+            classifier.output,
             work.progress,
         )?;
         let found: Result<Vec<Nanometre>, ModelError> = network.predict(&pictures.select(&asked));
-        told.extend(asked.iter().map(|&at| presses[at].0).zip(found?));
+        predicted.extend(asked.iter().map(|&at| presses[at].0).zip(found?));
     }
     Ok(())
 }

@@ -1,23 +1,31 @@
-//! Spacings told by linear discriminants of the radial spectrum.
+//! Spacings predicted from the radial spectrum, by linear discriminants or by a model.
 
 use taceva_core::Nanometre;
 use taceva_dataset::{Dataset, Pass};
 use taceva_models::{Discriminant, FourierPlane, RadialSpectrum};
 
-use super::{FOLDS, Told, folds};
+use super::{FOLDS, SpacingOfRow, folds, model};
+use crate::classifier::ModelClassifier;
 use crate::error::StudyError;
 use crate::work::Work;
 
-/// Tells `presses`, whose pictures are in `dataset`, fold by fold.
-pub(super) fn tell(
+/// What is fitted to the spectra of each fold.
+#[derive(Clone, Copy)]
+pub(super) enum ByFold<'a> {
+    Discriminants,
+    Model(&'a ModelClassifier),
+}
+
+/// Classifies `presses`, whose pictures are in `dataset`, fold by fold.
+pub(super) fn classify(
     dataset: &Dataset,
     presses: &[(usize, Nanometre)],
-    work: Work<'_>,
-    told: &mut Told,
+    (by, work): (ByFold<'_>, Work<'_>),
+    predicted: &mut SpacingOfRow,
 ) -> Result<(), StudyError> {
     let seen = Pictures::new(dataset, presses, work)?.seen()?;
     for fold in 0..FOLDS {
-        tell_fold(&seen, fold, told)?;
+        classify_fold(&seen, fold, (by, work), predicted)?;
     }
     Ok(())
 }
@@ -37,7 +45,7 @@ struct Pictures<'a> {
     spectra: RadialSpectrum,
     presses: &'a [(usize, Nanometre)],
     rows: Vec<usize>,
-    /// The fold of each press: those of one board are dealt in turn.
+    /// The fold of each press: those of one board are assigned in turn.
     folds: Vec<usize>,
     work: Work<'a>,
 }
@@ -50,7 +58,9 @@ impl<'a> Pictures<'a> {
     ) -> Result<Pictures<'a>, StudyError> {
         let frames = dataset.header().frames.as_ref();
         let frames = frames.ok_or_else(|| {
-            StudyError::Request("the recording has no frames to tell spacings from".to_owned())
+            StudyError::Request(
+                "the recording has no frames from which spacings could be classified".to_owned(),
+            )
         })?;
         Ok(Pictures {
             folds: folds(presses),
@@ -110,18 +120,29 @@ impl<'a> Pictures<'a> {
     }
 
     fn pass(&self) -> Pass<'_> {
-        Pass {
-            rows: &self.rows,
-            jobs: self.work.jobs,
-            progress: self.work.progress,
-        }
+        Pass::new(&self.rows, self.work.jobs, self.work.progress)
     }
 }
 
-/// Tells the presses of `fold` from what the others teach.
-fn tell_fold(seen: &[Seen], fold: usize, told: &mut Told) -> Result<(), StudyError> {
+/// Classifies the presses of `fold` from what the others teach.
+fn classify_fold(
+    seen: &[Seen],
+    fold: usize,
+    (by, work): (ByFold<'_>, Work<'_>),
+    predicted: &mut SpacingOfRow,
+) -> Result<(), StudyError> {
     let (asked, taught): (Vec<&Seen>, Vec<&Seen>) = seen.iter().partition(|seen| seen.fold == fold);
     if asked.is_empty() || taught.is_empty() {
+        return Ok(());
+    }
+    if let ByFold::Model(classifier) = by {
+        let of = |seen: &[&Seen]| -> Vec<Vec<f64>> {
+            let spectra = seen.iter();
+            spectra.map(|seen| seen.spectra[fold].clone()).collect()
+        };
+        let spacings: Vec<Nanometre> = taught.iter().map(|seen| seen.spacing).collect();
+        let found = model::predict(classifier, (&of(&taught), &spacings), &of(&asked), work)?;
+        predicted.extend(asked.iter().map(|seen| seen.row).zip(found));
         return Ok(());
     }
     let mut boards: Vec<Nanometre> = taught.iter().map(|seen| seen.spacing).collect();
@@ -132,7 +153,7 @@ fn tell_fold(seen: &[Seen], fold: usize, told: &mut Told) -> Result<(), StudyErr
     let spectra = taught.iter().map(|seen| seen.spectra[fold].clone());
     let discriminant = Discriminant::fit(&spectra.collect::<Vec<_>>(), &classes)?;
     for seen in asked {
-        told.insert(seen.row, boards[discriminant.class(&seen.spectra[fold])]);
+        predicted.insert(seen.row, boards[discriminant.class(&seen.spectra[fold])]);
     }
     Ok(())
 }

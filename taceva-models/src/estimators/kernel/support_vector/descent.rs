@@ -3,7 +3,7 @@
 use faer::Mat;
 
 use crate::linalg::dot;
-use crate::random::SplitMix64;
+use taceva_core::random::SplitMix64;
 
 /// Errors that cost nothing, and what those beyond cost.
 #[derive(Clone, Copy, Debug)]

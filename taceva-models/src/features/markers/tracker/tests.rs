@@ -215,7 +215,7 @@ fn a_gel_without_markers_is_refused_whatever_else_it_shows() {
     let error = MarkerTracker::new(&random).expect_err("noise");
     assert!(matches!(error, FeatureError::NoMarkers { .. }), "{error}");
     // Scratches and dust stand anywhere.
-    let mut draws = crate::random::SplitMix64::new(8);
+    let mut draws = taceva_core::random::SplitMix64::new(8);
     let mut place = || [8 + draws.below(144), 8 + draws.below(104)].map(|at| at as f64);
     let dust: Vec<[f64; 2]> = (0..60).map(|_| place()).collect();
     let error = MarkerTracker::new(&CLEAN.frame(&dust)).expect_err("no grid");

@@ -3,9 +3,9 @@
 
 use super::*;
 
-/// Limits that are dyadic fractions, so that sums and roots on them are exact; nothing hides behind saturation.
-fn limits() -> Limits {
-    Limits {
+/// RigLimits that are dyadic fractions, so that sums and roots on them are exact; nothing hides behind saturation.
+fn limits() -> RigLimits {
+    RigLimits {
         depth_max: Millimetre(1.0),
         normal_max: Newton(2.0),
         shear_max: Newton(0.3125),
@@ -16,9 +16,9 @@ fn limits() -> Limits {
     }
 }
 
-/// Limits of which only saturation is in reach.
-fn wide() -> Limits {
-    Limits {
+/// RigLimits of which only saturation is in reach.
+fn wide() -> RigLimits {
+    RigLimits {
         normal_max: Newton(64.0),
         shear_max: Newton(64.0),
         ..limits()
@@ -26,14 +26,19 @@ fn wide() -> Limits {
 }
 
 /// What one observation at `now_s` trips, with `limits`, in a `stage` that is watched from 0 s on.
-fn trips(limits: Limits, stage: Stage, observation: &Observation, now_s: f64) -> Option<Trip> {
+fn trips(
+    limits: RigLimits,
+    stage: MotionStage,
+    observation: &Observation,
+    now_s: f64,
+) -> Option<Trip> {
     let mut supervisor = Supervisor::new(limits, Arc::new(Halts::default()));
     supervisor.watch(stage, 0.0);
     supervisor.observe(observation, now_s).err()
 }
 
 /// What a force in N trips.
-fn pushed(limits: Limits, stage: Stage, force: [f64; 3]) -> Option<Trip> {
+fn pushed(limits: RigLimits, stage: MotionStage, force: [f64; 3]) -> Option<Trip> {
     let wrench = Wrench {
         force: force.map(Newton),
         ..Wrench::default()
@@ -42,7 +47,7 @@ fn pushed(limits: Limits, stage: Stage, force: [f64; 3]) -> Option<Trip> {
 }
 
 /// What a tip at a place trips that was sent to another, both in mm.
-fn placed(stage: Stage, place: [f64; 3], target: [f64; 3]) -> Option<Trip> {
+fn placed(stage: MotionStage, place: [f64; 3], target: [f64; 3]) -> Option<Trip> {
     let observation = Observation::Pose {
         pose: pose_at(place),
         stamp: at(0.0),
@@ -68,8 +73,8 @@ fn along(axis: usize, size: f64) -> [[f64; 3]; 2] {
     })
 }
 
-const TOUCHING: Stage = Stage::Press { height_mm: 0.0 };
-const STAGES: [Stage; 2] = [TOUCHING, Stage::Search];
+const TOUCHING: MotionStage = MotionStage::Press { height_mm: 0.0 };
+const STAGES: [MotionStage; 2] = [TOUCHING, MotionStage::Search];
 
 #[test]
 fn a_normal_force_on_the_limit_passes_and_the_next_number_halts_pressing_and_pulling() {
@@ -125,7 +130,7 @@ fn a_force_at_saturation_halts_along_each_axis_and_one_below_it_does_not() {
         for on in along(axis, 16.0) {
             let trip = pushed(wide(), TOUCHING, on);
             assert_eq!(trip, Some(Trip::Saturated { force_n: 16.0 }), "{on:?}");
-            let unknown = Limits {
+            let unknown = RigLimits {
                 saturation: None,
                 ..wide()
             };
@@ -139,7 +144,7 @@ fn a_force_at_saturation_halts_along_each_axis_and_one_below_it_does_not() {
 
 #[test]
 fn a_force_at_the_threshold_of_contact_passes_in_the_air_and_the_next_number_is_a_collision() {
-    let air = Stage::Travel { threshold_n: 0.125 };
+    let air = MotionStage::Travel { threshold_n: 0.125 };
     for on in along(2, 0.125) {
         assert_eq!(pushed(limits(), air, on), None, "{on:?}");
     }
@@ -150,7 +155,7 @@ fn a_force_at_the_threshold_of_contact_passes_in_the_air_and_the_next_number_is_
     }
     let sheared = pushed(limits(), air, [1.0, 0.0, 0.0]);
     assert!(matches!(sheared, Some(Trip::ShearForce { .. })));
-    let deaf = Stage::Travel { threshold_n: 8.0 };
+    let deaf = MotionStage::Travel { threshold_n: 8.0 };
     let pressed = pushed(limits(), deaf, [0.0, 0.0, 4.0]);
     assert!(matches!(pressed, Some(Trip::NormalForce { .. })));
 }
@@ -158,7 +163,7 @@ fn a_force_at_the_threshold_of_contact_passes_in_the_air_and_the_next_number_is_
 #[test]
 fn a_force_on_the_way_back_may_be_that_of_the_halt_or_of_the_limit_and_the_margin_more() {
     for (force_n, highest) in [(4.0, 4.0 + 0.05), (0.5, 2.0 + 0.05)] {
-        let back = Stage::Retreat { force_n };
+        let back = MotionStage::Retreat { force_n };
         assert_eq!(pushed(limits(), back, [0.0, 0.0, highest]), None);
         let risen = highest.next_up();
         let trip = pushed(limits(), back, [0.0, 0.0, risen]);
@@ -257,21 +262,21 @@ fn a_tip_may_be_as_deep_as_the_limit_and_its_overshoot_and_no_deeper() {
     assert_eq!(at_depth(depth_mm), Some(Trip::Depth { depth_mm, limit_mm }));
     // From the contact, and only while there is one.
     let place = [0.0, 0.0, 1.25];
-    let above = Stage::Press { height_mm: 0.25 };
+    let above = MotionStage::Press { height_mm: 0.25 };
     assert_eq!(placed(above, place, place), None);
-    let below = Stage::Press { height_mm: -0.25 };
+    let below = MotionStage::Press { height_mm: -0.25 };
     assert!(placed(below, place, place).is_some());
-    assert_eq!(placed(Stage::Search, place, place), None);
+    assert_eq!(placed(MotionStage::Search, place, place), None);
 }
 
 #[test]
 fn a_tip_may_be_half_a_millimetre_from_its_target_in_any_direction_and_no_farther() {
     for axis in 0..3 {
         for on in along(axis, 0.5) {
-            assert_eq!(placed(Stage::Search, on, [0.0; 3]), None, "{on:?}");
+            assert_eq!(placed(MotionStage::Search, on, [0.0; 3]), None, "{on:?}");
         }
         for beyond in along(axis, 0.5_f64.next_up()) {
-            let trip = placed(Stage::Search, beyond, [0.0; 3]);
+            let trip = placed(MotionStage::Search, beyond, [0.0; 3]);
             let distance_mm = 0.5_f64.next_up();
             assert_eq!(trip, Some(Trip::Diverged { distance_mm }), "{beyond:?}");
         }
@@ -286,7 +291,7 @@ fn a_tip_may_be_half_a_millimetre_from_its_target_in_any_direction_and_no_farthe
     for direction in directions {
         let from_target = |way: f64| {
             let axes = [0, 1, 2].map(|axis| target[axis] + way * direction[axis]);
-            placed(Stage::Search, axes, target)
+            placed(MotionStage::Search, axes, target)
         };
         assert_eq!(from_target(0.499_999), None, "{direction:?}");
         let trip = from_target(0.500_001);

@@ -10,7 +10,7 @@ struct Watched {
 }
 
 impl Watched {
-    fn new(stage: Stage) -> Watched {
+    fn new(stage: MotionStage) -> Watched {
         let (supervisor, _) = watching(stage);
         Watched {
             supervisor,
@@ -80,7 +80,7 @@ fn equal_readings_at_rest_neither_count_nor_forgive() {
 
 #[test]
 fn a_signal_that_froze_in_the_search_is_frozen_in_the_press() {
-    let mut watched = Watched::new(Stage::Search);
+    let mut watched = Watched::new(MotionStage::Search);
     watched.repeat(FROZEN_READINGS, 0.1);
     watched.supervisor.watch(PRESS, watched.now_s);
     watched.moved();
@@ -89,9 +89,9 @@ fn a_signal_that_froze_in_the_search_is_frozen_in_the_press() {
 
 #[test]
 fn travel_forgets_the_force_before_it_for_its_zero_may_have_moved() {
-    let mut watched = Watched::new(Stage::Search);
+    let mut watched = Watched::new(MotionStage::Search);
     watched.repeat(FROZEN_READINGS, 0.1);
-    let air = Stage::Travel { threshold_n: 5.0 };
+    let air = MotionStage::Travel { threshold_n: 5.0 };
     watched.supervisor.watch(air, watched.now_s);
     assert!(watched.supervisor.is_fresh());
     watched.repeat(FROZEN_READINGS, 0.1);

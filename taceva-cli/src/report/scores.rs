@@ -1,0 +1,169 @@
+//! The scores of one evaluation as tables: every number for programs, a column a channel for pages and papers.
+
+use std::collections::BTreeSet;
+
+use taceva_metrics::Interval;
+use taceva_report::{
+    Align, Cell, Column, Estimate, Printed, Table, Words, escape_markdown, latex_symbol,
+};
+use taceva_study::EvaluationReport;
+
+use super::line::{Line, lines, read_lines, standings};
+use super::number::{no_interval, printed, reason};
+
+/// A row a score or variant, numbers in full.
+pub(super) fn every_number(report: &EvaluationReport) -> Table {
+    let names = [
+        "channel",
+        "value",
+        "unit",
+        "ci95_low",
+        "ci95_high",
+        "method",
+        "n",
+        "n_invalid",
+        "definition",
+        "reason",
+        "standing",
+        "bounded_share",
+    ];
+    let columns = [Column::of_metrics()].into_iter();
+    let mut table = Table::new("Scores", columns.chain(names.map(Column::new)));
+    for line in lines(&report.evaluation) {
+        table.push(numbers(&line));
+    }
+    table
+}
+
+fn numbers(line: &Line<'_>) -> [Cell; 13] {
+    let number = |value: Option<f64>| {
+        Cell::Number(value.map_or_else(String::new, |value| format!("{value:?}")))
+    };
+    let ends = line.interval.and_then(Interval::ends);
+    let why = match line.value.scalar() {
+        None => reason(line.value),
+        Some(_) => line
+            .interval
+            .and_then(no_interval)
+            .map_or_else(String::new, |why| format!("interval {why}")),
+    };
+    let method = line.interval.and_then(Interval::method);
+    [
+        Cell::text(line.name.as_str()),
+        Cell::text(line.channel),
+        number(line.value.scalar()),
+        Cell::text(line.unit.symbol()),
+        number(ends.map(|ends| ends[0])),
+        number(ends.map(|ends| ends[1])),
+        Cell::text(method.unwrap_or_default()),
+        Cell::Number(line.score.n.to_string()),
+        Cell::Number(line.score.n_invalid.to_string()),
+        Cell::text(line.score.definition),
+        Cell::text(why),
+        Cell::text(line.score.standing.words().unwrap_or_default()),
+        number(line.score.bounded_share),
+    ]
+}
+
+/// A row a metric, a column a channel, as papers print scores.
+pub(super) fn by_channel(report: &EvaluationReport) -> Table {
+    let mut channels: Vec<&str> = Vec::new();
+    for (_, channel, _) in report.evaluation.scores() {
+        if !channels.contains(&channel) {
+            channels.push(channel);
+        }
+    }
+    let mut rows: Vec<(String, Vec<Option<Estimate>>)> = Vec::new();
+    for line in read_lines(&report.evaluation) {
+        let at = rows.iter().position(|(name, _)| *name == line.name);
+        let at = at.unwrap_or_else(|| {
+            rows.push((line.name.clone(), vec![None; channels.len()]));
+            rows.len() - 1
+        });
+        let column = channels.iter().position(|known| *known == line.channel);
+        if let Some(column) = column {
+            rows[at].1[column] = Some(estimate(&line));
+        }
+    }
+    let columns = channels.iter().map(|name| {
+        let words = Words::name(*name).latex(latex_symbol(name));
+        Column::new(words).align(Align::Right)
+    });
+    let metric = Column::of_metrics().align(Align::Left);
+    let mut table = Table::new(caption(report), [metric].into_iter().chain(columns));
+    for (name, cells) in rows {
+        let cells = cells.into_iter().map(Option::unwrap_or_default);
+        let name = Cell::Text(Words::name(name));
+        table.push([name].into_iter().chain(cells.map(Cell::Estimate)));
+    }
+    table
+}
+
+/// The same for pages, whose caption stands below.
+pub(super) fn for_pages(report: &EvaluationReport) -> Table {
+    let mut table = by_channel(report);
+    let caption = std::mem::take(&mut table.caption);
+    table.note(Words::new(caption).markdown(caption_with(report, escape_markdown)));
+    table
+}
+
+/// The value of a line, with its unit and the ends of its interval, or why there is none.
+fn estimate(line: &Line<'_>) -> Estimate {
+    let Printed {
+        value,
+        interval,
+        reason,
+    } = printed(line);
+    let unit = match (value.is_empty(), line.unit.symbol()) {
+        (true, _) | (_, "1") => String::new(),
+        _ => line.unit.to_string(),
+    };
+    Estimate {
+        printed: Printed {
+            reason: reason.filter(|_| value.is_empty()),
+            value,
+            interval,
+        },
+        unit,
+        ..Estimate::default()
+    }
+}
+
+/// What a reader of the table must know.
+fn caption(report: &EvaluationReport) -> String {
+    caption_with(report, str::to_owned)
+}
+
+/// The same, with the name of the sensor written as `foreign` does.
+fn caption_with(report: &EvaluationReport, foreign: impl Fn(&str) -> String) -> String {
+    let subject = &report.subject;
+    let scores = || report.evaluation.scores().map(|(_, _, score)| score);
+    let n = scores().map(|score| score.n).max().unwrap_or(0);
+    let methods: BTreeSet<String> = scores()
+        .filter_map(|score| score.interval.method())
+        .collect();
+    let intervals = match methods.len() {
+        0 => "No intervals".to_owned(),
+        _ => format!(
+            "95 % intervals: {}",
+            methods.into_iter().collect::<Vec<_>>().join("; ")
+        ),
+    };
+    let provenance = &report.provenance;
+    let model = provenance.model.as_ref();
+    let model = model.map_or_else(String::new, |model| format!(" Model: {}.", model.name));
+    let split = provenance.split.as_ref();
+    let split = split.map_or_else(String::new, |split| format!(" Split: {split}."));
+    let subject = match subject.source.as_str() {
+        "unknown" => "Scores of two tables".to_owned(),
+        source => format!("{} ({source} samples)", foreign(&subject.sensor)),
+    };
+    let standings: String = standings(&report.evaluation)
+        .iter()
+        .map(|standing| format!(" No full part in verdicts: {standing}."))
+        .collect();
+    format!(
+        "{subject}, n = {n}.{model}{split} {intervals}.{standings} TacEva {}.",
+        provenance.taceva
+    )
+}

@@ -1,0 +1,170 @@
+//! Random numbers that are the same on every machine: words of the generator SplitMix64, looked up by counter or taken one after another.
+//!
+//! A number that is looked up is a function of a key and a counter, never of what was drawn before: use [`Draws`] wherever work may be
+//! resumed, reordered or divided among threads. [`SplitMix64`] gives the same words in sequence. [`mix`] makes keys: a seed combined with a
+//! purpose, a press or a sample by exclusive or, and mixed once for each of them.
+//!
+//! None of these numbers is fit for cryptography.
+//!
+//! ```
+//! use taceva_core::random::{Draws, SplitMix64, mix};
+//! let (seed, purpose) = (7, 3);
+//! let draws = Draws::new(mix(mix(seed) ^ purpose));
+//! assert_eq!(draws.bits(41), draws.bits(41));
+//! assert!((0.0..1.0).contains(&draws.unit(0)));
+//!
+//! let mut dice = SplitMix64::new(seed);
+//! assert!((0..100).all(|_| dice.below(6) < 6));
+//! ```
+//!
+//! # Reference
+//! G. L. Steele, D. Lea, C. H. Flood, "Fast splittable pseudorandom number generators", OOPSLA 2014; constants of `mix64` by Stafford (variant 13).
+
+mod draws;
+mod sequence;
+
+pub use draws::Draws;
+pub use sequence::SplitMix64;
+
+/// What one step adds to the state of SplitMix64: 2⁶⁴ over the golden ratio, odd.
+///
+/// ```
+/// use taceva_core::random::{STEP, finalise, mix};
+/// assert_eq!(mix(5), finalise(5 + STEP));
+/// ```
+pub const STEP: u64 = 0x9e37_79b9_7f4a_7c15;
+
+/// The finaliser of SplitMix64: a one-to-one map of words in which each bit of the result depends on each bit of `state`. It maps 0 to 0.
+///
+/// ```
+/// use taceva_core::random::finalise;
+/// assert_eq!(finalise(0), 0);
+/// assert_ne!(finalise(1), finalise(2));
+/// ```
+#[inline]
+#[must_use]
+pub const fn finalise(state: u64) -> u64 {
+    let mixed = (state ^ (state >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    let mixed = (mixed ^ (mixed >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+    mixed ^ (mixed >> 31)
+}
+
+/// The first word that SplitMix64 gives from the state `word`.
+///
+/// ```
+/// use taceva_core::random::mix;
+/// assert_eq!(mix(0), 0xe220_a839_7b1d_cdaf);
+/// ```
+#[inline]
+#[must_use]
+pub const fn mix(word: u64) -> u64 {
+    finalise(word.wrapping_add(STEP))
+}
+
+/// A number of 0 ≤ u < 1 from 64 random bits: a multiple of 2⁻⁵³, each as likely.
+///
+/// ```
+/// use taceva_core::random::unit;
+/// assert_eq!(unit(0), 0.0);
+/// assert_eq!(unit(1 << 63), 0.5);
+/// assert!(unit(u64::MAX) < 1.0);
+/// ```
+#[inline]
+#[must_use]
+#[expect(
+    clippy::cast_precision_loss,
+    reason = "a whole number below 2^53 is exact"
+)]
+pub const fn unit(bits: u64) -> f64 {
+    (bits >> 11) as f64 * UNIT_STEP
+}
+
+/// A number of 0 < u < 1 from 64 random bits: an odd multiple of 2⁻⁵⁴, rounded to even beside 1.
+///
+/// ```
+/// use taceva_core::random::open_unit;
+/// assert_eq!(open_unit(0), 2_f64.powi(-54));
+/// assert_eq!(open_unit(1 << 63), 0.5 + 2_f64.powi(-54));
+/// ```
+#[inline]
+#[must_use]
+#[expect(
+    clippy::cast_precision_loss,
+    reason = "a whole number below 2^53 is exact"
+)]
+pub const fn open_unit(bits: u64) -> f64 {
+    ((bits >> 11) as f64 + 0.5) * UNIT_STEP
+}
+
+/// A whole number below `bound` from 64 random bits, by one multiplication; 0 if there is none.
+///
+/// Probabilities differ from 1 / `bound` by at most 2⁻⁶⁴: use it for a draw by counter, which cannot be repeated, and
+/// [`SplitMix64::below`] where all numbers must be equally likely.
+///
+/// ```
+/// use taceva_core::random::scaled;
+/// assert_eq!(scaled(1 << 63, 6), 3);
+/// assert_eq!(scaled(u64::MAX, 6), 5);
+/// assert_eq!(scaled(u64::MAX, 0), 0);
+/// ```
+#[inline]
+#[must_use]
+#[expect(
+    clippy::cast_possible_truncation,
+    reason = "the upper half of 128 bits is 64 bits"
+)]
+pub const fn scaled(bits: u64, bound: u64) -> u64 {
+    ((bits as u128 * bound as u128) >> 64) as u64
+}
+
+/// 2⁻⁵³.
+const UNIT_STEP: f64 = 1.0 / 9_007_199_254_740_992.0;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn words_are_those_of_the_published_generator() {
+        // First outputs of its reference program, seeded with 1234567.
+        let published = [
+            6_457_827_717_110_365_317,
+            3_203_168_211_198_807_973,
+            9_817_491_932_198_370_423,
+        ];
+        let mut sequence = SplitMix64::new(1_234_567);
+        for (at, word) in (0..).zip(published) {
+            let state = STEP.wrapping_mul(at).wrapping_add(1_234_567);
+            assert_eq!(mix(state), word);
+            assert_eq!(Draws::new(1_234_567).bits(at), word);
+            assert_eq!(sequence.next_u64(), word);
+        }
+    }
+
+    #[test]
+    fn units_lie_evenly_between_their_ends() {
+        let draws = Draws::new(1);
+        let n = 100_000_u32;
+        let units: Vec<f64> = (0..u64::from(n)).map(|at| draws.unit(at)).collect();
+        let mean = units.iter().sum::<f64>() / f64::from(n);
+        let variance = units.iter().map(|u| (u - mean).powi(2)).sum::<f64>() / f64::from(n);
+        assert!((mean - 0.5).abs() < 0.004, "{mean}");
+        assert!((variance - 1.0 / 12.0).abs() < 0.001, "{variance}");
+        assert!(unit(u64::MAX) < 1.0 && open_unit(0) > 0.0);
+    }
+
+    #[test]
+    fn scaled_words_fill_the_numbers_below_the_bound() {
+        let mut counts = [0_u32; 5];
+        let draws = Draws::new(1);
+        for at in 0..1_000 {
+            let number = usize::try_from(scaled(draws.bits(at), 5)).expect("below 5");
+            counts[number] += 1;
+        }
+        // 200 expected, standard deviation 13: five of them.
+        assert!(
+            counts.iter().all(|count| count.abs_diff(200) < 65),
+            "{counts:?}"
+        );
+    }
+}

@@ -1,0 +1,106 @@
+//! Random numbers one after another.
+
+use super::{STEP, mix, unit};
+
+/// The generator SplitMix64: one seed, one sequence, on every machine. Its state is a counter.
+///
+/// ```
+/// use taceva_core::random::SplitMix64;
+/// let mut random = SplitMix64::new(0);
+/// assert_eq!(random.next_u64(), 0xe220_a839_7b1d_cdaf);
+/// let mut cards = [1, 2, 3, 4];
+/// random.shuffle(&mut cards);
+/// assert_eq!(cards.iter().sum::<i32>(), 10);
+/// ```
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct SplitMix64 {
+    state: u64,
+}
+
+impl SplitMix64 {
+    /// The generator in the state `seed`.
+    #[inline]
+    #[must_use]
+    pub const fn new(seed: u64) -> SplitMix64 {
+        SplitMix64 { state: seed }
+    }
+
+    /// The next 64 bits.
+    #[inline]
+    pub const fn next_u64(&mut self) -> u64 {
+        let word = mix(self.state);
+        self.state = self.state.wrapping_add(STEP);
+        word
+    }
+
+    /// The next number of 0 ≤ u < 1, a multiple of 2⁻⁵³.
+    #[inline]
+    pub const fn unit(&mut self) -> f64 {
+        unit(self.next_u64())
+    }
+
+    /// A number below `bound`, each with the same probability: words that would favour some are discarded.
+    ///
+    /// # Panics
+    /// If `bound` is zero.
+    pub fn below(&mut self, bound: usize) -> usize {
+        let bound = bound as u64;
+        let favoured = (u64::MAX % bound + 1) % bound;
+        loop {
+            let word = self.next_u64();
+            if word <= u64::MAX - favoured {
+                return usize::try_from(word % bound).expect("below a usize");
+            }
+        }
+    }
+
+    /// Brings `items` into a random order (Fisher and Yates), each as likely.
+    pub fn shuffle<T>(&mut self, items: &mut [T]) {
+        for last in (1..items.len()).rev() {
+            items.swap(last, self.below(last + 1));
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_sequence_keeps_its_values() {
+        let mut random = SplitMix64::new(9);
+        let mut items = [0, 1, 2, 3, 4, 5, 6, 7];
+        random.shuffle(&mut items);
+        assert_eq!(items, [3, 6, 5, 1, 7, 0, 2, 4]);
+        assert_eq!([random.below(1000), random.below(3)], [165, 1]);
+        assert_eq!(random.next_u64(), 14_557_450_600_514_164_083);
+    }
+
+    #[test]
+    fn words_that_would_favour_some_numbers_are_discarded() {
+        // Above 2⁶³ half of the words would count twice; 40 draws without a discarded one have the probability 2⁻⁴⁰.
+        let bound = (1_usize << 63) + 1;
+        let (mut drawn, mut plain) = (SplitMix64::new(3), SplitMix64::new(3));
+        for _ in 0..40 {
+            let number = drawn.below(bound);
+            let word =
+                std::iter::repeat_with(|| plain.next_u64()).find(|word| *word < bound as u64);
+            assert_eq!(Some(number as u64), word);
+        }
+        assert_eq!(drawn, plain);
+    }
+
+    #[test]
+    fn every_order_of_three_is_about_as_likely() {
+        let mut counts = std::collections::BTreeMap::new();
+        let mut random = SplitMix64::new(1);
+        for _ in 0..6000 {
+            let mut items = [0, 1, 2];
+            random.shuffle(&mut items);
+            *counts.entry(items).or_insert(0_u32) += 1;
+        }
+        // 1000 expected, standard deviation 29: five of them.
+        assert_eq!(counts.len(), 6);
+        assert!(counts.values().all(|count| count.abs_diff(1000) < 145));
+    }
+}

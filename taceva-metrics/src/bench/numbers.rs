@@ -1,0 +1,55 @@
+//! The numbers that recipes are made of, as the golden vectors define them.
+
+use taceva_core::random::SplitMix64;
+
+/// Numbers of one recipe. Whole ones are remainders, as whoever wrote the golden vectors drew them: some are more likely than others, by less
+/// than 2⁻³².
+#[derive(Debug)]
+pub(super) struct Numbers(SplitMix64);
+
+impl Numbers {
+    pub(super) fn new(seed: u64) -> Numbers {
+        Numbers(SplitMix64::new(seed))
+    }
+
+    /// A number below `bound`.
+    pub(super) fn below(&mut self, bound: u64) -> u64 {
+        self.0.next_u64() % bound
+    }
+
+    /// Brings `list` into another order.
+    pub(super) fn shuffle<T>(&mut self, list: &mut [T]) {
+        for last in (1..list.len()).rev() {
+            let other = self.below(last as u64 + 1);
+            list.swap(
+                last,
+                usize::try_from(other).expect("a position in the list"),
+            );
+        }
+    }
+
+    /// From 0 up to 1, which is left out: a multiple of 2⁻⁵³.
+    pub(super) fn unit(&mut self) -> f64 {
+        self.0.unit()
+    }
+
+    /// About a standard normal number: twelve units, summed from the first to the last, less 6.
+    pub(super) fn bell(&mut self) -> f64 {
+        (1..12).fold(self.unit(), |sum, _| sum + self.unit()) - 6.0
+    }
+
+    /// Any mantissa and sign, with an exponent from `low` to `high`.
+    pub(super) fn wide(&mut self, low: i32, high: i32) -> f64 {
+        let word = self.0.next_u64();
+        let span = u64::try_from(high - low + 1).expect("exponents in order");
+        let exponent = i64::from(low) + i64::try_from(self.below(span)).expect("an exponent");
+        let field = u64::try_from(exponent + 1023).expect("the exponent of a normal number");
+        f64::from_bits((word & 1 << 63) | field << 52 | (word & ((1 << 52) - 1)))
+    }
+
+    /// Any denormal number.
+    pub(super) fn denormal(&mut self) -> f64 {
+        let fraction = self.0.next_u64() & ((1 << 52) - 1);
+        f64::from_bits(fraction | (self.0.next_u64() & 1 << 63))
+    }
+}

@@ -1,0 +1,20 @@
+//! Columns in another order.
+
+use taceva_core::random::SplitMix64;
+
+use crate::paired::Paired;
+
+/// The rows of `columns` in another order, the same for the same `seed`.
+pub fn shuffled(columns: &Paired<Vec<f64>>, seed: u64) -> Paired<Vec<f64>> {
+    let mut rows: Vec<(f64, f64)> = columns
+        .as_slices()
+        .iter()
+        .map(|pair| (pair.estimate, pair.reference))
+        .collect();
+    SplitMix64::new(seed).shuffle(&mut rows);
+    let (estimate, reference) = rows.into_iter().unzip();
+    Paired {
+        estimate,
+        reference,
+    }
+}

@@ -1,0 +1,201 @@
+//! The tables of scores: every number for programs, and those that fit a page for pages and papers.
+
+use taceva_core::Unit;
+use taceva_metrics::Better;
+
+use super::notation::metric;
+use super::{ScoreCell, ScoreRow, ScoreTable};
+use crate::escape::latex as escape;
+use crate::number::numeral;
+use crate::table::{Align, Cell, Column, Direction, Estimate, Row, Table, Words, latex_symbol};
+
+/// What bold numbers say, as LaTeX sets it.
+const BOLD: [&str; 2] = [
+    "Bold: better than every other sensor that takes part in verdicts, at a level of 5 % after Holm's adjustment.",
+    "Bold: better than every other sensor that takes part in verdicts, at a level of 5\\,\\% after Holm's adjustment.",
+];
+/// The same where a column has no room for more.
+const SHORT_BOLD: [&str; 2] = [
+    "Bold: better than every other sensor at a level of 5 % after Holm's adjustment.",
+    "Bold: better than every other sensor at a level of 5\\,\\% after Holm's adjustment.",
+];
+/// The symbol that is not known to everybody.
+const REPEATABILITY: [&str; 2] = [
+    "σ rep: repeatability.",
+    "$\\sigma_{\\mathrm{rep}}$: repeatability.",
+];
+
+impl ScoreTable {
+    /// A row a score and study, for programs: numbers in shortest round-trip form.
+    pub fn every_number(&self) -> Table {
+        let columns = [
+            Column::new("sensor"),
+            Column::of_metrics(),
+            Column::new("channel"),
+            Column::new("value"),
+            Column::new("unit"),
+            Column::new("ci95_low"),
+            Column::new("ci95_high"),
+            Column::new("method"),
+            Column::new("n"),
+            Column::new("n_invalid"),
+            Column::new("reason"),
+            Column::new("standing"),
+            Column::new("bounded_share"),
+        ];
+        let mut table = Table::new("Scores", columns);
+        for row in &self.rows {
+            for (name, cell) in self.names.iter().zip(&row.cells) {
+                if let Some(cell) = cell {
+                    table.push(row.numbers(name, cell));
+                }
+            }
+        }
+        table
+    }
+
+    /// A row a score, a column a study, for pages: values with intervals, bold where one is shown to be better than all others of its row.
+    pub fn for_pages(&self) -> Table {
+        let columns = ["metric", "channel", "unit"].map(Column::new);
+        let [metric, channel, unit] = columns;
+        let metric = metric.direction(Direction::OfMetrics);
+        let mut table = self.of_studies([metric, channel, unit]);
+        for row in &self.rows {
+            let words = [
+                row.metric.clone(),
+                row.channel.clone(),
+                row.unit.to_string(),
+            ];
+            let cells = row.cells.iter().map(|cell| estimate(cell.as_ref()));
+            table.push(words.map(Cell::text).into_iter().chain(cells));
+        }
+        table
+    }
+
+    /// The same for papers: in the symbols of the field, intervals below the values.
+    pub fn for_papers(&self, caption: &str) -> Table {
+        let [metric, channel, unit] = ["metric", "channel", "unit"].map(Column::new);
+        let metric = metric.direction(Direction::OfRows);
+        let mut table = self.of_studies([metric, channel, unit]);
+        caption.clone_into(&mut table.caption);
+        let mut last = "";
+        for row in &self.rows {
+            let is_new = row.metric != last;
+            let unit = match row.unit {
+                Unit::One => "",
+                unit => unit.symbol(),
+            };
+            let name = match is_new {
+                true => Words::new(&row.metric).latex(super::notation::metric(&row.metric)),
+                false => Words::default(),
+            };
+            let channel = Words::new(&row.channel).latex(latex_symbol(&row.channel));
+            let words = [name, channel, Words::new(unit)];
+            let cells = row.cells.iter().map(|cell| without_reason(cell.as_ref()));
+            table.rows.push(Row {
+                cells: words.map(Cell::Text).into_iter().chain(cells).collect(),
+                better: Better::of(&row.metric).filter(|_| is_new),
+                begins_group: is_new && !last.is_empty(),
+            });
+            last = &row.metric;
+        }
+        if self.names.len() > 1 {
+            table.note(Words::new(BOLD[0]).latex(BOLD[1]));
+        }
+        table
+    }
+
+    /// The main rows for a column of a paper: one line a score, at most three digits, no intervals.
+    pub fn for_column(&self, caption: &str) -> Table {
+        let main = self.main();
+        let mut table = main.of_studies([Column::new("").direction(Direction::OfRows)]);
+        caption.clone_into(&mut table.caption);
+        for row in &main.rows {
+            let unit = match row.unit {
+                Unit::One => String::new(),
+                unit => format!(" ({unit})"),
+            };
+            let plain = format!("{} {}{unit}", row.metric, row.channel);
+            let latex = format!(
+                "{} {}{}",
+                metric(&row.metric),
+                latex_symbol(&row.channel),
+                escape(&unit)
+            );
+            let name = Cell::Text(Words::new(plain).latex(latex));
+            let cells = row.cells.iter().map(|cell| short(cell.as_ref()));
+            table.push_directed(Better::of(&row.metric), std::iter::once(name).chain(cells));
+        }
+        if main.rows.iter().any(|row| row.metric == "repeatability") {
+            table.note(Words::new(REPEATABILITY[0]).latex(REPEATABILITY[1]));
+        }
+        if main.names.len() > 1 {
+            table.note(Words::new(SHORT_BOLD[0]).latex(SHORT_BOLD[1]));
+        }
+        table
+    }
+
+    /// A table with these columns and one for each study.
+    fn of_studies<const N: usize>(&self, columns: [Column; N]) -> Table {
+        let studies = self.names.iter();
+        let studies = studies.map(|name| Column::new(name.as_str()).align(Align::Right));
+        let columns = columns.map(|column| column.align(Align::Left));
+        Table::new("", columns.into_iter().chain(studies))
+    }
+}
+
+impl ScoreRow {
+    /// The numbers of the study `name`, in the order of the columns for programs.
+    fn numbers(&self, name: &str, cell: &ScoreCell) -> [Cell; 13] {
+        let number = |value: Option<f64>| {
+            Cell::Number(value.map_or_else(String::new, |value| format!("{value:?}")))
+        };
+        [
+            Cell::text(name),
+            Cell::text(self.metric.as_str()),
+            Cell::text(self.channel.as_str()),
+            number(cell.value),
+            Cell::text(self.unit.symbol()),
+            number(cell.ends.map(|ends| ends[0])),
+            number(cell.ends.map(|ends| ends[1])),
+            Cell::text(cell.method.as_deref().unwrap_or_default()),
+            Cell::Number(cell.n.to_string()),
+            Cell::Number(cell.n_invalid.to_string()),
+            Cell::text(cell.printed.reason.as_deref().unwrap_or_default()),
+            Cell::text(cell.standing.words().unwrap_or_default()),
+            number(cell.bounded_share),
+        ]
+    }
+}
+
+/// A value with its interval, or why there is none.
+fn estimate(cell: Option<&ScoreCell>) -> Cell {
+    Cell::Estimate(cell.map_or_else(Estimate::default, |cell| Estimate {
+        printed: cell.printed.clone(),
+        unit: String::new(),
+        remark: cell.remark(),
+        is_best: cell.is_best,
+    }))
+}
+
+/// The same without why: a paper has no room for it.
+fn without_reason(cell: Option<&ScoreCell>) -> Cell {
+    match estimate(cell) {
+        Cell::Estimate(mut estimate) => {
+            estimate.printed.reason = None;
+            Cell::Estimate(estimate)
+        }
+        other => other,
+    }
+}
+
+/// A value with at most three digits: a column has no room for more, and the long table has them.
+fn short(cell: Option<&ScoreCell>) -> Cell {
+    let value = cell.and_then(|cell| cell.value).map(numeral);
+    let mut short = Estimate {
+        is_best: cell.is_some_and(|cell| cell.is_best),
+        ..Estimate::default()
+    };
+    short.printed.value = value.unwrap_or_default();
+    Cell::Estimate(short)
+}

@@ -1,0 +1,26 @@
+//! Tables as JSON.
+
+use serde_json::{Value, json};
+
+use super::Table;
+
+impl Table {
+    /// As JSON: the rows as objects by the names of the columns, under `schema`.
+    pub fn json(&self, schema: &str) -> String {
+        let (head, rows) = self.for_programs();
+        let rows = rows.iter().map(|row| {
+            let cells = head.iter().zip(row);
+            let cells = cells.map(|(name, cell)| (name.clone(), Value::from(cell.plain())));
+            Value::Object(cells.collect())
+        });
+        let rows: Vec<Value> = rows.collect();
+        let notes: Vec<&str> = self.notes.iter().map(|note| note.plain()).collect();
+        let whole = json!({
+            "schema": schema,
+            "caption": self.caption,
+            "rows": rows,
+            "notes": notes,
+        });
+        format!("{whole:#}\n")
+    }
+}

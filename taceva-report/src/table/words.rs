@@ -1,0 +1,91 @@
+//! Words, and how formats write them that do not print them as they stand.
+
+use taceva_metrics::Better;
+
+use crate::escape;
+
+/// Words of a table; each format escapes them, unless they say how it writes them.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Words {
+    plain: String,
+    markdown: Option<String>,
+    latex: Option<String>,
+}
+
+impl Words {
+    /// Words that every format escapes.
+    pub fn new(plain: impl Into<String>) -> Words {
+        Words {
+            plain: plain.into(),
+            markdown: None,
+            latex: None,
+        }
+    }
+
+    /// A name in a table, such as `r_spatial`: Markdown prints letters, digits and what joins them as they stand.
+    pub fn name(plain: impl Into<String>) -> Words {
+        let plain = plain.into();
+        let is_name = |letter: char| letter.is_alphanumeric() || matches!(letter, '_' | '.' | '-');
+        Words {
+            markdown: plain.chars().all(is_name).then(|| plain.clone()),
+            ..Words::new(plain)
+        }
+    }
+
+    /// The same, set in LaTeX as `latex`.
+    #[must_use]
+    pub fn latex(self, latex: impl Into<String>) -> Words {
+        Words {
+            latex: Some(latex.into()),
+            ..self
+        }
+    }
+
+    /// The same, set in Markdown as `markdown`.
+    #[must_use]
+    pub fn markdown(self, markdown: impl Into<String>) -> Words {
+        Words {
+            markdown: Some(markdown.into()),
+            ..self
+        }
+    }
+
+    /// The words as they were given.
+    pub fn plain(&self) -> &str {
+        &self.plain
+    }
+
+    /// With the sign of a direction behind them, unless there are none.
+    pub(super) fn directed(self, better: Option<Better>) -> Words {
+        match better {
+            Some(better) if !self.plain.is_empty() => Words {
+                plain: better.beside(&self.plain),
+                markdown: self.markdown.map(|markdown| better.beside(&markdown)),
+                latex: (self.latex).map(|latex| latex + &escape::latex(&better.beside(""))),
+            },
+            _ => self,
+        }
+    }
+
+    pub(super) fn in_markdown(&self) -> String {
+        let own = self.markdown.clone();
+        own.unwrap_or_else(|| escape::markdown(&self.plain))
+    }
+
+    pub(super) fn in_latex(&self) -> String {
+        let own = self.latex.clone();
+        own.unwrap_or_else(|| super::latex::number(&self.plain))
+    }
+}
+
+impl From<String> for Words {
+    fn from(plain: String) -> Words {
+        Words::new(plain)
+    }
+}
+
+impl From<&str> for Words {
+    fn from(plain: &str) -> Words {
+        Words::new(plain)
+    }
+}

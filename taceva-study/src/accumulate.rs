@@ -1,0 +1,114 @@
+//! From rows to scores, on all threads, with the same bits on any number of them.
+
+use std::num::NonZeroUsize;
+use std::ops::Range;
+
+use taceva_core::{Batch, Column, Field};
+use taceva_dataset::Table;
+use taceva_metrics::{Evaluator, MetricPlan};
+
+use crate::error::StudyError;
+
+/// Rows a batch: large enough that merging is rare, small enough that a batch stays in the cache.
+const BATCH_ROWS: usize = 1 << 12;
+
+/// Where rows with truth and prediction come from: any of them, asked for from any thread.
+pub(crate) trait Rows: Sync {
+    /// How many there are.
+    fn rows(&self) -> usize;
+
+    /// Those in `rows`, with the channels of the plan.
+    ///
+    /// # Errors
+    /// [`StudyError`] if one of them cannot be read.
+    fn batch(&self, plan: &MetricPlan, rows: Range<usize>) -> Result<Batch, StudyError>;
+}
+
+/// Accumulates all rows of `source`. Each thread takes a contiguous block; sums are exact, so the blocks do not change the result.
+///
+/// Blocks are whole batches, so that the first batch with an error is the same on any number of threads.
+///
+/// # Errors
+/// [`StudyError`] of the first batch that cannot be read or scored.
+pub(crate) fn accumulate(
+    source: &impl Rows,
+    plan: &MetricPlan,
+    jobs: NonZeroUsize,
+) -> Result<Evaluator, StudyError> {
+    let rows = source.rows();
+    let block = rows.div_ceil(jobs.get()).next_multiple_of(BATCH_ROWS);
+    let blocks: Vec<Range<usize>> = (0..rows)
+        .step_by(block.max(BATCH_ROWS))
+        .map(|start| start..rows.min(start + block))
+        .collect();
+    let evaluators: Vec<Result<Evaluator, StudyError>> = std::thread::scope(|scope| {
+        let threads: Vec<_> = blocks
+            .into_iter()
+            .map(|block| scope.spawn(move || accumulate_block(source, plan, block)))
+            .collect();
+        let joined = threads.into_iter().map(|thread| match thread.join() {
+            Ok(evaluator) => evaluator,
+            Err(panic) => std::panic::resume_unwind(panic),
+        });
+        joined.collect()
+    });
+    let mut total = Evaluator::new(plan);
+    for evaluator in evaluators {
+        total.merge(evaluator?)?;
+    }
+    Ok(total)
+}
+
+fn accumulate_block(
+    source: &impl Rows,
+    plan: &MetricPlan,
+    rows: Range<usize>,
+) -> Result<Evaluator, StudyError> {
+    let mut evaluator = Evaluator::new(plan);
+    for start in rows.clone().step_by(BATCH_ROWS) {
+        let end = rows.end.min(start + BATCH_ROWS);
+        evaluator.update(&source.batch(plan, start..end)?)?;
+    }
+    Ok(evaluator)
+}
+
+/// Truth and predictions that lie in memory, column by column, and the rest of the same rows in the table of their dataset.
+///
+/// # Shapes
+/// A column a channel of the plan, all as long as `rows`.
+pub(crate) struct Columns<'a> {
+    pub(crate) truth: &'a [Column],
+    pub(crate) prediction: &'a [Column],
+    pub(crate) table: &'a Table,
+    pub(crate) rows: &'a [usize],
+}
+
+impl Rows for Columns<'_> {
+    fn rows(&self) -> usize {
+        self.rows.len()
+    }
+
+    fn batch(&self, plan: &MetricPlan, rows: Range<usize>) -> Result<Batch, StudyError> {
+        let slice = |columns: &[Column]| {
+            let slices = columns.iter().map(|column| column.slice(rows.clone()));
+            slices.collect()
+        };
+        let of_table = || self.rows[rows.clone()].iter().copied();
+        let wanted = plan.fields();
+        let points = wanted
+            .contains(Field::Point)
+            .then(|| self.table.labels(Field::Point, of_table()))
+            .flatten();
+        let channels = plan.channels().clone();
+        let mut batch =
+            Batch::from_columns(channels, slice(self.truth), slice(self.prediction), points);
+        for field in wanted.iter().filter(|field| *field != Field::Point) {
+            if let Some(labels) = self.table.labels(field, of_table()) {
+                batch = batch.with_labels(field, labels);
+            } else if let Some(numbers) = self.table.numbers(field, of_table()) {
+                batch = batch.with_numbers(field, numbers);
+            }
+        }
+        Ok(batch)
+    }
+}

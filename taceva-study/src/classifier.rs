@@ -1,0 +1,87 @@
+//! The classifier of the spacings of gratings, configured from a scene.
+
+use taceva_models::{ChosenModel, FeatureSpec, Models, NetworkEstimator, Settings, SpacingOutput};
+use taceva_protocol::{GratingClassifier, Gratings};
+
+use crate::error::StudyError;
+use crate::scene::settings_of;
+
+/// A classifier of the spacings of gratings.
+#[derive(Debug)]
+pub(crate) enum SpacingClassifier {
+    /// Linear discriminants of the radial spectrum.
+    Spectrum,
+    /// A model of the radial spectrum that predicts one of its training labels.
+    Model(Box<ModelClassifier>),
+    /// A network.
+    Network(Box<NetworkClassifier>),
+}
+
+/// A model of the radial spectrum, not fitted yet.
+#[derive(Debug)]
+pub(crate) struct ModelClassifier {
+    pub(crate) model: ChosenModel,
+    pub(crate) settings: Settings,
+}
+
+/// A network that classifies spacings of gratings, not fitted yet.
+#[derive(Debug)]
+pub(crate) struct NetworkClassifier {
+    pub(crate) estimator: NetworkEstimator,
+    /// Its features of a picture.
+    pub(crate) features: FeatureSpec,
+    pub(crate) output: SpacingOutput,
+}
+
+impl SpacingClassifier {
+    /// The classifier that `spec` asks for.
+    ///
+    /// # Errors
+    /// [`StudyError`] for a setting that it does not take, or a model that is not among `models`.
+    pub(crate) fn of(spec: &Gratings, models: &Models) -> Result<SpacingClassifier, StudyError> {
+        let settings = settings_of(&spec.set.value)?;
+        let output = match spec.classified_by.value {
+            GratingClassifier::Spectrum => {
+                settings.check_keys(&[])?;
+                return Ok(SpacingClassifier::Spectrum);
+            }
+            GratingClassifier::LinfaLogistic => {
+                let model = models.find("linfa/logistic")?;
+                model.estimator(&settings)?;
+                return Ok(SpacingClassifier::Model(Box::new(ModelClassifier {
+                    model,
+                    settings,
+                })));
+            }
+            GratingClassifier::Cnn => SpacingOutput::Classes,
+            GratingClassifier::CnnLength => SpacingOutput::Length,
+        };
+        let (of_features, of_model) = settings.partition(FeatureSpec::SETTINGS);
+        Ok(SpacingClassifier::Network(Box::new(NetworkClassifier {
+            estimator: NetworkEstimator::cnn(&of_model)?,
+            features: NetworkEstimator::CNN
+                .features
+                .unwrap_or_default()
+                .changed_by(&of_features)?,
+            output,
+        })))
+    }
+
+    /// How spacings are predicted, for readers of the report.
+    pub(crate) const fn note(&self) -> &'static str {
+        match self {
+            SpacingClassifier::Spectrum => {
+                "sr: spacings are predicted from the radial spectrum of what a picture shows beyond the mean picture, by linear \
+                 discriminants, lines and dots apart, fitted on the other two thirds of the presses of every board"
+            }
+            SpacingClassifier::Model(_) => {
+                "sr: spacings are predicted from the radial spectrum of what a picture shows beyond the mean picture, by multinomial \
+                 logistic regression of linfa, lines and dots apart, fitted on the other two thirds of the presses of every board"
+            }
+            SpacingClassifier::Network(_) => {
+                "sr: spacings are predicted by a convolutional network, lines and dots apart, fitted on the other two thirds of the \
+                 presses of every board"
+            }
+        }
+    }
+}

@@ -1,0 +1,154 @@
+//! Which rows of a recording belong to which part of the protocol, and which of them a model may see.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use taceva_core::Field;
+use taceva_dataset::Dataset;
+use taceva_metrics::{Metric, catalogue};
+use taceva_protocol::{PhaseKind, Plan, PlannedMetric};
+
+use crate::error::StudyError;
+use crate::fit::FitRequest;
+use crate::rows::{DataPart, Divided};
+use crate::scene::PlannedStudy;
+
+/// The rows of a recording, assigned to the phases of the protocol that they were pressed for.
+pub(super) struct PhaseRows<'a> {
+    plan: &'a Plan,
+    dataset: &'a Dataset,
+    /// Absent of a recording that nobody here planned: then every row belongs to every part.
+    rows: Option<BTreeMap<PhaseKind, Vec<usize>>>,
+}
+
+impl<'a> PhaseRows<'a> {
+    pub(super) fn new(study: &'a PlannedStudy, dataset: &'a Dataset) -> PhaseRows<'a> {
+        let plan = &study.plan;
+        let rows = (!plan.presses.is_empty()).then(|| by_phase(plan, dataset));
+        PhaseRows {
+            plan,
+            dataset,
+            rows,
+        }
+    }
+
+    /// The rows of a part of the protocol, ascending.
+    pub(super) fn rows(&self, kind: PhaseKind) -> Vec<usize> {
+        match &self.rows {
+            Some(rows) => rows.get(&kind).cloned().unwrap_or_default(),
+            None => self.dataset.all_rows(),
+        }
+    }
+
+    /// The rows of every part of the protocol by its name; absent of a recording that nobody here planned.
+    pub(super) fn protocol(&self) -> Option<BTreeMap<&'static str, Vec<usize>>> {
+        let rows = self.rows.as_ref()?.iter();
+        Some(
+            rows.map(|(kind, rows)| (kind.name(), rows.clone()))
+                .collect(),
+        )
+    }
+
+    /// The planned metrics with their entries in the catalogue.
+    pub(super) fn metrics(&self) -> impl Iterator<Item = (&'a PlannedMetric, &'static Metric)> {
+        let planned = self.plan.metrics.iter();
+        planned.filter_map(|metric| Some((metric, catalogue::find(&metric.id)?)))
+    }
+
+    /// Whether a metric compares predictions with the truth.
+    pub(super) fn reads_predictions(&self) -> bool {
+        !self.predicted_phases().is_empty()
+    }
+
+    /// Whether a metric compares predicted spacings with the true ones.
+    pub(super) fn reads_spacings(&self) -> bool {
+        let mut metrics = self.metrics();
+        metrics.any(|(_, metric)| metric.needs.fields.contains(Field::PredictedSpacing))
+    }
+
+    /// The parts of the protocol of which predictions are read: those of metrics, and with them the calibration, which says whether the
+    /// model has skill.
+    pub(super) fn predicted_phases(&self) -> BTreeSet<PhaseKind> {
+        let metrics = self.metrics();
+        let predicted = metrics.filter(|(_, metric)| metric.reads_predictions());
+        let mut phases: BTreeSet<PhaseKind> = predicted.map(|(planned, _)| planned.phase).collect();
+        if !phases.is_empty() {
+            phases.insert(PhaseKind::Calibration);
+        }
+        phases
+    }
+
+    /// The channels of which predictions are read, in the order of the plan: those that samples with a picture carry.
+    pub(super) fn predicted_channels(&self) -> Vec<String> {
+        let table = self.dataset.table();
+        let is_seen = |channel: &str| {
+            let position = table.channels().position(channel);
+            let seen = |(row, frame): (usize, &Option<_>)| {
+                let truth = position.and_then(|position| table.truth(position).get(row));
+                frame.is_some() && truth.is_some()
+            };
+            table.frames().iter().enumerate().any(seen)
+        };
+        let is_predicted = |channel: &&String| {
+            let mut metrics = self.metrics();
+            metrics.any(|(planned, metric)| {
+                metric.reads_predictions() && planned.channels.contains(channel)
+            })
+        };
+        let channels = self.plan.channels.iter();
+        let predicted = channels.filter(is_predicted);
+        predicted
+            .filter(|channel| is_seen(channel))
+            .cloned()
+            .collect()
+    }
+
+    /// The presses that a model is fitted on, divided with contact points kept whole; all others are in no part.
+    pub(super) fn divided(&self, request: &FitRequest) -> Result<Divided, StudyError> {
+        let table = self.dataset.table();
+        if self.rows.is_none() {
+            return Divided::new(table, request.split.as_deref(), request.seed);
+        }
+        let rows = self.rows(PhaseKind::Calibration);
+        Divided::within(table, &rows, Some("by-point"), request.seed)
+    }
+
+    /// A note if presses ended early.
+    pub(super) fn shortfall(&self) -> Option<String> {
+        self.rows.as_ref()?;
+        let presses = self.plan.presses.iter();
+        let planned: usize = presses.map(|press| press.press.samples()).sum();
+        let found = self.dataset.table().rows();
+        (found < planned).then(|| {
+            format!(
+                "{} of {planned} planned samples were not taken: their presses met a limit of the gel, or no gel",
+                planned - found
+            )
+        })
+    }
+}
+
+/// The rows that a model was fitted on or whose settings were chosen on, ascending.
+pub(super) fn seen(divided: &Divided) -> Vec<usize> {
+    let parts = [DataPart::Train, DataPart::Validation].map(|part| divided.rows(part));
+    let mut rows = parts.concat();
+    rows.sort_unstable();
+    rows
+}
+
+/// The rows of each part of the protocol: samples are called `<press>/<number>`.
+fn by_phase(plan: &Plan, dataset: &Dataset) -> BTreeMap<PhaseKind, Vec<usize>> {
+    let presses = plan.presses.iter();
+    let phases: BTreeMap<String, &[PhaseKind]> = presses
+        .map(|press| (press.id.to_string(), press.phases.as_slice()))
+        .collect();
+    let mut rows: BTreeMap<PhaseKind, Vec<usize>> = BTreeMap::new();
+    for (row, sample) in dataset.table().samples().iter().enumerate() {
+        let press = sample
+            .split_once('/')
+            .map_or(sample.as_str(), |(press, _)| press);
+        for kind in phases.get(press).copied().unwrap_or_default() {
+            rows.entry(*kind).or_default().push(row);
+        }
+    }
+    rows
+}
