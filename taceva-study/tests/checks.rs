@@ -6,9 +6,7 @@ use std::path::Path;
 use taceva_core::{
     Channel, Channels, Clock, Frame, FrameInfo, PixelFormat, Readings, Sample, Silent, Stamp, Unit,
 };
-use taceva_dataset::{
-    Dataset, Known, Recorder, RecordingFacts, RecordingSpec, SensorFacts, Source,
-};
+use taceva_dataset::{Dataset, Recorder, RecordingFacts, RecordingSpec, SensorFacts, Source};
 use taceva_study::{CheckReport, CheckRequest, Severity, check};
 
 /// A recording without a flaw, sample by sample, to be spoilt.
@@ -43,12 +41,10 @@ impl Recording {
             }
         });
         Recording {
-            facts: SensorFacts {
-                model: "drawn".into(),
-                serial: "1".into(),
-                gel: "2".into(),
-                opaque: Known::Is(true),
-            },
+            facts: SensorFacts::new("drawn")
+                .with_serial("1")
+                .with_gel("2")
+                .with_opaque(true),
             clock: Clock::Monotonic,
             channels: vec![Channel::PX, Channel::FX, Channel::FZ],
             reference: Some(picture(0, 0.0)),
