@@ -116,6 +116,31 @@ fn one_sample_is_refused_by_all_and_two_by_those_that_need_more() {
 }
 
 #[test]
+fn more_features_than_samples_are_learnt_from_by_all_but_one_which_says_so() {
+    let refused = fit_all(&data(WIDTH - 1, 2), None);
+    assert_eq!(refused.len(), 1, "{refused:?}");
+    let said = "smartcore/svr: 5 training samples, smartcore/svr needs at least as many as features, of which there are 6: ";
+    assert!(refused[0].starts_with(said), "{refused:?}");
+}
+
+#[test]
+fn numbers_that_are_not_finite_are_refused_by_all_where_they_stand() {
+    let mut features = data(12, 2);
+    features.features[2 * WIDTH + 4] = f32::NAN;
+    let mut labels = data(12, 2);
+    labels.labels[3 * 2 + 1] = f64::NAN;
+    for (training, place) in [
+        (features, "training sample 2: feature 4 is not finite"),
+        (labels, "training sample 3: `load001` is not finite"),
+    ] {
+        let refused = fit_all(&training, None);
+        assert_eq!(refused.len(), taceva_baselines::all().count());
+        let is_named = |said: &String| said.ends_with(place);
+        assert!(refused.iter().all(is_named), "{refused:?}");
+    }
+}
+
+#[test]
 fn two_hundred_and_fifty_six_channels_are_learnt() {
     assert_eq!(fit_all(&data(12, 256), None), [] as [&str; 0]);
 }
