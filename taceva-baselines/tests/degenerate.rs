@@ -28,7 +28,7 @@ fn data(samples: usize, channels: usize) -> Data {
     Data {
         features: (0..samples * WIDTH).map(number).collect(),
         channels: Channels::new(list.expect("good names")).expect("distinct"),
-        // Five levels, so that classes can be told apart too.
+        // Five levels, so that classifiers can be fitted too.
         labels: (0..samples * channels)
             .map(|place| f64::from((number(place + 7919) * 5.0).floor()))
             .collect(),

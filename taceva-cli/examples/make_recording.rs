@@ -14,9 +14,7 @@ use taceva_core::random::mix;
 use taceva_core::{
     Channel, Channels, Clock, Frame, FrameInfo, PixelFormat, Readings, Sample, Stamp,
 };
-use taceva_dataset::{
-    Footprint, Known, Recorder, RecordingFacts, RecordingSpec, SensorFacts, Shape, Source,
-};
+use taceva_dataset::{Footprint, Recorder, RecordingFacts, RecordingSpec, SensorFacts, Source};
 
 const SIZE: u32 = 96;
 const POINTS: u32 = 200;
@@ -135,26 +133,13 @@ fn unit_draw(seed: u64, point: u32, step: u32, purpose: u32) -> f64 {
 }
 
 fn record(path: &Path) -> Result<(), Box<dyn std::error::Error>> {
-    let spec = RecordingSpec {
-        facts: RecordingFacts {
-            source: Source::Synthetic,
-            clock: Clock::Monotonic,
-            sensor: SensorFacts {
-                model: "drawn marker gel".to_owned(),
-                serial: "none".to_owned(),
-                gel: "none".to_owned(),
-                opaque: Known::Is(true),
-            },
-            footprint: Some(Footprint {
-                shape: Shape::Disc,
-                radius_mm: Some(RADIUS_MM),
-                half_x_mm: None,
-                half_y_mm: None,
-                depth_max_mm: Some(1.5),
-            }),
-        },
-        channels: Channels::new(Channel::SIX)?,
-    };
+    let sensor = SensorFacts::new("drawn marker gel")
+        .with_serial("none")
+        .with_gel("none")
+        .with_opaque(true);
+    let facts = RecordingFacts::new(Source::Synthetic, Clock::Monotonic, sensor)
+        .with_footprint(Footprint::disc(RADIUS_MM).with_depth_max(1.5));
+    let spec = RecordingSpec::new(facts, Channels::new(Channel::SIX)?);
     let mut recorder = Recorder::create(path, &spec)?;
     let untouched = Press {
         x_mm: 0.0,

@@ -8,7 +8,7 @@ use divan::Bencher;
 use taceva_core::{Channels, Clock};
 use taceva_core::{Frame, FrameInfo, PixelFormat, Sample, Silent};
 use taceva_dataset::{
-    CsvTable, Dataset, Known, Pass, Recorder, RecordingFacts, RecordingSpec, SensorFacts, Source,
+    CsvTable, Dataset, Pass, Recorder, RecordingFacts, RecordingSpec, SensorFacts, Source,
 };
 
 fn main() {
@@ -45,20 +45,9 @@ fn parse_every_column(bencher: Bencher<'_, '_>, rows: usize) {
 fn recording() -> (tempfile::TempDir, PathBuf) {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("recording");
-    let spec = RecordingSpec {
-        facts: RecordingFacts {
-            source: Source::Synthetic,
-            clock: Clock::Unknown,
-            sensor: SensorFacts {
-                model: "bench".into(),
-                serial: "1".into(),
-                gel: "1".into(),
-                opaque: Known::Unknown,
-            },
-            footprint: None,
-        },
-        channels: Channels::default(),
-    };
+    let sensor = SensorFacts::new("bench").with_serial("1").with_gel("1");
+    let facts = RecordingFacts::new(Source::Synthetic, Clock::Unknown, sensor);
+    let spec = RecordingSpec::new(facts, Channels::default());
     let mut recorder = Recorder::create(&path, &spec).expect("created");
     let info = FrameInfo {
         width: 640,
@@ -87,11 +76,11 @@ fn decode_64_frames(bencher: Bencher<'_, '_>, jobs: usize) {
     let (_folder, path) = recording();
     let dataset = Dataset::open(&path).expect("opens");
     let rows = dataset.all_rows();
-    let pass = Pass {
-        rows: &rows,
-        jobs: NonZeroUsize::new(jobs).expect("at least one"),
-        progress: &Silent,
-    };
+    let pass = Pass::new(
+        &rows,
+        NonZeroUsize::new(jobs).expect("at least one"),
+        &Silent,
+    );
     bencher.bench(|| {
         let mut bytes = 0;
         dataset

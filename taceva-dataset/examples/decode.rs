@@ -17,11 +17,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     };
     let dataset = Dataset::open(Path::new(folder))?;
     let rows = dataset.all_rows();
-    let pass = Pass {
-        rows: &rows,
-        jobs,
-        progress: &Silent,
-    };
+    let pass = Pass::new(&rows, jobs, &Silent);
     let start = Instant::now();
     let mut sum = 0;
     let brightness = |_, frame: taceva_core::Frame| {

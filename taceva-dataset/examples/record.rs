@@ -14,7 +14,7 @@ use taceva_core::{
     Channel, Channels, Clock, Frame, FrameInfo, PixelFormat, Readings, Sample, Stamp,
 };
 use taceva_dataset::{
-    Dataset, DatasetError, Known, Recorder, RecordingFacts, RecordingSpec, SensorFacts, Source,
+    Dataset, DatasetError, Recorder, RecordingFacts, RecordingSpec, SensorFacts, Source,
 };
 
 fn main() -> Result<(), Box<dyn Error>> {
@@ -44,20 +44,15 @@ fn main() -> Result<(), Box<dyn Error>> {
 }
 
 fn spec() -> Result<RecordingSpec, Box<dyn Error>> {
-    Ok(RecordingSpec {
-        facts: RecordingFacts {
-            source: Source::Synthetic,
-            clock: Clock::Monotonic,
-            sensor: SensorFacts {
-                model: "made up".into(),
-                serial: "1".into(),
-                gel: "1".into(),
-                opaque: Known::Is(true),
-            },
-            footprint: None,
-        },
-        channels: Channels::new([Channel::PZ, Channel::FZ])?,
-    })
+    let sensor = SensorFacts::new("made up")
+        .with_serial("1")
+        .with_gel("1")
+        .with_opaque(true);
+    let facts = RecordingFacts::new(Source::Synthetic, Clock::Monotonic, sensor);
+    Ok(RecordingSpec::new(
+        facts,
+        Channels::new([Channel::PZ, Channel::FZ])?,
+    ))
 }
 
 /// Sample `number`, the same each time.

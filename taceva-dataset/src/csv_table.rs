@@ -20,7 +20,7 @@ use split::Block;
 
 /// A CSV file with a header, in memory.
 ///
-/// Commas, semicolons and tabs are told apart by the header; a byte order mark, CRLF, blank lines and quoted cells are
+/// The separator, a comma, a semicolon or a tab, is that of the header; a byte order mark, CRLF, blank lines and quoted cells are
 /// understood. A decimal text becomes the nearest binary64, an empty cell is an absent value.
 ///
 /// ```

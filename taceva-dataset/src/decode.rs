@@ -16,6 +16,13 @@ use crate::jpeg::check_whole;
 use crate::limits;
 
 /// In which order the colours of a pixel are stored in the image files.
+///
+/// ```
+/// use taceva_dataset::ChannelOrder;
+///
+/// assert_eq!(ChannelOrder::Bgr.name(), "bgr");
+/// ```
+#[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum ChannelOrder {

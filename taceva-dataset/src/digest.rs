@@ -8,6 +8,14 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer, de};
 use sha2::{Digest as _, Sha256};
 
 /// A SHA-256, written as `sha256:` and 64 hexadecimal digits.
+///
+/// ```
+/// use taceva_dataset::Digest;
+///
+/// let digest = Digest::of(b"gel");
+/// assert_eq!(digest.to_string().parse(), Ok(digest));
+/// assert_ne!(digest, Digest::of(b"Gel"));
+/// ```
 #[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct Digest([u8; 32]);
 
@@ -79,7 +87,13 @@ impl fmt::Debug for Digest {
     }
 }
 
-/// Text that is no digest.
+/// A text that is not a digest.
+///
+/// ```
+/// use taceva_dataset::{Digest, DigestError};
+///
+/// assert_eq!("sha1:00".parse::<Digest>(), Err(DigestError));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("a digest is written as `sha256:` and 64 hexadecimal digits")]
 pub struct DigestError;

@@ -12,6 +12,17 @@ use crate::text::{shown, shown_path};
 use crate::version::Version;
 
 /// Everything that can go wrong with data on disk; each variant says what was met, where, and what would be accepted.
+///
+/// ```
+/// use taceva_core::ErrorKind;
+/// use taceva_dataset::{Dataset, DatasetError};
+///
+/// # let folder = tempfile::tempdir()?;
+/// let error = Dataset::open(folder.path()).unwrap_err();
+/// assert!(matches!(error, DatasetError::NoDataset { .. }));
+/// assert_eq!(error.kind(), ErrorKind::NotFound);
+/// # Ok::<(), std::io::Error>(())
+/// ```
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum DatasetError {
@@ -151,7 +162,7 @@ pub enum DatasetError {
     /// The work was stopped on request; nothing half-written is left.
     #[error("stopped on request")]
     Cancelled,
-    /// Whoever took the samples refused one.
+    /// The sink of the samples refused one.
     #[error("row {row}: {source}")]
     Sink {
         /// The row of the dataset, from 0.
@@ -210,6 +221,19 @@ impl DatasetError {
 }
 
 /// A place in a text file.
+///
+/// ```
+/// use taceva_dataset::CsvTable;
+///
+/// # let folder = tempfile::tempdir()?;
+/// # let path = folder.path().join("truth.csv");
+/// std::fs::write(&path, "id,Fz\na,0.5\nb,much\n")?;
+/// let table = CsvTable::read(&path)?;
+/// let place = table.place(1, 1);
+/// assert_eq!((place.line, place.column.as_deref()), (Some(3), Some("Fz")));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[non_exhaustive]
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Place {
     /// The file.

@@ -4,6 +4,8 @@ use std::fs::{self, File, Metadata};
 use std::io::{Read, Write};
 use std::path::{Component, Path, PathBuf};
 
+use taceva_durable::sync_folder;
+
 use crate::error::DatasetError;
 
 /// Opens the regular file at `path`, which may hold at most `cap` bytes; returns how many it holds.
@@ -16,7 +18,7 @@ pub(crate) fn open_regular(path: &Path, cap: u64) -> Result<(File, u64), Dataset
     Ok((file, metadata.len()))
 }
 
-/// Whether what `metadata` tell of `path` is a regular file of at most `cap` bytes.
+/// Whether `path`, whose metadata are `metadata`, is a regular file of at most `cap` bytes.
 pub(crate) fn check_regular(
     path: &Path,
     metadata: &Metadata,
@@ -95,7 +97,7 @@ impl SourceFolder {
     }
 }
 
-/// Whether a written path stays inside the folder it is relative to, as far as its text tells.
+/// Whether a written path stays inside the folder it is relative to, as far as its text shows.
 pub(crate) fn check_relative(written: &str) -> Result<(), &'static str> {
     if written.is_empty() {
         return Err("empty, expected a path relative to the folder");
@@ -115,7 +117,7 @@ pub(crate) fn check_relative(written: &str) -> Result<(), &'static str> {
     Ok(())
 }
 
-/// Writes a new file and returns once its bytes are on the disk. Its name is not, until [`sync_folder`].
+/// Writes a new file and returns once its bytes are on the disk. Its name is not, until [`make_names_durable`].
 pub(crate) fn write_durable(path: &Path, bytes: &[u8]) -> Result<(), DatasetError> {
     let mut file = File::create(path).map_err(DatasetError::io("create", path))?;
     file.write_all(bytes)
@@ -123,19 +125,9 @@ pub(crate) fn write_durable(path: &Path, bytes: &[u8]) -> Result<(), DatasetErro
         .map_err(DatasetError::io("write", path))
 }
 
-/// Makes the names in a folder durable.
-pub(crate) fn sync_folder(path: &Path) -> Result<(), DatasetError> {
-    File::open(path)
-        .and_then(|folder| folder.sync_all())
-        .map_err(DatasetError::io("make durable", path))
-}
-
-/// The folder that holds `path`; `.` for a bare name.
-pub(crate) fn parent_of(path: &Path) -> &Path {
-    match path.parent() {
-        Some(parent) if parent != Path::new("") => parent,
-        _ => Path::new("."),
-    }
+/// Forces the names in a folder to disk.
+pub(crate) fn make_names_durable(folder: &Path) -> Result<(), DatasetError> {
+    sync_folder(folder).map_err(DatasetError::io("make durable", folder))
 }
 
 #[cfg(test)]
@@ -150,11 +142,5 @@ mod tests {
         for good in ["a", "a/b.png", "./a", "a..b"] {
             assert_eq!(check_relative(good), Ok(()), "{good}");
         }
-    }
-
-    #[test]
-    fn a_bare_name_lies_in_the_current_folder() {
-        assert_eq!(parent_of(Path::new("x")), Path::new("."));
-        assert_eq!(parent_of(Path::new("a/x")), Path::new("a"));
     }
 }

@@ -1,4 +1,4 @@
-//! The one door through which foreign decoders are called: a panic inside becomes an error, and nothing is printed.
+//! Foreign decoders are called through one guard: a panic inside becomes an error, and nothing is printed.
 
 use std::cell::Cell;
 use std::panic::{self, AssertUnwindSafe};

@@ -1,14 +1,16 @@
 //! `dataset.toml`: what is known about a recording as a whole.
 
+mod facts;
 mod footprint;
+#[cfg(test)]
+mod tests;
 
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use serde::{Deserialize, Deserializer, Serialize, Serializer, de};
-use taceva_core::{Channel, Channels, Clock, FrameInfo, PressOutcome, Unit};
+use serde::{Deserialize, Serialize};
+use taceva_core::{Channel, Channels, Clock, PressOutcome, Unit};
 
-use crate::decode::ChannelOrder;
 use crate::digest::Digest;
 use crate::error::DatasetError;
 use crate::held::HeldFolder;
@@ -18,123 +20,8 @@ use crate::toml_file::{parse_toml, toml_error, utf8};
 use crate::version::Version;
 use taceva_seal::{Opened, SealError};
 
+pub use facts::{FramesInfo, Known, ReferenceInfo, SensorFacts, Source, TableInfo};
 pub use footprint::{Footprint, Shape};
-
-/// Where the samples come from; carried into every report.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Source {
-    /// A real sensor.
-    #[default]
-    Recorded,
-    /// A simulated bench.
-    Simulated,
-    /// Numbers made up for a test.
-    Synthetic,
-}
-
-/// A fact that the lab may have forgotten to write down.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub enum Known<T> {
-    /// Written down.
-    Is(T),
-    /// Nobody knows.
-    #[default]
-    Unknown,
-}
-
-impl<T: Copy> Known<T> {
-    /// The fact, if somebody wrote it down.
-    pub fn known(self) -> Option<T> {
-        match self {
-            Known::Is(fact) => Some(fact),
-            Known::Unknown => None,
-        }
-    }
-}
-
-impl Serialize for Known<bool> {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        match self {
-            Known::Is(fact) => serializer.serialize_bool(*fact),
-            Known::Unknown => serializer.serialize_str("unknown"),
-        }
-    }
-}
-
-impl<'de> Deserialize<'de> for Known<bool> {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Known<bool>, D::Error> {
-        struct Fact;
-
-        impl de::Visitor<'_> for Fact {
-            type Value = Known<bool>;
-
-            fn expecting(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-                f.write_str("true, false or \"unknown\"")
-            }
-            fn visit_bool<E: de::Error>(self, fact: bool) -> Result<Known<bool>, E> {
-                Ok(Known::Is(fact))
-            }
-            fn visit_str<E: de::Error>(self, text: &str) -> Result<Known<bool>, E> {
-                match text {
-                    "unknown" => Ok(Known::Unknown),
-                    _ => Err(E::invalid_value(de::Unexpected::Str(text), &self)),
-                }
-            }
-        }
-
-        deserializer.deserialize_any(Fact)
-    }
-}
-
-/// Which sensor it was. `"unknown"` is an answer, silence is not.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct SensorFacts {
-    /// The sensor model.
-    pub model: String,
-    /// The serial number of the unit, or `unknown`.
-    pub serial: String,
-    /// The id of the gel, or `unknown`.
-    pub gel: String,
-    /// Whether ambient light cannot reach the camera.
-    pub opaque: Known<bool>,
-}
-
-/// What all frames of a recording share.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct FramesInfo {
-    /// How many there are.
-    pub count: u64,
-    /// Size and pixel format of each, decoded.
-    #[serde(flatten)]
-    pub info: FrameInfo,
-    /// The order of the colours in the files.
-    pub channel_order: ChannelOrder,
-    /// The frame without contact; absent if the lab does not know one.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub reference: Option<ReferenceInfo>,
-}
-
-/// The frame without contact.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub struct ReferenceInfo {
-    /// Relative to the folder of the dataset.
-    pub path: String,
-    /// Of the bytes of the file.
-    pub sha256: Digest,
-}
-
-/// What `samples.parquet` must be.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub struct TableInfo {
-    /// Number of samples.
-    pub rows: u64,
-    /// Of what the table says.
-    pub digest: Digest,
-    /// Of the bytes of the file.
-    pub sha256: Digest,
-}
 
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 struct ChannelInfo {
@@ -142,8 +29,31 @@ struct ChannelInfo {
     unit: Unit,
 }
 
-/// Everything `dataset.toml` says.
+/// The content of `dataset.toml`.
+///
+/// ```
+/// # use taceva_core::{Channel, Channels, Clock, Frame, FrameInfo, PixelFormat, Readings, Sample};
+/// # use taceva_dataset::{Recorder, RecordingFacts, RecordingSpec, SensorFacts, Source};
+/// # let folder = tempfile::tempdir()?;
+/// # let path = folder.path().join("recording");
+/// # let facts = RecordingFacts::new(Source::Synthetic, Clock::Unknown, SensorFacts::new("my gel"));
+/// # let mut recorder = Recorder::create(&path, &RecordingSpec::new(facts, Channels::new([Channel::FZ])?))?;
+/// # let info = FrameInfo { width: 2, height: 1, format: PixelFormat::Gray8 };
+/// # for number in 0..2_u8 {
+/// #     recorder.append(&Sample {
+/// #         id: number.to_string(),
+/// #         truth: Readings::from_values([0.5]),
+/// #         frame: Some(Frame::new(info, vec![number, 90])?),
+/// #         ..Sample::default()
+/// #     })?;
+/// # }
+/// let header = recorder.close()?;
+/// assert_eq!((header.sensor.model.as_str(), header.table.rows), ("my gel", 2));
+/// assert!(header.seal.is_sealed);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Header {
     /// The format of the folder.
     pub format: Version,
@@ -220,7 +130,7 @@ impl Header {
             true => taceva_seal::Version::Sealed,
             false => taceva_seal::Version::BeforeSeals,
         };
-        // TOML that is none is told by its line.
+        // A text that is no TOML is refused with its line.
         parse_toml::<toml::Table>(path, &text)?;
         let seal =
             taceva_seal::toml_text::check(&text, version).map_err(|source| DatasetError::Seal {
@@ -305,115 +215,4 @@ pub fn reseal_header(text: &str, date: &str, reason: &str) -> Result<String, Sea
         None => text.to_owned(),
     };
     taceva_seal::toml_text::reseal(&text, date, reason)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use taceva_core::{Limit, PixelFormat};
-
-    fn header() -> Header {
-        Header {
-            format: Version::CURRENT,
-            source: Source::Simulated,
-            clock: Clock::Monotonic,
-            sensor: SensorFacts {
-                model: "a \"b\"\n[c]".to_owned(),
-                serial: "unknown".to_owned(),
-                gel: "g1".to_owned(),
-                opaque: Known::Unknown,
-            },
-            footprint: Some(Footprint {
-                shape: Shape::Disc,
-                radius_mm: Some(10.0),
-                half_x_mm: None,
-                half_y_mm: None,
-                depth_max_mm: Some(2.5),
-            }),
-            channels: Channels::new([Channel::FZ, Channel::PZ]).expect("distinct"),
-            attributes: vec!["video".to_owned()],
-            unmentioned_columns: vec!["quality_flags".to_owned()],
-            frames: Some(FramesInfo {
-                count: 3,
-                info: FrameInfo {
-                    width: 4,
-                    height: 2,
-                    format: PixelFormat::Rgb8,
-                },
-                channel_order: ChannelOrder::Bgr,
-                reference: None,
-            }),
-            presses: BTreeMap::from([
-                (PressOutcome::Complete, 2),
-                (PressOutcome::Limited(Limit::NormalForce), 1),
-            ]),
-            table: TableInfo {
-                rows: 3,
-                digest: Digest::of(b"t"),
-                sha256: Digest::of(b"f"),
-            },
-            digest: Digest::of(b"d"),
-            seal: Opened::default(),
-        }
-    }
-
-    #[test]
-    fn a_header_reads_back_as_it_was_written() {
-        let folder = tempfile::tempdir().expect("a folder");
-        std::fs::write(folder.path().join("dataset.toml"), header().to_toml()).expect("written");
-        let held = HeldFolder::open(folder.path()).expect("a folder");
-        let read = Header::read(&held).expect("reads");
-        assert!(read.seal.is_sealed);
-        let unread = Header {
-            seal: Opened::default(),
-            ..read
-        };
-        assert_eq!(unread, header());
-    }
-
-    #[test]
-    fn a_newer_major_is_refused_before_anything_else_is_understood() {
-        let text = b"format = \"2.0\"\nnews = 1\n".to_vec();
-        let message = Header::parse(Path::new("dataset.toml"), text);
-        let message = message.expect_err("newer").to_string();
-        assert!(
-            message.ends_with("format 2.0 needs a newer TacEva; this one reads up to 1.x"),
-            "{message}"
-        );
-    }
-
-    #[test]
-    fn a_newer_minor_may_say_more() {
-        let current = format!("\"{}\"", Version::CURRENT);
-        let text = header().body().replace(&current, "\"1.9\"");
-        let text = taceva_seal::toml_text::seal(&format!("humidity = 40\n{text}"));
-        let text = text.expect("TOML").into_bytes();
-        let header = Header::parse(Path::new("dataset.toml"), text);
-        assert_eq!(
-            header.expect("reads").format,
-            Version { major: 1, minor: 9 }
-        );
-    }
-
-    #[test]
-    fn an_edited_header_is_refused_by_its_key_and_an_older_one_is_read_unsealed() {
-        let parse = |text: &str| Header::parse(Path::new("dataset.toml"), text.as_bytes().to_vec());
-        let sealed = header().to_toml();
-        let edited = sealed.replace("radius_mm = 10.0", "radius_mm = 9.0");
-        let message = parse(&edited).expect_err("edited").to_string();
-        assert!(
-            message
-                .starts_with("dataset.toml: `footprint.radius_mm` was changed after it was sealed"),
-            "{message}"
-        );
-        let body = header().body();
-        let message = parse(&body).expect_err("no seal").to_string();
-        assert!(message.contains("the seal is gone"), "{message}");
-        let current = format!("\"{}\"", Version::CURRENT);
-        let older = parse(&body.replace(&current, "\"1.2\"")).expect("older");
-        assert!(!older.seal.is_sealed);
-        let (_, alone) = sealed.split_once("\n[seal]").expect("sealed");
-        let alone = format!("format = {current}\n[seal]{alone}");
-        assert!(parse(&alone).is_err());
-    }
 }

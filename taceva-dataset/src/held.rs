@@ -101,7 +101,7 @@ impl HeldFolder {
     }
 }
 
-/// Opens for reading; never waits for whoever writes into a FIFO.
+/// Opens for reading; never waits for the writer of a FIFO.
 fn open_in(folder: &File, relative: &str) -> io::Result<File> {
     let flags = OFlags::RDONLY | OFlags::CLOEXEC | OFlags::NONBLOCK;
     Ok(File::from(openat(folder, relative, flags, Mode::empty())?))

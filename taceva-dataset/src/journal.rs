@@ -13,9 +13,10 @@ use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
 
 use sha2::{Digest as _, Sha256};
+use taceva_durable::parent_of;
 
 use crate::error::DatasetError;
-use crate::file::{open_regular, parent_of, sync_folder};
+use crate::file::{make_names_durable, open_regular};
 use crate::limits;
 
 const HEADER: usize = 4 + 1 + 8 + 8;
@@ -50,7 +51,7 @@ impl RecordKind {
 
 /// One whole record.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(crate) struct Record {
+pub(crate) struct JournalRecord {
     pub(crate) kind: RecordKind,
     pub(crate) payload: Vec<u8>,
 }
@@ -68,7 +69,7 @@ pub(crate) struct Journal {
 /// What was found in a journal when it was opened.
 #[derive(Debug, Default)]
 pub(crate) struct Recovered {
-    pub(crate) records: Vec<Record>,
+    pub(crate) records: Vec<JournalRecord>,
     /// Bytes of a torn last record that were cut away.
     pub(crate) cut_bytes: u64,
 }
@@ -89,7 +90,7 @@ impl Journal {
             has_failed: false,
         };
         journal.append(RecordKind::Start, start)?;
-        sync_folder(parent_of(path))?;
+        make_names_durable(parent_of(path))?;
         Ok(journal)
     }
 
@@ -116,7 +117,7 @@ impl Journal {
         // A killed process leaves records and a name that nobody made durable: nothing may be appended behind them before.
         file.sync_all()
             .map_err(DatasetError::io("make durable", path))?;
-        sync_folder(parent_of(path))?;
+        make_names_durable(parent_of(path))?;
         let journal = Journal {
             file,
             path: path.to_owned(),
@@ -188,7 +189,7 @@ fn chained(before: &[u8; CHAIN], header: &[u8; HEADER], payload: &[u8]) -> [u8; 
 
 /// The whole records of a journal and how many bytes they take.
 struct Scanned {
-    records: Vec<Record>,
+    records: Vec<JournalRecord>,
     chain: [u8; CHAIN],
     whole: usize,
 }
@@ -232,7 +233,7 @@ fn scan(bytes: &[u8]) -> Result<Scanned, (usize, &'static str)> {
                 Err((at, "a changed record, and records behind it"))
             };
         }
-        scanned.records.push(Record {
+        scanned.records.push(JournalRecord {
             kind,
             payload: payload.to_vec(),
         });

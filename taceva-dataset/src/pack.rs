@@ -12,11 +12,21 @@ use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
 use crate::error::DatasetError;
-use crate::file::sync_folder;
+use crate::file::make_names_durable;
 use crate::layout;
 use crate::limits;
 
 /// Which bytes of a pack are a frame; written `@OFFSET+LENGTH` behind the path of the pack, and `-first` behind that of a difference.
+///
+/// ```
+/// use taceva_dataset::{Digest, FrameEntry};
+///
+/// let entry = FrameEntry::at("frames/0000.pack@5+7-first", Digest::of(b""));
+/// let span = entry.span.ok_or("it is in a pack")?;
+/// assert_eq!((span.offset, span.length, span.is_difference), (5, 7, true));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Span {
     /// Bytes before it.
@@ -76,7 +86,7 @@ pub(crate) fn read_span(mut file: File, path: &Path, span: Span) -> Result<Vec<u
     let failed = || DatasetError::io("read", path);
     file.seek(SeekFrom::Start(span.offset)).map_err(failed())?;
     let mut bytes = Vec::new();
-    // A pack that ends early gives fewer bytes, which the digest of the frame tells.
+    // A pack that ends early gives fewer bytes, which the digest of the frame shows.
     file.take(u64::from(span.length))
         .read_to_end(&mut bytes)
         .map_err(failed())?;
@@ -127,7 +137,7 @@ impl PackWriter {
             .open(&path)
             .map_err(DatasetError::io("open", &path))?;
         // Even where it is there: a killed process leaves names that nobody made durable.
-        sync_folder(&folder.join(layout::FRAMES))?;
+        make_names_durable(&folder.join(layout::FRAMES))?;
         Ok(PackWriter {
             folder: folder.to_owned(),
             file,
@@ -185,7 +195,7 @@ impl PackWriter {
     }
 }
 
-/// Cuts what lies behind `end` in the packs of the dataset at `folder`: nobody acknowledged it.
+/// Cuts what lies behind `end` in the packs of the dataset at `folder`, which was never acknowledged.
 pub(crate) fn cut_behind(folder: &Path, end: PackEnd) -> Result<(), DatasetError> {
     let path = folder.join(layout::pack_path(end.number));
     match fs::metadata(&path) {

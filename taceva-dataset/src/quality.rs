@@ -1,4 +1,4 @@
-//! Columns of a table that judge its rows.
+//! Columns of a table that rate its rows.
 
 /// What the name of a column says whose rows may not be what they seem.
 const WORDS: [&str; 9] = [

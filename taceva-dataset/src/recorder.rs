@@ -7,12 +7,13 @@ use std::path::{Path, PathBuf};
 use taceva_core::{
     Channels, Field, FieldSet, Frame, FrameInfo, PressOutcome, Sample, SampleSink, SinkError,
 };
+use taceva_durable::parent_of;
 
 use crate::digest::Digest;
 use crate::error::DatasetError;
-use crate::file::{parent_of, sync_folder};
+use crate::file::make_names_durable;
 use crate::header::{Header, ReferenceInfo};
-use crate::journal::{Journal, Record, RecordKind};
+use crate::journal::{Journal, JournalRecord, RecordKind};
 use crate::layout;
 use crate::pack::{PackEnd, PackWriter, cut_behind};
 use crate::samples::from_parquet;
@@ -30,7 +31,18 @@ use folder::{empty_folder, remove_journal};
 use written::{WrittenFrame, WrittenPress, WrittenSample, WrittenStart};
 
 /// What a recording is of.
+///
+/// ```
+/// use taceva_core::{Channel, Channels, Clock};
+/// use taceva_dataset::{RecordingFacts, RecordingSpec, SensorFacts, Source};
+///
+/// let facts = RecordingFacts::new(Source::Recorded, Clock::Monotonic, SensorFacts::new("DIGIT"));
+/// let spec = RecordingSpec::new(facts, Channels::new([Channel::PZ, Channel::FZ])?);
+/// assert_eq!(spec.channels.len(), 2);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct RecordingSpec {
     /// Sensor, clock, source and footprint.
     pub facts: RecordingFacts,
@@ -38,28 +50,24 @@ pub struct RecordingSpec {
     pub channels: Channels,
 }
 
+impl RecordingSpec {
+    /// A recording with `facts`, whose samples have a truth for each of `channels`.
+    pub fn new(facts: RecordingFacts, channels: Channels) -> RecordingSpec {
+        RecordingSpec { facts, channels }
+    }
+}
+
 /// Writes samples as they come. A killed process or a power cut loses at most the sample that was not yet acknowledged.
 ///
 /// ```
 /// use taceva_core::{Channel, Channels, Clock, Readings, Sample};
-/// use taceva_dataset::{Dataset, Known, Recorder, RecordingFacts, RecordingSpec, SensorFacts, Source};
+/// use taceva_dataset::{Dataset, Recorder, RecordingFacts, RecordingSpec, SensorFacts, Source};
 ///
 /// # let folder = tempfile::tempdir()?;
 /// # let path = folder.path().join("recording");
-/// let spec = RecordingSpec {
-///     facts: RecordingFacts {
-///         source: Source::Synthetic,
-///         clock: Clock::Unknown,
-///         sensor: SensorFacts {
-///             model: "my gel".into(),
-///             serial: "7".into(),
-///             gel: "unknown".into(),
-///             opaque: Known::Is(true),
-///         },
-///         footprint: None,
-///     },
-///     channels: Channels::new([Channel::FZ])?,
-/// };
+/// let sensor = SensorFacts::new("my gel").with_serial("7").with_opaque(true);
+/// let facts = RecordingFacts::new(Source::Synthetic, Clock::Unknown, sensor);
+/// let spec = RecordingSpec::new(facts, Channels::new([Channel::FZ])?);
 /// let mut recorder = Recorder::create(&path, &spec)?;
 /// recorder.append(&Sample {
 ///     id: "press 1".into(),
@@ -102,7 +110,7 @@ impl Recorder {
         let lock = empty_folder(path)?;
         let frames = path.join(layout::FRAMES);
         fs::create_dir_all(&frames).map_err(DatasetError::io("create", &frames))?;
-        sync_folder(parent_of(path))?;
+        make_names_durable(parent_of(path))?;
         let start = WrittenStart::new(spec).to_toml();
         let journal = Journal::create(&path.join(layout::JOURNAL), start.as_bytes())?;
         Ok(Recorder::new(path, lock, journal, spec.clone()))
@@ -274,7 +282,7 @@ impl Recorder {
         Ok(header)
     }
 
-    fn replay(&mut self, record: &Record) -> Result<(), String> {
+    fn replay(&mut self, record: &JournalRecord) -> Result<(), String> {
         match record.kind {
             RecordKind::Start => Err("a second beginning".to_owned()),
             RecordKind::Sample => {
@@ -354,7 +362,7 @@ impl Recorder {
     fn put_in_place(&self, from: &Path, name: &str) -> Result<(), DatasetError> {
         let to = self.path.join(name);
         fs::rename(from, &to).map_err(DatasetError::io("rename into place", &to))?;
-        sync_folder(&self.path)
+        make_names_durable(&self.path)
     }
 }
 

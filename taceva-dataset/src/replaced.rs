@@ -10,12 +10,14 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
+use taceva_durable::parent_of;
+
 use crate::error::DatasetError;
-use crate::file::{parent_of, sync_folder};
+use crate::file::make_names_durable;
 use crate::held::is_same;
 use crate::layout;
 
-/// Old datasets of one name that are still read: beyond these nobody sets another aside.
+/// The most old datasets of one name that are kept while they are still read.
 const SET_ASIDE: usize = 64;
 /// How often, and how long each time, a replacement that is between two renames is waited for.
 const WAITS: u32 = 2_000;
@@ -65,7 +67,7 @@ pub fn settle(target: &Path) -> Result<(), DatasetError> {
             continue;
         }
         match fs::rename(&aside, target) {
-            Ok(()) => sync_folder(parent_of(target))?,
+            Ok(()) => make_names_durable(parent_of(target))?,
             // Somebody else was faster.
             Err(_) if exists(target) => {}
             Err(error) => return Err(DatasetError::io("put back", &aside)(error)),
@@ -77,7 +79,7 @@ pub fn settle(target: &Path) -> Result<(), DatasetError> {
 /// Removes what is left of the predecessors of the dataset at `target`, once it is certain that a power cut cannot bring them back.
 fn clear_beside(target: &Path, partial: &Path, first: &Path) {
     let (is_partial, is_aside) = (exists(partial), exists(first));
-    if !(is_partial || is_aside) || sync_folder(parent_of(target)).is_err() {
+    if !(is_partial || is_aside) || make_names_durable(parent_of(target)).is_err() {
         return;
     }
     if is_partial {
@@ -112,7 +114,7 @@ fn set_aside(target: &Path) -> Option<PathBuf> {
     found.pop()
 }
 
-/// Whether somebody holds the folder at `partial`: whoever writes there.
+/// Whether a process holds the folder at `partial`, which it writes.
 fn is_at_work(partial: &Path) -> bool {
     matches!(
         File::open(partial).map(|folder| folder.try_lock()),
@@ -120,7 +122,7 @@ fn is_at_work(partial: &Path) -> bool {
     )
 }
 
-/// Removes the folder at `path` if it is a leftover of ours that nobody reads or writes; otherwise leaves it to the next one.
+/// Removes the folder at `path` if it is a leftover of ours that no process reads or writes; otherwise leaves it to the next call.
 pub(crate) fn clear(path: &Path) {
     if let Ok(folder) = File::open(path)
         && folder.try_lock().is_ok()
@@ -141,7 +143,7 @@ pub(crate) fn remove(path: &Path) -> io::Result<()> {
     fs::remove_dir_all(path)
 }
 
-/// Takes the dataset that stood in place out of `path`: removed if nobody reads it, set aside until then if somebody does.
+/// Takes the dataset that stood in place out of `path`: removed if no process reads it, else set aside until none does.
 pub(crate) fn retire(path: &Path, target: &Path) {
     clear(path);
     if exists(path) {

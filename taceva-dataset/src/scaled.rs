@@ -11,6 +11,16 @@ use crate::limits;
 ///
 /// A pixel is the mean of those it stands for, but for rounding and for what the coefficients that are left out would have carried over the
 /// border of a block. Edges that are no whole multiple are rounded up.
+///
+/// ```
+/// use taceva_core::{FrameInfo, PixelFormat};
+/// use taceva_dataset::DecodeScale;
+///
+/// let info = FrameInfo { width: 640, height: 481, format: PixelFormat::Rgb8 };
+/// let quarter = DecodeScale::Quarter.of(info);
+/// assert_eq!((quarter.width, quarter.height), (160, 121));
+/// ```
+#[non_exhaustive]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum DecodeScale {
     /// As it was taken.

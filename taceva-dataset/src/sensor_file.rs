@@ -20,7 +20,17 @@ use crate::toml_file::{parse_toml, read_toml_text, toml_error};
 /// half_x_mm = 8.0
 /// half_y_mm = 10.0
 /// ```
+///
+/// ```
+/// # let folder = tempfile::tempdir()?;
+/// # let path = folder.path().join("sensor.toml");
+/// std::fs::write(&path, "model = \"DIGIT\"\nopaque = true\n")?;
+/// let sensor = taceva_dataset::SensorFile::read(&path)?;
+/// assert_eq!((sensor.model.as_deref(), sensor.opaque), (Some("DIGIT"), Some(true)));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Debug, Default, PartialEq)]
+#[non_exhaustive]
 pub struct SensorFile {
     /// The sensor model.
     pub model: Option<String>,

@@ -5,8 +5,10 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
+use taceva_durable::parent_of;
+
 use crate::error::DatasetError;
-use crate::file::{parent_of, sync_folder};
+use crate::file::make_names_durable;
 use crate::held::is_same;
 use crate::replaced;
 use crate::text::shown;
@@ -25,7 +27,7 @@ pub(crate) enum Place {
 
 /// A hidden sibling of the target, renamed into place once everything in it is durable and removed if that never happens.
 ///
-/// It is locked while in use, so that the leftover of a killed process is told from the work of a living one.
+/// It is locked while in use, so that the leftover of a killed process is distinguished from the work of a running one.
 #[derive(Debug)]
 pub(crate) struct StagedFolder {
     target: PathBuf,
@@ -100,9 +102,9 @@ impl StagedFolder {
         exchange: impl Fn(&Path, &Path) -> io::Result<bool>,
     ) -> Result<(), DatasetError> {
         for folder in folders {
-            sync_folder(&self.path.join(folder))?;
+            make_names_durable(&self.path.join(folder))?;
         }
-        sync_folder(&self.path)?;
+        make_names_durable(&self.path)?;
         check_place(&self.target, self.place)?;
         let replaces = fs::symlink_metadata(&self.target).is_ok();
         let swapped = |exchanged: io::Result<bool>| {
@@ -126,7 +128,7 @@ impl StagedFolder {
             }
             Some(aside)
         };
-        if let Err(error) = sync_folder(parent_of(&self.target)) {
+        if let Err(error) = make_names_durable(parent_of(&self.target)) {
             // Nobody knows whether the name would survive: an error promises that the target is what it was.
             let _ = match &old {
                 None => fs::rename(&self.target, &self.path),

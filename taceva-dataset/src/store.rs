@@ -1,4 +1,4 @@
-//! The last step of every dataset: the table and the header are written, and say what each other must be.
+//! The last step of every dataset: table and header are written, each with the digests that the other must have.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -15,7 +15,17 @@ use crate::version::Version;
 use taceva_seal::Opened;
 
 /// What is known about a recording before its first sample.
+///
+/// ```
+/// use taceva_core::Clock;
+/// use taceva_dataset::{Footprint, RecordingFacts, SensorFacts, Source};
+///
+/// let facts = RecordingFacts::new(Source::Recorded, Clock::Monotonic, SensorFacts::new("DIGIT"))
+///     .with_footprint(Footprint::rectangle(8.0, 10.0));
+/// assert!(facts.footprint.is_some());
+/// ```
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct RecordingFacts {
     /// Real, simulated or made up.
     pub source: Source,
@@ -25,6 +35,27 @@ pub struct RecordingFacts {
     pub sensor: SensorFacts,
     /// Where the sensor senses, if it is known.
     pub footprint: Option<Footprint>,
+}
+
+impl RecordingFacts {
+    /// Facts without a footprint.
+    pub fn new(source: Source, clock: Clock, sensor: SensorFacts) -> RecordingFacts {
+        RecordingFacts {
+            source,
+            clock,
+            sensor,
+            footprint: None,
+        }
+    }
+
+    /// The same with the part of the gel that the sensor senses with.
+    #[must_use]
+    pub fn with_footprint(self, footprint: Footprint) -> RecordingFacts {
+        RecordingFacts {
+            footprint: Some(footprint),
+            ..self
+        }
+    }
 }
 
 /// Writes the table and the header to the given files, durable but for their names.

@@ -15,6 +15,20 @@ pub(crate) use cells::{Cells, NamedColumn, RESERVED, is_attribute_name};
 pub use row::{FrameEntry, Row};
 
 /// All labels of a recording.
+///
+/// ```
+/// use taceva_core::{Channel, Channels};
+/// use taceva_dataset::{Row, Table};
+///
+/// let mut table = Table::new(Channels::new([Channel::FZ])?, vec!["video".into()]);
+/// let mut row = Row::new("press 1");
+/// row.truth = vec![Some(0.5)];
+/// row.attributes = vec![None];
+/// table.push(row);
+/// assert_eq!((table.rows(), table.truth(0).get(0)), (1, Some(0.5)));
+/// assert_eq!(table.attribute("video"), Some(&[None][..]));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Table {
     channels: Channels,
@@ -297,7 +311,7 @@ impl Table {
         self.intensity[row] = Some(intensity);
     }
 
-    /// Every column that says something, in the one order in which tables are digested, stored and exported.
+    /// Every column that holds a value, in the one order in which tables are digested, stored and exported.
     pub(crate) fn columns(&self) -> Vec<NamedColumn<'_>> {
         let named = |name, cells| NamedColumn { name, cells };
         let mut columns = vec![

@@ -8,6 +8,15 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer, de};
 /// A version of the dataset format, written `major.minor`.
 ///
 /// A minor adds and never changes a meaning, so any minor of a known major can be read; a newer major cannot.
+///
+/// ```
+/// use taceva_dataset::Version;
+///
+/// let newer: Version = "1.9".parse()?;
+/// assert!(newer > Version::CURRENT && newer.is_readable());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Version {
     /// Raised when a meaning changes.

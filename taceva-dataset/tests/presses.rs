@@ -8,24 +8,19 @@ use taceva_core::{
     Readings, Sample,
 };
 use taceva_dataset::{
-    Dataset, DatasetError, Known, Recorder, RecordingFacts, RecordingSpec, SensorFacts, Source,
+    Dataset, DatasetError, Recorder, RecordingFacts, RecordingSpec, SensorFacts, Source,
 };
 
 fn spec() -> RecordingSpec {
-    RecordingSpec {
-        facts: RecordingFacts {
-            source: Source::Simulated,
-            clock: Clock::Monotonic,
-            sensor: SensorFacts {
-                model: "bench".into(),
-                serial: "1".into(),
-                gel: "2".into(),
-                opaque: Known::Is(false),
-            },
-            footprint: None,
-        },
-        channels: Channels::new([Channel::PX, Channel::FZ]).expect("distinct"),
-    }
+    let sensor = SensorFacts::new("bench")
+        .with_serial("1")
+        .with_gel("2")
+        .with_opaque(false);
+    let facts = RecordingFacts::new(Source::Simulated, Clock::Monotonic, sensor);
+    RecordingSpec::new(
+        facts,
+        Channels::new([Channel::PX, Channel::FZ]).expect("distinct"),
+    )
 }
 
 fn sample(press: &str, number: u8, width: u32) -> Sample {

@@ -1,7 +1,7 @@
-//! What every driver must hold to, whoever wrote it: run a factory through these and read the [`Report`].
+//! The contract of every driver, as checks: run a factory through them and read the [`Report`].
 //!
 //! The suites check the contract of [`Sensor`](taceva_core::Sensor), [`Robot`](taceva_core::Robot),
-//! [`ForceTransducer`](taceva_core::ForceTransducer) and [`Lighting`](taceva_core::Lighting): that the descriptor tells the
+//! [`ForceTransducer`](taceva_core::ForceTransducer) and [`Lighting`](taceva_core::Lighting): that the descriptor states the
 //! truth, deadlines are kept, a halt from another thread stops and latches, numbers that are not finite are refused, and calls
 //! out of order are answered with a typed error. Each check opens the device anew.
 //!

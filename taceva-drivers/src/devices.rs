@@ -105,7 +105,7 @@ pub struct ListedDriver {
     /// The scenes of the light that it can set.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub scenes: Vec<String>,
-    /// What it may be told.
+    /// The arguments that it accepts.
     pub arguments: Vec<ListedArgument>,
 }
 

@@ -1,4 +1,4 @@
-//! Which driver, and what it is told: `sim/gelsight:seed=3;unit=2`.
+//! Which driver, and its arguments: `sim/gelsight:seed=3;unit=2`.
 
 use std::fmt;
 use std::str::FromStr;

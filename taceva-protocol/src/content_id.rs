@@ -4,7 +4,7 @@ use std::fmt;
 
 /// The name of a press or a plan: 128 bits of its content, written as 32 hexadecimal digits.
 ///
-/// It tells accidents apart, not attacks: the hash is FNV-1a, which anybody can collide on purpose.
+/// The hash is FNV-1a: different contents collide by accident with negligible probability, but collisions can be made on purpose.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct ContentId(u128);
 

@@ -1,4 +1,4 @@
-//! The limits of a rig: the tightest that anybody states. Nothing switches them off, nothing loosens them.
+//! The limits of a rig: the tightest that scene, study or device states. They cannot be switched off or loosened.
 
 use taceva_core::{DriverSource, Millimetre, Newton, Wrench};
 

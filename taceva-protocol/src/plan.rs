@@ -103,7 +103,7 @@ impl Plan {
         Channels::new(channels).unwrap_or_default()
     }
 
-    /// What metrics are told of the sensor; the scene of light that others are compared with is that of calibration.
+    /// The facts of the sensor that metrics read; the scene of light that others are compared with is that of calibration.
     pub fn sensor_facts(&self) -> SensorFacts {
         let depth_max_mm = self.limits.as_ref().map(|limits| limits.depth_max.0);
         let footprint = self

@@ -12,7 +12,7 @@ const COARSEST: Nanometre = Nanometre(1_750_000);
 const STEP: Nanometre = Nanometre(50_000);
 const CATALOGUE: &str = "0.25 mm to 1.75 mm in steps of 0.05 mm, lines and dots";
 
-/// Why gratings cannot be had.
+/// Why gratings are refused.
 pub(crate) struct RefusedGratings {
     /// Where it was written.
     pub(crate) at: Option<usize>,

@@ -10,7 +10,7 @@ pub enum SealError {
         what(key)
     )]
     Changed {
-        /// The key whose value is another, where it can be told.
+        /// The key whose value is another, where it is known.
         key: Option<String>,
     },
     /// Its version says that there must be a seal.

@@ -1,8 +1,8 @@
-//! What a file says about its seal and about the edits that were accepted.
+//! The seal of a file and its history of accepted edits.
 
 use serde::{Deserialize, Serialize};
 
-/// An edit that somebody accepted.
+/// An accepted edit.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Edit {
@@ -12,7 +12,7 @@ pub struct Edit {
     pub from: String,
     /// The digest of the content that was accepted, without this entry.
     pub to: String,
-    /// Why, in the words of whoever accepted it.
+    /// Why, in the words of the person who accepted it.
     pub reason: String,
 }
 
@@ -28,7 +28,7 @@ impl std::fmt::Display for Edit {
     }
 }
 
-/// Enough of a digest to tell it from another.
+/// Enough digits of a digest to distinguish it from another.
 fn short(digest: &str) -> &str {
     digest.get(..15).unwrap_or(digest)
 }
@@ -42,7 +42,7 @@ pub enum Version {
     BeforeSeals,
 }
 
-/// A file that may be believed.
+/// A file whose seal holds, or that is older than seals.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Opened {
     /// Whether it had a seal, which holds.

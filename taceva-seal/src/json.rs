@@ -36,7 +36,7 @@ pub fn seal_with(text: &str, attached: &[(&str, &[u8])]) -> Result<String, SealE
 /// Whether `text` says what it said when it was sealed.
 ///
 /// # Errors
-/// [`SealError`]: changed, with the key where it can be told; the seal gone that a file of this version has; a seal alone.
+/// [`SealError`]: changed, with the key where it is known; the seal gone that a file of this version has; a seal alone.
 pub fn check(text: &str, version: Version) -> Result<Opened, SealError> {
     check_with(text, &[], version)
 }
@@ -67,7 +67,7 @@ pub fn check_with(
     }
 }
 
-/// `text` as it is now, accepted: with one more entry of its history and a seal that holds. What holds already stays as it is.
+/// `text` accepted as it is: with one more entry of its history and a seal that holds. A text whose seal holds already is returned unchanged.
 ///
 /// # Errors
 /// [`SealError::Content`] if it is no JSON object; [`SealError::Alone`].
@@ -95,8 +95,8 @@ pub fn reseal(text: &str, date: &str, reason: &str) -> Result<String, SealError>
     value.remove(HISTORY);
     let history = serde_json::to_string(&history).map_err(|error| content(error.to_string()))?;
     let bare = serde_json::to_string_pretty(&value).map_err(|error| content(error.to_string()))?;
-    let told = with_entries(&bare, &[(HISTORY, history)])?;
-    Ok(format!("{}\n", seal(&told)?.trim_end()))
+    let edited = with_entries(&bare, &[(HISTORY, history)])?;
+    Ok(format!("{}\n", seal(&edited)?.trim_end()))
 }
 
 /// What is known of a text.
@@ -119,12 +119,12 @@ impl Parsed {
         let history = match entries.contains_key(HISTORY) {
             true => {
                 #[derive(serde::Deserialize)]
-                struct Told {
+                struct HistoryOnly {
                     history: Vec<Edit>,
                 }
-                let told: Told =
+                let only: HistoryOnly =
                     serde_json::from_str(text).map_err(|error| content(error.to_string()))?;
-                told.history
+                only.history
             }
             false => Vec::new(),
         };

@@ -5,9 +5,9 @@ use std::collections::BTreeMap;
 use crate::canonical::Canonical;
 use crate::written::hexadecimal;
 
-/// Keys within keys that are told apart.
+/// How deep keys within keys are distinguished.
 const LEVELS: usize = 3;
-/// Beyond so many, keys are not told apart.
+/// Beyond so many, keys are not distinguished.
 const MOST: usize = 4_096;
 
 /// The first digits of the digest of each value, by its key: `metrics.mae.Fz`, `studies[1].provenance.seed`.

@@ -30,7 +30,7 @@ pub fn seal(body: &str) -> Result<String, SealError> {
 /// Whether `text` is what it was when it was sealed.
 ///
 /// # Errors
-/// [`SealError`]: changed, with the key where it can be told; the seal gone that a file of this version has; a seal alone.
+/// [`SealError`]: changed, with the key where it is known; the seal gone that a file of this version has; a seal alone.
 pub fn check(text: &str, version: Version) -> Result<Opened, SealError> {
     let Some((body, seal)) = split(text) else {
         return match version {
@@ -61,7 +61,7 @@ pub fn check(text: &str, version: Version) -> Result<Opened, SealError> {
     })
 }
 
-/// `text` as it is now, accepted: with one more entry of its history and a seal that holds. What holds already stays as it is.
+/// `text` accepted as it is: with one more entry of its history and a seal that holds. A text whose seal holds already is returned unchanged.
 ///
 /// # Errors
 /// [`SealError::Content`] if it is no TOML; [`SealError::Alone`].
@@ -143,12 +143,12 @@ fn keys_of(body: &str) -> Result<Keys, SealError> {
 
 fn history_of(body: &str) -> Result<Vec<Edit>, SealError> {
     #[derive(serde::Deserialize)]
-    struct Told {
+    struct HistoryOnly {
         #[serde(default)]
         history: Vec<Edit>,
     }
-    let told: Told = toml::from_str(body).map_err(|error| content(error.message()))?;
-    Ok(told.history)
+    let only: HistoryOnly = toml::from_str(body).map_err(|error| content(error.message()))?;
+    Ok(only.history)
 }
 
 fn content(problem: &str) -> SealError {

@@ -12,7 +12,7 @@ use std::path::Path;
 use taceva_core::Outline;
 use taceva_dataset::{
     Dataset, DatasetError, Footprint, Known, Recorder, RecordingFacts, RecordingSpec, SensorFacts,
-    Shape, Source,
+    Source,
 };
 use taceva_protocol::{Cancel, Controls, Event, Mode, Plan, RunSpec, run};
 
@@ -126,24 +126,18 @@ fn acquire_unit(
 fn recording_spec(study: &PlannedStudy, open: &OpenRig, is_simulated: bool) -> RecordingSpec {
     let plan = &study.plan;
     let gel = open.surroundings.gel.clone();
-    RecordingSpec {
-        facts: RecordingFacts {
-            source: if is_simulated {
-                Source::Simulated
-            } else {
-                Source::Recorded
-            },
-            clock: taceva_core::Clock::Monotonic,
-            sensor: SensorFacts {
-                model: plan.name.clone(),
-                serial: plan.units.join(", "),
-                gel: gel.unwrap_or_else(|| "unknown".to_owned()),
-                opaque: plan.opaque.map_or(Known::Unknown, Known::Is),
-            },
-            footprint: footprint(plan),
-        },
-        channels: plan.truth_channels(),
+    let source = match is_simulated {
+        true => Source::Simulated,
+        false => Source::Recorded,
+    };
+    let mut sensor = SensorFacts::new(&plan.name).with_serial(plan.units.join(", "));
+    sensor.opaque = plan.opaque.map_or(Known::Unknown, Known::Is);
+    if let Some(gel) = gel {
+        sensor = sensor.with_gel(gel);
     }
+    let mut facts = RecordingFacts::new(source, taceva_core::Clock::Monotonic, sensor);
+    facts.footprint = footprint(plan);
+    RecordingSpec::new(facts, plan.truth_channels())
 }
 
 /// Where the sensor senses and how deep it is pressed, as recordings write it.
@@ -151,24 +145,15 @@ fn footprint(plan: &Plan) -> Option<Footprint> {
     let footprint = plan.footprint?;
     let of_gel = footprint.depth_max().map(|depth| depth.to_millimetres());
     let limit = plan.limits.as_ref().map(|limits| limits.depth_max.0);
-    let rectangle = Footprint {
-        shape: Shape::Rect,
-        radius_mm: None,
-        half_x_mm: None,
-        half_y_mm: None,
-        depth_max_mm: of_gel.or(limit),
+    let written = match footprint.outline() {
+        Outline::Disc { radius } => Footprint::disc(radius.to_millimetres()),
+        Outline::Rectangle { half_x, half_y } => {
+            Footprint::rectangle(half_x.to_millimetres(), half_y.to_millimetres())
+        }
+        _ => return None,
     };
-    match footprint.outline() {
-        Outline::Disc { radius } => Some(Footprint {
-            shape: Shape::Disc,
-            radius_mm: Some(radius.to_millimetres()),
-            ..rectangle
-        }),
-        Outline::Rectangle { half_x, half_y } => Some(Footprint {
-            half_x_mm: Some(half_x.to_millimetres()),
-            half_y_mm: Some(half_y.to_millimetres()),
-            ..rectangle
-        }),
-        _ => None,
-    }
+    Some(match of_gel.or(limit) {
+        Some(depth_max_mm) => written.with_depth_max(depth_max_mm),
+        None => written,
+    })
 }

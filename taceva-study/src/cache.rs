@@ -42,12 +42,12 @@ const LAYOUT: &str = "2";
 const BEFORE: &str = "1";
 /// Where entries are written before they are whole.
 const PARTIAL: &str = "partial";
-/// Nobody writes a result for so long.
+/// No run takes longer to write a result.
 const ABANDONED: Duration = Duration::from_secs(24 * 60 * 60);
 
 /// A folder in which runs find what others have finished, and what was found there by one run.
 ///
-/// It never stops a run: where it cannot be read or written, stages are made anew and [`notes`](Cache::notes) say why. Any number of
+/// A cache never stops a run: where it cannot be read or written, stages are carried out again and [`notes`](Cache::notes) say why. Any number of
 /// runs may share one, because an entry appears whole and under a name that only equal entries have.
 #[derive(Debug)]
 pub struct Cache {
@@ -117,7 +117,7 @@ impl Cache {
         self.folder.join(LAYOUT).join(PARTIAL)
     }
 
-    /// Has `write` write an entry beside its place and moves it there, unless another run was faster.
+    /// Writes an entry by `write` beside its place and renames it, unless another run was faster.
     ///
     /// `write` makes a file or a folder and refuses one that is there.
     fn put(&self, key: &Key, write: impl Fn(&Path) -> io::Result<()>) {
@@ -129,7 +129,7 @@ impl Cache {
         }
     }
 
-    /// Has the file `bytes` stand for `key` from now on, whatever stood there.
+    /// Replaces the entry of `key` by the file `bytes`.
     fn put_anew(&self, key: &Key, bytes: &[u8]) {
         let entry = self.entry(key);
         let write = |beside: &Path| {
@@ -174,7 +174,7 @@ impl Cache {
         self.note(format!("{} cannot be used: {error}", shown(entry)));
     }
 
-    /// Removes an entry that is not what was written; what it was is made again.
+    /// Removes a damaged entry; its stage is carried out again.
     fn discard(&self, key: &Key, problem: &str) {
         let entry = self.entry(key);
         let removed = remove(&entry);

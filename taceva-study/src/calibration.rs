@@ -72,7 +72,7 @@ pub(crate) fn calibration_note(
     let shares: Vec<String> = shares.filter_map(|channel| text(channel.name())).collect();
     Ok((!shares.is_empty()).then(|| {
         format!(
-            "within 1.96 predicted standard deviations of the truth lie {}; 95 % do where deviations are rightly told",
+            "within 1.96 predicted standard deviations of the truth lie {}; 95 % would if the deviations were calibrated",
             shares.join(", ")
         )
     }))

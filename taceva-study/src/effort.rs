@@ -25,7 +25,7 @@ impl Effort {
     /// Of [`fit`](crate::fit).
     ///
     /// # Errors
-    /// [`StudyError`] if the request cannot be meant.
+    /// [`StudyError`] if the request is not valid.
     pub fn of_fit(dataset: &Dataset, request: &FitRequest) -> Result<Effort, StudyError> {
         Ok(Effort::of_plan(&FitPlan::new(dataset, request)?))
     }
@@ -33,7 +33,7 @@ impl Effort {
     /// Of [`evaluate`](crate::evaluate).
     ///
     /// # Errors
-    /// [`StudyError`] if the request cannot be meant.
+    /// [`StudyError`] if the request is not valid.
     pub fn of_evaluation(
         dataset: &Dataset,
         request: &EvaluateRequest,

@@ -42,7 +42,7 @@ pub struct EvaluateRequest {
     pub sensor: Option<SensorFile>,
 }
 
-/// Where the model comes from.
+/// The model: to be fitted, or finished.
 #[derive(Debug)]
 pub enum ModelChoice {
     /// Fitted on the training part first.
@@ -65,7 +65,7 @@ pub struct Evaluated {
 /// Says what [`evaluate`] would do; reads no frame.
 ///
 /// # Errors
-/// [`StudyError`] if the request cannot be meant.
+/// [`StudyError`] if the request is not valid.
 pub fn evaluate_plan(dataset: &Dataset, request: &EvaluateRequest) -> Result<Plan, StudyError> {
     let mut plan = Plan::default();
     let rows = dataset.table().rows();
@@ -117,7 +117,7 @@ pub fn evaluate_plan(dataset: &Dataset, request: &EvaluateRequest) -> Result<Pla
 /// Evaluates `dataset`: fits the model if that was asked for, predicts what it has not seen, and scores.
 ///
 /// # Errors
-/// [`StudyError`] if the request cannot be meant, the model does not fit the dataset, or the dataset cannot be read.
+/// [`StudyError`] if the request is not valid, the model does not fit the dataset, or the dataset cannot be read.
 pub fn evaluate(
     dataset: &Dataset,
     request: &EvaluateRequest,
@@ -246,7 +246,7 @@ fn divided_as(divided: &Divided) -> String {
     )
 }
 
-/// That scores are no measure of what a model has not seen.
+/// A note that scores are of samples that the model was fitted on.
 fn seen_note(target: &Target) -> Option<String> {
     let divided = target.divided.as_ref()?;
     let is_seen = match target.part {

@@ -37,7 +37,7 @@ pub(crate) fn of_dataset(
     })
 }
 
-/// What `file` says, and `otherwise` where it is silent.
+/// The facts of `file`, and those of `otherwise` where it has none.
 pub(crate) fn of_file(file: &SensorFile, otherwise: SensorFacts) -> SensorFacts {
     SensorFacts {
         footprint: file.footprint.or(otherwise.footprint),

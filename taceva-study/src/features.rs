@@ -48,11 +48,7 @@ fn make(
 ) -> Result<Features, StudyError> {
     let shape = extractor.shape();
     let mut values = Vec::with_capacity(rows.len() * shape.len());
-    let pass = Pass {
-        rows,
-        jobs: work.jobs,
-        progress: work.progress,
-    };
+    let pass = Pass::new(rows, work.jobs, work.progress);
     dataset.map_frames(
         pass,
         |_, frame| {

@@ -8,7 +8,6 @@ mod cache;
 mod calibration;
 pub mod check;
 mod classifier;
-mod durable;
 mod effort;
 mod error;
 mod evaluate;

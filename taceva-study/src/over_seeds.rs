@@ -1,4 +1,4 @@
-//! What scores become when the same model is fitted again with other seeds: how much of a number is the luck of its training.
+//! What scores become when the same model is fitted again with other seeds: how much they vary with the random numbers of a training.
 
 use serde::Serialize;
 use taceva_core::Field;

@@ -1,4 +1,4 @@
-//! A recording of a run: its plan, beside it, says which presses teach a model.
+//! A recording of a run: its plan, beside it, says which presses a model is fitted on.
 
 use std::fs;
 use std::path::Path;
@@ -10,7 +10,7 @@ use taceva_dataset::Dataset;
 use crate::error::StudyError;
 use crate::run::{PLANS, RECORDINGS};
 
-/// What a reader of a result must know whose split was made so; on the card of a model it says how to make the split again.
+/// The note of a result with such a split; on the card of a model it says how to make the split again.
 pub(crate) const NOTE: &str =
     "divided among the calibration presses of the run, as its plan does; all others are left out";
 
@@ -22,7 +22,7 @@ pub(crate) struct PlannedRows {
     pub(crate) seed: u64,
 }
 
-/// What is read of `plans.json`, schema `taceva.plans/1`.
+/// The part of `plans.json` that is read, schema `taceva.plans/1`.
 #[derive(Deserialize)]
 struct Plans {
     seed: u64,

@@ -61,7 +61,7 @@ pub struct Provenance {
 }
 
 impl Provenance {
-    /// What `dataset` itself tells.
+    /// The provenance of `dataset` itself.
     pub(crate) fn of(dataset: &Dataset) -> Provenance {
         let digest = dataset.digest().to_string();
         let presses = &dataset.header().presses;

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use taceva_core::{Channel, Channels, shown};
+use taceva_core::{Channel, Channels, Field, shown};
 use taceva_dataset::{Dataset, Table};
 use taceva_models::{
     Model, Part as SplitPart, Split, SplitInput, SplitKind, SplitManifest, SplitSpec,
@@ -10,6 +10,20 @@ use taceva_models::{
 
 use crate::error::StudyError;
 use crate::planned_rows::{self, PlannedRows};
+
+/// What a table of samples says beside channels, in its order.
+pub(crate) const BESIDE_CHANNELS: [Field; 10] = [
+    Field::Point,
+    Field::UnitId,
+    Field::Scene,
+    Field::DepthStep,
+    Field::Repeat,
+    Field::Phase,
+    Field::Stamp,
+    Field::Kind,
+    Field::Spacing,
+    Field::Intensity,
+];
 
 /// The part of a dataset that is looked at.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

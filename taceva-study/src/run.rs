@@ -1,6 +1,7 @@
 //! A whole scene, end to end: acquire every study, then fit, predict and score it.
 
 mod folder;
+mod layout;
 
 use std::num::NonZeroUsize;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -17,7 +18,7 @@ use crate::scene::{PlannedScene, PlannedStudy, StudySource};
 use crate::stage::{RunContext, assess};
 use crate::work::Work;
 pub use folder::{Existing, RunFolder};
-pub(crate) use folder::{PLANS, RECORDINGS};
+pub(crate) use layout::{PLANS, RECORDINGS};
 
 /// The reports of the studies of `scene`, in order; what is acquired is recorded in `folder`, several studies at a time.
 ///
@@ -89,7 +90,7 @@ fn acquire_all(
     let done = done.into_inner().unwrap_or_else(PoisonError::into_inner);
     let done: Vec<Result<Dataset, StudyError>> = done.into_iter().flatten().collect();
     let (datasets, mut errors): (Vec<_>, Vec<_>) = done.into_iter().partition(Result::is_ok);
-    // Studies that were only told to stop say less than the one that failed.
+    // Studies that were cancelled come after the one that failed.
     errors.sort_by_key(|result| matches!(result, Err(error) if is_cancelled(error)));
     errors.into_iter().chain(datasets).collect()
 }

@@ -9,6 +9,7 @@ use taceva_dataset::Dataset;
 
 use crate::error::StudyError;
 use crate::predict::{Predicted, truth};
+use crate::rows::BESIDE_CHANNELS;
 
 /// The samples of a recording, column by column.
 ///
@@ -27,20 +28,6 @@ enum SampleColumn {
     Numbers(Column),
 }
 
-/// What the table says beside the channels, in its order.
-const BESIDE: [Field; 10] = [
-    Field::Point,
-    Field::UnitId,
-    Field::Scene,
-    Field::DepthStep,
-    Field::Repeat,
-    Field::Phase,
-    Field::Stamp,
-    Field::Kind,
-    Field::Spacing,
-    Field::Intensity,
-];
-
 impl Samples {
     /// The samples of `rows` of `dataset`, in their order, without predictions.
     pub(crate) fn of(dataset: &Dataset, rows: &[usize]) -> Result<Samples, StudyError> {
@@ -55,7 +42,7 @@ impl Samples {
             columns: vec![("id".to_owned(), SampleColumn::Words(ids))],
             recording: Some(dataset.path().to_owned()),
         };
-        for field in BESIDE {
+        for field in BESIDE_CHANNELS {
             if let Some(texts) = table.as_text(field.name()) {
                 samples.push(field.name(), SampleColumn::Words(words(&texts)));
             }

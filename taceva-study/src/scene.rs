@@ -2,16 +2,16 @@
 
 mod instead;
 mod rig;
+mod settings;
 mod text;
 
-use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use serde::ser::{Serialize, SerializeStruct, Serializer};
 use taceva_core::FieldSet;
 use taceva_dataset::{Dataset, Known};
 use taceva_drivers::Drivers;
-use taceva_models::{Models, SettingError, Settings};
+use taceva_models::Models;
 use taceva_protocol::{
     GratingClassifier, Plan, RecordingInfo, Scene, SceneError, SceneProblem, SourceInfo, Study,
     plan,
@@ -23,6 +23,7 @@ use crate::fit::{FitRequest, Recipe};
 
 pub use instead::Instead;
 pub(crate) use rig::RigSpec;
+pub(crate) use settings::settings_of;
 pub use text::SceneText;
 
 /// A scene with the plan of each of its studies.
@@ -189,22 +190,7 @@ impl PlannedStudy {
     }
 }
 
-/// Settings as a scene writes them, by name.
-///
-/// # Errors
-/// [`SettingError`] for a name that is none.
-pub(crate) fn settings_of(set: &BTreeMap<String, toml::Value>) -> Result<Settings, SettingError> {
-    let words: Vec<String> = set
-        .iter()
-        .map(|(key, value)| match value {
-            toml::Value::String(text) => format!("{key}={text}"),
-            other => format!("{key}={other}"),
-        })
-        .collect();
-    Settings::parse(words.iter().map(String::as_str))
-}
-
-/// What a study is fed from, for the planner and for those who carry the plan out.
+/// The source of the samples of a study, for the planner and for the run.
 struct Source {
     info: SourceInfo,
     source: StudySource,

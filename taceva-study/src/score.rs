@@ -2,14 +2,12 @@
 
 mod fields;
 mod paired_rows;
+mod request;
 mod tables;
 
 use std::collections::BTreeMap;
-use std::num::NonZeroUsize;
-use std::path::PathBuf;
-use taceva_core::shown;
 
-use taceva_core::{Channel, Column, Progress, Unit};
+use taceva_core::{Channel, Column, Progress, shown};
 use taceva_dataset::{CsvTable, SensorFile};
 use taceva_metrics::{MetricPlan, SensorFacts, catalogue};
 
@@ -30,24 +28,7 @@ use fields::Place;
 use paired_rows::PairedRows;
 use tables::Pairing;
 
-/// What to score.
-#[derive(Clone, Debug)]
-pub struct ScoreRequest {
-    /// The table of what is true.
-    pub truth: PathBuf,
-    /// The table of what was predicted.
-    pub prediction: PathBuf,
-    /// Units of channels beside the six; those not named have the unit 1.
-    pub units: Vec<(String, Unit)>,
-    /// What is known of the sensor: a file with footprint, greatest depth, opacity.
-    pub sensor: Option<PathBuf>,
-    /// Metrics and groups by name.
-    pub metrics: Vec<String>,
-    /// Whether cells that are no finite number are counted instead of refused.
-    pub allow_invalid: bool,
-    /// Threads.
-    pub jobs: NonZeroUsize,
-}
+pub use request::ScoreRequest;
 
 /// Finished scores of two tables.
 #[derive(Debug)]

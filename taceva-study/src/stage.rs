@@ -1,18 +1,17 @@
 //! From the recording of a study to its report: fit, predict and score, each on the presses that the plan assigns to it.
 
+mod context;
 mod gratings;
 mod phase_rows;
 mod score;
 
-use std::path::Path;
-
 use taceva_dataset::Dataset;
 use taceva_metrics::Evaluation;
-use taceva_models::{Checkpoints, Model, Models};
+use taceva_models::{Checkpoints, Model};
 use taceva_protocol::PhaseKind;
 
 use crate::acquire::retried;
-use crate::cache::{CachedStage, Key, StudyCache};
+use crate::cache::{CachedStage, Key};
 use crate::calibration::calibration_note;
 use crate::error::StudyError;
 use crate::fit::{FitPlan, FitRequest, Recipe};
@@ -24,21 +23,11 @@ use crate::rows::{DataPart, Divided, Need, usable};
 use crate::samples::Samples;
 use crate::scene::{PlannedScene, PlannedStudy};
 use crate::subject::Subject;
-use crate::work::Work;
 
+pub(crate) use context::RunContext;
 use gratings::PredictedSpacings;
 use phase_rows::{PhaseRows, seen};
 use score::{Scores, score};
-
-/// How the stages of a study are carried out, where their results are found and kept, and the models there are.
-#[derive(Clone, Copy)]
-pub(crate) struct RunContext<'a> {
-    pub(crate) work: Work<'a>,
-    pub(crate) cache: StudyCache<'a>,
-    pub(crate) models: &'a Models,
-    /// Where the checkpoint of a long training is.
-    pub(crate) checkpoint: &'a Path,
-}
 
 /// The report of `study`, whose recording is `dataset`.
 pub(crate) fn assess(
@@ -134,7 +123,7 @@ pub(crate) fn assess(
     Ok(report.with_samples(samples))
 }
 
-/// The model of a study, and what it has seen.
+/// The model of a study, and the split it was fitted on.
 struct Learnt {
     model: Model,
     divided: Option<Divided>,
@@ -197,7 +186,7 @@ impl Learnt {
         }))
     }
 
-    /// Predictions of everything that a metric reads one of and that the model has not seen.
+    /// Predictions of all rows that a metric reads and that the model was not fitted on.
     fn predict(
         &self,
         study: &PlannedStudy,

@@ -1,4 +1,4 @@
-//! With what a stage is carried out; nothing of it changes what comes out.
+//! Threads, progress and cache of a stage; none of them changes its result.
 
 use std::num::NonZeroUsize;
 
@@ -6,12 +6,12 @@ use taceva_core::Progress;
 
 use crate::cache::Cache;
 
-/// Threads, listener and cache of a stage.
+/// Threads, progress and cache of a stage.
 #[derive(Clone, Copy)]
 pub struct Work<'a> {
     /// Worker threads.
     pub jobs: NonZeroUsize,
-    /// Who listens, and may ask to stop.
+    /// Receives progress, and may cancel.
     pub progress: &'a dyn Progress,
     /// Where features of frames are found and kept; nowhere if absent.
     pub cache: Option<&'a Cache>,

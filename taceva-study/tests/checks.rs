@@ -6,9 +6,7 @@ use std::path::Path;
 use taceva_core::{
     Channel, Channels, Clock, Frame, FrameInfo, PixelFormat, Readings, Sample, Silent, Stamp, Unit,
 };
-use taceva_dataset::{
-    Dataset, Known, Recorder, RecordingFacts, RecordingSpec, SensorFacts, Source,
-};
+use taceva_dataset::{Dataset, Recorder, RecordingFacts, RecordingSpec, SensorFacts, Source};
 use taceva_study::{CheckReport, CheckRequest, Severity, check};
 
 /// A recording without a flaw, sample by sample, to be spoilt.
@@ -43,12 +41,10 @@ impl Recording {
             }
         });
         Recording {
-            facts: SensorFacts {
-                model: "drawn".into(),
-                serial: "1".into(),
-                gel: "2".into(),
-                opaque: Known::Is(true),
-            },
+            facts: SensorFacts::new("drawn")
+                .with_serial("1")
+                .with_gel("2")
+                .with_opaque(true),
             clock: Clock::Monotonic,
             channels: vec![Channel::PX, Channel::FX, Channel::FZ],
             reference: Some(picture(0, 0.0)),
@@ -69,14 +65,10 @@ impl Recording {
     }
 
     fn write(self, path: &Path) -> Dataset {
-        let facts = RecordingFacts {
-            source: Source::Synthetic,
-            clock: self.clock,
-            sensor: self.facts,
-            footprint: None,
-        };
+        let facts = RecordingFacts::new(Source::Synthetic, self.clock, self.facts);
         let channels = Channels::new(self.channels).expect("distinct");
-        let mut recorder = Recorder::create(path, &RecordingSpec { facts, channels }).expect("new");
+        let spec = RecordingSpec::new(facts, channels);
+        let mut recorder = Recorder::create(path, &spec).expect("new");
         if let Some(reference) = &self.reference {
             recorder.append_reference(reference).expect("recorded");
         }

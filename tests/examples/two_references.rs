@@ -9,27 +9,19 @@ use std::error::Error;
 use std::path::Path;
 
 use taceva_core::{Channel, Channels, Clock, Readings, Sample};
-use taceva_dataset::{Known, Recorder, RecordingFacts, RecordingSpec, SensorFacts, Source};
+use taceva_dataset::{Recorder, RecordingFacts, RecordingSpec, SensorFacts, Source};
 use taceva_tests::recorded::reference;
 
 fn main() -> Result<(), Box<dyn Error>> {
     let folder = std::env::args()
         .nth(1)
         .ok_or("usage: two_references FOLDER")?;
-    let spec = RecordingSpec {
-        facts: RecordingFacts {
-            source: Source::Synthetic,
-            clock: Clock::Unknown,
-            sensor: SensorFacts {
-                model: "made up".into(),
-                serial: "1".into(),
-                gel: "1".into(),
-                opaque: Known::Is(true),
-            },
-            footprint: None,
-        },
-        channels: Channels::new([Channel::FZ])?,
-    };
+    let sensor = SensorFacts::new("made up")
+        .with_serial("1")
+        .with_gel("1")
+        .with_opaque(true);
+    let facts = RecordingFacts::new(Source::Synthetic, Clock::Unknown, sensor);
+    let spec = RecordingSpec::new(facts, Channels::new([Channel::FZ])?);
     let mut recorder = Recorder::create(Path::new(&folder), &spec)?;
     recorder.append_reference(&reference(1))?;
     println!("ACK 1");

@@ -108,11 +108,7 @@ fn uninterrupted(program: &Path, count: usize) -> Digest {
 pub fn open_whole(target: &Path) -> Result<Dataset, String> {
     let dataset = Dataset::open(target).map_err(|error| error.to_string())?;
     let rows = dataset.all_rows();
-    let pass = Pass {
-        rows: &rows,
-        jobs: NonZeroUsize::MIN,
-        progress: &Silent,
-    };
+    let pass = Pass::new(&rows, NonZeroUsize::MIN, &Silent);
     dataset
         .map_frames(pass, |_, _| (), |_, ()| Ok(()))
         .map_err(|error| error.to_string())?;

@@ -11,8 +11,10 @@ mod library;
 mod lighting;
 mod probe;
 mod robot;
+mod run;
 mod sensor;
 mod subject;
+mod surroundings;
 mod waiting;
 
 use std::collections::BTreeMap;
@@ -23,7 +25,7 @@ use serde::Serialize;
 use taceva_core::{DriverError, DriverKey, DriverKind, ErrorKind};
 
 use self::probe::Probe;
-pub(crate) use self::probe::run;
+pub(crate) use self::run::run;
 use self::subject::{Ending, Subject};
 use crate::child::{Child, ChildError, ChildSpec};
 use crate::host::PluginHost;
@@ -210,8 +212,8 @@ fn ended(error: ChildError) -> CheckOutcome {
             kind: ErrorKind::Unsupported,
             why,
             ..
-        } if why.starts_with(probe::SKIPPED) => {
-            CheckOutcome::Skipped(why[probe::SKIPPED.len()..].to_owned())
+        } if why.starts_with(run::SKIPPED) => {
+            CheckOutcome::Skipped(why[run::SKIPPED.len()..].to_owned())
         }
         ChildError::Refused { why, .. } => CheckOutcome::Failed(why),
         ChildError::Gone { fate, printed, .. } if printed.is_empty() => {

@@ -13,11 +13,11 @@ use std::ffi::c_void;
 use taceva_abi::{DeviceCalls, Error, Status, Text};
 use taceva_core::Facts;
 
-use crate::entry::Loaded;
 use crate::failure::Failure;
 use crate::guard::{caught, guard};
+use crate::loaded::{Drivers, Loaded};
+use crate::memory;
 use crate::open::{self, Handle};
-use crate::{factory, memory};
 
 /// A kind of device: what is behind its handles, and the calls on them.
 pub(crate) trait Kind: 'static {
@@ -28,7 +28,7 @@ pub(crate) trait Kind: 'static {
     const CALLS: &'static Self::Calls;
 
     /// Its drivers.
-    fn drivers(loaded: &Loaded) -> &factory::Drivers<Self>;
+    fn drivers(loaded: &Loaded) -> &Drivers<Self>;
 
     /// What is put behind a handle: a device of which `facts` are known.
     fn handle(device: Box<Self>, facts: &Facts) -> Handle<Self::Opened>;

@@ -5,11 +5,10 @@
 use std::collections::BTreeSet;
 use std::ffi::c_void;
 use std::ptr::null;
-use std::sync::OnceLock;
 
 use taceva_abi::{
-    ESTIMATOR_FACTORY, Error, EstimatorFactory, FORCE_FACTORY, Factory, Host, LIGHTING_FACTORY,
-    ROBOT_FACTORY, SENSOR_FACTORY, Status, Text,
+    ESTIMATOR_FACTORY, Error, FORCE_FACTORY, Factory, Host, LIGHTING_FACTORY, ROBOT_FACTORY,
+    SENSOR_FACTORY, Status, Text,
 };
 use taceva_core::{
     DescriptorError, ErrorKind, Factory as CoreFactory, ForceTransducer, Lighting, Robot, Sensor,
@@ -20,47 +19,17 @@ use crate::driver::Driver;
 use crate::export::Export;
 use crate::failure::Failure;
 use crate::guard::{caught, guard};
+use crate::loaded::{Loaded, Tables, keep, loaded};
 use crate::{estimator, factory, host, memory};
-
-/// The drivers by kind, and the tables by which a host reaches them.
-pub(crate) struct Loaded {
-    pub(crate) sensors: factory::Drivers<dyn Sensor>,
-    pub(crate) robots: factory::Drivers<dyn Robot>,
-    pub(crate) forces: factory::Drivers<dyn ForceTransducer>,
-    pub(crate) lightings: factory::Drivers<dyn Lighting>,
-    pub(crate) estimators: Vec<Box<dyn crate::EstimatorFactory>>,
-    /// What the keys of the drivers have before their last `/`.
-    pub(crate) prefixes: BTreeSet<String>,
-    tables: Tables,
-}
-
-struct Tables {
-    sensor: Option<Factory>,
-    robot: Option<Factory>,
-    force: Option<Factory>,
-    lighting: Option<Factory>,
-    estimator: Option<EstimatorFactory>,
-}
-
-/// A library holds one plugin, and loads it once.
-static LOADED: OnceLock<Loaded> = OnceLock::new();
-
-/// The drivers, once the plugin is initialised.
-pub(crate) fn loaded() -> Result<&'static Loaded, Failure> {
-    LOADED
-        .get()
-        .ok_or_else(|| Failure::argument("the plugin is not initialised"))
-}
 
 pub(crate) unsafe extern "C" fn init<E: Export>(host: *const Host, error: *mut Error) -> Status {
     let work = || {
         // SAFETY: a host gives its table, which begins with its size, for the life of the plugin.
         unsafe { memory::sized("host", host) }?;
-        if LOADED.get().is_none() {
-            let loaded = load(E::drivers())
+        if loaded().is_err() {
+            let drivers = load(E::drivers())
                 .map_err(|error| Failure::new(ErrorKind::Internal, error.to_string()))?;
-            // Whoever came first loaded the same drivers.
-            let _ = LOADED.set(loaded);
+            keep(drivers);
         }
         host::remember(host);
         Ok(())
@@ -135,7 +104,7 @@ fn find(id: &str) -> *const c_void {
             .as_ref()
             .map_or(null(), |table| std::ptr::from_ref(table).cast())
     }
-    let Some(Loaded { tables, .. }) = LOADED.get() else {
+    let Ok(Loaded { tables, .. }) = loaded() else {
         return null();
     };
     match id {

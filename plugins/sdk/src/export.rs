@@ -1,9 +1,6 @@
 //! The one line that makes a library a plugin.
 
-use taceva_abi::{ABI_MAJOR, ABI_MINOR, MAGIC, Plugin, Text};
-
 use crate::driver::Driver;
-use crate::{entry, rig};
 
 /// A crate that is a plugin; [`export_plugin!`](crate::export_plugin) implements it.
 pub trait Export {
@@ -14,26 +11,6 @@ pub trait Export {
 
     /// What it provides.
     fn drivers() -> Vec<Driver>;
-}
-
-/// What a library exports for `E`.
-pub const fn plugin<E: Export>() -> Plugin {
-    #[expect(clippy::cast_possible_truncation, reason = "a hundred bytes")]
-    let size = size_of::<Plugin>() as u32;
-    Plugin {
-        magic: MAGIC,
-        size,
-        abi_major: ABI_MAJOR,
-        abi_minor: ABI_MINOR,
-        id: Text::from(E::ID),
-        version: Text::from(E::VERSION),
-        init: Some(entry::init::<E>),
-        deinit: Some(entry::deinit),
-        factory: Some(entry::factory),
-        open_rig: Some(rig::open),
-        close_rig: Some(rig::close),
-        rig_extension: Some(rig::extension),
-    }
 }
 
 /// Exports the drivers of a crate of type `cdylib` as the plugin `id`; its version is that of the crate.

@@ -12,13 +12,11 @@ use taceva_core::{ArgSpec, Args, Factory, Presence, Rig};
 use crate::calls::Kind;
 use crate::failure::Failure;
 use crate::guard::guard;
+use crate::loaded::loaded;
+use crate::memory;
 use crate::open;
 use crate::rig::with_rig;
 use crate::table::provides_table;
-use crate::{entry, memory};
-
-/// The drivers of one kind, by their number.
-pub(crate) type Drivers<D> = Vec<Box<dyn Factory<D>>>;
 
 /// The calls on `drivers` drivers.
 pub(crate) fn table<D: Kind + ?Sized>(drivers: u32) -> Table {
@@ -34,7 +32,7 @@ pub(crate) fn table<D: Kind + ?Sized>(drivers: u32) -> Table {
 }
 
 fn driver<D: Kind + ?Sized>(number: u32) -> Result<&'static dyn Factory<D>, Failure> {
-    let drivers = D::drivers(entry::loaded()?);
+    let drivers = D::drivers(loaded()?);
     let found = usize::try_from(number)
         .ok()
         .and_then(|number| drivers.get(number));

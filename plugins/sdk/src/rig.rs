@@ -13,7 +13,8 @@ use taceva_core::{ErrorKind, GratingKind, Nanometre, Rig, SimulatedBench, Specim
 
 use crate::failure::Failure;
 use crate::guard::{caught, guard};
-use crate::{entry, memory, open as opened};
+use crate::loaded::loaded;
+use crate::{memory, open as opened};
 
 type Shared = Mutex<Rig>;
 
@@ -68,7 +69,7 @@ static CALLS: BenchCalls = BenchCalls {
 unsafe fn bench(rig: *const AbiRig, name: Text) -> Result<Arc<dyn SimulatedBench>, Failure> {
     // SAFETY: the host lends the text for the call.
     let name = unsafe { memory::text("bench", name) }?;
-    let prefixes = &entry::loaded()?.prefixes;
+    let prefixes = &loaded()?.prefixes;
     let find = |rig: &mut Rig| {
         let mut names = prefixes.iter().map(|prefix| format!("{prefix} {name}"));
         names.find_map(|name| rig.bench(&name))

@@ -7,14 +7,17 @@ mod board;
 mod dome;
 mod flat;
 mod friction;
+mod indentation;
+mod law;
 mod relaxation;
 mod solid;
 mod wear;
 
 pub(crate) use board::SIDE_MM as BOARD_SIDE_MM;
 pub use friction::Friction;
+pub use indentation::Indentation;
 pub use relaxation::{Decay, Relaxation};
-pub use solid::{BoardStand, Indentation, Solid};
+pub use solid::{BoardStand, Solid};
 pub use wear::{Conditioning, History, Wear};
 
 use crate::displacement::Load;

@@ -20,8 +20,8 @@ mod radial;
 mod tables;
 
 pub use field::Field;
-pub use index::{NODES, Place, locate, node};
+pub use index::{NODES, Place, Radial, locate, node};
 pub use load::Load;
 pub use profile::Profile;
-pub use radial::{Quantity, Radial};
+pub use radial::Quantity;
 pub use tables::Tables;

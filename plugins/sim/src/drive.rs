@@ -10,6 +10,7 @@
 mod error;
 mod force;
 mod lighting;
+mod mounted;
 mod place;
 mod rig;
 mod robot;
@@ -21,6 +22,7 @@ mod visit;
 
 pub use force::ForceTransducerFactory;
 pub use lighting::LightingFactory;
-pub use rig::{MountError, Mounted, SimulatedRig};
+pub use mounted::{MountError, Mounted};
+pub use rig::SimulatedRig;
 pub use robot::RobotFactory;
 pub use sensor::SensorFactory;

@@ -2,6 +2,7 @@
 
 mod bench;
 mod drive;
+mod number;
 mod parameters;
 mod provenance;
 mod rig;

@@ -10,9 +10,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
 use taceva_core::{Channel, Channels, Clock, Frame, FrameInfo, PixelFormat, Readings, Sample};
-use taceva_dataset::{
-    Dataset, Known, Recorder, RecordingFacts, RecordingSpec, SensorFacts, Source,
-};
+use taceva_dataset::{Dataset, Recorder, RecordingFacts, RecordingSpec, SensorFacts, Source};
 use tempfile::TempDir;
 
 /// Samples of the drawn folder: ten points, six presses each.
@@ -186,20 +184,15 @@ impl Bench {
 
 /// What a drawn recording is of.
 fn spec() -> RecordingSpec {
-    RecordingSpec {
-        facts: RecordingFacts {
-            source: Source::Synthetic,
-            clock: Clock::Unknown,
-            sensor: SensorFacts {
-                model: "drawn".into(),
-                serial: "1".into(),
-                gel: "1".into(),
-                opaque: Known::Is(true),
-            },
-            footprint: None,
-        },
-        channels: Channels::new([Channel::PX, Channel::FZ]).expect("two channels"),
-    }
+    let sensor = SensorFacts::new("drawn")
+        .with_serial("1")
+        .with_gel("1")
+        .with_opaque(true);
+    let facts = RecordingFacts::new(Source::Synthetic, Clock::Unknown, sensor);
+    RecordingSpec::new(
+        facts,
+        Channels::new([Channel::PX, Channel::FZ]).expect("two channels"),
+    )
 }
 
 pub(crate) const MAP: &str = r#"map_version = 1

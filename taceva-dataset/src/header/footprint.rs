@@ -6,6 +6,16 @@ use serde::{Deserialize, Serialize};
 ///
 /// # Units
 /// mm.
+///
+/// ```
+/// use taceva_dataset::Footprint;
+///
+/// let footprint = Footprint::disc(10.0).with_depth_max(2.5);
+/// let whole = footprint.to_core()?;
+/// assert_eq!(whole.depth_max().map(|depth| depth.0), Some(2_500_000));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Footprint {
@@ -26,6 +36,13 @@ pub struct Footprint {
 }
 
 /// An outline.
+///
+/// ```
+/// use taceva_dataset::{Footprint, Shape};
+///
+/// assert_eq!(Footprint::rectangle(8.0, 10.0).shape, Shape::Rect);
+/// ```
+#[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Shape {
@@ -36,6 +53,37 @@ pub enum Shape {
 }
 
 impl Footprint {
+    /// A disc.
+    pub fn disc(radius_mm: f64) -> Footprint {
+        Footprint {
+            shape: Shape::Disc,
+            radius_mm: Some(radius_mm),
+            half_x_mm: None,
+            half_y_mm: None,
+            depth_max_mm: None,
+        }
+    }
+
+    /// A rectangle, by half of its width along x and along y.
+    pub fn rectangle(half_x_mm: f64, half_y_mm: f64) -> Footprint {
+        Footprint {
+            shape: Shape::Rect,
+            radius_mm: None,
+            half_x_mm: Some(half_x_mm),
+            half_y_mm: Some(half_y_mm),
+            depth_max_mm: None,
+        }
+    }
+
+    /// The same with the deepest indentation that the gel bears.
+    #[must_use]
+    pub fn with_depth_max(self, depth_max_mm: f64) -> Footprint {
+        Footprint {
+            depth_max_mm: Some(depth_max_mm),
+            ..self
+        }
+    }
+
     /// The same surface in whole nanometres, as metrics bin it.
     ///
     /// # Errors

@@ -1,4 +1,4 @@
-//! What somebody may have meant who named a folder that is no dataset.
+//! Advice where a folder is named that is no dataset.
 
 use std::fs;
 use std::path::Path;

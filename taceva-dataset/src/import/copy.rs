@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 
-use taceva_core::{FrameInfo, Progress};
+use taceva_core::{Frame, FrameInfo, Progress};
 
 use super::npy::NpyFrames;
 use super::plan::{FrameSource, ImportPlan, ImportSummary, PlannedFrames};
@@ -22,7 +22,25 @@ use crate::store::write_table_and_header;
 use crate::table::{FrameEntry, Table};
 
 /// What an import did.
+///
+/// ```
+/// # use taceva_core::{Channel, Channels, Clock, SourceUnit};
+/// # use taceva_dataset::{ColumnMap, ImportMap, ImportPlan, RecordingFacts, SensorFacts, Source};
+/// # let folder = tempfile::tempdir()?;
+/// std::fs::write(folder.path().join("labels.csv"), "force\n1500\n2000\n")?;
+/// let facts = RecordingFacts::new(Source::Recorded, Clock::Unknown, SensorFacts::new("my gel"));
+/// let mut map = ImportMap::new("labels.csv", facts);
+/// map.channels = Channels::new([Channel::FZ])?;
+/// map.columns = vec![ColumnMap::new("force", SourceUnit::parse("mN")?)];
+/// let plan = ImportPlan::new(folder.path(), &map)?;
+///
+/// let target = folder.path().join("dataset");
+/// let report = plan.run(&target, std::num::NonZeroUsize::MIN, &taceva_core::Silent)?;
+/// assert_eq!(report.digest, taceva_dataset::Dataset::open(&target)?.digest());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct ImportReport {
     /// The counts.
     pub summary: ImportSummary,
@@ -54,7 +72,7 @@ impl ImportPlan {
         self.run_at(target, Place::Free, (jobs, progress))
     }
 
-    /// As [`run`](ImportPlan::run), in the place of the dataset at `target` if there is one: whoever reads it sees the old one until
+    /// As [`run`](ImportPlan::run), in the place of the dataset at `target` if there is one: a reader sees the old one until
     /// the new one is whole and durable.
     ///
     /// # Errors
@@ -105,6 +123,28 @@ struct Copied {
     info: FrameInfo,
     entry: FrameEntry,
     intensity: f64,
+}
+
+impl Copied {
+    /// Writes `bytes`, the file of `frame`, at `relative` of the staged folder.
+    fn write(
+        staged: &StagedFolder,
+        relative: String,
+        bytes: &[u8],
+        (kind, frame): (ImageKind, &Frame),
+    ) -> Result<Copied, DatasetError> {
+        write_durable(&staged.path().join(&relative), bytes)?;
+        Ok(Copied {
+            kind,
+            info: frame.info(),
+            entry: FrameEntry {
+                path: relative,
+                span: None,
+                digest: Digest::of(bytes),
+            },
+            intensity: frame.mean_luma(),
+        })
+    }
 }
 
 /// Frames copied at a time by each job: most of a copy is waiting until the disk has it, and disks like to be asked for
@@ -197,17 +237,7 @@ fn copy_element(
         problem,
     })?;
     let relative = layout::frame_path(row, ImageKind::Png.extension());
-    write_durable(&staged.path().join(&relative), &bytes)?;
-    Ok(Copied {
-        kind: ImageKind::Png,
-        info: frame.info(),
-        entry: FrameEntry {
-            path: relative,
-            span: None,
-            digest: Digest::of(&bytes),
-        },
-        intensity: frame.mean_luma(),
-    })
+    Copied::write(staged, relative, &bytes, (ImageKind::Png, &frame))
 }
 
 /// Verifies the image at `path` and writes the same bytes where `place` says.
@@ -233,17 +263,7 @@ fn copy_image(
         .filter(|extension| kind.has_extension(extension))
         .unwrap_or(kind.extension());
     let relative = place(extension);
-    write_durable(&staged.path().join(&relative), &bytes)?;
-    Ok(Copied {
-        kind,
-        info: frame.info(),
-        entry: FrameEntry {
-            path: relative,
-            span: None,
-            digest: Digest::of(&bytes),
-        },
-        intensity: frame.mean_luma(),
-    })
+    Copied::write(staged, relative, &bytes, (kind, &frame))
 }
 
 fn copy_reference(

@@ -55,7 +55,7 @@ impl fmt::Display for ImportSummary {
 }
 
 impl ImportSummary {
-    /// The columns that are left behind; those that judge their rows, one by one.
+    /// The columns that are left behind; those that rate their rows, one by one.
     fn write_unmentioned(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         if self.unmentioned_columns.is_empty() {
             return Ok(());

@@ -1,4 +1,4 @@
-//! The map of an import: which column is which channel, in which unit, and what nobody knows.
+//! The map of an import: which column is which channel, in which unit, and which facts are unknown.
 
 mod written;
 
@@ -36,6 +36,7 @@ use crate::toml_file::read_toml_text;
 /// # Ok::<(), taceva_dataset::DatasetError>(())
 /// ```
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct ImportMap {
     /// Table of labels, or a pattern with `*`, relative to the source folder.
     pub table: String,
@@ -58,7 +59,18 @@ pub struct ImportMap {
 }
 
 /// The column a channel comes from.
+///
+/// ```
+/// use taceva_core::SourceUnit;
+/// use taceva_dataset::ColumnMap;
+///
+/// let mut column = ColumnMap::new("force", SourceUnit::parse("mN")?);
+/// column.is_negated = true;
+/// assert_eq!(column.from, "force");
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct ColumnMap {
     /// Its name in the table.
     pub from: String,
@@ -68,8 +80,27 @@ pub struct ColumnMap {
     pub is_negated: bool,
 }
 
+impl ColumnMap {
+    /// The column `from`, in `unit`, with its sign as it is.
+    pub fn new(from: impl Into<String>, unit: SourceUnit) -> ColumnMap {
+        ColumnMap {
+            from: from.into(),
+            unit,
+            is_negated: false,
+        }
+    }
+}
+
 /// Where the frames are.
+///
+/// ```
+/// use taceva_dataset::{ChannelOrder, FrameMap, FrameNames};
+///
+/// let frames = FrameMap::new(FrameNames::Column("file".into()), ChannelOrder::Gray);
+/// assert_eq!((frames.folder, frames.reference), (None, None));
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct FrameMap {
     /// How a row names its frame.
     pub names: FrameNames,
@@ -77,12 +108,33 @@ pub struct FrameMap {
     pub folder: Option<String>,
     /// The order of the colours in the files.
     pub channel_order: ChannelOrder,
-    /// The frame without contact, relative to the source folder; `None` if nobody knows one.
+    /// The frame without contact, relative to the source folder; `None` if none is known.
     pub reference: Option<String>,
 }
 
+impl FrameMap {
+    /// Frames in files relative to the folder of the table, with colours in `channel_order` and without a frame without contact.
+    pub fn new(names: FrameNames, channel_order: ChannelOrder) -> FrameMap {
+        FrameMap {
+            names,
+            folder: None,
+            channel_order,
+            reference: None,
+        }
+    }
+}
+
 /// How a row names its frame.
+///
+/// ```
+/// use taceva_dataset::FrameNames;
+///
+/// // A row whose column `n` holds 7 has the frame images/image_7.png.
+/// let names = FrameNames::Pattern("images/image_{n}.png".into());
+/// assert_ne!(names, FrameNames::Column("n".into()));
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum FrameNames {
     /// A column holds the path.
     Column(String),
@@ -93,7 +145,15 @@ pub enum FrameNames {
 }
 
 /// Frames in one array.
+///
+/// ```
+/// use taceva_dataset::{ArrayFrames, FrameNames};
+///
+/// let names = FrameNames::Array(ArrayFrames::new("frames.npy", "frame"));
+/// assert!(matches!(names, FrameNames::Array(array) if array.index == "frame"));
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct ArrayFrames {
     /// The `.npy` file, relative to the source folder.
     pub file: String,
@@ -101,8 +161,27 @@ pub struct ArrayFrames {
     pub index: String,
 }
 
+impl ArrayFrames {
+    /// The frames in the `.npy` file `file`; the column `index` holds the position in the array.
+    pub fn new(file: impl Into<String>, index: impl Into<String>) -> ArrayFrames {
+        ArrayFrames {
+            file: file.into(),
+            index: index.into(),
+        }
+    }
+}
+
 /// The columns of the ids.
+///
+/// ```
+/// use taceva_dataset::IdMap;
+///
+/// let mut ids = IdMap::default();
+/// ids.point_id = vec!["x".into(), "y".into()];
+/// assert_eq!(ids.sample, None);
+/// ```
 #[derive(Clone, Debug, Default, PartialEq, Eq, Deserialize)]
+#[non_exhaustive]
 #[serde(deny_unknown_fields, default)]
 pub struct IdMap {
     /// The name of a sample; absent: the number of its row, from 0.
@@ -129,7 +208,17 @@ pub struct IdMap {
 }
 
 /// The column of the time.
+///
+/// ```
+/// use taceva_core::SourceUnit;
+/// use taceva_dataset::TimeMap;
+///
+/// let time = TimeMap::new("t", SourceUnit::parse("ms")?);
+/// assert_eq!(time.column, "t");
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct TimeMap {
     /// Its name in the table.
     pub column: String,
@@ -137,8 +226,27 @@ pub struct TimeMap {
     pub unit: SourceUnit,
 }
 
+impl TimeMap {
+    /// The column `column`, in `unit`.
+    pub fn new(column: impl Into<String>, unit: SourceUnit) -> TimeMap {
+        TimeMap {
+            column: column.into(),
+            unit,
+        }
+    }
+}
+
 /// Which rows are left out; each is counted.
+///
+/// ```
+/// use taceva_dataset::{DropRules, Placeholder};
+///
+/// let mut rules = DropRules::default();
+/// rules.placeholders = vec![Placeholder::new("Fx", 0.0), Placeholder::new("Fz", 0.0)];
+/// assert!(rules.quality_flags.is_empty());
+/// ```
 #[derive(Clone, Debug, Default, PartialEq)]
+#[non_exhaustive]
 pub struct DropRules {
     /// The column of flags, separated by `;` or blanks.
     pub flag_column: String,
@@ -151,7 +259,14 @@ pub struct DropRules {
 }
 
 /// A number that stands for "not measured".
+///
+/// ```
+/// use taceva_dataset::Placeholder;
+///
+/// assert_eq!(Placeholder::new("Fz", -1.0).channel, "Fz");
+/// ```
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Placeholder {
     /// The channel.
     pub channel: String,
@@ -159,7 +274,32 @@ pub struct Placeholder {
     pub number: f64,
 }
 
+impl Placeholder {
+    /// The number `number` in the column of `channel`.
+    pub fn new(channel: impl Into<String>, number: f64) -> Placeholder {
+        Placeholder {
+            channel: channel.into(),
+            number,
+        }
+    }
+}
+
 impl ImportMap {
+    /// A map of `table` without channels, frames and ids.
+    pub fn new(table: impl Into<String>, facts: RecordingFacts) -> ImportMap {
+        ImportMap {
+            table: table.into(),
+            frame: None,
+            channels: Channels::default(),
+            columns: Vec::new(),
+            ids: IdMap::default(),
+            attributes: BTreeMap::new(),
+            time: None,
+            drop: DropRules::default(),
+            facts,
+        }
+    }
+
     /// The map at `path`.
     ///
     /// # Errors

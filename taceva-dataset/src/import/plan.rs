@@ -23,6 +23,21 @@ use crate::text::shown;
 const LISTED_IMAGES: usize = 20;
 
 /// A decided import: every label is read and converted, every frame is found; frames are verified when it is run.
+///
+/// ```
+/// # use taceva_core::{Channel, Channels, Clock, SourceUnit};
+/// # use taceva_dataset::{ColumnMap, ImportMap, ImportPlan, RecordingFacts, SensorFacts, Source};
+/// # let folder = tempfile::tempdir()?;
+/// std::fs::write(folder.path().join("labels.csv"), "force\n1500\n2000\n")?;
+/// let facts = RecordingFacts::new(Source::Recorded, Clock::Unknown, SensorFacts::new("my gel"));
+/// let mut map = ImportMap::new("labels.csv", facts);
+/// map.channels = Channels::new([Channel::FZ])?;
+/// map.columns = vec![ColumnMap::new("force", SourceUnit::parse("mN")?)];
+/// let plan = ImportPlan::new(folder.path(), &map)?;
+///
+/// assert_eq!(plan.summary().rows_kept, 2);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Debug)]
 pub struct ImportPlan {
     pub(super) summary: ImportSummary,
@@ -32,7 +47,24 @@ pub struct ImportPlan {
 }
 
 /// The counts of an import.
+///
+/// ```
+/// # use taceva_core::{Channel, Channels, Clock, SourceUnit};
+/// # use taceva_dataset::{ColumnMap, ImportMap, ImportPlan, RecordingFacts, SensorFacts, Source};
+/// # let folder = tempfile::tempdir()?;
+/// std::fs::write(folder.path().join("labels.csv"), "force\n1500\n2000\n")?;
+/// let facts = RecordingFacts::new(Source::Recorded, Clock::Unknown, SensorFacts::new("my gel"));
+/// let mut map = ImportMap::new("labels.csv", facts);
+/// map.channels = Channels::new([Channel::FZ])?;
+/// map.columns = vec![ColumnMap::new("force", SourceUnit::parse("mN")?)];
+/// let plan = ImportPlan::new(folder.path(), &map)?;
+///
+/// let summary = plan.summary();
+/// assert_eq!((summary.rows_read, summary.rows_kept, summary.tables.len()), (2, 2, 1));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Debug, Default, PartialEq)]
+#[non_exhaustive]
 pub struct ImportSummary {
     /// The tables, in order.
     pub tables: Vec<PathBuf>,
@@ -46,7 +78,7 @@ pub struct ImportSummary {
     pub conversions: Vec<Conversion>,
     /// How the colours of the frames are stored; `None` without frames.
     pub channel_order: Option<ChannelOrder>,
-    /// The frame without contact; `None` if nobody knows one.
+    /// The frame without contact; `None` if none is known.
     pub reference: Option<PathBuf>,
     /// Images beside the table that no row names.
     pub unnamed_images: u64,
@@ -63,7 +95,7 @@ const REMEMBERED: usize = 256;
 const REMEMBERED_BYTES: usize = 256;
 
 impl ImportSummary {
-    /// The columns that the map does not mention, as the dataset remembers them: those that judge their rows first.
+    /// The columns that the map does not mention, as the dataset remembers them: those that rate their rows first.
     pub(super) fn columns_left_behind(&self) -> Vec<String> {
         let short = |name: &&String| name.len() <= REMEMBERED_BYTES;
         let mut columns: Vec<String> = self
@@ -79,7 +111,25 @@ impl ImportSummary {
 }
 
 /// What happens to one channel.
+///
+/// ```
+/// # use taceva_core::{Channel, Channels, Clock, SourceUnit};
+/// # use taceva_dataset::{ColumnMap, ImportMap, ImportPlan, RecordingFacts, SensorFacts, Source};
+/// # let folder = tempfile::tempdir()?;
+/// std::fs::write(folder.path().join("labels.csv"), "force\n1500\n2000\n")?;
+/// let facts = RecordingFacts::new(Source::Recorded, Clock::Unknown, SensorFacts::new("my gel"));
+/// let mut map = ImportMap::new("labels.csv", facts);
+/// map.channels = Channels::new([Channel::FZ])?;
+/// map.columns = vec![ColumnMap::new("force", SourceUnit::parse("mN")?)];
+/// let plan = ImportPlan::new(folder.path(), &map)?;
+///
+/// let conversion = &plan.summary().conversions[0];
+/// assert_eq!((conversion.column.as_str(), conversion.channel.as_str()), ("force", "Fz"));
+/// assert_eq!(conversion.present, 2);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Conversion {
     /// The channel.
     pub channel: String,

@@ -10,6 +10,12 @@ use crate::file::{SourceFolder, read_capped};
 use crate::limits;
 
 /// A layout whose map is built in.
+///
+/// ```
+/// use taceva_dataset::Preset;
+///
+/// assert_eq!(Preset::from_name("bristol"), Some(Preset::Bristol));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Preset {

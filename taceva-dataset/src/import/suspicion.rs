@@ -5,7 +5,18 @@ use std::fmt;
 use taceva_core::{Channel, SourceUnit, Unit};
 
 /// A channel whose numbers look like those of another unit.
+///
+/// ```
+/// use taceva_core::Channel;
+/// use taceva_dataset::magnitude_suspicion;
+///
+/// let metres = [0.0012, 0.0025, 0.0031];
+/// let suspicion = magnitude_suspicion(&Channel::PZ, metres).ok_or("too small for mm")?;
+/// assert_eq!((suspicion.code, suspicion.channel.as_str()), ("magnitude-small", "Pz"));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Suspicion {
     /// Stable, for scripts: `magnitude-small` or `magnitude-large`.
     pub code: &'static str,
@@ -34,7 +45,7 @@ impl fmt::Display for Suspicion {
     }
 }
 
-/// Fewest values that are judged.
+/// The least number of values that is checked.
 const LEAST_VALUES: usize = 3;
 
 /// What contacts of a gel look like in a unit: not all magnitudes are below `small`, the median is not above `large`, and 95 % of them not

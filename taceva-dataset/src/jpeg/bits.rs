@@ -94,3 +94,10 @@ impl<'a> Bits<'a> {
         }
     }
 }
+
+/// The number that bytes make, the greatest first.
+pub(super) fn big_endian(bytes: &[u8]) -> usize {
+    bytes
+        .iter()
+        .fold(0, |number, byte| number << 8 | usize::from(*byte))
+}

@@ -1,6 +1,6 @@
-//! What the header of a frame says, and what its scans have told of it so far.
+//! The header of a frame, and which bits of its coefficients its scans have coded so far.
 
-use super::segments::big_endian;
+use super::bits::big_endian;
 
 /// A colour component.
 #[derive(Clone, Debug)]
@@ -16,8 +16,8 @@ pub(super) struct Component {
     pub(super) blocks: [usize; 2],
     /// Of each block of a progressive frame, the coefficients that are not zero, a bit each.
     pub(super) nonzero: Vec<u64>,
-    /// Of each coefficient, how many of its low bits have not been told yet; `None` of one that no scan told of.
-    pub(super) untold: [Option<u8>; 64],
+    /// Of each coefficient, how many of its low bits have not been coded yet; `None` of one that no scan coded.
+    pub(super) missing: [Option<u8>; 64],
 }
 
 /// The frame of a picture.
@@ -42,11 +42,11 @@ impl Frame {
                 "{width}×{height} of {precision} bits, expected 8 bits and some pixels"
             ));
         }
-        let (told, more) = rest.as_chunks::<3>();
-        if told.len() != usize::from(*count) || !more.is_empty() || told.is_empty() {
+        let (coded, more) = rest.as_chunks::<3>();
+        if coded.len() != usize::from(*count) || !more.is_empty() || coded.is_empty() {
             return Err(cut());
         }
-        let sampling: Vec<[usize; 2]> = told
+        let sampling: Vec<[usize; 2]> = coded
             .iter()
             .map(|[_, sampling, _]| [usize::from(sampling >> 4), usize::from(sampling & 15)])
             .collect();
@@ -67,7 +67,7 @@ impl Frame {
         let greatest = [greatest(0), greatest(1)];
         let size = [width, height];
         let units = [0, 1].map(|axis| size[axis].div_ceil(8 * greatest[axis]));
-        let components = told
+        let components = coded
             .iter()
             .zip(&sampling)
             .map(|([id, _, quantiser], sampling)| {
@@ -86,7 +86,7 @@ impl Frame {
                         true => vec![0; padded[0] * padded[1]],
                         false => Vec::new(),
                     },
-                    untold: [None; 64],
+                    missing: [None; 64],
                 }
             });
         Ok(Frame {
@@ -96,16 +96,16 @@ impl Frame {
         })
     }
 
-    /// Whether every coefficient was told to its last bit.
-    pub(super) fn check_told(&self) -> Result<(), String> {
-        let mut untold = self
+    /// Whether every coefficient was coded to its last bit.
+    pub(super) fn check_complete(&self) -> Result<(), String> {
+        let mut missing = self
             .components
             .iter()
-            .flat_map(|component| &component.untold);
-        if untold.all(|bits| *bits == Some(0)) {
+            .flat_map(|component| &component.missing);
+        if missing.all(|bits| *bits == Some(0)) {
             Ok(())
         } else {
-            Err("scans are missing: the picture is not told to its last bit".to_owned())
+            Err("scans are missing: the picture is not coded to its last bit".to_owned())
         }
     }
 }

@@ -22,7 +22,7 @@ pub(super) struct Scan {
     components: Vec<(usize, [usize; 2])>,
     /// The coefficients, first and last.
     band: [usize; 2],
-    /// The bits that were told before; 0 in the first scan of a band.
+    /// The bits that were coded before; 0 in the first scan of a band.
     before: u8,
     /// The bits that are left to later scans.
     later: u8,
@@ -37,11 +37,11 @@ impl Scan {
         let [count, rest @ ..] = body else {
             return Err(cut());
         };
-        let told = rest.get(..2 * usize::from(*count)).ok_or_else(cut)?;
-        let [first, last, bits] = rest[told.len()..] else {
+        let coded = rest.get(..2 * usize::from(*count)).ok_or_else(cut)?;
+        let [first, last, bits] = rest[coded.len()..] else {
             return Err(cut());
         };
-        let (pairs, _) = told.as_chunks::<2>();
+        let (pairs, _) = coded.as_chunks::<2>();
         let mut components = Vec::new();
         for [id, tables] in pairs {
             let place = frame
@@ -63,13 +63,13 @@ impl Scan {
             before: bits >> 4,
             later: bits & 15,
         };
-        scan.tell(frame)?;
+        scan.note_bits(frame)?;
         Ok(scan)
     }
 
-    /// Notes which bits it tells, which must be the next ones.
-    fn tell(&self, frame: &mut Frame) -> Result<(), String> {
-        let wrong = || Err("a scan that tells bits out of turn".to_owned());
+    /// Notes which bits it codes, which must be the next ones.
+    fn note_bits(&self, frame: &mut Frame) -> Result<(), String> {
+        let wrong = || Err("a scan that codes bits out of order".to_owned());
         let [first, last] = self.band;
         let is_interleaved = self.components.len() > 1;
         let fits = match frame.is_progressive {
@@ -87,12 +87,12 @@ impl Scan {
             return wrong();
         }
         for (place, _) in &self.components {
-            for untold in &mut frame.components[*place].untold[first..=last] {
+            for missing in &mut frame.components[*place].missing[first..=last] {
                 let expected = (self.before > 0).then_some(self.before);
-                if *untold != expected {
+                if *missing != expected {
                     return wrong();
                 }
-                *untold = Some(self.later);
+                *missing = Some(self.later);
             }
         }
         Ok(())
@@ -166,7 +166,7 @@ impl Scan {
         coders.collect()
     }
 
-    /// A block of a scan that tells some bits of some coefficients.
+    /// A block of a scan that codes some bits of some coefficients.
     fn progressive(
         &self,
         coder: &Coder<'_>,
@@ -178,13 +178,13 @@ impl Scan {
         match (coder.first, coder.others, self.before) {
             (Some(first), _, _) => state.first(bits, first, coder, self.later),
             (None, None, _) => bits.take(1).map(drop),
-            (None, Some(others), 0) => self.told_first(bits, others, (nonzero, state)),
+            (None, Some(others), 0) => self.first_of_band(bits, others, (nonzero, state)),
             (None, Some(others), _) => self.refined(bits, others, (nonzero, state)),
         }
     }
 
     /// The first bits of a band.
-    fn told_first(
+    fn first_of_band(
         &self,
         bits: &mut Bits<'_>,
         table: &Huffman,
@@ -239,7 +239,7 @@ impl Scan {
                         );
                     }
                 }
-                // Past as many zeros as the run says, each coefficient before told one more bit.
+                // Past as many zeros as the run says, each coefficient that was coded before gets one more bit.
                 let mut zeros = run;
                 while at <= last {
                     if *nonzero >> at & 1 == 1 {
@@ -325,7 +325,7 @@ impl State {
     }
 }
 
-/// A block of a scan that tells everything at once.
+/// A block of a scan that codes everything at once.
 #[inline]
 fn sequential(coder: &Coder<'_>, bits: &mut Bits<'_>, state: &mut State) -> Result<(), String> {
     let (Some(first), Some(others)) = (coder.first, coder.others) else {

@@ -1,5 +1,6 @@
 //! The segments of a JPEG, one after the other, and the state that they leave to the scans.
 
+use super::bits::big_endian;
 use super::frame::Frame;
 use super::huffman::Huffman;
 use super::scan::{Scan, Tables};
@@ -55,7 +56,7 @@ impl<'a> Reader<'a> {
             }
         }
         let frame = self.frame.ok_or("no frame before the end marker")?;
-        frame.check_told()
+        frame.check_complete()
     }
 
     /// The kind of the marker that must be here.
@@ -125,11 +126,4 @@ impl<'a> Reader<'a> {
         self.position = scan.read(frame, &self.tables, data)?;
         Ok(())
     }
-}
-
-/// The number that bytes make, the greatest first.
-pub(super) fn big_endian(bytes: &[u8]) -> usize {
-    bytes
-        .iter()
-        .fold(0, |number, byte| number << 8 | usize::from(*byte))
 }

@@ -4,7 +4,7 @@ use std::fs::{self, File};
 use std::path::Path;
 
 use crate::error::DatasetError;
-use crate::file::sync_folder;
+use crate::file::make_names_durable;
 use crate::journal::Journal;
 use crate::layout;
 use crate::staged::lock_folder;
@@ -45,5 +45,5 @@ pub(super) fn empty_folder(path: &Path) -> Result<File, DatasetError> {
 pub(super) fn remove_journal(path: &Path) -> Result<(), DatasetError> {
     let journal = path.join(layout::JOURNAL);
     fs::remove_file(&journal).map_err(DatasetError::io("remove", &journal))?;
-    sync_folder(path)
+    make_names_durable(path)
 }

@@ -1,6 +1,7 @@
 //! The frames of a recording: each is durable in its pack, with the name of that, before the journal names it.
 
 use taceva_core::{Frame, FrameError, Sample};
+use taceva_durable::parent_of;
 
 use super::Recorder;
 use crate::decode::{ChannelOrder, decode};
@@ -8,7 +9,7 @@ use crate::difference;
 use crate::digest::Digest;
 use crate::encode::encode_png;
 use crate::error::DatasetError;
-use crate::file::{open_regular, parent_of, sync_folder, write_durable};
+use crate::file::{make_names_durable, open_regular, write_durable};
 use crate::header::FramesInfo;
 use crate::layout;
 use crate::pack::{PackWriter, cut_behind, read_span};
@@ -117,7 +118,7 @@ impl Recorder {
         let path = self.path.join(relative);
         let bytes = self.png(frame, relative)?;
         write_durable(&path, &bytes)?;
-        sync_folder(parent_of(&path))?;
+        make_names_durable(parent_of(&path))?;
         Ok(Digest::of(&bytes))
     }
 

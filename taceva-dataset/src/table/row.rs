@@ -9,7 +9,15 @@ use crate::layout;
 use crate::pack::Span;
 
 /// Where a frame lies within the dataset, and what its bytes must be.
+///
+/// ```
+/// use taceva_dataset::{Digest, FrameEntry};
+///
+/// let entry = FrameEntry::at("frames/0000/000001.png", Digest::of(b"the bytes of the file"));
+/// assert_eq!(entry.span, None);
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct FrameEntry {
     /// Its file, or the pack that it is in, relative to the folder of the dataset, with `/`.
     pub path: String,
@@ -20,8 +28,9 @@ pub struct FrameEntry {
 }
 
 impl FrameEntry {
-    /// The frame at a place as [`place`](FrameEntry::place) writes it.
-    pub(crate) fn at(place: String, digest: Digest) -> FrameEntry {
+    /// The frame at `place`: a path, and behind that of a pack `@OFFSET+LENGTH`, as tables write it.
+    pub fn at(place: impl Into<String>, digest: Digest) -> FrameEntry {
+        let place = place.into();
         let found = place.rfind('@').and_then(|at| {
             let (path, span) = place.split_at(at);
             // Another file may have such a name.
@@ -55,7 +64,20 @@ impl FrameEntry {
 }
 
 /// One row of a [`Table`](super::Table); what is absent is `None`.
+///
+/// ```
+/// use taceva_core::{Channel, Channels};
+/// use taceva_dataset::{Row, Table};
+///
+/// let mut row = Row::new("press 1");
+/// row.truth = vec![Some(0.5)];
+/// let mut table = Table::new(Channels::new([Channel::FZ])?, Vec::new());
+/// table.push(row);
+/// assert_eq!(table.samples(), ["press 1"]);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Debug, Default, PartialEq)]
+#[non_exhaustive]
 pub struct Row {
     /// Its name, once in a table.
     pub sample: String,
@@ -89,6 +111,16 @@ pub struct Row {
     pub attributes: Vec<Option<String>>,
     /// The picture.
     pub frame: Option<FrameEntry>,
+}
+
+impl Row {
+    /// The row of the sample called `sample`, of which nothing else is known.
+    pub fn new(sample: impl Into<String>) -> Row {
+        Row {
+            sample: sample.into(),
+            ..Row::default()
+        }
+    }
 }
 
 #[cfg(test)]

@@ -1,4 +1,4 @@
-//! One thing that was looked at.
+//! A finding: one thing that was checked.
 
 use serde::Serialize;
 

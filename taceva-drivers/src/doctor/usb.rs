@@ -126,7 +126,7 @@ pub(super) fn examine(machine: &Machine) -> Vec<Finding> {
     findings.collect()
 }
 
-/// A system without USB, as a container is, or one that lists it for nobody.
+/// A system without USB, such as a container, or one that does not list it.
 fn unknown(why: &str) -> Finding {
     Finding {
         code: "usb-unknown",

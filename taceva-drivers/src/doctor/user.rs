@@ -51,7 +51,7 @@ impl User {
         Some(user)
     }
 
-    /// What keeps the user from reading and writing the device `path`, as what to do about it.
+    /// What to do so that the user may read and write the device `path`; `None` if nothing.
     pub(super) fn remedy(&self, path: &str, metadata: &Metadata) -> Option<String> {
         let owned = Ownership::of(metadata)?;
         const READ_WRITE: u32 = 0o6;

@@ -44,19 +44,9 @@ impl ForceTransducer for FaultyForce {
         self.inner.start(deadline)
     }
 
-    fn read(&mut self, mut deadline: Deadline) -> Result<(Wrench, Stamp), DriverError> {
-        const DOING: &str = "read the force";
-        let fault = self.link.next_fault();
-        match fault {
-            Some(FaultKind::Silence) => return self.link.silence(DOING, deadline),
-            Some(FaultKind::SlowLink) => deadline = self.link.slow(DOING, deadline)?,
-            Some(FaultKind::Drop) => {
-                self.inner.read(deadline)?;
-                self.link.note(FaultKind::Drop);
-            }
-            _ => {}
-        }
-        let (mut wrench, stamp) = self.inner.read(deadline)?;
+    fn read(&mut self, deadline: Deadline) -> Result<(Wrench, Stamp), DriverError> {
+        let read = |deadline| self.inner.read(deadline);
+        let ((mut wrench, stamp), fault) = self.link.read("read the force", deadline, read)?;
         match (fault, self.last) {
             (Some(FaultKind::Freeze), Some(last)) => {
                 wrench = last;

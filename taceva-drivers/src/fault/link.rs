@@ -1,4 +1,4 @@
-//! What the wrappers have in common: the link between the caller and a device, which is where most faults happen.
+//! The link between the caller and a device, where most faults occur; shared by the wrappers.
 
 use std::time::Duration;
 
@@ -34,6 +34,26 @@ impl Link {
         fault
     }
 
+    /// A value that `read` gives over the link, and the fault of the call; of two readings in a row where one is dropped, the second.
+    pub(super) fn read<T>(
+        &mut self,
+        doing: &'static str,
+        mut deadline: Deadline,
+        mut read: impl FnMut(Deadline) -> Result<T, DriverError>,
+    ) -> Result<(T, Option<FaultKind>), DriverError> {
+        let fault = self.next_fault();
+        match fault {
+            Some(FaultKind::Silence) => return self.silence(doing, deadline),
+            Some(FaultKind::SlowLink) => deadline = self.slow(doing, deadline)?,
+            Some(FaultKind::Drop) => {
+                read(deadline)?;
+                self.note(FaultKind::Drop);
+            }
+            _ => {}
+        }
+        Ok((read(deadline)?, fault))
+    }
+
     /// Counts a fault that did happen.
     pub(super) fn note(&self, kind: FaultKind) {
         self.plan.note(kind);
@@ -65,7 +85,7 @@ impl Link {
         Ok(deadline.less(delay))
     }
 
-    /// The stamp of a value that came over the link, and what `fault` makes of it.
+    /// The stamp of a value that came over the link, changed by `fault`.
     pub(super) fn stamped(&mut self, stamp: Stamp, fault: Option<FaultKind>) -> Stamp {
         match (fault, self.last_stamp) {
             (Some(FaultKind::StaleStamp), Some(last)) => {

@@ -1,4 +1,4 @@
-//! What did go wrong.
+//! The faults that occurred.
 
 use std::sync::atomic::{AtomicU64, Ordering};
 

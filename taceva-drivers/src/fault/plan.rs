@@ -1,4 +1,4 @@
-//! When what goes wrong: a function of the seed and of the number of the call, of nothing else.
+//! When faults occur: a function of the seed and of the number of the call alone.
 
 use std::ops::Range;
 use std::sync::Arc;
@@ -47,7 +47,7 @@ pub struct Likelihood {
 }
 
 impl FaultPlan {
-    /// Nothing goes wrong.
+    /// No fault.
     pub fn none() -> FaultPlan {
         FaultPlan {
             faults: Vec::new(),
@@ -74,7 +74,7 @@ impl FaultPlan {
         self
     }
 
-    /// The same plan with another delay of the slow link; 80 ms unless told.
+    /// The same plan with another delay of the slow link; 80 ms by default.
     #[must_use]
     pub fn delay(mut self, delay: Duration) -> FaultPlan {
         self.delay = delay;
@@ -86,7 +86,7 @@ impl FaultPlan {
         self.faults.iter().find_map(|fault| fault.at(call))
     }
 
-    /// What has gone wrong so far, in every device that follows this plan or a clone of it.
+    /// The faults so far, of every device that follows this plan or a clone of it.
     pub fn log(&self) -> Arc<FaultLog> {
         Arc::clone(&self.log)
     }

@@ -34,19 +34,9 @@ impl FaultyRobot {
 }
 
 impl Robot for FaultyRobot {
-    fn pose(&mut self, mut deadline: Deadline) -> Result<(Pose, Stamp), DriverError> {
-        const DOING: &str = "say where it stands";
-        let fault = self.link.next_fault();
-        match fault {
-            Some(FaultKind::Silence) => return self.link.silence(DOING, deadline),
-            Some(FaultKind::SlowLink) => deadline = self.link.slow(DOING, deadline)?,
-            Some(FaultKind::Drop) => {
-                self.inner.pose(deadline)?;
-                self.link.note(FaultKind::Drop);
-            }
-            _ => {}
-        }
-        let (mut pose, stamp) = self.inner.pose(deadline)?;
+    fn pose(&mut self, deadline: Deadline) -> Result<(Pose, Stamp), DriverError> {
+        let read = |deadline| self.inner.pose(deadline);
+        let ((mut pose, stamp), fault) = self.link.read("say where it stands", deadline, read)?;
         match (fault, self.last) {
             (Some(FaultKind::Freeze), Some(last)) => {
                 pose = last;

@@ -41,20 +41,10 @@ impl Sensor for FaultySensor {
     fn capture(
         &mut self,
         mut into: FrameMut<'_>,
-        mut deadline: Deadline,
+        deadline: Deadline,
     ) -> Result<Stamp, DriverError> {
-        const DOING: &str = "capture a frame";
-        let fault = self.link.next_fault();
-        match fault {
-            Some(FaultKind::Silence) => return self.link.silence(DOING, deadline),
-            Some(FaultKind::SlowLink) => deadline = self.link.slow(DOING, deadline)?,
-            Some(FaultKind::Drop) => {
-                self.inner.capture(again(&mut into), deadline)?;
-                self.link.note(FaultKind::Drop);
-            }
-            _ => {}
-        }
-        let stamp = self.inner.capture(again(&mut into), deadline)?;
+        let capture = |deadline| self.inner.capture(again(&mut into), deadline);
+        let (stamp, fault) = self.link.read("capture a frame", deadline, capture)?;
         let pixels = into.bytes_mut();
         match (fault, &mut self.last_frame) {
             (Some(FaultKind::Freeze), Some(last)) => {

@@ -31,7 +31,7 @@ pub struct Replay {
 /// How a recording is replayed.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ReplayOptions {
-    /// The name under which errors speak of it.
+    /// The name that errors call it by.
     pub driver: DriverKey,
     /// Whether it begins again after its last frame, rather than end.
     pub repeat: bool,

@@ -24,7 +24,7 @@ pub enum Timing {
 
 /// The PNG and JPEG files of one folder, each read when it is asked for.
 ///
-/// Files of other names are left alone; links are not followed.
+/// Other files are ignored; links are not followed.
 #[derive(Debug)]
 pub struct FolderSource {
     files: Vec<PathBuf>,

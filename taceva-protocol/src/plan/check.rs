@@ -1,4 +1,4 @@
-//! Pass 6: the gate. It removes nothing; a plan that would do the impossible does not leave it.
+//! Pass 6: consistency. It removes nothing, and refuses a plan that contradicts itself or its limits.
 
 use std::collections::BTreeSet;
 

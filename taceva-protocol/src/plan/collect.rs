@@ -1,4 +1,4 @@
-//! What passes work on: everything there is at first, and less after each pass.
+//! Collects everything that a study could do: all metrics, presses, fields and models. Later passes remove from it and merge.
 
 use taceva_core::{Field, FieldSet};
 use taceva_metrics::{Fact, Metric, catalogue};
@@ -104,7 +104,7 @@ pub struct Fit {
     pub phase: PhaseKind,
 }
 
-/// A plan in the making.
+/// What a plan holds so far: everything at first, less after each pass.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Collected {
     pub(crate) metrics: Vec<PlannedMetric>,

@@ -1,4 +1,4 @@
-//! Pass 7: what a plan will cost. An estimate for people; nothing is decided by it.
+//! Pass 7: what a plan will cost. An estimate for readers; nothing is decided by it.
 
 use taceva_core::{FrameInfo, Nanometre};
 

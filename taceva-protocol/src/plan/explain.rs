@@ -57,7 +57,7 @@ impl fmt::Display for Plan {
     }
 }
 
-/// What it costs, in the words of a person.
+/// The cost in words.
 struct Costs<'a>(&'a Plan);
 
 impl fmt::Display for Costs<'_> {
@@ -85,7 +85,7 @@ fn joined<T: fmt::Display>(items: &[T]) -> String {
     words.join(", ")
 }
 
-/// Skips of one kind and one reason on one line; what nobody asked for is no news.
+/// Skips of one kind and one reason on one line; metrics that were not asked for are left out.
 fn grouped(skipped: &[PlanSkip]) -> Vec<(String, &PlanReason)> {
     let mut lines: Vec<(&Subject, String, &PlanReason)> = Vec::new();
     let news = skipped

@@ -21,7 +21,7 @@ pub(crate) enum ModelChoice {
     Estimator,
 }
 
-/// Who could supply the fields of samples.
+/// The source of the fields of samples.
 #[derive(Clone, Debug)]
 pub(crate) enum FieldSource {
     Rig {

@@ -1,4 +1,4 @@
-//! Pass 5: what nobody reads is not recorded, and pictures nobody looks at are not taken.
+//! Pass 5: fields that nothing reads are not recorded, and pictures that nothing reads are not taken.
 
 use taceva_core::{Field, FieldSet};
 
@@ -7,7 +7,7 @@ use super::facts::StudyFacts;
 use super::reason::{PlanReason, Subject};
 use crate::phase::PhaseKind;
 
-/// Removes fields that no kept metric or model reads, and the pictures of presses that none looks at.
+/// Removes fields that no kept metric or model reads, and the pictures of presses of which none reads any.
 pub(super) fn pass(mut collected: Collected, facts: &StudyFacts<'_>) -> Collected {
     let of_metrics = collected.metrics.iter().map(|metric| metric.fields);
     let read = of_metrics.fold(FieldSet::EMPTY, |all, fields| all | fields);

@@ -9,7 +9,7 @@ use crate::content_id::ContentId;
 use crate::phase::PhaseKind;
 use taceva_core::Specimen;
 
-/// Joins equal presses and sorts the rest.
+/// Merges equal presses and sorts the rest.
 pub(super) fn pass(mut collected: Collected, facts: &StudyFacts<'_>) -> Collected {
     let mut places: BTreeMap<ContentId, usize> = BTreeMap::new();
     let mut shared: BTreeMap<(PhaseKind, PhaseKind), usize> = BTreeMap::new();

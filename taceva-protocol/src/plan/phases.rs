@@ -6,7 +6,7 @@ use super::collect::{Collected, Fit};
 use super::facts::{ModelChoice, StudyFacts};
 use super::reason::{PlanReason, Subject};
 
-/// Removes models nobody asks for, then phases that neither a metric nor a model rests on.
+/// Removes models that no metric reads, then phases that no metric or model uses.
 pub(super) fn pass(mut collected: Collected, facts: &StudyFacts<'_>) -> Collected {
     for fit in std::mem::take(&mut collected.fits) {
         let is_read = collected

@@ -61,7 +61,7 @@ impl fmt::Display for Subject {
 pub enum PlanReason {
     /// A reason that any stream of samples may have.
     Skip(SkipReason),
-    /// A field that nobody supplies, and what is missing in the chain that would.
+    /// A field without a source, and what its source would need.
     Unresolved {
         /// The field.
         field: Field,
@@ -88,7 +88,7 @@ pub enum PlanReason {
     },
 }
 
-/// What is missing for somebody to supply a field.
+/// What is missing for a field or channel to have a source.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Cause {

@@ -1,4 +1,4 @@
-//! Pass 1: who supplies each field. Missing links are a chain, not a no.
+//! Pass 1: resolves the source of each channel and field. What has no source is removed; the reason is the chain of what is missing.
 
 use taceva_core::{Field, SkipReason};
 
@@ -6,7 +6,7 @@ use super::collect::Collected;
 use super::facts::{FieldSource, ModelChoice, OF_THE_PROTOCOL, StudyFacts, axis_of};
 use super::reason::{Cause, PlanReason, Subject};
 
-/// Removes the channels and fields that nobody supplies.
+/// Removes the channels and fields without a source.
 pub(super) fn pass(mut collected: Collected, facts: &StudyFacts<'_>) -> Collected {
     for channel in collected.channels.clone() {
         if let Some(cause) = channel_cause(&channel, facts) {
@@ -39,7 +39,7 @@ fn channel_cause(channel: &str, facts: &StudyFacts<'_>) -> Option<Cause> {
     }
 }
 
-/// Why nobody supplies `field`.
+/// Why `field` has no source.
 fn field_reason(field: Field, collected: &Collected, facts: &StudyFacts<'_>) -> Option<PlanReason> {
     let cause = match &facts.field_source {
         FieldSource::Rig { sensor, robot, .. } => match field {

@@ -6,7 +6,7 @@ use taceva_core::{Deadline, DriverError, ForceTransducer, Lighting, Robot, Senso
 pub struct Devices<'a> {
     /// Carries the specimen.
     pub robot: &'a mut dyn Robot,
-    /// Says how hard it presses.
+    /// Measures the force.
     pub force: &'a mut dyn ForceTransducer,
     /// Gives pictures; absent where none is taken.
     pub sensor: Option<&'a mut dyn Sensor>,

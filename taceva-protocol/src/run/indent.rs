@@ -5,8 +5,9 @@ use taceva_core::{Limit, Nanometre, Phase, PressOutcome};
 use super::error::StopCause;
 use super::event::Event;
 use super::sample::{Gathered, Spot};
+use super::session::Run;
 use super::tip::{Step, Tip};
-use super::{PlannedPress, Run};
+use crate::plan::PlannedPress;
 use crate::press::Waypoint;
 
 /// Times that the tip draws back at one waypoint, each a segment at least: noise at the limit takes one or two.

@@ -1,4 +1,4 @@
-//! A rig that does what a test says, and remembers every motion.
+//! A rig of which a test sets the behaviour, and that records every motion.
 
 use std::sync::{Arc, Mutex, MutexGuard};
 use std::time::Duration;

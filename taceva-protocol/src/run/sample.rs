@@ -1,116 +1,10 @@
-//! A sample: picture, pose and force of one moment.
+//! The sample of a waypoint or of a picture: what was observed, and what the plan says of it.
 
-use std::time::Duration;
+use taceva_core::{Limit, Nanometre, Readings, Sample, Specimen};
 
-use taceva_core::{
-    Deadline, ErrorKind, Frame, FrameMut, Limit, Nanometre, Pose, Readings, Sample, Sensor,
-    Specimen, Stamp, Wrench,
-};
-
-use super::align::{Look, between};
-use super::error::StopCause;
-use super::event::Event;
-use super::tip::{Step, Tip};
+use super::observe::Observed;
 use crate::plan::{PlannedPress, SURFACE};
 use crate::press::Motion;
-
-/// Frames that are lost, damaged or older than the rest of the tip before the run gives up.
-const FRAME_TRIES: u32 = 10;
-/// A camera that is slower than this is dead.
-const FRAME_DEADLINE: Deadline = Deadline::after(Duration::from_secs(1));
-/// A frame from further ahead than this has another clock, in s.
-const AHEAD_S: f64 = 0.001;
-
-/// A sensor and the buffer its frames are written into.
-pub(super) struct Camera<'a> {
-    pub(super) sensor: &'a mut dyn Sensor,
-}
-
-impl<'a> Camera<'a> {
-    pub(super) fn new(sensor: &'a mut dyn Sensor) -> Camera<'a> {
-        Camera { sensor }
-    }
-
-    /// The first frame that was true no earlier than `from_s`.
-    pub(super) fn frame(
-        &mut self,
-        from_s: f64,
-        tip: &Tip<'_>,
-        events: &mut dyn FnMut(&Event),
-    ) -> Step<(Frame, Stamp)> {
-        let info = self.sensor.frame_info();
-        let too_large = || StopCause::Missing(format!("memory for frames of {info}"));
-        let mut last = None;
-        for _ in 0..FRAME_TRIES {
-            let mut bytes = vec![0; info.byte_len().ok_or_else(too_large)?];
-            let into = FrameMut::new(info, &mut bytes)
-                .expect("the buffer was made with the length of the frame");
-            match self.sensor.capture(into, FRAME_DEADLINE) {
-                Ok(stamp) if is_news(&stamp, from_s, tip.clock.now_s()) => {
-                    let frame = Frame::new(info, bytes)
-                        .expect("the buffer was made with the length of the frame");
-                    return Ok((frame, stamp));
-                }
-                Ok(_) => events(&Event::FrameRetried),
-                Err(error) if [ErrorKind::Timeout, ErrorKind::Protocol].contains(&error.kind()) => {
-                    last = Some(error.to_string());
-                    events(&Event::FrameRetried);
-                }
-                Err(error) => return Err(StopCause::Device(error)),
-            }
-        }
-        Err(StopCause::Frames {
-            attempts: FRAME_TRIES,
-            last,
-        })
-    }
-}
-
-/// Whether a frame was taken between then and now.
-fn is_news(stamp: &Stamp, from_s: f64, now_s: f64) -> bool {
-    (from_s..=now_s + AHEAD_S).contains(&stamp.valid_s)
-}
-
-/// What was true at one moment.
-pub(super) struct Observed {
-    wrench: Wrench,
-    pose: Pose,
-    stamp: Stamp,
-    frame: Option<Frame>,
-}
-
-/// Observes what is there after `before`; force and pose are read before and after the picture and told for its moment.
-pub(super) fn observe(
-    before: Look,
-    tip: &mut Tip<'_>,
-    camera: Option<&mut Camera<'_>>,
-    events: &mut dyn FnMut(&Event),
-) -> Step<Observed> {
-    let Some(camera) = camera else {
-        return Ok(Observed {
-            wrench: before.wrench,
-            pose: before.pose,
-            stamp: Stamp {
-                valid_s: before.wrench_s,
-                received_s: Some(tip.clock.now_s()),
-            },
-            frame: None,
-        });
-    };
-    let (frame, stamp) = camera.frame(before.since_s(), tip, events)?;
-    let received_s = stamp.received_s.or(Some(tip.clock.now_s()));
-    let after = tip.look()?;
-    let (wrench, pose) = between(&before, &after, stamp.valid_s);
-    Ok(Observed {
-        wrench,
-        pose,
-        stamp: Stamp {
-            received_s,
-            ..stamp
-        },
-        frame: Some(frame),
-    })
-}
 
 /// Which sample of a press is taken.
 #[derive(Clone, Copy, Debug)]
@@ -192,82 +86,11 @@ pub(super) fn sample(
 
 #[cfg(test)]
 mod tests {
-    use taceva_core::{
-        DriverError, FrameInfo, GratingKind, Millimetre, Newton, Phase, PixelFormat, Point,
-    };
+    use taceva_core::{GratingKind, Millimetre, Newton, Phase, Point, Pose, Stamp, Wrench};
 
     use super::*;
     use crate::press::Waypoint;
-    use crate::run::rig::{Rig, nothing, plan, with_tip};
-
-    /// Gives pictures that were taken at these times; the last one again and again.
-    struct Album(Vec<f64>);
-
-    impl Sensor for Album {
-        fn frame_info(&self) -> FrameInfo {
-            FrameInfo {
-                width: 1,
-                height: 1,
-                format: PixelFormat::Gray8,
-            }
-        }
-        fn capture(&mut self, _: FrameMut<'_>, _: Deadline) -> Result<Stamp, DriverError> {
-            let valid_s = self.0[0];
-            if self.0.len() > 1 {
-                self.0.remove(0);
-            }
-            Ok(Stamp {
-                valid_s,
-                received_s: None,
-            })
-        }
-    }
-
-    /// The picture of a tip that has rested since 4.5 s, at 5 s; how often another one was asked for, and when it was taken.
-    fn taken(times: &[f64]) -> (u32, Result<f64, StopCause>) {
-        let mut album = Album(times.to_vec());
-        let mut retried = 0;
-        let frame = with_tip(&Rig::new(-3.0, nothing), |tip| {
-            let mut note =
-                |event: &Event| retried += u32::from(matches!(event, Event::FrameRetried));
-            let mut camera = Camera::new(&mut album);
-            camera.frame(4.5, tip, &mut note)
-        });
-        (retried, frame.map(|(_, stamp)| stamp.valid_s))
-    }
-
-    #[test]
-    fn a_picture_of_before_the_rest_or_of_another_clock_is_asked_for_again() {
-        let (retried, time_s) = taken(&[4.25, 5.25, 4.499, 4.75]);
-        assert_eq!((retried, time_s.ok()), (3, Some(4.75)));
-        let (retried, time_s) = taken(&[4.5]);
-        assert_eq!((retried, time_s.ok()), (0, Some(4.5)));
-    }
-
-    #[test]
-    fn a_sensor_that_gives_only_old_pictures_is_given_up() {
-        let (retried, error) = taken(&[4.0]);
-        assert_eq!(retried, FRAME_TRIES);
-        let error = error.expect_err("no news").to_string();
-        assert!(error.starts_with("10 frames in a row were lost"), "{error}");
-    }
-
-    #[test]
-    fn a_sample_says_when_it_was_received_though_the_sensor_does_not() {
-        let mut album = Album(vec![5.001]);
-        let observed = with_tip(&Rig::new(-3.0, nothing), |tip| {
-            tip.find_pose()?;
-            let before = tip.look()?;
-            let camera = &mut Camera::new(&mut album);
-            observe(before, tip, Some(camera), &mut |_| {})
-        });
-        let stamp = observed.expect("news").stamp;
-        assert!(
-            stamp
-                .received_s
-                .is_some_and(|received_s| received_s >= stamp.valid_s)
-        );
-    }
+    use crate::run::rig::plan;
 
     /// The sample of the second of two waypoints, half a millimetre below a contact at 0.25 mm.
     fn second(motion: Motion, limited_by: Option<Limit>) -> Sample {

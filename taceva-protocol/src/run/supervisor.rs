@@ -20,7 +20,7 @@ const RATE_SPAN_S: f64 = 0.005;
 /// While the tip retreats the force may be this much above that of the halt, in N: the noise of a transducer.
 const RETREAT_MARGIN_N: f64 = 0.05;
 
-/// What it is told.
+/// A reading that the supervisor checks.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Observation {
@@ -35,7 +35,7 @@ pub enum Observation {
         /// Where it should be.
         target: Pose,
     },
-    /// Nothing was said; time passed.
+    /// No reading; time passed.
     Silence,
 }
 

@@ -20,17 +20,17 @@ pub trait Timekeeper {
 pub struct Cancel(Arc<AtomicBool>);
 
 impl Cancel {
-    /// Nobody wishes to stop.
+    /// Not cancelled.
     pub fn new() -> Cancel {
         Cancel::default()
     }
 
-    /// Expresses the wish; there is no way back.
+    /// Cancels; this cannot be undone.
     pub fn cancel(&self) {
         self.0.store(true, Ordering::Release);
     }
 
-    /// Whether somebody expressed it.
+    /// Whether it was cancelled.
     pub fn is_cancelled(&self) -> bool {
         self.0.load(Ordering::Acquire)
     }

@@ -1,4 +1,4 @@
-//! How many presses of which kind: the counts of a protocol, with those of the paper where a scene says nothing.
+//! How many presses of which kind: the counts of a protocol, with those of the paper as defaults.
 
 use std::collections::BTreeMap;
 

@@ -78,7 +78,7 @@ pub enum SceneProblem {
         /// The name.
         name: String,
     },
-    /// A count of nothing, or beyond what a bench can do.
+    /// A count of zero, or beyond what a bench can do.
     #[error("`{key}` is {found}, expected a whole number from {least} to {greatest}")]
     Count {
         /// The key.
@@ -134,7 +134,7 @@ pub enum SceneProblem {
         /// The limit.
         key: &'static str,
     },
-    /// Boards that no one has.
+    /// Boards that are not in the catalogue.
     #[error("gratings of {found} mm are not in the catalogue: {catalogue}")]
     Grating {
         /// As written.
@@ -156,7 +156,7 @@ pub enum SceneProblem {
         /// Why.
         reason: PlanReason,
     },
-    /// More presses than any gel survives.
+    /// More presses than are planned at most.
     #[error("the plan has {found} presses, expected at most {greatest}")]
     TooManyPresses {
         /// How many.

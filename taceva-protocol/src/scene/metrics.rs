@@ -59,7 +59,7 @@ pub struct MetricSettings {
 }
 
 impl MetricSettings {
-    /// The settings, with the defaults of the metrics where the scene says nothing.
+    /// The settings, with the defaults of the metrics where the scene gives none.
     pub fn settings(&self) -> Settings {
         let default = Settings::default();
         let tolerance = self

@@ -1,4 +1,4 @@
-//! The text of a scene: read strictly, and asked for lines when something is refused.
+//! The text of a scene: read strictly, with the line of whatever is refused.
 
 use serde::de::DeserializeOwned;
 use taceva_core::shown;

@@ -1,4 +1,4 @@
-//! A value of a scene that remembers where it was written, so that a refusal long after parsing names the line.
+//! A value of a scene with its position in the text, so that an error after parsing names the line.
 
 use serde::{Deserialize, Deserializer};
 
@@ -11,7 +11,7 @@ pub struct Setting<T> {
 }
 
 impl<T> Setting<T> {
-    /// A value that nobody wrote.
+    /// A default value, which stands nowhere in the text.
     pub const fn default_of(value: T) -> Setting<T> {
         Setting { value, at: None }
     }

@@ -94,7 +94,7 @@ impl Robot for SimulatedRobot {
     }
 }
 
-/// Says how hard it presses.
+/// Measures the force.
 pub(super) struct SimulatedForce(pub(super) Shared);
 
 impl ForceTransducer for SimulatedForce {
@@ -137,7 +137,7 @@ impl Tare for SimulatedForce {
     }
 }
 
-/// Gives frames that tell the truth of their moment.
+/// Gives frames that hold the true height and force of their exposure.
 pub(super) struct SimulatedSensor(pub(super) Shared);
 
 impl Sensor for SimulatedSensor {

@@ -1,4 +1,4 @@
-//! A disk that keeps what was synced, and of the rest whatever it likes.
+//! A disk that keeps what was synced, and an arbitrary part of the rest.
 
 use super::fault::{FaultKind, fraction};
 use super::world::{Sabotage, Shared};

@@ -7,11 +7,11 @@ use crate::draw::Draws;
 /// A way in which a rig fails.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum FaultKind {
-    /// The force transducer says nothing.
+    /// The force transducer gives no reading.
     Silence,
     /// The force transducer repeats its last reading with fresh stamps.
     Freeze,
-    /// The force transducer says NaN.
+    /// The force transducer gives NaN.
     NotANumber,
     /// The force transducer is at the end of its range.
     Saturation,
@@ -21,13 +21,13 @@ pub enum FaultKind {
     DroppedFrames,
     /// Every call takes longer, and readings of force wait in buffers.
     SlowLink,
-    /// The robot says it moved, and did not.
+    /// The robot reports a motion that it did not make.
     StuckRobot,
     /// The disk takes part of what is written, and no more.
     FullDisk,
     /// The process ends between two instructions, and what was not synced may be lost or torn.
     Kill,
-    /// Somebody wishes to stop.
+    /// The run is cancelled.
     Cancel,
 }
 
@@ -71,12 +71,12 @@ impl fmt::Display for FaultKind {
     }
 }
 
-/// How often each kind of fault struck a call.
+/// How often each kind of fault occurred in a call.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct FaultCounts([u64; FaultKind::ALL.len()]);
 
 impl FaultCounts {
-    /// How often `kind` struck.
+    /// How often `kind` occurred.
     pub fn of(&self, kind: FaultKind) -> u64 {
         self.0[kind as usize]
     }
@@ -170,7 +170,7 @@ impl Faults {
         Faults::from(kind, f64::NEG_INFINITY)
     }
 
-    /// Whether `kind` strikes a call at `now_s`; if so it is counted.
+    /// Whether `kind` occurs in a call at `now_s`; if so it is counted.
     pub(super) fn strike(&mut self, kind: FaultKind, now_s: f64) -> bool {
         let active =
             |fault: &Fault| fault.kind == kind && (fault.from_s..fault.until_s).contains(&now_s);

@@ -1,4 +1,4 @@
-//! What must hold whatever goes wrong. The oracle sees the truth of the simulated world, not what the devices say.
+//! The invariants of a run, checked against the truth of the simulated world and not against what the devices report.
 
 use std::fmt;
 
@@ -71,7 +71,7 @@ impl fmt::Display for Violation {
     }
 }
 
-/// How often each thing that must hold was looked at, so that a oracle who slept is noticed.
+/// How often each thing that must hold was looked at, so that an oracle that checked nothing is noticed.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Checks {
     /// Motions whose depth and force were compared with the limits.
@@ -97,12 +97,12 @@ impl Checks {
     }
 }
 
-/// The hazard of a transducer that says nothing.
+/// The hazard of a transducer that gives no reading.
 pub(super) const SILENCE: &str = "a silent transducer";
 /// The hazard of a gel that is pressed too hard.
 pub(super) const TOO_HARD: &str = "a force beyond the limit";
 
-/// What the oracle must know of the rig to say what was stated.
+/// What the oracle knows of the rig: its limits and the overshoot that is stated for them.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Stated {
     pub(super) depth_max_mm: f64,
@@ -176,7 +176,7 @@ impl Oracle {
     /// A motion ended.
     ///
     /// What is stated is how far the tip goes on beyond a limit, so that it is at the end of a motion inward that it can be passed. From
-    /// there the tip comes out step by step, still beyond the limit for a while: that is no second trespass.
+    /// there the tip comes out step by step, still beyond the limit for a while, which is not a second violation.
     pub(super) fn moved(&mut self, ended: Ended) {
         let Ended {
             depth_mm, force_n, ..
@@ -216,14 +216,14 @@ impl Oracle {
         self.overlooked = true;
     }
 
-    /// The transducer does not show what is, by silence or by an old force: nobody can answer a force that it does not show. How far the
-    /// tip may go meanwhile is bounded all the same, and the silence is a hazard of its own.
+    /// The transducer gives no force or an old one, and no supervisor can react to a force that it does not show. How far the
+    /// tip may go meanwhile is bounded all the same, and missing readings are a hazard of their own.
     pub(super) fn blinded(&mut self) {
         let unseen = self.hazard.take_if(|(hazard, _)| *hazard == TOO_HARD);
         self.overlooked |= unseen.is_some();
     }
 
-    /// The transducer speaks again: a silence that was shorter than a stale reading was none.
+    /// The transducer gives readings again; a gap shorter than a stale reading is no hazard.
     pub(super) fn heard(&mut self) {
         self.hazard.take_if(|(hazard, _)| *hazard == SILENCE);
     }
@@ -263,7 +263,7 @@ impl Oracle {
         }
     }
 
-    /// The process is gone: nobody is left to answer, and the tip rests at the end of its segment.
+    /// The process was killed: nothing can react any more, and the tip rests at the end of its segment.
     pub(super) fn killed(&mut self) {
         self.hazard = None;
         self.overlooked = false;

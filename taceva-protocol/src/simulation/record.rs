@@ -11,7 +11,7 @@ use crate::content_id::ContentId;
 use crate::plan::{Plan, PlannedPress};
 use crate::press::Motion;
 
-/// A robot that sticks in the last segment of a way leaves its sample so far from the waypoint; the label says where it really was.
+/// How far a sample may be from its waypoint where the robot stuck in the last segment; the label holds the true place.
 const LAG_MM: f64 = 0.015 + 1e-6;
 
 /// What was found in a record.

@@ -27,7 +27,7 @@ pub struct SimulationReport {
     pub seed: u64,
     /// What must never happen and did.
     pub violations: Vec<Violation>,
-    /// How often each kind of fault struck.
+    /// How often each kind of fault occurred.
     pub struck: FaultCounts,
     /// How often each thing that must hold was looked at.
     pub checks: Checks,
@@ -37,7 +37,7 @@ pub struct SimulationReport {
     pub simulated_s: f64,
 }
 
-/// Faults are few and end; whoever needs more processes than this goes round in circles.
+/// Faults are few and end; more processes than this make no progress.
 const MOST_PROCESSES: u32 = 40;
 /// Between two processes a person looks at the rig, in s.
 const REPAIR_S: f64 = 3.0;
@@ -190,7 +190,7 @@ fn process(
     }
 }
 
-/// A person frees the tip if it was left in place; whoever was killed left it wherever it was, for the next process to find.
+/// A person frees the tip if it was left in place; a killed process left it wherever it was.
 fn repair(shared: &Shared, left: Left) {
     let mut world = shared.world();
     world.oracle.killed();

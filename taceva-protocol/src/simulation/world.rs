@@ -1,4 +1,4 @@
-//! The world of a simulation: a tip on a spring, a clock that only calls advance, and faults that strike calls.
+//! The world of a simulation: a tip on a spring, a clock that only calls advance, and faults of calls.
 
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
@@ -68,7 +68,7 @@ pub(super) struct World {
     last_force: Option<[f64; 3]>,
     /// Since when the transducer shows an old force.
     frozen: bool,
-    /// Since when somebody listens to a transducer that says nothing.
+    /// Since when a reading is awaited from a transducer that gives none.
     listening_s: Option<f64>,
     last_frame_s: f64,
     pub(super) sabotage: Sabotage,
@@ -80,7 +80,7 @@ pub(super) struct World {
 pub(super) enum Sabotage {
     /// None: the rig as it is.
     Nothing,
-    /// The supervisor is told limits half as tight again.
+    /// The supervisor has limits that are half as large again.
     LooseLimits,
     /// Halts take longer than they may.
     SlowHalt,
@@ -90,11 +90,11 @@ pub(super) enum Sabotage {
     OldFrames,
 }
 
-/// The world as devices, disk and clock share it.
+/// The world, shared by devices, disk and clock.
 #[derive(Clone)]
 pub(super) struct Shared(Arc<Mutex<World>>);
 
-/// What is thrown when the process is killed: it is no error that code could handle.
+/// The panic payload of a killed process, which no code handles as an error.
 pub(super) struct Killed;
 
 impl Shared {
@@ -127,12 +127,12 @@ impl Shared {
         })))
     }
 
-    /// The world; a kill while it was held left it whole, because kills come between calls.
+    /// The world. Kills come between calls, so a poisoned lock still holds a consistent world.
     pub(super) fn world(&self) -> MutexGuard<'_, World> {
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Lets the process die here, if it is due.
+    /// Ends the process here, if a kill is due.
     pub(super) fn survive(&self) {
         let mut world = self.world();
         let now_s = world.now_s;
@@ -166,7 +166,7 @@ impl World {
         self.oracle.passed(self.now_s);
     }
 
-    /// Ends a halt; whoever listens from now on listens anew.
+    /// Ends a halt, and forgets since when readings were missing.
     pub(super) fn release(&mut self) {
         self.halted = false;
         self.listening_s = None;

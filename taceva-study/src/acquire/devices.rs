@@ -122,13 +122,13 @@ impl Opener<'_> {
 }
 
 impl RigSpec {
-    /// Whether a device of it is a model of one: then nothing that comes of it was measured.
+    /// Whether a device of it is simulated: then nothing that it records was measured.
     pub(super) fn is_simulated(&self, drivers: &Drivers) -> bool {
         self.sources(drivers)
             .any(|source| source == DriverSource::Simulated)
     }
 
-    /// Whether every device of it is a model of one: then it may be opened for no other reason than to be asked.
+    /// Whether every device of it is simulated: then it may be opened just to be asked for facts.
     pub(super) fn is_only_simulated(&self, drivers: &Drivers) -> bool {
         self.sources(drivers)
             .all(|source| source == DriverSource::Simulated)
@@ -155,7 +155,7 @@ impl RigSpec {
     }
 }
 
-/// Without the clock of its stamps no rig can be conducted.
+/// A rig cannot run without the clock of its stamps.
 fn without_clock(robot: &Selector) -> DriverError {
     let key: Result<DriverKey, _> = robot.driver().parse();
     let key = key.expect("it was opened by this key");

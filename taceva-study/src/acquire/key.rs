@@ -10,9 +10,9 @@ use crate::scene::{PlannedStudy, RigSpec};
 /// The parts of a written plan that say what is computed of a recording, and not what is recorded.
 const OF_SCORES: [&str; 4] = ["metrics", "fits", "skipped", "cost"];
 
-/// The key of the recording of `study`; `None` if a device of it is real, or is told to read a file, which can change under its name.
+/// The key of the recording of `study`; `None` if a device of it is real, or has an argument that names a file, whose content can change.
 ///
-/// No device is opened: what simulated ones are told is in their selectors, and what they are models of is known to the cache.
+/// No device is opened: the arguments of simulated ones are in their selectors, and what they are models of is known to the cache.
 pub(crate) fn key(
     study: &PlannedStudy,
     rig: &RigSpec,

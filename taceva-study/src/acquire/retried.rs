@@ -15,7 +15,7 @@ pub(super) fn add(path: &Path, count: u64) -> io::Result<()> {
     )
 }
 
-/// What a reader must know of the recording at `path`, if frames of it were taken again.
+/// A note on the recording at `path`, if frames of it were taken again.
 pub(crate) fn note(path: &Path) -> Option<String> {
     let count = read(path);
     (count > 0).then(|| {

@@ -16,7 +16,7 @@ pub struct Surroundings {
     pub clock: Box<dyn Timekeeper>,
     /// Who exchanges what the robot carries; without one a single specimen serves every press.
     pub specimens: Option<Box<dyn SpecimenChanger>>,
-    /// Told of each press before the tip goes there.
+    /// Is called with each press before the tip moves there.
     pub upcoming: Option<Box<dyn FnMut(Upcoming)>>,
     /// What the recording calls the gel.
     pub gel: Option<String>,
@@ -53,6 +53,6 @@ pub struct Workshop<'a> {
     pub surroundings: SurroundingsOf<'a>,
     /// Where finished stages are found and kept, if anywhere.
     pub cache: Option<&'a Cache>,
-    /// Whoever listens, and may wish to stop.
+    /// Receives progress, and may cancel.
     pub progress: &'a dyn Progress,
 }

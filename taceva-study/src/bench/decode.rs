@@ -61,7 +61,7 @@ pub struct DecodeTrials {
 /// A scale at which frames are too small for the features is a row that says so.
 ///
 /// # Errors
-/// [`StudyError`] if the request cannot be meant, the recording has frames that are no JPEG or cannot be read, or `work` asks to stop.
+/// [`StudyError`] if the request is not valid, the recording has frames that are no JPEG or cannot be read, or `work` asks to stop.
 pub fn decode(
     path: &Path,
     request: &FitRequest,

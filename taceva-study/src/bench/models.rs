@@ -288,11 +288,7 @@ fn latency(
     let rows = &target.rows[..target.rows.len().min(SINGLES)];
     if model.reads_features() {
         let extractor = extractor(dataset, model)?;
-        let pass = Pass {
-            rows,
-            jobs: NonZeroUsize::MIN,
-            progress,
-        };
+        let pass = Pass::new(rows, NonZeroUsize::MIN, progress);
         let predict = |frame| -> Result<f64, StudyError> {
             let start = Instant::now();
             let mut sample = vec![0.0; shape.len()];

@@ -55,7 +55,7 @@ pub struct Pruning {
 
 /// Everything that is kept in `folder`, by kind, the longest unused first; a folder that is not there holds nothing.
 ///
-/// Only what this program writes is listed: anything else that lies there is none of its business.
+/// Only what this program writes is listed: other files there are ignored.
 ///
 /// # Errors
 /// If the folder cannot be read.

@@ -11,11 +11,11 @@ use taceva_dataset::Digest;
 pub enum CachedStage {
     /// The presses of a study: a recording.
     Acquire,
-    /// What a model sees of their frames.
+    /// The features of their frames.
     Features,
-    /// What is learnt of them: a model.
+    /// The fitted model.
     Fit,
-    /// What the model says of the presses that it has not seen.
+    /// Predictions of the presses that the model was not fitted on.
     Predict,
     /// The spacings that are predicted for presses on gratings.
     Classify,

@@ -9,10 +9,10 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use taceva_dataset::{Dataset, Digest};
+use taceva_durable::sync_folder;
 
 use super::tree::link;
 use super::{Cache, Key, remove};
-use crate::durable::sync_folder;
 
 /// Folders that a note lists.
 const PLACES: usize = 8;

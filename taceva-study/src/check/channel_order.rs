@@ -12,7 +12,7 @@ pub(super) static CHECK: Check = Check {
     find,
 };
 
-/// Red and blue must differ by this much of full scale before a swap can be told from light that changed.
+/// Red and blue must differ by this much of full scale before a swap can be distinguished from light that changed.
 const CLEAR: f64 = 0.02;
 
 fn find(evidence: &Evidence<'_>) -> Vec<Found> {

@@ -37,18 +37,13 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
             .is_some_and(|entry| digests.contains(&entry.digest))
     };
     let copies: Vec<usize> = split.test.iter().copied().filter(is_copy).collect();
-    if !copies.is_empty() {
-        let message = format!(
-            "{} of {} test frames are also fitted on",
-            copies.len(),
-            split.test.len()
-        );
-        found.push(Found::about(
-            Severity::Error,
-            message,
-            evidence.names(&copies),
-        ));
-    }
+    let mut report = |severity, rows: &[usize], what: &str| {
+        if !rows.is_empty() {
+            let message = format!("{} of {} test {what}", rows.len(), split.test.len());
+            found.push(Found::about(severity, message, evidence.names(rows)));
+        }
+    };
+    report(Severity::Error, &copies, "frames are also fitted on");
 
     let points: BTreeSet<&str> = seen
         .iter()
@@ -60,17 +55,7 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
             .is_some_and(|point| points.contains(point))
     };
     let known: Vec<usize> = split.test.iter().copied().filter(is_known).collect();
-    if !known.is_empty() {
-        let message = format!(
-            "{} of {} test samples lie at a point that is also fitted on",
-            known.len(),
-            split.test.len()
-        );
-        found.push(Found::about(
-            Severity::Warning,
-            message,
-            evidence.names(&known),
-        ));
-    }
+    let what = "samples lie at a point that is also fitted on";
+    report(Severity::Warning, &known, what);
     found
 }

@@ -179,11 +179,7 @@ fn damaged(
     progress: &dyn Progress,
 ) -> Result<Vec<(usize, String)>, StudyError> {
     let rows = dataset.all_rows();
-    let pass = Pass {
-        rows: &rows,
-        jobs,
-        progress,
-    };
+    let pass = Pass::new(&rows, jobs, progress);
     let mut damaged = Vec::new();
     dataset.map_rows(
         pass,
@@ -209,11 +205,7 @@ fn look(
     let rows: Vec<usize> = dataset.all_rows().into_iter().filter(framed).collect();
     let mut facts = vec![None; dataset.table().rows()];
     dataset.map_frames(
-        Pass {
-            rows: &rows,
-            jobs,
-            progress,
-        },
+        Pass::new(&rows, jobs, progress),
         |_, frame| FrameFacts::of(&frame, reference.as_ref()),
         |row, found| {
             facts[row] = Some(found);

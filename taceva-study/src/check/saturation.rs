@@ -32,27 +32,15 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
     let saturated = rows_where(&|zero, full| zero + full < BINARISED && full > SHARE);
     let total = evidence.frames.iter().flatten().count();
     let mut found = Vec::new();
-    if !saturated.is_empty() {
-        let message = format!(
-            "{} of {total} frames have more than 2 % of their numbers at full scale",
-            saturated.len()
-        );
-        found.push(Found::about(
-            Severity::Warning,
-            message,
-            evidence.names(&saturated),
-        ));
-    }
-    if !binarised.is_empty() {
-        let message = format!(
-            "{} of {total} frames are black and white: processed, not as the camera saw them",
-            binarised.len()
-        );
-        found.push(Found::about(
-            Severity::Note,
-            message,
-            evidence.names(&binarised),
-        ));
-    }
+    let mut report = |severity, rows: &[usize], what: &str| {
+        if !rows.is_empty() {
+            let message = format!("{} of {total} frames {what}", rows.len());
+            found.push(Found::about(severity, message, evidence.names(rows)));
+        }
+    };
+    let what = "have more than 2 % of their numbers at full scale";
+    report(Severity::Warning, &saturated, what);
+    let what = "are black and white: processed, not as the camera saw them";
+    report(Severity::Note, &binarised, what);
     found
 }

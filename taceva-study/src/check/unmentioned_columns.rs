@@ -1,4 +1,4 @@
-//! TAC014: columns of the imported table that were left behind, above all those that judge their rows.
+//! TAC014: columns of the imported table that were left behind, above all those that rate their rows.
 
 use taceva_core::shown;
 use taceva_dataset::names_quality;
@@ -42,7 +42,7 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
     found
 }
 
-/// What a column is that may judge its rows, and the line of the map that would use it.
+/// What a column is that may rate its rows, and the line of the map that would use it.
 fn unread(name: &str) -> String {
     let name = shown(name);
     format!(

@@ -22,7 +22,7 @@ pub(super) struct Passes<'a> {
 }
 
 impl<'a> Passes<'a> {
-    /// Deals the metrics of `plan`; where a part was asked for, every metric reads that part.
+    /// Assigns the metrics of `plan` to passes; where a part was asked for, every metric reads that part.
     pub(super) fn new(plan: &'a MetricPlan, is_part_asked_for: bool) -> Passes<'a> {
         let kept = plan.kept().iter().copied();
         let (of_truth, others): (Vec<_>, Vec<_>) =
@@ -38,7 +38,7 @@ impl<'a> Passes<'a> {
         }
     }
 
-    /// Takes in `predicted`, which are the rows `rows` of `dataset`, and of the rest what metrics of the truth alone read.
+    /// Accumulates `predicted`, which are the rows `rows` of `dataset`, and of the rest what metrics of the truth alone read.
     pub(super) fn run(
         &self,
         dataset: &Dataset,
@@ -81,7 +81,7 @@ impl<'a> Passes<'a> {
         Ok(total)
     }
 
-    /// What a reader must know where two sets of rows were read.
+    /// A note where two sets of rows were read.
     pub(super) fn note(&self, dataset: &Dataset) -> Option<String> {
         let ids: Vec<&str> = self.of_truth.iter().map(|metric| metric.id).collect();
         let reads_predictions = !self.of_predictions.is_empty() || !self.of_unbounded.is_empty();

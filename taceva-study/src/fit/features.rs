@@ -1,19 +1,20 @@
-//! The features, chosen by what they cost on samples of the training part that are left out.
+//! The features, chosen by their loss on samples of the training part that are left out.
 
 use std::collections::BTreeSet;
 
 use taceva_core::{ErrorKind, Features};
 use taceva_models::{FeatureChoice, FeatureSpec, Model, ModelEstimator, OpenFeatures};
 
-use super::{FitPlan, groups};
+use super::FitPlan;
+use super::learn::groups;
 use crate::error::StudyError;
 use crate::work::Work;
 
 /// One group of so many is left out.
 const LEFT_OUT_OF: usize = 3;
-/// Contact points that must be left out for a spread to be told; with fewer, neighbouring samples are groups.
+/// Contact points that must be left out for a spread to be estimated; with fewer, neighbouring samples are groups.
 const POINTS_LEAST: usize = 3;
-/// Groups that neighbouring samples are taken as, where no contact point tells.
+/// Groups that neighbouring samples are taken as, where no contact point is known.
 const RUNS: usize = 10;
 
 /// The training part in two: positions that are learnt from, and those that are scored with the groups that they are independent by.
@@ -24,9 +25,9 @@ struct Parts {
 }
 
 impl FitPlan<'_> {
-    /// Tries features from the plainest on, and takes some; grids finer than the default only where the default was worth its price.
+    /// Tries features from the simplest on, and chooses some; grids finer than the default only where the default improved on the coarser ones.
     ///
-    /// Features that no model can be fitted to here are told with the reason; it is an error only if there are no others.
+    /// Features that no model can be fitted to here are reported with the reason; it is an error only if there are no others.
     pub(super) fn choose_features(
         &mut self,
         open: OpenFeatures,

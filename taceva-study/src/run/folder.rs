@@ -5,10 +5,11 @@ use std::fs::{self, File};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
+use taceva_durable::{parent_of, sync_folder};
 use taceva_models::Checkpoints;
 
+use super::layout::{FIGURES, PLANS, RECORDINGS, REPORTS, SCENE, STAGES};
 use crate::cache::remove;
-use crate::durable::sync_folder;
 use crate::error::StudyError;
 use crate::scene::PlannedScene;
 
@@ -28,16 +29,6 @@ pub enum Existing {
 pub struct RunFolder {
     path: PathBuf,
 }
-
-/// The plans of the run: the mark by which a folder is known to be one.
-pub(crate) const PLANS: &str = "plans.json";
-/// The scene as it was written.
-const SCENE: &str = "scene.toml";
-/// Where its recordings are.
-pub(crate) const RECORDINGS: &str = "recordings";
-const REPORTS: &str = "reports";
-const FIGURES: &str = "figures";
-const STAGES: &str = "stages.json";
 
 impl RunFolder {
     /// Makes the folder at `path` ready for `scene`.
@@ -205,10 +196,7 @@ fn make(path: &Path, scene: &str, plans: &str) -> io::Result<()> {
         drop(fs::remove_dir_all(&beside));
         return moved;
     }
-    sync_folder(match path.parent() {
-        Some(parent) if parent != Path::new("") => parent,
-        _ => Path::new("."),
-    })
+    sync_folder(parent_of(path))
 }
 
 /// Removes what an interruption left of files and recordings that were being written beside their places.
@@ -238,20 +226,18 @@ mod tests {
     fn scene(folder: &Path, seed: u64) -> PlannedScene {
         let recording = folder.join("recording");
         if !recording.exists() {
-            let spec = taceva_dataset::RecordingSpec {
-                facts: taceva_dataset::RecordingFacts {
-                    source: taceva_dataset::Source::Synthetic,
-                    clock: taceva_core::Clock::Unknown,
-                    sensor: taceva_dataset::SensorFacts {
-                        model: "drawn".into(),
-                        serial: "1".into(),
-                        gel: "1".into(),
-                        opaque: taceva_dataset::Known::Unknown,
-                    },
-                    footprint: None,
-                },
-                channels: taceva_core::Channels::new([taceva_core::Channel::FZ]).expect("one"),
-            };
+            let sensor = taceva_dataset::SensorFacts::new("drawn")
+                .with_serial("1")
+                .with_gel("1");
+            let facts = taceva_dataset::RecordingFacts::new(
+                taceva_dataset::Source::Synthetic,
+                taceva_core::Clock::Unknown,
+                sensor,
+            );
+            let spec = taceva_dataset::RecordingSpec::new(
+                facts,
+                taceva_core::Channels::new([taceva_core::Channel::FZ]).expect("one"),
+            );
             let recorder = taceva_dataset::Recorder::create(&recording, &spec).expect("new");
             recorder.close().expect("closed");
         }

@@ -19,7 +19,7 @@ pub struct Instead {
 }
 
 impl Instead {
-    /// Exchanges what the scene says of the model of `study`.
+    /// Replaces the model of `study`, or its settings.
     pub(super) fn exchange_model(
         &self,
         study: &str,

@@ -1,4 +1,4 @@
-//! The devices that a study names: what each is told, and what its driver says of it before anything is opened.
+//! The devices that a study names: the arguments of each, and what its driver states before anything is opened.
 
 use std::path::{Path, PathBuf};
 

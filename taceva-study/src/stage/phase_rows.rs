@@ -112,7 +112,7 @@ impl<'a> PhaseRows<'a> {
         Divided::within(table, &rows, Some("by-point"), request.seed)
     }
 
-    /// What a reader must know if presses ended early.
+    /// A note if presses ended early.
     pub(super) fn shortfall(&self) -> Option<String> {
         self.rows.as_ref()?;
         let presses = self.plan.presses.iter();

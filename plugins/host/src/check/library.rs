@@ -5,11 +5,10 @@
     reason = "the functions of the library are called as no host does"
 )]
 
-use std::ffi::OsString;
-
 use taceva_abi as abi;
 
 use super::subject::{Ending, Subject, ensure};
+use super::surroundings::Surroundings;
 use super::{Check, Of};
 use crate::device::RigHandle;
 use crate::library::Library;
@@ -146,30 +145,6 @@ fn keeps_signals(subject: &Subject) -> Result<(), Ending> {
             "signal {} has another handler than before",
             place + 1
         ))),
-    }
-}
-
-/// What of a process a plugin must leave as it was.
-pub(super) struct Surroundings {
-    folder: Option<std::ffi::CString>,
-    variables: Vec<(OsString, OsString)>,
-    handlers: Vec<usize>,
-}
-
-impl Surroundings {
-    pub(super) fn now() -> Surroundings {
-        let handler = |signal| {
-            // SAFETY: all bytes 0 is a value of this C struct.
-            let mut action: libc::sigaction = unsafe { std::mem::zeroed() };
-            // SAFETY: nothing is set; the present action is written into ours.
-            let asked = unsafe { libc::sigaction(signal, std::ptr::null(), &raw mut action) };
-            if asked == 0 { action.sa_sigaction } else { 0 }
-        };
-        Surroundings {
-            folder: rustix::process::getcwd(Vec::new()).ok(),
-            variables: std::env::vars_os().collect(),
-            handlers: (1..32).map(handler).collect(),
-        }
     }
 }
 

@@ -8,8 +8,8 @@ use taceva_core::{
     Args, Deadline, Descriptor, DriverError, DriverKey, DriverSource, ErrorKind, ModelError,
 };
 
-use super::library::Surroundings;
 use super::probe::Probe;
+use super::surroundings::Surroundings;
 use crate::call::{ArgList, Failure, Table, call};
 use crate::device::{Opened, RigHandle, open};
 use crate::in_process::InProcess;

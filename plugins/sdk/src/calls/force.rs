@@ -10,10 +10,10 @@ use taceva_core::{ErrorKind, Facts, ForceTransducer};
 
 use super::{Kind, call, device_calls, extended};
 use crate::convert::{self, deadline};
-use crate::entry::Loaded;
 use crate::failure::Failure;
+use crate::loaded::{Drivers, Loaded};
+use crate::memory;
 use crate::open::Handle;
-use crate::{factory, memory};
 
 type Opened = Box<dyn ForceTransducer>;
 
@@ -22,7 +22,7 @@ impl Kind for dyn ForceTransducer {
     type Calls = ForceCalls;
     const CALLS: &'static ForceCalls = &CALLS;
 
-    fn drivers(loaded: &Loaded) -> &factory::Drivers<dyn ForceTransducer> {
+    fn drivers(loaded: &Loaded) -> &Drivers<dyn ForceTransducer> {
         &loaded.forces
     }
 

@@ -10,9 +10,9 @@ use taceva_core::{Facts, Lighting};
 
 use super::{Kind, call, device_calls};
 use crate::convert::deadline;
-use crate::entry::Loaded;
+use crate::loaded::{Drivers, Loaded};
+use crate::memory;
 use crate::open::Handle;
-use crate::{factory, memory};
 
 type Opened = Box<dyn Lighting>;
 
@@ -21,7 +21,7 @@ impl Kind for dyn Lighting {
     type Calls = LightingCalls;
     const CALLS: &'static LightingCalls = &CALLS;
 
-    fn drivers(loaded: &Loaded) -> &factory::Drivers<dyn Lighting> {
+    fn drivers(loaded: &Loaded) -> &Drivers<dyn Lighting> {
         &loaded.lightings
     }
 

@@ -12,11 +12,11 @@ use taceva_core::{
 
 use super::{Kind, call, device_calls, extended};
 use crate::convert::{self, deadline};
-use crate::entry::Loaded;
 use crate::failure::Failure;
 use crate::guard::guard;
+use crate::loaded::{Drivers, Loaded};
+use crate::memory;
 use crate::open::{self, Handle};
-use crate::{factory, memory};
 
 /// A robot, and the motion that was accepted and not begun.
 pub(crate) struct Opened {
@@ -31,7 +31,7 @@ impl Kind for dyn Robot {
     type Calls = RobotCalls;
     const CALLS: &'static RobotCalls = &CALLS;
 
-    fn drivers(loaded: &Loaded) -> &factory::Drivers<dyn Robot> {
+    fn drivers(loaded: &Loaded) -> &Drivers<dyn Robot> {
         &loaded.robots
     }
 

@@ -10,10 +10,10 @@ use taceva_core::{ErrorKind, Facts, FrameMut, PixelFormat, Sensor};
 
 use super::{Kind, call, device_calls, extended};
 use crate::convert::{self, deadline};
-use crate::entry::Loaded;
 use crate::failure::Failure;
+use crate::loaded::{Drivers, Loaded};
+use crate::memory;
 use crate::open::Handle;
-use crate::{factory, memory};
 
 /// A sensor, and how many frames it gave.
 pub(crate) struct Opened {
@@ -26,7 +26,7 @@ impl Kind for dyn Sensor {
     type Calls = SensorCalls;
     const CALLS: &'static SensorCalls = &CALLS;
 
-    fn drivers(loaded: &Loaded) -> &factory::Drivers<dyn Sensor> {
+    fn drivers(loaded: &Loaded) -> &Drivers<dyn Sensor> {
         &loaded.sensors
     }
 

@@ -17,9 +17,10 @@ use super::progress::ToldProgress;
 use super::{EstimatorFactory, FitRequest, kept};
 use crate::failure::Failure;
 use crate::guard::guard;
+use crate::loaded::loaded;
 use crate::open;
 use crate::table::estimator_table;
-use crate::{entry, factory, memory};
+use crate::{factory, memory};
 
 /// The calls on `estimators` estimators.
 pub(crate) fn table(estimators: u32) -> Table {
@@ -46,7 +47,7 @@ static CALLS: RegressorCalls = RegressorCalls {
 type Kept = Box<dyn SavedRegressor>;
 
 fn estimator(number: u32) -> Result<&'static dyn EstimatorFactory, Failure> {
-    let estimators = &entry::loaded()?.estimators;
+    let estimators = &loaded()?.estimators;
     let found = usize::try_from(number)
         .ok()
         .and_then(|number| estimators.get(number));

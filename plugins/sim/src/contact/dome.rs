@@ -4,7 +4,8 @@
 //! that comes down beside the apex meets the dome at a slant, presses less along the normal and slides along the surface: that alone
 //! makes the rim look softer.
 
-use super::solid::{Answer, Indentation, Stand, dot};
+use super::indentation::Indentation;
+use super::law::{Answer, Stand, dot};
 use crate::elastic::hertz;
 use crate::parameters::Dome;
 

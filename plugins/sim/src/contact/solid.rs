@@ -3,6 +3,8 @@
 use super::board;
 use super::dome::DomeLaw;
 use super::flat::LayerLaw;
+use super::indentation::Indentation;
+use super::law::{Answer, Stand, dot};
 use super::{Contact, Friction, Relaxation};
 use crate::parameters::{Body, Parameters};
 
@@ -21,23 +23,6 @@ enum Law {
     Dome(DomeLaw),
 }
 
-/// Where a ball goes, from the place where it would just touch.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Indentation {
-    /// Where it comes down.
-    pub place_mm: [f64; 2],
-    /// How far below touching it stands.
-    pub depth_mm: f64,
-    /// How far below touching it has been: more than `depth_mm` on the way out.
-    pub deepest_mm: f64,
-    /// How far it is dragged along the surface, once deep.
-    pub shear_mm: [f64; 2],
-    /// Its radius.
-    pub indenter_radius_mm: f64,
-    /// How stiff the gel is here over its nominal stiffness.
-    pub stiffness: f64,
-}
-
 /// How a flat board stands in a gel.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct BoardStand {
@@ -47,32 +32,6 @@ pub struct BoardStand {
     pub force_n: f64,
     /// The modulus that the gel shows it.
     pub young_modulus_mpa: f64,
-}
-
-/// How a ball stands in a body: what both laws need.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Stand {
-    /// Indentation along the normal.
-    pub(super) normal_depth_mm: f64,
-    /// Outward normal.
-    pub(super) normal: [f64; 3],
-    /// Displacement along the surface since touching.
-    pub(super) slide: [f64; 3],
-}
-
-/// What a law says of a normal indentation.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Answer {
-    /// Normal force.
-    pub(super) force_n: f64,
-    /// Tangential stiffness.
-    pub(super) shear_n_per_mm: f64,
-    /// Contact radius.
-    pub(super) radius_mm: f64,
-    /// Modulus shown.
-    pub(super) young_modulus_mpa: f64,
-    /// The skin's part of the force.
-    pub(super) skin_share: f64,
 }
 
 impl Solid {
@@ -285,8 +244,4 @@ fn unit(vector: [f64; 3]) -> (f64, [f64; 3]) {
     } else {
         (0.0, [0.0; 3])
     }
-}
-
-pub(super) fn dot(left: [f64; 3], right: [f64; 3]) -> f64 {
-    left[0] * right[0] + left[1] * right[1] + left[2] * right[2]
 }

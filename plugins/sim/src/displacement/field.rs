@@ -3,7 +3,7 @@
 use super::load::Load;
 use super::profile::Profile;
 use super::radial::Quantity;
-use super::tables::narrow;
+use crate::number::narrow;
 
 /// Where points go under one press.
 ///

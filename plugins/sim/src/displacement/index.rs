@@ -3,8 +3,6 @@
 //! Tables are indexed by t = 1 + (r/a)², each octave of t cut into equal cells, out to 64 contact radii. The place in the octave is
 //! read off the bits of the number: no logarithm, no square root. The contact's rim, t = 2, is a node, so a kink there stays one.
 
-use super::radial::Radial;
-
 /// Cells an octave; a power of two.
 const CELLS: usize = 1 << CELL_BITS;
 const CELL_BITS: u32 = 6;
@@ -12,6 +10,9 @@ const CELL_BITS: u32 = 6;
 const OCTAVES: usize = 12;
 /// Values a table: one a node, from the centre to 64 contact radii.
 pub const NODES: usize = OCTAVES * CELLS + 1;
+
+/// A function of r², a value a [`node`].
+pub type Radial = [f32; NODES];
 
 /// Bits of the fraction in a binary32.
 const FRACTION_BITS: u32 = f32::MANTISSA_DIGITS - 1;

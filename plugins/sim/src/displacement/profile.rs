@@ -1,9 +1,9 @@
 //! The radial functions of one press.
 
-use super::index::{NODES, Place, locate, node};
+use super::index::{NODES, Place, Radial, locate, node};
 use super::load::Load;
-use super::radial::{Quantity, Radial};
-use super::tables::narrow;
+use super::radial::Quantity;
+use crate::number::narrow;
 
 /// The radial functions of one press, in mm and plain numbers; reuse one for press after press.
 #[derive(Clone, Debug)]

@@ -1,10 +1,5 @@
 //! The radial functions that a table holds.
 
-use super::index::NODES;
-
-/// A function of r², a value a [`node`](super::node).
-pub type Radial = [f32; NODES];
-
 /// What a radial function tells; the unit is that of a unit force on a unit modulus at unit contact radius.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(usize)]

@@ -1,10 +1,11 @@
 //! The radial functions of one layer at one depth, for every contact radius.
 
-use super::index::{NODES, node};
+use super::index::{NODES, Radial, node};
 use super::load::Load;
 use super::profile::Profile;
 use super::quadrature::{Layer, Values};
-use super::radial::{Quantity, Radial};
+use super::radial::Quantity;
+use crate::number::narrow;
 
 /// Contact radii a table has rows for: from 0.1 mm, three an octave, to 5 mm.
 const ROWS: usize = 18;
@@ -125,12 +126,4 @@ fn interpolate(points: &[(f64, Values)], cell: usize, at: f64) -> Values {
         }
     }
     sum
-}
-
-#[expect(
-    clippy::cast_possible_truncation,
-    reason = "pictures need seven digits of a displacement"
-)]
-pub(super) fn narrow(value: f64) -> f32 {
-    value as f32
 }

@@ -1,6 +1,9 @@
-//! Words that the devices have in common.
+//! What the devices have in common: the argument that names their bench, and how their errors are made.
 
 use taceva_core::{ArgSpec, ArgValue, Args, DriverError, DriverKey, ErrorKind};
+
+/// The key of the robot, which the bench names too where it cannot exchange the specimen.
+pub(super) const ROBOT: DriverKey = DriverKey::fixed("sim/robot");
 
 /// The argument by which devices find each other.
 pub(super) fn rig_argument() -> ArgSpec {

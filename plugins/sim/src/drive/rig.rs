@@ -4,68 +4,13 @@ use std::fmt;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
-use taceva_core::{DriverError, ErrorKind, GratingKind, Nanometre, Rig, SimulatedBench, Specimen};
-use thiserror::Error;
+use taceva_core::{DriverError, ErrorKind, Rig, SimulatedBench, Specimen};
 
-use super::error::failed;
-use super::robot::KEY as ROBOT;
+use super::error::{ROBOT, failed};
+use super::mounted::{MountError, Mounted};
 use super::state::State;
 use crate::contact::Contact;
 use crate::provenance::{MODEL_VERSION, Provenance};
-use crate::specimen::{Grating, GratingError, Indenter};
-
-/// What the robot of a simulated rig carries.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Mounted {
-    /// A ball.
-    Ball(Indenter),
-    /// A board with a grating.
-    Board(Grating),
-}
-
-impl Mounted {
-    /// A ball of `radius`.
-    ///
-    /// # Errors
-    /// [`MountError::Ball`] if the bench has none.
-    pub fn ball(radius: Nanometre) -> Result<Mounted, MountError> {
-        Indenter::from_radius(radius)
-            .map(Mounted::Ball)
-            .ok_or(MountError::Ball { radius })
-    }
-
-    /// A board of the catalogue.
-    ///
-    /// # Errors
-    /// [`MountError::Board`] if the catalogue has none.
-    pub fn board(kind: GratingKind, spacing: Nanometre) -> Result<Mounted, MountError> {
-        Ok(Mounted::Board(Grating::new(kind, spacing)?))
-    }
-}
-
-impl Default for Mounted {
-    fn default() -> Mounted {
-        Mounted::Ball(Indenter::default())
-    }
-}
-
-/// Why a specimen was not mounted.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
-#[non_exhaustive]
-pub enum MountError {
-    /// A ball that the bench does not have.
-    #[error("no ball of {radius} radius, expected 2, 4 or 10 mm")]
-    Ball {
-        /// Its radius.
-        radius: Nanometre,
-    },
-    /// A board that the catalogue does not have.
-    #[error(transparent)]
-    Board(#[from] GratingError),
-    /// The tip is in the gel.
-    #[error("the tip is in the gel, expected it in the air")]
-    InContact,
-}
 
 /// A simulated rig: the clock and the gel that its devices share.
 ///

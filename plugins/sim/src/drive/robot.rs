@@ -5,17 +5,16 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use taceva_core::{
     ArgSpec, ArgValue, Args, Deadline, Descriptor, DescriptorError, DescriptorSpec, DriverError,
-    DriverKey, DriverSource, ErrorKind, Factory, Facts, Guard, GuardedMotion, GuardedStop, Halt,
-    Millimetre, Point, Pose, Rig, Robot, RobotFacts, Speed, Stamp, Workspace, check_pose,
+    DriverSource, ErrorKind, Factory, Facts, Guard, GuardedMotion, GuardedStop, Halt, Millimetre,
+    Point, Pose, Rig, Robot, RobotFacts, Speed, Stamp, Workspace, check_pose,
 };
 
-use super::error::{failed, rig_argument, rig_name};
+use super::error::{ROBOT as KEY, failed, rig_argument, rig_name};
 use super::rig::SimulatedRig;
 use super::state::{Ended, Motion};
 use crate::bench::Bench;
 use crate::parameters::Model;
 
-pub(super) const KEY: DriverKey = DriverKey::fixed("sim/robot");
 /// The box in which the tip may be, mm, z into the gel.
 const LEAST_MM: [f64; 3] = [-40.0, -40.0, -60.0];
 const GREATEST_MM: [f64; 3] = [40.0, 40.0, 25.0];

@@ -10,7 +10,8 @@ use taceva_core::{
 
 use super::error::{failed, rig_argument, rig_name};
 use super::lighting::{Lamps, scenes};
-use super::rig::{Mounted, SimulatedRig};
+use super::mounted::Mounted;
+use super::rig::SimulatedRig;
 use super::state::State;
 use crate::bench::Bench;
 use crate::contact::BOARD_SIDE_MM;

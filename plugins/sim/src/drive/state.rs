@@ -4,8 +4,8 @@ use std::time::Duration;
 
 use taceva_core::{Millimetre, Pose};
 
+use super::mounted::Mounted;
 use super::place::{Visits, nanometres, point_of};
-use super::rig::Mounted;
 use super::ticks::Ticks;
 use super::touch::Touch;
 use super::visit::{Ground, Visit, VisitErrors};

@@ -9,26 +9,13 @@ use super::error::OpticsError;
 use super::gel::Gel;
 use super::luma::Luma;
 use super::noise;
-use super::number::narrow;
 use super::raster::Raster;
 use super::readout::Readout;
 use super::simd;
 use super::spec::{CameraSpec, GelSpec, OpticsSpec};
-use super::stimulus::Stimulus;
+use super::view::View;
+use crate::number::narrow;
 use crate::random::{Purpose, Random};
-
-/// What the camera looks at, once.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct View {
-    /// What touches the gel.
-    pub stimulus: Stimulus,
-    /// The light from outside.
-    pub light: AmbientLight,
-    /// The press, by number: what happens to the gel by chance belongs to it.
-    pub press: u64,
-    /// The picture of that press: the camera's noise belongs to it.
-    pub picture: u32,
-}
 
 /// The camera inside one unit of a tactile sensor, at one frame size.
 ///
@@ -210,6 +197,7 @@ pub(super) const COUNTS_PER_DN: u64 = 256;
 mod tests {
     use super::*;
     use crate::contact::{Indentation, Solid};
+    use crate::optics::Stimulus;
     use crate::parameters::Model;
 
     fn pressed(model: Model) -> (Camera, View) {

@@ -1,8 +1,8 @@
 //! Dark discs: the markers of a gel.
 
 use super::band::Band;
-use super::number::{count, narrow};
 use super::raster::Raster;
+use crate::number::{count, narrow};
 
 /// How a disc darkens what lies behind it, by the square of the distance from its middle.
 #[derive(Clone, Debug)]

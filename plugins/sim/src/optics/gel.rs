@@ -1,12 +1,12 @@
 //! The gel in front of the camera, whichever it is.
 
 use super::band::Band;
-use super::camera::View;
 use super::error::OpticsError;
 use super::gelsight::Gelsight;
 use super::magictac::Magictac;
 use super::raster::Raster;
 use super::spec::GelSpec;
+use super::view::View;
 use super::vitactip::Vitactip;
 use crate::random::Random;
 

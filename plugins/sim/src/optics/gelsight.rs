@@ -12,15 +12,15 @@ use std::sync::Arc;
 use self::dent::Dent;
 use self::lamp::{CHUNK, Caster, Lamp, Slopes};
 use super::band::Band;
-use super::camera::View;
 use super::disc::{Disc, DiscSpec};
 use super::error::OpticsError;
-use super::number::narrow;
 use super::raster::Raster;
 use super::relief::{Relief, Window};
 use super::stimulus::Stimulus;
 use super::texture::{self, Texture};
+use super::view::View;
 use crate::displacement::{Field, Profile, Tables};
+use crate::number::narrow;
 use crate::random::{Purpose, Random};
 
 /// A coated gel of one unit, at one frame size.

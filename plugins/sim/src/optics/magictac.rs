@@ -13,15 +13,15 @@ use self::glow::{Glow, Outside};
 use self::shift::{Moved, Shift};
 use super::ambient::AmbientLight;
 use super::band::Band;
-use super::camera::View;
 use super::error::OpticsError;
-use super::number::narrow;
 use super::raster::Raster;
 use super::relief::{Relief, Window};
 use super::simd::Lanes;
 use super::stimulus::Stimulus;
 use super::texture::Texture;
+use super::view::View;
 use crate::displacement::{Profile, Tables};
+use crate::number::narrow;
 use crate::random::{Purpose, Random};
 
 /// A block of one unit, at one frame size.

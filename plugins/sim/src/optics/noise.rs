@@ -6,7 +6,7 @@
 
 use std::sync::OnceLock;
 
-use super::number::{count, narrow};
+use crate::number::{count, narrow};
 use crate::random::{Purpose, Random, Stream};
 
 /// Numbers in the tile.

@@ -1,6 +1,6 @@
 //! The pixels of a frame, laid over the field of view.
 
-use super::number::narrow;
+use crate::number::narrow;
 
 /// A grid of pixels over a field of view that is centred on the axis; x to the right, y up, row 0 on top.
 ///
@@ -16,7 +16,7 @@ pub(super) struct Raster {
 impl Raster {
     /// `size` pixels over `field`, width first.
     pub(super) fn new(size: [usize; 2], field: [f64; 2]) -> Raster {
-        let pitch = |axis: usize| narrow(field[axis] / super::number::count(size[axis]));
+        let pitch = |axis: usize| narrow(field[axis] / crate::number::count(size[axis]));
         Raster {
             width: size[0],
             height: size[1],

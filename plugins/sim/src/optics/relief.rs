@@ -5,9 +5,9 @@ use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
 use taceva_core::GratingKind;
 
 use super::error::OpticsError;
-use super::number::narrow;
 use super::stimulus::Board;
 use crate::elastic::kernel::Kernel;
+use crate::number::narrow;
 
 /// What lies between a grating and a picture.
 #[derive(Clone, Copy, Debug)]

@@ -57,13 +57,6 @@ impl CameraSpec {
 /// The width of the picture for which parameters tell the noise.
 const REFERENCE_WIDTH: f64 = 96.0;
 
-/// A grating's contrast as a part of the light, from its contrast over the noise of a pixel as parameters tell it.
-pub(super) fn grating_contrast(parameters: &Parameters) -> f64 {
-    let camera = &parameters.camera;
-    let variance = camera.shot_gain * camera.mean_gray + camera.read_noise * camera.read_noise;
-    parameters.gratings.contrast * variance.sqrt() / camera.mean_gray.max(1.0)
-}
-
 fn pixels(count: f64) -> u32 {
     #[expect(
         clippy::cast_possible_truncation,

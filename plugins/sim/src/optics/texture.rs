@@ -1,7 +1,7 @@
 //! Smooth random patterns that repeat: speckle, unevenness of a coating, the buckling of a lattice.
 
-use super::number::{count, narrow};
 use super::simd::Lanes;
+use crate::number::{count, narrow};
 use crate::random::Stream;
 
 /// A pattern on a torus of texels, four values each; linear between them.

@@ -13,15 +13,15 @@ use self::dome::Dimple;
 use self::lens::Lens;
 use super::ambient::AmbientLight;
 use super::band::Band;
-use super::camera::View;
 use super::disc::{Disc, DiscSpec};
 use super::error::OpticsError;
-use super::number::narrow;
 use super::raster::Raster;
 use super::relief::{Relief, Window};
 use super::stimulus::{Board, Stimulus};
 use super::texture::{self, Texture};
+use super::view::View;
 use crate::contact::Contact;
+use crate::number::narrow;
 use crate::random::{Purpose, Random};
 
 /// A dome of one unit, at one frame size.

@@ -112,11 +112,7 @@ impl<'a> Pictures<'a> {
     }
 
     fn pass(&self) -> Pass<'_> {
-        Pass {
-            rows: &self.rows,
-            jobs: self.work.jobs,
-            progress: self.work.progress,
-        }
+        Pass::new(&self.rows, self.work.jobs, self.work.progress)
     }
 }
 

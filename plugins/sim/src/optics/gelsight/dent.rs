@@ -2,7 +2,7 @@
 
 use super::lamp::{CHUNK, Caster, Slopes};
 use crate::displacement::{Load, NODES, Profile, Quantity, node};
-use crate::optics::number::narrow;
+use crate::number::narrow;
 use crate::optics::simd::Lanes;
 
 /// The slopes around one contact, a node of the radial tables each: sink's slope over r, bulge over r, its slope over r, shadow over r.

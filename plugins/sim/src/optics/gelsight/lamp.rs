@@ -1,6 +1,6 @@
 //! The lamps around a coated gel, and what its coating throws back.
 
-use super::super::number::narrow;
+use crate::number::narrow;
 use crate::random::Stream;
 
 /// A bar of light beside the gel.

@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use super::spec::MagictacSpec;
-use crate::optics::number::{count, narrow};
+use crate::number::{count, narrow};
 use crate::optics::texture::{SIDE, Texture, smooth_noise};
 use crate::random::{Purpose, Random};
 

@@ -1,7 +1,7 @@
 //! Where the lattice is seen under a ball, ready to be looked up pixel by pixel.
 
 use crate::displacement::{Load, NODES, Profile, Quantity, locate, node};
-use crate::optics::number::narrow;
+use crate::number::narrow;
 use crate::optics::simd::Lanes;
 
 /// A ball's work on the three layers and on the surface, a node of the radial tables each.

@@ -1,6 +1,6 @@
 //! The figures of a clear block with a lattice.
 
-use crate::optics::spec::grating_contrast;
+use crate::optics::contrast::grating_contrast;
 use crate::parameters::{Lattice, Layer, Parameters};
 
 /// A clear block with a printed lattice in three layers.

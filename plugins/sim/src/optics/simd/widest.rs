@@ -7,8 +7,9 @@
 //! Vectors of eight do what vectors of four do, lane by lane, and no multiplication is fused with an addition, so both give the same
 //! bytes.
 
-use crate::optics::camera::{Camera, View};
+use crate::optics::camera::Camera;
 use crate::optics::luma::Luma;
+use crate::optics::view::View;
 
 /// [`Camera::expose`] with the widest vectors of this processor.
 pub(in crate::optics) fn expose(camera: &mut Camera, view: &View, bytes: &mut [u8]) -> Luma {

@@ -3,7 +3,7 @@
 use super::spec::VitactipSpec;
 use crate::contact::Contact;
 use crate::elastic::{hertz, shell};
-use crate::optics::number::{count, narrow};
+use crate::number::{count, narrow};
 
 /// The dimple of a shell, tabulated: working out Kelvin's function for 127 markers would take longer than the picture.
 #[derive(Clone, Debug)]

@@ -1,7 +1,7 @@
 //! The figures of a clear dome.
 
 use crate::elastic::shell;
-use crate::optics::spec::grating_contrast;
+use crate::optics::contrast::grating_contrast;
 use crate::parameters::{Dome, Parameters};
 
 /// A clear dome with markers in its skin, seen from inside by a wide lens.

@@ -1,0 +1,32 @@
+//! What a contact law is given and what it returns.
+
+/// The position of a ball in a body, as both laws need it.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Stand {
+    /// Indentation along the normal.
+    pub(super) normal_depth_mm: f64,
+    /// Outward normal.
+    pub(super) normal: [f64; 3],
+    /// Displacement along the surface since touching.
+    pub(super) slide: [f64; 3],
+}
+
+/// What a law says of a normal indentation.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Answer {
+    /// Normal force.
+    pub(super) force_n: f64,
+    /// Tangential stiffness.
+    pub(super) shear_n_per_mm: f64,
+    /// Contact radius.
+    pub(super) radius_mm: f64,
+    /// Modulus shown.
+    pub(super) young_modulus_mpa: f64,
+    /// The skin's part of the force.
+    pub(super) skin_share: f64,
+}
+
+/// The scalar product.
+pub(super) fn dot(left: [f64; 3], right: [f64; 3]) -> f64 {
+    left[0] * right[0] + left[1] * right[1] + left[2] * right[2]
+}

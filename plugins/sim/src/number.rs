@@ -1,0 +1,21 @@
+//! The two casts that displacements and pictures need, argued once.
+
+/// A value worked out in binary64 as one of a table or a picture.
+#[expect(
+    clippy::cast_possible_truncation,
+    reason = "displacements and pictures need seven digits"
+)]
+#[inline]
+pub(crate) fn narrow(value: f64) -> f32 {
+    value as f32
+}
+
+/// A count as a number to reckon with.
+#[expect(
+    clippy::cast_precision_loss,
+    reason = "counts of pixels stay far below 2^53"
+)]
+#[inline]
+pub(crate) fn count(things: usize) -> f64 {
+    things as f64
+}

@@ -1,0 +1,157 @@
+//! Frames of a dataset: read, verified and decoded when asked for.
+
+use std::sync::{Arc, PoisonError};
+
+use taceva_core::Frame;
+
+use super::Dataset;
+use super::verify::check_digest;
+use crate::decode::{check_to_the_end, decode, kind_of_whole};
+use crate::difference;
+use crate::digest::Digest;
+use crate::error::DatasetError;
+use crate::header::FramesInfo;
+use crate::limits;
+use crate::pack::read_span;
+use crate::scaled::{DecodeScale, decode_scaled};
+use crate::table::FrameEntry;
+
+impl Dataset {
+    /// The frame of a row, verified and decoded; `None` if the row has none.
+    ///
+    /// # Errors
+    /// [`DatasetError::Digest`] if its file is not the one recorded; [`DatasetError::Image`] if it does not decode;
+    /// [`DatasetError::Request`] if there is no such row; [`DatasetError::Io`].
+    pub fn frame(&self, row: usize) -> Result<Option<Frame>, DatasetError> {
+        self.check_row(row)?;
+        match (&self.table.frames()[row], &self.header.frames) {
+            (Some(entry), Some(info)) => self.read_frame(entry, info).map(Some),
+            _ => Ok(None),
+        }
+    }
+
+    /// What is wrong inside the picture of a row although it decodes, in words; `None` if nothing is, or the row has no frame.
+    ///
+    /// A JPEG is read to its end, code by code. Imports refuse what is found so; datasets of before they did may hold it.
+    ///
+    /// # Errors
+    /// [`DatasetError::Digest`] if its file is not the one recorded; [`DatasetError::Request`] if there is no such row;
+    /// [`DatasetError::Io`].
+    pub fn damage_inside(&self, row: usize) -> Result<Option<String>, DatasetError> {
+        self.check_row(row)?;
+        let Some(entry) = &self.table.frames()[row] else {
+            return Ok(None);
+        };
+        let bytes = self.frame_bytes(entry)?;
+        let whole = kind_of_whole(&bytes).and_then(|kind| check_to_the_end(&bytes, kind));
+        Ok(whole.err())
+    }
+
+    /// The frame without contact, if the lab knew one.
+    ///
+    /// # Errors
+    /// As [`frame`](Dataset::frame).
+    pub fn reference(&self) -> Result<Option<Frame>, DatasetError> {
+        let Some(info) = &self.header.frames else {
+            return Ok(None);
+        };
+        let entry = self.reference_entry();
+        let frame = entry.map(|entry| self.read_frame(&entry, info));
+        frame.transpose()
+    }
+
+    fn read_frame(&self, entry: &FrameEntry, info: &FramesInfo) -> Result<Frame, DatasetError> {
+        let path = self.path().join(&entry.path);
+        let bytes = self.frame_bytes(entry)?;
+        let first = match entry.is_difference() {
+            true => Some(self.first_of_pack(entry, info)?),
+            false => None,
+        };
+        let wrong = |problem| DatasetError::Image {
+            place: None,
+            path: path.clone(),
+            problem,
+        };
+        let frame = match self.scale {
+            DecodeScale::Full => decode(&bytes, info.channel_order).map(|(_, frame)| frame),
+            scale => decode_scaled(&bytes, info.channel_order, scale),
+        };
+        let mut frame = frame.map_err(wrong)?;
+        if let Some(first) = first.filter(|first| first.info() == frame.info()) {
+            frame = difference::plus(&frame, &first).map_err(|error| wrong(error.to_string()))?;
+        }
+        if frame.info() != info.info {
+            return Err(wrong(format!(
+                "{}, expected {} as in the header",
+                frame.info(),
+                info.info
+            )));
+        }
+        Ok(frame)
+    }
+
+    /// The bytes of a frame as they were recorded, verified.
+    ///
+    /// # Errors
+    /// [`DatasetError::Digest`] if they are not those recorded; [`DatasetError::Io`].
+    pub fn frame_bytes(&self, entry: &FrameEntry) -> Result<Vec<u8>, DatasetError> {
+        let path = self.path().join(&entry.path);
+        let bytes = match entry.span {
+            Some(span) => {
+                let (file, _) = self.folder.file(&entry.path, u64::MAX)?;
+                read_span(file, &path, span)?
+            }
+            None => self.folder.read(&entry.path, limits::IMAGE_BYTES)?,
+        };
+        let found = match entry.is_difference() {
+            true => difference::digest(self.first_entry(entry)?.digest, &bytes),
+            false => Digest::of(&bytes),
+        };
+        check_digest(&path, entry.digest, found)?;
+        Ok(bytes)
+    }
+
+    /// The first frame of the pack that `entry` is in.
+    fn first_entry(&self, entry: &FrameEntry) -> Result<&FrameEntry, DatasetError> {
+        let is_first = |first: &&FrameEntry| first.begins(&entry.path) && !first.is_difference();
+        let mut frames = self.table.frames().iter().flatten();
+        frames.find(is_first).ok_or_else(|| DatasetError::Damaged {
+            path: self.path().join(&entry.path),
+            problem: "no row names its first frame, which others are differences to".to_owned(),
+        })
+    }
+
+    /// The same decoded, once a pack.
+    fn first_of_pack(
+        &self,
+        entry: &FrameEntry,
+        info: &FramesInfo,
+    ) -> Result<Arc<Frame>, DatasetError> {
+        let lock = || self.firsts.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(first) = lock().get(&entry.path) {
+            return Ok(Arc::clone(first));
+        }
+        let first = Arc::new(self.read_frame(self.first_entry(entry)?, info)?);
+        lock().insert(entry.path.clone(), Arc::clone(&first));
+        Ok(first)
+    }
+
+    pub(super) fn reference_entry(&self) -> Option<FrameEntry> {
+        let reference = self.header.frames.as_ref()?.reference.as_ref()?;
+        Some(FrameEntry {
+            path: reference.path.clone(),
+            span: None,
+            digest: reference.sha256,
+        })
+    }
+
+    pub(super) fn check_row(&self, row: usize) -> Result<(), DatasetError> {
+        if row < self.table.rows() {
+            return Ok(());
+        }
+        Err(DatasetError::Request {
+            path: self.path().to_owned(),
+            problem: format!("no row {row}, there are {}", self.table.rows()),
+        })
+    }
+}

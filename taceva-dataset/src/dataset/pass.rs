@@ -1,0 +1,229 @@
+//! Passes over the rows of a dataset, on several threads and in order.
+
+use std::num::NonZeroUsize;
+
+use taceva_core::{Field, Frame, Progress, SampleSink, SinkError};
+
+use super::Dataset;
+use crate::error::DatasetError;
+use crate::parallel::ordered_map;
+
+/// Which rows a pass goes through, in which order, on how many threads, and what receives its progress.
+///
+/// ```
+/// # use taceva_core::{Channel, Channels, Clock, Frame, FrameInfo, PixelFormat, Readings, Sample};
+/// # use taceva_dataset::{Recorder, RecordingFacts, RecordingSpec, SensorFacts, Source};
+/// # let folder = tempfile::tempdir()?;
+/// # let path = folder.path().join("recording");
+/// # let facts = RecordingFacts::new(Source::Synthetic, Clock::Unknown, SensorFacts::new("my gel"));
+/// # let mut recorder = Recorder::create(&path, &RecordingSpec::new(facts, Channels::new([Channel::FZ])?))?;
+/// # let info = FrameInfo { width: 2, height: 1, format: PixelFormat::Gray8 };
+/// # for number in 0..2_u8 {
+/// #     recorder.append(&Sample {
+/// #         id: number.to_string(),
+/// #         truth: Readings::from_values([0.5]),
+/// #         frame: Some(Frame::new(info, vec![number, 90])?),
+/// #         ..Sample::default()
+/// #     })?;
+/// # }
+/// use std::num::NonZeroUsize;
+///
+/// use taceva_core::Silent;
+/// use taceva_dataset::{Dataset, Pass};
+///
+/// # recorder.close()?;
+/// let dataset = Dataset::open(&path)?;
+/// let rows = dataset.all_rows();
+/// let mut brightest = Vec::new();
+/// dataset.map_frames(
+///     Pass::new(&rows, NonZeroUsize::MIN, &Silent),
+///     |_row, frame| frame.samples().max(),
+///     |_row, value| {
+///         brightest.push(value);
+///         Ok(())
+///     },
+/// )?;
+/// assert_eq!(brightest, [Some(90), Some(90)]);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Copy)]
+#[non_exhaustive]
+pub struct Pass<'a> {
+    /// The rows, from 0, in the order in which they are wanted.
+    pub rows: &'a [usize],
+    /// Threads that read and decode.
+    pub jobs: NonZeroUsize,
+    /// Receives each row that is done, and may cancel the pass.
+    pub progress: &'a dyn Progress,
+}
+
+impl<'a> Pass<'a> {
+    /// A pass over `rows` on `jobs` threads.
+    pub fn new(rows: &'a [usize], jobs: NonZeroUsize, progress: &'a dyn Progress) -> Pass<'a> {
+        Pass {
+            rows,
+            jobs,
+            progress,
+        }
+    }
+}
+
+/// What a pass over samples did.
+///
+/// ```
+/// # use taceva_core::{Channel, Channels, Clock, Frame, FrameInfo, PixelFormat, Readings, Sample};
+/// # use taceva_dataset::{Recorder, RecordingFacts, RecordingSpec, SensorFacts, Source};
+/// # let folder = tempfile::tempdir()?;
+/// # let path = folder.path().join("recording");
+/// # let facts = RecordingFacts::new(Source::Synthetic, Clock::Unknown, SensorFacts::new("my gel"));
+/// # let mut recorder = Recorder::create(&path, &RecordingSpec::new(facts, Channels::new([Channel::FZ])?))?;
+/// # let info = FrameInfo { width: 2, height: 1, format: PixelFormat::Gray8 };
+/// # for number in 0..2_u8 {
+/// #     recorder.append(&Sample {
+/// #         id: number.to_string(),
+/// #         truth: Readings::from_values([0.5]),
+/// #         frame: Some(Frame::new(info, vec![number, 90])?),
+/// #         ..Sample::default()
+/// #     })?;
+/// # }
+/// use std::num::NonZeroUsize;
+///
+/// use taceva_core::{FieldSet, SampleSink, Silent, SinkError};
+/// use taceva_dataset::{Dataset, Pass};
+///
+/// /// Counts samples; it reads no frame.
+/// struct Count(u64);
+///
+/// impl SampleSink for Count {
+///     fn fields(&self) -> FieldSet {
+///         FieldSet::PAIRS
+///     }
+///     fn accept(&mut self, _: &Sample) -> Result<(), SinkError> {
+///         self.0 += 1;
+///         Ok(())
+///     }
+/// }
+///
+/// # recorder.close()?;
+/// let dataset = Dataset::open(&path)?;
+/// let (rows, mut count) = (dataset.all_rows(), Count(0));
+/// let report = dataset.stream(Pass::new(&rows, NonZeroUsize::MIN, &Silent), &mut count)?;
+/// assert_eq!((report.samples, report.frames_decoded, count.0), (2, 0, 2));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct StreamReport {
+    /// Samples handed to the sink.
+    pub samples: u64,
+    /// Frames that were read and decoded: none, if the sink reads none.
+    pub frames_decoded: u64,
+}
+
+impl Dataset {
+    /// Decodes the frame of each row, calls `work` with it on one of the threads and `take` with the results, in order, on this one.
+    ///
+    /// At most a few frames a thread are in memory. The outcome does not depend on the number of threads.
+    ///
+    /// # Errors
+    /// Those of [`frame`](Dataset::frame), for the first row in order that has one; [`DatasetError::Request`] if a row has no
+    /// frame; [`DatasetError::Sink`] if `take` refuses; [`DatasetError::Cancelled`].
+    pub fn map_frames<T: Send>(
+        &self,
+        pass: Pass<'_>,
+        work: impl Fn(usize, Frame) -> T + Sync,
+        mut take: impl FnMut(usize, T) -> Result<(), SinkError>,
+    ) -> Result<(), DatasetError> {
+        let decode_and_work = |row| {
+            let frame = self.frame(row)?.ok_or_else(|| DatasetError::Request {
+                path: self.path().to_owned(),
+                problem: format!("row {row} has no frame"),
+            })?;
+            Ok(work(row, frame))
+        };
+        self.pass(pass, "decode", decode_and_work, |row, result| {
+            take(row, result).map_err(|source| DatasetError::Sink { row, source })
+        })
+    }
+
+    /// Calls `work` with each row on one of the threads and `take` with the results, in order, on this one; `stage` is what the progress hears.
+    ///
+    /// # Errors
+    /// Those of `work` and `take`, for the first row in order that has one; [`DatasetError::Cancelled`].
+    pub fn map_rows<T: Send>(
+        &self,
+        pass: Pass<'_>,
+        stage: &str,
+        work: impl Fn(usize) -> Result<T, DatasetError> + Sync,
+        take: impl FnMut(usize, T) -> Result<(), DatasetError>,
+    ) -> Result<(), DatasetError> {
+        self.pass(pass, stage, work, take)
+    }
+
+    /// Pushes the sample of each row into `sink`, in order; frames are decoded only if the sink reads them.
+    ///
+    /// # Errors
+    /// Those of [`frame`](Dataset::frame); [`DatasetError::Sink`] if the sink refuses a sample; [`DatasetError::Cancelled`].
+    pub fn stream(
+        &self,
+        pass: Pass<'_>,
+        sink: &mut dyn SampleSink,
+    ) -> Result<StreamReport, DatasetError> {
+        let fields = sink.fields();
+        let wants_frames = fields.contains(Field::Frame);
+        let mut report = StreamReport::default();
+        let read = |row| {
+            self.check_row(row)?;
+            if wants_frames {
+                self.frame(row)
+            } else {
+                Ok(None)
+            }
+        };
+        // Without frames there is nothing to share among threads.
+        let jobs = if wants_frames {
+            pass.jobs
+        } else {
+            NonZeroUsize::MIN
+        };
+        self.pass(Pass { jobs, ..pass }, "read", read, |row, frame| {
+            report.samples += 1;
+            report.frames_decoded += u64::from(frame.is_some());
+            let mut sample = self.table.sample(row, fields, frame);
+            sample.sensor_id = Some(self.header.sensor.model.clone());
+            sink.accept(&sample)
+                .map_err(|source| DatasetError::Sink { row, source })
+        })?;
+        Ok(report)
+    }
+
+    fn pass<T: Send>(
+        &self,
+        pass: Pass<'_>,
+        stage: &str,
+        work: impl Fn(usize) -> Result<T, DatasetError> + Sync,
+        mut take: impl FnMut(usize, T) -> Result<(), DatasetError>,
+    ) -> Result<(), DatasetError> {
+        let Pass {
+            rows,
+            jobs,
+            progress,
+        } = pass;
+        progress.begin(stage, Some(rows.len() as u64));
+        let outcome = ordered_map(
+            rows.len(),
+            jobs,
+            |position| work(rows[position]),
+            |position, result| {
+                if progress.is_cancelled() {
+                    return Err(DatasetError::Cancelled);
+                }
+                take(rows[position], result?)?;
+                progress.advance(1);
+                Ok(())
+            },
+        );
+        progress.end();
+        outcome
+    }
+}

@@ -1,0 +1,121 @@
+//! Whether the files of a dataset are those that its header describes.
+
+use std::io::{Seek, SeekFrom};
+use std::path::Path;
+
+use super::Dataset;
+use crate::digest::Digest;
+use crate::error::DatasetError;
+use crate::file::check_relative;
+use crate::header::Header;
+use crate::held::HeldFolder;
+use crate::layout;
+use crate::limits;
+use crate::samples::from_parquet;
+use crate::store::dataset_digest;
+use crate::table::Table;
+
+impl Dataset {
+    /// Reads every frame, and the one without contact, and checks that it is the one recorded; nothing is decoded.
+    ///
+    /// # Errors
+    /// As [`frame_bytes`](Dataset::frame_bytes), for the first that is not.
+    pub fn verify_frames(&self) -> Result<(), DatasetError> {
+        let reference = self.reference_entry();
+        let frames = self.table.frames().iter().flatten().chain(&reference);
+        for entry in frames {
+            self.frame_bytes(entry)?;
+        }
+        Ok(())
+    }
+
+    /// Whether header and table agree. Paths are checked here once, so that reading a frame only joins them.
+    pub(super) fn check_consistency(&self) -> Result<(), DatasetError> {
+        let damaged = |name: &str, problem: String| DatasetError::Damaged {
+            path: self.path().join(name),
+            problem,
+        };
+        let rows = self.table.rows() as u64;
+        if rows != self.header.table.rows {
+            let promised = self.header.table.rows;
+            return Err(damaged(
+                layout::SAMPLES,
+                format!("{rows} rows, the header says {promised}"),
+            ));
+        }
+        let digest = self.table.digest();
+        if digest != self.header.table.digest {
+            return Err(DatasetError::Digest {
+                path: self.path().join(layout::SAMPLES),
+                expected: self.header.table.digest,
+                found: digest,
+            });
+        }
+        let digest = dataset_digest(digest, self.header.frames.as_ref());
+        if digest != self.header.digest {
+            return Err(DatasetError::Digest {
+                path: self.path().join(layout::HEADER),
+                expected: self.header.digest,
+                found: digest,
+            });
+        }
+        let count = self.table.frames().iter().flatten().count() as u64;
+        let promised = self.header.frames.as_ref().map_or(0, |frames| frames.count);
+        if count != promised {
+            return Err(damaged(
+                layout::SAMPLES,
+                format!("{count} frames, the header says {promised}"),
+            ));
+        }
+        let reference = self
+            .header
+            .frames
+            .as_ref()
+            .and_then(|frames| frames.reference.as_ref())
+            .map(|reference| &reference.path);
+        let paths = self
+            .table
+            .frames()
+            .iter()
+            .flatten()
+            .map(|entry| &entry.path);
+        for path in paths.chain(reference) {
+            check_relative(path).map_err(|problem| DatasetError::Path {
+                place: None,
+                written: path.clone(),
+                problem: problem.to_owned(),
+            })?;
+        }
+        Ok(())
+    }
+}
+
+pub(super) fn read_table(folder: &HeldFolder, header: &Header) -> Result<Table, DatasetError> {
+    let path = &folder.path().join(layout::SAMPLES);
+    let (mut file, _) = folder.file(layout::SAMPLES, limits::TABLE_BYTES)?;
+    let found = Digest::of_reader(&mut file).map_err(DatasetError::io("read", path))?;
+    check_digest(path, header.table.sha256, found)?;
+    file.seek(SeekFrom::Start(0))
+        .map_err(DatasetError::io("read", path))?;
+    from_parquet(file, &header.channels, &header.attributes).map_err(|problem| {
+        DatasetError::Damaged {
+            path: path.to_owned(),
+            problem,
+        }
+    })
+}
+
+pub(super) fn check_digest(
+    path: &Path,
+    expected: Digest,
+    found: Digest,
+) -> Result<(), DatasetError> {
+    if expected == found {
+        return Ok(());
+    }
+    Err(DatasetError::Digest {
+        path: path.to_owned(),
+        expected,
+        found,
+    })
+}

@@ -1,0 +1,256 @@
+//! What a header says of the sensor, the frames and the table.
+
+use serde::{Deserialize, Deserializer, Serialize, Serializer, de};
+use taceva_core::FrameInfo;
+
+use crate::decode::ChannelOrder;
+use crate::digest::Digest;
+
+/// Where the samples come from; carried into every report. Exhaustive, because every reader must say what it makes of each.
+///
+/// ```
+/// use taceva_dataset::Source;
+///
+/// assert_eq!(Source::default(), Source::Recorded);
+/// ```
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Source {
+    /// A real sensor.
+    #[default]
+    Recorded,
+    /// A simulated bench.
+    Simulated,
+    /// Numbers made up for a test.
+    Synthetic,
+}
+
+/// A fact that a lab may not know.
+///
+/// ```
+/// use taceva_dataset::Known;
+///
+/// assert_eq!(Known::Is(true).known(), Some(true));
+/// assert_eq!(Known::<bool>::Unknown.known(), None);
+/// ```
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Known<T> {
+    /// Written down.
+    Is(T),
+    /// Not known.
+    #[default]
+    Unknown,
+}
+
+impl<T: Copy> Known<T> {
+    /// The fact, if it is known.
+    pub fn known(self) -> Option<T> {
+        match self {
+            Known::Is(fact) => Some(fact),
+            Known::Unknown => None,
+        }
+    }
+}
+
+impl Serialize for Known<bool> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        match self {
+            Known::Is(fact) => serializer.serialize_bool(*fact),
+            Known::Unknown => serializer.serialize_str("unknown"),
+        }
+    }
+}
+
+impl<'de> Deserialize<'de> for Known<bool> {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Known<bool>, D::Error> {
+        struct Fact;
+
+        impl de::Visitor<'_> for Fact {
+            type Value = Known<bool>;
+
+            fn expecting(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+                f.write_str("true, false or \"unknown\"")
+            }
+            fn visit_bool<E: de::Error>(self, fact: bool) -> Result<Known<bool>, E> {
+                Ok(Known::Is(fact))
+            }
+            fn visit_str<E: de::Error>(self, text: &str) -> Result<Known<bool>, E> {
+                match text {
+                    "unknown" => Ok(Known::Unknown),
+                    _ => Err(E::invalid_value(de::Unexpected::Str(text), &self)),
+                }
+            }
+        }
+
+        deserializer.deserialize_any(Fact)
+    }
+}
+
+/// Which sensor it was. A file must state each fact; `"unknown"` is accepted, a missing key is not.
+///
+/// ```
+/// use taceva_dataset::{Known, SensorFacts};
+///
+/// let sensor = SensorFacts::new("DIGIT").with_serial("D20123").with_opaque(true);
+/// assert_eq!(sensor.gel, "unknown");
+/// assert_eq!(sensor.opaque, Known::Is(true));
+/// ```
+#[non_exhaustive]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct SensorFacts {
+    /// The sensor model.
+    pub model: String,
+    /// The serial number of the unit, or `unknown`.
+    pub serial: String,
+    /// The id of the gel, or `unknown`.
+    pub gel: String,
+    /// Whether ambient light cannot reach the camera.
+    pub opaque: Known<bool>,
+}
+
+impl SensorFacts {
+    /// A sensor of `model`; its serial number, its gel and whether it is opaque are unknown.
+    pub fn new(model: impl Into<String>) -> SensorFacts {
+        SensorFacts {
+            model: model.into(),
+            serial: "unknown".to_owned(),
+            gel: "unknown".to_owned(),
+            opaque: Known::Unknown,
+        }
+    }
+
+    /// The same with the serial number of the unit.
+    #[must_use]
+    pub fn with_serial(self, serial: impl Into<String>) -> SensorFacts {
+        SensorFacts {
+            serial: serial.into(),
+            ..self
+        }
+    }
+
+    /// The same with the id of the gel.
+    #[must_use]
+    pub fn with_gel(self, gel: impl Into<String>) -> SensorFacts {
+        SensorFacts {
+            gel: gel.into(),
+            ..self
+        }
+    }
+
+    /// The same, where it is known whether ambient light cannot reach the camera.
+    #[must_use]
+    pub fn with_opaque(self, opaque: bool) -> SensorFacts {
+        SensorFacts {
+            opaque: Known::Is(opaque),
+            ..self
+        }
+    }
+}
+
+/// What all frames of a recording share.
+///
+/// ```
+/// # use taceva_core::{Channel, Channels, Clock, Frame, FrameInfo, PixelFormat, Readings, Sample};
+/// # use taceva_dataset::{Recorder, RecordingFacts, RecordingSpec, SensorFacts, Source};
+/// # let folder = tempfile::tempdir()?;
+/// # let path = folder.path().join("recording");
+/// # let facts = RecordingFacts::new(Source::Synthetic, Clock::Unknown, SensorFacts::new("my gel"));
+/// # let mut recorder = Recorder::create(&path, &RecordingSpec::new(facts, Channels::new([Channel::FZ])?))?;
+/// # let info = FrameInfo { width: 2, height: 1, format: PixelFormat::Gray8 };
+/// # for number in 0..2_u8 {
+/// #     recorder.append(&Sample {
+/// #         id: number.to_string(),
+/// #         truth: Readings::from_values([0.5]),
+/// #         frame: Some(Frame::new(info, vec![number, 90])?),
+/// #         ..Sample::default()
+/// #     })?;
+/// # }
+/// let frames = recorder.close()?.frames.ok_or("two frames were recorded")?;
+/// assert_eq!((frames.count, frames.info.width), (2, 2));
+/// assert_eq!(frames.reference, None);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[non_exhaustive]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct FramesInfo {
+    /// How many there are.
+    pub count: u64,
+    /// Size and pixel format of each, decoded.
+    #[serde(flatten)]
+    pub info: FrameInfo,
+    /// The order of the colours in the files.
+    pub channel_order: ChannelOrder,
+    /// The frame without contact; absent if the lab does not know one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub reference: Option<ReferenceInfo>,
+}
+
+/// The frame without contact.
+///
+/// ```
+/// # use taceva_core::{Channel, Channels, Clock, Frame, FrameInfo, PixelFormat, Readings, Sample};
+/// # use taceva_dataset::{Recorder, RecordingFacts, RecordingSpec, SensorFacts, Source};
+/// # let folder = tempfile::tempdir()?;
+/// # let path = folder.path().join("recording");
+/// # let facts = RecordingFacts::new(Source::Synthetic, Clock::Unknown, SensorFacts::new("my gel"));
+/// # let mut recorder = Recorder::create(&path, &RecordingSpec::new(facts, Channels::new([Channel::FZ])?))?;
+/// # let info = FrameInfo { width: 2, height: 1, format: PixelFormat::Gray8 };
+/// # for number in 0..2_u8 {
+/// #     recorder.append(&Sample {
+/// #         id: number.to_string(),
+/// #         truth: Readings::from_values([0.5]),
+/// #         frame: Some(Frame::new(info, vec![number, 90])?),
+/// #         ..Sample::default()
+/// #     })?;
+/// # }
+/// recorder.append_reference(&Frame::new(info, vec![7, 7])?)?;
+/// let frames = recorder.close()?.frames.ok_or("frames were recorded")?;
+/// let reference = frames.reference.ok_or("a frame without contact was recorded")?;
+/// assert!(path.join(&reference.path).is_file());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[non_exhaustive]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct ReferenceInfo {
+    /// Relative to the folder of the dataset.
+    pub path: String,
+    /// Of the bytes of the file.
+    pub sha256: Digest,
+}
+
+/// What `samples.parquet` must be.
+///
+/// ```
+/// # use taceva_core::{Channel, Channels, Clock, Frame, FrameInfo, PixelFormat, Readings, Sample};
+/// # use taceva_dataset::{Recorder, RecordingFacts, RecordingSpec, SensorFacts, Source};
+/// # let folder = tempfile::tempdir()?;
+/// # let path = folder.path().join("recording");
+/// # let facts = RecordingFacts::new(Source::Synthetic, Clock::Unknown, SensorFacts::new("my gel"));
+/// # let mut recorder = Recorder::create(&path, &RecordingSpec::new(facts, Channels::new([Channel::FZ])?))?;
+/// # let info = FrameInfo { width: 2, height: 1, format: PixelFormat::Gray8 };
+/// # for number in 0..2_u8 {
+/// #     recorder.append(&Sample {
+/// #         id: number.to_string(),
+/// #         truth: Readings::from_values([0.5]),
+/// #         frame: Some(Frame::new(info, vec![number, 90])?),
+/// #         ..Sample::default()
+/// #     })?;
+/// # }
+/// use taceva_dataset::Digest;
+///
+/// let table = recorder.close()?.table;
+/// assert_eq!(table.rows, 2);
+/// assert_eq!(table.sha256, Digest::of(&std::fs::read(path.join("samples.parquet"))?));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[non_exhaustive]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct TableInfo {
+    /// Number of samples.
+    pub rows: u64,
+    /// Of what the table says.
+    pub digest: Digest,
+    /// Of the bytes of the file.
+    pub sha256: Digest,
+}

@@ -1,0 +1,108 @@
+use taceva_core::{FrameInfo, Limit, PixelFormat};
+
+use super::*;
+use crate::decode::ChannelOrder;
+
+fn header() -> Header {
+    Header {
+        format: Version::CURRENT,
+        source: Source::Simulated,
+        clock: Clock::Monotonic,
+        sensor: SensorFacts {
+            model: "a \"b\"\n[c]".to_owned(),
+            serial: "unknown".to_owned(),
+            gel: "g1".to_owned(),
+            opaque: Known::Unknown,
+        },
+        footprint: Some(Footprint {
+            shape: Shape::Disc,
+            radius_mm: Some(10.0),
+            half_x_mm: None,
+            half_y_mm: None,
+            depth_max_mm: Some(2.5),
+        }),
+        channels: Channels::new([Channel::FZ, Channel::PZ]).expect("distinct"),
+        attributes: vec!["video".to_owned()],
+        unmentioned_columns: vec!["quality_flags".to_owned()],
+        frames: Some(FramesInfo {
+            count: 3,
+            info: FrameInfo {
+                width: 4,
+                height: 2,
+                format: PixelFormat::Rgb8,
+            },
+            channel_order: ChannelOrder::Bgr,
+            reference: None,
+        }),
+        presses: BTreeMap::from([
+            (PressOutcome::Complete, 2),
+            (PressOutcome::Limited(Limit::NormalForce), 1),
+        ]),
+        table: TableInfo {
+            rows: 3,
+            digest: Digest::of(b"t"),
+            sha256: Digest::of(b"f"),
+        },
+        digest: Digest::of(b"d"),
+        seal: Opened::default(),
+    }
+}
+
+#[test]
+fn a_header_reads_back_as_it_was_written() {
+    let folder = tempfile::tempdir().expect("a folder");
+    std::fs::write(folder.path().join("dataset.toml"), header().to_toml()).expect("written");
+    let held = HeldFolder::open(folder.path()).expect("a folder");
+    let read = Header::read(&held).expect("reads");
+    assert!(read.seal.is_sealed);
+    let unread = Header {
+        seal: Opened::default(),
+        ..read
+    };
+    assert_eq!(unread, header());
+}
+
+#[test]
+fn a_newer_major_is_refused_before_anything_else_is_understood() {
+    let text = b"format = \"2.0\"\nnews = 1\n".to_vec();
+    let message = Header::parse(Path::new("dataset.toml"), text);
+    let message = message.expect_err("newer").to_string();
+    assert!(
+        message.ends_with("format 2.0 needs a newer TacEva; this one reads up to 1.x"),
+        "{message}"
+    );
+}
+
+#[test]
+fn a_newer_minor_may_say_more() {
+    let current = format!("\"{}\"", Version::CURRENT);
+    let text = header().body().replace(&current, "\"1.9\"");
+    let text = taceva_seal::toml_text::seal(&format!("humidity = 40\n{text}"));
+    let text = text.expect("TOML").into_bytes();
+    let header = Header::parse(Path::new("dataset.toml"), text);
+    assert_eq!(
+        header.expect("reads").format,
+        Version { major: 1, minor: 9 }
+    );
+}
+
+#[test]
+fn an_edited_header_is_refused_by_its_key_and_an_older_one_is_read_unsealed() {
+    let parse = |text: &str| Header::parse(Path::new("dataset.toml"), text.as_bytes().to_vec());
+    let sealed = header().to_toml();
+    let edited = sealed.replace("radius_mm = 10.0", "radius_mm = 9.0");
+    let message = parse(&edited).expect_err("edited").to_string();
+    assert!(
+        message.starts_with("dataset.toml: `footprint.radius_mm` was changed after it was sealed"),
+        "{message}"
+    );
+    let body = header().body();
+    let message = parse(&body).expect_err("no seal").to_string();
+    assert!(message.contains("the seal is gone"), "{message}");
+    let current = format!("\"{}\"", Version::CURRENT);
+    let older = parse(&body.replace(&current, "\"1.2\"")).expect("older");
+    assert!(!older.seal.is_sealed);
+    let (_, alone) = sealed.split_once("\n[seal]").expect("sealed");
+    let alone = format!("format = {current}\n[seal]{alone}");
+    assert!(parse(&alone).is_err());
+}

@@ -1,0 +1,135 @@
+//! From the columns of a file to the rows of a table.
+
+use std::collections::BTreeMap;
+
+use taceva_core::{Channels, GratingKind, Limit, MAGNITUDE_MAX, Nanometre, Phase, is_scorable};
+
+use super::read::Stored;
+use crate::digest::Digest;
+use crate::table::{FrameEntry, Row, Table};
+
+/// Takes the columns of a file apart by name.
+struct Columns(BTreeMap<String, Stored>);
+
+impl Columns {
+    fn text(&mut self, name: &str, row: usize) -> Result<Option<String>, String> {
+        match self.0.get_mut(name) {
+            None => Ok(None),
+            Some(Stored::Text(cells)) => Ok(cells[row].take()),
+            Some(_) => Err(format!("column `{name}` holds numbers, expected text")),
+        }
+    }
+
+    fn number(&self, name: &str, row: usize) -> Result<Option<f64>, String> {
+        match self.0.get(name) {
+            None => Ok(None),
+            Some(Stored::Number(cells)) => match cells[row] {
+                Some(number) if !is_scorable(number) => Err(format!(
+                    "column `{name}`, row {row}: {number:e} is no finite number up to {MAGNITUDE_MAX:.3e}"
+                )),
+                cell => Ok(cell),
+            },
+            Some(_) => Err(format!("column `{name}` holds no numbers")),
+        }
+    }
+
+    fn count(&self, name: &str, row: usize) -> Result<Option<u32>, String> {
+        match self.0.get(name) {
+            None => Ok(None),
+            Some(Stored::Count(cells)) => cells[row]
+                .map(u32::try_from)
+                .transpose()
+                .map_err(|_| format!("column `{name}`, row {row}: out of range")),
+            Some(_) => Err(format!("column `{name}` holds no counts")),
+        }
+    }
+}
+
+/// The table of `columns`.
+pub(super) fn assemble(
+    columns: BTreeMap<String, Stored>,
+    channels: &Channels,
+    attributes: &[String],
+) -> Result<Table, String> {
+    let rows = columns.values().map(Stored::len).max().unwrap_or(0);
+    if rows > 0 {
+        let missing = channels
+            .iter()
+            .find(|channel| !columns.contains_key(channel.name()));
+        if let Some(channel) = missing {
+            return Err(format!("no column `{channel}`"));
+        }
+    }
+    // Before format 1.2 a lab could give this name to a column of its own.
+    let is_own_limit = attributes.iter().any(|name| name == "limited_by");
+    let mut columns = Columns(columns);
+    let mut table = Table::new(channels.clone(), attributes.to_vec());
+    for row in 0..rows {
+        let limit = match is_own_limit {
+            true => None,
+            false => columns.text("limited_by", row)?,
+        };
+        let frame = columns.text("frame", row)?;
+        let digest = columns.text("frame_sha256", row)?;
+        table.push(Row {
+            sample: columns
+                .text("sample", row)?
+                .ok_or_else(|| format!("row {row} has no sample name"))?,
+            point_id: columns.text("point_id", row)?,
+            unit_id: columns.text("unit_id", row)?,
+            scene: columns.text("scene", row)?,
+            depth_step: columns.count("depth_step", row)?,
+            repeat: columns.count("repeat", row)?,
+            phase: known(columns.text("phase", row)?, Phase::from_name)
+                .ok_or_else(|| format!("row {row}: no such phase"))?,
+            limited_by: known(limit, Limit::from_name)
+                .ok_or_else(|| format!("row {row}: no such limit"))?,
+            part: columns.text("part", row)?,
+            t_s: columns.number("t_s", row)?,
+            kind: known(columns.text("kind", row)?, GratingKind::from_name)
+                .ok_or_else(|| format!("row {row}: no such kind of grating"))?,
+            spacing: columns
+                .number("spacing_mm", row)?
+                .map(|length| {
+                    Nanometre::from_millimetres(length)
+                        .ok_or_else(|| format!("row {row}: {length} mm is no spacing"))
+                })
+                .transpose()?,
+            intensity: columns.number("intensity", row)?,
+            truth: channels
+                .iter()
+                .map(|channel| columns.number(channel.name(), row))
+                .collect::<Result<_, _>>()?,
+            attributes: attributes
+                .iter()
+                .map(|name| columns.text(name, row))
+                .collect::<Result<_, _>>()?,
+            frame: frame_entry(row, frame, digest)?,
+        });
+    }
+    Ok(table)
+}
+
+/// What a name in a cell says; `None` of a name that says nothing here.
+fn known<T>(name: Option<String>, of: impl Fn(&str) -> Option<T>) -> Option<Option<T>> {
+    name.map_or(Some(None), |name| of(&name).map(Some))
+}
+
+fn frame_entry(
+    row: usize,
+    path: Option<String>,
+    digest: Option<String>,
+) -> Result<Option<FrameEntry>, String> {
+    match (path, digest) {
+        (None, None) => Ok(None),
+        (Some(path), Some(digest)) => {
+            let digest: Digest = digest
+                .parse()
+                .map_err(|error| format!("row {row}: {error}"))?;
+            Ok(Some(FrameEntry::at(path, digest)))
+        }
+        _ => Err(format!(
+            "row {row} has a frame without digest or a digest without frame"
+        )),
+    }
+}

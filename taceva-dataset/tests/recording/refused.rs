@@ -1,0 +1,116 @@
+//! What a recorder refuses.
+
+use taceva_core::{Frame, FrameInfo, PixelFormat, Readings, Sample, Stamp};
+use taceva_dataset::{DatasetError, Recorder};
+
+use super::{sample, spec};
+
+#[test]
+fn a_recording_is_written_by_one_at_a_time() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("set");
+    let first = Recorder::create(&path, &spec()).expect("created");
+    assert!(matches!(
+        Recorder::resume(&path),
+        Err(DatasetError::Busy { .. })
+    ));
+    assert!(matches!(
+        Recorder::create(&path, &spec()),
+        Err(DatasetError::Busy { .. })
+    ));
+    drop(first);
+    assert!(matches!(
+        Recorder::create(&path, &spec()),
+        Err(DatasetError::TargetExists { .. })
+    ));
+    Recorder::resume(&path).expect("free again");
+}
+
+#[test]
+fn a_closed_recording_is_not_written_again() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("set");
+    let mut recorder = Recorder::create(&path, &spec()).expect("created");
+    recorder.append(&sample(1)).expect("recorded");
+    recorder.close().expect("closed");
+    for outcome in [
+        Recorder::resume(&path),
+        Recorder::create(&path, &spec()),
+        Recorder::open(&path, &spec()),
+    ] {
+        assert!(
+            matches!(outcome, Err(DatasetError::TargetExists { .. })),
+            "{outcome:?}"
+        );
+    }
+}
+
+#[test]
+fn samples_that_cannot_be_recorded_are_refused_and_lose_nothing() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("set");
+    let mut recorder = Recorder::create(&path, &spec()).expect("created");
+    recorder.append(&sample(1)).expect("recorded");
+    let small = FrameInfo {
+        width: 1,
+        height: 1,
+        format: PixelFormat::Gray8,
+    };
+    for (spoiled, word) in [
+        (sample(1), "empty or taken"),
+        (
+            Sample {
+                id: String::new(),
+                ..sample(2)
+            },
+            "empty or taken",
+        ),
+        (
+            Sample {
+                truth: Readings::from_values([f64::NAN]),
+                ..sample(2)
+            },
+            "NaN is no finite number",
+        ),
+        (
+            Sample {
+                truth: Readings::from_values([0.0; 3]),
+                ..sample(2)
+            },
+            "3 values for 2 channels",
+        ),
+        (
+            Sample {
+                stamp: Some(Stamp {
+                    valid_s: f64::INFINITY,
+                    received_s: None,
+                }),
+                ..sample(2)
+            },
+            "inf is no finite number",
+        ),
+        (
+            Sample {
+                frame: Some(Frame::new(small, vec![0]).expect("one byte")),
+                ..sample(2)
+            },
+            "expected 4×2 rgb8",
+        ),
+    ] {
+        let message = recorder.append(&spoiled).expect_err(word).to_string();
+        assert!(message.contains(word), "{message}");
+    }
+    recorder.append(&sample(2)).expect("recorded");
+    assert_eq!(recorder.close().expect("closed").table.rows, 2);
+}
+
+#[test]
+fn another_recording_is_not_continued() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("set");
+    drop(Recorder::create(&path, &spec()).expect("created"));
+    let mut other = spec();
+    other.facts.sensor.serial = "2".into();
+    let error = Recorder::open(&path, &other).expect_err("another sensor");
+    assert!(error.to_string().contains("of another sensor"), "{error}");
+}

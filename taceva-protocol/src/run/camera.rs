@@ -1,0 +1,69 @@
+//! The sensor of a rig, asked for frames that are no older than the rest of the tip.
+
+use std::time::Duration;
+
+use taceva_core::{Deadline, ErrorKind, Frame, FrameMut, Sensor, Stamp};
+
+use super::error::StopCause;
+use super::event::Event;
+use super::tip::{Step, Tip};
+
+/// Frames that are lost, damaged or older than the rest of the tip before the run gives up.
+const FRAME_TRIES: u32 = 10;
+/// A camera that is slower than this is dead.
+const FRAME_DEADLINE: Deadline = Deadline::after(Duration::from_secs(1));
+/// A frame from further ahead than this has another clock, in s.
+const AHEAD_S: f64 = 0.001;
+
+/// A sensor and the buffer its frames are written into.
+pub(super) struct Camera<'a> {
+    pub(super) sensor: &'a mut dyn Sensor,
+}
+
+impl<'a> Camera<'a> {
+    pub(super) fn new(sensor: &'a mut dyn Sensor) -> Camera<'a> {
+        Camera { sensor }
+    }
+
+    /// The first frame that was true no earlier than `from_s`.
+    pub(super) fn frame(
+        &mut self,
+        from_s: f64,
+        tip: &Tip<'_>,
+        events: &mut dyn FnMut(&Event),
+    ) -> Step<(Frame, Stamp)> {
+        let info = self.sensor.frame_info();
+        let too_large = || StopCause::Missing(format!("memory for frames of {info}"));
+        let mut last = None;
+        for _ in 0..FRAME_TRIES {
+            let mut bytes = vec![0; info.byte_len().ok_or_else(too_large)?];
+            let into = FrameMut::new(info, &mut bytes)
+                .expect("the buffer was made with the length of the frame");
+            match self.sensor.capture(into, FRAME_DEADLINE) {
+                Ok(stamp) if is_news(&stamp, from_s, tip.clock.now_s()) => {
+                    let frame = Frame::new(info, bytes)
+                        .expect("the buffer was made with the length of the frame");
+                    return Ok((frame, stamp));
+                }
+                Ok(_) => events(&Event::FrameRetried),
+                Err(error) if [ErrorKind::Timeout, ErrorKind::Protocol].contains(&error.kind()) => {
+                    last = Some(error.to_string());
+                    events(&Event::FrameRetried);
+                }
+                Err(error) => return Err(StopCause::Device(error)),
+            }
+        }
+        Err(StopCause::Frames {
+            attempts: FRAME_TRIES,
+            last,
+        })
+    }
+}
+
+/// Whether a frame was taken between then and now.
+fn is_news(stamp: &Stamp, from_s: f64, now_s: f64) -> bool {
+    (from_s..=now_s + AHEAD_S).contains(&stamp.valid_s)
+}
+
+#[cfg(test)]
+pub(super) mod tests;

@@ -1,0 +1,57 @@
+//! Which pictures are taken, and which are asked for again.
+
+use taceva_core::{DriverError, FrameInfo, PixelFormat};
+
+use super::*;
+use crate::run::rig::{Rig, nothing, with_tip};
+
+/// Gives pictures that were taken at these times; the last one again and again.
+pub(in crate::run) struct Album(pub(in crate::run) Vec<f64>);
+
+impl Sensor for Album {
+    fn frame_info(&self) -> FrameInfo {
+        FrameInfo {
+            width: 1,
+            height: 1,
+            format: PixelFormat::Gray8,
+        }
+    }
+    fn capture(&mut self, _: FrameMut<'_>, _: Deadline) -> Result<Stamp, DriverError> {
+        let valid_s = self.0[0];
+        if self.0.len() > 1 {
+            self.0.remove(0);
+        }
+        Ok(Stamp {
+            valid_s,
+            received_s: None,
+        })
+    }
+}
+
+/// The picture of a tip that has rested since 4.5 s, at 5 s; how often another one was asked for, and when it was taken.
+fn taken(times: &[f64]) -> (u32, Result<f64, StopCause>) {
+    let mut album = Album(times.to_vec());
+    let mut retried = 0;
+    let frame = with_tip(&Rig::new(-3.0, nothing), |tip| {
+        let mut note = |event: &Event| retried += u32::from(matches!(event, Event::FrameRetried));
+        let mut camera = Camera::new(&mut album);
+        camera.frame(4.5, tip, &mut note)
+    });
+    (retried, frame.map(|(_, stamp)| stamp.valid_s))
+}
+
+#[test]
+fn a_picture_of_before_the_rest_or_of_another_clock_is_asked_for_again() {
+    let (retried, time_s) = taken(&[4.25, 5.25, 4.499, 4.75]);
+    assert_eq!((retried, time_s.ok()), (3, Some(4.75)));
+    let (retried, time_s) = taken(&[4.5]);
+    assert_eq!((retried, time_s.ok()), (0, Some(4.5)));
+}
+
+#[test]
+fn a_sensor_that_gives_only_old_pictures_is_given_up() {
+    let (retried, error) = taken(&[4.0]);
+    assert_eq!(retried, FRAME_TRIES);
+    let error = error.expect_err("no news").to_string();
+    assert!(error.starts_with("10 frames in a row were lost"), "{error}");
+}

@@ -1,0 +1,149 @@
+//! One press: specimen, light and place, then what is done there.
+
+use taceva_core::{Degree, Millimetre, Nanometre, PressOutcome};
+
+use super::align::Look;
+use super::error::StopCause;
+use super::event::Event;
+use super::log::{PressLog, PressRecord};
+use super::observe::observe;
+use super::sample::{self, Gathered, Spot};
+use super::session::Run;
+use super::tip::{DEADLINE, Step, Tip};
+use crate::plan::PlannedPress;
+use crate::press::Motion;
+
+impl Run<'_> {
+    /// One press, from the height of travel and back to it. Before it, what is seen there goes to `untouched`, where somebody asks.
+    pub(super) fn acquire(
+        &mut self,
+        planned: &PlannedPress,
+        untouched: Option<&mut dyn PressLog>,
+    ) -> Step<PressRecord> {
+        self.prepare(planned)?;
+        if let (Some(log), Some(camera)) = (untouched, &mut self.camera) {
+            let now_s = self.tip.clock.now_s();
+            let (frame, _) = camera.frame(now_s, &self.tip, self.events)?;
+            log.untouched(&frame).map_err(StopCause::Log)?;
+            // The force has been silent for as long as the picture took.
+            self.tip.look()?;
+        }
+        let mut gathered = Gathered::default();
+        let outcome = match self.press(planned, &mut gathered) {
+            Ok(outcome) => outcome,
+            Err(cause) => PressOutcome::Limited(self.limit_of(cause)?),
+        };
+        self.tip.retreat()?;
+        if outcome.is_limited() {
+            (self.events)(&Event::Retracted);
+        }
+        Ok(PressRecord {
+            press: planned.id,
+            outcome,
+            samples: gathered.samples,
+        })
+    }
+
+    /// The specimen, the light and the place.
+    fn prepare(&mut self, planned: &PlannedPress) -> Step<()> {
+        let press = &planned.press;
+        if self.mounted != Some(press.specimen) {
+            match &mut self.specimens {
+                Some(changer) => {
+                    changer.mount(press.specimen, DEADLINE)?;
+                    (self.events)(&Event::Mounted(press.specimen));
+                }
+                None if self.mounted.is_some() => {
+                    let needed = format!("somebody who mounts a {}", press.specimen);
+                    return Err(StopCause::Missing(needed));
+                }
+                None => {}
+            }
+            self.mounted = Some(press.specimen);
+        }
+        if self.lit != press.light
+            && let Some(light) = &press.light
+        {
+            self.set_light(light)?;
+            self.lit = Some(light.clone());
+            (self.events)(&Event::Lit(light.clone()));
+        }
+        let place = press.place.map(Nanometre::to_millimetres);
+        let turn = Degree(f64::from(press.turn_millidegrees) / 1e3);
+        let height = -self.tip.pace.clearance_mm;
+        self.tip.travel(place, turn, height)
+    }
+
+    fn set_light(&mut self, light: &str) -> Step<()> {
+        let own = self
+            .camera
+            .as_mut()
+            .and_then(|camera| camera.sensor.lighting());
+        match (&mut self.lighting, own) {
+            (Some(lighting), _) => Ok(lighting.set(light, DEADLINE)?),
+            (None, Some(lighting)) => Ok(lighting.set(light, DEADLINE)?),
+            (None, None) => Err(StopCause::Missing(format!(
+                "a lighting that sets `{light}`"
+            ))),
+        }
+    }
+
+    pub(super) fn rehearse(&mut self, planned: &PlannedPress, height_mm: f64) -> Step<()> {
+        let press = &planned.press;
+        let height = -self.tip.pace.clearance_mm - height_mm;
+        let place = press.place.map(Nanometre::to_millimetres);
+        let turn = Degree(f64::from(press.turn_millidegrees) / 1e3);
+        self.tip.travel(place, turn, height)?;
+        for waypoint in press.waypoints() {
+            let target = Tip::waypoint(press.place, waypoint.shear, height, waypoint.depth);
+            self.tip.approach(target)?;
+        }
+        (self.events)(&Event::Rehearsed(planned.id));
+        Ok(())
+    }
+
+    /// What happens between the approach and the retreat.
+    fn press(&mut self, planned: &PlannedPress, gathered: &mut Gathered) -> Step<PressOutcome> {
+        let press = &planned.press;
+        if let Motion::Rest { frames } = press.motion {
+            let mut before = self.tip.settle()?;
+            for number in 0..frames {
+                self.sample(planned, Spot::reached(number, 0.0), before, gathered)?;
+                // No rest between: the pictures come as fast as the sensor gives them.
+                before = self.tip.look()?;
+            }
+            return Ok(PressOutcome::Complete);
+        }
+        let Some(contact) = self.tip.search()? else {
+            return Ok(PressOutcome::NoContact);
+        };
+        let height_mm = contact.pose.position.z.0;
+        let height = Millimetre(height_mm);
+        (self.events)(&Event::Contact { height });
+        match &press.motion {
+            Motion::Indent(_) => self.indent(planned, height_mm, gathered),
+            Motion::Touch | Motion::Rest { .. } => {
+                let rested = self.tip.settle()?;
+                self.sample(planned, Spot::reached(0, 0.0), rested, gathered)?;
+                Ok(PressOutcome::Complete)
+            }
+        }
+    }
+
+    pub(super) fn sample(
+        &mut self,
+        planned: &PlannedPress,
+        spot: Spot,
+        before: Look,
+        gathered: &mut Gathered,
+    ) -> Step<()> {
+        let camera = self.camera.as_mut().filter(|_| planned.frames);
+        let observed = observe(before, &mut self.tip, camera, self.events)?;
+        let sample = sample::sample(planned, spot, observed, &self.plan.channels);
+        gathered.samples.push(sample);
+        (self.events)(&Event::Sampled {
+            number: gathered.samples.len() - 1,
+        });
+        Ok(())
+    }
+}

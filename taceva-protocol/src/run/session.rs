@@ -1,0 +1,163 @@
+//! A run from its start to its end: which presses are made, in which order, and how it stops.
+
+use taceva_core::{Lighting, PressOutcome, Sensor, Specimen};
+
+use super::bounds::Bounds;
+use super::camera::Camera;
+use super::devices::{Devices, SpecimenChanger};
+use super::error::{Left, RunError, StopCause};
+use super::event::Event;
+use super::log::PressLog;
+use super::supervisor::Supervisor;
+use super::tip::{DEADLINE, Pace, Step, Tip};
+use super::{Controls, Mode, RunReport, RunSpec};
+use crate::content_id::ContentId;
+use crate::plan::{Plan, PlannedPress};
+
+/// A run that goes on, with the devices that it borrows.
+pub(super) struct Run<'a> {
+    pub(super) tip: Tip<'a>,
+    pub(super) camera: Option<Camera<'a>>,
+    pub(super) lighting: Option<&'a mut dyn Lighting>,
+    pub(super) specimens: Option<&'a mut dyn SpecimenChanger>,
+    pub(super) events: &'a mut dyn FnMut(&Event),
+    pub(super) plan: &'a Plan,
+    pub(super) mounted: Option<Specimen>,
+    pub(super) lit: Option<String>,
+}
+
+impl<'a> Run<'a> {
+    pub(super) fn new(
+        spec: &RunSpec<'a>,
+        devices: Devices<'a>,
+        controls: Controls<'a>,
+    ) -> Step<Run<'a>> {
+        let plan = spec.plan;
+        if !plan.units.iter().any(|unit| unit == spec.unit) {
+            let problem = format!("unit `{}`, which it does not name", spec.unit);
+            return Err(StopCause::Missing(problem));
+        }
+        let height = match spec.mode {
+            Mode::Acquire => 0.0,
+            Mode::Rehearse { height } => height.0,
+        };
+        let nothing =
+            || StopCause::Missing("limits and a footprint: nothing in it moves".to_owned());
+        let pace = Pace::of(plan).ok_or_else(nothing)?;
+        let bounds = Bounds::of(plan, height).ok_or_else(nothing)?;
+        let limits = plan.limits.clone().ok_or_else(nothing)?;
+        let looks = plan.presses.iter().any(|press| press.frames);
+        let sensor: Option<&'a mut dyn Sensor> = match (looks, devices.sensor) {
+            (true, None) => return Err(StopCause::Missing("a sensor for its pictures".to_owned())),
+            (true, sensor) => sensor,
+            (false, _) => None,
+        };
+        let supervisor = Supervisor::new(limits, devices.robot.halt_handle());
+        let tip = Tip::new(
+            (devices.robot, devices.force),
+            (controls.clock, controls.cancel),
+            supervisor,
+            (bounds, pace),
+        );
+        tip.force.start(DEADLINE)?;
+        let mut camera = sensor.map(Camera::new);
+        if let Some(camera) = &mut camera {
+            camera.sensor.start(DEADLINE)?;
+        }
+        Ok(Run {
+            tip,
+            camera,
+            lighting: devices.lighting,
+            specimens: devices.specimens,
+            events: controls.events,
+            plan,
+            mounted: None,
+            lit: None,
+        })
+    }
+
+    pub(super) fn stop(&mut self) -> Step<()> {
+        let camera = self.camera.as_mut().map(|camera| camera.sensor.stop());
+        let force = self.tip.force.stop();
+        camera.unwrap_or(Ok(()))?;
+        Ok(force?)
+    }
+
+    pub(super) fn all(
+        &mut self,
+        spec: &RunSpec<'_>,
+        log: &mut dyn PressLog,
+    ) -> Result<RunReport, RunError> {
+        let of_unit = |press: &&PlannedPress| press.press.unit == spec.unit;
+        let presses: Vec<&PlannedPress> = self.plan.presses.iter().filter(of_unit).collect();
+        let reference_scene = self.plan.lights.first();
+        let is_seen = |press: &&&PlannedPress| {
+            let light = press.press.light.as_ref();
+            press.frames && (light.is_none() || light == reference_scene)
+        };
+        let first_seen = presses.iter().find(is_seen).map(|press| press.id);
+        let mut report = RunReport::default();
+        if let Mode::Acquire = spec.mode {
+            report.resumed = presses
+                .iter()
+                .filter(|press| log.is_finished(press.id))
+                .count();
+        }
+        (self.events)(&Event::Started {
+            presses: presses.len(),
+            finished: report.resumed,
+        });
+        self.tip
+            .find()
+            .map_err(|cause| self.abandoned(None, cause))?;
+        for (position, planned) in presses.into_iter().enumerate() {
+            match spec.mode {
+                Mode::Rehearse { height } => {
+                    let done = self.rehearse(planned, height.0);
+                    done.map_err(|cause| self.abandoned(Some(planned.id), cause))?;
+                    report.made += 1;
+                }
+                Mode::Acquire if log.is_finished(planned.id) => {}
+                Mode::Acquire => {
+                    (self.events)(&Event::Approaching {
+                        press: planned.id,
+                        number: position + 1,
+                    });
+                    let is_first = first_seen == Some(planned.id);
+                    let record = self
+                        .acquire(planned, is_first.then_some(&mut *log))
+                        .map_err(|cause| self.abandoned(Some(planned.id), cause))?;
+                    log.append(&record).map_err(|error| RunError {
+                        press: Some(planned.id),
+                        cause: StopCause::Log(error),
+                        left: Left::Clear,
+                    })?;
+                    report.made += 1;
+                    report.samples += record.samples.len();
+                    report.limited += usize::from(record.outcome.is_limited());
+                    report.without_contact +=
+                        usize::from(record.outcome == PressOutcome::NoContact);
+                    (self.events)(&Event::Finished {
+                        press: planned.id,
+                        outcome: record.outcome,
+                    });
+                }
+            }
+        }
+        Ok(report)
+    }
+
+    /// The error that ends the run, after the tip was brought to where it can be left.
+    fn abandoned(&mut self, press: Option<ContentId>, cause: StopCause) -> RunError {
+        if let StopCause::Tripped(trip) = cause {
+            (self.events)(&Event::Halted(trip));
+        }
+        let left = if self.tip.abandon() {
+            (self.events)(&Event::Retracted);
+            Left::Clear
+        } else {
+            Left::InPlace
+        };
+        RunError { press, cause, left }
+    }
+}

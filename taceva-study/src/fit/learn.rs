@@ -1,0 +1,167 @@
+//! Carrying a fit out: features of frames, then the model.
+
+use std::collections::BTreeMap;
+
+use taceva_core::{Features, FrameInfo, PixelFormat, Targets, TrainingSet};
+use taceva_dataset::{Dataset, Source};
+use taceva_models::{FeatureSpec, FitInput, Model, ModelEstimator, Provenance, SplitCard};
+
+use super::{FitPlan, Fitted};
+use crate::error::StudyError;
+use crate::features::{blank, extract, extractor};
+use crate::work::Work;
+
+/// Features of the training part and then of the validation part, what they are, and the kind of frame they are of.
+pub(super) struct Seen {
+    spec: FeatureSpec,
+    pub(super) features: Features,
+    frame: FrameInfo,
+}
+
+impl FitPlan<'_> {
+    pub(crate) fn run(mut self, work: Work<'_>) -> Result<Fitted, StudyError> {
+        let choice = match self.open {
+            Some(open) => Some(self.choose_features(open, work)?),
+            None => None,
+        };
+        let whole: Vec<usize> = (0..self.train.len()).collect();
+        let seen = self.see(self.features, work)?;
+        let learnt = self.learn(&*self.estimator, seen, &whole, work)?;
+        let model = match choice {
+            Some(choice) => learnt.with_features_chosen(choice),
+            None => learnt,
+        };
+        let frames_decoded = self.frames_to_decode();
+        let manifest = self.divided.manifest(self.dataset.table())?;
+        Ok(Fitted {
+            model,
+            manifest,
+            divided: self.divided,
+            frames_decoded,
+            left_out: self.left_out,
+        })
+    }
+
+    /// What `spec` takes of the frames of the training part, then of the validation part.
+    pub(super) fn see(&self, spec: FeatureSpec, work: Work<'_>) -> Result<Seen, StudyError> {
+        // Of both parts whatever is learnt from: what is kept of features is found by its rows.
+        let rows = [&self.train[..], &self.validation].concat();
+        if !self.reads_frames() {
+            return Ok(Seen {
+                spec,
+                features: blank(spec.shape(), rows.len())?,
+                frame: self.any_frame(),
+            });
+        }
+        let extractor = extractor(self.dataset, spec)?;
+        Ok(Seen {
+            spec,
+            features: extract(self.dataset, &extractor, &rows, work)?,
+            frame: extractor.frame_info(),
+        })
+    }
+
+    /// A model of what was `seen`, fitted on the rows at `positions` of the training part and on the validation part.
+    pub(super) fn learn(
+        &self,
+        estimator: &dyn ModelEstimator,
+        seen: Seen,
+        positions: &[usize],
+        work: Work<'_>,
+    ) -> Result<Model, StudyError> {
+        let Seen {
+            spec,
+            features: seen,
+            frame,
+        } = seen;
+        let train: Vec<usize> = positions.iter().map(|&at| self.train[at]).collect();
+        let train_features = seen.select(positions);
+        let held: Vec<usize> = (self.train.len()..seen.samples()).collect();
+        let held_features = seen.select(&held);
+        drop(seen);
+        let (train_labels, held_labels) = (self.labels(&train), self.labels(&self.validation));
+        let groups = groups(self.dataset, &train);
+        let set = |features, values, groups| TrainingSet {
+            features,
+            targets: Targets {
+                channels: &self.channels,
+                values,
+            },
+            groups,
+        };
+        let input = FitInput {
+            estimator,
+            settings: &self.settings,
+            features: spec,
+            frame,
+            training: set(&train_features, &train_labels, groups.as_deref()),
+            validation: (!self.validation.is_empty())
+                .then(|| set(&held_features, &held_labels, None)),
+            provenance: self.provenance(),
+        };
+        Ok(Model::fit(input, work.progress)?)
+    }
+
+    pub(super) fn labels(&self, rows: &[usize]) -> Vec<f64> {
+        let table = self.dataset.table();
+        let positions: Vec<usize> = self
+            .channels
+            .iter()
+            .filter_map(|channel| table.channels().position(channel.name()))
+            .collect();
+        let value = |row: usize, position: usize| {
+            table
+                .truth(position)
+                .get(row)
+                .expect("rows without a label were left out")
+        };
+        rows.iter()
+            .flat_map(|&row| positions.iter().map(move |&position| (row, position)))
+            .map(|(row, position)| value(row, position))
+            .collect()
+    }
+
+    /// What the card says of frames where none is looked at.
+    fn any_frame(&self) -> FrameInfo {
+        let unseen = FrameInfo {
+            width: 1,
+            height: 1,
+            format: PixelFormat::Gray8,
+        };
+        self.dataset
+            .header()
+            .frames
+            .as_ref()
+            .map_or(unseen, |frames| frames.info)
+    }
+
+    fn provenance(&self) -> Provenance {
+        let source = match self.dataset.header().source {
+            Source::Recorded => taceva_models::Source::Recorded,
+            Source::Simulated => taceva_models::Source::Simulated,
+            Source::Synthetic => taceva_models::Source::Synthetic,
+        };
+        Provenance {
+            data: Some(self.dataset.digest().to_string()),
+            source,
+            split: Some(SplitCard {
+                split: self.divided.spec.to_string(),
+                seed: self.divided.seed,
+            }),
+            notes: self.divided.split.note.iter().cloned().collect(),
+        }
+    }
+}
+
+/// A number a row for its contact location, if every row has one.
+pub(super) fn groups(dataset: &Dataset, rows: &[usize]) -> Option<Vec<u32>> {
+    let points = dataset.table().point_id();
+    let mut numbers: BTreeMap<&str, u32> = BTreeMap::new();
+    rows.iter()
+        .map(|&row| {
+            let point = points[row].as_deref()?;
+            let next = u32::try_from(numbers.len()).ok()?;
+            Some(*numbers.entry(point).or_insert(next))
+        })
+        .collect()
+}

@@ -1,0 +1,140 @@
+//! A fit on a dataset: its channels, its rows, and what it will read.
+
+use taceva_core::Channels;
+use taceva_dataset::Dataset;
+use taceva_models::{
+    Checkpoints, ChosenModel, FeatureSpec, ModelEstimator, OpenFeatures, Settings,
+};
+
+use super::{FitRequest, Recipe};
+use crate::error::StudyError;
+use crate::plan::Plan;
+use crate::rows::{
+    DataPart, Divided, Need, chosen_channels, require_samples, seen_channels, usable,
+};
+
+/// A request applied to a dataset: its model, channels and rows.
+pub(crate) struct FitPlan<'a> {
+    pub(super) dataset: &'a Dataset,
+    pub(super) model: ChosenModel,
+    pub(super) estimator: Box<dyn ModelEstimator>,
+    /// As typed.
+    pub(super) settings: Settings,
+    /// Those of them that are the model's own.
+    pub(super) of_model: Settings,
+    pub(super) features: FeatureSpec,
+    pub(super) open: Option<OpenFeatures>,
+    pub(crate) channels: Channels,
+    pub(crate) divided: Divided,
+    pub(crate) train: Vec<usize>,
+    pub(crate) validation: Vec<usize>,
+    pub(super) left_out: usize,
+}
+
+impl<'a> FitPlan<'a> {
+    pub(crate) fn new(
+        dataset: &'a Dataset,
+        request: &FitRequest,
+    ) -> Result<FitPlan<'a>, StudyError> {
+        let recipe = Recipe::of(request)?;
+        require_samples(dataset)?;
+        let divided = Divided::of(dataset, request.split.as_deref(), request.seed)?;
+        FitPlan::on(dataset, request, recipe, divided)
+    }
+
+    /// The same of a dataset that was divided elsewhere.
+    pub(crate) fn on(
+        dataset: &'a Dataset,
+        request: &FitRequest,
+        recipe: Recipe,
+        divided: Divided,
+    ) -> Result<FitPlan<'a>, StudyError> {
+        let Recipe {
+            model,
+            estimator,
+            of_model,
+            features,
+            open,
+        } = recipe;
+        let model_reads = model.reads_features();
+        let mut channels = chosen_channels(dataset, &request.channels)?;
+        if request.channels.is_empty() {
+            // Of a recording of a run: heights of the surface are met without a picture. A model that looks at no picture is compared with
+            // those that do, and no sample carries all channels of a run.
+            channels = seen_channels(dataset, &channels);
+        }
+        let need = || Need {
+            frame: model_reads,
+            labels: Some(&channels),
+        };
+        let whole = [
+            divided.rows(DataPart::Train),
+            divided.rows(DataPart::Validation),
+        ];
+        let [train, validation] = [&whole[0], &whole[1]].map(|rows| usable(dataset, rows, need()));
+        let left_out = whole[0].len() + whole[1].len() - train.len() - validation.len();
+        Ok(FitPlan {
+            dataset,
+            model,
+            estimator,
+            of_model,
+            settings: request.settings.clone(),
+            features,
+            open: open.filter(|_| model_reads),
+            channels,
+            divided,
+            train,
+            validation,
+            left_out,
+        })
+    }
+
+    pub(crate) fn reads_frames(&self) -> bool {
+        self.model.reads_features()
+    }
+
+    /// The features of frames; where some of them are still to be chosen, those that the model asks for.
+    pub(crate) fn features(&self) -> FeatureSpec {
+        self.features
+    }
+
+    /// How many frames [`run`](FitPlan::run) decodes.
+    pub(crate) fn frames_to_decode(&self) -> u64 {
+        if self.reads_frames() {
+            (self.train.len() + self.validation.len()) as u64
+        } else {
+            0
+        }
+    }
+
+    /// Says what [`run`](FitPlan::run) would do.
+    pub(crate) fn explain(&self, plan: &mut Plan) {
+        let rows = self.train.len() + self.validation.len();
+        if self.reads_frames() {
+            let features = match self.open {
+                Some(_) => format!("{} and others, of which some are chosen", self.features),
+                None => self.features.to_string(),
+            };
+            plan.step("decode", format!("{rows} frames to features {features}"));
+        }
+        let names: Vec<&str> = self.channels.iter().map(|channel| channel.name()).collect();
+        plan.step(
+            "fit",
+            format!(
+                "{} of {} on {} training samples, settings chosen on {}",
+                self.model.name(),
+                names.join(", "),
+                self.train.len(),
+                match self.validation.len() {
+                    0 => "the training part, leaving groups out".to_owned(),
+                    count => format!("{count} validation samples"),
+                }
+            ),
+        );
+    }
+
+    /// Keeps checkpoints of a long training from now on, and resumes from one that is there.
+    pub(crate) fn keep_checkpoints(&mut self, checkpoints: Checkpoints) {
+        self.estimator.keep_checkpoints(checkpoints);
+    }
+}

@@ -1,0 +1,80 @@
+//! What is to be fitted, before any data is looked at.
+
+use taceva_models::{ChosenModel, FeatureSpec, ModelEstimator, OpenFeatures, Settings};
+
+use crate::error::StudyError;
+
+/// What to fit.
+#[derive(Clone, Debug)]
+pub struct FitRequest {
+    /// The model.
+    pub model: ChosenModel,
+    /// Settings of its features and of itself.
+    pub settings: Settings,
+    /// Channels by name; empty for all.
+    pub channels: Vec<String>,
+    /// The split as people write it; by point where points have repeats, else random, if `None`.
+    pub split: Option<String>,
+    /// The seed of everything that is drawn.
+    pub seed: u64,
+}
+
+impl FitRequest {
+    /// Whether its model and settings are valid; no data is read.
+    ///
+    /// # Errors
+    /// [`StudyError`] for a model that does not exist, or a setting that it does not have.
+    pub fn check(&self) -> Result<(), StudyError> {
+        Recipe::of(self).map(drop)
+    }
+
+    /// The same with `seed` for whatever the model draws; division and everything else stays.
+    pub(crate) fn with_seed(self, seed: u64) -> Result<FitRequest, StudyError> {
+        const SEED: &str = "seed";
+        if !self.model.setting_keys().contains(&SEED) {
+            return Err(StudyError::Request(format!(
+                "the model {} draws nothing: with every seed it would be the same, so run it without --seeds",
+                self.model.name()
+            )));
+        }
+        let others = self.settings.words();
+        let others = others.filter(|word| !word.starts_with("seed="));
+        let words: Vec<String> = others.chain([format!("{SEED}={seed}")]).collect();
+        Ok(FitRequest {
+            settings: Settings::parse(words.iter().map(String::as_str))?,
+            ..self
+        })
+    }
+}
+
+/// What a request asks for, before any data is looked at.
+pub(crate) struct Recipe {
+    pub(super) model: ChosenModel,
+    pub(super) estimator: Box<dyn ModelEstimator>,
+    pub(super) of_model: Settings,
+    pub(super) features: FeatureSpec,
+    /// What of the features is to be chosen.
+    pub(super) open: Option<OpenFeatures>,
+}
+
+impl Recipe {
+    /// Reads the settings of the model and of its features.
+    pub(crate) fn of(request: &FitRequest) -> Result<Recipe, StudyError> {
+        let model = &request.model;
+        let (open, settings) = match OpenFeatures::of(&request.settings) {
+            Some((open, settings)) => (Some(open), settings),
+            None => (None, request.settings.clone()),
+        };
+        let (of_features, of_model) = settings.partition(FeatureSpec::SETTINGS);
+        let mut known = model.setting_keys();
+        known.extend(FeatureSpec::SETTINGS.iter().map(|setting| setting.key));
+        request.settings.check_names(&known)?;
+        Ok(Recipe {
+            model: model.clone(),
+            estimator: model.estimator(&of_model)?,
+            of_model,
+            features: model.features().changed_by(&of_features)?,
+            open,
+        })
+    }
+}

@@ -1,0 +1,111 @@
+//! From the numbers of a model to predictions, with what the table of the dataset holds of the same rows.
+
+use std::collections::BTreeMap;
+
+use taceva_core::{Column, Field};
+use taceva_dataset::Dataset;
+use taceva_models::Model;
+
+use super::{Predicted, Target};
+use crate::error::StudyError;
+use crate::rows::BESIDE_CHANNELS;
+
+/// The numbers of a model with the labels of the same rows.
+pub(crate) fn table(
+    dataset: &Dataset,
+    model: &Model,
+    target: &Target,
+    numbers: &Column,
+) -> Result<Predicted, StudyError> {
+    let rows = &target.rows;
+    let channels = model.channels().clone();
+    let width = channels.len();
+    let columns = |numbers: &[f64]| -> Vec<Column> {
+        let column = |position: usize| numbers.iter().skip(position).step_by(width).copied();
+        let columns = (0..width).map(|position| Column::full(column(position).collect()));
+        columns.collect()
+    };
+    let (numbers, deviations) = numbers.values().split_at(rows.len() * width);
+    let mut bounded = numbers.to_vec();
+    model.bound(&mut bounded);
+    let points: Option<Vec<String>> = rows
+        .iter()
+        .map(|&row| dataset.table().point_id()[row].clone())
+        .collect();
+    Ok(Predicted {
+        part: target.part,
+        ids: rows
+            .iter()
+            .map(|&row| dataset.table().samples()[row].clone())
+            .collect(),
+        points,
+        beside: beside(dataset, rows),
+        truth: channels
+            .iter()
+            .map(|channel| truth(dataset, channel, rows))
+            .collect::<Result<_, _>>()?,
+        prediction: columns(&bounded),
+        unbounded: columns(numbers),
+        deviation: (!deviations.is_empty()).then(|| columns(deviations)),
+        beyond: (0..width)
+            .map(|position| {
+                let own = numbers.iter().skip(position).step_by(width);
+                own.map(|value| model.is_beyond(position, *value)).collect()
+            })
+            .collect(),
+        constants: constants(model),
+        frames_decoded: if model.reads_features() {
+            rows.len() as u64
+        } else {
+            0
+        },
+        left_out: target.left_out,
+        channels,
+    })
+}
+
+/// The best constant answers of `model`, by channel, as far as its card says them.
+fn constants(model: &Model) -> BTreeMap<String, f64> {
+    let channels = model.card().channels.iter();
+    channels
+        .filter_map(|channel| Some((channel.name.clone(), channel.mean?)))
+        .collect()
+}
+
+/// The other columns of the table for `rows` that `score` reads.
+fn beside(dataset: &Dataset, rows: &[usize]) -> Vec<(&'static str, Vec<Option<String>>)> {
+    let column = |field: Field| {
+        let texts = dataset.table().as_text(field.name())?;
+        Some((
+            field.name(),
+            rows.iter().map(|&row| texts[row].clone()).collect(),
+        ))
+    };
+    // Points have a column of their own.
+    let others = BESIDE_CHANNELS
+        .into_iter()
+        .filter(|field| *field != Field::Point);
+    others.filter_map(column).collect()
+}
+
+/// The truth of `rows`; a channel that the dataset does not have is absent in every row.
+pub(crate) fn truth(
+    dataset: &Dataset,
+    channel: &taceva_core::Channel,
+    rows: &[usize],
+) -> Result<Column, StudyError> {
+    let table = dataset.table();
+    let known = table.channels().by_name(channel.name());
+    if let Some(known) = known.filter(|known| known.unit() != channel.unit()) {
+        return Err(StudyError::Unsuited(format!(
+            "the model predicts {channel} in {}, the dataset has it in {}",
+            channel.unit(),
+            known.unit()
+        )));
+    }
+    let position = table.channels().position(channel.name());
+    let mut column = Column::default();
+    rows.iter()
+        .for_each(|&row| column.push(position.and_then(|position| table.truth(position).get(row))));
+    Ok(column)
+}

@@ -1,0 +1,69 @@
+//! Predictions as tables of text, in the form that `score` reads.
+
+use std::io::{self, Write};
+
+use taceva_core::Column;
+
+use super::Predicted;
+
+impl Predicted {
+    /// Writes the predictions as `score` reads them: `id` and a column a channel.
+    ///
+    /// # Errors
+    /// Those of `out`.
+    pub fn write_predictions(&self, out: &mut dyn Write) -> io::Result<()> {
+        self.write(&self.prediction, false, out)
+    }
+
+    /// Writes the predictions as the model gives them, in the form of [`write_predictions`](Predicted::write_predictions): what `score` forms
+    /// robustness from.
+    ///
+    /// # Errors
+    /// Those of `out`.
+    pub fn write_unbounded_predictions(&self, out: &mut dyn Write) -> io::Result<()> {
+        self.write(&self.unbounded, false, out)
+    }
+
+    /// Writes the standard deviation of each prediction, where the model knows it: `id` and a column a channel; says whether it does.
+    ///
+    /// # Errors
+    /// Those of `out`.
+    pub fn write_deviations(&self, out: &mut dyn Write) -> io::Result<bool> {
+        match &self.deviation {
+            Some(deviation) => self.write(deviation, false, out).map(|()| true),
+            None => Ok(false),
+        }
+    }
+
+    /// Writes the truth of the same samples: `id`, `point_id` where every sample has one, what else is known of them (`scene`,
+    /// `repeat`, `phase` and the like), and a column a channel.
+    ///
+    /// # Errors
+    /// Those of `out`.
+    pub fn write_truth(&self, out: &mut dyn Write) -> io::Result<()> {
+        self.write(&self.truth, true, out)
+    }
+
+    fn write(&self, columns: &[Column], is_truth: bool, out: &mut dyn Write) -> io::Result<()> {
+        let points = self.points.as_ref().filter(|_| is_truth);
+        let beside = if is_truth { &self.beside[..] } else { &[] };
+        let mut writer = csv::Writer::from_writer(out);
+        let mut head = vec!["id"];
+        head.extend(points.map(|_| "point_id"));
+        head.extend(beside.iter().map(|(name, _)| *name));
+        head.extend(self.channels.iter().map(|channel| channel.name()));
+        writer.write_record(head)?;
+        for row in 0..self.rows() {
+            let mut cells = vec![self.ids[row].clone()];
+            cells.extend(points.map(|points| points[row].clone()));
+            let texts = beside.iter().map(|(_, texts)| texts[row].clone());
+            cells.extend(texts.map(Option::unwrap_or_default));
+            let values = columns.iter().map(|column| column.get(row));
+            let text =
+                |value: Option<f64>| value.map_or_else(String::new, |value| format!("{value:?}"));
+            cells.extend(values.map(text));
+            writer.write_record(cells)?;
+        }
+        writer.flush()
+    }
+}

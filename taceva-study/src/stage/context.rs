@@ -1,0 +1,18 @@
+//! What the stages of a study share.
+
+use std::path::Path;
+
+use taceva_models::Models;
+
+use crate::cache::StudyCache;
+use crate::work::Work;
+
+/// How the stages of a study are carried out, where their results are found and kept, and the models there are.
+#[derive(Clone, Copy)]
+pub(crate) struct RunContext<'a> {
+    pub(crate) work: Work<'a>,
+    pub(crate) cache: StudyCache<'a>,
+    pub(crate) models: &'a Models,
+    /// Where the checkpoint of a long training is.
+    pub(crate) checkpoint: &'a Path,
+}
