@@ -43,12 +43,10 @@ impl Recording {
             }
         });
         Recording {
-            facts: SensorFacts {
-                model: "drawn".into(),
-                serial: "1".into(),
-                gel: "2".into(),
-                opaque: Known::Is(true),
-            },
+            facts: SensorFacts::new("drawn")
+                .with_serial("1")
+                .with_gel("2")
+                .with_opaque(true),
             clock: Clock::Monotonic,
             channels: vec![Channel::PX, Channel::FX, Channel::FZ],
             reference: Some(picture(0, 0.0)),

@@ -7,7 +7,8 @@ use std::path::{Path, PathBuf};
 use taceva_core::{Frame, FrameInfo, Progress};
 
 use super::npy::NpyFrames;
-use super::plan::{FrameSource, ImportPlan, ImportSummary, PlannedFrames};
+use super::plan::{FrameSource, ImportPlan, PlannedFrames};
+use super::summary::ImportSummary;
 use crate::decode::{ChannelOrder, ImageKind, check_to_the_end, decode};
 use crate::digest::Digest;
 use crate::encode::encode_png;
