@@ -185,7 +185,7 @@ pub(crate) fn fit_request(
         settings: Settings::parse(words).map_err(StudyError::from)?,
         channels: settings.channels.clone(),
         split: split.split.clone(),
-        seed: split.seed,
+        seed: split.seed.value,
     })
 }
 

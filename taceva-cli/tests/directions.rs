@@ -217,14 +217,14 @@ fn benchmarks_say_that_less_is_better() {
         errors: vec![error],
         ..ModelRow::default()
     });
-    let listing = bench.listing();
+    let listing = bench.table();
     for form in [listing.text(), listing.markdown()] {
         assert!(
             form.contains("MAE Fz (N) ↓") && form.contains("fit (s) ↓"),
             "{form}"
         );
     }
-    assert!(listing.latex().contains("MAE Fz (N) $\\downarrow$"));
+    assert!(listing.latex(taceva_report::Layout::Float).contains("MAE Fz (N) $\\downarrow$"));
     assert!(
         listing.csv().starts_with("model,fit (s),"),
         "{}",

@@ -13,7 +13,7 @@ use std::hint::black_box;
 use std::time::Instant;
 
 use rustix::time::{ClockId, clock_gettime};
-use taceva_metrics::kernels::{Contender, stream_sum};
+use taceva_metrics::bench::{Contender, stream_sum};
 use taceva_metrics::{Isa, Paired};
 
 type Error = Box<dyn std::error::Error>;

@@ -1,22 +1,22 @@
 //! Every metric there is: the only source of names, units, directions, definitions and texts.
 
-use crate::accuracy::{BIAS, MAE, MAE_EUCLID, R2, RMSE, SKILL, SMAPE, SMAPE_GATED};
-use crate::bias_level::BIAS_LEVEL;
-use crate::crosstalk::CROSSTALK;
-use crate::detection::MINIMUM_DETECTABLE_FORCE;
-use crate::drift::DRIFT;
 use crate::error::UnknownMetric;
-use crate::hysteresis::HYSTERESIS;
-use crate::inter_sensor::INTER_SENSOR;
-use crate::intrinsic::INTRINSIC;
-use crate::lighting::R_LIGHT;
-use crate::linearity::LINEARITY;
+use crate::families::accuracy::{BIAS, MAE, MAE_EUCLID, R2, RMSE, SKILL, SMAPE, SMAPE_GATED};
+use crate::families::bias_level::BIAS_LEVEL;
+use crate::families::crosstalk::CROSSTALK;
+use crate::families::detection::MINIMUM_DETECTABLE_FORCE;
+use crate::families::drift::DRIFT;
+use crate::families::hysteresis::HYSTERESIS;
+use crate::families::inter_sensor::INTER_SENSOR;
+use crate::families::intrinsic::INTRINSIC;
+use crate::families::lighting::R_LIGHT;
+use crate::families::linearity::LINEARITY;
+use crate::families::repeatability::{REPEATABILITY, SIGNAL_TO_REPEATABILITY};
+use crate::families::resolution::SR;
+use crate::families::spatial::R_SPATIAL;
+use crate::families::surface::{SENSITIVITY, UNIFORMITY};
+use crate::families::tolerance::TOLERANCE;
 use crate::metric::Metric;
-use crate::repeatability::{REPEATABILITY, SIGNAL_TO_REPEATABILITY};
-use crate::resolution::SR;
-use crate::spatial::R_SPATIAL;
-use crate::surface::{SENSITIVITY, UNIFORMITY};
-use crate::tolerance::TOLERANCE;
 
 /// Every metric, in the order of reports.
 pub static ALL: [&Metric; 24] = [

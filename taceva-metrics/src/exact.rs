@@ -6,10 +6,15 @@ mod canonical;
 mod grid;
 mod integer;
 mod kernel;
+pub(crate) mod level;
 mod machine;
+pub(crate) mod merge;
+pub(crate) mod moments;
+pub(crate) mod ordered;
 mod rational;
 mod round;
 mod simd;
+pub(crate) mod single;
 mod sum;
 mod vector;
 

@@ -2,16 +2,16 @@
 
 use taceva_core::{Needs, Unit};
 
-use crate::better::Better;
-use crate::facts::Fact;
-use crate::pair_sums::PairSums;
-use crate::plane_sums::PlaneSums;
-use crate::range::Range;
-use crate::repeatability::RepeatMetric;
+use crate::evaluate::facts::Fact;
+use crate::families::accuracy::pair_sums::PairSums;
+use crate::families::accuracy::plane_sums::PlaneSums;
+use crate::families::accuracy::streams::Streams;
+use crate::families::repeatability::RepeatMetric;
+use crate::families::surface::SurfaceMetric;
 use crate::score::Parameter;
-use crate::streams::Streams;
-use crate::surface::SurfaceMetric;
-use crate::value::UndefinedReason;
+use crate::score::better::Better;
+use crate::score::range::Range;
+use crate::score::value::UndefinedReason;
 
 /// A way to say in one number how well predictions meet the truth.
 #[derive(Debug)]

@@ -2,8 +2,8 @@
 
 use taceva_core::Batch;
 
-use crate::accuracy::EPSILON;
 use crate::error::MetricError;
+use crate::families::accuracy::EPSILON;
 
 /// Greatest magnitude of a value that is a sample: sums, differences and means of two such values stay finite.
 pub const GREATEST: f64 = taceva_core::MAGNITUDE_MAX;

@@ -2,6 +2,7 @@
 
 mod bootstrap;
 mod cluster_sums;
+pub(crate) mod clusters;
 mod difference;
 mod ends;
 mod error;
@@ -17,6 +18,7 @@ mod repeats;
 mod sides;
 mod sign_flip;
 mod signed_sums;
+pub(crate) mod spread;
 mod student;
 mod verdict;
 mod welch;
@@ -25,6 +27,7 @@ pub(crate) mod wilson;
 pub(crate) use bootstrap::LEAST_REPLICATES;
 pub use bootstrap::{BootstrapEnds, PoissonBootstrap};
 pub use cluster_sums::{ClusterSum, ClusterSums};
+pub use clusters::{Clusters, HASHED_CLUSTERS, NAMED_CLUSTERS};
 pub use difference::{Difference, DifferenceTest, decide};
 pub(crate) use ends::Estimated;
 pub use ends::Scale;

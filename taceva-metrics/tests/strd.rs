@@ -2,7 +2,7 @@
 
 use serde_json::Value;
 use taceva_core::{Batch, Channel, Channels, Column, FieldSet};
-use taceva_metrics::kernels::{Contender, digits};
+use taceva_metrics::bench::{Contender, digits};
 use taceva_metrics::{
     Evaluator, ExactSum, Isa, MetricPlan, PairSpec, PairSums, Paired, Stream, Streams, catalogue,
 };

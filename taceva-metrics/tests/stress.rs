@@ -6,7 +6,7 @@ mod program;
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 use taceva_core::random::SplitMix64;
-use taceva_metrics::kernels::{Contender, nasty_inputs, shuffled};
+use taceva_metrics::bench::{Contender, nasty_inputs, shuffled};
 use taceva_metrics::{Isa, PairSpec, PairSums, Paired, Stream, Streams};
 
 const PROGRAMS: u64 = 20_000;

@@ -14,7 +14,7 @@ pub(crate) fn run(args: &Check, context: &Context) -> anyhow::Result<u8> {
     let request = CheckRequest {
         only: args.only.clone(),
         split: args.split.split.clone(),
-        seed: args.split.seed,
+        seed: args.split.seed.value,
         jobs: context.jobs,
     };
     if args.explain {

@@ -12,9 +12,9 @@ use super::grid::{Grid, SquareUnits};
 use super::kernel::{BLOCK_ROWS, Block, ErrorUnits, ValueUnits};
 use super::machine::Machine;
 use super::sum::ExactSum;
-use crate::merge::Merge;
+use crate::exact::merge::Merge;
+use crate::families::accuracy::streams::{Stream, Streams};
 use crate::paired::Paired;
-use crate::streams::{Stream, Streams};
 
 /// Fewer rows than this are added one by one: that is sooner done than a block.
 const FEW_ROWS: usize = 4;

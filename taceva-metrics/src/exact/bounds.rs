@@ -2,8 +2,8 @@
 
 use super::grid::{Grid, power_of_two};
 use super::vector::Vector;
+use crate::families::accuracy::streams::{Stream, Streams};
 use crate::paired::Paired;
-use crate::streams::{Stream, Streams};
 
 /// The greatest exponent of a grid: squares and all bits that rounding takes from them stay far from over- and underflow.
 const GREATEST_TOP: i32 = 400;

@@ -8,9 +8,9 @@ use super::bounds::{Bounds, Grids, TERMS};
 use super::grid::{DEPTH, GridSum, SquareSum, SquareUnits};
 use super::machine::Machine;
 use super::vector::{Job, Vector};
-use crate::accuracy::EPSILON;
+use crate::families::accuracy::EPSILON;
+use crate::families::accuracy::streams::{Stream, Streams};
 use crate::paired::Paired;
-use crate::streams::{Stream, Streams};
 
 /// Rows of the longest block.
 pub(super) const BLOCK_ROWS: usize = 512;

@@ -6,8 +6,8 @@ use super::ends::{Ends, Estimated, Moved, Scale};
 use super::jackknife::LEAST_CLUSTERS;
 use super::poisson::weight;
 use super::random::bits;
+use crate::score::value::UndefinedReason;
 use crate::score::{ClusteredBy, Interval};
-use crate::value::UndefinedReason;
 
 /// Which share of the replicates may have no value.
 const UNDEFINED_IN: usize = 20;
@@ -156,7 +156,7 @@ fn standard_deviation(values: &[f64]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::range::Range;
+    use crate::score::range::Range;
 
     const BOOTSTRAP: PoissonBootstrap = PoissonBootstrap {
         replicates: 1000,

@@ -6,7 +6,7 @@ use super::error::ComparisonError;
 use super::holm::{Step, steps};
 use super::sides::Sides;
 use super::student::{quantile, two_sided, upper};
-use crate::value::UndefinedReason;
+use crate::score::value::UndefinedReason;
 
 /// How seldom chance may look like an answer.
 pub(super) const LEVEL: f64 = 0.05;

@@ -5,9 +5,9 @@ use std::fmt;
 use super::exponential::exponential;
 use super::logarithm::logarithm;
 use super::student::quantile;
-use crate::range::Range;
 use crate::score::COVERAGE;
-use crate::value::UndefinedReason;
+use crate::score::range::Range;
+use crate::score::value::UndefinedReason;
 
 /// On which scale an interval is symmetric about its value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]

@@ -5,7 +5,7 @@ use std::fmt;
 
 use super::jackknife::LEAST_CLUSTERS;
 use super::sides::{Side, Sides};
-use crate::value::{InapplicableReason, UndefinedReason};
+use crate::score::value::{InapplicableReason, UndefinedReason};
 
 /// Why there is no answer to a comparison.
 #[derive(Clone, Debug, PartialEq)]

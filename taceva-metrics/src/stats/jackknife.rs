@@ -1,9 +1,9 @@
 //! How far a score would move with other contact locations: the delete-one-cluster jackknife.
 
 use super::ends::{Ends, Estimated, Moved};
-use crate::range::Range;
+use crate::score::range::Range;
+use crate::score::value::UndefinedReason;
 use crate::score::{ClusteredBy, Interval};
-use crate::value::UndefinedReason;
 
 /// Clusters below which there is no interval.
 pub(crate) const LEAST_CLUSTERS: usize = 5;

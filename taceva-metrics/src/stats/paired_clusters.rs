@@ -6,7 +6,7 @@ use super::error::ComparisonError;
 use super::jackknife::{self, LEAST_CLUSTERS, LeftOut};
 use super::sides::{Side, Sides};
 use crate::exact::{Dyadic, ExactSum};
-use crate::value::UndefinedReason;
+use crate::score::value::UndefinedReason;
 
 /// The clusters that have samples, side by side.
 pub(super) struct PairedClusters {

@@ -7,7 +7,7 @@ use taceva_core::Unit;
 use super::difference::Difference;
 use super::error::ComparisonError;
 use super::sides::{Side, Sides};
-use crate::better::Better;
+use crate::score::better::Better;
 
 /// What is asked of a difference.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -4,8 +4,8 @@ use super::difference::{Difference, DifferenceTest, Inverse, Spread};
 use super::error::ComparisonError;
 use super::jackknife::LEAST_CLUSTERS;
 use super::sides::{Side, Sides};
+use crate::score::value::{InapplicableReason, UndefinedReason, Value};
 use crate::score::{Interval, Score};
-use crate::value::{InapplicableReason, UndefinedReason, Value};
 
 /// A score, how far it would move with other clusters, and how many there were to tell.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -3,7 +3,7 @@
 //! Whatever is not understood is a panic, because a case that is skipped proves nothing.
 
 use serde_json::{Map, Value};
-use taceva_metrics::kernels::{Kind, Order, Recipe};
+use taceva_metrics::bench::{Kind, Order, Recipe};
 
 /// A case's inputs in its own order, and what must come of them.
 pub(crate) struct Case {

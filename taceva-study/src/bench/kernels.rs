@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 use taceva_core::Progress;
-use taceva_metrics::kernels::{
+use taceva_metrics::bench::{
     ALL_DIGITS, Contender, Kind, Order, Recipe, Scores, digits, nasty_inputs, shuffled, stream_sum,
 };
 use taceva_metrics::{Isa, Paired};

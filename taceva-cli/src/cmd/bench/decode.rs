@@ -30,7 +30,7 @@ pub(super) fn run(args: &BenchDecode, context: &Context) -> anyhow::Result<u8> {
             race(&open(path)?, &name.to_string_lossy(), &request, context)?
         }
         None => {
-            let pressed = Pressed::new(args.quick, args.split.seed, (context, &known))?;
+            let pressed = Pressed::new(args.quick, args.split.seed.value, (context, &known))?;
             let path = pressed.folder().join("as-jpeg");
             write_as_jpeg(&pressed.dataset, &path, QUALITY, &context.progress)?;
             let mut bench = race(&open(&path)?, "simulated bench", &request, context)?;

@@ -51,7 +51,7 @@ pub(super) fn run(args: &BenchModels, context: &Context) -> anyhow::Result<u8> {
             race(&open(path)?, &name.to_string_lossy(), entered, context)?
         }
         None => {
-            let pressed = Pressed::new(args.quick, args.split.seed, (context, &known))?;
+            let pressed = Pressed::new(args.quick, args.split.seed.value, (context, &known))?;
             race(&pressed.dataset, "simulated bench", entered, context)?
         }
     };
@@ -96,7 +96,7 @@ pub(super) fn request(word: &str, split: &SplitArgs, known: &Models) -> anyhow::
         settings: Settings::parse(settings).map_err(StudyError::from)?,
         channels: Vec::new(),
         split: split.split.clone(),
-        seed: split.seed,
+        seed: split.seed.value,
     })
 }
 

@@ -1,0 +1,35 @@
+//! How many decimal digits of a result are right.
+
+/// What [`digits`] gives where every bit is right.
+pub const ALL_DIGITS: f64 = 17.3;
+
+/// The number of decimal digits in which `value` agrees with `truth`: −log₁₀(|value − truth| / |truth|).
+///
+/// From 0, where nothing is right, to [`ALL_DIGITS`], where everything is. Of a truth of zero the magnitude of `value` counts
+/// instead of the ratio. It is the log relative error by which NIST's Statistical Reference Datasets are judged (McCullough
+/// 1998).
+///
+/// ```
+/// use taceva_metrics::bench::{ALL_DIGITS, digits};
+/// assert_eq!(digits(0.25, 0.25), ALL_DIGITS);
+/// assert!((digits(1.001, 1.0) - 3.0).abs() < 1e-9);
+/// assert_eq!(digits(f64::NAN, 1.0), 0.0);
+/// ```
+pub fn digits(value: f64, truth: f64) -> f64 {
+    let difference = (value - truth).abs();
+    if difference == 0.0 {
+        return ALL_DIGITS;
+    }
+    let error = if truth == 0.0 {
+        difference
+    } else {
+        difference / truth.abs()
+    };
+    let digits = -error.log10();
+    if digits > 0.0 {
+        digits.min(ALL_DIGITS)
+    } else {
+        // Also for what is no number, and never −0.
+        0.0
+    }
+}

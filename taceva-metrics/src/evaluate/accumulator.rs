@@ -1,0 +1,136 @@
+//! What takes samples in and gives scores out; metrics that are finished from the same sums share one.
+
+mod any_family;
+mod parts;
+mod resampling;
+mod scores;
+
+use std::borrow::Cow;
+
+use taceva_core::{Batch, Channels};
+
+use self::any_family::{AnyFamily, Erased};
+use self::parts::Parts;
+use crate::error::MetricError;
+use crate::evaluate::independent::rows_as_clusters;
+use crate::evaluate::plan::MetricPlan;
+use crate::evaluate::state::{Shape, State, describe, written};
+use crate::families::family::Family;
+use crate::stats::IntervalMethod;
+use crate::stats::clusters::{Clustering, Clusters};
+
+/// Keeps what the metrics of one family are finished from, apart by contact location.
+///
+/// # Laws
+/// Any order, split and merge of the same samples gives equal states and, bit for bit, equal scores; the state of nothing
+/// changes nothing.
+pub(crate) struct Accumulator {
+    family: Box<dyn AnyFamily>,
+    channels: Channels,
+    clustering: Clustering<Parts>,
+    clusters: Clusters<Parts>,
+    interval_method: IntervalMethod,
+    rows_as_clusters: bool,
+}
+
+impl Accumulator {
+    /// What has seen nothing.
+    pub(crate) fn new(family: impl Family, plan: &MetricPlan) -> Accumulator {
+        let family: Box<dyn AnyFamily> = Box::new(Erased(family));
+        let clustering = Clustering {
+            empty: family.empty(),
+            seed: plan.seed(),
+        };
+        Accumulator {
+            family,
+            channels: plan.channels().clone(),
+            clustering,
+            clusters: Clusters::default(),
+            interval_method: plan.interval_method(),
+            rows_as_clusters: false,
+        }
+    }
+
+    /// The same accumulator; where `rows_as_clusters`, each row is a cluster of its own.
+    pub(crate) fn with_rows_as_clusters(self, rows_as_clusters: bool) -> Accumulator {
+        Accumulator {
+            rows_as_clusters,
+            ..self
+        }
+    }
+
+    /// Takes in the samples of `batch`.
+    pub(crate) fn update(&mut self, batch: &Batch) -> Result<(), MetricError> {
+        if batch.channels() != &self.channels {
+            return Err(MetricError::Channels {
+                expected: describe(&written(&self.channels)),
+                found: describe(&written(batch.channels())),
+            });
+        }
+        let family = &mut self.family;
+        let labels = match self.rows_as_clusters {
+            true => Some(Cow::Owned(rows_as_clusters(batch))),
+            false => family.clusters(batch),
+        };
+        self.clustering.deposit(
+            &mut self.clusters,
+            batch.rows(),
+            labels.as_deref(),
+            |parts, rows| family.deposit(parts, batch, rows),
+        );
+        Ok(())
+    }
+
+    /// What is kept so far.
+    pub(crate) fn state(&self) -> State {
+        let Shape {
+            schema,
+            parameters,
+            channels,
+        } = self.shape();
+        let records =
+            |parts: &Parts| Ok::<_, std::convert::Infallible>(self.family.to_records(parts));
+        let clusters = match self.clusters.try_map(records) {
+            Ok(clusters) => clusters,
+            Err(never) => match never {},
+        };
+        State {
+            schema: schema.to_owned(),
+            parameters,
+            channels,
+            clusters,
+        }
+    }
+
+    /// Whether states of `schema` are its own.
+    pub(crate) fn reads(&self, schema: &str) -> bool {
+        schema == self.family.schema()
+    }
+
+    /// Takes over what another one kept.
+    pub(crate) fn merge(&mut self, state: &State) -> Result<(), MetricError> {
+        state.check(&self.shape())?;
+        let clusters = state.clusters.try_map(|records| {
+            let malformed = |what| MetricError::Malformed {
+                schema: self.family.schema(),
+                what,
+            };
+            self.family.read_records(records).map_err(malformed)
+        })?;
+        self.clustering.merge(&mut self.clusters, &clusters);
+        Ok(())
+    }
+
+    fn shape(&self) -> Shape {
+        let mut parameters = self.family.parameters();
+        parameters.insert("seed".to_owned(), self.clustering.seed.to_string());
+        if self.rows_as_clusters {
+            parameters.insert("clusters".to_owned(), "samples".to_owned());
+        }
+        Shape {
+            schema: self.family.schema(),
+            parameters,
+            channels: written(&self.channels),
+        }
+    }
+}

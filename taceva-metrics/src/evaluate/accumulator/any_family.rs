@@ -1,0 +1,129 @@
+//! A family without the name of its type.
+
+use std::borrow::Cow;
+use std::collections::BTreeMap;
+
+use taceva_core::{Batch, Labels};
+
+use super::parts::Parts;
+use crate::evaluate::state::Record;
+use crate::families::family::{Details, Family, Intervals, Numbers, Output};
+use crate::metric::Metric;
+use crate::score::value::{InapplicableReason, UndefinedReason};
+
+/// A [`Family`] whose sums are [`Parts`]: what each method says stands there.
+pub(super) trait AnyFamily: Send {
+    fn schema(&self) -> &'static str;
+    fn parameters(&self) -> BTreeMap<String, String>;
+    fn empty(&self) -> Parts;
+    fn deposit(&mut self, parts: &mut Parts, batch: &Batch, rows: Option<&[u32]>);
+    fn clusters<'a>(&self, batch: &'a Batch) -> Option<Cow<'a, Labels>>;
+    fn unclustered(&self) -> UndefinedReason;
+    fn to_records(&self, parts: &Parts) -> Vec<Record>;
+    /// Back from a state, which must have a record a part.
+    fn read_records(&self, records: &[Record]) -> Result<Parts, String>;
+    fn outputs(&self, metric: &Metric) -> Vec<Output>;
+    fn count(&self, metric: &Metric, parts: &Parts, part: usize) -> u64;
+    fn invalid(&self, parts: &Parts, part: usize) -> u64;
+    fn numbers(&self, metric: &Metric, output: &Output, parts: &Parts, part: usize) -> Numbers;
+    fn joint(&self, metric: &Metric, output: &Output, parts: &Parts) -> Option<Numbers>;
+    fn inapplicable(&self, metric: &Metric, output: &Output) -> Option<InapplicableReason>;
+    fn details(&self, metric: &Metric, output: &Output, parts: &Parts) -> Details;
+    fn intervals(&self, metric: &Metric, output: &Output, clusters: &[&Parts])
+    -> Option<Intervals>;
+}
+
+/// A family as an [`AnyFamily`].
+pub(super) struct Erased<F>(pub(super) F);
+
+impl<F: Family> AnyFamily for Erased<F> {
+    fn schema(&self) -> &'static str {
+        F::SCHEMA
+    }
+
+    fn parameters(&self) -> BTreeMap<String, String> {
+        self.0.parameters()
+    }
+
+    fn empty(&self) -> Parts {
+        Parts::new(self.0.empty())
+    }
+
+    fn deposit(&mut self, parts: &mut Parts, batch: &Batch, rows: Option<&[u32]>) {
+        self.0.deposit(parts.sums_mut(), batch, rows);
+    }
+
+    fn clusters<'a>(&self, batch: &'a Batch) -> Option<Cow<'a, Labels>> {
+        self.0.clusters(batch)
+    }
+
+    fn unclustered(&self) -> UndefinedReason {
+        self.0.unclustered()
+    }
+
+    fn to_records(&self, parts: &Parts) -> Vec<Record> {
+        let mut records = Vec::new();
+        for sums in parts.sums() {
+            records.push(self.0.to_record(sums));
+        }
+        records
+    }
+
+    fn read_records(&self, records: &[Record]) -> Result<Parts, String> {
+        let expected = self.0.empty().len();
+        if records.len() != expected {
+            return Err(format!("{} records, expected {expected}", records.len()));
+        }
+        let mut parts = Vec::with_capacity(expected);
+        for (position, record) in records.iter().enumerate() {
+            parts.push(self.0.read_record(position, record)?);
+        }
+        Ok(Parts::new(parts))
+    }
+
+    fn outputs(&self, metric: &Metric) -> Vec<Output> {
+        self.0.outputs(metric)
+    }
+
+    fn count(&self, metric: &Metric, parts: &Parts, part: usize) -> u64 {
+        self.0.count(metric, &parts.sums()[part])
+    }
+
+    fn invalid(&self, parts: &Parts, part: usize) -> u64 {
+        self.0.invalid(&parts.sums()[part])
+    }
+
+    fn numbers(&self, metric: &Metric, output: &Output, parts: &Parts, part: usize) -> Numbers {
+        self.0.numbers(metric, output, &parts.sums()[part])
+    }
+
+    fn joint(&self, metric: &Metric, output: &Output, parts: &Parts) -> Option<Numbers> {
+        self.0.joint(metric, output, parts.sums())
+    }
+
+    fn inapplicable(&self, metric: &Metric, output: &Output) -> Option<InapplicableReason> {
+        self.0.inapplicable(metric, output)
+    }
+
+    fn details(&self, metric: &Metric, output: &Output, parts: &Parts) -> Details {
+        let sums = parts.sums();
+        let mut of_output = Vec::new();
+        for &part in &output.parts {
+            of_output.push(&sums[part]);
+        }
+        self.0.details(metric, output, &of_output)
+    }
+
+    fn intervals(
+        &self,
+        metric: &Metric,
+        output: &Output,
+        clusters: &[&Parts],
+    ) -> Option<Intervals> {
+        let mut sums = Vec::with_capacity(clusters.len());
+        for parts in clusters {
+            sums.push(parts.sums());
+        }
+        self.0.intervals(metric, output, &sums)
+    }
+}

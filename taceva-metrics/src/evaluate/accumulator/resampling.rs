@@ -1,0 +1,150 @@
+//! The same score of other clusters: what intervals are made of.
+
+use std::borrow::Cow;
+
+use super::parts::Parts;
+use crate::exact::merge::Merge;
+use crate::families::family::{Finished, Numbers};
+use crate::score::Interval;
+use crate::score::range::Range;
+use crate::score::value::UndefinedReason;
+use crate::stats::jackknife::{self, LeftOut};
+use crate::stats::{Estimated, PoissonBootstrap};
+
+/// A cluster: a number that stands for its name, and the sums of each part.
+pub(super) type Cell<'a> = (u64, &'a Parts);
+
+/// Shows `visit` each cluster with the sums of all the others.
+///
+/// Sums of the clusters before and of those after are carried along, so that nothing need ever be taken away: sets that only
+/// grow have intervals too.
+pub(super) fn each_left_out(
+    empty: &Parts,
+    cells: &[Cell<'_>],
+    visit: &mut dyn FnMut(&Parts, &Parts),
+) {
+    let mut after = Vec::with_capacity(cells.len());
+    let mut sums = empty.clone();
+    for (_, cell) in cells.iter().rev() {
+        after.push(sums.clone());
+        sums.merge(cell);
+    }
+    let mut before = empty.clone();
+    for (_, cell) in cells {
+        let mut others = after.pop().unwrap_or_else(|| empty.clone());
+        others.merge(&before);
+        visit(cell, &others);
+        before.merge(cell);
+    }
+}
+
+/// The value and the variants of one score, for other choices of clusters.
+pub(super) struct Resampling {
+    /// The names, and which values there can be.
+    names: Vec<(Option<Cow<'static, str>>, Range)>,
+    draws: Draws,
+}
+
+enum Draws {
+    /// Samples of the cluster left out, and the numbers of the others.
+    LeftOut(Vec<(u64, Vec<Finished>)>),
+    /// The intervals of the numbers.
+    Weighted(Vec<Interval>),
+}
+
+impl Resampling {
+    /// No choice yet, for the numbers of all clusters, whose value lies in `range`.
+    pub(super) fn new(numbers: &Numbers, range: Range) -> Resampling {
+        let variants = numbers.variants.iter();
+        let names = variants.map(|variant| (Some(variant.name.clone()), variant.range));
+        Resampling {
+            names: std::iter::once((None, range)).chain(names).collect(),
+            draws: Draws::LeftOut(Vec::new()),
+        }
+    }
+
+    /// Takes in the numbers of the others of a cluster of `count` samples.
+    pub(super) fn leave_out(&mut self, count: u64, others: &Numbers) {
+        let others = self.in_order(others);
+        if let Draws::LeftOut(draws) = &mut self.draws {
+            draws.push((count, others));
+        }
+    }
+
+    /// Finishes the score once a replicate, clusters of `samples` samples counting as often as their weights say.
+    pub(super) fn weigh(
+        &mut self,
+        bootstrap: PoissonBootstrap,
+        empty: &Parts,
+        cells: &[Cell<'_>],
+        (total, samples): (&Numbers, u64),
+        finish: &dyn Fn(&Parts) -> Numbers,
+    ) {
+        let keys: Vec<u64> = cells.iter().map(|(key, _)| *key).collect();
+        let mut replicates: Vec<Vec<Finished>> = Vec::new();
+        // The weights depend on clusters and seed alone: the first pass finishes all numbers, later ones look theirs up.
+        let anything = Estimated {
+            value: 0.0,
+            range: Range::Any,
+            samples,
+        };
+        bootstrap.interval(&anything, &keys, |weights| {
+            let mut sums = empty.clone();
+            for ((_, cell), &weight) in cells.iter().zip(weights) {
+                sums.merge_times(cell, weight);
+            }
+            replicates.push(self.in_order(&finish(&sums)));
+            Ok(0.0)
+        });
+        let intervals = self.in_order(total).into_iter().enumerate();
+        let intervals = intervals.map(|(position, value)| match value {
+            Err(reason) => Interval::Undefined(reason),
+            Ok(value) => {
+                let mut replicates = replicates.iter();
+                let estimated = Estimated {
+                    value,
+                    range: self.names[position].1,
+                    samples,
+                };
+                bootstrap.interval(&estimated, &keys, |_| {
+                    let replicate = replicates.next().ok_or(UndefinedReason::Empty)?;
+                    replicate[position]
+                })
+            }
+        });
+        self.draws = Draws::Weighted(intervals.collect());
+    }
+
+    /// The interval about `value`, which is the variant called `name`, or the value itself.
+    pub(super) fn interval(&self, value: f64, name: Option<&str>) -> Interval {
+        let mut names = self.names.iter();
+        let position = names.position(|(known, _)| known.as_deref() == name);
+        let Some(position) = position else {
+            return Interval::Undefined(UndefinedReason::Empty);
+        };
+        if self.names[position].1 == Range::Greatest {
+            return Interval::Undefined(UndefinedReason::Greatest);
+        }
+        match &self.draws {
+            Draws::Weighted(intervals) => intervals[position],
+            Draws::LeftOut(draws) => {
+                let left_out = draws.iter().map(|(count, others)| LeftOut {
+                    count: *count,
+                    value: others[position],
+                });
+                let range = self.names[position].1;
+                jackknife::interval(value, range, &left_out.collect::<Vec<_>>())
+            }
+        }
+    }
+
+    fn in_order(&self, numbers: &Numbers) -> Vec<Finished> {
+        let names = self.names.iter();
+        names
+            .map(|(name, _)| match name {
+                None => numbers.value,
+                Some(name) => numbers.variant(name),
+            })
+            .collect()
+    }
+}

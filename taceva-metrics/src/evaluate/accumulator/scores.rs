@@ -1,0 +1,187 @@
+//! From sums to scores with their intervals.
+
+use super::Accumulator;
+use super::parts::Parts;
+use super::resampling::{Cell, Resampling, each_left_out};
+use crate::evaluate::evaluation::Entry;
+use crate::families::family::{Details, Numbers, Output};
+use crate::metric::Metric;
+use crate::score::standing::Standing;
+use crate::score::value::{UndefinedReason, Value};
+use crate::score::{Interval, Score, Variant};
+use crate::stats::IntervalMethod;
+
+/// A score on its way.
+struct Request {
+    metric: &'static Metric,
+    output: Output,
+    numbers: Numbers,
+    resampling: Resampling,
+}
+
+impl Accumulator {
+    /// The scores of those of `metrics` that are finished from what is kept here, metric by metric.
+    pub(crate) fn scores(&self, metrics: &[&'static Metric]) -> Vec<Entry> {
+        let total = self.clustering.total(&self.clusters);
+        let mut requests = self.requests(metrics, &total);
+        let cells = self.clusters.cells();
+        if let Some(cells) = &cells {
+            self.resample(&mut requests, cells);
+        }
+        let requests = requests.into_iter();
+        requests
+            .map(|request| Entry {
+                metric: request.metric,
+                channel: request.output.label.clone(),
+                score: self.score(request, &total, cells.as_deref()),
+            })
+            .collect()
+    }
+
+    /// The numbers of an output: one part's, the mean of two, or what the family makes of them.
+    fn numbers(&self, metric: &Metric, output: &Output, sums: &Parts) -> Numbers {
+        if let Some(numbers) = self.family.joint(metric, output, sums) {
+            return numbers;
+        }
+        let mut parts = output.parts.iter();
+        let mut next = || {
+            let part = parts.next()?;
+            Some(self.family.numbers(metric, output, sums, *part))
+        };
+        let first = next().unwrap_or_else(|| Numbers::of(Err(UndefinedReason::Empty)));
+        match next() {
+            Some(second) => first.mean(&second),
+            None => first,
+        }
+    }
+
+    /// Samples of a cluster that take part in an output.
+    fn samples(&self, metric: &Metric, output: &Output, sums: &Parts) -> u64 {
+        let parts = output.parts.iter();
+        let counts = parts.map(|&part| self.family.count(metric, sums, part));
+        counts.fold(0, u64::saturating_add)
+    }
+
+    /// Every score of `metrics`, without intervals.
+    fn requests(&self, metrics: &[&'static Metric], total: &Parts) -> Vec<Request> {
+        let mut requests = Vec::new();
+        for &metric in metrics {
+            for output in self.family.outputs(metric) {
+                let numbers = self.numbers(metric, &output, total);
+                requests.push(Request {
+                    resampling: Resampling::new(&numbers, metric.range),
+                    metric,
+                    output,
+                    numbers,
+                });
+            }
+        }
+        requests
+    }
+
+    /// Finishes every score again with clusters left out or weighted.
+    fn resample(&self, requests: &mut [Request], cells: &[Cell<'_>]) {
+        match self.interval_method {
+            IntervalMethod::Jackknife => {
+                each_left_out(&self.clustering.empty, cells, &mut |cell, others| {
+                    for request in &mut *requests {
+                        let count = self.samples(request.metric, &request.output, cell);
+                        if count > 0 {
+                            let numbers = self.numbers(request.metric, &request.output, others);
+                            request.resampling.leave_out(count, &numbers);
+                        }
+                    }
+                });
+            }
+            IntervalMethod::PoissonBootstrap(bootstrap) => {
+                for request in requests {
+                    let (metric, output) = (request.metric, &request.output);
+                    let cells: Vec<Cell<'_>> = cells
+                        .iter()
+                        .copied()
+                        .filter(|(_, cell)| self.samples(metric, output, cell) > 0)
+                        .collect();
+                    let finish = |sums: &Parts| self.numbers(metric, output, sums);
+                    let counts = cells.iter();
+                    let counts = counts.map(|(_, cell)| self.samples(metric, output, cell));
+                    let total = (&request.numbers, counts.fold(0, u64::saturating_add));
+                    let (empty, resampling) = (&self.clustering.empty, &mut request.resampling);
+                    resampling.weigh(bootstrap, empty, &cells, total, &finish);
+                }
+            }
+        }
+    }
+
+    fn score(&self, request: Request, total: &Parts, cells: Option<&[Cell<'_>]>) -> Score {
+        let Request {
+            metric,
+            output,
+            numbers,
+            resampling,
+        } = request;
+        let (value, details) = match self.family.inapplicable(metric, &output) {
+            Some(reason) => (Value::NotApplicable(reason), Details::default()),
+            None => (
+                numbers.value.into(),
+                self.family.details(metric, &output, total),
+            ),
+        };
+        let own = match (self.interval_method, cells) {
+            (IntervalMethod::Jackknife, Some(cells)) => {
+                let cells: Vec<&Parts> = cells.iter().map(|(_, cell)| *cell).collect();
+                self.family.intervals(metric, &output, &cells)
+            }
+            _ => None,
+        };
+        let of_value = |value: &Value, name: Option<&str>| match value {
+            Value::Undefined(reason) => Interval::Undefined(*reason),
+            Value::Scalar(_) if cells.is_none() => Interval::Undefined(self.family.unclustered()),
+            Value::Scalar(value) => {
+                let own = own.as_ref().and_then(|own| own.of(name));
+                own.unwrap_or_else(|| resampling.interval(*value, name))
+            }
+            _ => Interval::Undefined(UndefinedReason::Empty),
+        };
+        let interval = |value: &Value, name: Option<&str>| match self.rows_as_clusters {
+            true => of_value(value, name).of_independent_samples(),
+            false => of_value(value, name),
+        };
+        let parts = output.parts.iter();
+        let n = parts
+            .clone()
+            .map(|&part| self.family.count(metric, total, part));
+        let n_invalid = parts.map(|&part| self.family.invalid(total, part));
+        let (n, n_invalid) = (n.min(), n_invalid.max());
+        let mut variants = Vec::new();
+        if !matches!(value, Value::NotApplicable(_)) {
+            variants.extend(numbers.variants.iter().map(|number| {
+                let value = number.value.into();
+                Variant {
+                    interval: Some(interval(&value, Some(&number.name))),
+                    name: number.name.clone(),
+                    unit: number.unit,
+                    range: number.range,
+                    value,
+                }
+            }));
+        }
+        variants.extend(details.variants);
+        let mut parameters = (metric.constants)(output.unit);
+        parameters.extend(details.parameters);
+        Score {
+            interval: interval(&value, None),
+            value,
+            unit: metric.unit.of(output.unit),
+            n: n.unwrap_or_default(),
+            n_invalid: n_invalid.unwrap_or_default(),
+            definition: metric.definition,
+            parameters,
+            counts: details.counts,
+            flags: details.flags,
+            standing: Standing::default(),
+            bounded_share: None,
+            of: output.of,
+            variants,
+        }
+    }
+}

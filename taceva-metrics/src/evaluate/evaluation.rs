@@ -1,0 +1,98 @@
+//! Finished scores: printed as a table, serialized as a report, or walked one by one.
+
+mod handles;
+#[cfg(feature = "serde")]
+mod json;
+mod table;
+
+use std::collections::BTreeMap;
+
+use taceva_core::Skipped;
+
+use crate::metric::Metric;
+use crate::score::Score;
+use crate::score::standing::{self, Standing};
+
+/// Every score of an evaluation, in the order of reports, and what was left out.
+#[derive(Clone, Debug)]
+pub struct Evaluation {
+    entries: Vec<Entry>,
+    skipped: Vec<Skipped>,
+}
+
+/// One score, with what it is of.
+#[derive(Clone, Debug)]
+pub(crate) struct Entry {
+    pub(crate) metric: &'static Metric,
+    pub(crate) channel: String,
+    pub(crate) score: Score,
+}
+
+impl Evaluation {
+    pub(crate) fn new(mut entries: Vec<Entry>, skipped: Vec<Skipped>) -> Evaluation {
+        standing::judge(&mut entries);
+        Evaluation { entries, skipped }
+    }
+
+    /// The scores of `parts` as one evaluation, in the order of reports; what none of them has is in `skipped`.
+    ///
+    /// For metrics that are computed on samples of their own each: nothing is merged. Scores of every part have the standing that the skill of
+    /// their channels gives them, whichever part that is in.
+    pub fn joined(
+        parts: impl IntoIterator<Item = Evaluation>,
+        skipped: Vec<Skipped>,
+    ) -> Evaluation {
+        let mut entries: Vec<Entry> = parts.into_iter().flat_map(|part| part.entries).collect();
+        let rank = |entry: &Entry| {
+            let order = crate::catalogue::ALL.iter();
+            order
+                .take_while(|metric| metric.id != entry.metric.id)
+                .count()
+        };
+        entries.sort_by_key(rank);
+        Evaluation::new(entries, skipped)
+    }
+
+    /// The same scores, told which share of the predictions of each channel lies beyond the bounds of the model: each score that is formed
+    /// from predictions carries the share of its worst channel.
+    #[must_use]
+    pub fn with_bounded_shares(mut self, shares: &BTreeMap<String, f64>) -> Evaluation {
+        for entry in &mut self.entries {
+            if entry.metric.reads_predictions() {
+                let channels = standing::channels(&entry.channel, &entry.score);
+                let known = channels.iter().filter_map(|name| shares.get(name).copied());
+                entry.score.bounded_share = known.reduce(f64::max);
+            }
+        }
+        Evaluation::new(self.entries, self.skipped)
+    }
+
+    /// The same scores, told that the model has seen the samples: what it shows there is no skill on others, which stays unknown.
+    #[must_use]
+    pub fn of_seen_samples(mut self) -> Evaluation {
+        for entry in &mut self.entries {
+            if entry.metric.reads_predictions() {
+                entry.score.standing = entry.score.standing.max(Standing::SkillUnknown);
+            }
+        }
+        self
+    }
+
+    /// Every score with its metric and the name of its channel or plane.
+    pub fn scores(&self) -> impl Iterator<Item = (&'static Metric, &str, &Score)> {
+        let entries = self.entries.iter();
+        entries.map(|entry| (entry.metric, entry.channel.as_str(), &entry.score))
+    }
+
+    /// The score of one metric and channel or plane.
+    pub fn score(&self, metric: &str, channel: &str) -> Option<&Score> {
+        let mut scores = self.scores();
+        let found = scores.find(|(found, of, _)| found.id == metric && *of == channel);
+        found.map(|(_, _, score)| score)
+    }
+
+    /// What was left out, and why.
+    pub fn skipped(&self) -> &[Skipped] {
+        &self.skipped
+    }
+}

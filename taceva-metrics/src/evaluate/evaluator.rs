@@ -1,0 +1,270 @@
+//! Samples in, scores out.
+
+use std::fmt;
+
+use taceva_core::{
+    Batch, BatchBuilder, Channel, ChannelError, Channels, FieldSet, Sample, SampleSink, SinkError,
+};
+
+use crate::error::MetricError;
+use crate::evaluate::accumulator::Accumulator;
+use crate::evaluate::evaluation::{Entry, Evaluation};
+use crate::evaluate::number::Number;
+use crate::evaluate::plan::MetricPlan;
+use crate::evaluate::rows::Rows;
+use crate::evaluate::state::State;
+
+/// Samples that are collected before they are summed: small enough for the columns to stay in the fastest cache.
+const BATCH_ROWS: usize = 1024;
+
+/// Takes samples, one by one or in batches, and finishes a plan's scores.
+///
+/// Threads and labs may each have one of the same plan; merging them gives what one alone would have given, bit for bit.
+pub struct Evaluator {
+    plan: MetricPlan,
+    accumulators: Vec<Accumulator>,
+    builder: BatchBuilder,
+}
+
+impl Evaluator {
+    /// An evaluator that has seen nothing.
+    pub fn new(plan: &MetricPlan) -> Evaluator {
+        Evaluator {
+            plan: plan.clone(),
+            accumulators: plan.accumulators(),
+            builder: BatchBuilder::new(plan.channels().clone(), plan.fields()),
+        }
+    }
+
+    /// An evaluator of every metric that truth and prediction of `channels` and contact locations allow.
+    ///
+    /// # Errors
+    /// [`ChannelError::Twice`] if a channel comes twice.
+    ///
+    /// ```
+    /// use taceva_metrics::{Channel, Evaluator};
+    /// let mut evaluator = Evaluator::of_channels([Channel::FZ])?;
+    /// evaluator.update_pairs(Channel::FZ, &[0.25, 0.5], &[0.5, 0.5])?;
+    /// assert_eq!(evaluator.score()?.mae(Channel::FZ).and_then(|score| score.value.scalar()), Some(0.125));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn of_channels(
+        channels: impl IntoIterator<Item = Channel>,
+    ) -> Result<Evaluator, ChannelError> {
+        let channels = Channels::new(channels)?;
+        let plan = MetricPlan::new(&crate::catalogue::ALL, channels, FieldSet::PAIRS);
+        Ok(Evaluator::new(&plan))
+    }
+
+    /// This evaluator with every sample a cluster of its own, as [`MetricPlan::independent_samples`] says; what it has seen is forgotten, so it
+    /// stands before the first update.
+    ///
+    /// ```
+    /// use taceva_metrics::{Channel, Evaluator};
+    /// let mut evaluator = Evaluator::of_channels([Channel::FZ])?.independent_samples();
+    /// let truth = [0.0, 1.0, 2.0, 3.0, 4.0, 5.0];
+    /// evaluator.update_pairs(Channel::FZ, &truth, &[0.1, 1.2, 1.9, 3.3, 3.8, 5.2])?;
+    /// let scores = evaluator.score()?;
+    /// let mae = scores.mae(Channel::FZ).ok_or("no score")?;
+    /// let method = mae.interval.method().ok_or("no interval")?;
+    /// assert_eq!(method, "jackknife, samples taken as independent, G=6, logarithmic");
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub fn independent_samples(self) -> Evaluator {
+        Evaluator::new(&self.plan.independent_samples())
+    }
+
+    /// What is computed.
+    pub fn plan(&self) -> &MetricPlan {
+        &self.plan
+    }
+
+    /// Takes in the samples of `batch`.
+    ///
+    /// # Errors
+    /// [`MetricError::Channels`] if they are of other channels than the plan's; nothing is taken in then.
+    pub fn update(&mut self, batch: &Batch) -> Result<(), MetricError> {
+        for accumulator in &mut self.accumulators {
+            accumulator.update(batch)?;
+        }
+        Ok(())
+    }
+
+    /// Takes in `truth` and `prediction` of one channel, a number a sample, in the unit of the channel: slices, vectors, arrays, iterators or
+    /// views of `f32` or `f64`. Other channels have no value in these samples. Several channels, and contact locations: [`Rows`].
+    ///
+    /// # Errors
+    /// [`MetricError::Lengths`] if there are not as many of both, [`MetricError::Channels`] if the plan has no such channel; nothing is taken in
+    /// then.
+    ///
+    /// ```
+    /// use taceva_metrics::{Channel, Evaluator};
+    /// let mut evaluator = Evaluator::of_channels([Channel::FZ])?;
+    /// evaluator.update_pairs(Channel::FZ, &[0.25_f32, 0.5], vec![0.5, 0.5])?;
+    /// evaluator.update_pairs(Channel::FZ, (0..2).map(f64::from), [Some(0.0), None])?;
+    /// assert_eq!(evaluator.score()?.mae(Channel::FZ).map(|score| score.n), Some(3));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn update_pairs<T: Number, P: Number>(
+        &mut self,
+        channel: Channel,
+        truth: impl IntoIterator<Item = T>,
+        prediction: impl IntoIterator<Item = P>,
+    ) -> Result<(), MetricError> {
+        self.update_rows(Rows::new().pairs(channel, truth, prediction))
+    }
+
+    /// Takes in samples given channel by channel.
+    ///
+    /// # Errors
+    /// As [`Rows::into_batch`]; nothing is taken in then.
+    ///
+    /// ```
+    /// use taceva_metrics::{Channel, Evaluator, Rows};
+    /// let mut evaluator = Evaluator::of_channels([Channel::PX, Channel::PY])?;
+    /// let rows = Rows::new().pairs(Channel::PX, &[0.0], &[3.0]).pairs(Channel::PY, &[0.0], &[4.0]);
+    /// evaluator.update_rows(rows)?;
+    /// let scores = evaluator.score()?;
+    /// assert_eq!(scores.score("mae_euclid", "Pxy").and_then(|score| score.value.scalar()), Some(5.0));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn update_rows(&mut self, rows: Rows) -> Result<(), MetricError> {
+        let batch = rows.into_batch(self.plan.channels())?;
+        self.update(&batch)
+    }
+
+    /// Takes over what another evaluator of the same plan has seen.
+    ///
+    /// # Errors
+    /// [`MetricError`] if its plan was another.
+    pub fn merge(&mut self, other: Evaluator) -> Result<(), MetricError> {
+        self.merge_states(&other.into_states()?)
+    }
+
+    /// Takes over what was kept elsewhere.
+    ///
+    /// # Errors
+    /// [`MetricError`] if a state is of another schema, other channels or other parameters, or broken; those before it are
+    /// taken over.
+    pub fn merge_states(&mut self, states: &[State]) -> Result<(), MetricError> {
+        for state in states {
+            let mut accumulators = self.accumulators.iter_mut();
+            match accumulators.find(|accumulator| accumulator.reads(state.schema())) {
+                Some(accumulator) => accumulator.merge(state)?,
+                None => {
+                    let known = self
+                        .accumulators
+                        .iter()
+                        .map(|accumulator| accumulator.state());
+                    let known: Vec<String> =
+                        known.map(|state| format!("`{}`", state.schema())).collect();
+                    return Err(MetricError::Schema {
+                        expected: known.join(" or "),
+                        found: state.schema().to_owned(),
+                    });
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// All that was seen, as data that merges.
+    ///
+    /// # Errors
+    /// As [`update`](Evaluator::update), for samples still collected.
+    pub fn states(&mut self) -> Result<Vec<State>, MetricError> {
+        self.flush()?;
+        let accumulators = self.accumulators.iter();
+        Ok(accumulators
+            .map(|accumulator| accumulator.state())
+            .collect())
+    }
+
+    /// The scores of all samples so far; more may follow.
+    ///
+    /// # Errors
+    /// As [`update`](Evaluator::update), for samples still collected.
+    ///
+    /// ```
+    /// use taceva_metrics::{Channel, Evaluator};
+    /// let mut evaluator = Evaluator::of_channels([Channel::FZ])?;
+    /// let mut running = Vec::new();
+    /// for prediction in [0.5, 0.25] {
+    ///     evaluator.update_pairs(Channel::FZ, [0.0], [prediction])?;
+    ///     running.push(evaluator.score()?.mae(Channel::FZ).and_then(|score| score.value.scalar()));
+    /// }
+    /// assert_eq!(running, [Some(0.5), Some(0.375)]);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn score(&self) -> Result<Evaluation, MetricError> {
+        if self.builder.rows() == 0 {
+            return Ok(self.scored());
+        }
+        let mut with_collected = Evaluator::new(&self.plan);
+        let accumulators = self.accumulators.iter();
+        let states: Vec<State> = accumulators
+            .map(|accumulator| accumulator.state())
+            .collect();
+        with_collected.merge_states(&states)?;
+        with_collected.update(self.builder.so_far())?;
+        Ok(with_collected.scored())
+    }
+
+    /// The scores.
+    ///
+    /// # Errors
+    /// As [`update`](Evaluator::update), for samples still collected.
+    pub fn finish(mut self) -> Result<Evaluation, MetricError> {
+        self.flush()?;
+        Ok(self.scored())
+    }
+
+    /// The scores of what was summed.
+    fn scored(&self) -> Evaluation {
+        let accumulators = self.accumulators.iter();
+        let entries = accumulators.flat_map(|accumulator| accumulator.scores(self.plan.kept()));
+        let mut entries: Vec<Entry> = entries.collect();
+        let rank = |entry: &Entry| {
+            let kept = self.plan.kept().iter();
+            kept.take_while(|metric| metric.id != entry.metric.id)
+                .count()
+        };
+        entries.sort_by_key(rank);
+        Evaluation::new(entries, self.plan.skipped().to_vec())
+    }
+
+    fn into_states(mut self) -> Result<Vec<State>, MetricError> {
+        self.states()
+    }
+
+    fn flush(&mut self) -> Result<(), MetricError> {
+        if self.builder.rows() == 0 {
+            return Ok(());
+        }
+        let batch = self.builder.take();
+        self.update(&batch)
+    }
+}
+
+impl SampleSink for Evaluator {
+    fn fields(&self) -> FieldSet {
+        self.plan.fields()
+    }
+
+    fn accept(&mut self, sample: &Sample) -> Result<(), SinkError> {
+        self.builder.push(sample);
+        if self.builder.rows() >= BATCH_ROWS {
+            self.flush()?;
+        }
+        Ok(())
+    }
+}
+
+impl fmt::Debug for Evaluator {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Evaluator")
+            .field("plan", &self.plan)
+            .finish_non_exhaustive()
+    }
+}

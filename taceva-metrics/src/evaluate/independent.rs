@@ -1,0 +1,27 @@
+//! Every sample a cluster of its own.
+
+use taceva_core::{Batch, Column, Labels};
+
+use crate::stats::clusters::{FNV_OFFSET, fnv1a64_from};
+
+/// Names the rows of `batch` by what they say of every channel. Rows that say the same have one name, so that names, and all that is made of
+/// them, depend on the set of rows alone.
+pub(crate) fn rows_as_clusters(batch: &Batch) -> Labels {
+    let channels = 0..batch.channels().len();
+    let mut labels = Labels::default();
+    for row in 0..batch.rows() {
+        let hash = channels.clone().fold(FNV_OFFSET, |hash, channel| {
+            let hash = with_value(hash, batch.truth(channel), row);
+            with_value(hash, batch.prediction(channel), row)
+        });
+        labels.push(&format!("{hash:016x}"));
+    }
+    labels
+}
+
+fn with_value(hash: u64, column: &Column, row: usize) -> u64 {
+    match column.get(row) {
+        Some(value) => fnv1a64_from(hash, &value.to_bits().to_le_bytes()),
+        None => fnv1a64_from(hash, b"absent"),
+    }
+}

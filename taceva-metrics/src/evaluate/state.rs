@@ -1,0 +1,169 @@
+//! What an accumulator holds, as data: written to a file, sent to another lab, merged there.
+
+use std::collections::BTreeMap;
+
+use taceva_core::{Channels, Unit};
+
+use crate::error::MetricError;
+use crate::exact::ExactSum;
+use crate::stats::clusters::{Clusters, HASHED_CLUSTERS};
+
+/// The mergeable summary of some samples.
+///
+/// States of the same samples are equal, whatever order, split or merges led to them.
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct State {
+    pub(crate) schema: String,
+    pub(crate) parameters: BTreeMap<String, String>,
+    pub(crate) channels: Vec<(String, Unit)>,
+    pub(crate) clusters: Clusters<Vec<Record>>,
+}
+
+impl State {
+    /// What the state is of, with its version: `taceva.pairs/1`.
+    pub fn schema(&self) -> &str {
+        &self.schema
+    }
+
+    /// The parameters it was made with; only equal ones merge.
+    pub fn parameters(&self) -> &BTreeMap<String, String> {
+        &self.parameters
+    }
+
+    /// The channels of its samples with their units.
+    pub fn channels(&self) -> &[(String, Unit)] {
+        &self.channels
+    }
+
+    /// What is kept, apart by contact location: a record a channel or plane.
+    pub fn clusters(&self) -> &Clusters<Vec<Record>> {
+        &self.clusters
+    }
+
+    /// Refuses a state that was made of something else or otherwise than `own`, or is not whole.
+    pub(crate) fn check(&self, own: &Shape) -> Result<(), MetricError> {
+        if self.schema != own.schema {
+            return Err(MetricError::Schema {
+                expected: format!("`{}`", own.schema),
+                found: self.schema.clone(),
+            });
+        }
+        if self.channels != own.channels {
+            return Err(MetricError::Channels {
+                expected: describe(&own.channels),
+                found: describe(&self.channels),
+            });
+        }
+        if self.parameters != own.parameters {
+            return Err(MetricError::Parameter {
+                name: "parameters",
+                expected: format!("{:?}", own.parameters),
+                found: format!("{:?}", self.parameters),
+            });
+        }
+        match &self.clusters {
+            Clusters::Hashed(cells) if cells.len() != HASHED_CLUSTERS => {
+                Err(MetricError::Malformed {
+                    schema: own.schema,
+                    what: format!("{} clusters, expected {HASHED_CLUSTERS}", cells.len()),
+                })
+            }
+            _ => Ok(()),
+        }
+    }
+}
+
+/// Counts and exact sums; the schema says of what.
+#[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Record {
+    /// Counts, those of the schema in its order.
+    pub counts: Vec<u64>,
+    /// Sums, those of the schema in its order.
+    pub sums: Vec<ExactSum>,
+    /// Numbers that are kept as they are, those of the schema in its order; absent where the schema has none.
+    #[cfg_attr(
+        feature = "serde",
+        serde(default, skip_serializing_if = "Vec::is_empty")
+    )]
+    pub values: Vec<f64>,
+    /// Records of places, scenes and the like by their key; only of those that have samples.
+    #[cfg_attr(
+        feature = "serde",
+        serde(default, skip_serializing_if = "BTreeMap::is_empty")
+    )]
+    pub cells: BTreeMap<String, Record>,
+}
+
+impl Record {
+    /// The counts and sums of a record that holds `C` and `S` of them and nothing else.
+    pub(crate) fn exactly<const C: usize, const S: usize>(
+        &self,
+    ) -> Result<(&[u64; C], &[ExactSum; S]), String> {
+        if !self.values.is_empty() || !self.cells.is_empty() {
+            return Err("values or cells in a record that has none".to_owned());
+        }
+        self.with_cells()
+    }
+
+    /// The counts and sums of a record that holds `C` and `S` of them, and perhaps values and cells.
+    pub(crate) fn with_cells<const C: usize, const S: usize>(
+        &self,
+    ) -> Result<(&[u64; C], &[ExactSum; S]), String> {
+        match (
+            self.counts.as_slice().try_into(),
+            self.sums.as_slice().try_into(),
+        ) {
+            (Ok(counts), Ok(sums)) => Ok((counts, sums)),
+            _ => {
+                let found = (self.counts.len(), self.sums.len());
+                Err(format!(
+                    "{} counts and {} sums, expected {C} and {S}",
+                    found.0, found.1
+                ))
+            }
+        }
+    }
+
+    /// The cells by key, each read by `read`; a key that `parse` does not know is refused.
+    pub(crate) fn read_cells<K: Ord, T>(
+        &self,
+        parse: impl Fn(&str) -> Option<K>,
+        read: impl Fn(&Record) -> Result<T, String>,
+    ) -> Result<BTreeMap<K, T>, String> {
+        let mut cells = BTreeMap::new();
+        for (name, record) in &self.cells {
+            let key = parse(name).ok_or_else(|| format!("`{name}` is no key of a cell"))?;
+            let sums = read(record).map_err(|what| format!("cell `{name}`: {what}"))?;
+            if cells.insert(key, sums).is_some() {
+                return Err(format!("cell `{name}` comes twice"));
+            }
+        }
+        Ok(cells)
+    }
+}
+
+/// What a state must look like to be merged.
+pub(crate) struct Shape {
+    pub(crate) schema: &'static str,
+    pub(crate) parameters: BTreeMap<String, String>,
+    pub(crate) channels: Vec<(String, Unit)>,
+}
+
+/// Channels as a state writes them.
+pub(crate) fn written(channels: &Channels) -> Vec<(String, Unit)> {
+    channels
+        .iter()
+        .map(|channel| (channel.name().to_owned(), channel.unit()))
+        .collect()
+}
+
+/// Channels as a message names them: `Px [mm], Fz [N]`.
+pub(crate) fn describe(channels: &[(String, Unit)]) -> String {
+    let names: Vec<String> = channels
+        .iter()
+        .map(|(name, unit)| format!("{name} [{unit}]"))
+        .collect();
+    names.join(", ")
+}

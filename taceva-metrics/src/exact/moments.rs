@@ -1,0 +1,116 @@
+//! Count, sum and sum of squares: mean and spread without rounding before the end.
+
+use crate::evaluate::state::Record;
+use crate::exact::merge::Merge;
+use crate::exact::{Dyadic, ExactSum};
+
+/// Count and exact sums of values and of their squares.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct Moments {
+    pub(crate) n: u64,
+    pub(crate) sum: ExactSum,
+    pub(crate) squares: ExactSum,
+}
+
+impl Moments {
+    /// Adds `value`, which is finite.
+    pub(crate) fn add(&mut self, value: f64) {
+        self.n += 1;
+        self.sum.add(value);
+        self.squares.add_product(value, value);
+    }
+
+    /// RN(S / n); `None` for no value.
+    pub(crate) fn mean(&self) -> Option<f64> {
+        (self.n > 0).then(|| self.sum.to_dyadic().over(&Dyadic::from(self.n)))
+    }
+
+    /// RN((n Sqq − S²) / (n (n − ddof))); `None` for no more than `ddof` values.
+    pub(crate) fn variance(&self, ddof: u64) -> Option<f64> {
+        let freedom = self.n.checked_sub(ddof).filter(|freedom| *freedom > 0)?;
+        Some(
+            self.scaled_spread()
+                .over(&(&Dyadic::from(self.n) * &Dyadic::from(freedom))),
+        )
+    }
+
+    /// RN(√variance).
+    pub(crate) fn deviation(&self, ddof: u64) -> Option<f64> {
+        self.variance(ddof).map(f64::sqrt)
+    }
+
+    /// RN(Σ (q − mean)²), the mean being the exact one; `None` for no value.
+    pub(crate) fn squared_deviations(&self) -> Option<f64> {
+        (self.n > 0).then(|| self.scaled_spread().over(&Dyadic::from(self.n)))
+    }
+
+    /// n Sqq − S², exactly.
+    fn scaled_spread(&self) -> Dyadic {
+        let sum = self.sum.to_dyadic();
+        &(&Dyadic::from(self.n) * &self.squares.to_dyadic()) - &(&sum * &sum)
+    }
+
+    /// As a state holds it: count, then sum and sum of squares.
+    pub(crate) fn to_record(&self) -> Record {
+        Record {
+            counts: vec![self.n],
+            sums: vec![self.sum.clone(), self.squares.clone()],
+            ..Record::default()
+        }
+    }
+
+    /// Back from a state.
+    pub(crate) fn read_record(record: &Record) -> Result<Moments, String> {
+        let ([n], [sum, squares]) = record.exactly()?;
+        Ok(Moments {
+            n: *n,
+            sum: sum.clone(),
+            squares: squares.clone(),
+        })
+    }
+}
+
+impl Merge for Moments {
+    fn merge(&mut self, other: &Moments) {
+        self.n = self.n.saturating_add(other.n);
+        self.sum.merge(&other.sum);
+        self.squares.merge(&other.squares);
+    }
+}
+
+impl FromIterator<f64> for Moments {
+    fn from_iter<I: IntoIterator<Item = f64>>(values: I) -> Moments {
+        let mut moments = Moments::default();
+        values.into_iter().for_each(|value| moments.add(value));
+        moments
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn moments_of_small_integers_are_their_fractions() {
+        let moments: Moments = [1.0, 2.0, 4.0].into_iter().collect();
+        let bits = |value: Option<f64>| value.map(f64::to_bits);
+        assert_eq!(bits(moments.mean()), bits(Some(7.0 / 3.0)));
+        assert_eq!(bits(moments.variance(0)), bits(Some(14.0 / 9.0)));
+        assert_eq!(bits(moments.variance(1)), bits(Some(7.0 / 3.0)));
+        assert_eq!(bits(moments.squared_deviations()), bits(Some(14.0 / 3.0)));
+    }
+
+    #[test]
+    fn equal_values_have_no_spread_at_all() {
+        let moments: Moments = [0.1; 7].into_iter().collect();
+        assert_eq!(moments.deviation(0).map(f64::to_bits), Some(0));
+    }
+
+    #[test]
+    fn nothing_and_one_value_have_no_spread_to_estimate() {
+        let one: Moments = [3.0].into_iter().collect();
+        assert_eq!((one.variance(1), one.variance(0)), (None, Some(0.0)));
+        assert_eq!(Moments::default().mean(), None);
+        assert_eq!(Moments::default().squared_deviations(), None);
+    }
+}

@@ -1,0 +1,48 @@
+//! Single binary64 numbers as exact ones, for formulas that round only at their end.
+
+use std::cmp::Ordering;
+
+use crate::exact::merge::Merge;
+use crate::exact::{Dyadic, ExactSum};
+
+/// `value`, which is finite, without rounding.
+pub(crate) fn exactly(value: f64) -> Dyadic {
+    ExactSum::from_iter([value]).to_dyadic()
+}
+
+/// How `value` compares with zero.
+pub(crate) fn sign(value: &Dyadic) -> Ordering {
+    match (value.is_zero(), value.to_f64().is_sign_negative()) {
+        (true, _) => Ordering::Equal,
+        (false, true) => Ordering::Less,
+        (false, false) => Ordering::Greater,
+    }
+}
+
+/// |value|.
+pub(crate) fn magnitude(value: Dyadic) -> Dyadic {
+    match sign(&value) {
+        Ordering::Less => -value,
+        _ => value,
+    }
+}
+
+impl Merge for ExactSum {
+    fn merge(&mut self, other: &ExactSum) {
+        ExactSum::merge(self, other);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_number_too_small_for_binary64_keeps_its_sign() {
+        let least = exactly(f64::from_bits(1));
+        let product = &least * &-least.clone();
+        assert_eq!(sign(&product), Ordering::Less);
+        assert_eq!(sign(&magnitude(product)), Ordering::Greater);
+        assert_eq!(sign(&exactly(-0.0)), Ordering::Equal);
+    }
+}

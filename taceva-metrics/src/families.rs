@@ -1,0 +1,23 @@
+//! Families of metrics, one folder or file each: what is kept of the samples, and the formulas that are finished from it.
+//!
+//! [`family`] says what every family implements, [`channelwise`] what those that keep the same of each channel share, [`cells`] what those
+//! that compare presses of one contact location and depth keep.
+
+pub(crate) mod accuracy;
+pub(crate) mod bias_level;
+pub(crate) mod cells;
+pub(crate) mod channelwise;
+pub(crate) mod crosstalk;
+pub(crate) mod detection;
+pub(crate) mod drift;
+pub(crate) mod family;
+pub(crate) mod hysteresis;
+pub(crate) mod inter_sensor;
+pub(crate) mod intrinsic;
+pub(crate) mod lighting;
+pub(crate) mod linearity;
+pub(crate) mod repeatability;
+pub(crate) mod resolution;
+pub(crate) mod spatial;
+pub(crate) mod surface;
+pub(crate) mod tolerance;

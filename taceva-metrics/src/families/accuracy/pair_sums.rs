@@ -1,0 +1,223 @@
+//! What is kept of the pairs of one channel: enough for every score of accuracy, and mergeable.
+
+use taceva_core::{Isa, IsaError};
+
+use crate::error::MetricError;
+use crate::exact::merge::Merge;
+use crate::exact::{BlockSums, Counts, Dyadic, ExactSum, Machine, Sums};
+use crate::families::accuracy::streams::{Stream, Streams};
+use crate::paired::Paired;
+
+/// What is to be summed, and from which magnitude of truth on the gated score counts a sample.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct PairSpec {
+    /// The sums that are kept.
+    pub streams: Streams,
+    /// The least |y| of a sample of the gated sMAPE, in the channel's unit; without it there is no such score.
+    pub gate: Option<f64>,
+}
+
+/// Counts and exact sums of the pairs of one channel.
+///
+/// The result of any number of updates and merges, in any order and any split, depends on the set of pairs alone.
+///
+/// ```
+/// use taceva_metrics::{PairSpec, PairSums, Paired, Stream, Streams};
+/// let mut sums = PairSums::new(PairSpec { streams: Streams::ALL, gate: None });
+/// sums.update(Paired::try_columns(&[1.5, 1.5], &[1.0, 2.0])?);
+/// assert_eq!((sums.n(), sums.sum(Stream::Absolute).to_f64()), (2, 1.0));
+/// # Ok::<(), taceva_metrics::MetricError>(())
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct PairSums {
+    spec: PairSpec,
+    kept: BlockSums,
+}
+
+impl PairSums {
+    /// The sums of no pair, to be formed with the instructions of [`Isa::detect`].
+    pub fn new(spec: PairSpec) -> PairSums {
+        PairSums::with_machine(spec, Machine::detect())
+    }
+
+    /// The sums of no pair, to be formed with the instructions of `isa`: in another time, with the same result.
+    ///
+    /// # Errors
+    /// [`IsaError::Unavailable`] if this machine does not have them.
+    pub fn with_isa(spec: PairSpec, isa: Isa) -> Result<PairSums, IsaError> {
+        let machine = Machine::with(isa).ok_or(IsaError::Unavailable { isa })?;
+        Ok(PairSums::with_machine(spec, machine))
+    }
+
+    pub(crate) fn with_machine(spec: PairSpec, machine: Machine) -> PairSums {
+        PairSums {
+            spec,
+            kept: BlockSums::new(machine, spec.streams, gate(spec)),
+        }
+    }
+
+    /// Takes over what was kept elsewhere of the same specification.
+    pub(crate) fn set(&mut self, counts: Counts, sums: Sums) {
+        self.kept.set(counts, sums);
+    }
+
+    /// Adds pairs; one with a NaN, an infinity or a magnitude beyond 2¹⁰²¹ is counted in
+    /// [`n_invalid`](PairSums::n_invalid) and left out.
+    pub fn update(&mut self, pairs: Paired<&[f64]>) {
+        self.kept.update(pairs);
+    }
+
+    /// Number of pairs.
+    pub fn n(&self) -> u64 {
+        self.kept.counts.valid
+    }
+
+    /// Number of pairs left out because a value was no number of a magnitude up to 2¹⁰²¹.
+    pub fn n_invalid(&self) -> u64 {
+        self.kept.counts.invalid
+    }
+
+    /// Number of pairs whose truth reaches the gate.
+    pub fn n_gated(&self) -> u64 {
+        self.kept.counts.gated
+    }
+
+    /// The sum of `stream`; zero if it is not kept.
+    pub fn sum(&self, stream: Stream) -> ExactSum {
+        self.kept.sum(stream)
+    }
+
+    /// The sum of the sMAPE terms of the pairs whose truth reaches the gate.
+    pub fn gated_sum(&self) -> ExactSum {
+        self.kept.gated_sum()
+    }
+
+    /// The gate, if the sum behind it is kept.
+    pub fn gate(&self) -> Option<f64> {
+        gate(self.spec)
+    }
+
+    /// What is summed.
+    pub fn spec(&self) -> PairSpec {
+        self.spec
+    }
+
+    /// RN(SST), SST = (n Syy − Sy²) / n: the spread of the truth about its own mean. 0 for no pair.
+    pub fn total_sum_of_squares(&self) -> f64 {
+        self.over_n(&self.scaled_spread(), 1)
+    }
+
+    /// RN(Sdd / n). 0 for no pair.
+    pub fn mean_squared_error(&self) -> f64 {
+        self.mean(Stream::Squared)
+    }
+
+    /// RN((n Sdd − S|d|²) / (n (n − 1))), the variance of |d|; `None` for fewer than two pairs.
+    pub fn absolute_variance(&self) -> Option<f64> {
+        let (absolute, squared) = (Stream::Absolute, Stream::Squared);
+        let n = self.n();
+        (n >= 2).then(|| self.over_n(&self.scaled_variance(absolute, squared), n - 1))
+    }
+
+    /// RN(sum / n) of one stream; 0 for no pair.
+    pub(crate) fn mean(&self, stream: Stream) -> f64 {
+        self.over_n(&self.sum(stream).to_dyadic(), 1)
+    }
+
+    /// n Syy − Sy², exactly; zero if and only if all truths are equal.
+    pub(crate) fn scaled_spread(&self) -> Dyadic {
+        self.scaled_variance(Stream::Truth, Stream::TruthSquared)
+    }
+
+    fn scaled_variance(&self, values: Stream, squares: Stream) -> Dyadic {
+        let values = self.sum(values).to_dyadic();
+        let squares = self.sum(squares).to_dyadic();
+        &(&Dyadic::from(self.n()) * &squares) - &(&values * &values)
+    }
+
+    fn over_n(&self, numerator: &Dyadic, factor: u64) -> f64 {
+        if self.n() == 0 {
+            return 0.0;
+        }
+        numerator.over(&(&Dyadic::from(self.n()) * &Dyadic::from(factor)))
+    }
+
+    /// Takes over what another one kept, which must keep the same.
+    ///
+    /// # Errors
+    /// [`MetricError::Parameter`] if the two sum different streams or have different gates.
+    pub fn try_merge(&mut self, other: &PairSums) -> Result<(), MetricError> {
+        if self.spec != other.spec {
+            return Err(MetricError::Parameter {
+                name: "spec",
+                expected: format!("{:?}", self.spec),
+                found: format!("{:?}", other.spec),
+            });
+        }
+        self.merge(other);
+        Ok(())
+    }
+}
+
+impl Merge for PairSums {
+    fn merge(&mut self, other: &PairSums) {
+        self.kept.merge(&other.kept);
+    }
+}
+
+/// The gate, if the terms behind it are summed.
+fn gate(spec: PairSpec) -> Option<f64> {
+    let wanted = spec.streams.contains(Stream::Symmetric);
+    spec.gate.filter(|_| wanted)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_no_number_is_counted_and_left_out() {
+        let mut sums = PairSums::new(PairSpec {
+            streams: Streams::ALL,
+            gate: Some(0.5),
+        });
+        sums.update(Paired {
+            estimate: &[1.0, f64::NAN, 2.0, 0.0],
+            reference: &[2.0, 1.0, f64::INFINITY, 0.25],
+        });
+        assert_eq!((sums.n(), sums.n_invalid(), sums.n_gated()), (2, 2, 1));
+        assert_eq!(
+            sums.sum(Stream::Truth).to_f64().to_bits(),
+            2.25_f64.to_bits()
+        );
+    }
+
+    #[test]
+    fn a_channel_of_lab_values_is_kept_in_about_a_hundred_bytes() {
+        let truth: Vec<f64> = (0..1600).map(|row| f64::from(row) / 91.3 - 8.7).collect();
+        let prediction: Vec<f64> = truth.iter().map(|y| y * 0.98 + 0.013).collect();
+        let mut sums = PairSums::new(PairSpec {
+            streams: Streams::ALL,
+            gate: None,
+        });
+        sums.update(Paired::try_columns(&prediction, &truth).expect("one length"));
+        let digits: usize = Stream::ALL
+            .iter()
+            .map(|stream| sums.sum(*stream).to_canonical().digits().len())
+            .sum();
+        // Four bytes a digit, two for sign and place of each sum, sixteen for the counts.
+        let bytes = 4 * digits + 2 * Stream::ALL.len() + 16;
+        assert!(bytes <= 128, "{bytes} bytes");
+    }
+
+    #[test]
+    fn sums_of_other_streams_do_not_merge() {
+        let spec = |streams| PairSpec {
+            streams,
+            gate: None,
+        };
+        let mut all = PairSums::new(spec(Streams::ALL));
+        let none = PairSums::new(spec(Streams::NONE));
+        assert!(all.try_merge(&none).is_err());
+    }
+}

@@ -1,0 +1,270 @@
+//! The family of scores that are finished from the sums of each channel's pairs.
+
+use std::collections::BTreeMap;
+
+use taceva_core::{Batch, Channels, Column, Unit};
+
+use super::plane::planes;
+use crate::evaluate::plan::MetricPlan;
+use crate::evaluate::state::Record;
+use crate::exact::merge::keyed;
+use crate::exact::{Counts, Sums};
+use crate::families::accuracy::pair_sums::{PairSpec, PairSums};
+use crate::families::accuracy::streams::{Stream, Streams};
+use crate::families::accuracy::{Axis, EPSILON, SKILL_STREAMS, constant, gate, skill};
+use crate::families::family::{Details, Family, Numbers, Output};
+use crate::metric::{Formula, Metric};
+use crate::paired::Paired;
+use crate::score::Variant;
+use crate::score::flag::Flag;
+use crate::score::value::{InapplicableReason, UndefinedReason, Value};
+
+/// Sums of the pairs of each channel.
+pub(crate) struct Pairs {
+    streams: Streams,
+    gated: bool,
+    specs: Vec<PairSpec>,
+    /// What the model is measured by, channel by channel; the mean of truth where absent.
+    constants: Vec<Option<f64>>,
+    outputs: Vec<Output>,
+    scratch: Paired<Vec<f64>>,
+}
+
+impl Pairs {
+    /// What the kept metrics of `plan` need; `None` if they need nothing of the kind.
+    pub(crate) fn for_plan(plan: &MetricPlan) -> Option<Pairs> {
+        let channels = plan.channels();
+        let mut streams = Streams::NONE;
+        let mut any_gated = false;
+        for metric in plan.kept() {
+            match metric.formula {
+                Formula::Pairs {
+                    streams: needed,
+                    gated,
+                    ..
+                } => {
+                    streams = streams | needed;
+                    any_gated |= gated;
+                }
+                Formula::Skill => streams = streams | SKILL_STREAMS,
+                _ => {}
+            }
+        }
+        let specs = channels.iter().map(|channel| PairSpec {
+            streams,
+            gate: gate(channel.unit()).filter(|_| any_gated),
+        });
+        (streams != Streams::NONE).then(|| Pairs {
+            streams,
+            gated: any_gated,
+            specs: specs.collect(),
+            constants: channels
+                .iter()
+                .map(|channel| plan.constant(channel.name()))
+                .collect(),
+            outputs: outputs(channels),
+            scratch: Paired::default(),
+        })
+    }
+}
+
+/// Each channel, then each plane as the mean of its axes.
+pub(crate) fn outputs(channels: &Channels) -> Vec<Output> {
+    let single = channels
+        .iter()
+        .enumerate()
+        .map(|(position, channel)| Output {
+            label: channel.name().to_owned(),
+            unit: channel.unit(),
+            of: Vec::new(),
+            parts: vec![position],
+        });
+    let groups = planes(channels).into_iter().map(|plane| Output {
+        parts: plane.axes.to_vec(),
+        ..plane.output()
+    });
+    single.chain(groups).collect()
+}
+
+impl Family for Pairs {
+    type Sums = PairSums;
+    const SCHEMA: &'static str = "taceva.pairs/1";
+
+    fn parameters(&self) -> BTreeMap<String, String> {
+        let mut parameters = keyed([("streams".to_owned(), self.streams.to_string())]);
+        if self.streams.contains(Stream::Symmetric) {
+            parameters.insert("eps".to_owned(), format!("{EPSILON:e}"));
+        }
+        if self.gated {
+            for unit in [Unit::Newton, Unit::Millimetre] {
+                let gate = gate(unit).map_or(String::new(), |gate| gate.to_string());
+                parameters.insert(format!("gate_{unit}"), gate);
+            }
+        }
+        parameters
+    }
+
+    fn empty(&self) -> Vec<PairSums> {
+        self.specs.iter().copied().map(PairSums::new).collect()
+    }
+
+    fn deposit(&mut self, sums: &mut [PairSums], batch: &Batch, rows: Option<&[u32]>) {
+        for (position, sums) in sums.iter_mut().enumerate() {
+            let columns = Paired {
+                estimate: batch.prediction(position),
+                reference: batch.truth(position),
+            };
+            sums.update(gather(&mut self.scratch, columns, rows));
+        }
+    }
+
+    fn to_record(&self, sums: &PairSums) -> Record {
+        let mut record = Record {
+            counts: vec![sums.n(), sums.n_invalid()],
+            sums: self.streams.iter().map(|stream| sums.sum(stream)).collect(),
+            ..Record::default()
+        };
+        if sums.gate().is_some() {
+            record.counts.push(sums.n_gated());
+            record.sums.push(sums.gated_sum());
+        }
+        record
+    }
+
+    fn read_record(&self, position: usize, record: &Record) -> Result<PairSums, String> {
+        let mut sums = PairSums::new(self.specs[position]);
+        let gated = usize::from(sums.gate().is_some());
+        let expected = (2 + gated, self.streams.iter().count() + gated);
+        let found = (record.counts.len(), record.sums.len());
+        if !record.values.is_empty() || !record.cells.is_empty() {
+            return Err("values or cells in a record that has none".to_owned());
+        }
+        if found != expected {
+            return Err(format!(
+                "{} counts and {} sums, expected {} and {}",
+                found.0, found.1, expected.0, expected.1
+            ));
+        }
+        let mut kept = record.sums.iter().cloned();
+        let mut read = Sums::default();
+        for (stream, sum) in self.streams.iter().zip(&mut kept) {
+            read.streams[stream as usize] = sum;
+        }
+        read.gated = kept.next().unwrap_or_default();
+        let counts = Counts {
+            valid: record.counts[0],
+            invalid: record.counts[1],
+            gated: record.counts.get(2).copied().unwrap_or_default(),
+        };
+        sums.set(counts, read);
+        Ok(sums)
+    }
+
+    fn outputs(&self, metric: &Metric) -> Vec<Output> {
+        match metric.formula {
+            Formula::Pairs { .. } | Formula::Skill => self.outputs.clone(),
+            _ => Vec::new(),
+        }
+    }
+
+    fn count(&self, metric: &Metric, sums: &PairSums) -> u64 {
+        match &metric.formula {
+            Formula::Pairs { finish, .. } => (finish.count)(sums),
+            Formula::Skill => sums.n(),
+            _ => 0,
+        }
+    }
+
+    fn invalid(&self, sums: &PairSums) -> u64 {
+        sums.n_invalid()
+    }
+
+    fn numbers(&self, metric: &Metric, _output: &Output, sums: &PairSums) -> Numbers {
+        match &metric.formula {
+            Formula::Pairs { finish, .. } => Numbers::of((finish.evaluate)(sums)),
+            _ => Numbers::of(Err(UndefinedReason::Empty)),
+        }
+    }
+
+    fn joint(&self, metric: &Metric, output: &Output, sums: &[PairSums]) -> Option<Numbers> {
+        matches!(metric.formula, Formula::Skill).then(|| {
+            let axes: Vec<Axis<'_>> = output
+                .parts
+                .iter()
+                .map(|&part| (&sums[part], self.constants[part]))
+                .collect();
+            Numbers::of(skill(&axes))
+        })
+    }
+
+    fn details(&self, metric: &Metric, output: &Output, parts: &[&PairSums]) -> Details {
+        if !matches!(metric.formula, Formula::Skill) {
+            return Details::default();
+        }
+        let constants = output.parts.iter().map(|&part| self.constants[part]);
+        let axes: Vec<Axis<'_>> = parts.iter().copied().zip(constants).collect();
+        let is_mean = axes.iter().any(|(_, constant)| constant.is_none());
+        let variants = match axes[..] {
+            [axis] => constant(axis)
+                .map(|constant| Variant::plain("constant", output.unit, Value::Scalar(constant))),
+            _ => None,
+        };
+        Details {
+            variants: variants.into_iter().collect(),
+            flags: is_mean.then_some(Flag::MeanOfTruth).into_iter().collect(),
+            ..Details::default()
+        }
+    }
+
+    fn inapplicable(&self, metric: &Metric, output: &Output) -> Option<InapplicableReason> {
+        let gated = matches!(metric.formula, Formula::Pairs { gated: true, .. });
+        (gated && gate(output.unit).is_none()).then_some(InapplicableReason::NoGate(output.unit))
+    }
+}
+
+/// The pairs of `rows` that have both values, side by side; the columns themselves if those are all.
+fn gather<'a>(
+    scratch: &'a mut Paired<Vec<f64>>,
+    columns: Paired<&'a Column>,
+    rows: Option<&[u32]>,
+) -> Paired<&'a [f64]> {
+    let Paired {
+        estimate,
+        reference,
+    } = columns;
+    let full = estimate.present().is_none() && reference.present().is_none();
+    scratch.estimate.clear();
+    scratch.reference.clear();
+    match rows {
+        None if full => {
+            return Paired {
+                estimate: estimate.values(),
+                reference: reference.values(),
+            };
+        }
+        Some(rows) if full => {
+            let pick = |column: &'a Column| {
+                let values = column.values();
+                rows.iter().map(move |&row| values[row as usize])
+            };
+            scratch.estimate.extend(pick(estimate));
+            scratch.reference.extend(pick(reference));
+        }
+        _ => {
+            let mut keep = |row: usize| {
+                if let (Some(estimate), Some(reference)) = (estimate.get(row), reference.get(row)) {
+                    scratch.estimate.push(estimate);
+                    scratch.reference.push(reference);
+                }
+            };
+            match rows {
+                Some(rows) => rows.iter().for_each(|&row| keep(row as usize)),
+                None => (0..estimate.len()).for_each(keep),
+            }
+        }
+    }
+    Paired {
+        estimate: &scratch.estimate,
+        reference: &scratch.reference,
+    }
+}

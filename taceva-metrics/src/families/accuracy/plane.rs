@@ -1,0 +1,156 @@
+//! The family of scores that are finished from distances in the planes of position and of shear force.
+
+use std::collections::BTreeMap;
+
+use taceva_core::{Batch, Channels, Unit};
+
+use crate::evaluate::state::Record;
+use crate::families::accuracy::plane_sums::PlaneSums;
+use crate::families::family::{Family, Numbers, Output, each_row};
+use crate::metric::{Formula, Metric};
+use crate::paired::Paired;
+use crate::score::value::UndefinedReason;
+
+/// Two channels that are the axes of a plane.
+#[derive(Clone, Debug)]
+pub(crate) struct PlaneAxes {
+    label: &'static str,
+    names: [&'static str; 2],
+    unit: Unit,
+    /// Where the axes stand among the channels.
+    pub(crate) axes: [usize; 2],
+}
+
+impl PlaneAxes {
+    /// The plane's score, finished from its own sums at position 0.
+    pub(crate) fn output(&self) -> Output {
+        Output {
+            label: self.label.to_owned(),
+            unit: self.unit,
+            of: self.names.map(str::to_owned).to_vec(),
+            parts: vec![0],
+        }
+    }
+}
+
+/// The planes there are: their names, axes and units.
+const PLANES: [(&str, [&str; 2], Unit); 2] = [
+    ("Pxy", ["Px", "Py"], Unit::Millimetre),
+    ("Fxy", ["Fx", "Fy"], Unit::Newton),
+];
+
+/// The planes that `channels` span.
+pub(crate) fn planes(channels: &Channels) -> Vec<PlaneAxes> {
+    let spanned = PLANES.into_iter().filter_map(|(label, names, unit)| {
+        Some(PlaneAxes {
+            label,
+            names,
+            unit,
+            axes: [channels.position(names[0])?, channels.position(names[1])?],
+        })
+    });
+    spanned.collect()
+}
+
+/// Sums of the distances in each plane.
+pub(crate) struct Plane {
+    planes: Vec<PlaneAxes>,
+    outputs: Vec<Output>,
+}
+
+impl Plane {
+    /// What `metrics` need of `channels`; `None` if they need nothing of the kind.
+    pub(crate) fn for_metrics(metrics: &[&Metric], channels: &Channels) -> Option<Plane> {
+        let planes = planes(channels);
+        let wanted = metrics
+            .iter()
+            .any(|metric| matches!(metric.formula, Formula::Plane(_)));
+        if !wanted || planes.is_empty() {
+            return None;
+        }
+        let outputs = planes.iter().enumerate().map(|(position, plane)| Output {
+            parts: vec![position],
+            ..plane.output()
+        });
+        let outputs = outputs.collect();
+        Some(Plane { planes, outputs })
+    }
+}
+
+impl Plane {
+    /// An axis without which `channels` span no plane: the second of a plane whose first is there, or else the first of all.
+    pub(crate) fn missing_axis(channels: &Channels) -> Option<&'static str> {
+        if !planes(channels).is_empty() {
+            return None;
+        }
+        let present = |name: &str| channels.position(name).is_some();
+        let half = PLANES
+            .into_iter()
+            .find(|(_, axes, _)| axes.iter().any(|axis| present(axis)));
+        let (_, axes, _) = half.unwrap_or(PLANES[0]);
+        axes.into_iter().find(|axis| !present(axis))
+    }
+}
+
+impl Family for Plane {
+    type Sums = PlaneSums;
+    const SCHEMA: &'static str = "taceva.plane/1";
+
+    fn parameters(&self) -> BTreeMap<String, String> {
+        BTreeMap::new()
+    }
+
+    fn empty(&self) -> Vec<PlaneSums> {
+        vec![PlaneSums::default(); self.planes.len()]
+    }
+
+    fn deposit(&mut self, sums: &mut [PlaneSums], batch: &Batch, rows: Option<&[u32]>) {
+        for (plane, sums) in self.planes.iter().zip(sums) {
+            each_row(batch, rows, |row| {
+                let pair = |axis: usize| Paired::at(batch, axis, row);
+                if let (Some(x), Some(y)) = (pair(plane.axes[0]), pair(plane.axes[1])) {
+                    sums.add(x, y);
+                }
+            });
+        }
+    }
+
+    fn to_record(&self, sums: &PlaneSums) -> Record {
+        Record {
+            counts: vec![sums.n, sums.n_invalid],
+            sums: vec![sums.distance.clone()],
+            ..Record::default()
+        }
+    }
+
+    fn read_record(&self, _position: usize, record: &Record) -> Result<PlaneSums, String> {
+        let ([n, n_invalid], [distance]) = record.exactly()?;
+        Ok(PlaneSums {
+            n: *n,
+            n_invalid: *n_invalid,
+            distance: distance.clone(),
+        })
+    }
+
+    fn outputs(&self, metric: &Metric) -> Vec<Output> {
+        match metric.formula {
+            Formula::Plane(_) => self.outputs.clone(),
+            _ => Vec::new(),
+        }
+    }
+
+    fn count(&self, _metric: &Metric, sums: &PlaneSums) -> u64 {
+        sums.n()
+    }
+
+    fn invalid(&self, sums: &PlaneSums) -> u64 {
+        sums.n_invalid()
+    }
+
+    fn numbers(&self, metric: &Metric, _output: &Output, sums: &PlaneSums) -> Numbers {
+        match &metric.formula {
+            Formula::Plane(finish) => Numbers::of((finish.evaluate)(sums)),
+            _ => Numbers::of(Err(UndefinedReason::Empty)),
+        }
+    }
+}

@@ -1,0 +1,98 @@
+//! What is kept of the distances between estimate and reference in a plane.
+
+use crate::exact::ExactSum;
+use crate::exact::merge::Merge;
+use crate::paired::Paired;
+
+/// Count and exact sum of Euclidean distances.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct PlaneSums {
+    pub(crate) n: u64,
+    pub(crate) n_invalid: u64,
+    pub(crate) distance: ExactSum,
+}
+
+impl PlaneSums {
+    /// Adds one sample: its pair along x and along y; if a value is no usable number, the sample is counted and left out.
+    pub fn add(&mut self, x: Paired<f64>, y: Paired<f64>) {
+        if x.is_valid() && y.is_valid() {
+            self.n += 1;
+            self.distance.add(hypotenuse(x.residual(), y.residual()));
+        } else {
+            self.n_invalid += 1;
+        }
+    }
+
+    /// Number of samples.
+    pub fn n(&self) -> u64 {
+        self.n
+    }
+
+    /// Number of samples left out.
+    pub fn n_invalid(&self) -> u64 {
+        self.n_invalid
+    }
+
+    /// The sum of the distances.
+    pub fn distance(&self) -> &ExactSum {
+        &self.distance
+    }
+}
+
+impl Merge for PlaneSums {
+    fn merge(&mut self, other: &PlaneSums) {
+        self.n = self.n.saturating_add(other.n);
+        self.n_invalid = self.n_invalid.saturating_add(other.n_invalid);
+        self.distance.merge(&other.distance);
+    }
+}
+
+/// e = RN(√RN(RN(x²) + RN(y²))), scaled by a power of two where a square would over- or underflow.
+///
+/// Not the machine's `hypot`, whose last bit differs among platforms.
+fn hypotenuse(x: f64, y: f64) -> f64 {
+    /// 2⁶⁰⁰.
+    const UP: f64 = f64::from_bits((1023 + 600) << 52);
+    /// 2⁻⁶⁰⁰.
+    const DOWN: f64 = f64::from_bits((1023 - 600) << 52);
+    /// 2⁵¹⁰: up to here the sum of two squares is finite.
+    const LARGE: f64 = f64::from_bits((1023 + 510) << 52);
+    /// 2⁻⁴⁵⁰: from here on a square that underflows is too small to count.
+    const SMALL: f64 = f64::from_bits((1023 - 450) << 52);
+    let root = |x: f64, y: f64| (x * x + y * y).sqrt();
+    let greatest = x.abs().max(y.abs());
+    if greatest > LARGE {
+        root(x * DOWN, y * DOWN) * UP
+    } else if greatest < SMALL {
+        root(x * UP, y * UP) * DOWN
+    } else {
+        root(x, y)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_triangle_of_3_4_5_keeps_its_shape_at_every_scale() {
+        for power in [-1000, -600, -450, -1, 0, 300, 510, 1018] {
+            let scale = 2.0_f64.powi(power);
+            let found = hypotenuse(3.0 * scale, -4.0 * scale);
+            assert_eq!(found.to_bits(), (5.0 * scale).to_bits(), "2^{power}");
+        }
+    }
+
+    #[test]
+    fn a_sample_with_one_broken_value_is_left_out() {
+        let pair = |estimate| Paired {
+            estimate,
+            reference: 0.0,
+        };
+        let mut sums = PlaneSums::default();
+        sums.add(pair(3.0), pair(4.0));
+        sums.add(pair(3.0), pair(f64::NAN));
+        assert_eq!((sums.n(), sums.n_invalid()), (1, 1));
+        assert_eq!(sums.distance().to_f64().to_bits(), 5.0_f64.to_bits());
+    }
+}

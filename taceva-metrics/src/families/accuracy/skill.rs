@@ -1,0 +1,171 @@
+//! Skill: how much better than a constant.
+
+use super::{needs, no_constants};
+use crate::exact::Dyadic;
+use crate::exact::single::exactly;
+use crate::families::accuracy::pair_sums::PairSums;
+use crate::families::accuracy::streams::{Stream, Streams};
+use crate::metric::{Formula, Metric, ScoreUnit};
+use crate::score::better::Better;
+use crate::score::range::Range;
+use crate::score::value::UndefinedReason;
+
+pub(crate) static SKILL: Metric = Metric {
+    id: "skill",
+    title: "skill score",
+    better: Better::Higher,
+    unit: ScoreUnit::One,
+    range: Range::BelowOne,
+    definition: "skill/1",
+    reference: "mean squared error skill score: Murphy 1988, Monthly Weather Review 116",
+    documentation: "How much of the squared error of the best constant answer the model takes away: 1 − MSE of the model / MSE of \
+                    the constant, 1 being perfect and 0 no better than the constant. The constant is the mean of the labels that \
+                    the model was fitted on; where those are not known, it is the mean of the evaluated truth, and the score is \
+                    flagged. In a plane both are squared distances, the constant a point. A channel whose interval of 95 % does \
+                    not lie above zero takes part in no verdict.",
+    needs: needs(1, &[]),
+    facts: &[],
+    constants: no_constants,
+    formula: Formula::Skill,
+};
+
+/// The sums that it reads.
+pub(crate) const STREAMS: Streams =
+    Streams::of(&[Stream::Squared, Stream::Truth, Stream::TruthSquared]);
+
+/// One channel with the constant that its model is measured by: that of the training part, or the mean of truth for `None`.
+pub(crate) type Axis<'a> = (&'a PairSums, Option<f64>);
+
+/// RN(1 − Σ Sdd / Σ Scc) over the axes, Scc = Syy − 2 c Sy + n c² about the constant c, or Syy − Sy² / n about the mean of truth.
+///
+/// Each axis brings the pairs that it has; where both have all of them, Sdd and Scc are sums of squared distances in the plane.
+pub(crate) fn skill(axes: &[Axis<'_>]) -> Result<f64, UndefinedReason> {
+    let mut total = Parts {
+        scale: Dyadic::from(1),
+        unexplained: Dyadic::from(0),
+        spread: Dyadic::from(0),
+    };
+    for (sums, constant) in axes {
+        total = total.and(&Parts::of(sums, *constant)?);
+    }
+    if total.spread.is_zero() {
+        return Err(UndefinedReason::ConstantTruth {
+            perfect: total.unexplained.is_zero(),
+        });
+    }
+    Ok((&total.spread - &total.unexplained).over(&total.spread))
+}
+
+/// The constant that `sums` are measured by, as a number: the given one, or the mean of truth.
+pub(crate) fn constant((sums, constant): Axis<'_>) -> Option<f64> {
+    let mean = || (sums.n() > 0).then(|| sums.mean(Stream::Truth));
+    constant.or_else(mean)
+}
+
+/// Squared errors of the model and of the constant, both times `scale`.
+struct Parts {
+    scale: Dyadic,
+    unexplained: Dyadic,
+    spread: Dyadic,
+}
+
+impl Parts {
+    fn of(sums: &PairSums, constant: Option<f64>) -> Result<Parts, UndefinedReason> {
+        let squared = sums.sum(Stream::Squared).to_dyadic();
+        let n = Dyadic::from(sums.n());
+        match (sums.n(), constant) {
+            (0, _) => Err(UndefinedReason::Empty),
+            (1, None) => Err(UndefinedReason::TooFew { least: 2 }),
+            (_, None) => Ok(Parts {
+                unexplained: &n * &squared,
+                spread: sums.scaled_spread(),
+                scale: n,
+            }),
+            (_, Some(constant)) => {
+                let constant = exactly(constant);
+                let truth = sums.sum(Stream::Truth).to_dyadic();
+                let twice = &Dyadic::from(2) * &(&constant * &truth);
+                let moved = &sums.sum(Stream::TruthSquared).to_dyadic() - &twice;
+                Ok(Parts {
+                    scale: Dyadic::from(1),
+                    unexplained: squared,
+                    spread: &moved + &(&n * &(&constant * &constant)),
+                })
+            }
+        }
+    }
+
+    /// Both together, on a common scale.
+    fn and(&self, other: &Parts) -> Parts {
+        let joined =
+            |own: &Dyadic, others: &Dyadic| &(own * &other.scale) + &(others * &self.scale);
+        Parts {
+            unexplained: joined(&self.unexplained, &other.unexplained),
+            spread: joined(&self.spread, &other.spread),
+            scale: &self.scale * &other.scale,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::families::accuracy::pair_sums::PairSpec;
+    use crate::paired::Paired;
+
+    fn sums(estimate: &[f64], reference: &[f64]) -> PairSums {
+        let mut sums = PairSums::new(PairSpec {
+            streams: STREAMS,
+            gate: None,
+        });
+        sums.update(Paired {
+            estimate,
+            reference,
+        });
+        sums
+    }
+
+    #[test]
+    fn it_agrees_with_a_calculation_by_hand_about_both_constants() {
+        // Errors 0, 1, 0; truths 1, 2, 6: about 1 the constant misses 0, 1, 25, about their mean 3 it misses 4, 1, 9.
+        let sums = sums(&[1.0, 3.0, 6.0], &[1.0, 2.0, 6.0]);
+        assert_eq!(skill(&[(&sums, Some(1.0))]), Ok(1.0 - 1.0 / 26.0));
+        assert_eq!(skill(&[(&sums, None)]), Ok(1.0 - 1.0 / 14.0));
+        assert_eq!(constant((&sums, None)), Some(3.0));
+    }
+
+    #[test]
+    fn the_constant_itself_has_no_skill_but_for_the_rounding_of_its_residuals() {
+        let constant = 0.1 + 0.2;
+        let sums = sums(&[constant; 3], &[0.7, -1.9, 0.3]);
+        let skill = skill(&[(&sums, Some(constant))]).expect("a spread");
+        assert!(skill.abs() < 1e-15, "{skill}");
+    }
+
+    #[test]
+    fn in_a_plane_squared_distances_take_the_place_of_squares() {
+        // Distances² of the predictions: 1 + 4 and 0; of the point (0, 0): 9 + 16 and 0 + 1.
+        let x = sums(&[4.0, 0.0], &[3.0, 0.0]);
+        let y = sums(&[2.0, 1.0], &[4.0, 1.0]);
+        let origin = Some(0.0);
+        assert_eq!(skill(&[(&x, origin), (&y, origin)]), Ok(1.0 - 5.0 / 26.0));
+        // About the mean (1.5, 2.5): 2.25 + 2.25 and 2.25 + 2.25.
+        assert_eq!(skill(&[(&x, None), (&y, None)]), Ok(1.0 - 5.0 / 9.0));
+    }
+
+    #[test]
+    fn without_a_spread_about_the_constant_there_is_no_skill_to_speak_of() {
+        let perfect = sums(&[2.0, 2.0], &[2.0, 2.0]);
+        let constant = Err(UndefinedReason::ConstantTruth { perfect: true });
+        assert_eq!(skill(&[(&perfect, None)]), constant);
+        assert_eq!(skill(&[(&perfect, Some(2.0))]), constant);
+        assert_eq!(skill(&[(&perfect, Some(1.0))]), Ok(1.0));
+        let nothing = sums(&[], &[]);
+        assert_eq!(skill(&[(&nothing, Some(1.0))]), Err(UndefinedReason::Empty));
+        let one = sums(&[1.0], &[2.0]);
+        assert_eq!(
+            skill(&[(&one, None)]),
+            Err(UndefinedReason::TooFew { least: 2 })
+        );
+    }
+}

@@ -1,0 +1,229 @@
+//! How the mean error changes over the range of the truth.
+
+use std::collections::BTreeMap;
+
+use taceva_core::{Batch, Field, FieldSet, Needs, Unit};
+
+use crate::evaluate::state::Record;
+use crate::exact::level::{from_millionths, millionths, step};
+use crate::exact::merge::{Merge, keyed, merge_cells};
+use crate::exact::{Dyadic, ExactSum};
+use crate::families::channelwise::{Channelwise, each_pair};
+use crate::families::family::{Details, Finished, Numbers, Output};
+use crate::metric::{Formula, Metric, ScoreUnit};
+use crate::score::better::Better;
+use crate::score::curve::Curve;
+use crate::score::range::Range;
+use crate::score::value::{InapplicableReason, UndefinedReason, Value};
+use crate::score::{Count, Parameter, Variant};
+
+/// Samples from which on the mean error of a level counts for the score.
+const LEAST_SAMPLES: u64 = 5;
+
+pub(crate) static BIAS_LEVEL: Metric = Metric {
+    id: "bias_level",
+    title: "greatest mean error over the range",
+    better: Better::Lower,
+    unit: ScoreUnit::OfChannel,
+    range: Range::Greatest,
+    definition: "bias_level/1",
+    reference: "mean of truth − prediction in steps of the truth",
+    documentation: "The greatest magnitude of mean error over the levels of the truth with five samples or more: what is left \
+                    where over- and underestimation cancel in the bias of all samples. Levels are 0.1 mm, 0.1 N, 1 degree or \
+                    1 N mm wide, from −∞ to +∞, each with its lower edge; `curve` has every level that was met. A greatest value has no interval.",
+    needs: Needs {
+        fields: FieldSet::EMPTY.with(Field::Truth).with(Field::Prediction),
+        channels: &[],
+        least_samples: LEAST_SAMPLES,
+    },
+    facts: &[],
+    constants: width_and_least,
+    formula: Formula::BiasLevel,
+};
+
+fn width_and_least(unit: Unit) -> Vec<Parameter> {
+    let width = step(unit).map(|width| Parameter {
+        name: "width",
+        value: from_millionths(width),
+    });
+    let least = Parameter {
+        name: "n_min",
+        value: 5.0,
+    };
+    width.into_iter().chain([least]).collect()
+}
+
+/// Errors by level of the truth.
+pub(crate) struct Levels;
+
+/// What is kept of one channel.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct LevelSums {
+    n: u64,
+    n_invalid: u64,
+    /// By ⌊truth / width⌋, the truth in millionths.
+    levels: BTreeMap<i64, LevelErrors>,
+}
+
+/// Count and exact sum of d = RN(y − ŷ) at one level.
+#[derive(Clone, Debug, Default, PartialEq)]
+struct LevelErrors {
+    n: u64,
+    errors: ExactSum,
+}
+
+impl LevelErrors {
+    /// RN(Sd / n).
+    fn mean(&self) -> f64 {
+        self.errors.to_dyadic().over(&Dyadic::from(self.n))
+    }
+}
+
+/// max |RN(Sd / n)| over the levels with enough samples.
+fn greatest_bias(sums: &LevelSums) -> Finished {
+    if sums.n == 0 {
+        return Err(UndefinedReason::Empty);
+    }
+    let enough = sums
+        .levels
+        .values()
+        .filter(|level| level.n >= LEAST_SAMPLES);
+    let biases = enough.map(|level| level.mean().abs());
+    biases.max_by(f64::total_cmp).ok_or(UndefinedReason::NoBin {
+        least: LEAST_SAMPLES,
+    })
+}
+
+/// The mean error at each level, placed at its middle.
+fn curve(sums: &LevelSums, unit: Unit, width: i64) -> Curve {
+    let middle = |level: &i64| from_millionths(level * width + width / 2);
+    Curve {
+        x: sums.levels.keys().map(middle).collect(),
+        x_unit: unit,
+        values: sums
+            .levels
+            .values()
+            .map(|level| Some(level.mean()))
+            .collect(),
+        counts: sums.levels.values().map(|level| level.n).collect(),
+        band: None,
+    }
+}
+
+impl Channelwise for Levels {
+    type Sums = LevelSums;
+    const SCHEMA: &'static str = "taceva.levels/1";
+
+    fn finishes(&self, metric: &Metric) -> bool {
+        matches!(metric.formula, Formula::BiasLevel)
+    }
+
+    fn deposit(&self, sums: &mut LevelSums, batch: &Batch, position: usize, rows: Option<&[u32]>) {
+        let Some(width) = step(batch.channels().as_slice()[position].unit()) else {
+            return;
+        };
+        each_pair(batch, position, rows, |_, pair| {
+            match millionths(pair.reference).filter(|_| pair.is_valid()) {
+                Some(truth) => {
+                    let level = sums.levels.entry(truth.div_euclid(width)).or_default();
+                    level.n += 1;
+                    level.errors.add(pair.residual());
+                    sums.n += 1;
+                }
+                None => sums.n_invalid += 1,
+            }
+        });
+    }
+
+    fn to_record(&self, sums: &LevelSums) -> Record {
+        let level = |(level, errors): (&i64, &LevelErrors)| {
+            let record = Record {
+                counts: vec![errors.n],
+                sums: vec![errors.errors.clone()],
+                ..Record::default()
+            };
+            (level.to_string(), record)
+        };
+        Record {
+            counts: vec![sums.n, sums.n_invalid],
+            cells: keyed(sums.levels.iter().map(level)),
+            ..Record::default()
+        }
+    }
+
+    fn read_record(&self, record: &Record) -> Result<LevelSums, String> {
+        let (&[n, n_invalid], []) = record.with_cells()?;
+        // Beyond this no level has a middle.
+        let parse = |text: &str| {
+            let level = text
+                .parse::<i64>()
+                .ok()
+                .filter(|level| level.abs() <= 1 << 40);
+            level.filter(|level| level.to_string() == text)
+        };
+        let levels = record.read_cells(parse, |record| {
+            let (&[n], [errors]) = record.exactly()?;
+            let errors = errors.clone();
+            Some(LevelErrors { n, errors })
+                .filter(|_| n > 0)
+                .ok_or("no sample".to_owned())
+        })?;
+        Ok(LevelSums {
+            n,
+            n_invalid,
+            levels,
+        })
+    }
+
+    fn count(&self, sums: &LevelSums) -> u64 {
+        sums.n
+    }
+
+    fn invalid(&self, sums: &LevelSums) -> u64 {
+        sums.n_invalid
+    }
+
+    fn numbers(&self, _metric: &Metric, _output: &Output, sums: &LevelSums) -> Numbers {
+        Numbers::of(greatest_bias(sums))
+    }
+
+    fn inapplicable(&self, output: &Output) -> Option<InapplicableReason> {
+        step(output.unit)
+            .is_none()
+            .then_some(InapplicableReason::NoStep(output.unit))
+    }
+
+    fn details(&self, _metric: &Metric, output: &Output, parts: &[&LevelSums]) -> Details {
+        let (&[sums], Some(width)) = (parts, step(output.unit)) else {
+            return Details::default();
+        };
+        let enough = sums
+            .levels
+            .values()
+            .filter(|level| level.n >= LEAST_SAMPLES);
+        let curve = Value::Curve(curve(sums, output.unit, width));
+        Details {
+            variants: vec![Variant::plain("curve", output.unit, curve)],
+            counts: vec![Count {
+                name: "bins_used",
+                value: enough.fold(0, |count, _| count + 1),
+            }],
+            ..Details::default()
+        }
+    }
+}
+
+impl Merge for LevelSums {
+    fn merge(&mut self, other: &LevelSums) {
+        self.n = self.n.saturating_add(other.n);
+        self.n_invalid = self.n_invalid.saturating_add(other.n_invalid);
+        merge_cells(&mut self.levels, &other.levels);
+    }
+}
+
+impl Merge for LevelErrors {
+    fn merge(&mut self, other: &LevelErrors) {
+        self.n = self.n.saturating_add(other.n);
+        self.errors.merge(&other.errors);
+    }
+}

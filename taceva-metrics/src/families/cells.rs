@@ -1,0 +1,227 @@
+//! Summaries by contact location and depth, for scores that compare presses at one place.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use crate::evaluate::state::Record;
+use crate::exact::merge::{Merge, keyed};
+
+/// Where presses belong together: a contact location, and a depth step within it where that matters.
+#[derive(Clone, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) struct CellKey {
+    point: Option<Arc<str>>,
+    step: u32,
+    /// Which time it was drawn: a bootstrap replicate holds a location several times, side by side. 0 everywhere else.
+    copy: u32,
+}
+
+impl CellKey {
+    /// The depth step.
+    pub(crate) fn step(&self) -> u32 {
+        self.step
+    }
+
+    /// As a state writes it: `3:point 7`, or nothing for what has no location.
+    fn to_text(&self) -> String {
+        match &self.point {
+            Some(point) => format!("{}:{point}", self.step),
+            None => String::new(),
+        }
+    }
+
+    fn from_text(text: &str) -> Option<CellKey> {
+        if text.is_empty() {
+            return Some(CellKey::default());
+        }
+        let (step, point) = text.split_once(':')?;
+        let parsed = step.parse::<u32>().ok()?;
+        (parsed.to_string() == step).then(|| CellKey {
+            point: Some(point.into()),
+            step: parsed,
+            copy: 0,
+        })
+    }
+}
+
+/// Summaries by cell. Copies share them, so that what is finished from one is finished once.
+///
+/// Once some row names no location nobody knows which presses belong together: all cells become one, and stay so. Which of the
+/// two it is depends on the set of rows alone.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Cells<V> {
+    cells: BTreeMap<CellKey, Arc<V>>,
+    named: bool,
+}
+
+impl<V> Default for Cells<V> {
+    fn default() -> Cells<V> {
+        Cells {
+            cells: BTreeMap::new(),
+            named: true,
+        }
+    }
+}
+
+impl<V: Merge + Clone + Default> Cells<V> {
+    /// Whether every row so far named its location.
+    pub(crate) fn are_named(&self) -> bool {
+        self.named
+    }
+
+    /// The cells in order.
+    pub(crate) fn iter(&self) -> impl Iterator<Item = (&CellKey, &V)> {
+        self.cells.iter().map(|(key, cell)| (key, cell.as_ref()))
+    }
+
+    /// How many cells there are.
+    pub(crate) fn len(&self) -> usize {
+        self.cells.len()
+    }
+
+    /// The summary of a cell, to be added to.
+    pub(crate) fn at(&mut self, point: Option<&str>, step: u32) -> &mut V {
+        let key = match point {
+            Some(point) if self.named => CellKey {
+                point: Some(point.into()),
+                step,
+                copy: 0,
+            },
+            Some(_) => CellKey::default(),
+            None => {
+                self.forget_names();
+                CellKey::default()
+            }
+        };
+        Arc::make_mut(self.cells.entry(key).or_default())
+    }
+
+    /// Makes all cells one.
+    pub(crate) fn forget_names(&mut self) {
+        if !self.named {
+            return;
+        }
+        self.named = false;
+        let mut all: Option<V> = None;
+        for cell in std::mem::take(&mut self.cells).into_values() {
+            all.get_or_insert_default().merge(&cell);
+        }
+        if let Some(all) = all {
+            self.cells.insert(CellKey::default(), Arc::new(all));
+        }
+    }
+
+    fn join(&mut self, key: &CellKey, cell: &Arc<V>, copy: u32) {
+        let key = match self.named {
+            true => CellKey {
+                copy,
+                ..key.clone()
+            },
+            false => CellKey::default(),
+        };
+        match self.cells.get_mut(&key) {
+            Some(ours) => Arc::make_mut(ours).merge(cell),
+            None => {
+                self.cells.insert(key, Arc::clone(cell));
+            }
+        }
+    }
+
+    /// The cells as records by key, for [`Record::cells`].
+    pub(crate) fn to_records(&self, to_record: impl Fn(&V) -> Record) -> BTreeMap<String, Record> {
+        let cells = self.cells.iter();
+        keyed(cells.map(|(key, cell)| (key.to_text(), to_record(cell))))
+    }
+
+    /// The cells of a record, which `named` or not must agree with.
+    pub(crate) fn from_record(
+        record: &Record,
+        named: bool,
+        read: impl Fn(&Record) -> Result<V, String>,
+    ) -> Result<Cells<V>, String> {
+        let cells = record.read_cells(CellKey::from_text, |record| read(record).map(Arc::new))?;
+        match cells.keys().find(|key| key.point.is_some() != named) {
+            Some(key) => Err(format!(
+                "cell `{}` in a state {} locations",
+                key.to_text(),
+                if named { "with" } else { "without" }
+            )),
+            None => Ok(Cells { cells, named }),
+        }
+    }
+}
+
+impl<V: Merge + Clone + Default> Merge for Cells<V> {
+    fn merge(&mut self, other: &Cells<V>) {
+        self.merge_times(other, 1);
+    }
+
+    fn merge_times(&mut self, other: &Cells<V>, times: u32) {
+        if !other.named && times > 0 {
+            self.forget_names();
+        }
+        for copy in 0..times {
+            for (key, cell) in &other.cells {
+                self.join(key, cell, copy);
+            }
+        }
+    }
+}
+
+/// Adds what is counted elsewhere, `times` over.
+pub(crate) fn add_times(count: &mut u64, other: u64, times: u32) {
+    *count = count.saturating_add(other.saturating_mul(u64::from(times)));
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::exact::moments::Moments;
+
+    fn cells(rows: &[(Option<&str>, u32, f64)]) -> Cells<Moments> {
+        let mut cells = Cells::default();
+        for &(point, step, value) in rows {
+            let cell: &mut Moments = cells.at(point, step);
+            cell.add(value);
+        }
+        cells
+    }
+
+    #[test]
+    fn one_row_without_location_makes_all_cells_one_whenever_it_comes() {
+        let rows = [(Some("a"), 0, 1.0), (Some("b"), 2, 2.0), (None, 0, 4.0)];
+        let first = cells(&rows);
+        let last: Vec<_> = rows.into_iter().rev().collect();
+        assert_eq!(first, cells(&last));
+        assert_eq!((first.len(), first.are_named()), (1, false));
+        let mut merged = cells(&rows[..2]);
+        merged.merge(&cells(&rows[2..]));
+        assert_eq!(merged, first);
+        let mut other_way = cells(&rows[2..]);
+        other_way.merge(&cells(&rows[..2]));
+        assert_eq!(other_way, first);
+    }
+
+    #[test]
+    fn a_location_drawn_twice_stands_there_twice() {
+        let mut drawn = Cells::default();
+        drawn.merge_times(&cells(&[(Some("a"), 0, 1.0)]), 2);
+        drawn.merge_times(&cells(&[(Some("b"), 0, 1.0)]), 0);
+        assert_eq!(drawn.len(), 2);
+        assert!(drawn.iter().all(|(_, cell)| cell.n == 1));
+    }
+
+    #[test]
+    fn a_key_is_read_as_it_was_written_and_no_other_way() {
+        for (point, step) in [("", 0), ("3:4", 7), ("point:", u32::MAX)] {
+            let key = CellKey {
+                point: Some(point.into()),
+                step,
+                copy: 0,
+            };
+            assert_eq!(CellKey::from_text(&key.to_text()), Some(key));
+        }
+        for text in ["a", "+1:a", "01:a", ":a", "4294967296:a"] {
+            assert_eq!(CellKey::from_text(text), None, "{text}");
+        }
+    }
+}

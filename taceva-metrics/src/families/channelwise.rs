@@ -1,0 +1,159 @@
+//! Families that keep the same of every channel, on its own: what such a family must still say is what it keeps.
+
+use std::collections::BTreeMap;
+
+use taceva_core::{Batch, Channel};
+
+use crate::evaluate::plan::MetricPlan;
+use crate::evaluate::state::Record;
+use crate::exact::merge::Merge;
+use crate::families::accuracy::outputs;
+use crate::families::family::{Details, Family, Numbers, Output, each_row};
+use crate::metric::Metric;
+use crate::paired::Paired;
+use crate::score::value::InapplicableReason;
+
+/// What is kept of a channel, and which scores come of it.
+pub(crate) trait Channelwise: Send + 'static {
+    /// What is kept of one channel; the default is that of no row.
+    type Sums: Merge + Clone + Default + Send + 'static;
+    /// The name and version of its states.
+    const SCHEMA: &'static str;
+
+    /// What must agree before states merge.
+    fn parameters(&self) -> BTreeMap<String, String> {
+        BTreeMap::new()
+    }
+    /// Whether `metric` is finished from what is kept here.
+    fn finishes(&self, metric: &Metric) -> bool;
+    /// Whether `channel` takes part.
+    fn takes(&self, _channel: &Channel) -> bool {
+        true
+    }
+    /// Adds `rows` of `batch`, all of them for `None`, to what is kept of the channel at `position`.
+    fn deposit(&self, sums: &mut Self::Sums, batch: &Batch, position: usize, rows: Option<&[u32]>);
+    /// As a state holds it.
+    fn to_record(&self, sums: &Self::Sums) -> Record;
+    /// Back from a state.
+    fn read_record(&self, record: &Record) -> Result<Self::Sums, String>;
+    /// Samples that take part.
+    fn count(&self, sums: &Self::Sums) -> u64;
+    /// Samples that were left out, because a value is no usable number.
+    fn invalid(&self, sums: &Self::Sums) -> u64;
+    /// The numbers of `metric`.
+    fn numbers(&self, metric: &Metric, output: &Output, sums: &Self::Sums) -> Numbers;
+    /// Why there is no value, if so.
+    fn inapplicable(&self, _output: &Output) -> Option<InapplicableReason> {
+        None
+    }
+    /// What the score says beside its numbers.
+    fn details(&self, _metric: &Metric, _output: &Output, _parts: &[&Self::Sums]) -> Details {
+        Details::default()
+    }
+}
+
+/// The family of a [`Channelwise`] kind: its channels, and the planes of them as the mean of both axes.
+pub(crate) struct ByChannel<K> {
+    kind: K,
+    positions: Vec<usize>,
+    outputs: Vec<Output>,
+}
+
+impl<K: Channelwise> ByChannel<K> {
+    /// What `plan` needs of the kind; `None` if it needs nothing of it.
+    pub(crate) fn for_plan(kind: K, plan: &MetricPlan) -> Option<ByChannel<K>> {
+        if !plan.kept().iter().any(|metric| kind.finishes(metric)) {
+            return None;
+        }
+        let channels = plan.channels().iter().enumerate();
+        let positions: Vec<usize> = channels
+            .filter(|(_, channel)| kind.takes(channel))
+            .map(|(position, _)| position)
+            .collect();
+        let outputs = outputs(plan.channels()).into_iter();
+        let outputs = outputs.filter_map(|output| {
+            let part = |of: &usize| positions.iter().position(|position| position == of);
+            let parts = output.parts.iter().map(part).collect::<Option<Vec<_>>>()?;
+            Some(Output { parts, ..output })
+        });
+        Some(ByChannel {
+            outputs: outputs.collect(),
+            kind,
+            positions,
+        })
+    }
+}
+
+impl<K: Channelwise> Family for ByChannel<K> {
+    type Sums = K::Sums;
+    const SCHEMA: &'static str = K::SCHEMA;
+
+    fn parameters(&self) -> BTreeMap<String, String> {
+        self.kind.parameters()
+    }
+
+    fn empty(&self) -> Vec<K::Sums> {
+        vec![K::Sums::default(); self.positions.len()]
+    }
+
+    fn deposit(&mut self, sums: &mut [K::Sums], batch: &Batch, rows: Option<&[u32]>) {
+        for (sums, &position) in sums.iter_mut().zip(&self.positions) {
+            self.kind.deposit(sums, batch, position, rows);
+        }
+    }
+
+    fn to_record(&self, sums: &K::Sums) -> Record {
+        self.kind.to_record(sums)
+    }
+
+    fn read_record(&self, _position: usize, record: &Record) -> Result<K::Sums, String> {
+        self.kind.read_record(record)
+    }
+
+    fn outputs(&self, metric: &Metric) -> Vec<Output> {
+        if self.kind.finishes(metric) {
+            self.outputs.clone()
+        } else {
+            Vec::new()
+        }
+    }
+
+    fn count(&self, _metric: &Metric, sums: &K::Sums) -> u64 {
+        self.kind.count(sums)
+    }
+
+    fn invalid(&self, sums: &K::Sums) -> u64 {
+        self.kind.invalid(sums)
+    }
+
+    fn numbers(&self, metric: &Metric, output: &Output, sums: &K::Sums) -> Numbers {
+        self.kind.numbers(metric, output, sums)
+    }
+
+    fn inapplicable(&self, _metric: &Metric, output: &Output) -> Option<InapplicableReason> {
+        self.kind.inapplicable(output)
+    }
+
+    fn details(&self, metric: &Metric, output: &Output, parts: &[&K::Sums]) -> Details {
+        self.kind.details(metric, output, parts)
+    }
+}
+
+/// The pairs of a channel in `rows` that have both values, each with its row.
+pub(crate) fn each_pair(
+    batch: &Batch,
+    position: usize,
+    rows: Option<&[u32]>,
+    mut add: impl FnMut(usize, Paired<f64>),
+) {
+    let (estimates, references) = (batch.prediction(position), batch.truth(position));
+    each_row(batch, rows, |row| {
+        if let (Some(estimate), Some(reference)) = (estimates.get(row), references.get(row)) {
+            let pair = Paired {
+                estimate,
+                reference,
+            };
+            add(row, pair);
+        }
+    });
+}

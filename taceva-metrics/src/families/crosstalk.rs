@@ -1,0 +1,153 @@
+//! How much of one channel leaks into the predictions of another.
+
+mod fit;
+mod sums;
+
+use std::collections::BTreeMap;
+
+use taceva_core::{Batch, Channel, Field, FieldSet, Needs, Unit};
+
+use crate::evaluate::plan::MetricPlan;
+use crate::evaluate::state::Record;
+use crate::families::family::{Details, Family, Numbers, Output, each_row};
+use crate::metric::{Formula, Metric, ScoreUnit};
+use crate::paired::Paired;
+use crate::score::better::Better;
+use crate::score::flag::Flag;
+use crate::score::matrix::Matrix;
+use crate::score::range::Range;
+use crate::score::value::{UndefinedReason, Value};
+use crate::score::{Parameter, Variant};
+use fit::Leaks;
+use sums::JointSums;
+
+pub(crate) static CROSSTALK: Metric = Metric {
+    id: "crosstalk",
+    title: "cross-talk between channels",
+    better: Better::Lower,
+    unit: ScoreUnit::One,
+    range: Range::Greatest,
+    definition: "crosstalk/1",
+    reference: "joint least-squares slopes of each prediction on all truths, as shares of full scale",
+    documentation: "How far the prediction of one channel moves, as a share of its full scale, when another channel alone moves \
+                    over all of its own; full scale is the range of the truth. The score is the greatest magnitude between two \
+                    different channels; `matrix` has a row for each predicted and a column for each true channel, its diagonal \
+                    being 1 for a sensor without gain error. Where truths are so alike that no joint fit tells them apart, each \
+                    slope is that on its own truth alone, and the score is flagged. Of samples with all six channels, or all \
+                    of them that there are. A greatest value has no interval.",
+    needs: Needs {
+        fields: FieldSet::EMPTY.with(Field::Truth).with(Field::Prediction),
+        channels: &[],
+        least_samples: 3,
+    },
+    facts: &[],
+    constants: no_constants,
+    formula: Formula::Crosstalk,
+};
+
+fn no_constants(_: Unit) -> Vec<Parameter> {
+    Vec::new()
+}
+
+/// All channels of a contact at once.
+pub(crate) struct Crosstalk {
+    /// Where the channels stand that take part: those of the six.
+    positions: Vec<usize>,
+    names: Vec<String>,
+}
+
+impl Crosstalk {
+    /// What `plan` needs of the kind; `None` if it needs nothing of it.
+    pub(crate) fn for_plan(plan: &MetricPlan) -> Option<Crosstalk> {
+        let mut kept = plan.kept().iter();
+        kept.find(|metric| matches!(metric.formula, Formula::Crosstalk))?;
+        let channels = plan.channels().iter().enumerate();
+        let six = channels.filter(|(_, channel)| Channel::SIX.contains(channel));
+        let (positions, names) = six
+            .map(|(position, channel)| (position, channel.name().to_owned()))
+            .unzip();
+        Some(Crosstalk { positions, names })
+    }
+}
+
+impl Family for Crosstalk {
+    type Sums = JointSums;
+    const SCHEMA: &'static str = "taceva.joint/1";
+
+    fn parameters(&self) -> BTreeMap<String, String> {
+        BTreeMap::new()
+    }
+
+    fn empty(&self) -> Vec<JointSums> {
+        vec![JointSums::new(self.positions.len())]
+    }
+
+    fn deposit(&mut self, sums: &mut [JointSums], batch: &Batch, rows: Option<&[u32]>) {
+        let [sums] = sums else { return };
+        each_row(batch, rows, |row| {
+            let pairs = self
+                .positions
+                .iter()
+                .map(|&position| Paired::at(batch, position, row));
+            if let Some(pairs) = pairs.collect::<Option<Vec<_>>>() {
+                sums.add(&pairs);
+            }
+        });
+    }
+
+    fn to_record(&self, sums: &JointSums) -> Record {
+        sums.to_record()
+    }
+
+    fn read_record(&self, _position: usize, record: &Record) -> Result<JointSums, String> {
+        JointSums::read_record(record, self.positions.len())
+    }
+
+    fn outputs(&self, metric: &Metric) -> Vec<Output> {
+        match metric.formula {
+            Formula::Crosstalk => vec![Output {
+                label: "all".to_owned(),
+                unit: Unit::One,
+                of: self.names.clone(),
+                parts: vec![0],
+            }],
+            _ => Vec::new(),
+        }
+    }
+
+    fn count(&self, _metric: &Metric, sums: &JointSums) -> u64 {
+        sums.n()
+    }
+
+    fn invalid(&self, sums: &JointSums) -> u64 {
+        sums.n_invalid()
+    }
+
+    fn numbers(&self, _metric: &Metric, _output: &Output, sums: &JointSums) -> Numbers {
+        Numbers::of(Leaks::of(sums).and_then(|leaks| leaks.greatest()))
+    }
+
+    fn details(&self, _metric: &Metric, _output: &Output, parts: &[&JointSums]) -> Details {
+        let leaks = match parts {
+            [sums] => Leaks::of(sums),
+            _ => Err(UndefinedReason::Empty),
+        };
+        let flags = match &leaks {
+            Ok(leaks) if !leaks.joint => vec![Flag::CollinearTruths],
+            _ => Vec::new(),
+        };
+        let matrix = match leaks {
+            Ok(leaks) => Value::Matrix(Matrix {
+                rows: self.names.clone(),
+                columns: self.names.clone(),
+                values: leaks.shares,
+            }),
+            Err(reason) => Value::Undefined(reason),
+        };
+        Details {
+            variants: vec![Variant::plain("matrix", Unit::One, matrix)],
+            flags,
+            ..Details::default()
+        }
+    }
+}

@@ -1,0 +1,244 @@
+//! The slopes of every prediction on all truths together.
+
+use super::sums::JointSums;
+use crate::exact::single::exactly;
+use crate::families::family::Finished;
+use crate::score::value::UndefinedReason;
+
+/// How far predictions move with truths, as shares of full scale.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Leaks {
+    /// By predicted channel, then by true one; `None` where the true one does not vary.
+    pub(super) shares: Vec<Vec<Option<f64>>>,
+    /// Whether the slopes are those of a joint fit, and not of each truth alone.
+    pub(super) joint: bool,
+}
+
+impl Leaks {
+    /// Fits y_i = a_i + Σ_j b_ij x_j and gives b_ij range_j / range_i, range the full scale of a truth.
+    ///
+    /// The products of deviations are exact and rounded once; the normal equations are scaled to correlations and solved by
+    /// Cholesky's method, whose error grows with how alike the truths are. Where a truth is the others' linear function up to
+    /// 10⁻⁸ of its variance, or there are no more samples than unknowns, slopes are Σ y_i x_j / Σ x_j² of deviations instead.
+    ///
+    /// # Errors
+    /// [`UndefinedReason`] for fewer than three samples, one channel, or no truth that varies.
+    pub(super) fn of(sums: &JointSums) -> Result<Leaks, UndefinedReason> {
+        /// Samples that a slope with a spread needs.
+        const LEAST: u64 = 3;
+        let channels = sums.channels();
+        match sums.n() {
+            0 => return Err(UndefinedReason::Empty),
+            1..LEAST => return Err(UndefinedReason::TooFew { least: LEAST }),
+            _ => {}
+        }
+        if channels < 2 {
+            return Err(UndefinedReason::OneChannel);
+        }
+        let varies = |channel: &usize| !sums.truth_products(*channel, *channel).is_zero();
+        let varying: Vec<usize> = (0..channels).filter(varies).collect();
+        if varying.is_empty() {
+            return Err(UndefinedReason::ConstantTruth { perfect: false });
+        }
+        let factor = Factor::of(sums, &varying).filter(|factor| {
+            let unknowns = factor.rows.iter().fold(1, |unknowns: u64, _| unknowns + 1);
+            sums.n() > unknowns
+        });
+        let row = |predicted: usize| {
+            let slopes = match &factor {
+                Some(factor) => factor.slopes(sums, &varying, predicted),
+                None => single_slopes(sums, &varying, predicted),
+            };
+            let mut shares = vec![None; channels];
+            for (&truth, slope) in varying.iter().zip(slopes) {
+                shares[truth] = full_scales(sums, truth, predicted).map(|ratio| slope * ratio);
+            }
+            shares
+        };
+        let shares: Vec<Vec<Option<f64>>> = (0..channels).map(row).collect();
+        if !shares
+            .iter()
+            .flatten()
+            .flatten()
+            .all(|share| share.is_finite())
+        {
+            return Err(UndefinedReason::Overflow);
+        }
+        Ok(Leaks {
+            shares,
+            joint: factor.is_some(),
+        })
+    }
+
+    /// The greatest magnitude between two different channels.
+    pub(super) fn greatest(&self) -> Finished {
+        let rows = self.shares.iter().enumerate();
+        let leaks = rows.flat_map(|(row, shares)| {
+            let others = shares.iter().enumerate();
+            others.filter(move |(column, _)| *column != row)
+        });
+        let sizes = leaks.filter_map(|(_, share)| share.map(f64::abs));
+        sizes
+            .max_by(f64::total_cmp)
+            .ok_or(UndefinedReason::ConstantTruth { perfect: false })
+    }
+}
+
+/// Cholesky's factor of the correlations of the truths that vary.
+struct Factor {
+    /// Lower triangle, row by row.
+    rows: Vec<Vec<f64>>,
+}
+
+impl Factor {
+    /// `None` if the truths cannot be told apart.
+    fn of(sums: &JointSums, varying: &[usize]) -> Option<Factor> {
+        /// What is left of a truth's variance, at 1, once the others have explained it.
+        const LEAST_OWN: f64 = 1e-8;
+        let mut rows: Vec<Vec<f64>> = Vec::new();
+        for (place, &truth) in varying.iter().enumerate() {
+            let mut row = Vec::with_capacity(place + 1);
+            for (column, &other) in varying[..place].iter().enumerate() {
+                let explained: f64 = row.iter().zip(&rows[column]).map(|(a, b)| a * b).sum();
+                row.push((correlation(sums, truth, other) - explained) / rows[column][column]);
+            }
+            let own = 1.0 - row.iter().map(|entry| entry * entry).sum::<f64>();
+            if own <= LEAST_OWN || !own.is_finite() {
+                return None;
+            }
+            row.push(own.sqrt());
+            rows.push(row);
+        }
+        Some(Factor { rows })
+    }
+
+    /// The joint slopes of one prediction.
+    fn slopes(&self, sums: &JointSums, varying: &[usize], predicted: usize) -> Vec<f64> {
+        let shared = varying
+            .iter()
+            .map(|&truth| sums.shared_products(predicted, truth).to_f64() / deviation(sums, truth));
+        let mut solution: Vec<f64> = Vec::with_capacity(varying.len());
+        for (row, shared) in self.rows.iter().zip(shared) {
+            let known: f64 = solution.iter().zip(row).map(|(a, b)| a * b).sum();
+            solution.push((shared - known) / row[solution.len()]);
+        }
+        for place in (0..solution.len()).rev() {
+            let below = place + 1..solution.len();
+            let known: f64 = below.map(|row| self.rows[row][place] * solution[row]).sum();
+            solution[place] = (solution[place] - known) / self.rows[place][place];
+        }
+        let scaled = solution.iter().zip(varying);
+        scaled
+            .map(|(slope, &truth)| slope / deviation(sums, truth))
+            .collect()
+    }
+}
+
+/// √(n Σ x² − (Σ x)²).
+fn deviation(sums: &JointSums, truth: usize) -> f64 {
+    sums.truth_products(truth, truth).to_f64().sqrt()
+}
+
+fn correlation(sums: &JointSums, left: usize, right: usize) -> f64 {
+    let product = sums.truth_products(left, right).to_f64();
+    product / deviation(sums, left) / deviation(sums, right)
+}
+
+/// The slope of one prediction on each truth alone.
+fn single_slopes(sums: &JointSums, varying: &[usize], predicted: usize) -> Vec<f64> {
+    let slope = |&truth: &usize| {
+        let shared = sums.shared_products(predicted, truth);
+        shared.over(&sums.truth_products(truth, truth))
+    };
+    varying.iter().map(slope).collect()
+}
+
+/// RN(range of `truth` / range of the truth of `predicted`); `None` if the latter does not vary.
+fn full_scales(sums: &JointSums, truth: usize, predicted: usize) -> Option<f64> {
+    let range = |channel: usize| {
+        let [low, high] = sums.range(channel)?;
+        Some(&exactly(high) - &exactly(low))
+    };
+    let own = range(predicted).filter(|range| !range.is_zero())?;
+    Some(range(truth)?.over(&own))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::paired::Paired;
+
+    /// Samples of three channels: the truths by `truths`, and predictions as their linear functions by `slopes`.
+    fn sums(truths: impl Fn(u32) -> [f64; 3], slopes: [[f64; 3]; 3]) -> JointSums {
+        let mut sums = JointSums::new(3);
+        for row in 0..200 {
+            let x = truths(row);
+            let pairs: Vec<Paired<f64>> = (0..3)
+                .map(|channel| Paired {
+                    estimate: 0.5 + (0..3).map(|j| slopes[channel][j] * x[j]).sum::<f64>(),
+                    reference: x[channel],
+                })
+                .collect();
+            sums.add(&pairs);
+        }
+        sums
+    }
+
+    fn spread_out(row: u32) -> [f64; 3] {
+        let digit = |base: u32| f64::from(row / base % 5);
+        [digit(1), 2.0 * digit(5) + 0.3 * digit(1), 10.0 * digit(25)]
+    }
+
+    #[test]
+    fn linear_predictions_give_back_their_slopes_as_shares_of_full_scale() {
+        let slopes = [[1.0, 0.02, 0.0], [0.05, 0.9, 0.001], [0.0, -0.25, 1.0]];
+        let leaks = Leaks::of(&sums(spread_out, slopes)).expect("varied truths");
+        assert!(leaks.joint);
+        let ranges = [4.0, 9.2, 40.0];
+        for (i, row) in slopes.iter().enumerate() {
+            for (j, slope) in row.iter().enumerate() {
+                let found = leaks.shares[i][j].expect("a share");
+                let expected = slope * ranges[j] / ranges[i];
+                assert!(
+                    (found - expected).abs() < 1e-13,
+                    "{i} {j}: {found}, {expected}"
+                );
+            }
+        }
+        let greatest = leaks.greatest().expect("a share");
+        assert!((greatest - 0.25 * 9.2 / 40.0).abs() < 1e-13);
+    }
+
+    #[test]
+    fn truths_that_move_together_are_fitted_one_by_one_and_say_so() {
+        let together = |row: u32| [f64::from(row), 2.0 * f64::from(row), f64::from(row % 7)];
+        let identity = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+        let leaks = Leaks::of(&sums(together, identity)).expect("varied truths");
+        assert!(!leaks.joint);
+        // y₀ = x₀ = x₁ / 2: all of its full scale over all of the other's.
+        assert_eq!(leaks.shares[0][1], Some(1.0));
+    }
+
+    #[test]
+    fn a_truth_that_does_not_vary_leaks_nowhere_and_has_no_scale() {
+        let still = |row: u32| [f64::from(row % 9), 0.25, f64::from(row % 7)];
+        let identity = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+        let leaks = Leaks::of(&sums(still, identity)).expect("varied truths");
+        assert_eq!((leaks.shares[0][1], leaks.shares[1][0]), (None, None));
+        let constant = Leaks::of(&sums(|_| [1.0, 2.0, 3.0], identity));
+        assert_eq!(
+            constant,
+            Err(UndefinedReason::ConstantTruth { perfect: false })
+        );
+        assert_eq!(Leaks::of(&JointSums::new(3)), Err(UndefinedReason::Empty));
+        let mut alone = JointSums::new(1);
+        (0..4).for_each(|row| {
+            let value = f64::from(row);
+            alone.add(&[Paired {
+                estimate: value,
+                reference: value,
+            }]);
+        });
+        assert_eq!(Leaks::of(&alone), Err(UndefinedReason::OneChannel));
+    }
+}

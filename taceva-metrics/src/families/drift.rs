@@ -1,0 +1,146 @@
+//! Whether errors grow while the clock runs.
+
+use taceva_core::{Batch, Channel, Field, FieldSet, Needs, Unit};
+
+use crate::evaluate::state::Record;
+use crate::exact::merge::Merge;
+use crate::exact::{Dyadic, ExactSum};
+use crate::families::channelwise::{Channelwise, each_pair};
+use crate::families::family::{Finished, Numbers, Output};
+use crate::metric::{Formula, Metric, ScoreUnit};
+use crate::paired::is_valid;
+use crate::score::Parameter;
+use crate::score::better::Better;
+use crate::score::range::Range;
+use crate::score::value::UndefinedReason;
+
+/// Seconds in an hour.
+const HOUR_S: u64 = 3600;
+
+pub(crate) static DRIFT: Metric = Metric {
+    id: "drift",
+    title: "drift of the error",
+    better: Better::NearZero,
+    unit: ScoreUnit::PerHour,
+    range: Range::Any,
+    definition: "drift/1",
+    reference: "least-squares slope of truth − prediction over time",
+    documentation: "By how much the mean error changes an hour: the slope of the line that fits truth − prediction over time best. \
+                    Of positions and forces only. Where presses grow deeper as time goes by, an error that depends on depth \
+                    looks like drift.",
+    needs: Needs {
+        fields: FieldSet::EMPTY
+            .with(Field::Truth)
+            .with(Field::Prediction)
+            .with(Field::Stamp),
+        channels: &[],
+        least_samples: 2,
+    },
+    facts: &[],
+    constants: no_constants,
+    formula: Formula::Drift,
+};
+
+fn no_constants(_: Unit) -> Vec<Parameter> {
+    Vec::new()
+}
+
+/// Errors over time.
+pub(crate) struct Drifts;
+
+/// What is kept of one channel: t the time in s, d = RN(y − ŷ).
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct DriftSums {
+    n: u64,
+    n_invalid: u64,
+    /// Σ t, Σ d, Σ t², Σ t d.
+    sums: [ExactSum; 4],
+}
+
+/// RN(3600 (n Std − St Sd) / (n Stt − St²)).
+fn drift(sums: &DriftSums) -> Finished {
+    match sums.n {
+        0 => return Err(UndefinedReason::Empty),
+        1 => return Err(UndefinedReason::TooFew { least: 2 }),
+        _ => {}
+    }
+    let n = Dyadic::from(sums.n);
+    let [t, d, tt, td] = [0, 1, 2, 3].map(|sum| sums.sums[sum].to_dyadic());
+    let spread = &(&n * &tt) - &(&t * &t);
+    if spread.is_zero() {
+        return Err(UndefinedReason::EqualTimes);
+    }
+    let shared = &(&n * &td) - &(&t * &d);
+    Ok((&shared * &Dyadic::from(HOUR_S)).over(&spread))
+}
+
+impl Channelwise for Drifts {
+    type Sums = DriftSums;
+    const SCHEMA: &'static str = "taceva.drifts/1";
+
+    fn finishes(&self, metric: &Metric) -> bool {
+        matches!(metric.formula, Formula::Drift)
+    }
+
+    fn takes(&self, channel: &Channel) -> bool {
+        matches!(channel.unit(), Unit::Millimetre | Unit::Newton)
+    }
+
+    fn deposit(&self, sums: &mut DriftSums, batch: &Batch, position: usize, rows: Option<&[u32]>) {
+        let Some(times) = batch.numbers(Field::Stamp) else {
+            return;
+        };
+        each_pair(batch, position, rows, |row, pair| {
+            let Some(time) = times.get(row) else {
+                return;
+            };
+            if !pair.is_valid() || !is_valid(time) {
+                sums.n_invalid += 1;
+                return;
+            }
+            sums.n += 1;
+            let [t, d, tt, td] = &mut sums.sums;
+            t.add(time);
+            d.add(pair.residual());
+            tt.add_product(time, time);
+            td.add_product(time, pair.residual());
+        });
+    }
+
+    fn to_record(&self, sums: &DriftSums) -> Record {
+        Record {
+            counts: vec![sums.n, sums.n_invalid],
+            sums: sums.sums.to_vec(),
+            ..Record::default()
+        }
+    }
+
+    fn read_record(&self, record: &Record) -> Result<DriftSums, String> {
+        let (&[n, n_invalid], sums) = record.exactly()?;
+        Ok(DriftSums {
+            n,
+            n_invalid,
+            sums: sums.clone(),
+        })
+    }
+
+    fn count(&self, sums: &DriftSums) -> u64 {
+        sums.n
+    }
+
+    fn invalid(&self, sums: &DriftSums) -> u64 {
+        sums.n_invalid
+    }
+
+    fn numbers(&self, _metric: &Metric, _output: &Output, sums: &DriftSums) -> Numbers {
+        Numbers::of(drift(sums))
+    }
+}
+
+impl Merge for DriftSums {
+    fn merge(&mut self, other: &DriftSums) {
+        self.n = self.n.saturating_add(other.n);
+        self.n_invalid = self.n_invalid.saturating_add(other.n_invalid);
+        self.sums.merge(&other.sums);
+    }
+}

@@ -1,0 +1,243 @@
+//! What a family of metrics says of itself; [`Accumulator`](crate::evaluate::accumulator::Accumulator) does the rest.
+
+use std::borrow::Cow;
+use std::collections::BTreeMap;
+
+use taceva_core::{Batch, Labels, Unit};
+
+use crate::evaluate::state::Record;
+use crate::exact::merge::Merge;
+use crate::metric::Metric;
+use crate::score::flag::Flag;
+use crate::score::range::Range;
+use crate::score::value::{InapplicableReason, UndefinedReason};
+use crate::score::{Count, Interval, Parameter, Variant};
+
+/// What is kept of a batch, and which scores come of it.
+///
+/// # Laws
+/// [`deposit`](Family::deposit) must keep a function of the set of rows: it may not look at their order, nor at which rows come
+/// together.
+pub(crate) trait Family: Send + 'static {
+    /// What is kept of one part: a channel, a plane, a kind of grating, or everything at once.
+    type Sums: Merge + Clone + Send + 'static;
+    /// The name and version of its states.
+    const SCHEMA: &'static str;
+
+    /// What must agree before states merge.
+    fn parameters(&self) -> BTreeMap<String, String>;
+    /// Nothing kept, for each part.
+    fn empty(&self) -> Vec<Self::Sums>;
+    /// Adds `rows` of `batch`, all of them for `None`.
+    fn deposit(&mut self, sums: &mut [Self::Sums], batch: &Batch, rows: Option<&[u32]>);
+    /// What the rows of `batch` are clustered by; the contact location unless the family knows better.
+    fn clusters<'a>(&self, batch: &'a Batch) -> Option<Cow<'a, Labels>> {
+        batch.points().map(Cow::Borrowed)
+    }
+    /// Why a score has no interval where samples are not clustered.
+    fn unclustered(&self) -> UndefinedReason {
+        UndefinedReason::NoClusters
+    }
+    /// As a state holds it.
+    fn to_record(&self, sums: &Self::Sums) -> Record;
+    /// Back from a state, for the part at `position`.
+    fn read_record(&self, position: usize, record: &Record) -> Result<Self::Sums, String>;
+
+    /// The scores to give of `metric`; none if it does not belong here.
+    fn outputs(&self, metric: &Metric) -> Vec<Output>;
+    /// Samples of a part that take part in `metric`: what weighs its clusters.
+    fn count(&self, metric: &Metric, sums: &Self::Sums) -> u64;
+    /// Samples of a part that were left out, because a value is no usable number.
+    fn invalid(&self, sums: &Self::Sums) -> u64;
+    /// The numbers of `metric` that one part gives; an output of two parts is the mean of theirs.
+    fn numbers(&self, metric: &Metric, output: &Output, sums: &Self::Sums) -> Numbers;
+    /// The numbers of `metric` where they are no mean of those of its parts; `sums` are those of every part.
+    fn joint(&self, _metric: &Metric, _output: &Output, _sums: &[Self::Sums]) -> Option<Numbers> {
+        None
+    }
+    /// Why `metric` has no value there, if so.
+    fn inapplicable(&self, _metric: &Metric, _output: &Output) -> Option<InapplicableReason> {
+        None
+    }
+    /// What the score says beside its numbers, from the sums of all its parts together.
+    fn details(&self, _metric: &Metric, _output: &Output, _parts: &[&Self::Sums]) -> Details {
+        Details::default()
+    }
+    /// The intervals of the value and of the variants, by name, where the family has a better way than the jackknife of the
+    /// score itself; `clusters` hold the sums of each part.
+    fn intervals(
+        &self,
+        _metric: &Metric,
+        _output: &Output,
+        _clusters: &[&Vec<Self::Sums>],
+    ) -> Option<Intervals> {
+        None
+    }
+}
+
+/// The rows that [`Family::deposit`] gets, as positions in the batch.
+pub(crate) fn each_row(batch: &Batch, rows: Option<&[u32]>, mut add: impl FnMut(usize)) {
+    match rows {
+        Some(rows) => rows.iter().for_each(|&row| add(row as usize)),
+        None => (0..batch.rows()).for_each(add),
+    }
+}
+
+/// One score of a metric: of a part, or the mean of two.
+#[derive(Clone, Debug)]
+pub(crate) struct Output {
+    /// What it is called in reports.
+    pub(crate) label: String,
+    /// The unit of its channels.
+    pub(crate) unit: Unit,
+    /// Its channels, if it is not one channel's own.
+    pub(crate) of: Vec<String>,
+    /// Which sums it is finished from; one or two.
+    pub(crate) parts: Vec<usize>,
+}
+
+/// A number, or why there is none; never a number that is not finite.
+pub(crate) type Finished = Result<f64, UndefinedReason>;
+
+/// The value of a score and its variants: all that has an interval.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Numbers {
+    pub(crate) value: Finished,
+    pub(crate) variants: Vec<Number>,
+}
+
+/// A variant of a score that is one number.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Number {
+    pub(crate) name: Cow<'static, str>,
+    pub(crate) unit: Unit,
+    pub(crate) range: Range,
+    pub(crate) value: Finished,
+}
+
+impl Numbers {
+    /// A value without variants; a number that is not finite counts as overflow.
+    pub(crate) fn of(value: Finished) -> Numbers {
+        Numbers {
+            value: value.and_then(finite),
+            variants: Vec::new(),
+        }
+    }
+
+    /// The same numbers and a variant.
+    pub(crate) fn with(
+        mut self,
+        name: impl Into<Cow<'static, str>>,
+        unit: Unit,
+        range: Range,
+        value: Finished,
+    ) -> Numbers {
+        self.variants.push(Number {
+            name: name.into(),
+            unit,
+            range,
+            value: value.and_then(finite),
+        });
+        self
+    }
+
+    /// The variant called `name`.
+    pub(crate) fn variant(&self, name: &str) -> Finished {
+        let found = self.variants.iter().find(|variant| variant.name == name);
+        found.map_or(Err(UndefinedReason::Empty), |variant| variant.value)
+    }
+
+    /// RN of the exact mean of both, number by number; where either has none there is none.
+    pub(crate) fn mean(self, other: &Numbers) -> Numbers {
+        let mean = |left: Finished, right: Finished| Ok(midpoint(left?, right?));
+        let variants = self.variants.into_iter().map(|variant| Number {
+            value: mean(variant.value, other.variant(&variant.name)),
+            ..variant
+        });
+        Numbers {
+            value: mean(self.value, other.value),
+            variants: variants.collect(),
+        }
+    }
+}
+
+fn finite(value: f64) -> Finished {
+    if value.is_finite() {
+        Ok(value)
+    } else {
+        Err(UndefinedReason::Overflow)
+    }
+}
+
+/// RN((a + b) / 2): halving is exact unless the sum is tiny, and then the sum is; where the sum overflows, halves are exact.
+pub(crate) fn midpoint(left: f64, right: f64) -> f64 {
+    let sum = left + right;
+    if sum.is_finite() {
+        sum * 0.5
+    } else {
+        left * 0.5 + right * 0.5
+    }
+}
+
+/// What a score says beside its numbers: maps and curves, counts, constants and flags.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Details {
+    pub(crate) variants: Vec<Variant>,
+    pub(crate) counts: Vec<Count>,
+    pub(crate) parameters: Vec<Parameter>,
+    pub(crate) flags: Vec<Flag>,
+}
+
+/// The intervals of a value and of variants by name.
+pub(crate) struct Intervals {
+    pub(crate) value: Interval,
+    pub(crate) variants: Vec<(String, Interval)>,
+}
+
+impl Intervals {
+    /// The interval of the variant called `name`, or of the value itself; the last one of a name counts.
+    pub(crate) fn of(&self, name: Option<&str>) -> Option<Interval> {
+        let Some(name) = name else {
+            return Some(self.value);
+        };
+        let mut variants = self.variants.iter().rev();
+        let found = variants.find(|(known, _)| known == name);
+        found.map(|(_, interval)| *interval)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_mean_of_two_is_rounded_once_at_both_ends_of_the_range() {
+        let denormal = f64::from_bits;
+        assert_eq!(midpoint(denormal(1), denormal(2)).to_bits(), 2);
+        assert_eq!(midpoint(f64::MAX, f64::MAX).to_bits(), f64::MAX.to_bits());
+        assert_eq!(midpoint(1.0, 2.0).to_bits(), 1.5_f64.to_bits());
+    }
+
+    #[test]
+    fn a_mean_of_numbers_is_undefined_where_either_is() {
+        let left = Numbers::of(Ok(1.0)).with("a", Unit::One, Range::Any, Ok(3.0));
+        let right =
+            Numbers::of(Ok(2.0)).with("a", Unit::One, Range::Any, Err(UndefinedReason::Empty));
+        let mean = left.clone().mean(&right);
+        assert_eq!(
+            (mean.value, mean.variant("a")),
+            (Ok(1.5), Err(UndefinedReason::Empty))
+        );
+        assert_eq!(
+            left.mean(&Numbers::of(Ok(2.0))).variant("a"),
+            Err(UndefinedReason::Empty)
+        );
+    }
+
+    #[test]
+    fn a_number_that_is_not_finite_is_an_overflow() {
+        let numbers = Numbers::of(Ok(f64::INFINITY)).with("a", Unit::One, Range::Any, Ok(f64::NAN));
+        assert_eq!(numbers.value, Err(UndefinedReason::Overflow));
+        assert_eq!(numbers.variant("a"), Err(UndefinedReason::Overflow));
+    }
+}

@@ -1,0 +1,45 @@
+//! How much of the work of pressing is not given back.
+
+mod branches;
+mod loops;
+mod press;
+
+pub(crate) use loops::Loops;
+
+use taceva_core::{Field, FieldSet, Needs, Unit};
+
+use crate::metric::{Formula, Metric, ScoreUnit};
+use crate::score::Parameter;
+use crate::score::better::Better;
+use crate::score::range::Range;
+
+pub(crate) static HYSTERESIS: Metric = Metric {
+    id: "hysteresis",
+    title: "hysteresis area",
+    better: Better::Lower,
+    unit: ScoreUnit::Fixed(Unit::NewtonMillimetre),
+    range: Range::Positive,
+    definition: "hysteresis/1",
+    reference: "TacEva, project page",
+    documentation: "The area between force over depth on the way in and on the way out, averaged over points; 1 N mm is 1 mJ. At \
+                    each point the branches are sorted by depth, forces at equal depths averaged, and both taken as straight \
+                    between their corners, over the depths that both reach; where they cross the area is split. \
+                    `signed_area` lets stretches in which the gel pushes harder on the way out count negative; `ratio` is the \
+                    area over the work of loading; `greatest_difference` the greatest distance of the branches as a share of \
+                    full scale, the greatest force of loading; `map` the area by place.",
+    needs: Needs {
+        fields: FieldSet::EMPTY
+            .with(Field::Truth)
+            .with(Field::Phase)
+            .with(Field::Point),
+        channels: &["Pz", "Fz"],
+        least_samples: 4,
+    },
+    facts: &[],
+    constants: no_constants,
+    formula: Formula::Hysteresis,
+};
+
+fn no_constants(_: Unit) -> Vec<Parameter> {
+    Vec::new()
+}

@@ -1,0 +1,159 @@
+//! What is kept of the presses at one point.
+
+use std::collections::BTreeMap;
+use std::sync::OnceLock;
+
+use taceva_core::Phase;
+
+use super::press::Press;
+use crate::evaluate::state::Record;
+use crate::exact::merge::{Merge, keyed};
+use crate::exact::ordered::Ordered;
+use crate::exact::{Dyadic, ExactSum};
+use crate::paired::is_valid;
+use crate::score::value::UndefinedReason;
+
+/// Forces by depth on both branches, where the point lies, and the comparison once somebody asked for it.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Branches {
+    load: Branch,
+    unload: Branch,
+    place: PlaceSums,
+    press: OnceLock<Result<Press, UndefinedReason>>,
+}
+
+/// The forces at each depth: their count and exact sum.
+type Branch = BTreeMap<Ordered, (u64, ExactSum)>;
+
+/// Count and exact sums of the x and y of samples, mm.
+#[derive(Clone, Debug, Default, PartialEq)]
+struct PlaceSums {
+    n: u64,
+    sums: [ExactSum; 2],
+}
+
+impl Branches {
+    /// Adds a sample: depth in mm and force in N, both usable numbers.
+    pub(super) fn add(&mut self, phase: Phase, depth_mm: f64, force_n: f64) {
+        self.press = OnceLock::new();
+        let branch = match phase {
+            Phase::Load => &mut self.load,
+            Phase::Unload => &mut self.unload,
+        };
+        let (count, forces) = branch.entry(Ordered::new(depth_mm)).or_default();
+        *count += 1;
+        forces.add(force_n);
+    }
+
+    /// Adds where a sample lies.
+    pub(super) fn add_place(&mut self, place_mm: [f64; 2]) {
+        self.place.n += 1;
+        for (sum, place) in self.place.sums.iter_mut().zip(place_mm) {
+            sum.add(place);
+        }
+    }
+
+    /// The comparison of the branches.
+    pub(super) fn press(&self) -> Result<Press, UndefinedReason> {
+        *self
+            .press
+            .get_or_init(|| Press::compare(&corners(&self.load), &corners(&self.unload)))
+    }
+
+    /// RN of the mean place; `None` if no sample says.
+    pub(super) fn place_mm(&self) -> Option<[f64; 2]> {
+        let PlaceSums { n, sums } = &self.place;
+        let mean = |axis: usize| sums[axis].to_dyadic().over(&Dyadic::from(*n));
+        (*n > 0).then(|| [mean(0), mean(1)])
+    }
+
+    /// As a state holds it.
+    pub(super) fn to_record(&self) -> Record {
+        let branch = |name: &str, branch: &Branch| {
+            let record = Record {
+                counts: branch.values().map(|(count, _)| *count).collect(),
+                sums: branch.values().map(|(_, forces)| forces.clone()).collect(),
+                values: branch.keys().map(|depth| depth.value()).collect(),
+                ..Record::default()
+            };
+            (!branch.is_empty()).then(|| (name.to_owned(), record))
+        };
+        let branches = [
+            branch(Phase::Load.name(), &self.load),
+            branch(Phase::Unload.name(), &self.unload),
+        ];
+        Record {
+            counts: vec![self.place.n],
+            sums: self.place.sums.to_vec(),
+            cells: keyed(branches.into_iter().flatten()),
+            ..Record::default()
+        }
+    }
+
+    /// Back from a state.
+    pub(super) fn read_record(record: &Record) -> Result<Branches, String> {
+        let (&[n], sums) = record.with_cells()?;
+        let mut branches = record.read_cells(Phase::from_name, read_branch)?;
+        let mut branch = |phase| branches.remove(&phase).unwrap_or_default();
+        Ok(Branches {
+            load: branch(Phase::Load),
+            unload: branch(Phase::Unload),
+            place: PlaceSums {
+                n,
+                sums: sums.clone(),
+            },
+            press: OnceLock::new(),
+        })
+    }
+}
+
+impl PartialEq for Branches {
+    fn eq(&self, other: &Branches) -> bool {
+        (&self.load, &self.unload, &self.place) == (&other.load, &other.unload, &other.place)
+    }
+}
+
+impl Merge for Branches {
+    fn merge(&mut self, other: &Branches) {
+        self.press = OnceLock::new();
+        for (ours, theirs) in [
+            (&mut self.load, &other.load),
+            (&mut self.unload, &other.unload),
+        ] {
+            for (depth, (n, forces)) in theirs {
+                let (count, sum) = ours.entry(*depth).or_default();
+                *count = count.saturating_add(*n);
+                sum.merge(forces);
+            }
+        }
+        self.place.n = self.place.n.saturating_add(other.place.n);
+        self.place.sums.merge(&other.place.sums);
+    }
+}
+
+/// Depth and RN of the mean force, by depth.
+fn corners(branch: &Branch) -> Vec<[f64; 2]> {
+    let mean = |count: &u64, forces: &ExactSum| forces.to_dyadic().over(&Dyadic::from(*count));
+    let corners = branch.iter();
+    corners
+        .map(|(depth, (count, forces))| [depth.value(), mean(count, forces)])
+        .collect()
+}
+
+fn read_branch(record: &Record) -> Result<Branch, String> {
+    let depths = &record.values;
+    let sound = depths.iter().all(|depth| is_valid(*depth))
+        && depths.windows(2).all(|pair| pair[0] < pair[1])
+        && !record.counts.contains(&0)
+        && record.cells.is_empty();
+    if !sound || record.counts.len() != depths.len() || record.sums.len() != depths.len() {
+        return Err("depths are not ascending, each with a count and a sum of forces".to_owned());
+    }
+    let forces = record
+        .counts
+        .iter()
+        .copied()
+        .zip(record.sums.iter().cloned());
+    let depths = depths.iter().map(|depth| Ordered::new(*depth));
+    Ok(keyed(depths.zip(forces)))
+}

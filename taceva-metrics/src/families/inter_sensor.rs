@@ -1,0 +1,175 @@
+//! How alike the surfaces of several units of one sensor are.
+
+mod gap;
+mod pairs;
+mod surfaces;
+
+use std::collections::BTreeMap;
+
+use taceva_core::{Batch, Field, FieldSet, Needs, Unit};
+
+use crate::evaluate::plan::MetricPlan;
+use crate::evaluate::state::Record;
+use crate::families::family::{Details, Family, Numbers, Output, each_row};
+use crate::metric::{Formula, Metric, ScoreUnit};
+use crate::score::better::Better;
+use crate::score::range::Range;
+use crate::score::value::Value;
+use crate::score::{Count, Parameter, Variant};
+use pairs::UnitGaps;
+use surfaces::SurfaceClouds;
+
+/// The channel with the height of the untouched surface, where the indenter first met it.
+const SURFACE_CHANNEL: &str = "surface_z";
+
+pub(crate) static INTER_SENSOR: Metric = Metric {
+    id: "inter_sensor",
+    title: "gap between the surfaces of units",
+    better: Better::Lower,
+    unit: ScoreUnit::Fixed(Unit::Millimetre),
+    range: Range::Positive,
+    definition: "inter_sensor/1",
+    reference: "TacEva, project page",
+    documentation: "How far apart the untouched surfaces of two units are once one is laid onto the other, averaged over all pairs \
+                    of units. A surface is the true Px, Py and the channel `surface_z` in mm where the indenter first met it, by \
+                    unit_id. Units are laid onto each other by points of the same point_id where three or more are shared, by 50 \
+                    steps of iterative closest point otherwise; the gap is the mean of both directions' mean distance to the \
+                    nearest point, over the points that lie in the hull of the other unit seen from above. `forward` is the \
+                    direction from the unit whose name comes first, `backward` the other; `matrix` has the gap of each pair.",
+    needs: Needs {
+        fields: FieldSet::EMPTY.with(Field::Truth).with(Field::UnitId),
+        channels: &["Px", "Py", SURFACE_CHANNEL],
+        least_samples: 2,
+    },
+    facts: &[],
+    constants: no_constants,
+    formula: Formula::InterSensor,
+};
+
+fn no_constants(_: Unit) -> Vec<Parameter> {
+    Vec::new()
+}
+
+/// The surfaces of units.
+pub(crate) struct InterSensor {
+    axes: [usize; 3],
+}
+
+impl InterSensor {
+    /// What `plan` needs of the kind; `None` if it needs nothing of it.
+    pub(crate) fn for_plan(plan: &MetricPlan) -> Option<InterSensor> {
+        let mut kept = plan.kept().iter();
+        kept.find(|metric| matches!(metric.formula, Formula::InterSensor))?;
+        let position = |name| plan.channels().position(name);
+        Some(InterSensor {
+            axes: [position("Px")?, position("Py")?, position(SURFACE_CHANNEL)?],
+        })
+    }
+}
+
+impl Family for InterSensor {
+    type Sums = SurfaceClouds;
+    const SCHEMA: &'static str = "taceva.clouds/1";
+
+    fn parameters(&self) -> BTreeMap<String, String> {
+        BTreeMap::new()
+    }
+
+    fn empty(&self) -> Vec<SurfaceClouds> {
+        vec![SurfaceClouds::default()]
+    }
+
+    fn deposit(&mut self, sums: &mut [SurfaceClouds], batch: &Batch, rows: Option<&[u32]>) {
+        let [sums] = sums else { return };
+        let points = batch.points();
+        if points.is_none() && batch.rows() > 0 {
+            sums.forget_names();
+        }
+        let Some(units) = batch.labels(Field::UnitId) else {
+            return;
+        };
+        each_row(batch, rows, |row| {
+            let [x, y, z] = self.axes.map(|axis| batch.truth(axis).get(row));
+            if let (Some(unit), Some(x), Some(y), Some(z)) = (units.get(row), x, y, z) {
+                let point = points.and_then(|points| points.get(row));
+                sums.add(unit, point, [x, y, z]);
+            }
+        });
+    }
+
+    fn to_record(&self, sums: &SurfaceClouds) -> Record {
+        sums.to_record()
+    }
+
+    fn read_record(&self, _position: usize, record: &Record) -> Result<SurfaceClouds, String> {
+        SurfaceClouds::read_record(record)
+    }
+
+    fn outputs(&self, metric: &Metric) -> Vec<Output> {
+        match metric.formula {
+            Formula::InterSensor => vec![Output {
+                label: SURFACE_CHANNEL.to_owned(),
+                unit: Unit::Millimetre,
+                of: ["Px", "Py", SURFACE_CHANNEL].map(str::to_owned).to_vec(),
+                parts: vec![0],
+            }],
+            _ => Vec::new(),
+        }
+    }
+
+    fn count(&self, _metric: &Metric, sums: &SurfaceClouds) -> u64 {
+        sums.n()
+    }
+
+    fn invalid(&self, sums: &SurfaceClouds) -> u64 {
+        sums.n_invalid()
+    }
+
+    fn numbers(&self, _metric: &Metric, _output: &Output, sums: &SurfaceClouds) -> Numbers {
+        let gaps = UnitGaps::of(sums);
+        let mean = |number| {
+            gaps.as_ref()
+                .map_err(|reason| *reason)
+                .and_then(|gaps| gaps.mean(number))
+        };
+        Numbers::of(mean(|gap| gap.both()))
+            .with(
+                "forward",
+                Unit::Millimetre,
+                Range::Positive,
+                mean(|gap| gap.forward),
+            )
+            .with(
+                "backward",
+                Unit::Millimetre,
+                Range::Positive,
+                mean(|gap| gap.backward),
+            )
+    }
+
+    fn details(&self, _metric: &Metric, _output: &Output, parts: &[&SurfaceClouds]) -> Details {
+        let gaps = match parts {
+            [sums] => UnitGaps::of(sums),
+            _ => return Details::default(),
+        };
+        let count = |name, value| Count { name, value };
+        match gaps {
+            Ok(gaps) => Details {
+                counts: vec![
+                    count("units", gaps.units()),
+                    count("pairs_valid", gaps.valid()),
+                    count("pairs_total", gaps.total()),
+                    count("pairs_by_point_id", gaps.by_point()),
+                    count("pairs_unsettled", gaps.unsettled()),
+                ],
+                variants: vec![Variant::plain(
+                    "matrix",
+                    Unit::Millimetre,
+                    Value::Matrix(gaps.matrix()),
+                )],
+                ..Details::default()
+            },
+            Err(_) => Details::default(),
+        }
+    }
+}

@@ -1,0 +1,131 @@
+//! How far apart two surfaces in one frame are.
+
+use crate::exact::{Dyadic, ExactSum};
+use crate::geometry::{Hull, NearestPoints, Point};
+use crate::score::value::UndefinedReason;
+
+/// The gap between two surfaces, mm, seen from either.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Gap {
+    /// RN of the mean distance from the points of the first surface to the nearest of the second.
+    pub(crate) forward: f64,
+    /// RN of the mean distance from the points of the second to the nearest of the first.
+    pub(crate) backward: f64,
+    /// Points that were measured, of both.
+    pub(crate) points: u64,
+}
+
+impl Gap {
+    /// Compares two surfaces where both are known: points count if they lie, seen from above, in the hull of the other
+    /// surface too; the nearest is sought among all of the other's points.
+    ///
+    /// A distance is RN(√RN(RN(RN(x²) + RN(y²)) + RN(z²))), and distances are summed exactly.
+    ///
+    /// # Errors
+    /// [`UndefinedReason::NoOverlap`] if no point of one of them lies in the hull of the other.
+    pub(crate) fn between(first: &[Point], second: &[Point]) -> Result<Gap, UndefinedReason> {
+        let (forward, there) = mean_distance(first, second)?;
+        let (backward, back) = mean_distance(second, first)?;
+        Ok(Gap {
+            forward,
+            backward,
+            points: there + back,
+        })
+    }
+
+    /// RN of the mean of both directions; lengths are far from the ends of binary64.
+    pub(crate) fn both(&self) -> f64 {
+        (self.forward + self.backward) * 0.5
+    }
+}
+
+/// RN of the mean distance from the points of `from` within the hull of `to` to the nearest of `to`, and how many they are.
+fn mean_distance(from: &[Point], to: &[Point]) -> Result<(f64, u64), UndefinedReason> {
+    let seen_from_above = |&[x, y, _]: &Point| [x, y];
+    let hull = Hull::of(to.iter().map(seen_from_above));
+    let common = from
+        .iter()
+        .filter(|point| hull.contains(seen_from_above(point)));
+    mean_of_nearest(common, to).ok_or(UndefinedReason::NoOverlap)
+}
+
+/// RN of the mean distance from each of `from` to the nearest of `to`, and how many of `from` there are.
+fn mean_of_nearest<'a>(from: impl Iterator<Item = &'a Point>, to: &[Point]) -> Option<(f64, u64)> {
+    let search = NearestPoints::new(to.iter().copied());
+    let (mut count, mut distances) = (0, ExactSum::default());
+    for point in from {
+        distances.add(search.nearest(*point)?.squared.sqrt());
+        count += 1;
+    }
+    (count > 0).then(|| (distances.to_dyadic().over(&Dyadic::from(count)), count))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The clouds of `inter_sensor` in the golden vectors, whose mean distances are 45-digit truth; `TACEVA_GOLDEN` names a
+    /// folder with others.
+    #[test]
+    fn distances_to_the_nearest_point_are_those_of_the_golden_vectors() {
+        let own = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/golden");
+        let folder = std::env::var("TACEVA_GOLDEN").unwrap_or_else(|_| own.to_owned());
+        let text = std::fs::read_to_string(format!("{folder}/structured.json")).expect("a file");
+        let golden: serde_json::Value = serde_json::from_str(&text).expect("JSON");
+        let section = &golden["inter_sensor"];
+        let seed = section["params"]["seed"].as_u64().expect("a seed");
+        let mut random = taceva_core::random::SplitMix64::new(seed);
+        let mut below = |bound: u64| {
+            f64::from(u32::try_from(random.next_u64() % bound).expect("a small bound"))
+        };
+        let mut clouds = [Vec::new(), Vec::new()];
+        for _ in 0..section["params"]["m"].as_u64().expect("a count") {
+            for cloud in &mut clouds {
+                cloud.push([below(1000), below(1000), below(100)]);
+            }
+        }
+        let [first, second] = &clouds;
+        let gap = Gap {
+            forward: mean_of_nearest(first.iter(), second).expect("points").0,
+            backward: mean_of_nearest(second.iter(), first).expect("points").0,
+            points: 0,
+        };
+        let close = |found: f64, key: &str| {
+            let decimals = section[key].as_str().expect("a decimal number");
+            let expected: f64 = decimals.parse().expect("a decimal number");
+            assert!(
+                (found - expected).abs() <= 1e-15 * expected,
+                "{key}: {found}"
+            );
+        };
+        close(gap.forward, "mean_nn_ab");
+        close(gap.backward, "mean_nn_ba");
+        close(gap.both(), "gap_symmetric");
+        for (sum, [from, to]) in [[first, second], [second, first]].into_iter().enumerate() {
+            let search = NearestPoints::new(to.iter().copied());
+            let nearest = from.iter().filter_map(|point| search.nearest(*point));
+            let squares: f64 = nearest.map(|nearest| nearest.squared).sum();
+            assert_eq!(Some(squares), section["nn_sq_sum"][sum].as_f64());
+        }
+    }
+
+    fn sheet(height: f64, shift: f64) -> Vec<Point> {
+        let places = (0..36).map(|at| (f64::from(at % 6) + shift, f64::from(at / 6)));
+        places.map(|(x, y)| [x, y, height]).collect()
+    }
+
+    #[test]
+    fn parallel_sheets_are_as_far_apart_as_their_heights() {
+        let gap = Gap::between(&sheet(0.0, 0.0), &sheet(0.5, 0.0)).expect("one above the other");
+        assert_eq!((gap.forward, gap.backward, gap.points), (0.5, 0.5, 72));
+    }
+
+    #[test]
+    fn what_only_one_surface_reaches_is_left_out() {
+        // Shifted by three columns: three of the six columns of each lie over the other.
+        let gap = Gap::between(&sheet(0.0, 0.0), &sheet(0.25, 3.0)).expect("half above the other");
+        assert_eq!((gap.forward, gap.backward, gap.points), (0.25, 0.25, 36));
+        let apart = Gap::between(&sheet(0.0, 0.0), &sheet(0.0, 9.0));
+        assert_eq!(apart, Err(UndefinedReason::NoOverlap));
+    }
+}

@@ -1,0 +1,150 @@
+//! Every pair of units, laid onto each other and compared.
+
+use super::gap::Gap;
+use super::surfaces::{Cloud, SurfaceClouds};
+use crate::exact::merge::keyed;
+use crate::exact::{Dyadic, ExactSum};
+use crate::families::family::Finished;
+use crate::geometry::{Motion, Point, Registration, register_clouds};
+use crate::score::matrix::Matrix;
+use crate::score::value::UndefinedReason;
+
+/// The gaps of all pairs of units.
+pub(super) struct UnitGaps {
+    units: Vec<String>,
+    pairs: Vec<UnitPair>,
+}
+
+/// Two units by their place in the order of names, and how far apart they are.
+struct UnitPair {
+    units: [usize; 2],
+    gap: Result<Gap, UndefinedReason>,
+    by_point: bool,
+    settled: bool,
+}
+
+impl UnitGaps {
+    /// Compares each unit with each that comes later in the order of names, which is moved onto it.
+    ///
+    /// # Errors
+    /// [`UndefinedReason`] if there is no sample or one unit only.
+    pub(super) fn of(sums: &SurfaceClouds) -> Result<UnitGaps, UndefinedReason> {
+        let clouds: Vec<(&str, Cloud)> = sums.by_unit().into_iter().collect();
+        match clouds.len() {
+            0 => return Err(UndefinedReason::Empty),
+            1 => return Err(UndefinedReason::OneUnit),
+            _ => {}
+        }
+        let mut pairs = Vec::new();
+        for (first, (_, onto)) in clouds.iter().enumerate() {
+            for (second, (_, from)) in clouds.iter().enumerate().skip(first + 1) {
+                pairs.push(compare([first, second], onto, from));
+            }
+        }
+        let units = clouds.iter().map(|(unit, _)| (*unit).to_owned()).collect();
+        Ok(UnitGaps { units, pairs })
+    }
+
+    /// RN of the mean of a number over the pairs that have a gap.
+    ///
+    /// # Errors
+    /// The reason of the first pair, if none has one.
+    pub(super) fn mean(&self, number: fn(&Gap) -> f64) -> Finished {
+        let gaps: Vec<&Gap> = self
+            .pairs
+            .iter()
+            .filter_map(|pair| pair.gap.as_ref().ok())
+            .collect();
+        let sum: ExactSum = gaps.iter().map(|gap| number(gap)).collect();
+        match self.pairs.iter().find_map(|pair| pair.gap.err()) {
+            Some(reason) if gaps.is_empty() => Err(reason),
+            _ => Ok(sum.to_dyadic().over(&Dyadic::from(self.valid()))),
+        }
+    }
+
+    /// The gap of each pair, by the names of both.
+    pub(super) fn matrix(&self) -> Matrix {
+        let mut values = vec![vec![None; self.units.len()]; self.units.len()];
+        for pair in &self.pairs {
+            let [first, second] = pair.units;
+            let gap = pair.gap.as_ref().ok().map(Gap::both);
+            (values[first][second], values[second][first]) = (gap, gap);
+        }
+        Matrix {
+            rows: self.units.clone(),
+            columns: self.units.clone(),
+            values,
+        }
+    }
+
+    /// Number of units.
+    pub(super) fn units(&self) -> u64 {
+        self.units.iter().fold(0, |count, _| count + 1)
+    }
+
+    /// Number of pairs.
+    pub(super) fn total(&self) -> u64 {
+        self.count(|_| true)
+    }
+
+    /// Number of pairs that have a gap.
+    pub(super) fn valid(&self) -> u64 {
+        self.count(|pair| pair.gap.is_ok())
+    }
+
+    /// Number of pairs that were laid onto each other by points of the same name.
+    pub(super) fn by_point(&self) -> u64 {
+        self.count(|pair| pair.by_point)
+    }
+
+    /// Number of pairs whose points still changed partners when the steps were over.
+    pub(super) fn unsettled(&self) -> u64 {
+        self.count(|pair| !pair.settled)
+    }
+
+    fn count(&self, counts: fn(&UnitPair) -> bool) -> u64 {
+        let pairs = self.pairs.iter().filter(|pair| counts(pair));
+        pairs.fold(0, |count, _| count + 1)
+    }
+}
+
+/// Moves `from` onto `onto` and measures the gap.
+fn compare(units: [usize; 2], onto: &Cloud, from: &Cloud) -> UnitPair {
+    let [shared_from, shared_onto] = shared_points(from, onto);
+    let by_point = shared_from.len() >= 3;
+    let registration = if by_point {
+        Motion::between(&shared_from, &shared_onto).map(|motion| Registration {
+            motion,
+            settled: true,
+        })
+    } else {
+        register_clouds(&from.points, &onto.points)
+    };
+    let gap = match &registration {
+        Some(registration) => {
+            let moved = from
+                .points
+                .iter()
+                .map(|&point| registration.motion.apply(point));
+            Gap::between(&onto.points, &moved.collect::<Vec<_>>())
+        }
+        None => Err(UndefinedReason::OpenTurn),
+    };
+    UnitPair {
+        units,
+        gap,
+        by_point,
+        settled: registration.is_some_and(|registration| registration.settled),
+    }
+}
+
+/// The points of both clouds at the locations they share, in one order.
+fn shared_points(from: &Cloud, onto: &Cloud) -> [Vec<Point>; 2] {
+    let locations = onto.locations.iter().copied();
+    let onto = keyed(locations.zip(onto.points.iter().copied()));
+    let located = from.locations.iter().zip(&from.points);
+    let (from, onto) = located
+        .filter_map(|(location, &point)| Some((point, *onto.get(location)?)))
+        .unzip();
+    [from, onto]
+}

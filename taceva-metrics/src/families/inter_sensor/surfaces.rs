@@ -1,0 +1,169 @@
+//! What is kept of the surfaces of units: where each was first met.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use crate::evaluate::state::Record;
+use crate::exact::level::millionths;
+use crate::exact::merge::Merge;
+use crate::exact::ordered::Ordered;
+use crate::exact::{Dyadic, ExactSum};
+use crate::families::cells::{Cells, add_times};
+use crate::geometry::Point;
+
+/// Places by contact location and unit.
+///
+/// They are sets: a surface that is met at one place in several samples is met there once.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct SurfaceClouds {
+    n: u64,
+    n_invalid: u64,
+    cells: Cells<Places>,
+}
+
+/// The places of one location, by unit.
+#[derive(Clone, Debug, Default, PartialEq)]
+struct Places {
+    units: BTreeMap<String, BTreeSet<[Ordered; 3]>>,
+}
+
+/// The surface of one unit: points in a defined order, those of a location under its number.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct Cloud {
+    /// The points.
+    pub(super) points: Vec<Point>,
+    /// Which location each point is of; equal numbers in two clouds are one location. Empty where nobody says.
+    pub(super) locations: Vec<usize>,
+}
+
+impl SurfaceClouds {
+    /// Adds where the surface of `unit` was met, mm; a place that is no length is counted and left out.
+    pub(super) fn add(&mut self, unit: &str, point: Option<&str>, place_mm: Point) {
+        if !place_mm.iter().all(|length| millionths(*length).is_some()) {
+            self.n_invalid += 1;
+            return;
+        }
+        self.n += 1;
+        let units = &mut self.cells.at(point, 0).units;
+        if !units.contains_key(unit) {
+            units.insert(unit.to_owned(), BTreeSet::new());
+        }
+        if let Some(places) = units.get_mut(unit) {
+            places.insert(place_mm.map(Ordered::new));
+        }
+    }
+
+    /// Notes that some sample names no location.
+    pub(super) fn forget_names(&mut self) {
+        self.cells.forget_names();
+    }
+
+    /// Number of samples.
+    pub(super) fn n(&self) -> u64 {
+        self.n
+    }
+
+    /// Number of samples left out.
+    pub(super) fn n_invalid(&self) -> u64 {
+        self.n_invalid
+    }
+
+    /// The cloud of each unit. Where samples name locations, a location's point is RN of the mean of its places along each
+    /// axis; otherwise every place is a point.
+    pub(super) fn by_unit(&self) -> BTreeMap<&str, Cloud> {
+        let mut clouds: BTreeMap<&str, Cloud> = BTreeMap::new();
+        for (location, (_, cell)) in self.cells.iter().enumerate() {
+            for (unit, places) in &cell.units {
+                let cloud = clouds.entry(unit).or_default();
+                if self.cells.are_named() {
+                    cloud.points.push(mean_place(places));
+                    cloud.locations.push(location);
+                } else {
+                    cloud
+                        .points
+                        .extend(places.iter().map(|place| place.map(Ordered::value)));
+                }
+            }
+        }
+        clouds
+    }
+
+    /// As a state holds it: by location, by unit, x y z of each place.
+    pub(super) fn to_record(&self) -> Record {
+        let cell = |cell: &Places| {
+            let units = cell.units.iter().map(|(unit, places)| {
+                let record = Record {
+                    values: places.iter().flatten().map(|value| value.value()).collect(),
+                    ..Record::default()
+                };
+                (unit.clone(), record)
+            });
+            Record {
+                cells: units.collect(),
+                ..Record::default()
+            }
+        };
+        Record {
+            counts: vec![self.n, self.n_invalid, u64::from(self.cells.are_named())],
+            cells: self.cells.to_records(cell),
+            ..Record::default()
+        }
+    }
+
+    /// Back from a state.
+    pub(super) fn read_record(record: &Record) -> Result<SurfaceClouds, String> {
+        let (&[n, n_invalid, named], []) = record.with_cells()?;
+        let places = |record: &Record| {
+            let lengths = record
+                .values
+                .iter()
+                .all(|value| millionths(*value).is_some());
+            let whole = lengths && record.values.len().is_multiple_of(3) && record.cells.is_empty();
+            let triples = record.values.chunks_exact(3);
+            let mut places = BTreeSet::new();
+            for place in triples {
+                places.insert([place[0], place[1], place[2]].map(Ordered::new));
+            }
+            let found = whole.then_some(places).filter(|places| !places.is_empty());
+            found.ok_or_else(|| "no places of three lengths each".to_owned())
+        };
+        let cell = |record: &Record| {
+            let ([], []) = record.with_cells()?;
+            let units = record.read_cells(|unit| Some(unit.to_owned()), places)?;
+            Ok(Places { units })
+        };
+        Ok(SurfaceClouds {
+            n,
+            n_invalid,
+            cells: Cells::from_record(record, named == 1, cell)?,
+        })
+    }
+}
+
+impl Merge for SurfaceClouds {
+    fn merge(&mut self, other: &SurfaceClouds) {
+        self.merge_times(other, 1);
+    }
+
+    fn merge_times(&mut self, other: &SurfaceClouds, times: u32) {
+        add_times(&mut self.n, other.n, times);
+        add_times(&mut self.n_invalid, other.n_invalid, times);
+        self.cells.merge_times(&other.cells, times);
+    }
+}
+
+impl Merge for Places {
+    fn merge(&mut self, other: &Places) {
+        for (unit, places) in &other.units {
+            self.units.entry(unit.clone()).or_default().extend(places);
+        }
+    }
+}
+
+/// RN of the mean along each axis.
+fn mean_place(places: &BTreeSet<[Ordered; 3]>) -> Point {
+    let count = places.iter().fold(0, |count, _| count + 1);
+    std::array::from_fn(|axis| {
+        let sum: ExactSum = places.iter().map(|place| place[axis].value()).collect();
+        sum.to_dyadic().over(&Dyadic::from(count))
+    })
+}

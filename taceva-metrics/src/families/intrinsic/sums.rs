@@ -1,0 +1,188 @@
+//! What is kept of the frames of a recording and of the places that were touched.
+
+use std::collections::BTreeSet;
+
+use crate::evaluate::state::Record;
+use crate::exact::Dyadic;
+use crate::exact::merge::{Merge, keyed};
+use crate::exact::ordered::Ordered;
+use crate::families::family::Finished;
+use crate::geometry::Hull;
+use crate::paired::is_valid;
+use crate::score::value::UndefinedReason;
+use crate::stats::clusters::fnv1a64;
+
+/// Every time at which there was a frame, and the hull of the places of contact.
+///
+/// It is a set: a frame that stands in several samples is one. Eight bytes of each digest are kept, enough to tell
+/// neighbours apart.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct IntrinsicSums {
+    n_invalid: u64,
+    /// Samples with a time.
+    timed: u64,
+    /// Samples in contact that say where.
+    contacts: u64,
+    hull: Hull,
+    frames: BTreeSet<(Ordered, Option<u64>)>,
+}
+
+impl IntrinsicSums {
+    /// Adds a frame: its time in s, and the digest of its bytes.
+    pub(super) fn add_time(&mut self, time_s: f64, digest: Option<&str>) {
+        if is_valid(time_s) {
+            let digest = digest.map(|digest| fnv1a64(digest.as_bytes()));
+            self.frames.insert((Ordered::new(time_s), digest));
+            self.timed += 1;
+        } else {
+            self.n_invalid += 1;
+        }
+    }
+
+    /// Adds places of contact, mm.
+    pub(super) fn add_contacts(&mut self, places_mm: &[[f64; 2]]) {
+        let valid = |place: &&[f64; 2]| place.iter().all(|value| is_valid(*value));
+        for place in places_mm {
+            if valid(&place) {
+                self.contacts += 1;
+            } else {
+                self.n_invalid += 1;
+            }
+        }
+        self.hull.extend(places_mm.iter().filter(valid).copied());
+    }
+
+    /// The times in s, ascending, each once.
+    pub(super) fn times_s(&self) -> Vec<f64> {
+        let mut times: Vec<Ordered> = self.frames.iter().map(|(time, _)| *time).collect();
+        times.dedup();
+        times.into_iter().map(Ordered::value).collect()
+    }
+
+    /// Number of frames.
+    pub(super) fn frames(&self) -> u64 {
+        self.frames.iter().fold(0, |count, _| count + 1)
+    }
+
+    /// Number of samples with a time.
+    pub(super) fn timed(&self) -> u64 {
+        self.timed
+    }
+
+    /// Number of samples in contact that say where.
+    pub(super) fn contacts(&self) -> u64 {
+        self.contacts
+    }
+
+    /// Values that are no usable numbers.
+    pub(super) fn n_invalid(&self) -> u64 {
+        self.n_invalid
+    }
+
+    /// RN of the share, among the frames with a digest that follow one with a digest, of those whose digest is the same.
+    pub(super) fn duplicated(&self) -> Finished {
+        if self.frames.is_empty() {
+            return Err(UndefinedReason::NoTimes);
+        }
+        let (mut followers, mut duplicates) = (0_u64, 0_u64);
+        let frames = self.frames.iter();
+        for ((_, before), (_, after)) in frames.clone().zip(frames.skip(1)) {
+            if before.is_some() && after.is_some() {
+                followers += 1;
+                duplicates += u64::from(before == after);
+            }
+        }
+        if followers == 0 {
+            return Err(UndefinedReason::NoDigests);
+        }
+        Ok(Dyadic::from(duplicates).over(&Dyadic::from(followers)))
+    }
+
+    /// RN of the area of the hull, mm².
+    pub(super) fn field_of_view(&self) -> Finished {
+        if self.hull.is_empty() {
+            return Err(UndefinedReason::NoContact);
+        }
+        Ok(self.hull.area())
+    }
+
+    /// The width (axis 0) or height (axis 1) of the hull, mm.
+    pub(super) fn extent(&self, axis: usize) -> Finished {
+        let extent = self.hull.extent(axis).ok_or(UndefinedReason::NoContact)?;
+        Ok(extent[1] - extent[0])
+    }
+
+    /// As a state holds it: the corners of the hull; frames as two records, times and digests of those that have one.
+    pub(super) fn to_record(&self) -> Record {
+        let part = |of: &dyn Fn(&Option<u64>) -> bool| {
+            let frames = self.frames.iter().filter(|(_, digest)| of(digest));
+            let (values, digests): (Vec<f64>, Vec<Option<u64>>) =
+                frames.map(|(time, digest)| (time.value(), *digest)).unzip();
+            Record {
+                counts: digests.into_iter().flatten().collect(),
+                values,
+                ..Record::default()
+            }
+        };
+        let parts = [
+            (PLAIN, part(&|digest| digest.is_none())),
+            (DIGESTED, part(&|digest| digest.is_some())),
+        ];
+        let parts = parts
+            .into_iter()
+            .filter(|(_, part)| !part.values.is_empty());
+        Record {
+            counts: vec![self.n_invalid, self.timed, self.contacts],
+            values: self.hull.corners().concat(),
+            cells: keyed(parts.map(|(name, part)| (name.to_owned(), part))),
+            ..Record::default()
+        }
+    }
+
+    /// Back from a state.
+    pub(super) fn read_record(record: &Record) -> Result<IntrinsicSums, String> {
+        let (&[n_invalid, timed, contacts], []) = record.with_cells()?;
+        let hull = Hull::from_values(&record.values)?;
+        let known = |name: &str| [PLAIN, DIGESTED].into_iter().find(|known| *known == name);
+        let parts = record.read_cells(known, |record| Ok(record.clone()))?;
+        let mut frames = BTreeSet::new();
+        for (name, part) in parts {
+            let digests = if name == PLAIN { 0 } else { part.values.len() };
+            let whole = part.counts.len() == digests
+                && part.sums.is_empty()
+                && part.cells.is_empty()
+                && part.values.iter().all(|time| is_valid(*time));
+            if !whole {
+                return Err(format!("frames `{name}` are no times with their digests"));
+            }
+            let digests = part
+                .counts
+                .into_iter()
+                .map(Some)
+                .chain(std::iter::repeat(None));
+            frames.extend(part.values.into_iter().map(Ordered::new).zip(digests));
+        }
+        Ok(IntrinsicSums {
+            n_invalid,
+            timed,
+            contacts,
+            hull,
+            frames,
+        })
+    }
+}
+
+/// Frames without a digest, in states.
+const PLAIN: &str = "plain";
+/// Frames with one.
+const DIGESTED: &str = "digested";
+
+impl Merge for IntrinsicSums {
+    fn merge(&mut self, other: &IntrinsicSums) {
+        self.n_invalid = self.n_invalid.saturating_add(other.n_invalid);
+        self.timed = self.timed.saturating_add(other.timed);
+        self.contacts = self.contacts.saturating_add(other.contacts);
+        self.hull.merge(&other.hull);
+        self.frames.extend(&other.frames);
+    }
+}

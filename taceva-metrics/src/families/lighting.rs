@@ -1,0 +1,132 @@
+//! Robustness to lighting: whether errors follow the light that reaches the camera.
+
+mod change;
+mod delta;
+mod robustness;
+mod sums;
+
+pub(crate) use robustness::R_LIGHT;
+
+use std::collections::BTreeMap;
+
+use taceva_core::{Batch, Field, Unit};
+
+use crate::evaluate::plan::MetricPlan;
+use crate::evaluate::state::Record;
+use crate::exact::merge::Merge;
+use crate::families::accuracy::outputs;
+use crate::families::family::{Details, Family, Intervals, Numbers, Output, each_row};
+use crate::metric::{Formula, Metric};
+use crate::paired::Paired;
+use crate::score::Variant;
+use crate::score::value::Value;
+use sums::LightingSums;
+
+/// Sums of the errors of each channel and of the brightness, by scene.
+pub(crate) struct Lighting {
+    reference: String,
+    channels: usize,
+    outputs: Vec<Output>,
+}
+
+impl Lighting {
+    /// What the kept metrics of `plan` need; `None` if they need nothing of the kind.
+    pub(crate) fn for_plan(plan: &MetricPlan) -> Option<Lighting> {
+        let mut kept = plan.kept().iter();
+        kept.find(|metric| matches!(metric.formula, Formula::Lighting))?;
+        Some(Lighting {
+            reference: plan.facts().reference_scene.clone(),
+            channels: plan.channels().len(),
+            outputs: outputs(plan.channels()),
+        })
+    }
+}
+
+impl Family for Lighting {
+    type Sums = LightingSums;
+    const SCHEMA: &'static str = "taceva.lighting/1";
+
+    fn parameters(&self) -> BTreeMap<String, String> {
+        BTreeMap::new()
+    }
+
+    fn empty(&self) -> Vec<LightingSums> {
+        vec![LightingSums::default(); self.channels]
+    }
+
+    fn deposit(&mut self, sums: &mut [LightingSums], batch: &Batch, rows: Option<&[u32]>) {
+        let (Some(scenes), Some(intensities)) =
+            (batch.labels(Field::Scene), batch.numbers(Field::Intensity))
+        else {
+            return;
+        };
+        each_row(batch, rows, |row| {
+            let (Some(scene), Some(intensity)) = (scenes.get(row), intensities.get(row)) else {
+                return;
+            };
+            for (channel, sums) in sums.iter_mut().enumerate() {
+                if let Some(pair) = Paired::at(batch, channel, row) {
+                    sums.add(scene, pair, intensity);
+                }
+            }
+        });
+    }
+
+    fn to_record(&self, sums: &LightingSums) -> Record {
+        sums.to_record()
+    }
+
+    fn read_record(&self, _position: usize, record: &Record) -> Result<LightingSums, String> {
+        LightingSums::read_record(record)
+    }
+
+    fn outputs(&self, metric: &Metric) -> Vec<Output> {
+        match metric.formula {
+            Formula::Lighting => self.outputs.clone(),
+            _ => Vec::new(),
+        }
+    }
+
+    fn count(&self, _metric: &Metric, sums: &LightingSums) -> u64 {
+        sums.n()
+    }
+
+    fn invalid(&self, sums: &LightingSums) -> u64 {
+        sums.n_invalid
+    }
+
+    fn numbers(&self, _metric: &Metric, _output: &Output, sums: &LightingSums) -> Numbers {
+        robustness::robustness(sums, &self.reference)
+    }
+
+    fn details(&self, _metric: &Metric, _output: &Output, parts: &[&LightingSums]) -> Details {
+        match parts {
+            [sums] => robustness::details(sums, &self.reference),
+            [x, y] => Details {
+                variants: vec![Variant::plain(
+                    "of_mean_error",
+                    Unit::One,
+                    Value::from(robustness::of_plane([x, y], &self.reference)),
+                )],
+                ..Details::default()
+            },
+            _ => Details::default(),
+        }
+    }
+
+    /// Of one channel by the delta method; the mean of two is jackknifed itself, as their errors go together.
+    fn intervals(
+        &self,
+        _metric: &Metric,
+        output: &Output,
+        clusters: &[&Vec<LightingSums>],
+    ) -> Option<Intervals> {
+        let &[part] = &output.parts[..] else {
+            return None;
+        };
+        let clusters: Vec<&LightingSums> = clusters.iter().map(|sums| &sums[part]).collect();
+        let mut total = LightingSums::default();
+        clusters.iter().for_each(|cell| total.merge(cell));
+        Some(delta::intervals(&total, &clusters, &self.reference))
+    }
+}

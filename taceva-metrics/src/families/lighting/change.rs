@@ -1,0 +1,160 @@
+//! One scene beside the reference scene.
+
+use super::sums::SceneSums;
+use crate::exact::Dyadic;
+use crate::families::family::Finished;
+use crate::score::value::UndefinedReason;
+
+/// Brightness and error of a scene (c) and of the reference scene (o), each a binary64 number that is not negative.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Change {
+    pub(super) intensity: [f64; 2],
+    pub(super) error: [f64; 2],
+}
+
+/// Relative change of brightness below which a scene teaches little.
+const LOW_STIMULUS: f64 = 0.05;
+
+impl Change {
+    pub(super) fn between(scene: &SceneSums, reference: &SceneSums) -> Change {
+        Change {
+            intensity: [scene.mean_intensity(), reference.mean_intensity()],
+            error: [scene.mean_error(), reference.mean_error()],
+        }
+    }
+
+    /// R = RN(a / (a + b)), a = |Ic/Io − 1|, b = |MAEc/MAEo − 1|, one rational of four binary64 numbers.
+    pub(super) fn robustness(self) -> Finished {
+        self.share(|difference| {
+            if difference.is_negative() {
+                -difference
+            } else {
+                difference
+            }
+        })
+    }
+
+    /// The same with b = max(0, MAEc/MAEo − 1): a smaller error is no lack of robustness.
+    pub(super) fn robustness_plus(self) -> Finished {
+        self.share(|difference| {
+            if difference.is_negative() {
+                Dyadic::from(0)
+            } else {
+                difference
+            }
+        })
+    }
+
+    /// a / (a + b) times Io MAEo over itself, so that all stays exact: |Ic − Io| MAEo / (|Ic − Io| MAEo + b MAEo Io).
+    fn share(self, counted: impl Fn(Dyadic) -> Dyadic) -> Finished {
+        let [scene_intensity, intensity] = self.intensity.map(Dyadic::from_f64);
+        let [scene_error, error] = self.error.map(Dyadic::from_f64);
+        if intensity.is_zero() {
+            return Err(UndefinedReason::ZeroIntensity);
+        }
+        if error.is_zero() {
+            return Err(UndefinedReason::ZeroBaseline);
+        }
+        let brighter = &scene_intensity - &intensity;
+        let brighter = if brighter.is_negative() {
+            -brighter
+        } else {
+            brighter
+        };
+        let light = &brighter * &error;
+        let harm = &counted(&scene_error - &error) * &intensity;
+        let both = &light + &harm;
+        if both.is_zero() {
+            return Err(UndefinedReason::NoChange);
+        }
+        Ok(light.over(&both))
+    }
+
+    /// Ic / Io and MAEc / MAEo, where there is one.
+    pub(super) fn ratios(self) -> [Option<f64>; 2] {
+        let ratio = |[scene, reference]: [f64; 2]| (reference > 0.0).then_some(scene / reference);
+        [ratio(self.intensity), ratio(self.error)]
+            .map(|ratio| ratio.filter(|ratio| ratio.is_finite()))
+    }
+
+    /// Whether the light changed by less than 5 %.
+    pub(super) fn is_low_stimulus(self) -> bool {
+        let [ratio, _] = self.ratios();
+        ratio.is_some_and(|ratio| (ratio - 1.0).abs() < LOW_STIMULUS)
+    }
+
+    /// Whether the error is smaller than in the reference scene.
+    pub(super) fn is_improved(self) -> bool {
+        self.error[0] < self.error[1]
+    }
+
+    /// |∂R / ∂ ln MAEc| = a ρ / (a + b)², ρ = MAEc / MAEo; with respect to ln MAEo it is the same with the other sign.
+    ///
+    /// For `plus` an error below the reference has the slope that it has without: R stays at 1 there, but how far below the reference the error
+    /// truly is, is not known either, and a slope of 0 would call a value certain that lies next to the bend. `None` where R is not defined.
+    pub(super) fn slope(self, plus: bool) -> Option<f64> {
+        let [Some(light), Some(harm)] = self.ratios() else {
+            return None;
+        };
+        let (a, b) = ((light - 1.0).abs(), harm - 1.0);
+        let total = a + b.abs();
+        let slope = a * harm / (total * total);
+        let signed = if b < 0.0 && !plus { slope } else { -slope };
+        signed.is_finite().then_some(signed)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn change(intensity: [f64; 2], error: [f64; 2]) -> Change {
+        Change { intensity, error }
+    }
+
+    #[test]
+    fn each_way_to_have_no_value_has_its_reason() {
+        let reason = |intensity, error| change(intensity, error).robustness().unwrap_err();
+        assert_eq!(
+            reason([1.0, 0.0], [1.0, 0.0]),
+            UndefinedReason::ZeroIntensity
+        );
+        assert_eq!(
+            reason([1.0, 2.0], [1.0, 0.0]),
+            UndefinedReason::ZeroBaseline
+        );
+        assert_eq!(reason([2.0, 2.0], [0.5, 0.5]), UndefinedReason::NoChange);
+    }
+
+    #[test]
+    fn a_scene_that_improves_the_error_scores_like_one_that_worsens_it_unless_asked() {
+        let improved = change([150.0, 100.0], [0.25, 0.5]);
+        assert_eq!(
+            (improved.robustness(), improved.robustness_plus()),
+            (Ok(0.5), Ok(1.0))
+        );
+        assert!(improved.is_improved() && !improved.is_low_stimulus());
+        assert!(change([103.0, 100.0], [1.0, 1.0]).is_low_stimulus());
+    }
+
+    #[test]
+    fn the_slope_is_that_of_the_curve() {
+        let at = |error: f64| change([3.0, 1.0], [error, 1.0]);
+        for error in [0.5_f64, 1.5, 4.0] {
+            let step = 1e-6;
+            let value = |error| at(error).robustness().expect("a value");
+            let difference = value(error * (1.0 + step)) - value(error * (1.0 - step));
+            let slope = at(error).slope(false).expect("a slope");
+            // A central difference is good to the square of its step, and to rounding over the step.
+            assert!(
+                (slope - difference / (2.0 * step)).abs() < 1e-8,
+                "{error}: {slope}"
+            );
+        }
+        // Without more error R is 1, and no more certain than beyond the bend.
+        assert_eq!(
+            at(0.5).slope(true),
+            at(0.5).slope(false).map(|slope| -slope)
+        );
+    }
+}

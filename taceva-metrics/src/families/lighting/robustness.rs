@@ -1,0 +1,165 @@
+//! How little errors follow the light.
+
+use taceva_core::{Field, FieldSet, Needs, Unit};
+
+use super::change::Change;
+use super::sums::LightingSums;
+use crate::evaluate::facts::Fact;
+use crate::exact::{Dyadic, ExactSum};
+use crate::families::family::{Details, Finished, Numbers};
+use crate::metric::{Formula, Metric, ScoreUnit};
+use crate::score::better::Better;
+use crate::score::flag::Flag;
+use crate::score::matrix::Matrix;
+use crate::score::range::Range;
+use crate::score::value::{UndefinedReason, Value};
+use crate::score::{Count, Variant};
+
+pub(crate) static R_LIGHT: Metric = Metric {
+    id: "r_light",
+    title: "robustness to lighting",
+    better: Better::Higher,
+    unit: ScoreUnit::One,
+    range: Range::Ratio,
+    definition: "r_light/1",
+    reference: "TacEva, equation (8)",
+    documentation: "How little the error changes when the light does: the change of brightness over the changes of brightness \
+                    and error together, each relative to the reference scene; the mean over the scenes that determine it. An \
+                    error that shrinks counts like one that grows: plus counts growth only. scenes holds the ratios of each \
+                    scene; a scene whose light hardly changed says little.",
+    needs: Needs {
+        fields: FieldSet::EMPTY
+            .with(Field::Truth)
+            .with(Field::Prediction)
+            .with(Field::Scene)
+            .with(Field::Intensity),
+        channels: &[],
+        least_samples: 1,
+    },
+    facts: &[Fact::NotOpaque],
+    constants: crate::families::accuracy::no_constants,
+    formula: Formula::Lighting,
+};
+
+/// Each scene but the reference, beside it.
+pub(super) fn changes<'a>(
+    sums: &'a LightingSums,
+    reference: &str,
+) -> Result<Vec<(&'a str, Change)>, UndefinedReason> {
+    if sums.scenes.is_empty() {
+        return Err(UndefinedReason::Empty);
+    }
+    let baseline = sums.scenes.get(reference);
+    let baseline = baseline.ok_or(UndefinedReason::NoReferenceScene)?;
+    let others = sums.scenes.iter().filter(|(scene, _)| *scene != reference);
+    let changes = others.map(|(scene, sums)| (scene.as_str(), Change::between(sums, baseline)));
+    let changes: Vec<_> = changes.collect();
+    if changes.is_empty() {
+        return Err(UndefinedReason::OneScene);
+    }
+    Ok(changes)
+}
+
+/// The name of a scene's own value among the variants.
+pub(super) fn variant_of(scene: &str) -> String {
+    format!("scene:{scene}")
+}
+
+/// R = RN(Σ R_c / C) over the scenes that determine R_c.
+pub(super) fn robustness(sums: &LightingSums, reference: &str) -> Numbers {
+    let changes = match changes(sums, reference) {
+        Ok(changes) => changes,
+        Err(reason) => return Numbers::of(Err(reason)),
+    };
+    let mean =
+        |of: fn(Change) -> Finished| mean_of_defined(changes.iter().map(|(_, change)| of(*change)));
+    let all = Numbers::of(mean(Change::robustness)).with(
+        "plus",
+        Unit::One,
+        Range::RatioWithEnds,
+        mean(Change::robustness_plus),
+    );
+    changes.iter().fold(all, |numbers, (scene, change)| {
+        numbers.with(
+            variant_of(scene),
+            Unit::One,
+            Range::Ratio,
+            change.robustness(),
+        )
+    })
+}
+
+/// RN of the exact mean of those that are defined; the first reason if none is.
+pub(super) fn mean_of_defined(values: impl Iterator<Item = Finished>) -> Finished {
+    let mut reason = None;
+    let (mut sum, mut defined) = (ExactSum::default(), 0_u64);
+    for value in values {
+        match value {
+            Ok(value) => {
+                sum.add(value);
+                defined += 1;
+            }
+            Err(undefined) => reason = reason.or(Some(undefined)),
+        }
+    }
+    if defined == 0 {
+        return Err(reason.unwrap_or(UndefinedReason::Empty));
+    }
+    Ok(sum.to_dyadic().over(&Dyadic::from(defined)))
+}
+
+/// The ratios of each scene, how many scenes count, and what to beware of.
+pub(super) fn details(sums: &LightingSums, reference: &str) -> Details {
+    let Ok(changes) = changes(sums, reference) else {
+        return Details::default();
+    };
+    let row = |change: &Change| {
+        let [intensity, error] = change.ratios();
+        let [own, plus] = [change.robustness(), change.robustness_plus()].map(Finished::ok);
+        vec![intensity, error, own, plus]
+    };
+    let columns = ["intensity_ratio", "error_ratio", "r_light", "plus"];
+    let scenes = Value::Matrix(Matrix {
+        rows: changes
+            .iter()
+            .map(|(scene, _)| (*scene).to_owned())
+            .collect(),
+        columns: columns.map(str::to_owned).to_vec(),
+        values: changes.iter().map(|(_, change)| row(change)).collect(),
+    });
+    let defined = changes
+        .iter()
+        .filter(|(_, change)| change.robustness().is_ok());
+    let count = |name, value| Count { name, value };
+    let flag = |flag: Flag, raised: fn(Change) -> bool| {
+        let raised = changes.iter().any(|(_, change)| raised(*change));
+        raised.then_some(flag)
+    };
+    let flags = [
+        flag(Flag::LowStimulus, Change::is_low_stimulus),
+        flag(Flag::ImprovedError, Change::is_improved),
+    ];
+    Details {
+        variants: vec![Variant::plain("scenes", Unit::One, scenes)],
+        counts: vec![
+            count("scenes", changes.iter().fold(0, |scenes, _| scenes + 1)),
+            count("scenes_defined", defined.fold(0, |defined, _| defined + 1)),
+        ],
+        flags: flags.into_iter().flatten().collect(),
+        ..Details::default()
+    }
+}
+
+/// The value if the error is that of the plane: the mean of both axes' mean absolute errors, scene by scene.
+pub(super) fn of_plane(parts: [&LightingSums; 2], reference: &str) -> Finished {
+    let [x, y] = [changes(parts[0], reference)?, changes(parts[1], reference)?];
+    let along_y = |scene: &str| {
+        let found = y.iter().find(|(other, _)| *other == scene);
+        found.map(|(_, change)| change.error)
+    };
+    mean_of_defined(x.iter().filter_map(|(scene, change)| {
+        let [along_x, along_y] = [change.error, along_y(scene)?];
+        let error = [0, 1].map(|at| crate::families::family::midpoint(along_x[at], along_y[at]));
+        Some(Change { error, ..*change }.robustness())
+    }))
+}

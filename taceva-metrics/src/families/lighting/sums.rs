@@ -1,0 +1,117 @@
+//! What is kept of the errors under each light.
+
+use std::collections::BTreeMap;
+
+use crate::evaluate::state::Record;
+use crate::exact::merge::{Merge, keyed, merge_cells};
+use crate::exact::{Dyadic, ExactSum};
+use crate::paired::{Paired, is_valid};
+
+/// Errors of one channel and brightness of the pictures, by scene.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct LightingSums {
+    pub(super) n_invalid: u64,
+    /// Only scenes that have samples.
+    pub(super) scenes: BTreeMap<String, SceneSums>,
+}
+
+/// Count and exact sums of one scene.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct SceneSums {
+    pub(super) n: u64,
+    /// Σ |d|.
+    pub(super) error: ExactSum,
+    /// Σ brightness.
+    pub(super) intensity: ExactSum,
+}
+
+impl SceneSums {
+    /// RN of the exact mean absolute error.
+    pub(super) fn mean_error(&self) -> f64 {
+        self.error.to_dyadic().over(&Dyadic::from(self.n))
+    }
+
+    /// RN of the exact mean brightness.
+    pub(super) fn mean_intensity(&self) -> f64 {
+        self.intensity.to_dyadic().over(&Dyadic::from(self.n))
+    }
+}
+
+impl LightingSums {
+    /// Adds a sample of `scene`.
+    pub(super) fn add(&mut self, scene: &str, pair: Paired<f64>, intensity: f64) {
+        if !pair.is_valid() || !is_valid(intensity) || intensity < 0.0 {
+            self.n_invalid += 1;
+            return;
+        }
+        if !self.scenes.contains_key(scene) {
+            self.scenes.insert(scene.to_owned(), SceneSums::default());
+        }
+        let sums = self
+            .scenes
+            .get_mut(scene)
+            .expect("it was there or was inserted");
+        sums.n += 1;
+        sums.error.add(pair.residual().abs());
+        sums.intensity.add(intensity);
+    }
+
+    /// Samples of all scenes.
+    pub(super) fn n(&self) -> u64 {
+        let scenes = self.scenes.values();
+        scenes.fold(0, |n, scene| n.saturating_add(scene.n))
+    }
+
+    pub(super) fn to_record(&self) -> Record {
+        let cell = |(scene, sums): (&String, &SceneSums)| {
+            let record = Record {
+                counts: vec![sums.n],
+                sums: vec![sums.error.clone(), sums.intensity.clone()],
+                ..Record::default()
+            };
+            (scene.clone(), record)
+        };
+        Record {
+            counts: vec![self.n_invalid],
+            cells: keyed(self.scenes.iter().map(cell)),
+            ..Record::default()
+        }
+    }
+
+    pub(super) fn read_record(record: &Record) -> Result<LightingSums, String> {
+        let ([n_invalid], []) = record.with_cells()?;
+        let scenes = record.read_cells(
+            |scene| Some(scene.to_owned()),
+            |cell| {
+                let ([n], [error, intensity]) = cell.exactly()?;
+                if *n == 0 {
+                    return Err("a scene without samples".to_owned());
+                }
+                Ok(SceneSums {
+                    n: *n,
+                    error: error.clone(),
+                    intensity: intensity.clone(),
+                })
+            },
+        )?;
+        Ok(LightingSums {
+            n_invalid: *n_invalid,
+            scenes,
+        })
+    }
+}
+
+impl Merge for SceneSums {
+    fn merge(&mut self, other: &SceneSums) {
+        self.n = self.n.saturating_add(other.n);
+        self.error.merge(&other.error);
+        self.intensity.merge(&other.intensity);
+    }
+}
+
+impl Merge for LightingSums {
+    fn merge(&mut self, other: &LightingSums) {
+        self.n_invalid = self.n_invalid.saturating_add(other.n_invalid);
+        merge_cells(&mut self.scenes, &other.scenes);
+    }
+}

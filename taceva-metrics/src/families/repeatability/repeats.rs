@@ -1,0 +1,183 @@
+//! The family of scores that are finished from the repeats of each press.
+
+use std::collections::BTreeMap;
+
+use taceva_core::{Batch, Field, Unit};
+
+use super::signal::signal_to_repeatability;
+use super::spread::{Cell, SpreadSums};
+use super::{RepeatMetric, mean, repeatability};
+use crate::evaluate::state::Record;
+use crate::exact::ExactSum;
+use crate::exact::merge::Merge;
+use crate::exact::moments::Moments;
+use crate::families::cells::{Cells, add_times};
+use crate::families::channelwise::Channelwise;
+use crate::families::family::{Details, Numbers, Output, each_row};
+use crate::metric::{Formula, Metric};
+use crate::paired::is_valid;
+use crate::score::curve::Curve;
+use crate::score::value::{UndefinedReason, Value};
+use crate::score::{Count, Variant};
+
+/// Predictions by point and depth step.
+pub(crate) struct Repeats;
+
+/// What is kept of one channel.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct RepeatSums {
+    n: u64,
+    n_invalid: u64,
+    cells: Cells<Cell>,
+}
+
+impl Merge for RepeatSums {
+    fn merge(&mut self, other: &RepeatSums) {
+        self.merge_times(other, 1);
+    }
+
+    fn merge_times(&mut self, other: &RepeatSums, times: u32) {
+        add_times(&mut self.n, other.n, times);
+        add_times(&mut self.n_invalid, other.n_invalid, times);
+        self.cells.merge_times(&other.cells, times);
+    }
+}
+
+impl Channelwise for Repeats {
+    type Sums = RepeatSums;
+    const SCHEMA: &'static str = "taceva.repeats/1";
+
+    fn finishes(&self, metric: &Metric) -> bool {
+        matches!(metric.formula, Formula::Repeats(_))
+    }
+
+    fn deposit(&self, sums: &mut RepeatSums, batch: &Batch, position: usize, rows: Option<&[u32]>) {
+        let (predictions, points) = (batch.prediction(position), batch.points());
+        if points.is_none() && batch.rows() > 0 {
+            sums.cells.forget_names();
+        }
+        let Some(steps) = batch.numbers(Field::DepthStep) else {
+            return;
+        };
+        each_row(batch, rows, |row| {
+            let (Some(prediction), Some(step)) = (predictions.get(row), steps.get(row)) else {
+                return;
+            };
+            let Some(step) = whole_step(step) else {
+                sums.n_invalid += 1;
+                return;
+            };
+            // A press of which nothing is usable is still one that was made: its cell is counted.
+            let cell = sums
+                .cells
+                .at(points.and_then(|points| points.get(row)), step);
+            if is_valid(prediction) {
+                cell.add(prediction);
+                sums.n += 1;
+            } else {
+                sums.n_invalid += 1;
+            }
+        });
+    }
+
+    fn to_record(&self, sums: &RepeatSums) -> Record {
+        Record {
+            counts: vec![sums.n, sums.n_invalid, u64::from(sums.cells.are_named())],
+            cells: sums.cells.to_records(|cell| cell.moments().to_record()),
+            ..Record::default()
+        }
+    }
+
+    fn read_record(&self, record: &Record) -> Result<RepeatSums, String> {
+        let (&[n, n_invalid, named], []) = record.with_cells()?;
+        let read = |record: &Record| Moments::read_record(record).map(Cell::new);
+        Ok(RepeatSums {
+            n,
+            n_invalid,
+            cells: Cells::from_record(record, named == 1, read)?,
+        })
+    }
+
+    fn count(&self, sums: &RepeatSums) -> u64 {
+        sums.n
+    }
+
+    fn invalid(&self, sums: &RepeatSums) -> u64 {
+        sums.n_invalid
+    }
+
+    fn numbers(&self, metric: &Metric, output: &Output, sums: &RepeatSums) -> Numbers {
+        let spreads = SpreadSums::of(&sums.cells);
+        match metric.formula {
+            Formula::Repeats(RepeatMetric::Repeatability) => repeatability(&spreads, output.unit),
+            Formula::Repeats(RepeatMetric::SignalToRepeatability) => {
+                signal_to_repeatability(&spreads)
+            }
+            _ => Numbers::of(Err(UndefinedReason::Empty)),
+        }
+    }
+
+    fn details(&self, metric: &Metric, output: &Output, parts: &[&RepeatSums]) -> Details {
+        let fewest = |count: fn(&RepeatSums) -> u64| parts.iter().map(|part| count(part)).min();
+        let count = |name, count| Count {
+            name,
+            value: fewest(count).unwrap_or_default(),
+        };
+        let counts = vec![
+            count("cells_valid", |sums| SpreadSums::of(&sums.cells).count()),
+            count("cells_total", |sums| {
+                sums.cells.iter().fold(0, |count, _| count + 1)
+            }),
+        ];
+        let variants = match metric.formula {
+            Formula::Repeats(RepeatMetric::Repeatability) => {
+                vec![Variant::plain("curve", output.unit, depth_curve(parts))]
+            }
+            _ => Vec::new(),
+        };
+        Details {
+            variants,
+            counts,
+            ..Details::default()
+        }
+    }
+}
+
+/// The mean spread at each depth step; of two channels the mean of both.
+fn depth_curve(parts: &[&RepeatSums]) -> Value {
+    let mut steps: BTreeMap<u32, (ExactSum, u64)> = BTreeMap::new();
+    for part in parts {
+        if !part.cells.are_named() {
+            return Value::Undefined(UndefinedReason::NoClusters);
+        }
+        for (key, cell) in part.cells.iter() {
+            let (sum, count) = steps.entry(key.step()).or_default();
+            if let Some(spread) = cell.spread().filter(|spread| spread.variance.is_finite()) {
+                sum.add(spread.deviation);
+                *count += 1;
+            }
+        }
+    }
+    let channels = parts.iter().fold(0, |channels, _| channels + 1).max(1);
+    Value::Curve(Curve {
+        x: steps.keys().map(|&step| f64::from(step)).collect(),
+        x_unit: Unit::One,
+        values: steps
+            .values()
+            .map(|(sum, count)| mean(sum, *count).ok())
+            .collect(),
+        counts: steps.values().map(|(_, count)| count / channels).collect(),
+        band: None,
+    })
+}
+
+/// The depth step that is kept as `step`; `None` if it is no whole number from 0 to 2³² − 1.
+fn whole_step(step: f64) -> Option<u32> {
+    let whole = (0.0..=f64::from(u32::MAX)).contains(&step) && step.fract().abs() <= 0.0;
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "it was seen to be whole and in range"
+    )]
+    whole.then_some(step as u32)
+}

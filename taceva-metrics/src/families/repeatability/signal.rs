@@ -1,0 +1,45 @@
+//! How much larger the differences between presses are than those between repeats.
+
+use super::spread::SpreadSums;
+use super::{NEEDS, RepeatMetric};
+use crate::families::family::{Finished, Numbers};
+use crate::metric::{Formula, Metric, ScoreUnit};
+use crate::score::Parameter;
+use crate::score::better::Better;
+use crate::score::range::Range;
+use crate::score::value::UndefinedReason;
+use taceva_core::Unit;
+
+pub(crate) static SIGNAL_TO_REPEATABILITY: Metric = Metric {
+    id: "signal_to_repeatability",
+    title: "signal to repeatability",
+    better: Better::Higher,
+    unit: ScoreUnit::One,
+    range: Range::Positive,
+    definition: "signal_to_repeatability/1",
+    reference: "standard deviation of the cells' means over the pooled repeatability standard deviation s_r of ISO 5725",
+    documentation: "How many times larger the differences between presses are than those between repeats of one press. A \
+                    sensor that always says the same repeats perfectly and has no signal: its value is 0. Undefined where \
+                    repeats do not differ at all although presses do.",
+    needs: NEEDS,
+    facts: &[],
+    constants: no_constants,
+    formula: Formula::Repeats(RepeatMetric::SignalToRepeatability),
+};
+
+fn no_constants(_: Unit) -> Vec<Parameter> {
+    Vec::new()
+}
+
+/// RN(s_m / s_r), s_m the standard deviation of the cells' means; 0 where the means do not differ.
+pub(super) fn signal_to_repeatability(spreads: &SpreadSums) -> Numbers {
+    let ratio = || -> Finished {
+        let (signal, noise) = (spreads.deviation_of_means()?, spreads.pooled()?);
+        match (signal > 0.0, noise > 0.0) {
+            (false, _) => Ok(0.0),
+            (true, false) => Err(UndefinedReason::EqualRepeats),
+            (true, true) => Ok(signal / noise),
+        }
+    };
+    Numbers::of(ratio())
+}

@@ -1,0 +1,162 @@
+//! The spread within cells, and what follows from that of many.
+
+use std::sync::OnceLock;
+
+use super::mean;
+use crate::exact::ExactSum;
+use crate::exact::merge::Merge;
+use crate::exact::moments::Moments;
+use crate::families::cells::Cells;
+use crate::families::family::Finished;
+use crate::score::value::UndefinedReason;
+
+/// The repeats of one cell, and their spread once somebody asked for it.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Cell {
+    moments: Moments,
+    spread: OnceLock<Option<Spread>>,
+}
+
+impl Cell {
+    /// The cell of the given repeats.
+    pub(crate) fn new(moments: Moments) -> Cell {
+        Cell {
+            moments,
+            spread: OnceLock::new(),
+        }
+    }
+
+    /// Adds a repeat, which is finite.
+    pub(crate) fn add(&mut self, value: f64) {
+        self.spread = OnceLock::new();
+        self.moments.add(value);
+    }
+
+    /// Count and sums of the repeats.
+    pub(crate) fn moments(&self) -> &Moments {
+        &self.moments
+    }
+
+    /// The spread; `None` for fewer than two repeats.
+    pub(crate) fn spread(&self) -> Option<Spread> {
+        *self.spread.get_or_init(|| Spread::of(&self.moments))
+    }
+}
+
+impl PartialEq for Cell {
+    fn eq(&self, other: &Cell) -> bool {
+        self.moments == other.moments
+    }
+}
+
+impl Merge for Cell {
+    fn merge(&mut self, other: &Cell) {
+        self.spread = OnceLock::new();
+        self.moments.merge(&other.moments);
+    }
+}
+
+/// The spread of the repeats of one cell.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Spread {
+    /// n − 1.
+    pub(crate) freedom: u64,
+    /// RN of the mean.
+    pub(crate) mean: f64,
+    /// RN((n Sqq − Sq²) / (n (n − 1))).
+    pub(crate) variance: f64,
+    /// The root of the variance.
+    pub(crate) deviation: f64,
+    /// √RN((n Sqq − Sq²) / n²).
+    pub(crate) population_deviation: f64,
+}
+
+impl Spread {
+    fn of(moments: &Moments) -> Option<Spread> {
+        let variance = moments.variance(1)?;
+        Some(Spread {
+            freedom: moments.n - 1,
+            mean: moments.mean()?,
+            variance,
+            deviation: variance.sqrt(),
+            population_deviation: moments.deviation(0)?,
+        })
+    }
+
+    fn is_finite(&self) -> bool {
+        self.variance.is_finite()
+    }
+}
+
+/// The spreads of the cells that have one.
+pub(crate) struct SpreadSums {
+    spreads: Vec<Spread>,
+    /// Why there is no score, if so.
+    reason: Option<UndefinedReason>,
+}
+
+impl SpreadSums {
+    /// The spreads of `cells`.
+    pub(crate) fn of(cells: &Cells<Cell>) -> SpreadSums {
+        let spreads: Vec<Spread> = cells.iter().filter_map(|(_, cell)| cell.spread()).collect();
+        let reason = if cells.len() == 0 {
+            Some(UndefinedReason::Empty)
+        } else if !cells.are_named() {
+            Some(UndefinedReason::NoClusters)
+        } else if spreads.is_empty() {
+            Some(UndefinedReason::NoRepeatedPress)
+        } else if !spreads.iter().all(Spread::is_finite) {
+            Some(UndefinedReason::Overflow)
+        } else {
+            None
+        };
+        SpreadSums { spreads, reason }
+    }
+
+    /// How many cells have a spread.
+    pub(crate) fn count(&self) -> u64 {
+        self.spreads.iter().fold(0, |count, _| count + 1)
+    }
+
+    /// RN of the mean of one number a cell.
+    pub(crate) fn mean(&self, number: fn(&Spread) -> f64) -> Finished {
+        self.defined()?;
+        let sum: ExactSum = self.spreads.iter().map(number).collect();
+        mean(&sum, self.count())
+    }
+
+    /// s_r = √RN(Σ (n_c − 1) s²_c / Σ (n_c − 1)), one rational of the cells' rounded variances s²_c.
+    pub(crate) fn pooled(&self) -> Finished {
+        self.defined()?;
+        let (mut variances, mut freedom) = (ExactSum::default(), 0_u64);
+        for spread in &self.spreads {
+            freedom = freedom.saturating_add(spread.freedom);
+            variances.add_product(whole(spread.freedom), spread.variance);
+        }
+        mean(&variances, freedom).map(f64::sqrt)
+    }
+
+    /// RN of the standard deviation (over cells − 1) of the cells' rounded means.
+    pub(crate) fn deviation_of_means(&self) -> Finished {
+        self.defined()?;
+        let means: Moments = self.spreads.iter().map(|spread| spread.mean).collect();
+        let too_few = UndefinedReason::TooFewCells {
+            have: self.count(),
+            least: 2,
+        };
+        means.deviation(1).ok_or(too_few)
+    }
+
+    fn defined(&self) -> Result<(), UndefinedReason> {
+        self.reason.map_or(Ok(()), Err)
+    }
+}
+
+fn whole(count: u64) -> f64 {
+    #[expect(
+        clippy::cast_precision_loss,
+        reason = "no cell has 2^53 repeats, each of which was a sample"
+    )]
+    let count = count as f64;
+    count
+}

@@ -1,0 +1,155 @@
+//! Spatial resolution: how well the spacing of a grating is told.
+
+mod histogram;
+mod success_rate;
+
+pub(crate) use success_rate::{OF_CONSTANT, SR};
+
+use std::borrow::Cow;
+use std::collections::BTreeMap;
+
+use taceva_core::{Batch, Field, GratingKind, Labels, Nanometre, Unit};
+
+use crate::evaluate::plan::MetricPlan;
+use crate::evaluate::state::Record;
+use crate::exact::merge::keyed;
+use crate::families::family::{Details, Family, Numbers, Output, each_row};
+use crate::metric::{Formula, Metric};
+use histogram::Histogram;
+
+/// Histograms of the errors of spacing, of each kind of grating.
+pub(crate) struct Resolution {
+    tolerance: Nanometre,
+    by_point: bool,
+}
+
+impl Resolution {
+    /// What the kept metrics of `plan` need; `None` if they need nothing of the kind.
+    pub(crate) fn for_plan(plan: &MetricPlan) -> Option<Resolution> {
+        let mut kept = plan.kept().iter();
+        let wanted = kept.any(|metric| matches!(metric.formula, Formula::Resolution));
+        wanted.then(|| Resolution {
+            tolerance: plan.settings().resolution_tolerance,
+            by_point: plan.carries(Field::Point),
+        })
+    }
+
+    fn tolerance_nm(&self) -> u64 {
+        self.tolerance.0.unsigned_abs()
+    }
+}
+
+/// A spacing in whole nanometres, exact in binary64; `None` if it is none.
+fn spacing(value: f64) -> Option<i64> {
+    const GREATEST: f64 = 9_007_199_254_740_992.0;
+    #[expect(
+        clippy::cast_possible_truncation,
+        reason = "a whole number of at most 2^53"
+    )]
+    (value.abs() <= GREATEST && value.fract().abs() <= 0.0).then_some(value as i64)
+}
+
+impl Family for Resolution {
+    type Sums = Histogram;
+    const SCHEMA: &'static str = "taceva.resolution/1";
+
+    fn parameters(&self) -> BTreeMap<String, String> {
+        let clusters = if self.by_point { "point_id" } else { "board" };
+        keyed([("clusters".to_owned(), clusters.to_owned())])
+    }
+
+    fn empty(&self) -> Vec<Histogram> {
+        vec![Histogram::default(); GratingKind::ALL.len()]
+    }
+
+    fn deposit(&mut self, sums: &mut [Histogram], batch: &Batch, rows: Option<&[u32]>) {
+        let numbers = |field| batch.numbers(field);
+        let (Some(kinds), Some(spacings), Some(predicted)) = (
+            batch.labels(Field::Kind),
+            numbers(Field::Spacing),
+            numbers(Field::PredictedSpacing),
+        ) else {
+            return;
+        };
+        each_row(batch, rows, |row| {
+            let kind = kinds.get(row).and_then(GratingKind::from_name);
+            let position = GratingKind::ALL
+                .into_iter()
+                .position(|known| Some(known) == kind);
+            let (Some(position), Some(truth), Some(estimate)) =
+                (position, spacings.get(row), predicted.get(row))
+            else {
+                return;
+            };
+            match (spacing(truth), spacing(estimate)) {
+                (Some(truth), Some(estimate)) => sums[position].add(truth, estimate),
+                _ => sums[position].n_invalid += 1,
+            }
+        });
+    }
+
+    /// A board is pressed many times: it is the cluster, by its name or else by what is on it.
+    fn clusters<'a>(&self, batch: &'a Batch) -> Option<Cow<'a, Labels>> {
+        if self.by_point {
+            return batch.points().map(Cow::Borrowed);
+        }
+        Some(Cow::Owned(boards(batch)))
+    }
+
+    fn to_record(&self, sums: &Histogram) -> Record {
+        sums.to_record()
+    }
+
+    fn read_record(&self, _position: usize, record: &Record) -> Result<Histogram, String> {
+        Histogram::read_record(record)
+    }
+
+    fn outputs(&self, metric: &Metric) -> Vec<Output> {
+        if !matches!(metric.formula, Formula::Resolution) {
+            return Vec::new();
+        }
+        let kinds = GratingKind::ALL.into_iter().enumerate();
+        kinds
+            .map(|(position, kind)| Output {
+                label: kind.name().to_owned(),
+                unit: Unit::One,
+                of: Vec::new(),
+                parts: vec![position],
+            })
+            .collect()
+    }
+
+    fn count(&self, _metric: &Metric, sums: &Histogram) -> u64 {
+        sums.n()
+    }
+
+    fn invalid(&self, sums: &Histogram) -> u64 {
+        sums.n_invalid
+    }
+
+    fn numbers(&self, _metric: &Metric, _output: &Output, sums: &Histogram) -> Numbers {
+        success_rate::success_rate(sums, self.tolerance_nm())
+    }
+
+    fn details(&self, _metric: &Metric, _output: &Output, parts: &[&Histogram]) -> Details {
+        let Some(histogram) = parts.first() else {
+            return Details::default();
+        };
+        success_rate::details(histogram, self.tolerance, self.tolerance_nm())
+    }
+}
+
+/// What is on the board of each row: `line:350000`. Rows without a board share one that has no samples.
+fn boards(batch: &Batch) -> Labels {
+    let (kinds, spacings) = (batch.labels(Field::Kind), batch.numbers(Field::Spacing));
+    let mut boards = Labels::default();
+    for row in 0..batch.rows() {
+        let kind = kinds.and_then(|kinds| kinds.get(row));
+        let spacing = spacings.and_then(|spacings| spacings.get(row));
+        match (kind, spacing.and_then(self::spacing)) {
+            (Some(kind), Some(spacing)) => boards.push(&format!("{kind}:{spacing}")),
+            _ => boards.push("none"),
+        }
+    }
+    boards
+}

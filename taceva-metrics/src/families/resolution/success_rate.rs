@@ -1,0 +1,89 @@
+//! How often a spacing is recognised.
+
+use taceva_core::{Field, FieldSet, Nanometre, Needs, Unit};
+
+use super::histogram::Histogram;
+use crate::families::family::{Details, Numbers};
+use crate::metric::{Formula, Metric, ScoreUnit};
+use crate::score::better::Better;
+use crate::score::curve::Curve;
+use crate::score::range::Range;
+use crate::score::value::{UndefinedReason, Value};
+use crate::score::{Parameter, Variant};
+use crate::stats::wilson;
+
+pub(crate) static SR: Metric = Metric {
+    id: "sr",
+    title: "success rate of spacings",
+    better: Better::Higher,
+    unit: ScoreUnit::One,
+    range: Range::Share,
+    definition: "sr/1",
+    reference: "TacEva, equation (4)",
+    documentation: "Which share of gratings is recognised to within 0.05 mm of their spacing, lines and dots apart. Spacings \
+                    are compared in whole nanometres, because 0.40 − 0.35 ≤ 0.05 is false in binary64. exact is the share \
+                    without any error, curve the share for every tolerance up to 1 mm; wilson says how narrow an interval of \
+                    independent samples would be, which presses of one board are not. Where samples name no point_id, kind and spacing of their board \
+                    stand for it. of_constant is what the best constant answer would reach: a classifier whose interval does \
+                    not lie above it takes part in no verdict.",
+    needs: Needs {
+        fields: FieldSet::EMPTY
+            .with(Field::Kind)
+            .with(Field::Spacing)
+            .with(Field::PredictedSpacing),
+        channels: &[],
+        least_samples: 1,
+    },
+    facts: &[],
+    constants: crate::families::accuracy::no_constants,
+    formula: Formula::Resolution,
+};
+
+/// The variant that says what the best constant answer would reach.
+pub(crate) const OF_CONSTANT: &str = "of_constant";
+
+/// Step of the tolerances of the curve.
+const STEP_NM: u64 = 50_000;
+/// Tolerances of the curve: 0, 0.05, …, 1 mm.
+const LEVELS: u64 = 21;
+
+/// SR(ε) = RN(#{|r̂ − r| ≤ ε} / n) at the tolerance, and SR(0).
+pub(super) fn success_rate(histogram: &Histogram, tolerance_nm: u64) -> Numbers {
+    let rate = |tolerance: u64| histogram.rate(tolerance).ok_or(UndefinedReason::Empty);
+    Numbers::of(rate(tolerance_nm)).with("exact", Unit::One, Range::Share, rate(0))
+}
+
+pub(super) fn details(histogram: &Histogram, tolerance: Nanometre, tolerance_nm: u64) -> Details {
+    let levels = || (0..LEVELS).map(|level| level * STEP_NM);
+    let millimetres = |nanometres: u64| {
+        let nanometres = i64::try_from(nanometres).expect("at most 1 mm");
+        Nanometre(nanometres).to_millimetres()
+    };
+    let curve = Curve {
+        x: levels().map(millimetres).collect(),
+        x_unit: Unit::Millimetre,
+        values: levels().map(|level| histogram.rate(level)).collect(),
+        counts: levels().map(|level| histogram.hits(level)).collect(),
+        band: None,
+    };
+    let mut variants = vec![Variant::plain("curve", Unit::One, Value::Curve(curve))];
+    if let Some(rate) = histogram.of_constant(tolerance_nm) {
+        variants.push(Variant::plain(OF_CONSTANT, Unit::One, Value::Scalar(rate)));
+    }
+    if let Some(rate) = histogram.rate(tolerance_nm) {
+        let interval = wilson::interval(histogram.hits(tolerance_nm), histogram.n());
+        variants.push(Variant {
+            range: Range::Share,
+            interval: Some(interval),
+            ..Variant::plain("wilson", Unit::One, Value::Scalar(rate))
+        });
+    }
+    Details {
+        variants,
+        parameters: vec![Parameter {
+            name: "tolerance_mm",
+            value: tolerance.to_millimetres(),
+        }],
+        ..Details::default()
+    }
+}

@@ -1,0 +1,165 @@
+//! Spatial robustness: whether errors are alike near the axis and far from it, at the surface and deep in the gel.
+
+mod robustness;
+mod sums;
+
+pub(crate) use robustness::R_SPATIAL;
+
+use std::collections::BTreeMap;
+
+use taceva_core::{Batch, Nanometre, Unit};
+
+use crate::evaluate::facts;
+use crate::evaluate::plan::MetricPlan;
+use crate::evaluate::settings::Settings;
+use crate::evaluate::state::Record;
+use crate::exact::merge::keyed;
+use crate::exact::moments::Moments;
+use crate::families::accuracy::outputs;
+use crate::families::family::{Details, Family, Numbers, Output, each_row};
+use crate::metric::{Formula, Metric};
+use crate::paired::Paired;
+use crate::score::curve::Curve;
+use crate::score::value::Value;
+use crate::score::{Count, Parameter, Variant};
+use sums::{BINS, Reach, SpatialSums};
+
+/// Sums of the errors of each channel by distance and depth.
+pub(crate) struct Spatial {
+    settings: Settings,
+    footprint: String,
+    reach: Reach,
+    place: [usize; 3],
+    channels: usize,
+    outputs: Vec<Output>,
+}
+
+impl Spatial {
+    /// What the kept metrics of `plan` need; `None` if they need nothing of the kind.
+    pub(crate) fn for_plan(plan: &MetricPlan) -> Option<Spatial> {
+        let mut kept = plan.kept().iter();
+        kept.find(|metric| matches!(metric.formula, Formula::Spatial))?;
+        let footprint = plan.facts().footprint?;
+        let channels = plan.channels();
+        let position = |name| channels.position(name);
+        Some(Spatial {
+            settings: *plan.settings(),
+            footprint: facts::written(&footprint),
+            reach: Reach::of(&footprint)?,
+            place: [position("Px")?, position("Py")?, position("Pz")?],
+            channels: channels.len(),
+            outputs: outputs(channels),
+        })
+    }
+
+    /// The mean absolute error over the centres of the bins.
+    fn curve(&self, bins: &BTreeMap<u8, Moments>, extent: Nanometre) -> Value {
+        let of = |bin: u8| {
+            bins.get(&bin)
+                .filter(|moments| moments.n >= self.settings.n_min)
+        };
+        let centre = |bin: u8| f64::from(2 * u16::from(bin) + 1) * extent.to_millimetres();
+        Value::Curve(Curve {
+            x: (0..BINS)
+                .map(|bin| centre(bin) / f64::from(2 * u16::from(BINS)))
+                .collect(),
+            x_unit: Unit::Millimetre,
+            values: (0..BINS)
+                .map(|bin| of(bin).and_then(Moments::mean))
+                .collect(),
+            counts: (0..BINS)
+                .map(|bin| bins.get(&bin).map_or(0, |bin| bin.n))
+                .collect(),
+            band: None,
+        })
+    }
+}
+
+impl Family for Spatial {
+    type Sums = SpatialSums;
+    const SCHEMA: &'static str = "taceva.spatial/1";
+
+    fn parameters(&self) -> BTreeMap<String, String> {
+        keyed([
+            ("bins".to_owned(), BINS.to_string()),
+            ("footprint".to_owned(), self.footprint.clone()),
+        ])
+    }
+
+    fn empty(&self) -> Vec<SpatialSums> {
+        vec![SpatialSums::default(); self.channels]
+    }
+
+    fn deposit(&mut self, sums: &mut [SpatialSums], batch: &Batch, rows: Option<&[u32]>) {
+        each_row(batch, rows, |row| {
+            let place = self.place.map(|axis| batch.truth(axis).get(row));
+            let [Some(x), Some(y), Some(z)] = place else {
+                return;
+            };
+            for (channel, sums) in sums.iter_mut().enumerate() {
+                if let Some(pair) = Paired::at(batch, channel, row) {
+                    sums.add(pair, [x, y, z], self.reach);
+                }
+            }
+        });
+    }
+
+    fn to_record(&self, sums: &SpatialSums) -> Record {
+        sums.to_record()
+    }
+
+    fn read_record(&self, _position: usize, record: &Record) -> Result<SpatialSums, String> {
+        SpatialSums::read_record(record)
+    }
+
+    fn outputs(&self, metric: &Metric) -> Vec<Output> {
+        match metric.formula {
+            Formula::Spatial => self.outputs.clone(),
+            _ => Vec::new(),
+        }
+    }
+
+    fn count(&self, _metric: &Metric, sums: &SpatialSums) -> u64 {
+        sums.n
+    }
+
+    fn invalid(&self, sums: &SpatialSums) -> u64 {
+        sums.n_invalid
+    }
+
+    fn numbers(&self, _metric: &Metric, output: &Output, sums: &SpatialSums) -> Numbers {
+        robustness::robustness(sums, &self.settings, output.unit)
+    }
+
+    fn details(&self, _metric: &Metric, output: &Output, parts: &[&SpatialSums]) -> Details {
+        let parameter = |name, value| Parameter { name, value };
+        let mut details = Details {
+            parameters: vec![
+                parameter("bins", f64::from(BINS)),
+                parameter("n_min", facts::as_f64(self.settings.n_min)),
+                parameter("ddof", f64::from(self.settings.ddof)),
+                parameter("window", f64::from(self.settings.smoothing_window)),
+            ],
+            ..Details::default()
+        };
+        if let [sums] = parts {
+            let used = |bins: &BTreeMap<u8, Moments>| {
+                let used = bins.values().filter(|bin| bin.n >= self.settings.n_min);
+                used.fold(0, |used, _| used + 1)
+            };
+            let count = |name, value| Count { name, value };
+            details.counts = vec![
+                count("outside", sums.outside),
+                count("bins_distance", used(&sums.distance)),
+                count("bins_depth", used(&sums.depth)),
+            ];
+            let distance = self.curve(&sums.distance, self.reach.radius);
+            let depth = self.curve(&sums.depth, self.reach.depth);
+            details.variants = vec![
+                Variant::plain("distance", output.unit, distance),
+                Variant::plain("depth", output.unit, depth),
+            ];
+        }
+        details
+    }
+}

@@ -1,0 +1,131 @@
+//! How alike errors are over distance and depth.
+
+use taceva_core::{Field, FieldSet, Needs, Unit};
+
+use super::sums::SpatialSums;
+use crate::evaluate::facts::Fact;
+use crate::evaluate::settings::Settings;
+use crate::exact::moments::Moments;
+use crate::families::family::{Finished, Numbers, midpoint};
+use crate::metric::{Formula, Metric, ScoreUnit};
+use crate::score::better::Better;
+use crate::score::range::Range;
+use crate::score::value::UndefinedReason;
+use crate::stats::spread::{Bin, Spread};
+
+pub(crate) static R_SPATIAL: Metric = Metric {
+    id: "r_spatial",
+    title: "spatial robustness",
+    better: Better::Lower,
+    unit: ScoreUnit::OfChannel,
+    range: Range::Positive,
+    definition: "r_spatial/1",
+    reference: "TacEva, equation (7)",
+    documentation: "How much the mean absolute error differs between places: the standard deviation of the means of a hundred \
+                    bins of distance from the axis, and of depth, and the mean of both. Bins with few samples differ by chance: \
+                    noise_floor says how much, excess is what remains, n_min_5 leaves out bins with fewer than five. smooth \
+                    is finished from the rolling mean that plots show; within is the other reading of the paper, the mean \
+                    of the deviations within the bins.",
+    needs: Needs {
+        fields: FieldSet::EMPTY.with(Field::Truth).with(Field::Prediction),
+        channels: &["Px", "Py", "Pz"],
+        least_samples: 1,
+    },
+    facts: &[Fact::Footprint, Fact::DepthMax],
+    constants: crate::families::accuracy::no_constants,
+    formula: Formula::Spatial,
+};
+
+/// Samples a bin from which on its mean is worth printing beside the paper's one.
+const WELL_SAMPLED: u64 = 5;
+
+/// R = RN((σ_distance + σ_depth) / 2), σ the population STD of the bin means; the variants are means of both axes likewise.
+pub(super) fn robustness(sums: &SpatialSums, settings: &Settings, unit: Unit) -> Numbers {
+    if sums.n == 0 {
+        let outside = sums.outside > 0;
+        return Numbers::of(Err(if outside {
+            UndefinedReason::OutsideFootprint
+        } else {
+            UndefinedReason::Empty
+        }));
+    }
+    let bins = [&sums.distance, &sums.depth].map(|bins| -> Vec<Bin> {
+        let bins = bins.values();
+        bins.filter_map(Bin::of).collect()
+    });
+    let spread = |n_min: u64| [0, 1].map(|axis: usize| Spread::of(&bins[axis], n_min));
+    let both = |spreads: &[Spread; 2], of: &dyn Fn(&Spread) -> Finished| {
+        Ok(midpoint(of(&spreads[0])?, of(&spreads[1])?))
+    };
+    let deviation = |spread: &Spread| spread.deviation(settings.ddof);
+    let paper = spread(settings.n_min);
+    let smooth = [&bins[0], &bins[1]].map(|bins| {
+        let means = smoothed(bins, settings);
+        let least = settings.n_min;
+        let deviation = means.deviation(u64::from(settings.ddof));
+        deviation.ok_or(UndefinedReason::NoBin { least })
+    });
+    let [smooth_distance, smooth_depth] = smooth;
+    let smooth = smooth_distance.and_then(|distance| Ok(midpoint(distance, smooth_depth?)));
+    Numbers::of(both(&paper, &deviation))
+        .with("std_distance", unit, Range::Positive, deviation(&paper[0]))
+        .with("std_depth", unit, Range::Positive, deviation(&paper[1]))
+        .with(
+            "within",
+            unit,
+            Range::Positive,
+            both(&paper, &Spread::within),
+        )
+        .with(
+            "noise_floor",
+            unit,
+            Range::Positive,
+            both(&paper, &Spread::noise_floor),
+        )
+        .with(
+            "excess",
+            unit,
+            Range::NotNegative,
+            both(&paper, &Spread::excess),
+        )
+        .with("smooth", unit, Range::Positive, smooth)
+        .with(
+            "n_min_5",
+            unit,
+            Range::Positive,
+            both(&spread(WELL_SAMPLED), &deviation),
+        )
+}
+
+/// The centred rolling means of the bins that have samples, each RN of an exact mean; the window is cut off at the ends.
+fn smoothed(bins: &[Bin], settings: &Settings) -> Moments {
+    let bins = bins.iter().filter(|bin| bin.has(settings.n_min));
+    let means: Vec<f64> = bins.map(|bin| bin.mean).collect();
+    let reach = settings.smoothing_window as usize / 2;
+    let windows = (0..means.len()).map(|centre| {
+        let window = &means[centre.saturating_sub(reach)..means.len().min(centre + reach + 1)];
+        window.iter().copied().collect::<Moments>()
+    });
+    windows.filter_map(|window| window.mean()).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_rolling_mean_is_cut_off_at_the_ends() {
+        let bin = |mean: f64| Bin::of(&std::iter::once(mean).collect());
+        let bins: Vec<Bin> = [0.0, 3.0, 6.0].into_iter().filter_map(bin).collect();
+        let settings = Settings {
+            smoothing_window: 3,
+            ..Settings::default()
+        };
+        let means = smoothed(&bins, &settings);
+        // 1.5, 3, 4.5
+        assert_eq!(
+            (means.n, means.mean(), means.variance(0)),
+            (3, Some(3.0), Some(1.5))
+        );
+    }
+}

@@ -1,0 +1,61 @@
+//! How far the gel yields a newton.
+
+use taceva_core::{Field, FieldSet, Needs, Unit};
+
+use super::sums::{SurfaceSums, Total};
+use super::{NORMAL_ONLY, SurfaceMetric};
+use crate::exact::Dyadic;
+use crate::families::family::{Finished, Numbers};
+use crate::metric::{Formula, Metric, ScoreUnit};
+use crate::score::better::Better;
+use crate::score::range::Range;
+use crate::score::value::UndefinedReason;
+
+pub(crate) static SENSITIVITY: Metric = Metric {
+    id: "sensitivity",
+    title: "sensitivity",
+    better: Better::Higher,
+    unit: ScoreUnit::Fixed(Unit::MillimetrePerNewton),
+    range: Range::Any,
+    definition: "sensitivity/1",
+    reference: "TacEva, equation (5)",
+    documentation: "How far the gel yields a newton of normal force: the mean of indentation over force of all samples in \
+                    contact, those with shear too. slope is the line through the origin, which does not explode as the force \
+                    nears the gate; normal_only leaves out what has shear; map is the mean in each cell of the footprint.",
+    needs: Needs {
+        fields: FieldSet::EMPTY.with(Field::Truth),
+        channels: &["Pz", "Fz"],
+        least_samples: 1,
+    },
+    facts: &[],
+    constants: crate::families::accuracy::no_constants,
+    formula: Formula::Surface(SurfaceMetric::Sensitivity),
+};
+
+/// S = RN(Σ s / n) with s = RN(Δz / F); slope = RN(Σ Δz F / Σ F²).
+pub(super) fn sensitivity(sums: &SurfaceSums) -> Numbers {
+    let unit = Unit::MillimetrePerNewton;
+    let slope = contact(sums).map(|()| {
+        let forces = sums.force_squares.to_dyadic();
+        sums.work.to_dyadic().over(&forces)
+    });
+    Numbers::of(contact(sums).and_then(|()| mean(&sums.compliance)))
+        .with("slope", unit, Range::Any, slope)
+        .with(NORMAL_ONLY, unit, Range::Any, mean(&sums.normal))
+}
+
+/// The reason for no value if nothing is in contact.
+pub(super) fn contact(sums: &SurfaceSums) -> Result<(), UndefinedReason> {
+    match (sums.compliance.n, sums.gated) {
+        (0, 0) => Err(UndefinedReason::Empty),
+        (0, _) => Err(UndefinedReason::BelowGate),
+        _ => Ok(()),
+    }
+}
+
+fn mean(total: &Total) -> Finished {
+    if total.n == 0 {
+        return Err(UndefinedReason::Empty);
+    }
+    Ok(total.sum.to_dyadic().over(&Dyadic::from(total.n)))
+}

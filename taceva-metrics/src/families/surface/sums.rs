@@ -1,0 +1,190 @@
+//! What is kept of the compliance of a surface.
+
+use std::collections::BTreeMap;
+
+use super::grid::Cell;
+use crate::evaluate::state::Record;
+use crate::exact::ExactSum;
+use crate::exact::merge::{Merge, keyed, merge_cells};
+use crate::exact::moments::Moments;
+use crate::paired::is_valid;
+
+/// A press as the reference instruments saw it: how deep, and how hard.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Press {
+    pub(super) depth_mm: f64,
+    pub(super) force_n: f64,
+}
+
+/// Counts and exact sums of s = RN(Δz / F) of the samples in contact.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct SurfaceSums {
+    pub(super) n_invalid: u64,
+    /// Samples below the gate, or not pressed into the surface.
+    pub(super) gated: u64,
+    /// Samples in contact whose place lies outside the footprint.
+    pub(super) outside: u64,
+    pub(super) compliance: Total,
+    /// Of those without shear.
+    pub(super) normal: Total,
+    /// Σ Δz F.
+    pub(super) work: ExactSum,
+    /// Σ F².
+    pub(super) force_squares: ExactSum,
+    /// s of the samples within the footprint, by cell: of all, and of those without shear.
+    pub(super) cells: BTreeMap<Cell, [Moments; 2]>,
+}
+
+/// Count and exact sum.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct Total {
+    pub(super) n: u64,
+    pub(super) sum: ExactSum,
+}
+
+impl Total {
+    fn add(&mut self, value: f64) {
+        self.n += 1;
+        self.sum.add(value);
+    }
+
+    fn merge(&mut self, other: &Total) {
+        self.n = self.n.saturating_add(other.n);
+        self.sum.merge(&other.sum);
+    }
+}
+
+/// Where a press lies.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Place {
+    /// Nobody says, or nobody asks.
+    Unknown,
+    /// Outside the footprint.
+    Outside,
+    /// In a cell of the grid.
+    Cell(Cell),
+}
+
+impl SurfaceSums {
+    /// Adds a press from `gate_n` on.
+    pub(super) fn add(&mut self, press: Press, gate_n: f64, without_shear: bool, place: Place) {
+        let Press { depth_mm, force_n } = press;
+        if !is_valid(depth_mm) || !is_valid(force_n) {
+            self.n_invalid += 1;
+            return;
+        }
+        if force_n < gate_n || depth_mm <= 0.0 {
+            self.gated += 1;
+            return;
+        }
+        let compliance = depth_mm / force_n;
+        if !is_valid(compliance) {
+            self.n_invalid += 1;
+            return;
+        }
+        self.compliance.add(compliance);
+        self.work.add_product(depth_mm, force_n);
+        self.force_squares.add_product(force_n, force_n);
+        if without_shear {
+            self.normal.add(compliance);
+        }
+        match place {
+            Place::Unknown => {}
+            Place::Outside => self.outside += 1,
+            Place::Cell(cell) => {
+                let [all, normal] = self.cells.entry(cell).or_default();
+                all.add(compliance);
+                if without_shear {
+                    normal.add(compliance);
+                }
+            }
+        }
+    }
+
+    /// Samples that lie in a cell.
+    pub(super) fn binned(&self) -> u64 {
+        self.cells.values().map(|[all, _]| all.n).sum()
+    }
+
+    pub(super) fn to_record(&self) -> Record {
+        let cell = |(&(row, column), [all, normal]): (&Cell, &[Moments; 2])| {
+            let mut record = all.to_record();
+            let normal = normal.to_record();
+            record.counts.extend(normal.counts);
+            record.sums.extend(normal.sums);
+            (format!("{row} {column}"), record)
+        };
+        Record {
+            counts: vec![
+                self.compliance.n,
+                self.n_invalid,
+                self.gated,
+                self.outside,
+                self.normal.n,
+            ],
+            sums: vec![
+                self.compliance.sum.clone(),
+                self.work.clone(),
+                self.force_squares.clone(),
+                self.normal.sum.clone(),
+            ],
+            cells: keyed(self.cells.iter().map(cell)),
+            ..Record::default()
+        }
+    }
+
+    /// Back from a state whose grid has `bins` cells along each side.
+    pub(super) fn read_record(record: &Record, bins: u32) -> Result<SurfaceSums, String> {
+        let ([n, n_invalid, gated, outside, n_normal], sums) = record.with_cells()?;
+        let [compliance, work, force_squares, normal] = sums;
+        let parse = |key: &str| {
+            let (row, column) = key.split_once(' ')?;
+            let number = |text: &str| text.parse::<u32>().ok().filter(|number| *number < bins);
+            Some((number(row)?, number(column)?))
+        };
+        let cells = record.read_cells(parse, |record| {
+            let ([n, n_normal], [sum, squares, normal_sum, normal_squares]) = record.exactly()?;
+            if *n == 0 || n_normal > n {
+                return Err(format!("{n} samples, {n_normal} of them without shear"));
+            }
+            let moments = |n: &u64, sum: &ExactSum, squares: &ExactSum| Moments {
+                n: *n,
+                sum: sum.clone(),
+                squares: squares.clone(),
+            };
+            Ok([
+                moments(n, sum, squares),
+                moments(n_normal, normal_sum, normal_squares),
+            ])
+        })?;
+        Ok(SurfaceSums {
+            n_invalid: *n_invalid,
+            gated: *gated,
+            outside: *outside,
+            compliance: Total {
+                n: *n,
+                sum: compliance.clone(),
+            },
+            normal: Total {
+                n: *n_normal,
+                sum: normal.clone(),
+            },
+            work: work.clone(),
+            force_squares: force_squares.clone(),
+            cells,
+        })
+    }
+}
+
+impl Merge for SurfaceSums {
+    fn merge(&mut self, other: &SurfaceSums) {
+        self.n_invalid = self.n_invalid.saturating_add(other.n_invalid);
+        self.gated = self.gated.saturating_add(other.gated);
+        self.outside = self.outside.saturating_add(other.outside);
+        self.compliance.merge(&other.compliance);
+        self.normal.merge(&other.normal);
+        self.work.merge(&other.work);
+        self.force_squares.merge(&other.force_squares);
+        merge_cells(&mut self.cells, &other.cells);
+    }
+}

@@ -1,0 +1,111 @@
+//! How alike the gel yields everywhere.
+
+use taceva_core::{Field, FieldSet, Needs, Unit};
+
+use super::sensitivity::contact;
+use super::sums::SurfaceSums;
+use super::{NORMAL_ONLY, SurfaceMetric};
+use crate::evaluate::facts::Fact;
+use crate::evaluate::settings::Settings;
+use crate::exact::Dyadic;
+use crate::families::family::{Finished, Numbers};
+use crate::metric::{Formula, Metric, ScoreUnit};
+use crate::score::better::Better;
+use crate::score::range::Range;
+use crate::score::value::UndefinedReason;
+use crate::stats::spread::{Bin, Spread};
+
+pub(crate) static UNIFORMITY: Metric = Metric {
+    id: "uniformity",
+    title: "uniformity of sensitivity",
+    better: Better::Higher,
+    unit: ScoreUnit::One,
+    range: Range::Ratio,
+    definition: "uniformity/1",
+    reference: "TacEva, equation (6)",
+    documentation: "How alike the gel yields everywhere: 1 / (1 + σ/|μ|) of the mean sensitivities of the cells of the \
+                    footprint; 1 is the same everywhere. Few samples a cell look like a surface that is not uniform: debiased \
+                    takes that part away, n_min_5 leaves out cells with fewer than five samples. normal_only leaves out what \
+                    has shear; mean and deviation are μ and σ.",
+    needs: Needs {
+        fields: FieldSet::EMPTY.with(Field::Truth),
+        channels: &["Px", "Py", "Pz", "Fz"],
+        least_samples: 1,
+    },
+    facts: &[Fact::Footprint],
+    constants: crate::families::accuracy::no_constants,
+    formula: Formula::Surface(SurfaceMetric::Uniformity),
+};
+
+/// Samples a cell from which on its mean is worth printing beside the paper's one.
+const WELL_SAMPLED: u64 = 5;
+
+/// U = RN(1 / (1 + σ/|μ|)) over the cells with at least `n_min` samples.
+pub(super) fn uniformity(sums: &SurfaceSums, settings: &Settings) -> Numbers {
+    let Settings { n_min, ddof, .. } = *settings;
+    if let Err(reason) = contact(sums).and_then(|()| on_surface(sums)) {
+        return Numbers::of(Err(reason));
+    }
+    let bins = |kind: usize| -> Vec<Bin> {
+        let cells = sums.cells.values();
+        cells.filter_map(|cell| Bin::of(&cell[kind])).collect()
+    };
+    let (bins, normal) = (bins(0), bins(1));
+    let plain = |spread: &Spread| ratio(spread.mean()?, spread.deviation(ddof)?);
+    let all = Spread::of(&bins, n_min);
+    let debiased = all.mean().and_then(|mean| ratio(mean, all.excess()?));
+    Numbers::of(plain(&all))
+        .with("debiased", Unit::One, Range::RatioWithEnds, debiased)
+        .with(
+            "n_min_5",
+            Unit::One,
+            Range::Ratio,
+            plain(&Spread::of(&bins, WELL_SAMPLED)),
+        )
+        .with(
+            NORMAL_ONLY,
+            Unit::One,
+            Range::Ratio,
+            plain(&Spread::of(&normal, n_min)),
+        )
+        .with("mean", Unit::MillimetrePerNewton, Range::Any, all.mean())
+        .with(
+            "deviation",
+            Unit::MillimetrePerNewton,
+            Range::Positive,
+            all.deviation(ddof),
+        )
+}
+
+fn on_surface(sums: &SurfaceSums) -> Result<(), UndefinedReason> {
+    if sums.cells.is_empty() {
+        return Err(UndefinedReason::OutsideFootprint);
+    }
+    Ok(())
+}
+
+/// RN(|μ| / (|μ| + σ)), one rational of two binary64 numbers.
+fn ratio(mean: f64, deviation: f64) -> Finished {
+    if !deviation.is_finite() {
+        return Err(UndefinedReason::Overflow);
+    }
+    let mean = Dyadic::from_f64(mean.abs());
+    let total = &mean + &Dyadic::from_f64(deviation);
+    if total.is_zero() {
+        return Err(UndefinedReason::ZeroMean);
+    }
+    Ok(mean.over(&total))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_zero_mean_is_the_least_uniform_unless_nothing_varies() {
+        assert_eq!(ratio(0.0, 1.0), Ok(0.0));
+        assert_eq!(ratio(0.0, 0.0), Err(UndefinedReason::ZeroMean));
+        assert_eq!(ratio(-3.0, 0.0), Ok(1.0));
+        assert_eq!(ratio(1.0, 3.0), Ok(0.25));
+    }
+}

@@ -1,0 +1,182 @@
+//! Which share of predictions is good enough.
+
+use taceva_core::{Batch, Field, FieldSet, Needs, Unit};
+
+use crate::evaluate::state::Record;
+use crate::exact::Dyadic;
+use crate::exact::level::{from_millionths, millionths, step};
+use crate::exact::merge::Merge;
+use crate::families::channelwise::{Channelwise, each_pair};
+use crate::families::family::{Details, Finished, Numbers, Output};
+use crate::metric::{Formula, Metric, ScoreUnit};
+use crate::score::better::Better;
+use crate::score::curve::Curve;
+use crate::score::range::Range;
+use crate::score::value::{InapplicableReason, UndefinedReason, Value};
+use crate::score::{Parameter, Variant};
+
+/// Tolerances in thousandths of the unit's [`step`]: 0.01 to 2 mm or N, 0.1 to 20 degrees or N mm.
+const TOLERANCES: [i64; 8] = [100, 200, 500, 1000, 2000, 5000, 10_000, 20_000];
+/// Which of them the score is of: half a step, 0.05 mm or N.
+const HEADLINE: usize = 2;
+
+pub(crate) static TOLERANCE: Metric = Metric {
+    id: "tolerance",
+    title: "share within tolerance",
+    better: Better::Higher,
+    unit: ScoreUnit::One,
+    range: Range::Share,
+    definition: "tolerance/1",
+    reference: "distribution of |truth − prediction|",
+    documentation: "Which share of predictions is within 0.05 mm or 0.05 N of the truth, 0.5 for degrees and N mm; `curve` has the \
+                    share for tolerances from 0.01 to 2, or 0.1 to 20. Truth and prediction are rounded to a millionth of the \
+                    unit first, so that 0.40 is within 0.05 of 0.35; an error as large as the tolerance is within it.",
+    needs: Needs {
+        fields: FieldSet::EMPTY.with(Field::Truth).with(Field::Prediction),
+        channels: &[],
+        least_samples: 1,
+    },
+    facts: &[],
+    constants: headline,
+    formula: Formula::Tolerance,
+};
+
+fn headline(unit: Unit) -> Vec<Parameter> {
+    let tolerance = tolerances(unit).map(|tolerances| Parameter {
+        name: "tolerance",
+        value: from_millionths(tolerances[HEADLINE]),
+    });
+    tolerance.into_iter().collect()
+}
+
+/// The tolerances of a unit in millionths of it, ascending.
+fn tolerances(unit: Unit) -> Option<[i64; 8]> {
+    let step = step(unit)?;
+    Some(TOLERANCES.map(|thousandths| step / 1000 * thousandths))
+}
+
+/// Magnitudes of errors.
+pub(crate) struct Tolerances;
+
+/// How many errors of one channel need which tolerance.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct ErrorCounts {
+    n: u64,
+    n_invalid: u64,
+    /// Errors within each tolerance and not within the one before.
+    classes: [u64; TOLERANCES.len()],
+}
+
+impl ErrorCounts {
+    /// RN of the share of errors within the tolerance at `position`.
+    fn share(&self, position: usize) -> Finished {
+        if self.n == 0 {
+            return Err(UndefinedReason::Empty);
+        }
+        let within: u64 = self.classes[..=position].iter().sum();
+        Ok(Dyadic::from(within).over(&Dyadic::from(self.n)))
+    }
+}
+
+impl Channelwise for Tolerances {
+    type Sums = ErrorCounts;
+    const SCHEMA: &'static str = "taceva.tolerances/1";
+
+    fn finishes(&self, metric: &Metric) -> bool {
+        matches!(metric.formula, Formula::Tolerance)
+    }
+
+    fn deposit(
+        &self,
+        sums: &mut ErrorCounts,
+        batch: &Batch,
+        position: usize,
+        rows: Option<&[u32]>,
+    ) {
+        let Some(tolerances) = tolerances(batch.channels().as_slice()[position].unit()) else {
+            return;
+        };
+        each_pair(batch, position, rows, |_, pair| {
+            let steps = millionths(pair.reference).zip(millionths(pair.estimate));
+            let Some((truth, estimate)) = steps else {
+                sums.n_invalid += 1;
+                return;
+            };
+            sums.n += 1;
+            let error = (truth - estimate).abs();
+            if let Some(class) = tolerances.iter().position(|tolerance| error <= *tolerance) {
+                sums.classes[class] += 1;
+            }
+        });
+    }
+
+    fn to_record(&self, sums: &ErrorCounts) -> Record {
+        let counts = [sums.n, sums.n_invalid].into_iter().chain(sums.classes);
+        Record {
+            counts: counts.collect(),
+            ..Record::default()
+        }
+    }
+
+    fn read_record(&self, record: &Record) -> Result<ErrorCounts, String> {
+        let (&[n, n_invalid, ref classes @ ..], []) = record.exactly::<10, 0>()?;
+        let within = classes
+            .iter()
+            .try_fold(0_u64, |sum, count| sum.checked_add(*count));
+        match within.filter(|within| *within <= n) {
+            Some(_) => Ok(ErrorCounts {
+                n,
+                n_invalid,
+                classes: *classes,
+            }),
+            None => Err(format!("more than {n} errors in classes")),
+        }
+    }
+
+    fn count(&self, sums: &ErrorCounts) -> u64 {
+        sums.n
+    }
+
+    fn invalid(&self, sums: &ErrorCounts) -> u64 {
+        sums.n_invalid
+    }
+
+    fn numbers(&self, _metric: &Metric, _output: &Output, sums: &ErrorCounts) -> Numbers {
+        Numbers::of(sums.share(HEADLINE))
+    }
+
+    fn inapplicable(&self, output: &Output) -> Option<InapplicableReason> {
+        let unknown = tolerances(output.unit).is_none();
+        unknown.then_some(InapplicableReason::NoStep(output.unit))
+    }
+
+    fn details(&self, _metric: &Metric, output: &Output, parts: &[&ErrorCounts]) -> Details {
+        let (&[sums], Some(tolerances)) = (parts, tolerances(output.unit)) else {
+            return Details::default();
+        };
+        let positions = 0..tolerances.len();
+        let curve = Curve {
+            x: tolerances.map(from_millionths).to_vec(),
+            x_unit: output.unit,
+            values: positions
+                .map(|position| sums.share(position).ok())
+                .collect(),
+            counts: vec![sums.n; tolerances.len()],
+            band: None,
+        };
+        Details {
+            variants: vec![Variant::plain("curve", Unit::One, Value::Curve(curve))],
+            ..Details::default()
+        }
+    }
+}
+
+impl Merge for ErrorCounts {
+    fn merge(&mut self, other: &ErrorCounts) {
+        self.n = self.n.saturating_add(other.n);
+        self.n_invalid = self.n_invalid.saturating_add(other.n_invalid);
+        for (class, other) in self.classes.iter_mut().zip(other.classes) {
+            *class = class.saturating_add(other);
+        }
+    }
+}

@@ -1,0 +1,247 @@
+//! What a score can be: a number, many numbers in their places, or a reason why there is none.
+
+use std::fmt;
+
+use taceva_core::Unit;
+
+use crate::score::curve::Curve;
+use crate::score::map::Map;
+use crate::score::matrix::Matrix;
+
+/// A finished value.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum Value {
+    /// One finite number.
+    Scalar(f64),
+    /// A number for each place of the sensing surface.
+    Map(Map),
+    /// A number for each level of another quantity.
+    Curve(Curve),
+    /// A number for each pair of names.
+    Matrix(Matrix),
+    /// The samples determine no value.
+    Undefined(UndefinedReason),
+    /// The question does not arise for this channel or sensor.
+    NotApplicable(InapplicableReason),
+}
+
+impl Value {
+    /// The number, if there is one.
+    pub fn scalar(&self) -> Option<f64> {
+        match self {
+            Value::Scalar(value) => Some(*value),
+            _ => None,
+        }
+    }
+}
+
+impl From<Result<f64, UndefinedReason>> for Value {
+    fn from(result: Result<f64, UndefinedReason>) -> Value {
+        match result {
+            Ok(value) => Value::Scalar(value),
+            Err(reason) => Value::Undefined(reason),
+        }
+    }
+}
+
+/// Why samples determine no value, or no interval.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum UndefinedReason {
+    /// There is no sample.
+    Empty,
+    /// There are fewer samples than the formula needs.
+    TooFew {
+        /// What it needs.
+        least: u64,
+    },
+    /// All truths are equal, so that there is no spread to explain.
+    ConstantTruth {
+        /// Whether every prediction equals it too.
+        perfect: bool,
+    },
+    /// No truth is as large as the gate.
+    BelowGate,
+    /// No sample lies on the declared surface.
+    OutsideFootprint,
+    /// No bin has as many samples as asked for.
+    NoBin {
+        /// How many were asked for.
+        least: u64,
+    },
+    /// Fewer bins than the formula needs.
+    TooFewBins {
+        /// How many there are.
+        have: u64,
+        /// What it needs.
+        least: u64,
+    },
+    /// No bin or cell has two samples, so that nobody knows what is chance.
+    NoRepeats,
+    /// No press was made twice.
+    NoRepeatedPress,
+    /// Fewer repeated presses than the formula needs.
+    TooFewCells {
+        /// How many there are.
+        have: u64,
+        /// What it needs.
+        least: u64,
+    },
+    /// Repeats do not differ at all, so that nothing relates to them.
+    EqualRepeats,
+    /// No point has samples at two depths on both branches.
+    ShortBranch,
+    /// No stretch is common to what is compared.
+    NoOverlap,
+    /// No force was met.
+    NoForce,
+    /// No sample is without contact.
+    NoIdleSamples,
+    /// No sample is in contact and says where.
+    NoContact,
+    /// One channel, where two or more are compared.
+    OneChannel,
+    /// One unit, where two or more are compared.
+    OneUnit,
+    /// Points on one line, or fewer than three: how a unit is turned is open.
+    OpenTurn,
+    /// No sample has a time.
+    NoTimes,
+    /// All samples have the same time.
+    EqualTimes,
+    /// No two successive frames have a digest.
+    NoDigests,
+    /// Single pictures, taken more than a second apart, have no rate.
+    NoStream,
+    /// Nobody has declared a fact about the sensor.
+    NotDeclared(&'static str),
+    /// No interval is defined for this score.
+    NoInterval,
+    /// The score is the greatest of several numbers, and resampling does not show how far that would move with other samples.
+    Greatest,
+    /// The value is at the end of its range in every cluster, so that nothing says how far it would move with others.
+    AtEnd,
+    /// The mean is zero, and nothing relates to it.
+    ZeroMean,
+    /// No sample of the scene that the others are compared with.
+    NoReferenceScene,
+    /// No sample of another scene than the one the others are compared with.
+    OneScene,
+    /// The pictures of the reference scene are black.
+    ZeroIntensity,
+    /// The reference scene has no error.
+    ZeroBaseline,
+    /// Neither light nor error changed.
+    NoChange,
+    /// The value is beyond the range of a binary64.
+    Overflow,
+    /// Too few contact locations for an interval.
+    TooFewClusters {
+        /// How many there are.
+        have: usize,
+    },
+    /// Too few bootstrap replicates that have a value: fewer than 39, or than 95 % of those drawn.
+    TooFewReplicates {
+        /// How many have one.
+        defined: usize,
+        /// How many there are.
+        drawn: usize,
+    },
+    /// Some sample names no contact location, so that nobody knows which belong together.
+    NoClusters,
+}
+
+impl fmt::Display for UndefinedReason {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            UndefinedReason::Empty => f.write_str("empty"),
+            UndefinedReason::TooFew { least } => write!(f, "fewer than {least} samples"),
+            UndefinedReason::ConstantTruth { .. } => f.write_str("constant truth"),
+            UndefinedReason::BelowGate => f.write_str("no truth reaches the gate"),
+            UndefinedReason::OutsideFootprint => f.write_str("no sample on the footprint"),
+            UndefinedReason::NoBin { least } => write!(f, "no bin has {least} samples"),
+            UndefinedReason::TooFewBins { have, least } => {
+                write!(f, "{have} bins, {least} are needed")
+            }
+            UndefinedReason::NoRepeats => f.write_str("no bin has two samples"),
+            UndefinedReason::NoRepeatedPress => f.write_str("no press was repeated"),
+            UndefinedReason::TooFewCells { have, least } => {
+                write!(f, "{have} repeated presses, {least} are needed")
+            }
+            UndefinedReason::EqualRepeats => f.write_str("repeats do not differ"),
+            UndefinedReason::ShortBranch => f.write_str("no point has two depths on both branches"),
+            UndefinedReason::NoOverlap => f.write_str("no common range"),
+            UndefinedReason::NoForce => f.write_str("no force was met"),
+            UndefinedReason::NoIdleSamples => f.write_str("no sample is without contact"),
+            UndefinedReason::NoContact => f.write_str("no sample in contact says where"),
+            UndefinedReason::OneChannel => f.write_str("one channel, two are needed"),
+            UndefinedReason::OneUnit => f.write_str("one unit, two are needed"),
+            UndefinedReason::OpenTurn => f.write_str("points on one line leave a turn open"),
+            UndefinedReason::NoTimes => f.write_str("no time stamps"),
+            UndefinedReason::EqualTimes => f.write_str("equal time stamps"),
+            UndefinedReason::NoStream => {
+                f.write_str("single pictures and no stream: the median interval is above 1 s")
+            }
+            UndefinedReason::NoDigests => f.write_str("no successive digests of frames"),
+            UndefinedReason::NotDeclared(fact) => {
+                write!(f, "the sensor's `{fact}` is not declared")
+            }
+            UndefinedReason::NoInterval => f.write_str("no interval is defined"),
+            UndefinedReason::Greatest => {
+                f.write_str("a greatest value, of which no interval can be trusted")
+            }
+            UndefinedReason::AtEnd => f.write_str("at the end of its range in every cluster"),
+            UndefinedReason::ZeroMean => f.write_str("the mean is zero"),
+            UndefinedReason::NoReferenceScene => f.write_str("no sample of the reference scene"),
+            UndefinedReason::OneScene => f.write_str("no scene but the reference scene"),
+            UndefinedReason::ZeroIntensity => f.write_str("the reference scene is black"),
+            UndefinedReason::ZeroBaseline => f.write_str("the reference scene has no error"),
+            UndefinedReason::NoChange => f.write_str("neither light nor error changed"),
+            UndefinedReason::Overflow => f.write_str("beyond the range of binary64"),
+            UndefinedReason::TooFewClusters { have } => {
+                let least = crate::stats::jackknife::LEAST_CLUSTERS;
+                write!(f, "{have} clusters, {least} are needed")
+            }
+            UndefinedReason::TooFewReplicates { defined, drawn } => {
+                let least = crate::stats::LEAST_REPLICATES;
+                write!(
+                    f,
+                    "{defined} of {drawn} replicates have a value, 95 % and at least {least} are needed"
+                )
+            }
+            UndefinedReason::NoClusters => f.write_str("samples without point_id"),
+        }
+    }
+}
+
+/// Why a question does not arise.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum InapplicableReason {
+    /// Nobody has said from which magnitude on values of this unit count as contact.
+    NoGate(Unit),
+    /// Nobody has said how fine this unit is looked at.
+    NoStep(Unit),
+    /// The samples carry no such channel.
+    ChannelAbsent(&'static str),
+    /// The value is a map, a curve or a matrix, and the question is one of numbers.
+    NotOneNumber,
+}
+
+impl fmt::Display for InapplicableReason {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            InapplicableReason::NoGate(unit) => write!(f, "no gate is defined for {unit}"),
+            InapplicableReason::NoStep(unit) => write!(f, "no step is defined for {unit}"),
+            InapplicableReason::ChannelAbsent(name) => {
+                write!(
+                    f,
+                    "nothing is scored on a channel `{}`",
+                    taceva_core::shown(name)
+                )
+            }
+            InapplicableReason::NotOneNumber => f.write_str("not one number but many"),
+        }
+    }
+}
