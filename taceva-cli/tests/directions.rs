@@ -224,7 +224,11 @@ fn benchmarks_say_that_less_is_better() {
             "{form}"
         );
     }
-    assert!(listing.latex(taceva_report::Layout::Float).contains("MAE Fz (N) $\\downarrow$"));
+    assert!(
+        listing
+            .latex(taceva_report::Layout::Float)
+            .contains("MAE Fz (N) $\\downarrow$")
+    );
     assert!(
         listing.csv().starts_with("model,fit (s),"),
         "{}",

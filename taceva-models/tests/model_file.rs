@@ -3,8 +3,8 @@
 use std::path::Path;
 
 use taceva_core::{
-    Channel, Channels, FeatureShape, Features, Frame, FrameInfo, PixelFormat, Silent, Targets,
-    TrainingSet, Unit,
+    Channel, Channels, FeatureShape, Features, Frame, FrameInfo, PixelFormat, SilentProgress,
+    Targets, TrainingSet, Unit,
 };
 use taceva_models::{
     Color, FeatureError, FeatureKind, FeatureSpec, FitInput, FormatError, Model, ModelFileError,
@@ -93,7 +93,10 @@ fn fit(name: &str, words: &[&str], spec: FeatureSpec) -> (Model, Features) {
             notes: vec!["random frames".into()],
         },
     };
-    (Model::fit(input, &Silent).expect("learnable"), features)
+    (
+        Model::fit(input, &SilentProgress).expect("learnable"),
+        features,
+    )
 }
 
 #[test]

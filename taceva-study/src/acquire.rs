@@ -12,7 +12,7 @@ use std::path::Path;
 use taceva_core::Outline;
 use taceva_dataset::{
     Dataset, DatasetError, Footprint, Known, Recorder, RecordingFacts, RecordingSpec, SensorFacts,
-    Shape, Source,
+    Source,
 };
 use taceva_protocol::{Cancel, Controls, Event, Mode, Plan, RunSpec, run};
 

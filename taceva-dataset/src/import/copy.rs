@@ -36,7 +36,7 @@ use crate::table::{FrameEntry, Table};
 /// let plan = ImportPlan::new(folder.path(), &map)?;
 ///
 /// let target = folder.path().join("dataset");
-/// let report = plan.run(&target, std::num::NonZeroUsize::MIN, &taceva_core::Silent)?;
+/// let report = plan.run(&target, std::num::NonZeroUsize::MIN, &taceva_core::SilentProgress)?;
 /// assert_eq!(report.digest, taceva_dataset::Dataset::open(&target)?.digest());
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
