@@ -2,8 +2,8 @@
 #![cfg(all(feature = "linfa", feature = "smartcore"))]
 
 use taceva_core::{
-    Channel, Channels, ErrorKind, FeatureShape, Features, Regressor, Silent, Targets, TrainingSet,
-    Unit,
+    Channel, Channels, ErrorKind, FeatureShape, Features, Regressor, SilentProgress, Targets,
+    TrainingSet, Unit,
 };
 use taceva_models::{Models, Settings};
 
@@ -59,7 +59,7 @@ fn fit_all(training: &Data, held: Option<&Data>) -> Vec<String> {
         let name = model.info.name;
         let estimator = models.find(name).expect("registered");
         let estimator = estimator.estimator(&Settings::default()).expect("defaults");
-        match estimator.fit_model(&set(training, &seen), held_set.as_ref(), &Silent) {
+        match estimator.fit_model(&set(training, &seen), held_set.as_ref(), &SilentProgress) {
             Ok(fit) => {
                 let mut found = vec![f64::NAN; training.labels.len()];
                 fit.regressor.predict(&seen, &mut found).expect("finite");

@@ -6,7 +6,8 @@ use std::sync::Arc;
 
 use taceva_core::{
     ArgSpec, ArgValue, Args, Channels, Descriptor, DriverError, DriverKey, ErrorKind, FeatureShape,
-    ForceTransducer, Found, Lighting, ModelError, Progress, Robot, Sensor, Silent, SimulatedBench,
+    ForceTransducer, Found, Lighting, ModelError, Progress, Robot, Sensor, SilentProgress,
+    SimulatedBench,
 };
 
 use super::array;
@@ -213,7 +214,7 @@ impl Session for ChildSession {
             shape: kind.1,
             length: saved.bytes.len() as u64,
         };
-        self.make(estimator, order, &[memory.file()], kind, &Silent)
+        self.make(estimator, order, &[memory.file()], kind, &SilentProgress)
     }
 }
 
