@@ -126,7 +126,7 @@ impl Dataset {
     ///
     /// fn first_eight(dataset: &Dataset) -> Result<FrameArrays, taceva_dataset::DatasetError> {
     ///     let rows: Vec<usize> = (0..8).collect();
-    ///     dataset.frame_arrays(Pass { rows: &rows, jobs: NonZeroUsize::MIN, progress: &SilentProgress })
+    ///     dataset.frame_arrays(Pass::new(&rows, NonZeroUsize::MIN, &SilentProgress))
     /// }
     /// # let _ = first_eight;
     /// ```
