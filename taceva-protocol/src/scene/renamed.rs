@@ -26,7 +26,7 @@ pub(super) fn notes(text: &Text) -> Vec<String> {
     };
     let used = RENAMED.iter().filter(|key| {
         let tables = key.tables.iter();
-        let table = tables.fold(Some(&scene), |table, name| table?.get(*name)?.as_table());
+        let table = tables.try_fold(&scene, |table, name| table.get(*name)?.as_table());
         table.is_some_and(|table| table.contains_key(key.before))
     });
     used.map(|Renamed { before, now, .. }| {
