@@ -2,7 +2,7 @@
 
 mod toml;
 
-use std::fmt;
+use std::fmt::{self, Write as _};
 
 use taceva_core::{
     ArgKind, ArgSpec, ArgValue, Descriptor, Facts, Footprint, ForceFacts, Outline, Point, Presence,
