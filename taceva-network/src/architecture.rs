@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 use crate::convolution::Convolution;
 use crate::error::NetworkError;
 use crate::panel::PANEL;
-use crate::planes::Picture;
+use crate::picture::Picture;
 
 /// The make of a network.
 ///

@@ -11,7 +11,8 @@ pub(crate) use input_gradient::{InputGradient, Onto};
 pub(crate) use weight_gradient::WeightGradient;
 pub(crate) use weights::{ConvolutionWeights, plain};
 
-use crate::planes::{Layout, Picture};
+use crate::picture::Picture;
+use crate::planes::Layout;
 
 /// The shape of a convolution without a bias: a square kernel, padded by half of it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

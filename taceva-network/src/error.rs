@@ -1,6 +1,6 @@
 //! Why a network cannot be made, trained or used.
 
-use crate::planes::Picture;
+use crate::picture::Picture;
 
 /// Why a network cannot be made, trained or used.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]

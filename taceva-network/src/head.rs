@@ -2,7 +2,8 @@
 
 use crate::architecture::Pooling;
 use crate::panel::Aligned;
-use crate::planes::{Layout, Picture, Planes};
+use crate::picture::Picture;
+use crate::planes::{Layout, Planes};
 use crate::update::Update;
 
 /// Outputs that are linear in features.

@@ -9,7 +9,7 @@ pub(crate) use backward::{Pooled, gradient_sums, input_gradient};
 pub(crate) use forward::pool_normalised;
 pub(crate) use greatest::pool;
 
-use crate::planes::Picture;
+use crate::picture::Picture;
 
 /// Rows and columns that are compared.
 const KERNEL: usize = 3;

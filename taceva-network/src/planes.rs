@@ -2,32 +2,9 @@
 
 use crate::error::{NetworkError, SampleSet};
 use crate::panel::Aligned;
-
-/// The size of a picture and how many numbers a pixel has.
-///
-/// # Shapes
-/// Pictures lie as `[height, width, channels]`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, serde::Serialize, serde::Deserialize)]
-pub struct Picture {
-    /// Rows.
-    pub height: usize,
-    /// Columns.
-    pub width: usize,
-    /// Numbers a pixel.
-    pub channels: usize,
-}
+use crate::picture::Picture;
 
 impl Picture {
-    /// Numbers a picture.
-    pub const fn len(&self) -> usize {
-        self.height * self.width * self.channels
-    }
-
-    /// Whether a picture has no number.
-    pub const fn is_empty(&self) -> bool {
-        self.len() == 0
-    }
-
     /// Whether `pictures` are such ones, finite, and `into` has room for `outputs` numbers of each.
     ///
     /// # Errors
@@ -68,17 +45,6 @@ impl Picture {
                 position: position % self.len(),
             }),
         }
-    }
-
-    /// Pixels a picture.
-    pub(crate) const fn pixels(&self) -> usize {
-        self.height * self.width
-    }
-}
-
-impl std::fmt::Display for Picture {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        write!(f, "{}×{}×{}", self.height, self.width, self.channels)
     }
 }
 

@@ -9,7 +9,8 @@ use crate::error::NetworkError;
 use crate::head::Head;
 use crate::machine::Machine;
 use crate::network::Network;
-use crate::planes::{Layout, Picture, Planes};
+use crate::picture::Picture;
+use crate::planes::{Layout, Planes};
 use crate::scratch::Scratch;
 
 /// A network ready to predict, and the room that it needs.

@@ -43,7 +43,7 @@ impl Scratch {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::planes::Picture;
+    use crate::picture::Picture;
 
     #[test]
     fn room_goes_round_between_sizes_and_borders_are_zero_again() {

@@ -2,7 +2,7 @@
 //!
 //! [`Child::start`] runs this program again as a *host child*: a process that confines itself ([`Confinement`]), loads what it serves only
 //! then, and answers calls. What it opens comes out as the device traits of core. Whatever a plugin does to its process, the host learns
-//! as a typed error of the devices of that child ([`ChildError`]), and nothing else is harmed.
+//! as a typed error of the devices of that child ([`ChildError`]), and nothing else is affected.
 //!
 //! | what goes | how |
 //! |---|---|
@@ -12,7 +12,7 @@
 //! | lines of the log | a socket a child, read by a thread of its own |
 //! | frames | memory of a sealed size, written in place by the child, copied once by the host |
 //!
-//! The host believes nothing: every length and number that comes is checked ([`wire`]), every call has a time after which the child is
+//! Every length and number that a child sends is checked ([`wire`]), every call has a time after which the child is
 //! ended ([`Patience`]), and a child that breaks a rule is ended at once.
 
 mod arguments;

@@ -202,7 +202,7 @@ fn open(image: &Image) -> Result<*const abi::Plugin, LoadProblem> {
     // The loader knows the library by the name of this descriptor, which therefore is never used for another.
     let _ = memory.into_raw_fd();
     let name_of_symbol = abi::ENTRY_SYMBOL.to_bytes_with_nul();
-    // SAFETY: only the address is taken; what lies there is looked at before it is believed.
+    // SAFETY: only the address is taken; what lies there is checked before it is used.
     let symbol = unsafe { loaded.get::<*const abi::Plugin>(name_of_symbol) };
     let symbol = symbol.map_err(|error| LoadProblem::Symbol(message(error)))?;
     let address = *symbol;

@@ -54,7 +54,7 @@ unsafe extern "C" fn close(handle: *mut c_void) {
 }
 
 unsafe extern "C" fn interrupt<O: Any + Send>(handle: *mut c_void) {
-    // A call without an answer: what goes wrong in it is for nobody.
+    // A call without an answer: there is nobody to report a failure to.
     drop(caught(|| {
         if let Ok(handle) = open::find::<Handle<O>>(handle) {
             handle

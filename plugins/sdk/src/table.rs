@@ -1,12 +1,15 @@
 //! A driver's description as the `[[provides]]` table of a manifest.
 
-use std::fmt::{self, Write};
+mod toml;
+
+use std::fmt::{self, Write as _};
 
 use taceva_core::{
     ArgKind, ArgSpec, ArgValue, Descriptor, Facts, Footprint, ForceFacts, Outline, Point, Presence,
     RobotFacts, SensorFacts,
 };
 
+use self::toml::{Number, Text, written};
 use crate::EstimatorFactory;
 
 /// What a manifest says below `[[provides]]`: TOML, with `[[args]]` where the manifest has `[[provides.args]]`.
@@ -256,58 +259,9 @@ impl Table {
     }
 }
 
-fn written(number: f64) -> String {
-    Number(number).to_string()
-}
-
-/// A float as TOML writes it: the shortest digits that read back, with a point or an exponent.
-struct Number(f64);
-
-impl fmt::Display for Number {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{:?}", self.0)
-    }
-}
-
-/// A basic string of TOML.
-struct Text<'a>(&'a str);
-
-impl fmt::Display for Text<'_> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_char('"')?;
-        for character in self.0.chars() {
-            match character {
-                '"' | '\\' => write!(f, "\\{character}")?,
-                '\n' => f.write_str("\\n")?,
-                '\t' => f.write_str("\\t")?,
-                control if control.is_control() => write!(f, "\\u{:04X}", u32::from(control))?,
-                plain => f.write_char(plain)?,
-            }
-        }
-        f.write_char('"')
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn text_and_numbers_are_written_as_toml_reads_them() {
-        assert_eq!(
-            Text("a\"b\\\n\u{7f}é\u{1}").to_string(),
-            r#""a\"b\\\n\u007Fé\u0001""#
-        );
-        for (number, expected) in [
-            (60.0, "60.0"),
-            (0.1, "0.1"),
-            (1e-7, "1e-7"),
-            (1e22, "1e22"),
-            (f64::NEG_INFINITY, "-inf"),
-        ] {
-            assert_eq!(Number(number).to_string(), expected);
-        }
-    }
 
     #[test]
     fn an_argument_of_each_type_is_written_with_all_it_says() {

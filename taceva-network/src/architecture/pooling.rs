@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::planes::Picture;
+use crate::picture::Picture;
 
 /// How the last pictures become features.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]

@@ -3,7 +3,8 @@
 use super::PlainLayer;
 use crate::convolution::Convolution;
 use crate::max_pool;
-use crate::planes::{Layout, Picture};
+use crate::picture::Picture;
+use crate::planes::Layout;
 
 /// A part of a network that is passed as a whole.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -66,7 +66,8 @@ mod tests {
     use super::*;
     use crate::batch_norm::Moments;
     use crate::max_pool::{output, pool_normalised};
-    use crate::planes::{Picture, Planes};
+    use crate::picture::Picture;
+    use crate::planes::Planes;
 
     #[test]
     fn it_gives_what_pooling_in_training_gives_of_pictures_that_are_not_changed_on_the_way() {

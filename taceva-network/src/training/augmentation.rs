@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::architecture::Architecture;
 use crate::error::NetworkError;
-use crate::planes::Picture;
+use crate::picture::Picture;
 use taceva_core::random::Draws;
 
 /// How pictures are changed before each step; the default changes nothing.

@@ -132,7 +132,7 @@ impl Failure {
         }
     }
 
-    /// The error that `driver` would have given without a child between; what it says is shown and never obeyed.
+    /// The error that `driver` would have given without a child between; its text is shown with control characters escaped.
     pub(crate) fn to_error(&self, driver: &DriverKey) -> DriverError {
         let error = DriverError::new(self.kind, driver, plain(&cut(&self.doing)));
         match &self.cause {
@@ -142,7 +142,7 @@ impl Failure {
     }
 }
 
-/// What a plugin says of the devices it sees, shown and never obeyed.
+/// What a plugin says of the devices it sees, with control characters escaped.
 pub(crate) fn plain_found(found: Found) -> Found {
     Found {
         title: plain(&cut(&found.title)),

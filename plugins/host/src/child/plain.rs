@@ -2,7 +2,7 @@
 
 use taceva_core::is_obeyed;
 
-/// `text` with control characters written out, so that a terminal shows it and does not obey it.
+/// `text` with control characters written out, so that no terminal interprets them.
 pub(crate) fn plain(text: &str) -> String {
     let mut plain = String::with_capacity(text.len());
     for character in text.chars() {

@@ -1,4 +1,4 @@
-//! How the host and its child write what they say to each other: little-endian, every length checked before it is believed.
+//! How the host and its child write what they say to each other: little-endian, every length checked before it is used.
 //!
 //! A message is one packet of at most [`MESSAGE_MAX`] bytes. Reading never panics, allocates no more than the packet is long, and refuses a
 //! message that is not read to its end.

@@ -29,7 +29,7 @@ pub(super) unsafe extern "C" fn progress(context: *mut c_void, done: f64) -> i32
     let reported = listener.reported;
     listener.reported = reported.max(reached);
     let progress = listener.progress;
-    // A panic of whoever listens must not cross the line: it ends the fit.
+    // A panic of the listener must not unwind into the library: it ends the fit.
     let cancelled = catch_unwind(AssertUnwindSafe(|| {
         if reached > reported {
             progress.advance(reached - reported);

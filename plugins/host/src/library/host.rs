@@ -50,7 +50,7 @@ unsafe extern "C" fn write(
 ) {
     let read = |text: abi::Text| {
         let is_text = text.length <= LENGTH_MAX;
-        // SAFETY: borrowed for this call by the rule of the interface, and no endless length is believed.
+        // SAFETY: borrowed for this call by the rule of the interface, and its length is bounded.
         let text = is_text.then(|| unsafe { text.to_str() });
         match text {
             Some(Ok(text)) => shown(text),
@@ -68,7 +68,7 @@ unsafe extern "C" fn write(
     }
     // SAFETY: `context` is the log that `table` leaked, as this function and it are only handed over together.
     let log = unsafe { &*context.cast::<Log>() };
-    // A panic must not cross the line; the line of the log is lost then, and nothing else.
+    // A panic must not unwind into the library; only this line of the log is lost then.
     let _ = catch_unwind(AssertUnwindSafe(|| {
         log(level, &read(target), &read(message))
     }));

@@ -1,4 +1,4 @@
-//! The system calls that a child may make: a list of those that harm nobody, everything else answered with "not permitted".
+//! The system calls that a child may make: a fixed list; every other call fails with "not permitted".
 //!
 //! Filters add up: the first is set before the library is loaded, the second when it is, since only loading needs to map code. No memory
 //! is ever writable and executable, at either stage.

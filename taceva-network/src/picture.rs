@@ -1,0 +1,38 @@
+//! The size of a picture.
+
+/// The size of a picture and how many numbers a pixel has.
+///
+/// # Shapes
+/// Pictures lie as `[height, width, channels]`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, serde::Serialize, serde::Deserialize)]
+pub struct Picture {
+    /// Rows.
+    pub height: usize,
+    /// Columns.
+    pub width: usize,
+    /// Numbers a pixel.
+    pub channels: usize,
+}
+
+impl Picture {
+    /// Numbers a picture.
+    pub const fn len(&self) -> usize {
+        self.height * self.width * self.channels
+    }
+
+    /// Whether a picture has no number.
+    pub const fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// Pixels a picture.
+    pub(crate) const fn pixels(&self) -> usize {
+        self.height * self.width
+    }
+}
+
+impl std::fmt::Display for Picture {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "{}×{}×{}", self.height, self.width, self.channels)
+    }
+}
