@@ -36,10 +36,10 @@ pub(crate) fn of_dataset(
 
 /// The facts of `file`, and those of `otherwise` where it has none.
 pub(crate) fn of_file(file: &SensorFile, otherwise: SensorFacts) -> SensorFacts {
-    let scene = file.reference_scene.clone();
+    let reference_scene = file.reference_scene.clone();
     SensorFacts::default()
         .with_footprint(file.footprint.or(otherwise.footprint))
         .with_opaque(file.opaque.or(otherwise.opaque))
-        .with_reference_scene(scene.unwrap_or(otherwise.reference_scene))
+        .with_reference_scene(reference_scene.unwrap_or(otherwise.reference_scene))
         .with_frame_size(file.frame_size.or(otherwise.frame_size))
 }
