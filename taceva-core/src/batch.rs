@@ -14,6 +14,14 @@ use crate::channel::Channels;
 use crate::field::Field;
 
 /// Some samples as columns of one length; what no metric asked for is not filled.
+///
+/// ```
+/// use taceva_core::{Batch, Channel, Channels, Column};
+/// let channels = Channels::new([Channel::FZ])?;
+/// let batch = Batch::from_columns(channels, vec![Column::full(vec![0.5])], vec![Column::full(vec![0.25])], None);
+/// assert_eq!((batch.rows(), batch.prediction(0).get(0)), (1, Some(0.25)));
+/// # Ok::<(), taceva_core::ChannelError>(())
+/// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Batch {
     rows: usize,

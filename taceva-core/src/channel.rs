@@ -10,6 +10,13 @@ use crate::unit::Unit;
 /// # Units
 /// `Px Py Pz` in mm and `Fx Fy Fz` in N. `Pz` is the indentation, positive into the gel; `Fz` is positive in compression;
 /// `Fx`, `Fy` follow the tangential displacement of the indenter relative to the gel.
+///
+/// ```
+/// use taceva_core::{Channel, Unit};
+/// let turn = Channel::named("Rx", Unit::Degree)?;
+/// assert_eq!((turn.name(), Channel::FZ.unit()), ("Rx", Unit::Newton));
+/// # Ok::<(), taceva_core::ChannelError>(())
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct Channel {
     name: Cow<'static, str>,
@@ -102,6 +109,13 @@ impl fmt::Display for Channel {
 }
 
 /// The channels of a stream, each once, in the one order: `Px Py Pz Fx Fy Fz`, then extra ones by name.
+///
+/// ```
+/// use taceva_core::{Channel, Channels};
+/// let channels = Channels::new([Channel::FZ, Channel::PX])?;
+/// assert_eq!((channels.position("Px"), channels.position("Fz")), (Some(0), Some(1)));
+/// # Ok::<(), taceva_core::ChannelError>(())
+/// ```
 #[derive(Clone, Debug, Default, PartialEq, Eq, Hash)]
 pub struct Channels {
     list: Vec<Channel>,
@@ -168,6 +182,11 @@ impl<'a> IntoIterator for &'a Channels {
 }
 
 /// Why a channel or a list of channels cannot be.
+///
+/// ```
+/// use taceva_core::{Channel, Channels};
+/// assert!(Channels::new([Channel::FZ, Channel::FZ]).is_err());
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum ChannelError {

@@ -4,6 +4,11 @@ use std::fmt;
 use std::ops::BitOr;
 
 /// One part of a [`Sample`](crate::Sample).
+///
+/// ```
+/// use taceva_core::Field;
+/// assert_eq!(Field::Repeat.name(), "repeat");
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 #[repr(u8)]
 #[non_exhaustive]
@@ -89,6 +94,12 @@ impl fmt::Display for Field {
 }
 
 /// A set of fields.
+///
+/// ```
+/// use taceva_core::{Field, FieldSet};
+/// let fields = FieldSet::EMPTY.with(Field::Truth).with(Field::Point);
+/// assert!(fields.contains(Field::Point) && !fields.contains(Field::Prediction));
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct FieldSet {
     bits: u16,

@@ -3,6 +3,11 @@
 use std::fmt;
 
 /// How one pixel is stored. 16-bit samples are little-endian, whatever the machine.
+///
+/// ```
+/// use taceva_core::PixelFormat;
+/// assert_eq!((PixelFormat::Rgb16.samples(), PixelFormat::Rgb16.bytes_per_sample()), (3, 2));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "lowercase"))]
@@ -55,6 +60,12 @@ impl PixelFormat {
 }
 
 /// The size and the pixel format of a frame.
+///
+/// ```
+/// use taceva_core::{FrameInfo, PixelFormat};
+/// let info = FrameInfo { width: 640, height: 480, format: PixelFormat::Gray8 };
+/// assert_eq!(info.byte_len(), Some(307_200));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct FrameInfo {
@@ -85,6 +96,14 @@ impl fmt::Display for FrameInfo {
 }
 
 /// A frame that owns its pixels, row by row from the top, without padding.
+///
+/// ```
+/// use taceva_core::{Frame, FrameInfo, PixelFormat};
+/// let info = FrameInfo { width: 2, height: 1, format: PixelFormat::Gray8 };
+/// let frame = Frame::new(info, vec![0, 255])?;
+/// assert_eq!(frame.samples().collect::<Vec<_>>(), [0, 255]);
+/// # Ok::<(), taceva_core::FrameError>(())
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Frame {
     info: FrameInfo,
@@ -190,6 +209,15 @@ fn weighted(samples: impl Iterator<Item = u64>) -> u64 {
 }
 
 /// A frame to be written into, in the caller's buffer.
+///
+/// ```
+/// use taceva_core::{FrameInfo, FrameMut, PixelFormat};
+/// let info = FrameInfo { width: 2, height: 1, format: PixelFormat::Gray8 };
+/// let mut bytes = [0; 2];
+/// FrameMut::new(info, &mut bytes)?.bytes_mut().fill(7);
+/// assert_eq!(bytes, [7, 7]);
+/// # Ok::<(), taceva_core::FrameError>(())
+/// ```
 #[derive(Debug)]
 pub struct FrameMut<'a> {
     info: FrameInfo,
@@ -229,6 +257,12 @@ fn check_len(info: FrameInfo, found: usize) -> Result<(), FrameError> {
 }
 
 /// A buffer that does not fit its frame.
+///
+/// ```
+/// use taceva_core::{Frame, FrameInfo, PixelFormat};
+/// let info = FrameInfo { width: 2, height: 1, format: PixelFormat::Gray8 };
+/// assert!(Frame::new(info, vec![0]).is_err());
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct FrameError {
     info: FrameInfo,

@@ -2,7 +2,13 @@
 
 use crate::quantity::{Degree, Millimetre};
 
-/// A place in the sensor's frame: x and y along the gel, z into it.
+/// A place in the sensor's frame: x and y along the gel, z into it. A plain value, which gets no further fields.
+///
+/// ```
+/// use taceva_core::{Millimetre, Point};
+/// let pressed = Point { z: Millimetre(0.5), ..Point::default() };
+/// assert_eq!((pressed.x, pressed.z), (Millimetre(0.0), Millimetre(0.5)));
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Point {
     /// Along the gel.
@@ -13,7 +19,13 @@ pub struct Point {
     pub z: Millimetre,
 }
 
-/// A turn about the sensor's axes, applied x, then y, then z.
+/// A turn about the sensor's axes, applied x, then y, then z. A plain value, which gets no further fields.
+///
+/// ```
+/// use taceva_core::{Degree, Rotation};
+/// let turned = Rotation { z: Degree(90.0), ..Rotation::default() };
+/// assert_eq!(turned.z, Degree(90.0));
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Rotation {
     /// About x.
@@ -24,7 +36,14 @@ pub struct Rotation {
     pub z: Degree,
 }
 
-/// The tool in the sensor's frame.
+/// The tool in the sensor's frame. A plain value, which gets no further fields.
+///
+/// ```
+/// use taceva_core::{Millimetre, Point, Pose};
+/// let position = Point { z: Millimetre(0.5), ..Point::default() };
+/// let pose = Pose { position, ..Pose::default() };
+/// assert_eq!(pose.on_grid(), pose);
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Pose {
     /// Where its tip is.

@@ -3,6 +3,11 @@
 use std::fmt;
 
 /// The relief of a grating; both have one period in each direction they repeat in.
+///
+/// ```
+/// use taceva_core::GratingKind;
+/// assert_eq!(GratingKind::from_name("dot"), Some(GratingKind::Dot));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]

@@ -8,6 +8,12 @@ use crate::error::ErrorKind;
 use crate::progress::Progress;
 
 /// The shape of one sample's features: a small picture, or a flat list.
+///
+/// ```
+/// use taceva_core::FeatureShape;
+/// let picture = FeatureShape { height: 32, width: 32, depth: 3 };
+/// assert_eq!((picture.len(), FeatureShape::flat(20).len()), (3072, 20));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct FeatureShape {
     /// Rows; 1 for a flat list.

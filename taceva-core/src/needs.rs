@@ -3,6 +3,12 @@
 use crate::field::FieldSet;
 
 /// What a metric or another consumer needs; pure data, so that planning needs neither devices nor files.
+///
+/// ```
+/// use taceva_core::{FieldSet, Needs};
+/// let needs = Needs { fields: FieldSet::PAIRS, channels: &["Fz"], least_samples: 2 };
+/// assert_ne!(needs, Needs::default());
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Needs {
     /// Fields without which there is no value.

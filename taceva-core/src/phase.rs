@@ -3,6 +3,11 @@
 use std::fmt;
 
 /// The branch of a press.
+///
+/// ```
+/// use taceva_core::Phase;
+/// assert_eq!((Phase::from_name("load"), Phase::Unload.name()), (Some(Phase::Load), "unload"));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]

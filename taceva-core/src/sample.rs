@@ -11,6 +11,17 @@ use crate::stamp::Stamp;
 use crate::wrench::Wrench;
 
 /// One observation; what is absent is `None`, never a placeholder number.
+///
+/// ```
+/// use taceva_core::{Readings, Sample};
+/// let sample = Sample {
+///     id: "press 1".into(),
+///     truth: Readings::from_values([1.0, 0.5]),
+///     prediction: Some(Readings::from_values([1.1, 0.48])),
+///     ..Sample::default()
+/// };
+/// assert_eq!(sample.truth.get(1), Some(0.5));
+/// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Sample {
     /// Its name within the recording.
@@ -52,6 +63,12 @@ pub struct Sample {
 }
 
 /// A value a channel of the stream, in the order of its [`Channels`]; absent ones are `None`.
+///
+/// ```
+/// use taceva_core::Readings;
+/// let readings = Readings::new(vec![Some(0.5), None]);
+/// assert_eq!((readings.get(0), readings.get(1)), (Some(0.5), None));
+/// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Readings {
     values: Vec<Option<f64>>,

@@ -5,6 +5,12 @@ use std::fmt;
 use crate::field::Field;
 
 /// Something that was left out.
+///
+/// ```
+/// use taceva_core::{SkipReason, Skipped};
+/// let skipped = Skipped { what: "metric:drift".to_owned(), reason: SkipReason::NotWanted };
+/// assert_eq!(skipped.reason, SkipReason::NotWanted);
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Skipped {
     /// What: `metric:repeatability`, `field:frame`, `stage:fit`.
@@ -14,6 +20,11 @@ pub struct Skipped {
 }
 
 /// Why something was left out.
+///
+/// ```
+/// use taceva_core::{Field, SkipReason};
+/// assert_eq!(SkipReason::FieldAbsent(Field::Repeat).to_string(), "no sample carries `repeat`");
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum SkipReason {

@@ -6,6 +6,12 @@ use crate::grating::GratingKind;
 use crate::nanometre::Nanometre;
 
 /// What the robot carries.
+///
+/// ```
+/// use taceva_core::{GratingKind, Nanometre, Specimen};
+/// let board = Specimen::Grating { kind: GratingKind::Line, spacing: Nanometre(500_000) };
+/// assert!(board.to_string().starts_with("line grating of "));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Specimen {
     /// A sphere.

@@ -4,6 +4,11 @@ use std::fmt;
 use std::time::Duration;
 
 /// Which clock a time was read from.
+///
+/// ```
+/// use taceva_core::Clock;
+/// assert_eq!((Clock::default(), Clock::Unix.to_string()), (Clock::Unknown, "unix".to_owned()));
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
@@ -28,6 +33,12 @@ impl fmt::Display for Clock {
 }
 
 /// The time of a sample, in seconds of the recording's [`Clock`].
+///
+/// ```
+/// use taceva_core::Stamp;
+/// let stamp = Stamp { valid_s: 1.5, received_s: Some(1.53) };
+/// assert_eq!(stamp.valid().as_millis(), 1500);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stamp {
     /// When the observation was true: the middle of the exposure, where that is known.

@@ -3,7 +3,13 @@
 use crate::geometry::nearest;
 use crate::quantity::{Newton, NewtonMillimetre};
 
-/// Force and torque on the gel, in the sensor's frame; a compressing force has a positive z.
+/// Force and torque on the gel, in the sensor's frame; a compressing force has a positive z. A plain value, which gets no further fields.
+///
+/// ```
+/// use taceva_core::{Newton, Wrench};
+/// let press = Wrench { force: [Newton(0.0), Newton(0.0), Newton(2.5)], ..Wrench::default() };
+/// assert_eq!(press.on_grid(), press);
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Wrench {
     /// Force along x, y, z.

@@ -9,6 +9,14 @@ use crate::phase::Phase;
 use crate::sample::{Readings, Sample};
 
 /// Collects samples into batches, filling only the fields somebody reads.
+///
+/// ```
+/// use taceva_core::{BatchBuilder, Channel, Channels, FieldSet, Readings, Sample};
+/// let mut builder = BatchBuilder::new(Channels::new([Channel::FZ])?, FieldSet::PAIRS);
+/// builder.push(&Sample { truth: Readings::from_values([0.5]), ..Sample::default() });
+/// assert_eq!(builder.take().truth(0).get(0), Some(0.5));
+/// # Ok::<(), taceva_core::ChannelError>(())
+/// ```
 #[derive(Debug)]
 pub struct BatchBuilder {
     fields: FieldSet,

@@ -3,6 +3,13 @@
 use std::ops::Range;
 
 /// The values of one channel; where a sample has none, a mask says so.
+///
+/// ```
+/// use taceva_core::Column;
+/// let mut force = Column::full(vec![0.5, 1.0]);
+/// force.push(None);
+/// assert_eq!((force.len(), force.get(2)), (3, None));
+/// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Column {
     values: Vec<f64>,

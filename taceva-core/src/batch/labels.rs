@@ -3,6 +3,13 @@
 use std::collections::HashMap;
 
 /// A name a row, each distinct name kept once; a row may have none.
+///
+/// ```
+/// use taceva_core::Labels;
+/// let mut points = Labels::default();
+/// ["left", "right", "left"].iter().for_each(|name| points.push(name));
+/// assert_eq!((points.names().len(), points.get(2)), (2, Some("left")));
+/// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Labels {
     names: Vec<String>,
