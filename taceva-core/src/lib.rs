@@ -59,7 +59,7 @@ pub use nanometre::{Nanometre, NanometreError};
 pub use needs::Needs;
 pub use outcome::{Limit, PressOutcome};
 pub use phase::Phase;
-pub use progress::{Progress, Silent};
+pub use progress::{Progress, SilentProgress};
 pub use quantity::{Degree, Hertz, Lux, Millimetre, Newton, NewtonMillimetre};
 pub use registry::{
     Access, Builtin, Descriptor, DescriptorError, DescriptorSpec, DriverSource, Factory, Facts,

@@ -12,11 +12,11 @@ pub trait Progress: Send + Sync {
     fn is_cancelled(&self) -> bool;
 }
 
-/// Nobody listens, and nobody cancels.
+/// A progress that shows nothing and never cancels.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Silent;
+pub struct SilentProgress;
 
-impl Progress for Silent {
+impl Progress for SilentProgress {
     fn begin(&self, _stage: &str, _steps: Option<u64>) {}
     fn advance(&self, _steps: u64) {}
     fn end(&self) {}

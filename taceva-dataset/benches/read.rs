@@ -6,7 +6,7 @@ use std::path::PathBuf;
 
 use divan::Bencher;
 use taceva_core::{Channels, Clock};
-use taceva_core::{Frame, FrameInfo, PixelFormat, Sample, Silent};
+use taceva_core::{Frame, FrameInfo, PixelFormat, Sample, SilentProgress};
 use taceva_dataset::{
     CsvTable, Dataset, Pass, Recorder, RecordingFacts, RecordingSpec, SensorFacts, Source,
 };
@@ -79,7 +79,7 @@ fn decode_64_frames(bencher: Bencher<'_, '_>, jobs: usize) {
     let pass = Pass::new(
         &rows,
         NonZeroUsize::new(jobs).expect("at least one"),
-        &Silent,
+        &SilentProgress,
     );
     bencher.bench(|| {
         let mut bytes = 0;

@@ -5,7 +5,7 @@ use std::error::Error;
 use std::path::Path;
 use std::time::Instant;
 
-use taceva_core::Silent;
+use taceva_core::SilentProgress;
 use taceva_dataset::{Dataset, Pass};
 
 fn main() -> Result<(), Box<dyn Error>> {
@@ -17,7 +17,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     };
     let dataset = Dataset::open(Path::new(folder))?;
     let rows = dataset.all_rows();
-    let pass = Pass::new(&rows, jobs, &Silent);
+    let pass = Pass::new(&rows, jobs, &SilentProgress);
     let start = Instant::now();
     let mut sum = 0;
     let brightness = |_, frame: taceva_core::Frame| {

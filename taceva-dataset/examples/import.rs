@@ -4,7 +4,7 @@
 use std::error::Error;
 use std::path::Path;
 
-use taceva_core::Silent;
+use taceva_core::SilentProgress;
 use taceva_dataset::{ImportMap, ImportPlan};
 
 fn main() -> Result<(), Box<dyn Error>> {
@@ -15,6 +15,6 @@ fn main() -> Result<(), Box<dyn Error>> {
     let map = ImportMap::read(Path::new(map))?;
     let plan = ImportPlan::new(Path::new(source), &map)?;
     let jobs = std::thread::available_parallelism()?;
-    print!("{}", plan.run(Path::new(target), jobs, &Silent)?);
+    print!("{}", plan.run(Path::new(target), jobs, &SilentProgress)?);
     Ok(())
 }

@@ -121,12 +121,12 @@ impl Dataset {
     ///
     /// ```
     /// use std::num::NonZeroUsize;
-    /// use taceva_core::Silent;
+    /// use taceva_core::SilentProgress;
     /// use taceva_dataset::{Dataset, FrameArrays, Pass};
     ///
     /// fn first_eight(dataset: &Dataset) -> Result<FrameArrays, taceva_dataset::DatasetError> {
     ///     let rows: Vec<usize> = (0..8).collect();
-    ///     dataset.frame_arrays(Pass { rows: &rows, jobs: NonZeroUsize::MIN, progress: &Silent })
+    ///     dataset.frame_arrays(Pass::new(&rows, NonZeroUsize::MIN, &SilentProgress))
     /// }
     /// # let _ = first_eight;
     /// ```

@@ -9,6 +9,7 @@ mod plan;
 mod preset;
 mod rows;
 mod source;
+mod summary;
 mod suspicion;
 
 pub(crate) use advice::advice;
@@ -16,6 +17,7 @@ pub use copy::ImportReport;
 pub use map::{
     ArrayFrames, ColumnMap, DropRules, FrameMap, FrameNames, IdMap, ImportMap, Placeholder, TimeMap,
 };
-pub use plan::{Conversion, ImportPlan, ImportSummary};
+pub use plan::ImportPlan;
 pub use preset::Preset;
+pub use summary::{Conversion, ImportSummary};
 pub use suspicion::{Suspicion, magnitude_suspicion};

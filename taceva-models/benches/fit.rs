@@ -2,7 +2,7 @@
 
 use divan::Bencher;
 use taceva_core::{
-    Channel, Channels, FeatureShape, Features, Regressor, Silent, Targets, TrainingSet,
+    Channel, Channels, FeatureShape, Features, Regressor, SilentProgress, Targets, TrainingSet,
 };
 use taceva_models::{LinearEstimator, Ridge, Settings, find};
 
@@ -101,7 +101,7 @@ fn fit(bencher: Bencher, name: &str, shape: (usize, usize)) {
         .expect("valid");
     bencher.bench_local(|| {
         estimator
-            .fit_model(&training.set(), Some(&validation.set()), &Silent)
+            .fit_model(&training.set(), Some(&validation.set()), &SilentProgress)
             .expect("learnable")
     });
 }
@@ -111,7 +111,7 @@ fn predict_one_sample(bencher: Bencher, width: usize) {
     let recording = recording((100, width));
     let estimator = Ridge::from_settings(&Settings::default()).expect("defaults");
     let fit = estimator
-        .fit_linear(&recording.set(), None, &Silent)
+        .fit_linear(&recording.set(), None, &SilentProgress)
         .expect("learnable");
     let mut into = vec![0.0; fit.regressor.channels().len()];
     bencher.bench_local(|| {

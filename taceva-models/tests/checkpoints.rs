@@ -7,8 +7,8 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::time::Duration;
 
 use taceva_core::{
-    Channel, Channels, ErrorKind, FeatureShape, Features, ModelError, Progress, Silent, Targets,
-    TrainingSet,
+    Channel, Channels, ErrorKind, FeatureShape, Features, ModelError, Progress, SilentProgress,
+    Targets, TrainingSet,
 };
 use taceva_models::{CheckpointError, Checkpoints, Foreign, ModelFit, Settings, find};
 
@@ -151,7 +151,7 @@ fn cause(error: &ModelError) -> &CheckpointError {
 fn a_training_stopped_after_any_steps_ends_as_one_that_was_not() {
     let folder = tempfile::tempdir().expect("a folder");
     for (model, steps) in [("cnn", 1), ("cnn", 5), ("resnet10", 4)] {
-        let expected = fit(model, &WORDS, None, &Silent).expect("fits");
+        let expected = fit(model, &WORDS, None, &SilentProgress).expect("fits");
         let path = folder.path().join(format!("{model}.{steps}"));
         let mut stops = 0;
         let found = loop {
@@ -214,7 +214,10 @@ fn a_checkpoint_of_other_samples_or_settings_is_refused_and_replaced_where_that_
             "layers, channels or sizes of pictures",
         ),
     ] {
-        let work = (Some(after_each_step(&path)), &Silent as &dyn Progress);
+        let work = (
+            Some(after_each_step(&path)),
+            &SilentProgress as &dyn Progress,
+        );
         let error = fit_on(model, &words, sets, work).expect_err("of another training");
         assert!(
             matches!(cause(&error), CheckpointError::Foreign { what: found, .. } if *found == what),
@@ -226,7 +229,7 @@ fn a_checkpoint_of_other_samples_or_settings_is_refused_and_replaced_where_that_
         foreign: Foreign::Replace,
         ..after_each_step(&path)
     };
-    let work = (Some(replaced), &Silent as &dyn Progress);
+    let work = (Some(replaced), &SilentProgress as &dyn Progress);
     fit_on("cnn", &WORDS, (&altered, &validation), work).expect("begins anew");
     assert_ne!(fs::read(&path).expect("there"), left);
 }
@@ -245,7 +248,7 @@ fn a_damaged_checkpoint_is_refused_whichever_byte_it_is() {
         let mut damaged = whole.clone();
         damaged[place] ^= 1;
         fs::write(&path, damaged).expect("written");
-        let refused = fit("cnn", &WORDS, Some(after_each_step(&path)), &Silent);
+        let refused = fit("cnn", &WORDS, Some(after_each_step(&path)), &SilentProgress);
         let error = refused.map(|_| ()).expect_err("damaged");
         assert!(
             matches!(
@@ -257,7 +260,7 @@ fn a_damaged_checkpoint_is_refused_whichever_byte_it_is() {
     }
     for length in [0, 7, 8, header, whole.len() - 1] {
         fs::write(&path, &whole[..length]).expect("written");
-        let refused = fit("cnn", &WORDS, Some(after_each_step(&path)), &Silent);
+        let refused = fit("cnn", &WORDS, Some(after_each_step(&path)), &SilentProgress);
         let error = refused.map(|_| ()).expect_err("cut off");
         assert!(
             matches!(cause(&error), CheckpointError::Damaged { .. }),
@@ -270,13 +273,24 @@ fn a_damaged_checkpoint_is_refused_whichever_byte_it_is() {
 fn a_place_that_cannot_be_written_or_read_is_named() {
     let folder = tempfile::tempdir().expect("a folder");
     let absent = folder.path().join("absent/checkpoint");
-    let error = fit("cnn", &WORDS, Some(after_each_step(&absent)), &Silent).expect_err("no folder");
+    let error = fit(
+        "cnn",
+        &WORDS,
+        Some(after_each_step(&absent)),
+        &SilentProgress,
+    )
+    .expect_err("no folder");
     assert_eq!(error.kind(), ErrorKind::NotFound);
     assert!(
         matches!(cause(&error), CheckpointError::Write { path, .. } if *path == absent),
         "{error}"
     );
-    let error = fit("cnn", &WORDS, Some(after_each_step(folder.path())), &Silent);
+    let error = fit(
+        "cnn",
+        &WORDS,
+        Some(after_each_step(folder.path())),
+        &SilentProgress,
+    );
     let error = error.expect_err("a folder is no file");
     assert!(
         matches!(cause(&error), CheckpointError::Read { .. }),

@@ -6,7 +6,9 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use common::{Recording, both_shapes, distance, fit, model, predict, recording};
 use taceva_core::TrainingSet;
-use taceva_core::{ErrorKind, FeatureShape, Features, ModelError, Progress, Regressor, Silent};
+use taceva_core::{
+    ErrorKind, FeatureShape, Features, ModelError, Progress, Regressor, SilentProgress,
+};
 use taceva_models::{LinearEstimator, LinearFit};
 
 /// The names of the linear models.
@@ -97,7 +99,7 @@ fn features_that_never_change_give_the_mean() {
 fn too_few_samples_are_refused() {
     let recording = recording(1, 4, 0.1, 7);
     for estimator in every_model() {
-        let result = estimator.fit_linear(&recording.set(), None, &Silent);
+        let result = estimator.fit_linear(&recording.set(), None, &SilentProgress);
         assert_eq!(
             refusal(result, estimator.name()),
             "1 training samples, at least 2 are needed"
@@ -123,19 +125,19 @@ fn numbers_that_are_not_finite_are_refused_where_they_stand() {
             features: Features::new(clean.features.shape(), values).expect("whole"),
             ..clean.clone()
         };
-        let result = estimator.fit_linear(&broken.set(), None, &Silent);
+        let result = estimator.fit_linear(&broken.set(), None, &SilentProgress);
         assert_eq!(
             refusal(result, estimator.name()),
             "training sample 3: feature 2 is not finite"
         );
-        let result = estimator.fit_linear(&clean.set(), Some(&broken.set()), &Silent);
+        let result = estimator.fit_linear(&clean.set(), Some(&broken.set()), &SilentProgress);
         assert_eq!(
             refusal(result, estimator.name()),
             "validation sample 3: feature 2 is not finite"
         );
         let mut broken = clean.clone();
         broken.labels[3 * 5 + 1] = f64::INFINITY;
-        let result = estimator.fit_linear(&broken.set(), None, &Silent);
+        let result = estimator.fit_linear(&broken.set(), None, &SilentProgress);
         assert_eq!(
             refusal(result, estimator.name()),
             "training sample 5: `Fy` is not finite"
@@ -148,7 +150,8 @@ fn parts_that_do_not_fit_each_other_are_refused() {
     let training = recording(20, 4, 0.1, 9);
     let other_width = recording(20, 5, 0.1, 9);
     for estimator in every_model() {
-        let result = estimator.fit_linear(&training.set(), Some(&other_width.set()), &Silent);
+        let result =
+            estimator.fit_linear(&training.set(), Some(&other_width.set()), &SilentProgress);
         assert_eq!(
             refusal(result, estimator.name()),
             "validation samples of 5 features, training samples of 4"
@@ -157,7 +160,7 @@ fn parts_that_do_not_fit_each_other_are_refused() {
             groups: Some(&training.groups[1..]),
             ..training.set()
         };
-        let result = estimator.fit_linear(&short, None, &Silent);
+        let result = estimator.fit_linear(&short, None, &SilentProgress);
         assert_eq!(
             refusal(result, estimator.name()),
             "19 groups for 20 training samples"
@@ -287,7 +290,7 @@ fn learning_from_validation_too_equals_learning_from_both_at_once() {
         let words = ["components=5", "scale=none"];
         let estimator = model("pls", &words);
         let refitted = estimator
-            .fit_linear(&first.set(), Some(&last.set()), &Silent)
+            .fit_linear(&first.set(), Some(&last.set()), &SilentProgress)
             .expect("fits");
         assert!(refitted.refitted);
         let mut spans_of_first = recording.clone();
@@ -302,7 +305,7 @@ fn learning_from_validation_too_equals_learning_from_both_at_once() {
         let first = spans_of_first.select(&rows[..rows.len() / 2]);
         let last = spans_of_first.select(&rows[rows.len() / 2..]);
         let refitted = estimator
-            .fit_linear(&first.set(), Some(&last.set()), &Silent)
+            .fit_linear(&first.set(), Some(&last.set()), &SilentProgress)
             .expect("fits");
         let expected = predict(&both.regressor, &recording.features);
         let found = predict(&refitted.regressor, &recording.features);
@@ -320,7 +323,7 @@ fn without_a_penalty_an_exact_map_is_found_to_the_last_digits_or_refused() {
     let found = predict(&penalised.regressor, &exact.features);
     assert!(distance(&found, &exact.labels) < 1e-9);
     let few = recording(6, 8, 0.0, 14);
-    let result = model("ridge", &["strength=0"]).fit_linear(&few.set(), None, &Silent);
+    let result = model("ridge", &["strength=0"]).fit_linear(&few.set(), None, &SilentProgress);
     let said = refusal(result, "ridge");
     assert!(
         said.starts_with("6 samples for 8 weights: least squares"),

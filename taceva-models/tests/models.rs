@@ -3,7 +3,7 @@
 mod common;
 
 use common::{Recording, both_shapes, distance, fit, model, predict, recording};
-use taceva_core::{Features, Silent};
+use taceva_core::{Features, SilentProgress};
 use taceva_models::{ChosenBy, Pca};
 
 #[test]
@@ -140,7 +140,7 @@ fn ridge_refitted_keeps_its_penalty() {
         let (first, last) = rows.split_at(rows.len() / 2);
         let (first, last) = (recording.select(first), recording.select(last));
         let refitted = model("ridge", &["strength=0.1", "scale=none"])
-            .fit_linear(&first.set(), Some(&last.set()), &Silent)
+            .fit_linear(&first.set(), Some(&last.set()), &SilentProgress)
             .expect("fits");
         assert!(refitted.refitted);
         let same = 0.1 * mean_eigenvalue(&first) / mean_eigenvalue(&recording);
@@ -199,7 +199,7 @@ fn principal_components_are_orthonormal_and_keep_all_distances() {
             recording.features.shape().len(),
         );
         let rank = (samples - 1).min(width);
-        let pca = Pca::fit(&recording.features, rank, &Silent).expect("as many directions");
+        let pca = Pca::fit(&recording.features, rank, &SilentProgress).expect("as many directions");
         let components: Vec<&[f64]> = pca.components().collect();
         for (position, first) in components.iter().enumerate() {
             for (other, second) in components.iter().enumerate() {
@@ -223,7 +223,7 @@ fn principal_components_are_orthonormal_and_keep_all_distances() {
         };
         // Coordinates are rounded to f32.
         assert!((distance(&reduced) / distance(&recording.features) - 1.0).abs() < 1e-5);
-        let error = Pca::fit(&recording.features, rank + 1, &Silent).expect_err("too many");
+        let error = Pca::fit(&recording.features, rank + 1, &SilentProgress).expect_err("too many");
         assert_eq!(
             error.to_string(),
             format!(

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use taceva_core::{
     ArgSpec, ArgValue, Channel, Channels, DriverKey, ErrorKind, EstimatorFactory, FeatureShape,
     Features, FitRequest, FrameInfo, ModelError, PixelFormat, Regressor, Saved, SavedRegressor,
-    Silent, Targets, TrainingSet,
+    SilentProgress, Targets, TrainingSet,
 };
 use taceva_models::{
     Color, FeatureSpec, FitInput, FormatError, Model, Models, Provenance, SettingError, Settings,
@@ -167,7 +167,7 @@ fn fit(way: Way, words: &[&str], features: FeatureSpec) -> Result<Model, ModelEr
         validation: None,
         provenance: Provenance::default(),
     };
-    Model::fit(input, &Silent)
+    Model::fit(input, &SilentProgress)
 }
 
 fn asked() -> Features {

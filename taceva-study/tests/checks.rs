@@ -4,7 +4,8 @@ use std::num::NonZeroUsize;
 use std::path::Path;
 
 use taceva_core::{
-    Channel, Channels, Clock, Frame, FrameInfo, PixelFormat, Readings, Sample, Silent, Stamp, Unit,
+    Channel, Channels, Clock, Frame, FrameInfo, PixelFormat, Readings, Sample, SilentProgress,
+    Stamp, Unit,
 };
 use taceva_dataset::{Dataset, Recorder, RecordingFacts, RecordingSpec, SensorFacts, Source};
 use taceva_study::{CheckReport, CheckRequest, Severity, check};
@@ -61,7 +62,7 @@ impl Recording {
             seed: 0,
             jobs: NonZeroUsize::MIN,
         };
-        check(&dataset, &request, &Silent).expect("checked")
+        check(&dataset, &request, &SilentProgress).expect("checked")
     }
 
     fn write(self, path: &Path) -> Dataset {

@@ -4,7 +4,7 @@ use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use taceva_core::{Frame, FrameInfo, PixelFormat, Silent};
+use taceva_core::{Frame, FrameInfo, PixelFormat, SilentProgress};
 use taceva_dataset::{Dataset, DatasetError, Digest, Pass, Recorder};
 
 use crate::binary::example;
@@ -108,7 +108,7 @@ fn uninterrupted(program: &Path, count: usize) -> Digest {
 pub fn open_whole(target: &Path) -> Result<Dataset, String> {
     let dataset = Dataset::open(target).map_err(|error| error.to_string())?;
     let rows = dataset.all_rows();
-    let pass = Pass::new(&rows, NonZeroUsize::MIN, &Silent);
+    let pass = Pass::new(&rows, NonZeroUsize::MIN, &SilentProgress);
     dataset
         .map_frames(pass, |_, _| (), |_, ()| Ok(()))
         .map_err(|error| error.to_string())?;

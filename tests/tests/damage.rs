@@ -3,7 +3,7 @@
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 
-use taceva_core::{Frame, Silent};
+use taceva_core::{Frame, SilentProgress};
 use taceva_dataset::{Dataset, DatasetError, ImportMap, ImportPlan};
 use taceva_tests::{Form, Lab, Random, picture, recording, scratch};
 
@@ -33,7 +33,7 @@ impl Damage {
 
 fn import(lab: &Lab, target: &Path) -> Result<Dataset, DatasetError> {
     let map = ImportMap::read(&lab.map())?;
-    ImportPlan::new(lab.path(), &map)?.run(target, NonZeroUsize::MIN, &Silent)?;
+    ImportPlan::new(lab.path(), &map)?.run(target, NonZeroUsize::MIN, &SilentProgress)?;
     Dataset::open(target)
 }
 

@@ -4,7 +4,7 @@ use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use taceva_core::Silent;
+use taceva_core::SilentProgress;
 use taceva_dataset::{DatasetError, ImportMap, ImportPlan};
 use taceva_needs::{Need, skip};
 use taceva_tests::{Form, Lab, Random, recording, root, scratch};
@@ -105,7 +105,11 @@ fn import(bytes: &[u8]) -> Result<(), DatasetError> {
     let map = ImportMap::read(&lab.map())?;
     let folder = scratch();
     ImportPlan::new(lab.path(), &map)?
-        .run(&folder.path().join("set"), NonZeroUsize::MIN, &Silent)
+        .run(
+            &folder.path().join("set"),
+            NonZeroUsize::MIN,
+            &SilentProgress,
+        )
         .map(drop)
 }
 

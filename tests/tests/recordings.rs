@@ -3,7 +3,7 @@
 use std::num::NonZeroUsize;
 use std::path::Path;
 
-use taceva_core::Silent;
+use taceva_core::SilentProgress;
 use taceva_dataset::{Dataset, ImportMap, ImportPlan, ImportReport};
 use taceva_models::Settings;
 use taceva_study::{EvaluateRequest, Evaluated, FitRequest, ModelChoice, Work, evaluate};
@@ -12,7 +12,7 @@ use tempfile::TempDir;
 
 const WORK: Work<'_> = Work {
     jobs: NonZeroUsize::new(2).expect("two"),
-    progress: &Silent,
+    progress: &SilentProgress,
     cache: None,
 };
 
@@ -28,7 +28,9 @@ fn import(folder: &str, map: &str) -> Option<(TempDir, Dataset, ImportReport)> {
     let plan = ImportPlan::new(&source, &map).expect("the map fits the set");
     let target = tempfile::tempdir().expect("a temporary folder");
     let path: &Path = &target.path().join("data");
-    let report = plan.run(path, WORK.jobs, &Silent).expect("imported");
+    let report = plan
+        .run(path, WORK.jobs, &SilentProgress)
+        .expect("imported");
     let dataset = Dataset::open(path).expect("a dataset");
     Some((target, dataset, report))
 }

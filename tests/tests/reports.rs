@@ -2,7 +2,7 @@
 
 use std::num::NonZeroUsize;
 
-use taceva_core::Silent;
+use taceva_core::SilentProgress;
 use taceva_dataset::{Dataset, ImportMap, ImportPlan};
 use taceva_models::Settings;
 use taceva_report::catalogue::Sensor;
@@ -14,7 +14,7 @@ use taceva_tests::{recording, root};
 
 const WORK: Work<'_> = Work {
     jobs: NonZeroUsize::new(2).expect("two"),
-    progress: &Silent,
+    progress: &SilentProgress,
     cache: None,
 };
 
@@ -29,7 +29,8 @@ fn study(name: &str, model: &str, split: &str) -> Option<Study> {
     let target = tempfile::tempdir().expect("a temporary folder");
     let path = target.path().join("data");
     let plan = ImportPlan::new(&source, &map).expect("the map fits the set");
-    plan.run(&path, WORK.jobs, &Silent).expect("imported");
+    plan.run(&path, WORK.jobs, &SilentProgress)
+        .expect("imported");
     let dataset = Dataset::open(&path).expect("a dataset");
     let request = EvaluateRequest {
         model: ModelChoice::Fit(FitRequest {

@@ -9,7 +9,7 @@ use std::sync::Arc;
 
 use taceva_core::{
     Channel, Channels, Device, DriverKey, Factory, FeatureShape, Features, ForceTransducer,
-    Lighting, Robot, Sensor, Silent, Targets, TrainingSet,
+    Lighting, Robot, Sensor, SilentProgress, Targets, TrainingSet,
 };
 use taceva_drivers::conformance::{self, Report, Trial};
 use taceva_host::{FitRequest, PluginConfig, PluginDriver, PluginHost, Plugins, Saved, SearchPath};
@@ -90,7 +90,7 @@ fn learns(host: &Arc<PluginHost>) {
         settings: &settings,
         training: &training,
         validation: None,
-        progress: &Silent,
+        progress: &SilentProgress,
     };
     let fitted = session.fit(&key, &request).expect("it learns");
     let bytes = fitted.save().expect("it can be kept");

@@ -1,6 +1,6 @@
 //! Fewer samples than features are refused before the library sees them.
 
-use taceva_core::{ErrorKind, Silent};
+use taceva_core::{ErrorKind, SilentProgress};
 
 use crate::blobs::recording;
 use crate::case::case_of;
@@ -10,7 +10,9 @@ fn fewer_samples_than_features_are_refused_with_the_reason() {
     let case = case_of("smartcore/svr");
     case.fitted(&recording(16, 7), None);
     let training = recording(15, 7);
-    let fit = case.estimator().fit_model(&training.set(), None, &Silent);
+    let fit = case
+        .estimator()
+        .fit_model(&training.set(), None, &SilentProgress);
     let error = fit.expect_err("refused");
     assert_eq!(error.kind(), ErrorKind::InvalidArgument);
     assert_eq!(

@@ -1,7 +1,7 @@
 //! Runs that are killed or stopped go on to the same bytes.
 
 use std::fs;
-use std::path::Path;
+use std::path::PathBuf;
 use std::process::{Child, Command, Stdio};
 
 use crate::support::Bench;

@@ -28,7 +28,7 @@ use crate::parallel::ordered_map;
 /// # }
 /// use std::num::NonZeroUsize;
 ///
-/// use taceva_core::Silent;
+/// use taceva_core::SilentProgress;
 /// use taceva_dataset::{Dataset, Pass};
 ///
 /// # recorder.close()?;
@@ -36,7 +36,7 @@ use crate::parallel::ordered_map;
 /// let rows = dataset.all_rows();
 /// let mut brightest = Vec::new();
 /// dataset.map_frames(
-///     Pass::new(&rows, NonZeroUsize::MIN, &Silent),
+///     Pass::new(&rows, NonZeroUsize::MIN, &SilentProgress),
 ///     |_row, frame| frame.samples().max(),
 ///     |_row, value| {
 ///         brightest.push(value);
@@ -88,7 +88,7 @@ impl<'a> Pass<'a> {
 /// # }
 /// use std::num::NonZeroUsize;
 ///
-/// use taceva_core::{FieldSet, SampleSink, Silent, SinkError};
+/// use taceva_core::{FieldSet, SampleSink, SilentProgress, SinkError};
 /// use taceva_dataset::{Dataset, Pass};
 ///
 /// /// Counts samples; it reads no frame.
@@ -107,7 +107,7 @@ impl<'a> Pass<'a> {
 /// # recorder.close()?;
 /// let dataset = Dataset::open(&path)?;
 /// let (rows, mut count) = (dataset.all_rows(), Count(0));
-/// let report = dataset.stream(Pass::new(&rows, NonZeroUsize::MIN, &Silent), &mut count)?;
+/// let report = dataset.stream(Pass::new(&rows, NonZeroUsize::MIN, &SilentProgress), &mut count)?;
 /// assert_eq!((report.samples, report.frames_decoded, count.0), (2, 0, 2));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```

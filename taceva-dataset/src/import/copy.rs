@@ -7,7 +7,8 @@ use std::path::{Path, PathBuf};
 use taceva_core::{Frame, FrameInfo, Progress};
 
 use super::npy::NpyFrames;
-use super::plan::{FrameSource, ImportPlan, ImportSummary, PlannedFrames};
+use super::plan::{FrameSource, ImportPlan, PlannedFrames};
+use super::summary::ImportSummary;
 use crate::decode::{ChannelOrder, ImageKind, check_to_the_end, decode};
 use crate::digest::Digest;
 use crate::encode::encode_png;
@@ -35,7 +36,7 @@ use crate::table::{FrameEntry, Table};
 /// let plan = ImportPlan::new(folder.path(), &map)?;
 ///
 /// let target = folder.path().join("dataset");
-/// let report = plan.run(&target, std::num::NonZeroUsize::MIN, &taceva_core::Silent)?;
+/// let report = plan.run(&target, std::num::NonZeroUsize::MIN, &taceva_core::SilentProgress)?;
 /// assert_eq!(report.digest, taceva_dataset::Dataset::open(&target)?.digest());
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```

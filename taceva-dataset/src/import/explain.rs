@@ -3,7 +3,8 @@
 use std::fmt;
 
 use super::copy::ImportReport;
-use super::plan::{Conversion, ImportPlan, ImportSummary};
+use super::plan::ImportPlan;
+use super::summary::{Conversion, ImportSummary};
 use crate::quality::names_quality;
 use crate::text::{shown, shown_path};
 

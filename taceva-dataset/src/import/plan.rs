@@ -1,20 +1,18 @@
 //! What an import would read, convert and leave out, before anything is written.
 
-use std::collections::{BTreeMap, BTreeSet, HashSet};
+use std::collections::{BTreeSet, HashSet};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-
-use taceva_core::{SourceUnit, Unit};
 
 use super::map::{FrameMap, FrameNames, ImportMap};
 use super::npy::NpyFrames;
 use super::rows::{FrameName, MappedTable};
 use super::source::{matching_files, unnamed_images};
-use super::suspicion::{Suspicion, magnitude_suspicion_in};
+use super::summary::{Conversion, ImportSummary};
+use super::suspicion::magnitude_suspicion_in;
 use crate::decode::ChannelOrder;
 use crate::error::{DatasetError, Place};
 use crate::file::SourceFolder;
-use crate::quality::names_quality;
 use crate::store::RecordingFacts;
 use crate::table::Table;
 use crate::text::shown;
@@ -44,105 +42,6 @@ pub struct ImportPlan {
     pub(super) facts: RecordingFacts,
     pub(super) table: Table,
     pub(super) frames: Option<PlannedFrames>,
-}
-
-/// The counts of an import.
-///
-/// ```
-/// # use taceva_core::{Channel, Channels, Clock, SourceUnit};
-/// # use taceva_dataset::{ColumnMap, ImportMap, ImportPlan, RecordingFacts, SensorFacts, Source};
-/// # let folder = tempfile::tempdir()?;
-/// std::fs::write(folder.path().join("labels.csv"), "force\n1500\n2000\n")?;
-/// let facts = RecordingFacts::new(Source::Recorded, Clock::Unknown, SensorFacts::new("my gel"));
-/// let mut map = ImportMap::new("labels.csv", facts);
-/// map.channels = Channels::new([Channel::FZ])?;
-/// map.columns = vec![ColumnMap::new("force", SourceUnit::parse("mN")?)];
-/// let plan = ImportPlan::new(folder.path(), &map)?;
-///
-/// let summary = plan.summary();
-/// assert_eq!((summary.rows_read, summary.rows_kept, summary.tables.len()), (2, 2, 1));
-/// # Ok::<(), Box<dyn std::error::Error>>(())
-/// ```
-#[derive(Clone, Debug, Default, PartialEq)]
-#[non_exhaustive]
-pub struct ImportSummary {
-    /// The tables, in order.
-    pub tables: Vec<PathBuf>,
-    /// Rows in them.
-    pub rows_read: u64,
-    /// Rows that become samples.
-    pub rows_kept: u64,
-    /// Rows left out by each rule; a row may be left out by several.
-    pub dropped: BTreeMap<String, u64>,
-    /// What happens to each channel.
-    pub conversions: Vec<Conversion>,
-    /// How the colours of the frames are stored; `None` without frames.
-    pub channel_order: Option<ChannelOrder>,
-    /// The frame without contact; `None` if none is known.
-    pub reference: Option<PathBuf>,
-    /// Images beside the table that no row names.
-    pub unnamed_images: u64,
-    /// The first of them.
-    pub first_unnamed_images: Vec<PathBuf>,
-    /// Columns of the tables that the map does not mention, sorted.
-    pub unmentioned_columns: BTreeSet<String>,
-    /// Numbers that contradict their unit.
-    pub suspicions: Vec<Suspicion>,
-}
-
-/// How many columns that the map does not mention a dataset remembers, and how long their names may be.
-const REMEMBERED: usize = 256;
-const REMEMBERED_BYTES: usize = 256;
-
-impl ImportSummary {
-    /// The columns that the map does not mention, as the dataset remembers them: those that rate their rows first.
-    pub(super) fn columns_left_behind(&self) -> Vec<String> {
-        let short = |name: &&String| name.len() <= REMEMBERED_BYTES;
-        let mut columns: Vec<String> = self
-            .unmentioned_columns
-            .iter()
-            .filter(short)
-            .cloned()
-            .collect();
-        columns.sort_by_key(|name| !names_quality(name));
-        columns.truncate(REMEMBERED);
-        columns
-    }
-}
-
-/// What happens to one channel.
-///
-/// ```
-/// # use taceva_core::{Channel, Channels, Clock, SourceUnit};
-/// # use taceva_dataset::{ColumnMap, ImportMap, ImportPlan, RecordingFacts, SensorFacts, Source};
-/// # let folder = tempfile::tempdir()?;
-/// std::fs::write(folder.path().join("labels.csv"), "force\n1500\n2000\n")?;
-/// let facts = RecordingFacts::new(Source::Recorded, Clock::Unknown, SensorFacts::new("my gel"));
-/// let mut map = ImportMap::new("labels.csv", facts);
-/// map.channels = Channels::new([Channel::FZ])?;
-/// map.columns = vec![ColumnMap::new("force", SourceUnit::parse("mN")?)];
-/// let plan = ImportPlan::new(folder.path(), &map)?;
-///
-/// let conversion = &plan.summary().conversions[0];
-/// assert_eq!((conversion.column.as_str(), conversion.channel.as_str()), ("force", "Fz"));
-/// assert_eq!(conversion.present, 2);
-/// # Ok::<(), Box<dyn std::error::Error>>(())
-/// ```
-#[derive(Clone, Debug, PartialEq)]
-#[non_exhaustive]
-pub struct Conversion {
-    /// The channel.
-    pub channel: String,
-    /// Its column in the table.
-    pub column: String,
-    /// The unit there.
-    pub from: SourceUnit,
-    /// The unit it is kept in.
-    pub to: Unit,
-    /// Whether its sign is turned.
-    pub is_negated: bool,
-    /// Samples that have a value.
-    pub present: u64,
 }
 
 /// Where the frames come from.

@@ -7,7 +7,7 @@ use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 
 use image::{DynamicImage, GrayImage, ImageFormat, Luma, Rgb, RgbImage};
-use taceva_core::Silent;
+use taceva_core::SilentProgress;
 use taceva_core::random::SplitMix64;
 use taceva_dataset::{DatasetError, ImportMap, ImportPlan, ImportReport};
 use tempfile::TempDir;
@@ -133,7 +133,7 @@ pub(crate) fn import(
     jobs: usize,
 ) -> Result<ImportReport, DatasetError> {
     let jobs = NonZeroUsize::new(jobs).expect("at least one");
-    ImportPlan::new(source, map)?.run(target, jobs, &Silent)
+    ImportPlan::new(source, map)?.run(target, jobs, &SilentProgress)
 }
 
 /// Everything below a folder: relative paths in order, with their bytes.

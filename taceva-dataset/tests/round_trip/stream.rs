@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use taceva_core::{Field, FieldSet, Sample, SampleSink, Silent, SinkError};
+use taceva_core::{Field, FieldSet, Sample, SampleSink, SilentProgress, SinkError};
 use taceva_dataset::{ChannelOrder, Dataset, Pass};
 
 use super::jobs;
@@ -33,7 +33,7 @@ fn a_stream_gives_the_same_samples_on_any_number_of_threads() {
             fields,
             samples: Vec::new(),
         };
-        let pass = Pass::new(&[4, 0, 2], jobs(count), &Silent);
+        let pass = Pass::new(&[4, 0, 2], jobs(count), &SilentProgress);
         let report = dataset.stream(pass, &mut sink).expect("streamed");
         (report.frames_decoded, sink.samples)
     };
@@ -52,7 +52,7 @@ fn no_frame_is_decoded_for_a_sink_that_reads_none() {
     fs::remove_dir_all(lab.path("set/frames")).expect("removed");
     let dataset = Dataset::open(&lab.path("set")).expect("opens");
     let rows = dataset.all_rows();
-    let pass = Pass::new(&rows, jobs(2), &Silent);
+    let pass = Pass::new(&rows, jobs(2), &SilentProgress);
     let mut sink = Keep {
         fields: FieldSet::PAIRS,
         samples: Vec::new(),

@@ -4,7 +4,7 @@ mod card;
 mod cost;
 mod validate;
 
-use taceva_core::{Estimator, ModelError, Progress, Regressor, TrainingSet};
+use taceva_core::{ModelError, Progress, TrainingSet};
 
 pub use self::card::{AutoCard, AutoTrial, Untried};
 use self::cost::{Sizes, seconds, trying};
@@ -13,7 +13,7 @@ use crate::estimators::library::{LibraryModel, LibrarySizes};
 use crate::features::FeatureSpec;
 use crate::registry::{ALL, ModelInfo};
 use crate::settings::{SettingError, SettingInfo, Settings, number};
-use crate::training::fit::{Chosen, ModelEstimator, ModelFit};
+use crate::training::fit::{Chosen, ModelEstimator, ModelFit, estimator};
 use crate::training::problem::{Problem, invalid};
 use crate::training::progress::{Stage, interrupted};
 
@@ -188,22 +188,7 @@ impl ModelEstimator for Auto {
     }
 }
 
-impl Estimator for Auto {
-    fn name(&self) -> &'static str {
-        Auto::INFO.name
-    }
-
-    fn fit(
-        &self,
-        training: &TrainingSet<'_>,
-        validation: Option<&TrainingSet<'_>>,
-        progress: &dyn Progress,
-    ) -> Result<Box<dyn Regressor>, ModelError> {
-        Ok(Box::new(
-            self.fit_model(training, validation, progress)?.regressor,
-        ))
-    }
-}
+estimator!(Auto, |_| Auto::INFO.name);
 
 #[cfg(test)]
 mod tests {

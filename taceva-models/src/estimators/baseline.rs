@@ -1,11 +1,12 @@
 //! Predicts the mean of the training part: the line every model must beat.
 
-use taceva_core::{Estimator, ModelError, Progress, Regressor, TrainingSet};
+use taceva_core::{ModelError, Progress, TrainingSet};
 
 use crate::estimators::linear::{LinearEstimator, LinearFit, LinearRegressor};
 use crate::registry::ModelInfo;
 use crate::settings::{SettingError, Settings};
 use crate::training::choice::{Choice, rmse};
+use crate::training::fit::estimator;
 use crate::training::label_scaling::means;
 use crate::training::problem::Problem;
 
@@ -65,18 +66,4 @@ impl LinearEstimator for Baseline {
     }
 }
 
-impl Estimator for Baseline {
-    fn name(&self) -> &'static str {
-        Baseline::INFO.name
-    }
-
-    fn fit(
-        &self,
-        training: &TrainingSet<'_>,
-        validation: Option<&TrainingSet<'_>>,
-        progress: &dyn Progress,
-    ) -> Result<Box<dyn Regressor>, ModelError> {
-        let fit = self.fit_linear(training, validation, progress)?;
-        Ok(Box::new(fit.regressor))
-    }
-}
+estimator!(Baseline, |_| Baseline::INFO.name);

@@ -6,7 +6,7 @@ mod regressor;
 use std::ops::Range;
 
 use rayon::prelude::*;
-use taceva_core::{Channel, Estimator, ModelError, Progress, Regressor, TrainingSet};
+use taceva_core::{Channel, ModelError, Progress, TrainingSet};
 
 pub use self::classes::Discriminant;
 pub use self::regressor::ClassRegressor;
@@ -16,7 +16,7 @@ use crate::linalg::{Design, FeatureScale};
 use crate::registry::ModelInfo;
 use crate::settings::{SettingError, Settings};
 use crate::training::choice::{Choice, errors};
-use crate::training::fit::{ModelEstimator, ModelFit, ModelRegressor};
+use crate::training::fit::{ModelEstimator, ModelFit, ModelRegressor, estimator};
 use crate::training::problem::{Problem, invalid};
 use crate::training::progress::{Stage, interrupted};
 
@@ -143,19 +143,4 @@ impl ModelEstimator for LinearDiscriminant {
     }
 }
 
-impl Estimator for LinearDiscriminant {
-    fn name(&self) -> &'static str {
-        LinearDiscriminant::INFO.name
-    }
-
-    fn fit(
-        &self,
-        training: &TrainingSet<'_>,
-        validation: Option<&TrainingSet<'_>>,
-        progress: &dyn Progress,
-    ) -> Result<Box<dyn Regressor>, ModelError> {
-        Ok(Box::new(
-            self.fit_model(training, validation, progress)?.regressor,
-        ))
-    }
-}
+estimator!(LinearDiscriminant, |_| LinearDiscriminant::INFO.name);

@@ -5,7 +5,7 @@ mod predictors;
 
 use faer::Mat;
 use rayon::prelude::*;
-use taceva_core::{Estimator, Features, ModelError, Progress, Regressor, TrainingSet};
+use taceva_core::{Features, ModelError, Progress, TrainingSet};
 
 use self::descent::{Penalty, path};
 use self::predictors::{Predictors, Target};
@@ -14,6 +14,7 @@ use crate::features::FeatureSpec;
 use crate::linalg::{Design, FeatureScale};
 use crate::registry::ModelInfo;
 use crate::settings::{SettingError, SettingInfo, Settings, number};
+use crate::training::fit::estimator;
 use crate::training::problem::{Problem, centred};
 use crate::training::progress::interrupted;
 use crate::training::trials::{Trials, rows_of};
@@ -174,18 +175,4 @@ impl LinearEstimator for ElasticNet {
     }
 }
 
-impl Estimator for ElasticNet {
-    fn name(&self) -> &'static str {
-        ElasticNet::INFO.name
-    }
-
-    fn fit(
-        &self,
-        training: &TrainingSet<'_>,
-        validation: Option<&TrainingSet<'_>>,
-        progress: &dyn Progress,
-    ) -> Result<Box<dyn Regressor>, ModelError> {
-        let fit = self.fit_linear(training, validation, progress)?;
-        Ok(Box::new(fit.regressor))
-    }
-}
+estimator!(ElasticNet, |_| ElasticNet::INFO.name);

@@ -4,7 +4,7 @@ mod regressor;
 
 use faer::Mat;
 use rayon::prelude::*;
-use taceva_core::{Estimator, ModelError, Progress, Regressor, TrainingSet};
+use taceva_core::{ModelError, Progress, TrainingSet};
 
 pub use self::regressor::NeighbourRegressor;
 use self::regressor::{nearest, weighted};
@@ -14,7 +14,7 @@ use crate::linalg::standard::Standard;
 use crate::registry::ModelInfo;
 use crate::settings::{SettingError, SettingInfo, Settings, number};
 use crate::training::choice::Errors;
-use crate::training::fit::{ModelEstimator, ModelFit, ModelRegressor};
+use crate::training::fit::{ModelEstimator, ModelFit, ModelRegressor, estimator};
 use crate::training::output::OutputScale;
 use crate::training::problem::Problem;
 use crate::training::progress::interrupted;
@@ -154,19 +154,4 @@ impl ModelEstimator for Neighbours {
     }
 }
 
-impl Estimator for Neighbours {
-    fn name(&self) -> &'static str {
-        Neighbours::INFO.name
-    }
-
-    fn fit(
-        &self,
-        training: &TrainingSet<'_>,
-        validation: Option<&TrainingSet<'_>>,
-        progress: &dyn Progress,
-    ) -> Result<Box<dyn Regressor>, ModelError> {
-        Ok(Box::new(
-            self.fit_model(training, validation, progress)?.regressor,
-        ))
-    }
-}
+estimator!(Neighbours, |_| Neighbours::INFO.name);

@@ -3,7 +3,7 @@
 mod simpls;
 
 use faer::Mat;
-use taceva_core::{Estimator, ModelError, Progress, Regressor, TrainingSet};
+use taceva_core::{ModelError, Progress, TrainingSet};
 
 use self::simpls::Directions;
 use crate::estimators::linear::{LinearEstimator, LinearFit, LinearRegressor};
@@ -12,6 +12,7 @@ use crate::linalg::{Design, FeatureScale};
 use crate::registry::ModelInfo;
 use crate::settings::{SettingError, SettingInfo, Settings, number};
 use crate::training::choice::{ChannelChoice, Choice, ChosenBy, Errors, least, rmse};
+use crate::training::fit::estimator;
 use crate::training::problem::{Problem, Validation, centred, joined, stacked};
 use crate::training::trials::{FOLDS, folds, folds_of};
 
@@ -259,18 +260,4 @@ impl LinearEstimator for Pls {
     }
 }
 
-impl Estimator for Pls {
-    fn name(&self) -> &'static str {
-        Pls::INFO.name
-    }
-
-    fn fit(
-        &self,
-        training: &TrainingSet<'_>,
-        validation: Option<&TrainingSet<'_>>,
-        progress: &dyn Progress,
-    ) -> Result<Box<dyn Regressor>, ModelError> {
-        let fit = self.fit_linear(training, validation, progress)?;
-        Ok(Box::new(fit.regressor))
-    }
-}
+estimator!(Pls, |_| Pls::INFO.name);

@@ -5,12 +5,12 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 use taceva_core::{
-    Args, Channels, ErrorKind, Estimator, EstimatorFactory, FeatureShape, Features, FitRequest,
-    ModelError, Progress, Regressor, Saved, SavedRegressor, TrainingSet,
+    Args, Channels, ErrorKind, EstimatorFactory, FeatureShape, Features, FitRequest, ModelError,
+    Progress, Regressor, Saved, SavedRegressor, TrainingSet,
 };
 
 use crate::training::choice::{Choice, errors};
-use crate::training::fit::{ModelEstimator, ModelFit, ModelRegressor};
+use crate::training::fit::{ModelEstimator, ModelFit, ModelRegressor, estimator};
 use crate::training::problem::Problem;
 
 /// What a card says of the plugin that fitted a model and is needed to ask it.
@@ -42,21 +42,7 @@ pub(crate) struct PluginEstimator {
     pub(crate) settings: Args,
 }
 
-impl Estimator for PluginEstimator {
-    fn name(&self) -> &str {
-        self.factory.key().as_str()
-    }
-
-    fn fit(
-        &self,
-        training: &TrainingSet<'_>,
-        validation: Option<&TrainingSet<'_>>,
-        progress: &dyn Progress,
-    ) -> Result<Box<dyn Regressor>, ModelError> {
-        let fit = self.fit_model(training, validation, progress)?;
-        Ok(Box::new(fit.regressor))
-    }
-}
+estimator!(PluginEstimator, |own| own.factory.key().as_str());
 
 impl ModelEstimator for PluginEstimator {
     fn fit_model(

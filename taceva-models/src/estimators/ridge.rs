@@ -5,7 +5,7 @@ mod strength;
 mod unpenalised;
 
 use faer::Mat;
-use taceva_core::{Estimator, Features, ModelError, Progress, Regressor, TrainingSet};
+use taceva_core::{Features, ModelError, Progress, TrainingSet};
 
 use self::leave_out::LeaveOut;
 use crate::estimators::linear::{LinearEstimator, LinearFit, LinearRegressor};
@@ -14,6 +14,7 @@ use crate::linalg::{Design, FeatureScale, Spectrum};
 use crate::registry::ModelInfo;
 use crate::settings::{SettingError, SettingInfo, Settings, number};
 use crate::training::choice::{ChannelChoice, Choice, ChosenBy, Errors, least, rmse};
+use crate::training::fit::estimator;
 use crate::training::problem::{Problem, Validation, centred, joined, stacked};
 use crate::training::progress::Stage;
 
@@ -276,18 +277,4 @@ fn refit(
     LinearRegressor::from_scaled(problem, &design, &path.weights(columns), &mean)
 }
 
-impl Estimator for Ridge {
-    fn name(&self) -> &'static str {
-        Ridge::INFO.name
-    }
-
-    fn fit(
-        &self,
-        training: &TrainingSet<'_>,
-        validation: Option<&TrainingSet<'_>>,
-        progress: &dyn Progress,
-    ) -> Result<Box<dyn Regressor>, ModelError> {
-        let fit = self.fit_linear(training, validation, progress)?;
-        Ok(Box::new(fit.regressor))
-    }
-}
+estimator!(Ridge, |_| Ridge::INFO.name);

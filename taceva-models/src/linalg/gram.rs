@@ -128,7 +128,7 @@ fn add_outer(tiles: &mut [Tile], slab: MatRef<'_, f64>) {
 mod tests {
     use super::*;
     use crate::linalg::FeatureScale;
-    use taceva_core::{FeatureShape, Features, Silent};
+    use taceva_core::{FeatureShape, Features, SilentProgress};
 
     #[test]
     fn tiles_and_slabs_make_the_whole_product() {
@@ -144,7 +144,7 @@ mod tests {
             (Side::Samples, multiply(plain.transpose(), plain.as_ref())),
             (Side::Features, multiply(plain.as_ref(), plain.transpose())),
         ] {
-            let found = gram(&design, side, &Silent).expect("not cancelled");
+            let found = gram(&design, side, &SilentProgress).expect("not cancelled");
             for column in 0..found.ncols() {
                 for row in column..found.nrows() {
                     let (found, expected) = (found[(row, column)], expected[(row, column)]);

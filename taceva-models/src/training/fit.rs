@@ -27,6 +27,30 @@ pub(crate) const NO_PICTURE: &str = "a network reads pictures, and principal com
 /// What the model of a plugin says to principal components.
 const OPAQUE: &str = "the model of a plugin reads pixels; it cannot be joined with principal components, and may find its own";
 
+/// Implements [`Estimator`] for a [`ModelEstimator`]: its name, and the regressor that it fits.
+macro_rules! estimator {
+    ($estimator:ty, |$own:pat_param| $name:expr) => {
+        impl taceva_core::Estimator for $estimator {
+            fn name(&self) -> &str {
+                let $own = self;
+                $name
+            }
+
+            fn fit(
+                &self,
+                training: &taceva_core::TrainingSet<'_>,
+                validation: Option<&taceva_core::TrainingSet<'_>>,
+                progress: &dyn taceva_core::Progress,
+            ) -> Result<Box<dyn taceva_core::Regressor>, taceva_core::ModelError> {
+                use crate::training::fit::ModelEstimator as _;
+                let fit = self.fit_model(training, validation, progress)?;
+                Ok(Box::new(fit.regressor))
+            }
+        }
+    };
+}
+pub(crate) use estimator;
+
 /// An estimator whose regressor a model file can keep, and that can say what it chose.
 pub trait ModelEstimator: Estimator {
     /// The estimator that takes the place of this one on `training`, and why; `None` for every one but that which only chooses.

@@ -1,7 +1,7 @@
 //! Recordings made up from a known linear map, and what both suites do with them.
 
 use taceva_core::{
-    Channel, Channels, FeatureShape, Features, Regressor, Silent, Targets, TrainingSet,
+    Channel, Channels, FeatureShape, Features, Regressor, SilentProgress, Targets, TrainingSet,
 };
 use taceva_models::{Baseline, LinearEstimator, LinearFit, Pls, Ridge, Settings};
 
@@ -107,7 +107,7 @@ pub(crate) fn model(name: &str, words: &[&str]) -> Box<dyn LinearEstimator> {
 /// Fitted without a validation part.
 pub(crate) fn fit(estimator: &dyn LinearEstimator, set: &TrainingSet<'_>) -> LinearFit {
     estimator
-        .fit_linear(set, None, &Silent)
+        .fit_linear(set, None, &SilentProgress)
         .unwrap_or_else(|error| panic!("{}: {error}", estimator.name()))
 }
 

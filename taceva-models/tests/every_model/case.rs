@@ -1,6 +1,6 @@
 //! The models as the suite fits them.
 
-use taceva_core::{Features, ModelError, Regressor, Silent};
+use taceva_core::{Features, ModelError, Regressor, SilentProgress};
 use taceva_models::{FeatureSpec, FitInput, Model, ModelEstimator, ModelFit, Provenance, Settings};
 
 use crate::blobs::{FRAME, Recording, SHAPE};
@@ -56,7 +56,7 @@ impl Case {
     ) -> Result<ModelFit, ModelError> {
         let held = held.map(Recording::set);
         self.estimator()
-            .fit_model(&training.set(), held.as_ref(), &Silent)
+            .fit_model(&training.set(), held.as_ref(), &SilentProgress)
     }
 
     pub(crate) fn fitted(&self, training: &Recording, held: Option<&Recording>) -> ModelFit {
@@ -98,7 +98,7 @@ impl Case {
             validation: None,
             provenance: Provenance::default(),
         };
-        Model::fit(input, &Silent)
+        Model::fit(input, &SilentProgress)
     }
 }
 

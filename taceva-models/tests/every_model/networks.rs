@@ -1,6 +1,6 @@
 //! What networks promise beyond what all models do.
 
-use taceva_core::{ErrorKind, Frame, Silent};
+use taceva_core::{ErrorKind, Frame, SilentProgress};
 use taceva_models::{Model, ModelEstimator, ModelRegressor, Settings, find};
 use taceva_needs::{Need, skip};
 
@@ -22,7 +22,7 @@ fn a_network_finds_a_blob_and_keeps_its_best_epoch() {
     let (training, validation, test) = (recording(200, 1), recording(40, 2), recording(60, 3));
     let words = ["epochs=30", "batch=20", "jitter=0", "local_mean=0"];
     let fit = estimator("cnn", &words)
-        .fit_model(&training.set(), Some(&validation.set()), &Silent)
+        .fit_model(&training.set(), Some(&validation.set()), &SilentProgress)
         .expect("fits");
     let found = predict(&fit.regressor, &test.features);
     let rms = rms(&found, &test.labels);
@@ -43,7 +43,7 @@ fn a_constant_label_is_predicted_exactly_by_the_deepest() {
         .for_each(|label| *label = 0.1);
     for name in NETWORKS {
         let fit = estimator(name, &["epochs=1", "batch=8"])
-            .fit_model(&training.set(), None, &Silent)
+            .fit_model(&training.set(), None, &SilentProgress)
             .expect("fits");
         let found = predict(&fit.regressor, &training.features);
         assert!(
@@ -58,7 +58,7 @@ fn a_constant_label_is_predicted_exactly_by_the_deepest() {
     }
     training.labels.iter_mut().for_each(|label| *label = -2.5);
     let fit = estimator("cnn", &["epochs=1", "batch=8"])
-        .fit_model(&training.set(), None, &Silent)
+        .fit_model(&training.set(), None, &SilentProgress)
         .expect("fits");
     let found = predict(&fit.regressor, &training.features);
     assert!(
@@ -72,7 +72,7 @@ fn a_constant_label_is_predicted_exactly_by_the_deepest() {
 fn fewer_samples_than_a_batch_are_refused() {
     let training = recording(16, 1);
     for name in NETWORKS {
-        let few = estimator(name, &["batch=17"]).fit_model(&training.set(), None, &Silent);
+        let few = estimator(name, &["batch=17"]).fit_model(&training.set(), None, &SilentProgress);
         let said = few.expect_err("too few").to_string();
         assert_eq!(said, "16 training samples, a batch takes 17");
     }
@@ -124,7 +124,9 @@ fn a_network_of_a_gpu_says_which_and_finds_the_blob_here() {
             .estimator(&settings.expect("well formed"));
         let (training, validation, test) = (recording(200, 1), recording(40, 2), recording(60, 3));
         let fit = match made {
-            Ok(estimator) => estimator.fit_model(&training.set(), Some(&validation.set()), &Silent),
+            Ok(estimator) => {
+                estimator.fit_model(&training.set(), Some(&validation.set()), &SilentProgress)
+            }
             Err(reason) => {
                 skip(Need::Gpu, reason);
                 continue;

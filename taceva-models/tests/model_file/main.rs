@@ -4,7 +4,8 @@ mod kept;
 mod refused;
 
 use taceva_core::{
-    Channel, Channels, Features, Frame, FrameInfo, PixelFormat, Silent, Targets, TrainingSet, Unit,
+    Channel, Channels, Features, Frame, FrameInfo, PixelFormat, SilentProgress, Targets,
+    TrainingSet, Unit,
 };
 use taceva_models::{
     Color, FeatureSpec, FitInput, Model, Provenance, Settings, Source, SplitCard, find,
@@ -92,5 +93,8 @@ pub(crate) fn fit(name: &str, words: &[&str], spec: FeatureSpec) -> (Model, Feat
             notes: vec!["random frames".into()],
         },
     };
-    (Model::fit(input, &Silent).expect("learnable"), features)
+    (
+        Model::fit(input, &SilentProgress).expect("learnable"),
+        features,
+    )
 }

@@ -74,7 +74,7 @@ pub(super) struct World {
     pub(super) sabotage: Sabotage,
 }
 
-/// A mistake planted in the world or in the rig, so that tests see the oracle find it.
+/// A mistake planted in the world or in the rig, which the oracle must find.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(not(test), expect(dead_code, reason = "mistakes are planted by tests"))]
 pub(super) enum Sabotage {

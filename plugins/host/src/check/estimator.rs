@@ -4,7 +4,7 @@ use std::thread;
 
 use taceva_core::{
     Channel, Channels, ErrorKind, FeatureShape, Features, ModelError, Progress, Saved,
-    SavedRegressor, Silent, Targets, TrainingSet,
+    SavedRegressor, SilentProgress, Targets, TrainingSet,
 };
 
 use super::subject::{Draw, Ending, Subject, ensure, expect_failure, writable_memory};
@@ -101,14 +101,14 @@ fn predicted(model: &dyn SavedRegressor, samples: &Samples) -> Result<Vec<u64>, 
 
 fn fits(subject: &Subject) -> Result<(), Ending> {
     let samples = samples(subject.probe.seed)?;
-    predicted(&*fit(subject, &samples, &Silent)?, &samples)?;
+    predicted(&*fit(subject, &samples, &SilentProgress)?, &samples)?;
     Ok(())
 }
 
 fn same_twice(subject: &Subject) -> Result<(), Ending> {
     let samples = samples(subject.probe.seed)?;
-    let one = predicted(&*fit(subject, &samples, &Silent)?, &samples)?;
-    let other = predicted(&*fit(subject, &samples, &Silent)?, &samples)?;
+    let one = predicted(&*fit(subject, &samples, &SilentProgress)?, &samples)?;
+    let other = predicted(&*fit(subject, &samples, &SilentProgress)?, &samples)?;
     ensure(one == other, || {
         "two fits on the same samples predict otherwise".to_owned()
     })
@@ -132,7 +132,7 @@ fn load(
 
 fn keeps(subject: &Subject) -> Result<(), Ending> {
     let samples = samples(subject.probe.seed)?;
-    let model = fit(subject, &samples, &Silent)?;
+    let model = fit(subject, &samples, &SilentProgress)?;
     let before = predicted(&*model, &samples)?;
     let bytes = model.save()?;
     ensure(bytes == model.save()?, || {
@@ -151,20 +151,20 @@ fn keeps(subject: &Subject) -> Result<(), Ending> {
 /// Bytes that are no model are refused; those that differ from one in a few bits are, or predict something.
 fn hostile(subject: &Subject) -> Result<(), Ending> {
     let samples = samples(subject.probe.seed)?;
-    let bytes = fit(subject, &samples, &Silent)?.save()?;
+    let bytes = fit(subject, &samples, &SilentProgress)?.save()?;
     let mut draw = Draw::new(subject.probe.seed);
     for length in [0, 1, 7, 64, 4096] {
-        let told = load(subject, &samples, &draw.bytes(length));
+        let answer = load(subject, &samples, &draw.bytes(length));
         let kinds = [
             ErrorKind::Protocol,
             ErrorKind::InvalidArgument,
             ErrorKind::OutOfRange,
         ];
-        expect_failure(&format!("{length} bytes of rubbish"), told, &kinds)?;
+        expect_failure(&format!("{length} bytes of rubbish"), answer, &kinds)?;
     }
     for cut in 0..bytes.len().min(200) {
-        let told = load(subject, &samples, &bytes[..cut]);
-        ensure(told.is_err(), || {
+        let answer = load(subject, &samples, &bytes[..cut]);
+        ensure(answer.is_err(), || {
             format!("the first {cut} bytes of a model were taken for one")
         })?;
     }
@@ -205,14 +205,14 @@ fn cancels(subject: &Subject) -> Result<(), Ending> {
 
 fn nothing(subject: &Subject) -> Result<(), Ending> {
     let samples = samples(subject.probe.seed)?;
-    let model = fit(subject, &samples, &Silent)?;
+    let model = fit(subject, &samples, &SilentProgress)?;
     let none = Features::new(samples.features.shape(), Vec::new())?;
     Ok(model.predict(&none, &mut [])?)
 }
 
 fn threads(subject: &Subject) -> Result<(), Ending> {
     let samples = samples(subject.probe.seed)?;
-    let model = fit(subject, &samples, &Silent)?;
+    let model = fit(subject, &samples, &SilentProgress)?;
     let expected = predicted(&*model, &samples)?;
     let same = thread::scope(|scope| {
         let asking: Vec<_> = (0..4)
@@ -228,13 +228,13 @@ fn threads(subject: &Subject) -> Result<(), Ending> {
             .all(|thread| thread.join().unwrap_or(false))
     });
     ensure(same, || {
-        "four threads were told something else than one".to_owned()
+        "four threads got other predictions than one".to_owned()
     })
 }
 
 fn memory(subject: &Subject) -> Result<(), Ending> {
     let samples = samples(subject.probe.seed)?;
-    let bytes = fit(subject, &samples, &Silent)?.save()?;
+    let bytes = fit(subject, &samples, &SilentProgress)?.save()?;
     let round = || load(subject, &samples, &bytes).map(drop);
     (0..100).try_for_each(|_| round())?;
     let before = writable_memory()?;

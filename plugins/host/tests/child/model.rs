@@ -7,7 +7,7 @@ use std::time::Duration;
 
 use taceva_core::{
     Args, Channel, Channels, DriverKey, ErrorKind, FeatureShape, Features, ModelError, Progress,
-    Regressor, Silent, Targets, TrainingSet,
+    Regressor, SilentProgress, Targets, TrainingSet,
 };
 use taceva_host::{FitRequest, Patience, Saved, SavedRegressor, Session};
 
@@ -198,8 +198,8 @@ fn predicted(model: &dyn Regressor) -> Result<Vec<u64>, ModelError> {
 
 fn a_model_says_the_same_through_a_child() {
     let (without, with) = (served().expect("sound"), child(Patience::default()));
-    let here = fitted(&without, &SUMS, &Silent).expect("a model");
-    let there = fitted(&with, &SUMS, &Silent).expect("a model");
+    let here = fitted(&without, &SUMS, &SilentProgress).expect("a model");
+    let there = fitted(&with, &SUMS, &SilentProgress).expect("a model");
     assert_eq!(there.channels(), here.channels());
     assert_eq!(there.shape(), here.shape());
     let expected = predicted(&*here).expect("predicted");
@@ -269,19 +269,19 @@ fn a_fit_tells_how_far_it_is_and_ends_when_it_is_asked_to() {
 
 fn a_model_that_fails_says_why_and_one_that_lies_is_a_fault() {
     let session = child(Patience::default());
-    let panic = fitted(&session, &DriverKey::fixed("odd/panic"), &Silent);
+    let panic = fitted(&session, &DriverKey::fixed("odd/panic"), &SilentProgress);
     let panic = panic.map(drop).expect_err("a panic");
     assert_eq!(panic.kind(), ErrorKind::Panicked);
     assert!(panic.to_string().contains("no more ideas"), "{panic}");
-    let absent = fitted(&session, &DriverKey::fixed("odd/none"), &Silent);
+    let absent = fitted(&session, &DriverKey::fixed("odd/none"), &SilentProgress);
     assert_eq!(
         absent.map(drop).expect_err("none").kind(),
         ErrorKind::NotFound
     );
-    let liar = fitted(&session, &DriverKey::fixed("odd/lie"), &Silent).expect("a model");
+    let liar = fitted(&session, &DriverKey::fixed("odd/lie"), &SilentProgress).expect("a model");
     let lie = predicted(&*liar).expect_err("NaN");
     assert_eq!(lie.kind(), ErrorKind::DeviceFault);
     assert!(lie.to_string().contains("NaN"), "{lie}");
-    let good = fitted(&session, &SUMS, &Silent).expect("unharmed");
+    let good = fitted(&session, &SUMS, &SilentProgress).expect("unharmed");
     predicted(&*good).expect("predicted");
 }

@@ -2,7 +2,7 @@
 
 use taceva_core::{
     Args, Channel, Channels, ErrorKind, FeatureShape, Features, ModelError, Progress, Saved,
-    SavedRegressor, Silent, Targets, TrainingSet,
+    SavedRegressor, SilentProgress, Targets, TrainingSet,
 };
 use taceva_host::{FitRequest, InProcess, Session};
 
@@ -51,7 +51,7 @@ fn a_model_that_was_kept_predicts_what_it_did_before() {
         return;
     };
     let (session, samples) = (fixture.session(), samples());
-    let model = fit(&session, &samples, &Silent).expect("fits");
+    let model = fit(&session, &samples, &SilentProgress).expect("fits");
     let mut predicted = vec![0.0; 4];
     model
         .predict(&samples.features, &mut predicted)
@@ -124,7 +124,7 @@ fn predictions_that_are_no_numbers_and_models_longer_than_they_said_are_refused(
         return;
     };
     let (session, samples) = (fixture.session(), samples());
-    let model = fit(&session, &samples, &Silent).expect("fits");
+    let model = fit(&session, &samples, &SilentProgress).expect("fits");
     let error = model.predict(&samples.features, &mut [0.0; 4]);
     assert_eq!(error.expect_err("infinite").kind(), ErrorKind::DeviceFault);
     let error = model.save().expect_err("longer");
@@ -138,6 +138,6 @@ fn numbers_that_are_not_finite_are_never_handed_over() {
     };
     let (session, mut samples) = (fixture.session(), samples());
     samples.values[2] = f64::NAN;
-    let error = fit(&session, &samples, &Silent).map(|_| ());
+    let error = fit(&session, &samples, &SilentProgress).map(|_| ());
     assert_eq!(error.expect_err("NaN").kind(), ErrorKind::InvalidArgument);
 }

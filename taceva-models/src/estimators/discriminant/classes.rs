@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use faer::Mat;
-use taceva_core::{ErrorKind, ModelError, Progress, Silent};
+use taceva_core::{ErrorKind, ModelError, Progress, SilentProgress};
 
 use crate::linalg::{multiply, symmetric_eigen};
 use crate::training::progress::interrupted;
@@ -48,7 +48,7 @@ impl Discriminant {
                 features[samples.start + column][row]
             })
         };
-        Discriminant::of_blocks(&blocks, classes, &Silent)
+        Discriminant::of_blocks(&blocks, classes, &SilentProgress)
     }
 
     /// The discriminant of samples that come by blocks.
@@ -290,7 +290,8 @@ mod tests {
             })
         };
         let still = [Some(vec![0.0, 0.0])];
-        let scatter = Scatter::of(&blocks, &[0; 4], &still, &Silent).expect("nobody cancels");
+        let scatter =
+            Scatter::of(&blocks, &[0; 4], &still, &SilentProgress).expect("nobody cancels");
         let scatter = scatter.shrunk();
         let share = (17.0 / 16.0) / (9.0 / 8.0);
         assert!((scatter[(0, 0)] - (share * 1.25 + (1.0 - share) * 2.0)).abs() < 1e-12);

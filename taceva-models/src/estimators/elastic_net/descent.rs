@@ -97,7 +97,7 @@ mod tests {
     use super::*;
     use crate::linalg::{Design, FeatureScale};
     use taceva_core::random::SplitMix64;
-    use taceva_core::{FeatureShape, Features, Silent};
+    use taceva_core::{FeatureShape, Features, SilentProgress};
 
     /// Samples of twelve features, and labels that two of them make.
     fn problem(samples: usize) -> (Features, Vec<f64>) {
@@ -138,9 +138,9 @@ mod tests {
             labels: &labels,
             products: &products,
         };
-        let gram = Predictors::of_products(&design, &Silent).expect("not cancelled");
+        let gram = Predictors::of_products(&design, &SilentProgress).expect("not cancelled");
         for predictors in [&gram, &Predictors::of_columns(&design)] {
-            let found = path(predictors, target, HALF, &Silent).expect("not cancelled");
+            let found = path(predictors, target, HALF, &SilentProgress).expect("not cancelled");
             assert!(
                 found[3]
                     .iter()
@@ -173,10 +173,11 @@ mod tests {
             labels: &labels,
             products: &products,
         };
-        let chosen = Predictors::of(&design, &Silent).expect("not cancelled");
-        let products = Predictors::of_products(&design, &Silent).expect("not cancelled");
-        let [ours, other] = [&chosen, &products]
-            .map(|predictors| path(predictors, target, HALF, &Silent).expect("not cancelled"));
+        let chosen = Predictors::of(&design, &SilentProgress).expect("not cancelled");
+        let products = Predictors::of_products(&design, &SilentProgress).expect("not cancelled");
+        let [ours, other] = [&chosen, &products].map(|predictors| {
+            path(predictors, target, HALF, &SilentProgress).expect("not cancelled")
+        });
         assert!(format!("{chosen:?}").contains("Columns"));
         for (ours, other) in ours.iter().flatten().zip(other.iter().flatten()) {
             assert!((ours - other).abs() < 1e-4, "{ours} against {other}");

@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 
 use faer::Mat;
-use taceva_core::{Estimator, Features, ModelError, Progress, Regressor, TrainingSet};
+use taceva_core::{Features, ModelError, Progress, Regressor, TrainingSet};
 
 use super::reach::reach;
 use super::regressor::KernelRegressor;
@@ -15,7 +15,7 @@ use crate::linalg::{Design, FeatureScale, Spectrum};
 use crate::registry::ModelInfo;
 use crate::settings::{SettingError, Settings};
 use crate::training::choice::{ChannelChoice, Choice, ChosenBy, rmse};
-use crate::training::fit::{ModelEstimator, ModelFit, ModelRegressor};
+use crate::training::fit::{ModelEstimator, ModelFit, ModelRegressor, estimator};
 use crate::training::problem::{Problem, Validation, centred, joined, stacked};
 use crate::training::progress::interrupted;
 
@@ -307,19 +307,4 @@ impl Problem<'_> {
     }
 }
 
-impl Estimator for GaussianProcess {
-    fn name(&self) -> &'static str {
-        GaussianProcess::INFO.name
-    }
-
-    fn fit(
-        &self,
-        training: &TrainingSet<'_>,
-        validation: Option<&TrainingSet<'_>>,
-        progress: &dyn Progress,
-    ) -> Result<Box<dyn Regressor>, ModelError> {
-        Ok(Box::new(
-            self.fit_model(training, validation, progress)?.regressor,
-        ))
-    }
-}
+estimator!(GaussianProcess, |_| GaussianProcess::INFO.name);

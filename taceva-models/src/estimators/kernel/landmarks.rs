@@ -139,14 +139,14 @@ fn extreme(values: &[f64], better: impl Fn(f64, f64) -> bool) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use taceva_core::{FeatureShape, Silent};
+    use taceva_core::{FeatureShape, SilentProgress};
 
     #[test]
     fn samples_that_repeat_others_are_no_landmarks() {
         let values = vec![0.0, 1.0, 0.0, 2.0, 1.0, 2.0, 0.0];
         let features = Features::new(FeatureShape::flat(1), values).expect("whole");
-        let landmarks =
-            Landmarks::choose(&features, FeatureScale::Unit, 7, &Silent).expect("not cancelled");
+        let landmarks = Landmarks::choose(&features, FeatureScale::Unit, 7, &SilentProgress)
+            .expect("not cancelled");
         // 0.857 is the mean: 1 is nearest to it, then the two ends follow.
         assert_eq!(landmarks.chosen, [1, 3, 0]);
         assert_eq!(

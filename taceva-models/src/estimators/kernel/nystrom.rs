@@ -152,7 +152,7 @@ fn substitute(factor: &[f64], values: &mut [f64]) {
 mod tests {
     use super::*;
     use crate::linalg::FeatureScale;
-    use taceva_core::Silent;
+    use taceva_core::SilentProgress;
 
     #[test]
     fn where_every_sample_is_a_landmark_products_are_the_kernel() {
@@ -160,8 +160,8 @@ mod tests {
         let values = (0..40).map(|_| f32::from(random.next_u64().to_le_bytes()[0]));
         let values: Vec<f32> = values.collect();
         let features = Features::new(FeatureShape::flat(4), values).expect("ten samples");
-        let landmarks =
-            Landmarks::choose(&features, FeatureScale::Unit, 10, &Silent).expect("not cancelled");
+        let landmarks = Landmarks::choose(&features, FeatureScale::Unit, 10, &SilentProgress)
+            .expect("not cancelled");
         let map = Nystrom::new(&landmarks, 0.5);
         assert_eq!(map.len(), 10, "every sample is one");
         let mapped = map.of_training(&landmarks);

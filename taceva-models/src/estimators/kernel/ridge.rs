@@ -1,6 +1,6 @@
 //! Kernel ridge regression.
 
-use taceva_core::{Estimator, ModelError, Progress, Regressor, TrainingSet};
+use taceva_core::{ModelError, Progress, TrainingSet};
 
 use super::{Kernel, Mapped};
 use crate::estimators::linear::{LinearEstimator, LinearFit};
@@ -8,7 +8,7 @@ use crate::estimators::ridge::Ridge;
 use crate::features::FeatureSpec;
 use crate::registry::ModelInfo;
 use crate::settings::{SettingError, Settings};
-use crate::training::fit::{ModelEstimator, ModelFit, ModelRegressor};
+use crate::training::fit::{ModelEstimator, ModelFit, ModelRegressor, estimator};
 use crate::training::problem::Problem;
 use crate::training::progress::interrupted;
 
@@ -109,19 +109,4 @@ impl ModelEstimator for KernelRidge {
     }
 }
 
-impl Estimator for KernelRidge {
-    fn name(&self) -> &'static str {
-        KernelRidge::INFO.name
-    }
-
-    fn fit(
-        &self,
-        training: &TrainingSet<'_>,
-        validation: Option<&TrainingSet<'_>>,
-        progress: &dyn Progress,
-    ) -> Result<Box<dyn Regressor>, ModelError> {
-        Ok(Box::new(
-            self.fit_model(training, validation, progress)?.regressor,
-        ))
-    }
-}
+estimator!(KernelRidge, |_| KernelRidge::INFO.name);

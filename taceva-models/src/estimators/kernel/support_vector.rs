@@ -4,7 +4,7 @@ mod descent;
 
 use faer::Mat;
 use rayon::prelude::*;
-use taceva_core::{Estimator, Features, ModelError, Progress, Regressor, TrainingSet};
+use taceva_core::{Features, ModelError, Progress, TrainingSet};
 
 use self::descent::{Tube, descend};
 use super::regressor::KernelRegressor;
@@ -15,7 +15,7 @@ use crate::features::FeatureSpec;
 use crate::linalg::{Design, FeatureScale};
 use crate::registry::ModelInfo;
 use crate::settings::{SettingError, SettingInfo, Settings, number};
-use crate::training::fit::{ModelEstimator, ModelFit, ModelRegressor};
+use crate::training::fit::{ModelEstimator, ModelFit, ModelRegressor, estimator};
 use crate::training::problem::{Problem, centred};
 use crate::training::progress::{Stage, interrupted};
 use crate::training::trials::{Trials, rows_of};
@@ -197,19 +197,4 @@ impl ModelEstimator for SupportVectors {
     }
 }
 
-impl Estimator for SupportVectors {
-    fn name(&self) -> &'static str {
-        SupportVectors::INFO.name
-    }
-
-    fn fit(
-        &self,
-        training: &TrainingSet<'_>,
-        validation: Option<&TrainingSet<'_>>,
-        progress: &dyn Progress,
-    ) -> Result<Box<dyn Regressor>, ModelError> {
-        Ok(Box::new(
-            self.fit_model(training, validation, progress)?.regressor,
-        ))
-    }
-}
+estimator!(SupportVectors, |_| SupportVectors::INFO.name);

@@ -2,12 +2,12 @@
 
 use faer::Mat;
 use rayon::prelude::*;
-use taceva_core::{ErrorKind, Estimator, ModelError, Progress, Regressor, TrainingSet};
+use taceva_core::{ErrorKind, ModelError, Progress, Regressor, TrainingSet};
 
 use super::fitted::Fitted;
 use super::{LibraryLearner, LibraryRegressor};
 use crate::training::choice::Errors;
-use crate::training::fit::{ModelEstimator, ModelFit, ModelRegressor};
+use crate::training::fit::{ModelEstimator, ModelFit, ModelRegressor, estimator};
 use crate::training::output::OutputScale;
 use crate::training::problem::Problem;
 use crate::training::trials::{Round, Trials, rows_of};
@@ -127,19 +127,4 @@ fn as_given(training: &TrainingSet<'_>, held: Option<&TrainingSet<'_>>) -> Mat<f
     })
 }
 
-impl Estimator for LibraryEstimator {
-    fn name(&self) -> &str {
-        self.learner.model().info.name
-    }
-
-    fn fit(
-        &self,
-        training: &TrainingSet<'_>,
-        validation: Option<&TrainingSet<'_>>,
-        progress: &dyn Progress,
-    ) -> Result<Box<dyn Regressor>, ModelError> {
-        Ok(Box::new(
-            self.fit_model(training, validation, progress)?.regressor,
-        ))
-    }
-}
+estimator!(LibraryEstimator, |own| own.learner.model().info.name);

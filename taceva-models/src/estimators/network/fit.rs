@@ -1,13 +1,13 @@
 //! How a network is fitted: what is learnt from which samples, and what its card says of it.
 
-use taceva_core::{Estimator, ModelError, Progress, Regressor, TrainingSet};
+use taceva_core::{ModelError, Progress, TrainingSet};
 use taceva_gpu::Gpu;
 use taceva_network::{Isa, LabelScale, Labels, Network, Samples, Trained};
 
 use super::training::{Training, no_gpu, refused};
 use super::{Checkpoints, NetworkCard, NetworkEstimator, NetworkRegressor};
 use crate::training::choice::{ChannelChoice, Choice, ChosenBy, errors};
-use crate::training::fit::{ModelEstimator, ModelFit, ModelRegressor, NO_PICTURE};
+use crate::training::fit::{ModelEstimator, ModelFit, ModelRegressor, NO_PICTURE, estimator};
 use crate::training::problem::{Problem, invalid};
 
 /// The labels of a part whose channel is among `varying`.
@@ -122,18 +122,4 @@ impl ModelEstimator for NetworkEstimator {
     }
 }
 
-impl Estimator for NetworkEstimator {
-    fn name(&self) -> &'static str {
-        self.info().name
-    }
-
-    fn fit(
-        &self,
-        training: &TrainingSet<'_>,
-        validation: Option<&TrainingSet<'_>>,
-        progress: &dyn Progress,
-    ) -> Result<Box<dyn Regressor>, ModelError> {
-        let fit = self.fit_model(training, validation, progress)?;
-        Ok(Box::new(fit.regressor))
-    }
-}
+estimator!(NetworkEstimator, |own| own.info().name);

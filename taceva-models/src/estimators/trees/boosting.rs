@@ -2,7 +2,7 @@
 
 use faer::Mat;
 use rayon::prelude::*;
-use taceva_core::{Estimator, Features, ModelError, Progress, Regressor, TrainingSet};
+use taceva_core::{Features, ModelError, Progress, TrainingSet};
 
 use super::bins::Binned;
 use super::forest::{draw, part, share};
@@ -11,7 +11,7 @@ use super::regressor::{Member, TreeRegressor};
 use crate::features::FeatureSpec;
 use crate::registry::ModelInfo;
 use crate::settings::{SettingError, SettingInfo, Settings, number};
-use crate::training::fit::{ModelEstimator, ModelFit, ModelRegressor};
+use crate::training::fit::{ModelEstimator, ModelFit, ModelRegressor, estimator};
 use crate::training::output::OutputScale;
 use crate::training::problem::{Problem, centred};
 use crate::training::progress::{Stage, interrupted};
@@ -255,19 +255,4 @@ impl ModelEstimator for GradientBoosting {
     }
 }
 
-impl Estimator for GradientBoosting {
-    fn name(&self) -> &'static str {
-        GradientBoosting::INFO.name
-    }
-
-    fn fit(
-        &self,
-        training: &TrainingSet<'_>,
-        validation: Option<&TrainingSet<'_>>,
-        progress: &dyn Progress,
-    ) -> Result<Box<dyn Regressor>, ModelError> {
-        Ok(Box::new(
-            self.fit_model(training, validation, progress)?.regressor,
-        ))
-    }
-}
+estimator!(GradientBoosting, |_| GradientBoosting::INFO.name);

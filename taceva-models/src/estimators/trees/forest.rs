@@ -2,7 +2,8 @@
 
 use faer::Mat;
 use rayon::prelude::*;
-use taceva_core::{Estimator, Features, ModelError, Progress, Regressor, TrainingSet};
+use taceva_core::random::SplitMix64;
+use taceva_core::{Features, ModelError, Progress, Regressor, TrainingSet};
 
 use super::bins::Binned;
 use super::grow::{Growth, Samples};
@@ -11,12 +12,11 @@ use crate::features::FeatureSpec;
 use crate::registry::ModelInfo;
 use crate::settings::{SettingError, SettingInfo, Settings, number};
 use crate::training::choice::Choice;
-use crate::training::fit::{ModelEstimator, ModelFit, ModelRegressor};
+use crate::training::fit::{ModelEstimator, ModelFit, ModelRegressor, estimator};
 use crate::training::output::OutputScale;
 use crate::training::problem::{Problem, centred};
 use crate::training::progress::{Stage, interrupted};
 use crate::training::trials::{Trials, rows_of};
-use taceva_core::random::SplitMix64;
 
 /// A random forest a channel: the mean of trees that each saw its own draw of the samples, and at each split its own draw of the features.
 ///
@@ -212,19 +212,4 @@ impl ModelEstimator for RandomForest {
     }
 }
 
-impl Estimator for RandomForest {
-    fn name(&self) -> &'static str {
-        RandomForest::INFO.name
-    }
-
-    fn fit(
-        &self,
-        training: &TrainingSet<'_>,
-        validation: Option<&TrainingSet<'_>>,
-        progress: &dyn Progress,
-    ) -> Result<Box<dyn Regressor>, ModelError> {
-        Ok(Box::new(
-            self.fit_model(training, validation, progress)?.regressor,
-        ))
-    }
-}
+estimator!(RandomForest, |_| RandomForest::INFO.name);

@@ -1,4 +1,4 @@
-//! Many seeds without a violation, and proof that the oracle who says so is awake.
+//! Many seeds without a violation, and planted mistakes that the oracle must find.
 
 use crate::simulation::fault::{FaultCounts, FaultKind};
 use crate::simulation::oracle::{Checks, HALT_WITHIN_S, Violation};

@@ -1,0 +1,129 @@
+//! The columns of a table that an import reads.
+
+use serde::Deserialize;
+use taceva_core::SourceUnit;
+
+/// The column a channel comes from.
+///
+/// ```
+/// use taceva_core::SourceUnit;
+/// use taceva_dataset::ColumnMap;
+///
+/// let mut column = ColumnMap::new("force", SourceUnit::parse("mN")?);
+/// column.is_negated = true;
+/// assert_eq!(column.from, "force");
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct ColumnMap {
+    /// Its name in the table.
+    pub from: String,
+    /// The unit it is in there.
+    pub unit: SourceUnit,
+    /// Whether its sign is turned.
+    pub is_negated: bool,
+}
+
+impl ColumnMap {
+    /// The column `from`, in `unit`, with its sign as it is.
+    pub fn new(from: impl Into<String>, unit: SourceUnit) -> ColumnMap {
+        ColumnMap {
+            from: from.into(),
+            unit,
+            is_negated: false,
+        }
+    }
+}
+
+/// The columns of the ids.
+///
+/// ```
+/// use taceva_dataset::IdMap;
+///
+/// let mut ids = IdMap::default();
+/// ids.point_id = vec!["x".into(), "y".into()];
+/// assert_eq!(ids.sample, None);
+/// ```
+#[derive(Clone, Debug, Default, PartialEq, Eq, Deserialize)]
+#[non_exhaustive]
+#[serde(deny_unknown_fields, default)]
+pub struct IdMap {
+    /// The name of a sample; absent: the number of its row, from 0.
+    pub sample: Option<String>,
+    /// The contact location; several columns are joined with `:`.
+    #[serde(deserialize_with = "one_or_more")]
+    pub point_id: Vec<String>,
+    /// The sensor unit.
+    pub unit_id: Option<String>,
+    /// The lighting scene or the like.
+    pub scene: Option<String>,
+    /// The depth level.
+    pub depth_step: Option<String>,
+    /// The number of the repeat.
+    pub repeat: Option<String>,
+    /// Load or unload.
+    pub phase: Option<String>,
+    /// The part of a declared split.
+    pub part: Option<String>,
+    /// The relief of a grating: `line` or `dot`.
+    pub kind: Option<String>,
+    /// The spacing of a grating, in mm as decimal text.
+    pub spacing_mm: Option<String>,
+}
+
+/// The column of the time.
+///
+/// ```
+/// use taceva_core::SourceUnit;
+/// use taceva_dataset::TimeMap;
+///
+/// let time = TimeMap::new("t", SourceUnit::parse("ms")?);
+/// assert_eq!(time.column, "t");
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct TimeMap {
+    /// Its name in the table.
+    pub column: String,
+    /// The unit it is in there.
+    pub unit: SourceUnit,
+}
+
+impl TimeMap {
+    /// The column `column`, in `unit`.
+    pub fn new(column: impl Into<String>, unit: SourceUnit) -> TimeMap {
+        TimeMap {
+            column: column.into(),
+            unit,
+        }
+    }
+}
+
+fn one_or_more<'de, D: serde::Deserializer<'de>>(deserializer: D) -> Result<Vec<String>, D::Error> {
+    struct Names;
+
+    impl<'de> serde::de::Visitor<'de> for Names {
+        type Value = Vec<String>;
+
+        fn expecting(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+            f.write_str("a column or a list of columns")
+        }
+        fn visit_str<E: serde::de::Error>(self, name: &str) -> Result<Vec<String>, E> {
+            Ok(vec![name.to_owned()])
+        }
+        fn visit_seq<A: serde::de::SeqAccess<'de>>(
+            self,
+            mut names: A,
+        ) -> Result<Vec<String>, A::Error> {
+            let mut list = Vec::new();
+            while let Some(name) = names.next_element()? {
+                list.push(name);
+            }
+            Ok(list)
+        }
+    }
+
+    deserializer.deserialize_any(Names)
+}
