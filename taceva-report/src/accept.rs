@@ -73,7 +73,7 @@ pub enum LimitsError {
 pub struct Finding {
     /// The limit.
     pub limit: Limit,
-    /// The value that was looked at, if there is one.
+    /// The value, if there is one.
     pub value: Option<f64>,
     /// Both ends of its interval.
     pub ends: Option<[f64; 2]>,

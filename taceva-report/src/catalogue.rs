@@ -1,4 +1,4 @@
-//! Sensors as data: what they are built of, what they stand, and what was published of them, each number with its source.
+//! Sensors as data: construction, limits and published numbers, each with its source.
 
 mod alike;
 mod builtin;
@@ -45,7 +45,7 @@ pub fn find(name: &str) -> Option<Sensor> {
         .find(|sensor| sensor.name.to_lowercase() == wanted)
 }
 
-/// What to say to whoever asked for `name`, which is not there.
+/// A hint for an unknown `name`.
 pub fn hint(name: &str) -> String {
     match nearest(name) {
         Some(nearest) => format!("did you mean `{nearest}`? `taceva catalogue list` shows all"),

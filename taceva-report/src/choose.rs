@@ -23,7 +23,7 @@ pub struct Choice {
     pub open: Vec<Open>,
     /// Those that a need dropped.
     pub dropped: Vec<Dropped>,
-    /// Those that are not ranked, because a number that a need looks at takes no part in verdicts.
+    /// Those that are not ranked, because a number that a need uses takes no part in verdicts.
     pub barred: Vec<Dropped>,
     /// Those of which not a single number is known that a need asks for.
     pub unknown: Vec<String>,
@@ -36,16 +36,16 @@ pub struct Candidate {
     pub name: String,
     /// The mean over soft needs of its share of the best; 1 where nothing ranks.
     pub share: f64,
-    /// Every number that was looked at.
+    /// Every number that was used.
     pub steps: Vec<Step>,
 }
 
 /// One number of one sensor against one need.
 #[derive(Clone, Debug)]
 pub struct Step {
-    /// The need as it was said.
+    /// The need as it was given.
     pub need: String,
-    /// What was looked at: `MAE Fxy`.
+    /// The property: `MAE Fxy`.
     pub property: Property,
     /// The number; none if it is not known.
     pub value: Option<f64>,
@@ -53,7 +53,7 @@ pub struct Step {
     pub standing: Standing,
     /// Its share of the best of those that remain; none for hard needs and unknown numbers.
     pub share: Option<f64>,
-    /// Whether the need is a hard one, which ranks nobody.
+    /// Whether the need is a hard one, which does not rank.
     pub is_bound: bool,
 }
 
@@ -78,7 +78,7 @@ pub struct Dropped {
 /// Chooses among `sensors` for `needs`.
 ///
 /// A hard need drops every sensor whose number is known not to meet it, and sets those apart of which that number is not known: what nobody
-/// knows recommends nothing. A sensor of which a need looks at a score that takes no part in verdicts is not ranked. Studies of sensors are no sensors. A soft need ranks those that remain: a sensor has the share of
+/// knows recommends nothing. A sensor is not ranked if a need uses a score of it that takes no part in verdicts. Studies of sensors are no sensors. A soft need ranks those that remain: a sensor has the share of
 /// the best that its number has, the mean over the numbers of the need; a number that is not known counts as a share of 0, since it
 /// recommends nothing. The rank is the mean over soft needs; equals share a place, and stay in the order of their names.
 ///
@@ -129,7 +129,7 @@ pub fn choose(sensors: &[Sensor], needs: &[Need]) -> Choice {
     choice
 }
 
-/// The first number of `sensor` that a need looks at and that takes no part in verdicts.
+/// The first number of `sensor` that a need uses and that takes no part in verdicts.
 fn barred(sensor: &Sensor, needs: &[Need]) -> Option<String> {
     let properties = needs
         .iter()

@@ -4,6 +4,7 @@ mod aside;
 mod estimate;
 mod footing;
 mod overview;
+mod page;
 mod paired;
 mod render;
 
@@ -40,7 +41,7 @@ pub struct Comparison {
     pub answers: Vec<Answer>,
     /// What a reader must know before comparing them.
     pub notes: Vec<String>,
-    /// What stands beside the verdicts, score by score.
+    /// Remarks on the verdicts, by score.
     asides: Vec<Aside>,
 }
 
@@ -89,7 +90,7 @@ impl Answer {
         }
     }
 
-    /// The studies of which nothing says whether their model has skill.
+    /// The studies for which the skill of the model is unknown.
     fn unknown<'n>(&self, names: &'n [String]) -> Vec<&'n str> {
         let sides = [
             (self.standings.a, self.sides.a),
@@ -138,7 +139,7 @@ pub fn compare(studies: &[Study], request: &CompareRequest) -> Comparison {
     }
 }
 
-/// What stands beside the answers, score by score.
+/// Remarks on the answers, by score.
 fn asides(studies: &[Study], names: &[String], answers: &[Answer]) -> Vec<Aside> {
     let mut asides: Vec<Aside> = Vec::new();
     for Answer {

@@ -49,7 +49,7 @@ pub fn figures(studies: &[Study]) -> Vec<Figure> {
     all.into_iter().flatten().flatten().collect()
 }
 
-/// The names of studies, told apart where sensors are called the same.
+/// The names of studies, made distinct where sensors have the same name.
 pub fn names(studies: &[Study]) -> Vec<String> {
     let name = |(at, study): (usize, &Study)| {
         let same = |other: &&Study| other.sensor == study.sensor;

@@ -108,7 +108,7 @@ pub fn report(report: &Report<'_>) -> String {
     document.finish()
 }
 
-/// What only some readers look for: what metrics mean, what was left out, and where all comes from.
+/// Details: meanings of metrics, skipped scores, and provenance.
 fn details(studies: &[Study], table: &ScoreTable) -> String {
     let named = table.rows.iter().map(|row| row.metric.as_str());
     let (count, left_out) = left_out::section(studies);

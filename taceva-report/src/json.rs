@@ -1,4 +1,4 @@
-//! JSON whose objects keep the order they were written in: metrics and channels stand as they are reported.
+//! JSON whose objects keep the order of their keys.
 
 use std::fmt;
 

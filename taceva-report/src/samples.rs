@@ -42,7 +42,7 @@ pub struct Samples {
 pub struct SampleChannel {
     /// What it is called.
     pub name: String,
-    /// What the reference instruments said.
+    /// The readings of the reference instruments.
     pub truth: Vec<Option<f64>>,
     /// What was predicted; absent everywhere where nothing was.
     pub prediction: Vec<Option<f64>>,
@@ -173,7 +173,7 @@ impl Samples {
         *self.numbers.get(column)?.get(row)?
     }
 
-    /// The samples of a part of the protocol; all of them where the table does not say.
+    /// The samples of a part of the protocol; all of them where the table names no parts.
     pub fn of_protocol(&self, part: &str) -> Vec<usize> {
         let is_of = |row: &usize| match self.words.get("protocol") {
             Some(words) => words[*row].split(' ').any(|word| word == part),
@@ -182,7 +182,7 @@ impl Samples {
         (0..self.rows).filter(is_of).collect()
     }
 
-    /// Whether the table says which sample belongs to which part of the protocol.
+    /// Whether the table names the part of the protocol of each sample.
     pub fn has_protocol(&self) -> bool {
         self.words.contains_key("protocol")
     }

@@ -1,4 +1,4 @@
-//! How far the labels of sensors spread: an error in a unit is small where there is little to tell.
+//! The spread of labels of sensors: where labels vary little, errors in units are small.
 
 use taceva_core::Unit;
 
@@ -7,7 +7,7 @@ use crate::results::Study;
 
 /// Metrics whose values follow the spread of the labels.
 const OF_ERRORS: [&str; 4] = ["mae", "mae_euclid", "rmse", "r_spatial"];
-/// Spreads that differ by more are said.
+/// Spreads that differ by a greater factor are reported.
 const ALIKE: f64 = 2.0;
 
 /// ` (their labels differ in spread: 0.047 N to 0.174 N)`, where errors of those studies that are at `which` are compared and the labels of

@@ -125,7 +125,7 @@ fn the_figure_of_light_draws_ratios_of_the_scores_and_nothing_from_samples_alone
     let mut lit = support::drawn("one", 60, 1.0);
     let figure = find(std::slice::from_ref(&lit)).expect("a figure");
     let said = figure.svg();
-    let words = "one, scene S2: error 8 times that of untouched light, light 2.3 times";
+    let words = "one, scene S2: error 8 times that in unchanged light, light 2.3 times";
     assert!(said.contains(words), "{said}");
     assert!(figure.caption.contains("not brought back to its bounds"));
     for score in &mut lit.scores {

@@ -63,7 +63,7 @@ pub(super) fn every_column(report: &CheckReport) -> Table {
     table
 }
 
-/// What was found and how bad it is.
+/// Code, severity and message of each finding.
 pub(super) fn main_columns(report: &CheckReport) -> Table {
     let mut table = Table::new("Findings", ["code", "severity", "finding"]);
     for finding in &report.findings {

@@ -1,4 +1,4 @@
-//! Drivers, devices and what stands in their way, as lists.
+//! Drivers, devices and findings of `doctor`, as lists.
 
 use std::io::{self, Write};
 
@@ -9,7 +9,7 @@ use taceva_drivers::{Devices, ListedArgument, ListedDevice, ListedDriver};
 use super::json;
 use crate::args::ListFormat;
 
-/// What there is.
+/// Writes drivers and devices.
 pub(crate) fn list(devices: &Devices, format: ListFormat, out: &mut dyn Write) -> io::Result<()> {
     match format {
         ListFormat::Text => text(devices, out),
@@ -17,7 +17,7 @@ pub(crate) fn list(devices: &Devices, format: ListFormat, out: &mut dyn Write) -
     }
 }
 
-/// What was looked at.
+/// Writes the findings of `doctor`.
 pub(crate) fn findings(
     findings: &[Finding],
     format: ListFormat,
@@ -105,7 +105,7 @@ fn text(devices: &Devices, out: &mut dyn Write) -> io::Result<()> {
     writeln!(out, "{drivers} drivers, {found} devices that they see")
 }
 
-/// One driver: what it is, what is known of its device, and what it may be told.
+/// One driver: its name, facts about its device, and its arguments.
 pub(super) fn driver(driver: &ListedDriver, out: &mut dyn Write) -> io::Result<()> {
     let (key, kind) = (&driver.key, driver.kind.to_string());
     let (title, source) = (&driver.title, driver.source);
@@ -120,7 +120,7 @@ pub(super) fn driver(driver: &ListedDriver, out: &mut dyn Write) -> io::Result<(
     Ok(())
 }
 
-/// What is known of a device before it is opened, in words.
+/// Facts about a device that are known before it is opened.
 fn facts(driver: &ListedDriver) -> Vec<String> {
     let yes_no = |fact: Option<bool>, yes: &str, no: &str| {
         fact.map(|fact| if fact { yes } else { no }.to_owned())

@@ -9,7 +9,7 @@ pub(super) fn write(report: &impl Serialize, out: &mut dyn Write) -> io::Result<
     writeln!(out)
 }
 
-/// The same, sealed: whoever reads it back notices a change.
+/// The same, with a seal that detects later changes.
 pub(super) fn write_sealed(report: &impl Serialize, out: &mut dyn Write) -> io::Result<()> {
     let text = serde_json::to_string_pretty(report)?;
     let sealed = taceva_seal::json::seal(&text).map_err(io::Error::other)?;

@@ -1,4 +1,4 @@
-//! Scores and their variants one after the other: what every table prints a row of.
+//! Scores and their variants in sequence: the rows of tables.
 
 use taceva_core::Unit;
 use taceva_metrics::{Better, Evaluation, Flag, Interval, Score, Standing, Value};
@@ -9,7 +9,7 @@ pub(super) struct Line<'a> {
     pub(super) name: String,
     /// The channel or plane.
     pub(super) channel: &'a str,
-    /// What was found.
+    /// The value.
     pub(super) value: &'a Value,
     /// Its unit.
     pub(super) unit: Unit,
@@ -51,25 +51,25 @@ pub(super) fn lines(evaluation: &Evaluation) -> Vec<Line<'_>> {
     lines
 }
 
-/// Those that people read: the constants that models are measured by are no scores, and stand in JSON and CSV alone.
+/// The lines for people: reference constants are no scores, and are in JSON and CSV only.
 pub(super) fn read_lines(evaluation: &Evaluation) -> Vec<Line<'_>> {
     let lines = lines(evaluation).into_iter();
     lines.filter(|line| !line.is_reference()).collect()
 }
 
 impl Line<'_> {
-    /// The name as it stands in tables, with the sign of its direction: `mae ↓`.
+    /// The name with the sign of its direction: `mae ↓`.
     pub(super) fn shown_name(&self) -> String {
         Better::named(&self.name)
     }
 
-    /// Whether it says what a score is measured by.
+    /// Whether it is the reference constant of a score.
     fn is_reference(&self) -> bool {
         matches!(self.name.as_str(), "skill.constant" | "sr.of_constant")
     }
 }
 
-/// What a reader must know of scores, a line a flag of a metric: `uniformity Fz: one bin`, `skill Pz Fz: constant is the mean of truth`.
+/// Flags of scores, a line for each flag of a metric: `uniformity Fz: one bin`, `skill Pz Fz: constant is the mean of truth`.
 pub(super) fn flags(evaluation: &Evaluation) -> Vec<String> {
     let mut groups: Vec<(&str, &Flag, Vec<&str>)> = Vec::new();
     for (metric, channel, score) in evaluation.scores() {

@@ -1,4 +1,4 @@
-//! Scores as people read them, by the rule that all reports share.
+//! Formatted scores, by the rule of all reports.
 
 use taceva_metrics::{Interval, Value};
 use taceva_report::FormattedValue;

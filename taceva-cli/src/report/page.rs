@@ -19,7 +19,7 @@ use crate::output;
 use super::thumbnail::{MEDIA_TYPE, thumbnail};
 use super::triple::triple;
 
-/// What a page shows, collected.
+/// The contents of a page.
 pub(crate) struct Page {
     title: String,
     studies: Vec<Study>,
@@ -66,7 +66,7 @@ impl Page {
         Ok(())
     }
 
-    /// Writes every figure into `folder`, as SVG that stands alone and as PDF, and says which letters no font has.
+    /// Writes every figure into `folder`, as standalone SVG and as PDF, and reports letters that no font has.
     pub(crate) fn write_figures(&self, folder: &Path, context: &Context) -> anyhow::Result<()> {
         fs::create_dir_all(folder).with_context(|| format!("cannot make {}", shown(folder)))?;
         let mut without_glyph = BTreeSet::new();
@@ -131,7 +131,7 @@ impl Page {
     }
 }
 
-/// A finished evaluation as its JSON says it, with its samples.
+/// A finished evaluation as it is read from its JSON, with its samples.
 pub(crate) fn study(report: &EvaluationReport) -> anyhow::Result<Study> {
     // As it would be read from a file, so that a page shows what others read.
     let text = taceva_seal::json::seal(&serde_json::to_string(report)?)?;

@@ -1,4 +1,4 @@
-//! What a scene would do, study by study.
+//! The plan of a scene, study by study.
 
 use std::io::{self, Write};
 

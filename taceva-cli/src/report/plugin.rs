@@ -9,7 +9,7 @@ use taceva_host::{Delivery, Place, Plugin, PluginHost, ReasonKind, Rejection};
 use super::{devices, json};
 use crate::args::ListFormat;
 
-/// What was found; with `all`, also what is not used.
+/// Writes the plugins that were found; with `all`, also those that are not used.
 pub(crate) fn list(
     host: &PluginHost,
     all: bool,
@@ -45,7 +45,7 @@ pub(crate) fn list(
     writeln!(out, "{used} plugins, {not} not used{hint}")
 }
 
-/// Everything that a manifest says.
+/// Writes the content of a manifest.
 pub(crate) fn info(
     host: &PluginHost,
     plugin: &Plugin,
@@ -122,7 +122,7 @@ struct Listed {
     place: Place,
     folder: String,
     library: String,
-    /// What the manifest demands of the library, or that it demands nothing.
+    /// The digest of the library that the manifest demands, if any.
     sha256: String,
     delivery: Delivery,
     /// How it would be kept from the rest of the machine, tried by confining a process without it.

@@ -1,4 +1,4 @@
-//! Several sensors side by side, a column each: what was measured in the same way can be read across.
+//! Several sensors side by side, one column each.
 
 use std::io::{self, Write};
 
@@ -12,10 +12,10 @@ use super::number::formatted;
 use super::page;
 use super::text::{over_seeds, presses};
 
-/// A channel and the plane that says the same of it and its neighbour.
+/// Channels, and the plane that replaces them.
 const IN_PLANES: [(&str, &str); 4] = [("Px", "Pxy"), ("Py", "Pxy"), ("Fx", "Fxy"), ("Fy", "Fxy")];
 
-/// What a row is of: metric, channel, unit.
+/// The key of a row: metric, channel, unit.
 type Row = [String; 3];
 
 pub(super) fn write(reports: &[EvaluationReport], out: &mut dyn Write) -> io::Result<()> {
@@ -117,7 +117,7 @@ fn ties(reports: &[EvaluationReport], out: &mut dyn Write) -> io::Result<()> {
     Ok(())
 }
 
-/// What was published of the sensor, a cell a row; nothing at all where no row has any of the same definition.
+/// The published values of the sensor, one for each row; empty where no row has one of the same definition.
 fn published(report: &EvaluationReport, lines: &[Line<'_>], rows: &[Row]) -> Vec<String> {
     let Some(sensor) = taceva_report::catalogue::find(&report.subject.sensor) else {
         return Vec::new();
@@ -126,7 +126,7 @@ fn published(report: &EvaluationReport, lines: &[Line<'_>], rows: &[Row]) -> Vec
         let line = lines.iter().find(|line| row_of(line) == *row)?;
         let definition = (line.score.definition, line.unit);
         let found = sensor.published_alike((&line.name, line.channel), definition)?;
-        // As it was published: digits that nobody printed are not added.
+        // With the published digits only.
         Some(found.value.to_string())
     };
     let cells: Vec<Option<String>> = rows.iter().map(alike).collect();

@@ -99,7 +99,7 @@ pub(super) fn by_channel(report: &EvaluationReport) -> Table {
     table
 }
 
-/// The same for pages, whose caption stands below.
+/// The same for pages, with the caption below.
 pub(super) fn for_pages(report: &EvaluationReport) -> Table {
     let mut table = by_channel(report);
     let caption = std::mem::take(&mut table.caption);
@@ -129,7 +129,7 @@ fn estimate(line: &Line<'_>) -> Estimate {
     }
 }
 
-/// What a reader of the table must know.
+/// The caption of the table.
 fn caption(report: &EvaluationReport) -> String {
     caption_with(report, str::to_owned)
 }

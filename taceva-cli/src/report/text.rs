@@ -1,4 +1,4 @@
-//! For people: what it is about, the scores, what was left out, and where it all comes from.
+//! An evaluation as text: subject, scores, skipped metrics, and provenance.
 
 use std::io::{self, Write};
 
@@ -141,7 +141,7 @@ fn footer(report: &EvaluationReport, out: &mut dyn Write) -> io::Result<()> {
         writeln!(out, "intervals  {method}")?;
     }
     for flag in flags(&report.evaluation) {
-        writeln!(out, "mind       {flag}")?;
+        writeln!(out, "flag       {flag}")?;
     }
     for standing in standings(&report.evaluation) {
         writeln!(out, "standing   {standing}")?;
@@ -210,7 +210,7 @@ fn unit(symbol: &str) -> String {
     }
 }
 
-/// A table without caption, whose numbers stand to the right one by one.
+/// A table without caption, in which each number is aligned to the right.
 fn by_cell<const N: usize>(names: [&str; N]) -> Table {
     let columns = names.map(|name| Column::new(name).align(Align::ByCell));
     Table::new("", columns)

@@ -1,4 +1,4 @@
-//! A sensor in three small pictures, from its recording: untouched, pressed, and what is different.
+//! Three small pictures of a sensor, from its recording: untouched, pressed, and their difference.
 
 use taceva_dataset::{Dataset, Table};
 use taceva_report::Triple;

@@ -25,7 +25,7 @@ pub(super) fn notes(text: &Text) -> Vec<String> {
         return Vec::new();
     };
     let used = RENAMED.iter().filter(|key| {
-        let tables = key.tables.iter();
+        let mut tables = key.tables.iter();
         let table = tables.try_fold(&scene, |table, name| table.get(*name)?.as_table());
         table.is_some_and(|table| table.contains_key(key.before))
     });

@@ -18,13 +18,13 @@ pub const ACCEPTANCE_SCHEMA: &str = "taceva.acceptance/1.1";
 /// Findings with what they are of.
 #[derive(Clone, Copy, Debug)]
 pub struct Acceptance<'a> {
-    /// What the limits are for.
+    /// The name of the limits.
     pub name: &'a str,
-    /// What was held to them.
+    /// The sensor that was tested.
     pub study: &'a Study,
-    /// What became of each limit.
+    /// The finding of each limit.
     pub findings: &'a [Finding],
-    /// The day it was held to them: `2026-11-22`. Nothing here looks at a clock.
+    /// The date of the test: `2026-11-22`.
     pub date: Option<&'a str>,
     /// What the sensor sees, where pictures are at hand.
     pub pictures: Option<&'a Triple>,
@@ -127,7 +127,7 @@ impl Acceptance<'_> {
         }
     }
 
-    /// What was held to the limits, and when.
+    /// The tested unit and the date.
     fn unit(&self) -> String {
         let study = self.study;
         let mut entries = vec![

@@ -1,4 +1,4 @@
-//! Which published numbers may stand beside ours: those of the same sensor, quantity, unit and definition.
+//! Which published numbers are comparable with ours: those of the same sensor, quantity, unit and definition.
 
 use taceva_core::Unit;
 
@@ -6,7 +6,7 @@ use super::{Published, Sensor};
 
 /// Definitions of ours, and in which words the catalogue writes the same one. What is not in this list is another definition.
 ///
-/// Success rates are not: ours are of as many spacings as a scene has, and the fewer there are the easier each is told. Nor is robustness over the
+/// Success rates are not: ours are of as many spacings as a scene has, and the fewer there are the easier each is to predict. Nor is robustness over the
 /// surface: the table of its publication is not half the sum of what its figure shows, so that nobody knows which of them the definition gave.
 const SAME: [(&str, &str); 6] = [
     (

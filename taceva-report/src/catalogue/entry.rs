@@ -25,9 +25,9 @@ pub struct Sensor {
     pub opaque: Option<bool>,
     /// Whether its gel carries markers.
     pub markers: Option<bool>,
-    /// What it is built of.
+    /// Its construction.
     pub intrinsic: Option<Intrinsic>,
-    /// What it stands.
+    /// Its limits.
     pub limits: Option<Limits>,
     /// Where the numbers are from.
     #[serde(default, rename = "source")]
@@ -46,7 +46,7 @@ pub struct Sensor {
     pub applications: BTreeMap<String, Vec<String>>,
 }
 
-/// What an entry is of.
+/// The kind of an entry.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Kind {

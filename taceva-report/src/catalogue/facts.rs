@@ -2,7 +2,7 @@
 
 use serde::Deserialize;
 
-/// What a sensor is built of.
+/// The construction of a sensor.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Intrinsic {
@@ -20,7 +20,7 @@ pub struct Intrinsic {
     pub frame_rate_hz: f64,
 }
 
-/// What a sensor stands.
+/// The limits of a sensor.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Limits {

@@ -45,14 +45,14 @@ pub struct Published {
 }
 
 impl Published {
-    /// The number as it was published, with `≈`, `>` or `<` where its authors said no more.
+    /// The number as it was published, with `≈`, `>` or `<` where it is not exact.
     pub fn shown(&self) -> String {
         let sign = self.bound.map_or("", Roughly::sign);
         format!("{sign}{}", self.value)
     }
 }
 
-/// What authors say of a number that they do not state exactly. It is shown, and takes part in no comparison.
+/// How a published number that is not exact relates to the true one. Such a number is shown, but not compared.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Roughly {

@@ -1,4 +1,4 @@
-//! Needs, as they are said and as they are meant.
+//! Needs, as words and as bounds.
 
 use std::fmt;
 use taceva_core::shown;
@@ -10,7 +10,7 @@ use super::words::{QUANTITIES, Quantity, WORDS};
 /// One need of a task.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Need {
-    /// As it was said.
+    /// As it was given.
     pub words: String,
     /// What drops a sensor.
     pub bounds: Vec<Bound>,
@@ -29,7 +29,7 @@ pub struct Bound {
     pub value: f64,
 }
 
-/// A need that nobody understands.
+/// A need that cannot be parsed.
 #[derive(Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum NeedError {
@@ -86,7 +86,7 @@ impl Need {
         Need::parse(&written.needs.join(","))
     }
 
-    /// Everything that it looks at.
+    /// Every property that it uses.
     pub fn properties(&self) -> impl Iterator<Item = Property> {
         let bounds = self.bounds.iter().map(|bound| bound.property);
         bounds.chain(self.ranks.iter().copied())

@@ -16,7 +16,7 @@ pub enum Property {
     Repeatability(&'static str),
     /// The spatial robustness of a channel or plane, in mm or N.
     Spatial(&'static str),
-    /// The share of gratings that are told within 0.05 mm: of lines or dots.
+    /// The share of gratings whose spacing is predicted to within 0.05 mm: of lines or dots.
     Resolution(&'static str),
     /// Indentation over normal force, in mm/N.
     Sensitivity,

@@ -1,12 +1,12 @@
-//! The words that needs are said in.
+//! The vocabulary of needs.
 
 use super::property::Property;
 
-/// A word with what it asks for.
+/// A word with its meaning.
 pub(super) struct Word {
-    /// How it may be said.
+    /// Its synonyms.
     pub(super) names: &'static [&'static str],
-    /// Bounds that it stands for: property, whether at least, number.
+    /// Its bounds: property, whether at least, number.
     pub(super) bounds: &'static [(Property, bool, f64)],
     /// What it ranks by.
     pub(super) ranks: &'static [Property],

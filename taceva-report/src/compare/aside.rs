@@ -1,4 +1,4 @@
-//! What stands beside a verdict: ties, light that hardly changed, and labels that spread differently.
+//! Remarks on a verdict: ties, light that hardly changed, and labels of different spread.
 
 use crate::light::{Light, is_low};
 use crate::results::Study;

@@ -63,7 +63,7 @@ fn ground(study: &Study) -> String {
     all.into_iter().flatten().collect::<Vec<_>>().join(", ")
 }
 
-/// `sha256:` and twelve digits tell recordings apart.
+/// `sha256:` and twelve digits distinguish recordings.
 const SHORT: usize = 19;
 
 /// As many letters as name the first table and twelve digits of it.

@@ -1,4 +1,4 @@
-//! What a comparison decides, in so few lines that they are read.
+//! The decisions of a comparison, as an overview.
 
 use taceva_metrics::Better;
 
@@ -13,10 +13,10 @@ pub const OVERVIEW_LINES: usize = 12;
 /// Letters of a line of a terminal.
 pub const OVERVIEW_WIDTH: usize = 100;
 
-/// What is asked of one score, and how it is answered.
+/// A question about one score, and its answer.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Decision {
-    /// What is asked: `Depth`; the metric and the channel where nobody gave the question a name.
+    /// The question: `Depth`; empty where it has no name.
     pub question: String,
     /// The metric.
     pub metric: String,
@@ -70,7 +70,7 @@ impl Comparison {
         decisions
     }
 
-    /// How many answers say what: one line.
+    /// Counts of the answers, in one line.
     pub fn summary(&self) -> String {
         let all = self.answers.len();
         let shown = self
@@ -97,7 +97,7 @@ impl Comparison {
             width.map_or_else(|| words.clone(), |width| cut(&words, width))
         };
         let notes = self.notes.iter().take(1);
-        let notes: Vec<String> = notes.map(|note| line(&format!("mind: {note}"))).collect();
+        let notes: Vec<String> = notes.map(|note| line(&format!("note: {note}"))).collect();
         let room = OVERVIEW_LINES - 2 - notes.len();
         let decisions = self.decisions();
         let more = match decisions.len().saturating_sub(room) {

@@ -36,7 +36,7 @@ impl Stroke {
         }
     }
 
-    /// The line of a series: told apart by dashes too, not by colour alone.
+    /// The line of a series: distinguished by dashes as well as by colour.
     pub(crate) fn series(position: usize) -> Stroke {
         const DASHES: [&str; 4] = ["", "7 3", "2 2.5", "9 3 2 3"];
         Stroke {
@@ -47,7 +47,7 @@ impl Stroke {
     }
 }
 
-/// Which end of a text stands at its place.
+/// The end of a text that is at its position.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Anchor {
     Start,
@@ -96,7 +96,7 @@ impl Label {
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Points {
     pub(crate) at: Vec<[f64; 2]>,
-    /// What is said of each; empty, or as many as there are dots.
+    /// The tooltip of each; empty, or as many as there are dots.
     pub(crate) words: Vec<String>,
 }
 
@@ -162,7 +162,7 @@ impl Canvas {
         });
     }
 
-    /// A filled box; `words` are said of it, if there are any.
+    /// A filled box with the tooltip `words`, if it is not empty.
     pub(crate) fn fill(&mut self, place: [f64; 4], ink: Ink, words: String) {
         self.marks.push(Mark::Box { place, ink, words });
     }

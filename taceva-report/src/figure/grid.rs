@@ -24,6 +24,18 @@ impl Grid {
         }
     }
 
+    /// `count` square maps, two a row, each with room for a scale of colours, and the canvas that holds them.
+    pub(crate) fn of_maps(count: usize) -> (Grid, Canvas) {
+        let first = Area {
+            left: 58.0,
+            top: 34.0,
+            width: 280.0,
+            height: 280.0,
+        };
+        let grid = Grid::new(count, 2, first, [142.0, 82.0]);
+        (grid, grid.canvas([78.0, 42.0]))
+    }
+
     /// Where a panel is, counted along the rows.
     #[expect(clippy::cast_precision_loss, reason = "a handful of rows and columns")]
     pub(crate) fn area(&self, position: usize) -> Area {

@@ -6,7 +6,7 @@ use super::panel::Area;
 /// Room that a dot takes, from its middle.
 const DOT: f64 = 6.5;
 const SIZE: f64 = 11.0;
-/// Where a name may stand from its dot, the best place first.
+/// Positions of a name beside its dot, the best first.
 const PLACES: [([f64; 2], Anchor); 10] = [
     // Above a line that leads on from the dot, not on it.
     ([8.0, -7.0], Anchor::Start),

@@ -1,4 +1,4 @@
-//! Colours that people with any colour vision tell apart.
+//! Colours that are distinguishable with any colour vision.
 
 /// How many series have a colour of their own.
 pub const SERIES: usize = 7;

@@ -33,7 +33,7 @@ impl Area {
     }
 }
 
-/// What stands beside the axes of a panel.
+/// The titles of a panel and its axes.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Axes {
     pub(crate) title: String,

@@ -26,7 +26,7 @@ pub(crate) fn short(name: &str, most: usize) -> String {
     format!("{start}…")
 }
 
-/// `name`, cut in its middle to `most` letters: ids that are digests begin alike and end in what tells them apart.
+/// `name`, cut in its middle to `most` letters: ids often begin alike and differ at their end.
 pub(crate) fn middle_cut(name: &str, most: usize) -> String {
     let letters: Vec<char> = name.chars().filter(|letter| !letter.is_control()).collect();
     if letters.len() <= most {

@@ -29,14 +29,7 @@ pub(super) fn draw(studies: &[Study]) -> Option<Figure> {
     if found.is_empty() {
         return None;
     }
-    let first = Area {
-        left: 58.0,
-        top: 34.0,
-        width: 280.0,
-        height: 280.0,
-    };
-    let grid = Grid::new(found.len(), 2, first, [142.0, 82.0]);
-    let mut canvas = grid.canvas([78.0, 42.0]);
+    let (grid, mut canvas) = Grid::of_maps(found.len());
     let mut words = Vec::new();
     for (position, (at, gaps, units)) in found.iter().enumerate() {
         let area = grid.area(position);

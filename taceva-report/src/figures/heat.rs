@@ -18,7 +18,7 @@ pub(super) struct Heat<'a> {
     pub(super) unit: Unit,
 }
 
-/// Draws `heat` into `area`; what is too large is said to be.
+/// Draws `heat` into `area`, or a remark that it is too large.
 pub(super) fn draw(heat: &Heat<'_>, area: Area, canvas: &mut Canvas) {
     let Map {
         x_mm,

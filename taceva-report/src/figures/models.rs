@@ -7,7 +7,7 @@ use crate::figure::{
 use crate::number::numeral;
 use crate::results::{BenchRecording, ChannelError, DecodeBench, DecodeRow, ModelBench, ModelRow};
 
-/// Errors further apart than this are drawn by logarithm: else the small ones cannot be told apart.
+/// Errors that differ by a greater factor are drawn on a logarithmic axis.
 const FAR: f64 = 8.0;
 const MILLI: f64 = 1e3;
 
@@ -94,7 +94,7 @@ fn draw(bench: &ModelBench, time: &str) -> Option<(Canvas, String)> {
     Some((canvas, fronts.join("; ")))
 }
 
-/// What a caption says of samples that nobody measured.
+/// The remark of a caption on simulated samples.
 fn simulated(is_simulated: bool, recording: &BenchRecording) -> String {
     match is_simulated {
         true => format!(

@@ -43,7 +43,7 @@ pub(super) enum Ways {
     LogarithmicX,
 }
 
-/// What is said of a figure.
+/// The words of a figure.
 pub(super) struct Words<'a> {
     pub(super) id: &'a str,
     pub(super) title: &'a str,

@@ -1,4 +1,4 @@
-//! Run time against error: who stands right and low is right and fast.
+//! Cost against gain: points to the right and low are accurate and fast.
 
 use crate::figure::{
     Anchor, Area, Axes, Canvas, Figure, Ink, Label, Panel, Points, Scale, Stroke, beside, extent,
@@ -6,10 +6,10 @@ use crate::figure::{
 };
 use crate::number::numeral;
 
-/// Contenders with what they cost and what they give.
+/// Points with their costs and gains.
 #[derive(Clone, Debug)]
 pub struct Race {
-    /// What is raced: `Ways to sum`.
+    /// The title: `Summation kernels`.
     pub title: String,
     /// What a reader must know: machine, sizes, rounds.
     pub caption: String,
@@ -17,13 +17,13 @@ pub struct Race {
     pub gain: String,
     /// What it costs, upwards and by logarithm: `ns a pair`.
     pub cost: String,
-    /// A cost that nobody can go below, and what it is of.
+    /// A lower bound of the cost, and its name.
     pub floor: Option<(f64, String)>,
-    /// Those who race.
+    /// The points.
     pub points: Vec<RacePoint>,
 }
 
-/// One that races.
+/// One point.
 #[derive(Clone, Debug)]
 pub struct RacePoint {
     /// What it is called.
@@ -32,11 +32,11 @@ pub struct RacePoint {
     pub gain: f64,
     /// What it costs; above 0.
     pub cost: f64,
-    /// Whether nobody is better both ways.
+    /// Whether no other point is better in both.
     pub is_on_front: bool,
 }
 
-/// Draws a race: filled dots are on the Pareto front.
+/// Draws the points: filled dots are on the Pareto front.
 pub fn race(race: &Race) -> Figure {
     let mut canvas = Canvas::new(760.0, 470.0);
     let area = Area {

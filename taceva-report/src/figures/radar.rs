@@ -68,7 +68,7 @@ const ROBUSTNESS: [Axis; 7] = [
 const WIDTH: f64 = 440.0;
 const RADIUS: f64 = 130.0;
 
-/// The radars of accuracy, of the sensor itself and of robustness; none of a single sensor, which has nobody to be compared with.
+/// The radars of accuracy, of the sensor itself and of robustness; none of a single sensor.
 pub(super) fn draw(studies: &[Study]) -> Vec<Option<Figure>> {
     if studies.len() < 2 {
         return Vec::new();

@@ -1,4 +1,4 @@
-//! How often the spacing of a grating is told, over what counts as told.
+//! Success rate of gratings over the tolerance.
 
 use taceva_core::Unit;
 

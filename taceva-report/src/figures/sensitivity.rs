@@ -1,6 +1,6 @@
 //! How far the gel yields, by place.
 
-use crate::figure::{Area, Figure, Grid, short};
+use crate::figure::{Figure, Grid, short};
 use crate::number::with_interval;
 use crate::results::{Study, Value};
 
@@ -37,14 +37,7 @@ pub(super) fn draw(studies: &[Study]) -> Option<Figure> {
     if maps.is_empty() {
         return None;
     }
-    let first = Area {
-        left: 58.0,
-        top: 34.0,
-        width: 280.0,
-        height: 280.0,
-    };
-    let grid = Grid::new(maps.len(), 2, first, [142.0, 82.0]);
-    let mut canvas = grid.canvas([78.0, 42.0]);
+    let (grid, mut canvas) = Grid::of_maps(maps.len());
     for (position, (map, _)) in maps.iter().enumerate() {
         heat(map, grid.area(position), &mut canvas);
     }

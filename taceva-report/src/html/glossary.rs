@@ -1,4 +1,4 @@
-//! What metrics mean, as the catalogue of metrics says it; and links to it from wherever a metric is named.
+//! The meanings of metrics, from the catalogue of metrics, and links to them.
 
 use std::collections::BTreeSet;
 

@@ -1,4 +1,4 @@
-//! What was left out, and what a reader must mind.
+//! Skipped scores and remarks.
 
 use crate::escape::html;
 use crate::figures::names;
@@ -26,7 +26,7 @@ pub(super) fn section(studies: &[Study]) -> (usize, String) {
                 row("no value", &what, &reason);
             }
             for flag in &score.flags {
-                row("mind", &what, flag);
+                row("flag", &what, flag);
             }
         }
         for note in &study.notes {

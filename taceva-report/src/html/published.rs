@@ -6,7 +6,7 @@ use crate::escape::html;
 use crate::number::{minus, spaced, with_interval};
 use crate::results::Study;
 
-/// How many numbers there are, and the table; `None` where nothing of these sensors was published that is defined as here.
+/// The number of published values, and their table; `None` where no value of these sensors was published under the same definition.
 pub(super) fn section(studies: &[Study]) -> Option<(usize, String)> {
     let (mut count, mut rows) = (0, String::new());
     for study in studies.iter().filter(|study| study.source != "published") {

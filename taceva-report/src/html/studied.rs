@@ -51,7 +51,7 @@ pub(super) fn studied(studies: &[Study]) -> String {
     out
 }
 
-/// `400`, or `380 to 400` where studies differ; none where nobody says.
+/// `400`, or `380 to 400` where studies differ; `None` where it is not known.
 pub(super) fn span(studies: &[Study], of: impl Fn(&Study) -> Option<usize>) -> Option<String> {
     let known: Vec<usize> = studies.iter().filter_map(of).collect();
     let (least, most) = (known.iter().min()?, known.iter().max()?);
@@ -71,7 +71,7 @@ pub(super) fn points(study: &Study) -> Option<usize> {
     (!points.is_empty()).then_some(points.len())
 }
 
-/// A count that somebody has counted.
+/// A count above zero.
 pub(super) fn whole(count: u64) -> Option<usize> {
     usize::try_from(count).ok().filter(|count| *count > 0)
 }

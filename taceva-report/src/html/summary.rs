@@ -1,4 +1,4 @@
-//! What the results say, in words.
+//! The results in words.
 
 use taceva_metrics::Flag;
 
@@ -12,7 +12,7 @@ use crate::scores::{ScoreCell, ScoreRow, ScoreTable};
 use crate::spread;
 use crate::tie::{best, tie};
 
-/// What stands below the title.
+/// The subtitle.
 pub(crate) fn lead(studies: &[Study]) -> String {
     let names = names(studies);
     format!(
@@ -76,7 +76,7 @@ pub(super) fn section(studies: &[Study], table: &ScoreTable) -> String {
     out + "</ul>\n"
 }
 
-/// The verdict, and what light does, where that is asked.
+/// The verdict, and the effect of light on scores of lighting.
 fn answer(studies: &[Study], table: &ScoreTable, row: &ScoreRow) -> Option<String> {
     let verdict = match studies {
         [_] => alone(row)?,

@@ -126,7 +126,7 @@ pub(super) fn section(table: &ScoreTable, figures: &[Figure]) -> String {
     out
 }
 
-/// Radars stand where sensors are seen at a glance.
+/// Radars are placed in the overview of sensors.
 pub(crate) fn is_radar(figure: &Figure) -> bool {
     figure.id.starts_with("radar")
 }

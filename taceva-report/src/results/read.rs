@@ -1,4 +1,4 @@
-//! From JSON to results, place by place: whatever is amiss is named by where it stands.
+//! From JSON to results; errors name the place.
 
 mod over_seeds;
 mod place;
@@ -25,7 +25,7 @@ pub(super) fn studies(text: &str) -> Result<Vec<Study>, ResultsError> {
     Ok(studies)
 }
 
-/// Adds to the provenance of a study what the file it is in says of itself.
+/// Adds the provenance of the file to that of a study.
 fn note_seal(study: &mut Study, seal: &Opened) {
     let mut note = |name: &str, text: String| {
         let entries = &mut study.provenance;

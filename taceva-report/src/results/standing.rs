@@ -1,4 +1,4 @@
-//! The standing of scores that nobody gave one: results of before standings, and published numbers.
+//! The standing of scores without one: older results, and published numbers.
 
 use taceva_metrics::{Standing, catalogue};
 

@@ -9,7 +9,7 @@ use crate::escape::latex as escape;
 use crate::number::numeral;
 use crate::table::{Align, Cell, Column, Direction, Estimate, Row, Table, Words, latex_symbol};
 
-/// What bold numbers say, as LaTeX sets it.
+/// The meaning of bold numbers, plain and in LaTeX.
 const BOLD: [&str; 2] = [
     "Bold: better than every other sensor that takes part in verdicts, at a level of 5 % after Holm's adjustment.",
     "Bold: better than every other sensor that takes part in verdicts, at a level of 5\\,\\% after Holm's adjustment.",
@@ -19,7 +19,7 @@ const SHORT_BOLD: [&str; 2] = [
     "Bold: better than every other sensor at a level of 5 % after Holm's adjustment.",
     "Bold: better than every other sensor at a level of 5\\,\\% after Holm's adjustment.",
 ];
-/// The symbol that is not known to everybody.
+/// The symbol that needs a legend, plain and in LaTeX.
 const REPEATABILITY: [&str; 2] = [
     "σ rep: repeatability.",
     "$\\sigma_{\\mathrm{rep}}$: repeatability.",

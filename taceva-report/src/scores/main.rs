@@ -14,7 +14,7 @@ const METRICS: [&str; 9] = [
     "repeatability",
     "hysteresis",
 ];
-/// Metrics that are shown of depth and normal force alone: a row a plane each would fill the page with what tells the same.
+/// Metrics that are shown of depth and normal force alone: rows of planes would repeat them.
 const OF_NORMAL: [&str; 3] = ["r_spatial", "r_light", "repeatability"];
 
 impl ScoreTable {

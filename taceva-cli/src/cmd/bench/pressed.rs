@@ -49,7 +49,7 @@ struct Folder(PathBuf);
 
 impl Drop for Folder {
     fn drop(&mut self) {
-        // What cannot be removed is left to whoever clears temporary files.
+        // A folder that cannot be removed is left in the temporary folder.
         drop(fs::remove_dir_all(&self.0));
     }
 }

@@ -1,4 +1,4 @@
-//! A data sheet says of every limit what was found, and passes only if all are kept.
+//! A data sheet lists the finding of every limit, and passes only if all are met.
 
 use serde_json::Value;
 

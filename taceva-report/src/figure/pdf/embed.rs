@@ -85,7 +85,7 @@ pub(super) fn write(pdf: &mut Pdf, first: Ref, at: i32, used: &Used) {
     written.name(Name(b"Letters")).system_info(ORDER);
 }
 
-/// Six capitals that tell this subset of a font from others: a digest (FNV-1a) of its glyphs.
+/// Six capitals that name this subset of a font: a digest (FNV-1a) of its glyphs.
 fn tag(used: &Used) -> String {
     let glyphs = used.glyphs.remapped_gids();
     let mut digest = glyphs.fold(0xcbf2_9ce4_8422_2325_u64, |digest, glyph| {

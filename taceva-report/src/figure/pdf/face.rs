@@ -4,7 +4,7 @@ use std::sync::OnceLock;
 
 use ttf_parser::{Face as Parsed, GlyphId};
 
-/// A font that is built in; where it comes from is said in `fonts/README.md`.
+/// A built-in font; `fonts/README.md` names its origin.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Face {
     /// Arimo: Latin, Greek, Cyrillic, arrows, mathematics.

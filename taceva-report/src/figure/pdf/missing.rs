@@ -1,4 +1,4 @@
-//! What stands for a letter that no font has: a box that holds its code point, so that no two of them look alike.
+//! The replacement for a letter that no font has: a box with its code point.
 
 use pdf_writer::{Content, Finish, Name, Str, TextStr};
 

@@ -66,7 +66,7 @@ fn skill(studies: &[Study]) -> String {
     )
 }
 
-/// A mark, and what it stands for: `“no skill” (the model is not shown to do better than a constant)`.
+/// A mark and its meaning: `“no skill” (the model is not shown to do better than a constant)`.
 fn explained(mark: &str) -> String {
     let reason = Standing::from_words(mark).and_then(Standing::reason);
     match reason.and_then(|reason| reason.split_once(": ")) {
