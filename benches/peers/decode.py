@@ -25,7 +25,7 @@ def main(source, map_file, pattern):
     folder = pathlib.Path(tempfile.mkdtemp())
     target = folder / "dataset"
     decoded = folder / "decoded"
-    run("import", source, "--map", map_file, "--to", decoded, "--quiet")
+    run("import", source, "--map", map_file, "--out", decoded, "--quiet")
 
     def pillow():
         for file in files:
@@ -33,7 +33,7 @@ def main(source, map_file, pattern):
 
     def ours_import():
         shutil.rmtree(target, ignore_errors=True)
-        run("import", source, "--map", map_file, "--to", target, "--quiet")
+        run("import", source, "--map", map_file, "--out", target, "--quiet")
 
     def ours_decode():
         run("check", decoded, "--only", "TAC004", "--quiet")

@@ -28,7 +28,7 @@ fn data(samples: usize, channels: usize) -> Data {
     Data {
         features: (0..samples * WIDTH).map(number).collect(),
         channels: Channels::new(list.expect("good names")).expect("distinct"),
-        // Five levels, so that classes can be told apart too.
+        // Five levels, so that classifiers can be fitted too.
         labels: (0..samples * channels)
             .map(|place| f64::from((number(place + 7919) * 5.0).floor()))
             .collect(),
@@ -113,6 +113,31 @@ fn one_sample_is_refused_by_all_and_two_by_those_that_need_more() {
     let refused = fit_all(&data(2, 2), None);
     assert_eq!(refused.len(), 1, "{refused:?}");
     assert!(refused[0].starts_with("smartcore/svr: 2 training samples, smartcore/svr needs"));
+}
+
+#[test]
+fn more_features_than_samples_are_learnt_from_by_all_but_one_which_says_so() {
+    let refused = fit_all(&data(WIDTH - 1, 2), None);
+    assert_eq!(refused.len(), 1, "{refused:?}");
+    let said = "smartcore/svr: 5 training samples, smartcore/svr needs at least as many as features, of which there are 6: ";
+    assert!(refused[0].starts_with(said), "{refused:?}");
+}
+
+#[test]
+fn numbers_that_are_not_finite_are_refused_by_all_where_they_stand() {
+    let mut features = data(12, 2);
+    features.features[2 * WIDTH + 4] = f32::NAN;
+    let mut labels = data(12, 2);
+    labels.labels[3 * 2 + 1] = f64::NAN;
+    for (training, place) in [
+        (features, "training sample 2: feature 4 is not finite"),
+        (labels, "training sample 3: `load001` is not finite"),
+    ] {
+        let refused = fit_all(&training, None);
+        assert_eq!(refused.len(), taceva_baselines::all().count());
+        let is_named = |said: &String| said.ends_with(place);
+        assert!(refused.iter().all(is_named), "{refused:?}");
+    }
 }
 
 #[test]

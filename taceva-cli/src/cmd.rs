@@ -1,6 +1,7 @@
-//! One file a command: resolve what was typed, call, render.
+//! One file for each command: resolve the arguments, call, render.
 
 pub(crate) mod accept;
+mod attachments;
 pub(crate) mod bench;
 pub(crate) mod cache;
 pub(crate) mod catalogue;
@@ -8,6 +9,7 @@ pub(crate) mod check;
 pub(crate) mod choose;
 pub(crate) mod compare;
 pub(crate) mod completions;
+mod context;
 pub(crate) mod devices;
 pub(crate) mod doctor;
 mod effort;
@@ -25,78 +27,19 @@ pub(crate) mod run;
 mod scene;
 pub(crate) mod score;
 
-use std::num::NonZeroUsize;
 use std::path::Path;
 
 use taceva_dataset::Dataset;
 use taceva_models::{Models, Settings};
-use taceva_study::{Cache, DataPart, EvaluationReport, FitRequest, Plan, StudyError, Work};
+use taceva_study::{DataPart, FitRequest, StudyError};
 
-use crate::args::{Everywhere, PartArg, PluginArgs, SettingArgs, SplitArgs};
-use crate::exit;
-use crate::progress::Terminal;
-use crate::{output, report, stderr};
+use crate::args::{Output, PartArg, ScoringArgs, SettingArgs, SplitArgs};
+use crate::{exit, output};
 
-/// What every command works with.
-pub(crate) struct Context {
-    pub(crate) progress: Terminal,
-    pub(crate) jobs: NonZeroUsize,
-    verbose: bool,
-    quiet: bool,
-    plugins: PluginArgs,
-}
+use attachments::Attachments;
+pub(crate) use context::Context;
 
-impl Context {
-    pub(crate) fn new(everywhere: &Everywhere) -> Context {
-        let all_cores = || std::thread::available_parallelism().unwrap_or(NonZeroUsize::MIN);
-        let asked = everywhere
-            .jobs
-            .and_then(|jobs| NonZeroUsize::new(usize::from(jobs)));
-        Context {
-            progress: Terminal::new(everywhere.quiet),
-            jobs: asked.unwrap_or_else(all_cores),
-            verbose: everywhere.verbose > 0,
-            quiet: everywhere.quiet,
-            plugins: everywhere.plugins.clone(),
-        }
-    }
-
-    /// With what a stage is carried out.
-    pub(crate) fn work<'a>(&'a self, cache: Option<&'a Cache>) -> Work<'a> {
-        Work {
-            jobs: self.jobs,
-            progress: &self.progress,
-            cache,
-        }
-    }
-
-    /// Says where results will be, unless nothing is to be said.
-    pub(crate) fn say(&self, words: std::fmt::Arguments<'_>) {
-        if !self.quiet {
-            stderr::say(words);
-        }
-    }
-
-    /// With `-v`, says what was done.
-    pub(crate) fn say_more(&self, words: std::fmt::Arguments<'_>) {
-        if self.verbose {
-            self.say(words);
-        }
-    }
-
-    /// With `-v`, says what is going to be done.
-    pub(crate) fn tell(
-        &self,
-        plan: impl FnOnce() -> Result<Plan, StudyError>,
-    ) -> anyhow::Result<()> {
-        if self.verbose {
-            stderr::write(&plan()?.to_string());
-        }
-        Ok(())
-    }
-}
-
-/// Arguments that parse and cannot be meant.
+/// Arguments that parse but make no sense together.
 #[derive(Debug)]
 pub(crate) struct Usage(String);
 
@@ -118,7 +61,7 @@ impl std::fmt::Display for Usage {
 
 impl std::error::Error for Usage {}
 
-/// Refuses an instruction set that TACEVA_ISA asks for and that is not there: its figures would be another one's.
+/// Refuses an instruction set that TACEVA_ISA names and this processor lacks: a measurement would be of another one.
 pub(crate) fn check_isa() -> anyhow::Result<()> {
     match taceva_metrics::Isa::requested() {
         Ok(_) => Ok(()),
@@ -130,49 +73,17 @@ pub(crate) fn open(path: &Path) -> anyhow::Result<Dataset> {
     Ok(Dataset::open(path)?)
 }
 
-/// What is written beside the scores of an evaluation, where it is asked for.
-struct Beside<'a> {
-    html: Option<&'a Path>,
-    figures: Option<&'a Path>,
-    samples: Option<&'a Path>,
-}
-
-impl Beside<'_> {
-    fn is_wanted(&self) -> bool {
-        self.html.is_some() || self.figures.is_some() || self.samples.is_some()
-    }
-
-    fn write(&self, written: &EvaluationReport, context: &Context) -> anyhow::Result<()> {
-        if self.html.is_some() || self.figures.is_some() {
-            let title = format!("{}: how well it measures", written.subject.sensor);
-            let page = report::page::Page::of(&title, std::slice::from_ref(written))?;
-            if let Some(path) = self.html {
-                output::write(Some(path), |out| page.write(out))?;
-            }
-            if let Some(folder) = self.figures {
-                page.write_figures(folder, context)?;
-            }
-        }
-        if let (Some(path), Some(samples)) = (self.samples, &written.samples) {
-            output::write(Some(path), |out| {
-                samples.write(out, taceva_report::escape_csv)
-            })?;
-        }
-        Ok(())
-    }
-}
-
-/// Notes in a result the digest of the table of its samples, so that whoever reads both knows that they belong together.
-fn note_samples(written: &mut EvaluationReport) -> anyhow::Result<()> {
-    if let Some(samples) = &written.samples {
-        let mut table = Vec::new();
-        samples.write(&mut table, taceva_report::escape_csv)?;
-        written.provenance.samples_table = Some(taceva_seal::digest_of_bytes(&table));
+/// Refuses to write over the files that `scoring` and `output` name, before any work is done for them.
+fn check_free(scoring: &ScoringArgs, output: &Output) -> anyhow::Result<()> {
+    let files = output.path.iter().chain(&scoring.state_out);
+    let files = files.chain(&scoring.page.path).chain(&scoring.samples_out);
+    for path in files {
+        output::check_free(path, output.force)?;
     }
     Ok(())
 }
 
-/// The fit that was asked for.
+/// The fit that the arguments describe.
 pub(crate) fn fit_request(
     name: &str,
     settings: &SettingArgs,

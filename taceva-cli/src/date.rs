@@ -1,10 +1,10 @@
-//! The day that stands on a data sheet: as it was typed, or from the clock of the machine.
+//! The date of a data sheet: an argument, or today by the clock of the machine.
 
 use std::time::{SystemTime, UNIX_EPOCH};
 
 const DAY_S: u64 = 86_400;
 
-/// `text` if it is a day that there is, such as 2026-11-22.
+/// `text` if it is a valid date, such as 2026-11-22.
 pub(crate) fn read(text: &str) -> Option<String> {
     let digits = |range: std::ops::Range<usize>| -> Option<u32> {
         let digits = text.get(range)?;
@@ -23,7 +23,7 @@ pub(crate) fn today() -> String {
     after_epoch(since.map_or(0, |since| since.as_secs() / DAY_S))
 }
 
-/// The day that comes `days` after 1970-01-01.
+/// The date `days` after 1970-01-01.
 fn after_epoch(mut days: u64) -> String {
     let (mut year, mut month) = (1970, 1);
     loop {
@@ -39,7 +39,7 @@ fn after_epoch(mut days: u64) -> String {
     }
 }
 
-/// The days of a month.
+/// The number of days of a month.
 fn days_of(year: u32, month: u32) -> u32 {
     let is_leap = year.is_multiple_of(4) && (!year.is_multiple_of(100) || year.is_multiple_of(400));
     match month {

@@ -1,13 +1,13 @@
-//! What must be so before any work: results can be written somewhere, and a file that may not grow is an error and not the end.
+//! Limits of the process that are handled before any work: a closed standard output, and the limit of file sizes.
 
 /// Whether standard output was closed when the program began (`>&-`): Rust opens `/dev/null` in its place before `main`, where every result
-/// would be lost without a word.
+/// would be lost silently.
 #[cfg(unix)]
 pub(crate) fn standard_output_is_closed() -> bool {
     before_main::WAS_CLOSED.load(std::sync::atomic::Ordering::Relaxed)
 }
 
-/// Elsewhere a write to a closed standard output fails as any other.
+/// On other systems a write to a closed standard output fails as any other.
 #[cfg(not(unix))]
 pub(crate) fn standard_output_is_closed() -> bool {
     false
@@ -23,7 +23,7 @@ mod before_main {
     pub(super) static WAS_CLOSED: AtomicBool = AtomicBool::new(false);
 
     ctor::declarative::ctor! {
-        /// One system call and one store: nothing of what `main` sets up is there yet.
+        /// One system call and one store: it runs before the runtime of `main` is set up.
         #[ctor(unsafe)]
         fn look() {
             let is_closed = fcntl_getfd(stdout()) == Err(Errno::BADF);
@@ -32,8 +32,8 @@ mod before_main {
     }
 }
 
-/// A write beyond the limit of a file's size (`ulimit -f`) fails from now on, instead of ending the program where it stands: the error
-/// is told, and what was begun is removed.
+/// From now on a write beyond the limit of file sizes (`ulimit -f`) fails instead of ending the program: the error is reported, and the
+/// incomplete file removed.
 #[cfg(unix)]
 pub(crate) fn refuse_to_end_at_the_limit_of_file_sizes() {
     use std::sync::Arc;
@@ -41,10 +41,10 @@ pub(crate) fn refuse_to_end_at_the_limit_of_file_sizes() {
 
     use signal_hook::{consts::SIGXFSZ, flag};
 
-    // Whoever writes hears of it; without a handler the signal ends the program as it always did.
+    // The write returns the error; if the handler cannot be set, the signal ends the program as by default.
     drop(flag::register(SIGXFSZ, Arc::new(AtomicBool::new(false))));
 }
 
-/// Other systems know no such signal.
+/// Other systems have no such signal.
 #[cfg(not(unix))]
 pub(crate) fn refuse_to_end_at_the_limit_of_file_sizes() {}

@@ -1,7 +1,6 @@
 //! `taceva`: how well does a vision-based tactile sensor measure?
 //!
-//! Arguments in, renderings out. What a command does lives in `taceva-study` and `taceva-dataset`, so that another program
-//! can do it too.
+//! Arguments in, renderings out. The work of each command is done in `taceva-study` and `taceva-dataset`, which other programs can use.
 
 mod args;
 mod cmd;
@@ -34,7 +33,7 @@ fn main() -> ExitCode {
     taceva_host::main_if_child();
     if ends::standard_output_is_closed() {
         stderr::say(format_args!(
-            "standard output is closed, and the result would be lost: nothing was done; open it, or send it to a file or to /dev/null"
+            "standard output is closed, and the result would be lost: nothing was done; redirect it to a file or to /dev/null"
         ));
         return ExitCode::from(exit::BAD_INPUT);
     }
@@ -78,7 +77,7 @@ fn run(command: &Command, context: &Context) -> anyhow::Result<u8> {
     }
 }
 
-/// One line: what could not be done, on what, and why.
+/// Prints an error and its causes in one line.
 fn complain(error: &Error) {
     let mut text = String::new();
     for cause in error.chain().map(ToString::to_string) {
@@ -91,21 +90,21 @@ fn complain(error: &Error) {
     stderr::say(format_args!("{text}"));
 }
 
-/// What was typed; help goes to standard output, and arguments that cannot be meant end the program.
+/// The parsed arguments; help goes to standard output, and wrong arguments end the program.
 fn typed() -> Result<Cli, ExitCode> {
     Cli::try_parse().map_err(|error| {
         if error.use_stderr() {
-            // Quotes what was typed, so that its own colours go with whatever else a terminal obeys.
+            // The error quotes the arguments, whose control characters are escaped.
             stderr::write(&error.render().to_string());
             return ExitCode::from(exit::USAGE);
         }
-        // Whoever asked for help has left if this fails.
+        // This fails if the reader has closed the pipe.
         drop(error.print());
         ExitCode::from(exit::DONE)
     })
 }
 
-/// The exit code that a script may rely on.
+/// The exit code of an error.
 fn code_of(error: &Error) -> u8 {
     if progress::is_stopped() {
         return exit::STOPPED;

@@ -1,4 +1,4 @@
-//! Where results go: standard output, or a file that appears whole.
+//! Writing of results: to standard output, or to a file that is absent or whole.
 
 mod guard;
 
@@ -33,7 +33,7 @@ impl From<ListFormat> for Form {
     }
 }
 
-/// Refuses to write over `path` unless told to, before any work is done for it.
+/// Refuses to write over `path` without `force`, before any work is done for it.
 pub(crate) fn check_free(path: &Path, force: bool) -> anyhow::Result<()> {
     if path.exists() && !force {
         bail!("{} exists already; --force replaces it", shown(path));
@@ -41,9 +41,9 @@ pub(crate) fn check_free(path: &Path, force: bool) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// Writes words to standard output, or a file of any kind to `path` as it is rendered.
+/// Writes text to standard output, or a file of any kind to `path`.
 ///
-/// A file is written beside its place and renamed, so that it is absent or whole, and stays when the power is cut afterwards.
+/// A file is written beside its place, forced to disk and renamed, so that it is absent or whole.
 pub(crate) fn write(
     path: Option<&Path>,
     render: impl FnOnce(&mut dyn Write) -> io::Result<()>,
@@ -54,7 +54,7 @@ pub(crate) fn write(
     }
 }
 
-/// Writes a result in `form` to `path`, or to standard output: what terminals obey in it is written out as the form wants it.
+/// Writes a result in `form` to `path`, or to standard output, with control characters escaped as the form requires.
 pub(crate) fn write_as(
     form: impl Into<Form>,
     path: Option<&Path>,

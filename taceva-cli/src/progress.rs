@@ -1,4 +1,4 @@
-//! Where long work is: a bar on a terminal, plain lines when piped, nothing with `--quiet`; and how Ctrl-C reaches it.
+//! Progress of long work: a bar on a terminal, plain lines when piped, nothing with `--quiet`; and its interruption by Ctrl-C.
 
 use std::io::IsTerminal;
 use std::sync::Mutex;
@@ -13,14 +13,14 @@ use crate::stderr;
 /// Set once by a signal, read by all work.
 static STOPPED: AtomicBool = AtomicBool::new(false);
 
-/// Listens for SIGINT and SIGTERM; a second one ends the program at once, since the first was not enough.
+/// Stops work on SIGINT and SIGTERM; a second signal ends the program at once.
 pub(crate) fn listen_for_signals() {
     let listening = ctrlc::set_handler(|| {
         if STOPPED.swap(true, Ordering::SeqCst) {
             std::process::exit(i32::from(crate::exit::STOPPED));
         }
     });
-    // Without a handler a signal ends the program as it always did: nothing half-written is ever read.
+    // Without a handler a signal ends the program as by default: incomplete files are never read.
     drop(listening);
 }
 
@@ -30,16 +30,16 @@ pub(crate) fn is_stopped() -> bool {
 }
 
 /// Progress on standard error.
-pub(crate) struct Terminal {
+pub(crate) struct TerminalProgress {
     mode: Mode,
     bar: Mutex<Option<ProgressBar>>,
     pace: Mutex<Option<Pace>>,
 }
 
-/// How often plain lines say where long work is.
+/// The interval between two plain lines of progress.
 const EVERY: Duration = Duration::from_secs(30);
 
-/// A stage without a terminal: what is done of it, and since when.
+/// The progress of one stage in plain lines.
 struct Pace {
     stage: String,
     steps: Option<u64>,
@@ -60,7 +60,7 @@ impl Pace {
         }
     }
 
-    /// Counts `steps` more; what to say of it, if it is time.
+    /// Counts `steps` more; the line to print, if it is time for one.
     fn advance(&mut self, steps: u64, now: Instant) -> Option<String> {
         self.done = self.done.saturating_add(steps);
         if now.duration_since(self.said) < EVERY {
@@ -77,7 +77,7 @@ impl Pace {
     }
 }
 
-/// How long the rest takes at the pace of what is done so far; `None` where too little is done to tell.
+/// The time left at the pace so far; `None` where too little is done for an estimate.
 fn left(done: u64, all: u64, elapsed: Duration) -> Option<Duration> {
     if done == 0 || done > all || elapsed < Duration::from_secs(1) {
         return None;
@@ -110,21 +110,21 @@ enum Mode {
     Bar,
 }
 
-impl Terminal {
-    pub(crate) fn new(quiet: bool) -> Terminal {
+impl TerminalProgress {
+    pub(crate) fn new(quiet: bool) -> TerminalProgress {
         let mode = match (quiet, std::io::stderr().is_terminal()) {
             (true, _) => Mode::Quiet,
             (false, true) => Mode::Bar,
             (false, false) => Mode::Lines,
         };
-        Terminal {
+        TerminalProgress {
             mode,
             bar: Mutex::new(None),
             pace: Mutex::new(None),
         }
     }
 
-    /// Does `act` with the stage that plain lines tell of.
+    /// Calls `act` with the stage that plain lines report.
     fn with_pace(&self, act: impl FnOnce(&mut Option<Pace>)) {
         if let Ok(mut pace) = self.pace.lock() {
             act(&mut pace);
@@ -138,7 +138,7 @@ impl Terminal {
     }
 }
 
-impl Progress for Terminal {
+impl Progress for TerminalProgress {
     fn begin(&self, stage: &str, steps: Option<u64>) {
         match self.mode {
             Mode::Quiet => {}

@@ -1,22 +1,22 @@
-//! Whether what a command is going to write has room where it is going to be, told before the work begins.
+//! Whether the files that a command is going to write fit on the disk, checked before the work begins.
 
 use std::path::Path;
 
 use crate::cmd::cache::amount::bytes;
 
-/// Pictures of a run are packed without loss: one is refused for want of room only where a fiftieth of them would not fit.
+/// Pictures of a run are packed without loss: a run is refused only where a fiftieth of their bytes would not fit.
 const PACKED: u64 = 50;
 
-/// What a command is going to write, in bytes.
+/// How many bytes a command is going to write.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Need {
-    /// It is never less.
+    /// The lower bound.
     pub(crate) at_least: u64,
-    /// It is never more.
+    /// The upper bound.
     pub(crate) at_most: u64,
 }
 
-/// Why a command does not begin.
+/// The files of a command do not fit.
 #[derive(Debug)]
 pub(crate) struct NoRoom {
     need: Need,
@@ -28,7 +28,7 @@ impl std::fmt::Display for NoRoom {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         write!(
             f,
-            "at least {} are going to be written and {} are free in {}; nothing was begun: make room, or write elsewhere with another path",
+            "at least {} are needed and {} are free in {}; nothing was started: free space, or name another path",
             bytes(self.need.at_least),
             bytes(self.free),
             self.folder
@@ -39,7 +39,7 @@ impl std::fmt::Display for NoRoom {
 impl std::error::Error for NoRoom {}
 
 impl Need {
-    /// Of a run whose pictures have so many bytes before they are packed.
+    /// That of a run whose unpacked pictures have this many bytes.
     pub(crate) fn of_pictures(bytes: u64) -> Need {
         Need {
             at_least: bytes / PACKED,
@@ -47,7 +47,7 @@ impl Need {
         }
     }
 
-    /// What is going to be written beside what is free, in words; nothing where nothing is going to be written.
+    /// The bytes needed and the bytes free, in words; `None` where nothing is going to be written.
     ///
     /// # Errors
     /// [`NoRoom`] if it cannot fit.
@@ -81,13 +81,13 @@ impl Need {
     }
 }
 
-/// The nearest folder above `target` that is there.
+/// The nearest existing folder above `target`.
 fn holder(target: &Path) -> &Path {
     let above = target.ancestors().find(|folder| folder.is_dir());
     above.unwrap_or(Path::new("."))
 }
 
-/// What is free where `target` is going to be, in bytes, for those who are not the administrator; `None` where that is not known.
+/// Free bytes on the disk of `target`, without those reserved for the administrator; `None` where that is not known.
 pub(crate) fn free(target: &Path) -> Option<u64> {
     #[cfg(unix)]
     {
@@ -114,7 +114,7 @@ mod tests {
         let said = |free| need.hold_against(free, Path::new("/nowhere/at/all"));
         let refused = said(Some(9_999)).expect_err("it cannot fit").to_string();
         assert!(
-            refused.starts_with("at least 10.0 kB are going to be written"),
+            refused.starts_with("at least 10.0 kB are needed"),
             "{refused}"
         );
         assert!(refused.contains("are free in /;"), "{refused}");

@@ -1,4 +1,4 @@
-//! What is no result: lines on standard error, in which no letter of a foreign name is obeyed.
+//! Remarks and errors on standard error, with control characters escaped.
 
 use std::fmt::Arguments;
 use std::io::Write as _;
@@ -10,7 +10,7 @@ pub(crate) fn say(words: Arguments<'_>) {
     write(&format!("taceva: {words}\n"));
 }
 
-/// Writes text as it is laid out. Nobody is left to be told if standard error is gone.
+/// Writes text of several lines. A closed standard error is ignored: there is nowhere to report it.
 pub(crate) fn write(text: &str) {
     let _ = std::io::stderr().write_all(shown_lines(text).as_bytes());
 }

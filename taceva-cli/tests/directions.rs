@@ -7,7 +7,7 @@ use std::fs;
 use serde_json::Value;
 use support::Bench;
 use taceva_metrics::Better;
-use taceva_report::{BenchMachine, BenchRecording, ChannelError, ModelBench, ModelRow};
+use taceva_report::{BenchMachine, BenchRecording, ChannelError, Layout, ModelBench, ModelRow};
 
 /// One sensor, pressed a few times, with gratings and light.
 const SCENE: &str = r#"scene_version = 1
@@ -217,21 +217,17 @@ fn benchmarks_say_that_less_is_better() {
         errors: vec![error],
         ..ModelRow::default()
     });
-    let listing = bench.table();
-    for form in [listing.text(), listing.markdown()] {
+    let table = bench.table();
+    for form in [table.text(), table.markdown()] {
         assert!(
             form.contains("MAE Fz (N) ↓") && form.contains("fit (s) ↓"),
             "{form}"
         );
     }
     assert!(
-        listing
-            .latex(taceva_report::Layout::Float)
+        table
+            .latex(Layout::Float)
             .contains("MAE Fz (N) $\\downarrow$")
     );
-    assert!(
-        listing.csv().starts_with("model,fit (s),"),
-        "{}",
-        listing.csv()
-    );
+    assert!(table.csv().starts_with("model,fit (s),"), "{}", table.csv());
 }

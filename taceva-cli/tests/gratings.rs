@@ -24,6 +24,7 @@ fn gratings_are_classified_by_a_network_where_a_scene_says_so() {
         |words: &str| SCENE.replace("presses = 4", &format!("presses = 4, {words}"));
     let reports = [
         r#"classified_by = "spectrum""#,
+        r#"classified_by = "linfa/logistic", set = { strength = 1 }"#,
         r#"classified_by = "cnn", set = { size = "24x24", epochs = 2, local_mean = 0 }"#,
         r#"classified_by = "cnn-length", set = { size = "24x24", epochs = 2 }"#,
     ]
@@ -31,7 +32,10 @@ fn gratings_are_classified_by_a_network_where_a_scene_says_so() {
         bench.write("classified.toml", &classified_by(words));
         bench.json("run classified.toml --force --out classified")["studies"][0].take()
     });
-    for (report, by) in reports.iter().zip(["discriminants", "network", "network"]) {
+    for (report, by) in reports
+        .iter()
+        .zip(["discriminants", "logistic", "network", "network"])
+    {
         for kind in ["line", "dot"] {
             let share = &report["metrics"]["sr"][kind];
             assert_eq!(share["n"], 12, "{share}");

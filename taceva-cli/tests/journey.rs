@@ -8,7 +8,7 @@ use support::{Bench, SAMPLES, leftovers};
 fn imported() -> Bench {
     let bench = Bench::new();
     bench.lab();
-    bench.ok("import lab --map map.toml --to data");
+    bench.ok("import lab --map map.toml --out data");
     bench
 }
 
@@ -141,7 +141,7 @@ fn nothing_is_written_over_without_force() {
         "model exists already; --force replaces it",
     );
     bench.refused(
-        "import lab --map map.toml --to data",
+        "import lab --map map.toml --out data",
         3,
         "data exists already; --force replaces it",
     );
@@ -151,7 +151,7 @@ fn nothing_is_written_over_without_force() {
         "map.toml exists already",
     );
     bench.ok("fit data --model ridge --out model --force -q");
-    let before = bench.ok("import lab --map map.toml --to data --force");
+    let before = bench.ok("import lab --map map.toml --out data --force");
     assert!(before.contains("60 read, 60 kept"));
     assert_eq!(
         leftovers(
@@ -214,7 +214,7 @@ fn where_every_sample_is_its_own_point_by_point_is_reported_as_equal_to_random()
         "map.toml",
         &support::MAP.replace("point_id = \"point\"", "point_id = \"sample\""),
     );
-    bench.ok("import lab --map map.toml --to data");
+    bench.ok("import lab --map map.toml --out data");
     let by_point = bench.json("evaluate data --model ridge --split by-point");
     let random = bench.json("evaluate data --model ridge --split random");
     assert_eq!(by_point["metrics"], random["metrics"]);

@@ -66,7 +66,7 @@ fn pruning_removes_what_was_asked_for_and_nothing_of_others() {
     let folder = tempfile::tempdir().expect("a folder");
     laid_out(folder.path());
     let dry = taceva(
-        &["cache", "prune", "--keep", "0", "--dry-run"],
+        &["cache", "prune", "--keep", "0", "--explain"],
         folder.path(),
     );
     assert!(
@@ -92,7 +92,7 @@ fn pruning_removes_what_was_asked_for_and_nothing_of_others() {
     assert!(folder.path().join("2/fit/thesis.tex").exists());
     let again = taceva(&["cache", "list"], folder.path());
     assert!(
-        said(&again).contains("Nothing is kept there."),
+        said(&again).contains("The cache is empty."),
         "{}",
         said(&again)
     );

@@ -7,7 +7,7 @@ use support::{Bench, leftovers};
 fn imported() -> Bench {
     let bench = Bench::new();
     bench.lab();
-    bench.ok("import lab --map map.toml --to data -q");
+    bench.ok("import lab --map map.toml --out data -q");
     bench
 }
 
@@ -46,7 +46,7 @@ fn arguments_that_cannot_be_meant_are_usage_errors() {
             "expected NAME=UNIT",
         ),
         (
-            "import lab --preset bristle --to x",
+            "import lab --preset bristle --out x",
             "expected one of bristol, py3dcal",
         ),
     ] {
@@ -61,8 +61,8 @@ fn a_map_with_an_unknown_key_names_the_nearest_and_the_line() {
         "bad.toml",
         &support::MAP.replace("channel_order", "chanel_order"),
     );
-    bench.refused("import lab --map bad.toml --to new", 3, "channel_order");
-    bench.refused("import lab --map bad.toml --to new", 3, "line 6");
+    bench.refused("import lab --map bad.toml --out new", 3, "channel_order");
+    bench.refused("import lab --map bad.toml --out new", 3, "line 6");
 }
 
 #[test]
@@ -70,7 +70,7 @@ fn a_row_whose_image_is_absent_names_file_line_and_column() {
     let bench = imported();
     std::fs::remove_file(bench.path("lab/pictures/03.png")).expect("there");
     bench.refused(
-        "import lab --map map.toml --to new",
+        "import lab --map map.toml --out new",
         3,
         "line 5, column `file`",
     );
@@ -90,7 +90,7 @@ fn a_label_that_is_no_number_names_file_line_and_column() {
             &labels.replacen("0.2,p0", &format!("{wrong},p0"), 1),
         );
         bench.refused(
-            "import lab --map map.toml --to new",
+            "import lab --map map.toml --out new",
             3,
             "labels.csv, line 2, column `force_N`",
         );
@@ -105,7 +105,7 @@ fn labels_a_thousand_times_too_large_are_a_warning_with_a_code() {
         "map.toml",
         &support::MAP.replace("unit = \"N\"", "unit = \"kN\""),
     );
-    let out = bench.ok("import lab --map map.toml --to data -q");
+    let out = bench.ok("import lab --map map.toml --out data -q");
     assert!(out.contains("warning  magnitude-large"), "{out}");
     let out = bench.ok("check data --only TAC001 -q");
     assert!(out.contains("warning  TAC001 units-by-magnitude"), "{out}");
@@ -281,7 +281,7 @@ fn a_pipe_in_place_of_any_file_is_refused_and_not_waited_for() {
         .status();
     assert!(pipe.is_ok_and(|status| status.success()), "mkfifo is there");
     bench.refused("evaluate data --with pipe", 3, "not a regular file");
-    bench.refused("import lab --map pipe --to new", 3, "pipe");
+    bench.refused("import lab --map pipe --out new", 3, "pipe");
     bench.write("truth.csv", "Fz\n1\n");
     bench.refused("score --truth pipe --pred truth.csv", 3, "pipe");
     bench.refused("score --truth truth.csv --pred pipe", 3, "pipe");
@@ -323,7 +323,7 @@ fn a_signal_ends_an_import_with_its_own_code_and_leaves_nothing() {
     let mut seen = std::collections::BTreeSet::new();
     for wait_ms in [1, 3, 10, 30] {
         let mut child = bench
-            .command("import lab --map map.toml --to new --jobs 1 -q")
+            .command("import lab --map map.toml --out new --jobs 1 -q")
             .spawn()
             .expect("starts");
         std::thread::sleep(std::time::Duration::from_millis(wait_ms));

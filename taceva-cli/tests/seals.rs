@@ -7,7 +7,7 @@ use support::Bench;
 fn imported() -> Bench {
     let bench = Bench::new();
     bench.lab();
-    bench.ok("import lab --map map.toml --to data -q");
+    bench.ok("import lab --map map.toml --out data -q");
     bench
 }
 
@@ -52,7 +52,7 @@ fn an_edited_dataset_is_refused_by_every_command_until_it_is_accepted() {
     assert!(page.contains("drawn,not-recorded"));
     let said = bench.run("reseal data --reason again");
     assert!(
-        said.code == 0 && said.err.contains("the seal holds"),
+        said.code == 0 && said.err.contains("the seal matches"),
         "{}",
         said.err
     );
@@ -63,7 +63,7 @@ fn an_edit_that_cannot_be_read_is_not_accepted() {
     let bench = imported();
     edit(&bench, "data/dataset.toml", "rows = ", "rows = 1");
     let before = std::fs::read(bench.path("data/dataset.toml")).expect("there");
-    bench.refused("reseal data --reason wish", 3, "left as it was");
+    bench.refused("reseal data --reason wish", 3, "left unchanged");
     assert_eq!(
         std::fs::read(bench.path("data/dataset.toml")).expect("there"),
         before
@@ -136,6 +136,6 @@ fn a_model_whose_number_was_changed_is_refused() {
     bench.refused(
         "reseal model --reason better",
         3,
-        "models are not edited, fit again",
+        "models cannot be edited, fit again",
     );
 }

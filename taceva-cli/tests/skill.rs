@@ -105,7 +105,7 @@ fn the_baseline_wins_nothing_in_comparisons_choices_pages_and_acceptances() {
         ));
         assert!(!table.contains("is better than"), "{format}: {table}");
     }
-    let choice = bench.json("choose --need force --from baseline.json --from ridge.json");
+    let choice = bench.json("choose --need force --results baseline.json --results ridge.json");
     schema::check("choice", &choice);
     assert_eq!(choice["ranked"].as_array().map(Vec::len), Some(1));
     assert_eq!(choice["ranked"][0]["steps"][0]["standing"], Value::Null);

@@ -50,7 +50,7 @@ fn deviations_are_not_made_up_for_a_model_that_knows_none() {
     bench.refused(
         "predict data --with ridge.model --out found.csv --deviations-out sure.csv",
         2,
-        "does not know how sure it is",
+        "estimates no standard deviations",
     );
     bench.refused(
         "predict data --with ridge.model --out found.csv --truth-out found.csv",

@@ -28,7 +28,7 @@ fn hostile() -> Bench {
         .replace("model = \"drawn\"", &format!("model = \"{HOSTILE_TOML}\""))
         .replace("gel = \"unknown\"", &format!("gel = \"{HOSTILE_TOML}\""));
     bench.write("map.toml", &map);
-    bench.ok("import lab --map map.toml --to data -q");
+    bench.ok("import lab --map map.toml --out data -q");
     bench
 }
 
@@ -63,8 +63,8 @@ fn no_name_of_cards_ids_points_or_files_reaches_a_terminal_raw_by_any_command() 
     let mut ran = 0;
     for words in [
         "import lab --map map.toml --explain",
-        "import lab --map map.toml --to again",
-        "import lab --map unknown.toml --to new",
+        "import lab --map map.toml --out again",
+        "import lab --map unknown.toml --out new",
         "check data",
         "check data --split by-column:X",
         "fit data --model ridge --set size=8x8 --out n.taceva -v",
@@ -82,7 +82,7 @@ fn no_name_of_cards_ids_points_or_files_reaches_a_terminal_raw_by_any_command() 
         "merge X",
         "compare a.json b.json",
         "compare a.json X",
-        "choose --from a.json --need repeatable",
+        "choose --results a.json --need repeatable",
         "choose --need X",
         "accept a.json --limits limits.toml",
         "accept a.json --limits X",
@@ -183,7 +183,7 @@ fn a_limit_of_file_sizes_is_an_error_that_leaves_nothing_behind() {
     bench.lab();
     let (code, said) = by_shell(
         &bench,
-        "ulimit -f 1; exec TACEVA import lab --map map.toml --to data -q",
+        "ulimit -f 1; exec TACEVA import lab --map map.toml --out data -q",
     );
     assert_eq!(code, 3, "{said}");
     assert!(said.contains("too large"), "{said}");
@@ -201,7 +201,7 @@ fn tables_and_recordings_without_a_row_are_bad_input() {
     let head = labels.lines().next().expect("a header").to_owned() + "\n";
     bench.write("lab/labels.csv", &head);
     bench.refused(
-        "import lab --map map.toml --to new",
+        "import lab --map map.toml --out new",
         3,
         "no row below the header",
     );
@@ -228,7 +228,7 @@ fn one_file_given_twice_is_said_to_be_one_file() {
     bench.lab();
     bench.write("t.csv", "Fz\n1\n2\n");
     bench.refused("score --truth t.csv --pred ./t.csv", 2, "are one file");
-    bench.ok("import lab --map map.toml --to data -q");
+    bench.ok("import lab --map map.toml --out data -q");
     bench.ok("evaluate data --model ridge --set size=8x8 --format json --out a.json -q");
     bench.refused("compare a.json ./a.json", 2, "./a.json: given twice");
 }
@@ -252,13 +252,13 @@ fn a_folder_that_is_no_dataset_is_answered_with_the_line_to_type() {
     bench.refused(
         "check lab",
         3,
-        "taceva import lab --map MAP.toml --to DATASET",
+        "taceva import lab --map MAP.toml --out DATASET",
     );
     bench.write("old/targets.csv", "x\n");
     bench.refused(
         "evaluate old --model ridge",
         3,
-        "taceva import old --preset bristol --to DATASET",
+        "taceva import old --preset bristol --out DATASET",
     );
     bench.refused("check nowhere", 3, "there is nothing of that name");
     fs::create_dir_all(bench.path("run")).expect("made");
@@ -276,7 +276,7 @@ fn a_folder_that_is_no_dataset_is_answered_with_the_line_to_type() {
 fn a_final_model_learns_from_every_sample_and_is_not_tested_on_them() {
     let bench = Bench::new();
     bench.lab();
-    bench.ok("import lab --map map.toml --to data -q");
+    bench.ok("import lab --map map.toml --out data -q");
     let said = bench.ok("fit data --model ridge --set size=8x8 --split all --out m.taceva -q");
     assert!(
         said.contains("split    all, seed 0: train 60, validation 0, test 0"),
@@ -300,7 +300,7 @@ fn a_recording_of_two_samples_is_checked_but_for_what_needs_parts() {
     let labels = fs::read_to_string(bench.path("lab/labels.csv")).expect("there");
     let few: Vec<&str> = labels.lines().take(3).collect();
     bench.write("lab/labels.csv", &few.join("\n"));
-    bench.ok("import lab --map map.toml --to two -q");
+    bench.ok("import lab --map map.toml --out two -q");
     let said = bench.ok("check two -q");
     assert!(
         said.contains("skipped  check:TAC007: the samples cannot be divided into parts"),
@@ -319,7 +319,7 @@ fn a_column_that_judges_rows_and_is_not_mentioned_is_said_at_import() {
         _ => format!("{text},,x\n"),
     });
     bench.write("lab/labels.csv", &wider.collect::<String>());
-    let said = bench.ok("import lab --map map.toml --to data -q");
+    let said = bench.ok("import lab --map map.toml --out data -q");
     assert!(
         said.contains("columns that the map does not mention: note, quality_flags\n"),
         "{said}"
@@ -345,7 +345,7 @@ fn a_column_that_judges_rows_and_is_not_mentioned_is_said_at_import() {
         "map.toml",
         &format!("{map}\n[drop]\ncolumn = \"quality_flags\"\nquality_flags = [\"bad\"]\n"),
     );
-    bench.ok("import lab --map map.toml --to again -q");
+    bench.ok("import lab --map map.toml --out again -q");
     let said = bench.ok("check again --only TAC014 -q");
     assert!(!said.contains("warning  TAC014"), "{said}");
     assert!(said.contains(note), "{said}");

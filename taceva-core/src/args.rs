@@ -1,4 +1,4 @@
-//! What a driver is told when it is opened: declared as data, given as text, checked before anything is opened.
+//! Arguments of a driver: declared as data, given as text, checked before anything is opened.
 
 mod error;
 mod nearest;

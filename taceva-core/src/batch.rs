@@ -1,4 +1,4 @@
-//! Samples as columns: what metrics eat.
+//! Samples as columns: the input of metrics.
 
 mod builder;
 mod column;

@@ -1,4 +1,4 @@
-//! What makes models of one kind: found by its key, told by its settings, and able to load what it fitted before.
+//! What makes models of one kind: found by its key, configured by its settings, and able to load what it fitted before.
 
 use crate::args::{ArgSpec, Args};
 use crate::id::DriverKey;

@@ -109,10 +109,6 @@ pub const fn open_unit(bits: u64) -> f64 {
 /// ```
 #[inline]
 #[must_use]
-#[expect(
-    clippy::cast_possible_truncation,
-    reason = "the upper half of 128 bits is 64 bits"
-)]
 pub const fn scaled(bits: u64, bound: u64) -> u64 {
     ((bits as u128 * bound as u128) >> 64) as u64
 }

@@ -12,14 +12,14 @@ use crate::weights::Layout;
 /// The parts of a network.
 #[derive(Clone, Debug)]
 pub(crate) struct Passes {
-    parts: Vec<Part>,
+    parts: Vec<Layer>,
     pooling: Pooling,
     head: Head,
 }
 
-/// A part that is passed as a whole.
+/// A layer, or a residual block, that is computed as a whole.
 #[derive(Clone, Debug)]
-enum Part {
+enum Layer {
     Stem(Normed),
     Plain(Normed),
     Block {
@@ -76,13 +76,13 @@ impl Passes {
         let names = architecture.stage_names();
         let parts = architecture.stages().into_iter().zip(&names);
         let parts = parts.map(|(plan, prefix)| match plan {
-            StagePlan::Stem { .. } => Part::Stem(normed(prefix, ["conv1", "bn1"], 2)),
+            StagePlan::Stem { .. } => Layer::Stem(normed(prefix, ["conv1", "bn1"], 2)),
             StagePlan::Plain(PlainLayer { stride, .. }) => {
-                Part::Plain(normed(prefix, ["0", "1"], stride))
+                Layer::Plain(normed(prefix, ["0", "1"], stride))
             }
             StagePlan::Block { stride, .. } => {
                 let is_past = positions.contains_key(&*format!("{prefix}downsample.0.weight"));
-                Part::Block {
+                Layer::Block {
                     first: normed(prefix, ["conv1", "bn1"], stride),
                     second: normed(prefix, ["conv2", "bn2"], 1),
                     past: is_past.then(|| normed(prefix, ["downsample.0", "downsample.1"], stride)),
@@ -106,8 +106,8 @@ impl Passes {
     /// Every convolution with its normalisation, in the order of the passes.
     pub(crate) fn normed(&self) -> impl Iterator<Item = &Normed> {
         self.parts.iter().flat_map(|part| match part {
-            Part::Stem(normed) | Part::Plain(normed) => vec![normed],
-            Part::Block {
+            Layer::Stem(normed) | Layer::Plain(normed) => vec![normed],
+            Layer::Block {
                 first,
                 second,
                 past,
@@ -135,12 +135,12 @@ impl Passes {
         let mut seen = pictures;
         for part in &self.parts {
             seen = match part {
-                Part::Stem(normed) => {
+                Layer::Stem(normed) => {
                     let cut = relu(norm(normed, seen));
                     max_pool2d(cut, [3, 3], [2, 2], [1, 1], [1, 1], false)
                 }
-                Part::Plain(normed) => relu(norm(normed, seen)),
-                Part::Block {
+                Layer::Plain(normed) => relu(norm(normed, seen)),
+                Layer::Block {
                     first,
                     second,
                     past,

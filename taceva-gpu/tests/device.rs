@@ -215,7 +215,7 @@ fn twenty_steps_go_as_on_the_processor_and_the_network_predicts_the_same_there_a
             for (found, expected) in found.iter().zip(&expected) {
                 assert!((found - expected).abs() < 1e-4, "{gpu}, {name}");
             }
-            // What was put aside there can be looked at here, to the bit.
+            // A checkpoint made there can be read here, to the bit.
             let again = Trainer::resume(checkpoint.clone(), samples(&eight), None);
             let again = again.expect("its own checkpoint").checkpoint();
             assert_eq!(again.expect("at hand"), checkpoint);

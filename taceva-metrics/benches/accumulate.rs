@@ -74,7 +74,7 @@ fn exact_all_streams_and_gate(bencher: Bencher<'_, '_>) {
 fn exact(bencher: Bencher<'_, '_>, streams: Streams, gate: Option<f64>) {
     let pairs = pairs();
     bencher.counter(ItemsCount::new(ROWS)).bench_local(|| {
-        let mut sums = PairSums::new(PairSpec { streams, gate });
+        let mut sums = PairSums::new(PairSpec::new(streams).with_gate(gate));
         let estimates = pairs.estimate.chunks(BATCH_ROWS);
         for (estimate, reference) in estimates.zip(pairs.reference.chunks(BATCH_ROWS)) {
             sums.update(black_box(Paired {

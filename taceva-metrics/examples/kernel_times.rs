@@ -13,7 +13,7 @@ use std::hint::black_box;
 use std::time::Instant;
 
 use rustix::time::{ClockId, clock_gettime};
-use taceva_metrics::bench::{Contender, stream_sum};
+use taceva_metrics::bench::{Kernel, stream_sum};
 use taceva_metrics::{Isa, Paired};
 
 type Error = Box<dyn std::error::Error>;
@@ -28,11 +28,11 @@ fn main() -> Result<(), Error> {
     let pairs: usize = columns.iter().map(|columns| columns.estimate.len()).sum();
 
     let mut ways: Vec<(String, Box<dyn Fn()>)> = vec![];
-    let mut way = |name: String, run: fn(Contender, Paired<&[f64]>) -> Option<f64>, contender| {
+    let mut way = |name: String, run: fn(Kernel, Paired<&[f64]>) -> Option<f64>, kernel| {
         let columns = &columns;
         let run = move || {
             for columns in columns {
-                black_box(run(contender, black_box(columns.as_slices())));
+                black_box(run(kernel, black_box(columns.as_slices())));
             }
         };
         ways.push((name, Box::new(run)));
@@ -40,20 +40,12 @@ fn main() -> Result<(), Error> {
     way(
         "floor".to_owned(),
         |_, pairs| Some(stream_sum(pairs)),
-        Contender::Naive,
+        Kernel::Naive,
     );
-    for contender in Contender::available() {
-        way(
-            contender.name(),
-            |contender, pairs| contender.run(pairs).mae,
-            contender,
-        );
-        if contender.is_exact() || contender == Contender::Naive {
-            way(
-                format!("{} mae", contender.name()),
-                Contender::run_mae,
-                contender,
-            );
+    for kernel in Kernel::available() {
+        way(kernel.name(), |kernel, pairs| kernel.run(pairs).mae, kernel);
+        if kernel.is_exact() || kernel == Kernel::Naive {
+            way(format!("{} mae", kernel.name()), Kernel::run_mae, kernel);
         }
     }
 
@@ -63,7 +55,7 @@ fn main() -> Result<(), Error> {
     let on_two_threads = move || {
         let sum = |columns: &[Paired<Vec<f64>>]| {
             for columns in columns {
-                black_box(Contender::Exact(fastest).run(black_box(columns.as_slices())));
+                black_box(Kernel::Exact(fastest).run(black_box(columns.as_slices())));
             }
         };
         std::thread::scope(|scope| {

@@ -6,6 +6,14 @@ use std::fmt;
 use taceva_core::shown;
 
 /// Why columns, batches or states do not fit.
+///
+/// ```
+/// use taceva_metrics::{Channel, Evaluator, MetricError};
+/// let mut evaluator = Evaluator::of_channels([Channel::FZ])?;
+/// let error = evaluator.update_pairs(Channel::FZ, &[0.25, 0.5], &[0.25]).unwrap_err();
+/// assert_eq!(error, MetricError::Lengths { estimate: 1, reference: 2 });
+/// # Ok::<(), taceva_metrics::ChannelError>(())
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum MetricError {
@@ -143,7 +151,14 @@ impl fmt::Display for MetricError {
 impl Error for MetricError {}
 
 /// A metric or group that nobody defined.
+///
+/// ```
+/// use taceva_metrics::catalogue;
+/// let error = catalogue::select(["rmsee"]).unwrap_err();
+/// assert_eq!(error.nearest, Some("rmse"));
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct UnknownMetric {
     /// The name as given.
     pub name: String,

@@ -14,6 +14,13 @@ use crate::score::range::Range;
 use crate::score::value::UndefinedReason;
 
 /// A way to say in one number how well predictions meet the truth.
+///
+/// ```
+/// use taceva_metrics::{Better, catalogue};
+/// let mae = catalogue::find("mae").ok_or("a metric")?;
+/// assert_eq!((mae.better, mae.definition), (Better::Lower, "mae/1"));
+/// # Ok::<(), &str>(())
+/// ```
 #[derive(Debug)]
 #[non_exhaustive]
 pub struct Metric {
@@ -42,6 +49,11 @@ pub struct Metric {
 }
 
 /// The unit of a metric's values.
+///
+/// ```
+/// use taceva_metrics::{ScoreUnit, Unit};
+/// assert_eq!(ScoreUnit::PerHour.of(Unit::Newton), Unit::NewtonPerHour);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum ScoreUnit {

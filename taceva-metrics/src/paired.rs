@@ -8,7 +8,13 @@ use crate::families::accuracy::EPSILON;
 /// Greatest magnitude of a value that is a sample: sums, differences and means of two such values stay finite.
 pub const GREATEST: f64 = taceva_core::MAGNITUDE_MAX;
 
-/// An estimate and its reference: two values, or two columns.
+/// An estimate and its reference: two values, or two columns. A plain pair, which gets no further fields.
+///
+/// ```
+/// use taceva_metrics::Paired;
+/// let pair = Paired { estimate: 0.5, reference: 0.75 };
+/// assert_eq!(pair.residual(), 0.25);
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Paired<T> {
     /// ŷ: what the model says.

@@ -25,6 +25,16 @@ use crate::score::value::Value;
 pub(crate) const COVERAGE: f64 = 0.95;
 
 /// A metric of a channel, or of the two channels of a plane.
+///
+/// ```
+/// use taceva_metrics::{Channel, Evaluator, Unit};
+/// let mut evaluator = Evaluator::of_channels([Channel::FZ])?;
+/// evaluator.update_pairs(Channel::FZ, &[0.25, 0.5], &[0.5, 0.5])?;
+/// let scores = evaluator.finish()?;
+/// let mae = scores.mae(Channel::FZ).ok_or("a score")?;
+/// assert_eq!((mae.value.scalar(), mae.unit, mae.n), (Some(0.125), Unit::Newton, 2));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Score {
@@ -71,6 +81,16 @@ impl Score {
 }
 
 /// Another value of the same metric and channel, under a name of its own.
+///
+/// ```
+/// use taceva_metrics::{Channel, Evaluator};
+/// let mut evaluator = Evaluator::of_channels([Channel::FZ])?;
+/// evaluator.update_pairs(Channel::FZ, &[0.25, 0.5, 1.0], &[0.5, 0.5, 0.5])?;
+/// let scores = evaluator.finish()?;
+/// let skill = scores.skill(Channel::FZ).ok_or("a score")?;
+/// assert!(skill.variant("constant").is_some_and(|variant| variant.value.scalar().is_some()));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Variant {
@@ -99,7 +119,12 @@ impl Variant {
     }
 }
 
-/// A number of samples, bins or the like.
+/// A number of samples, bins or the like: a plain named value, which gets no further fields.
+///
+/// ```
+/// use taceva_metrics::Count;
+/// assert_eq!(Count { name: "outside", value: 3 }.value, 3);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Count {
     /// What was counted: `outside`, `bins_used`.
@@ -108,7 +133,12 @@ pub struct Count {
     pub value: u64,
 }
 
-/// A constant of a definition.
+/// A constant of a definition: a plain named value, which gets no further fields.
+///
+/// ```
+/// use taceva_metrics::{EPSILON, Parameter};
+/// assert_eq!(Parameter { name: "eps", value: EPSILON }.value, 1e-8);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Parameter {
     /// What it is called: `eps`, `gate`.

@@ -10,11 +10,10 @@ use taceva_metrics::{
     UndefinedReason,
 };
 
-const BOOTSTRAP: PoissonBootstrap = PoissonBootstrap {
-    replicates: 200,
-    seed: 1,
-    ends: BootstrapEnds::Percentile,
-};
+const BOOTSTRAP: PoissonBootstrap = PoissonBootstrap::DEFAULT
+    .with_replicates(200)
+    .with_seed(1)
+    .with_ends(BootstrapEnds::Percentile);
 
 fn evaluator(bootstrap: PoissonBootstrap, rows: &[Row]) -> Evaluator {
     let method = IntervalMethod::PoissonBootstrap(bootstrap);
@@ -83,10 +82,7 @@ fn uneven(points: u32) -> Vec<Row> {
 
 #[test]
 fn it_agrees_with_the_jackknife_on_a_smooth_score() {
-    let many = PoissonBootstrap {
-        replicates: 2000,
-        ..BOOTSTRAP
-    };
+    let many = BOOTSTRAP.with_replicates(2000);
     for points in [60, 600] {
         let rows = uneven(points);
         let jackknife = support::evaluate(&rows);
@@ -111,10 +107,7 @@ fn it_agrees_with_the_jackknife_on_a_smooth_score() {
 fn another_seed_gives_other_ends_and_the_same_value() {
     let rows = uneven(60);
     let first = score(&finish(evaluator(BOOTSTRAP, &rows)), "mae");
-    let reseeded = PoissonBootstrap {
-        seed: 2,
-        ..BOOTSTRAP
-    };
+    let reseeded = BOOTSTRAP.with_seed(2);
     let second = score(&finish(evaluator(reseeded, &rows)), "mae");
     assert_eq!(first.value, second.value);
     assert_ne!(first.interval, second.interval);
@@ -128,10 +121,7 @@ fn a_report_says_how_the_interval_was_found() {
         method.as_deref(),
         Some("Poisson bootstrap by point_id (percentile), G=32, B=200, seed=1")
     );
-    let normal = PoissonBootstrap {
-        ends: BootstrapEnds::Normal,
-        ..BOOTSTRAP
-    };
+    let normal = BOOTSTRAP.with_ends(BootstrapEnds::Normal);
     let interval = score(&finish(evaluator(normal, &uneven(60))), "mae").interval;
     let expected = "Poisson bootstrap by point_id (normal), G=60, B=200, seed=1, logarithmic";
     assert_eq!(interval.method().as_deref(), Some(expected));

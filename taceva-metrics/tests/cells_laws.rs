@@ -38,11 +38,9 @@ fn plan() -> MetricPlan {
     let surface = Channel::named("surface_z", Unit::Millimetre).expect("a plain name");
     let channels = Channels::new(Channel::SIX.into_iter().chain([surface])).expect("distinct");
     let wanted = catalogue::select(METRICS).expect("known names");
-    let facts = SensorFacts {
-        footprint: Some(Footprint::disc(4.0, None).expect("a length")),
-        frame_size: Some([640, 480]),
-        ..SensorFacts::default()
-    };
+    let facts = SensorFacts::default()
+        .with_footprint(Some(Footprint::disc(4.0, None).expect("a length")))
+        .with_frame_size(Some([640, 480]));
     let available: FieldSet = Field::ALL.into_iter().collect();
     let plan = MetricPlan::new(&wanted, channels, available).with_facts(facts);
     assert_eq!(plan.kept().len(), METRICS.len());

@@ -99,11 +99,7 @@ fn equivalence_is_two_one_sided_tests() {
 }
 
 fn question(better: Better, margin: Option<f64>) -> Question {
-    Question {
-        unit: Unit::Newton,
-        better,
-        margin,
-    }
+    Question::new(Unit::Newton, better).with_margin(margin)
 }
 
 #[test]
@@ -127,10 +123,7 @@ fn verdicts_are_sentences() {
         say(sleep_of_strangers(), Some(0.5)),
         "no difference shown (difference −1.6 N, 95 % −3.4…0.2)"
     );
-    let ratio = Question {
-        unit: Unit::One,
-        ..question(Better::Higher, None)
-    };
+    let ratio = Question::new(Unit::One, Better::Higher);
     let sure = welch(Sides {
         a: Estimate::try_new(0.75, 0.2, 32).expect("an estimate"),
         b: Estimate::try_new(2.33, 0.2, 32).expect("an estimate"),

@@ -22,7 +22,7 @@ fn sums<'a>(samples: impl IntoIterator<Item = &'a (u32, f64, f64)>) -> Sides<Clu
 }
 
 fn test(sums: &Sides<ClusterSums>, flips: u32) -> Difference {
-    let sign_flip = SignFlip { flips, seed: 5 };
+    let sign_flip = SignFlip::default().with_flips(flips).with_seed(5);
     let sides = Sides {
         a: &sums.a,
         b: &sums.b,
@@ -154,7 +154,7 @@ proptest! {
             let excludes = low >= 0.0 || high <= 0.0;
             let includes = low <= 0.0 && high >= 0.0;
             prop_assert!(if decided.is_shown { excludes } else { includes }, "{:?}", decided);
-            let question = Question { unit: Unit::Newton, better: Better::Lower, margin };
+            let question = Question::new(Unit::Newton, Better::Lower).with_margin(margin);
             match Verdict::of(Ok(decided.clone()), question) {
                 Verdict::Differs { better, .. } => {
                     prop_assert!(decided.is_shown);

@@ -39,10 +39,7 @@ impl Outcome {
         let channels = Channels::new([Channel::FZ]).expect("one channel");
         let plan = MetricPlan::new(&catalogue::ALL, channels, FieldSet::PAIRS);
         Outcome {
-            sums: PairSums::new(PairSpec {
-                streams: Streams::ALL,
-                gate: None,
-            }),
+            sums: PairSums::new(PairSpec::new(Streams::ALL)),
             evaluator: Evaluator::new(&plan),
         }
     }

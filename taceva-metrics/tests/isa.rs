@@ -105,7 +105,7 @@ proptest! {
         };
         let streams = streams(wanted);
         for isa in Isa::available() {
-            let spec = PairSpec { streams, gate };
+            let spec = PairSpec::new(streams).with_gate(gate);
             let mut blocks = PairSums::with_isa(spec, isa).expect("it is available");
             let mut start = 0;
             for length in lengths.iter().cycle() {

@@ -17,11 +17,9 @@ use taceva_metrics::{
 fn plan() -> MetricPlan {
     let fields: FieldSet = Field::ALL.into_iter().collect();
     let channels = Channels::new(Channel::SIX).expect("distinct channels");
-    let facts = SensorFacts {
-        footprint: Some(Footprint::disc(12.5, Some(1.0)).expect("lengths")),
-        reference_scene: "normal".to_owned(),
-        ..SensorFacts::default()
-    };
+    let facts = SensorFacts::default()
+        .with_footprint(Some(Footprint::disc(12.5, Some(1.0)).expect("lengths")))
+        .with_reference_scene("normal".to_owned());
     MetricPlan::new(&catalogue::ALL, channels, fields).with_facts(facts)
 }
 
@@ -215,8 +213,8 @@ proptest! {
         let samples = recording.samples();
         for method in [
             IntervalMethod::Jackknife,
-            IntervalMethod::PoissonBootstrap(PoissonBootstrap { replicates: 39, seed: 1, ends: BootstrapEnds::Normal }),
-            IntervalMethod::PoissonBootstrap(PoissonBootstrap { replicates: 39, seed: 1, ends: BootstrapEnds::Percentile }),
+            IntervalMethod::PoissonBootstrap(PoissonBootstrap::default().with_replicates(39).with_seed(1).with_ends(BootstrapEnds::Normal)),
+            IntervalMethod::PoissonBootstrap(PoissonBootstrap::default().with_replicates(39).with_seed(1).with_ends(BootstrapEnds::Percentile)),
         ] {
             let evaluation = evaluate(&plan().with_interval_method(method), &samples);
             prop_assert!(intervals(&evaluation).is_ok(), "{:?}", intervals(&evaluation));
@@ -275,11 +273,10 @@ fn a_greatest_value_has_no_interval_and_says_why() {
         phases: false,
     };
     let samples = recording.samples();
-    let bootstrap = PoissonBootstrap {
-        replicates: 39,
-        seed: 1,
-        ends: BootstrapEnds::Normal,
-    };
+    let bootstrap = PoissonBootstrap::default()
+        .with_replicates(39)
+        .with_seed(1)
+        .with_ends(BootstrapEnds::Normal);
     let why = Interval::Undefined(UndefinedReason::Greatest);
     for method in [
         IntervalMethod::Jackknife,

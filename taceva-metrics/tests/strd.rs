@@ -2,7 +2,7 @@
 
 use serde_json::Value;
 use taceva_core::{Batch, Channel, Channels, Column, FieldSet};
-use taceva_metrics::bench::{Contender, digits};
+use taceva_metrics::bench::{Kernel, digits};
 use taceva_metrics::{
     Evaluator, ExactSum, Isa, MetricPlan, PairSpec, PairSums, Paired, Stream, Streams, catalogue,
 };
@@ -43,10 +43,7 @@ fn datasets() -> Vec<Dataset> {
 /// Sums of the values as truths, beside their least as the estimate: all differences are exact and none is negative, so that
 /// the variance of the errors is that of the values.
 fn sums(values: &[f64], isa: Isa) -> PairSums {
-    let spec = PairSpec {
-        streams: Streams::ALL,
-        gate: None,
-    };
+    let spec = PairSpec::new(Streams::ALL);
     let mut sums = PairSums::with_isa(spec, isa).expect("it is available");
     let least = values.iter().copied().fold(f64::INFINITY, f64::min);
     let estimate = vec![least; values.len()];
@@ -105,11 +102,11 @@ fn the_sets_tell_ways_to_sum_apart() {
     // As errors of 1 % of the truth's spread: R² is then decided by the spread alone.
     let estimate: Vec<f64> = values.iter().map(|value| value + 0.001).collect();
     let pairs = Paired::try_columns(&estimate, &values).expect("one length");
-    let truth = Contender::truth(pairs).r2.expect("the truth varies");
-    let right = |contender: Contender| digits(contender.run(pairs).r2.unwrap_or(0.0), truth);
-    assert!(right(Contender::Naive) < 4.0, "{}", right(Contender::Naive));
-    assert!(right(Contender::TwoPass) > 10.0);
+    let truth = Kernel::truth(pairs).r2.expect("the truth varies");
+    let right = |kernel: Kernel| digits(kernel.run(pairs).r2.unwrap_or(0.0), truth);
+    assert!(right(Kernel::Naive) < 4.0, "{}", right(Kernel::Naive));
+    assert!(right(Kernel::TwoPass) > 10.0);
     for isa in Isa::available() {
-        assert!(right(Contender::Exact(isa)) > 17.0);
+        assert!(right(Kernel::Exact(isa)) > 17.0);
     }
 }

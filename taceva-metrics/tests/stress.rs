@@ -6,7 +6,7 @@ mod program;
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 use taceva_core::random::SplitMix64;
-use taceva_metrics::bench::{Contender, nasty_inputs, shuffled};
+use taceva_metrics::bench::{Kernel, nasty_inputs, shuffled};
 use taceva_metrics::{Isa, PairSpec, PairSums, Paired, Stream, Streams};
 
 const PROGRAMS: u64 = 20_000;
@@ -33,12 +33,12 @@ fn no_program_of_random_bytes_panics() {
 
 #[test]
 fn nasty_inputs_give_their_true_scores_in_every_order_on_every_instruction_set() {
-    for (name, recipe) in nasty_inputs() {
-        let columns = recipe.columns();
-        let truth = Contender::truth(columns.as_slices());
+    for (name, case) in nasty_inputs() {
+        let columns = case.columns();
+        let truth = Kernel::truth(columns.as_slices());
         assert!(truth.mae.is_some(), "{name}");
         for isa in Isa::available() {
-            let exact = Contender::Exact(isa);
+            let exact = Kernel::Exact(isa);
             assert_eq!(exact.run(columns.as_slices()), truth, "{name} {isa}");
             for seed in 0..3 {
                 let shuffled = shuffled(&columns, seed);
@@ -71,10 +71,7 @@ fn more_rows_than_units_fit_into_a_word_are_settled_in_time() {
 }
 
 fn sums(columns: &Paired<Vec<f64>>, isa: Isa) -> PairSums {
-    let spec = PairSpec {
-        streams: Streams::ALL,
-        gate: None,
-    };
+    let spec = PairSpec::new(Streams::ALL);
     let mut sums = PairSums::with_isa(spec, isa).expect("it is available");
     sums.update(columns.as_slices());
     sums

@@ -8,7 +8,7 @@ use taceva_core::{
     TrainingSet,
 };
 
-use crate::fit::{ModelEstimator, ModelFit};
+use crate::training::fit::{ModelEstimator, ModelFit};
 
 /// A matrix of features, a sample a row, as models take it. An owned matrix of `f32` in standard layout is taken over without a copy; a view, or
 /// another layout, is copied once.

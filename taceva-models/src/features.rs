@@ -1,11 +1,13 @@
 //! From frames to features.
 
 mod area;
+pub(crate) mod choice;
 #[cfg(test)]
 mod drawn;
 mod error;
 mod extractor;
 mod gradients;
+pub(crate) mod gratings;
 mod kinds;
 mod markers;
 mod part;

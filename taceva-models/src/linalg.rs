@@ -4,10 +4,12 @@
 //! one order, so threads only decide when a block is computed.
 
 mod design;
+pub(crate) mod distance;
 mod dot;
 mod gram;
 mod least_squares;
 mod spectrum;
+pub(crate) mod standard;
 
 pub(crate) use design::{Design, FeatureScale};
 pub(crate) use dot::dot;

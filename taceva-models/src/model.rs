@@ -1,9 +1,7 @@
 //! A fitted model with all that is needed to use it and to know where it comes from.
 
 mod bounds;
-mod bytes;
 mod card;
-mod disk;
 mod of_plugin;
 
 use taceva_core::{
@@ -11,15 +9,13 @@ use taceva_core::{
     TrainingSet,
 };
 
-pub use self::bytes::FormatError;
 pub use self::card::{ChannelCard, Form, ModelCard, Provenance, SampleCounts, Source, SplitCard};
-pub use self::disk::ModelFileError;
-pub(crate) use self::of_plugin::plugin_tensor;
-use crate::feature_choice::FeatureChoice;
+pub(crate) use self::of_plugin::{plugin_from, plugin_tensor};
+use crate::features::choice::FeatureChoice;
 use crate::features::{Extractor, FeatureError, FeatureSpec, Pca};
-use crate::fit::{ModelEstimator, ModelRegressor};
-use crate::problem::invalid;
 use crate::settings::Settings;
+use crate::training::fit::{ModelEstimator, ModelRegressor};
+use crate::training::problem::invalid;
 
 /// All that a model is fitted from.
 pub struct FitInput<'a> {
@@ -45,8 +41,8 @@ pub struct FitInput<'a> {
 /// a network keeps what it does to pictures beside its own.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Model {
-    card: ModelCard,
-    regressor: ModelRegressor,
+    pub(crate) card: ModelCard,
+    pub(crate) regressor: ModelRegressor,
 }
 
 impl Model {
@@ -110,7 +106,7 @@ impl Model {
 
     /// Whether files of its format carry a seal, so that a change of them is noticed.
     pub fn is_sealed(&self) -> bool {
-        bytes::is_sealed(&self.card.format)
+        crate::file::is_sealed(&self.card.format)
     }
 
     /// What it predicts.
@@ -160,7 +156,7 @@ impl Model {
         Ok(predictions)
     }
 
-    /// The prediction for every sample of `features` as the model gives it, however far from what it was taught.
+    /// The prediction for every sample of `features` as the model gives it, however far from the labels of the training part.
     ///
     /// # Shapes
     /// `[samples, channels]`.
@@ -196,7 +192,7 @@ fn with_features<'s>(set: TrainingSet<'s>, features: Option<&'s Features>) -> Tr
 }
 
 /// The channels that a card lists.
-fn channels_of(card: &ModelCard) -> Result<Channels, ModelError> {
+pub(crate) fn channels_of(card: &ModelCard) -> Result<Channels, ModelError> {
     let named = |channel: &ChannelCard| Channel::named(&channel.name, channel.unit);
     let list: Result<Vec<Channel>, _> = card.channels.iter().map(named).collect();
     let refuse =

@@ -6,13 +6,13 @@ use std::sync::Arc;
 
 use taceva_core::{Args, EstimatorFactory};
 
-use crate::auto::Auto;
+use crate::estimators::auto::Auto;
+use crate::estimators::library::LibraryModel;
+use crate::estimators::plugin::PluginEstimator;
 use crate::features::FeatureSpec;
-use crate::fit::ModelEstimator;
-use crate::library::LibraryModel;
-use crate::plugin::PluginEstimator;
 use crate::registry::{ALL, ModelInfo, UnknownModel};
 use crate::settings::{SettingError, Settings};
+use crate::training::fit::ModelEstimator;
 
 /// The models that people can choose, by name. A value, as the drivers of a program are: nothing of it is global.
 ///

@@ -2,20 +2,20 @@
 
 use std::fmt;
 
-use crate::auto::Auto;
-use crate::baseline::Baseline;
-use crate::discriminant::LinearDiscriminant;
-use crate::elastic_net::ElasticNet;
+use crate::estimators::auto::Auto;
+use crate::estimators::baseline::Baseline;
+use crate::estimators::discriminant::LinearDiscriminant;
+use crate::estimators::elastic_net::ElasticNet;
+use crate::estimators::kernel::{GaussianProcess, KernelRidge, SupportVectors};
+use crate::estimators::library::library_of;
+use crate::estimators::neighbours::Neighbours;
+use crate::estimators::network::NetworkEstimator;
+use crate::estimators::pls::Pls;
+use crate::estimators::ridge::Ridge;
+use crate::estimators::trees::{GradientBoosting, RandomForest};
 use crate::features::FeatureSpec;
-use crate::fit::ModelEstimator;
-use crate::kernel::{GaussianProcess, KernelRidge, SupportVectors};
-use crate::library::library_of;
-use crate::neighbours::Neighbours;
-use crate::network::NetworkEstimator;
-use crate::pls::Pls;
-use crate::ridge::Ridge;
 use crate::settings::{SettingError, SettingInfo, Settings, Suggestion};
-use crate::trees::{GradientBoosting, RandomForest};
+use crate::training::fit::ModelEstimator;
 
 /// A model that people can choose: its name, what it is, and what can be set.
 #[derive(Clone, Copy, Debug)]

@@ -1,4 +1,4 @@
-//! What is promised of trainings that are put aside.
+//! What is promised of checkpoints.
 
 use std::error::Error;
 use std::fs;
@@ -59,7 +59,7 @@ impl Recording {
 /// Stops the work after so many steps.
 struct Patience {
     left: AtomicUsize,
-    /// Whether a stage has begun of which nothing was told yet: the first it tells is what was made before.
+    /// Whether a stage has begun that has not advanced yet: its first advance is what was made before.
     is_new: AtomicBool,
 }
 
@@ -92,7 +92,7 @@ impl Progress for Patience {
 
 const WORDS: [&str; 4] = ["epochs=6", "batch=8", "jitter=1", "contrast=false"];
 
-/// A training of six epochs of three steps that may be put aside.
+/// A training of six epochs of three steps that may keep checkpoints.
 fn fit(
     model: &str,
     words: &[&str],
@@ -118,7 +118,7 @@ fn fit_on(
     let info = find(model).expect("registered");
     let mut estimator = info.estimator(&settings).expect("valid");
     if let Some(checkpoints) = checkpoints {
-        estimator.put_aside(checkpoints);
+        estimator.keep_checkpoints(checkpoints);
     }
     estimator.fit_model(&training.set(), Some(&validation.set()), progress)
 }
@@ -157,7 +157,7 @@ fn a_training_stopped_after_any_steps_ends_as_one_that_was_not() {
         let found = loop {
             let patience = Patience::of(steps);
             let checkpoints = match (model, stops % 2) {
-                // A large network is put aside when it is stopped only: each time takes a while.
+                // A large network writes a checkpoint when it is stopped only: each takes a while.
                 ("cnn", 0) => after_each_step(&path),
                 _ => Checkpoints::at(path.clone()),
             };
@@ -182,7 +182,7 @@ fn a_checkpoint_of_other_samples_or_settings_is_refused_and_replaced_where_that_
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("checkpoint");
     leave(&path, 4);
-    let left = fs::read(&path).expect("put aside");
+    let left = fs::read(&path).expect("a checkpoint");
     let (training, validation) = (recording(24, 1), recording(8, 2));
     let mut altered = recording(24, 1);
     altered.labels[23] += 1e-12;
@@ -239,7 +239,7 @@ fn a_damaged_checkpoint_is_refused_whichever_byte_it_is() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("checkpoint");
     leave(&path, 4);
-    let whole = fs::read(&path).expect("put aside");
+    let whole = fs::read(&path).expect("a checkpoint");
     let header = usize::from(u16::from_le_bytes([whole[0], whole[1]])) + 8;
     let places = (0..header)
         .step_by(header / 40)

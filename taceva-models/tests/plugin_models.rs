@@ -24,7 +24,7 @@ enum Way {
     Refuses,
 }
 
-/// Predicts the first label that it was shown plus what it was told to add, always.
+/// Predicts the first label that it was shown plus what it was set to add, always.
 struct First {
     way: Way,
     settings: Vec<ArgSpec>,

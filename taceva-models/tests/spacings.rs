@@ -1,4 +1,4 @@
-//! Spacings of gratings, told by a network.
+//! Spacings of gratings, predicted by a network.
 
 use std::f64::consts::TAU;
 
@@ -54,12 +54,12 @@ fn quick() -> NetworkEstimator {
     network(&["epochs=25", "batch=16", "local_mean=0"])
 }
 
-fn told(boards: &[f64], output: SpacingOutput) -> (Vec<f64>, Vec<f64>) {
+fn predicted(boards: &[f64], output: SpacingOutput) -> (Vec<f64>, Vec<f64>) {
     let (pictures, spacings) = gratings(boards, 24);
     let fitted = quick().fit_spacings((&pictures, &spacings), output, &SilentProgress);
-    // Phases between those that were taught.
+    // Phases between those of the training pictures.
     let (unseen, expected) = gratings(&BOARDS, 7);
-    let found = fitted.expect("fits").tell(&unseen).expect("lengths");
+    let found = fitted.expect("fits").predict(&unseen).expect("lengths");
     let mm = |lengths: Vec<Nanometre>| -> Vec<f64> {
         lengths.into_iter().map(Nanometre::to_millimetres).collect()
     };
@@ -67,14 +67,14 @@ fn told(boards: &[f64], output: SpacingOutput) -> (Vec<f64>, Vec<f64>) {
 }
 
 #[test]
-fn a_spacing_among_those_that_were_taught_is_told_at_any_phase() {
-    let (found, expected) = told(&BOARDS, SpacingOutput::Classes);
+fn a_spacing_of_the_training_pictures_is_predicted_at_any_phase() {
+    let (found, expected) = predicted(&BOARDS, SpacingOutput::Classes);
     assert_eq!(found, expected);
 }
 
 #[test]
-fn a_length_is_told_near_the_spacing_that_was_taught() {
-    let (found, expected) = told(&BOARDS, SpacingOutput::Length);
+fn a_length_is_predicted_near_that_of_the_training_pictures() {
+    let (found, expected) = predicted(&BOARDS, SpacingOutput::Length);
     let errors = found.iter().zip(&expected).map(|(a, b)| (a - b).abs());
     let mean = errors.sum::<f64>() / 28.0;
     // The boards lie 0.25 mm apart and more.
@@ -84,13 +84,13 @@ fn a_length_is_told_near_the_spacing_that_was_taught() {
 #[test]
 fn of_one_board_nothing_is_to_be_learnt() {
     for output in [SpacingOutput::Classes, SpacingOutput::Length] {
-        let (found, _) = told(&[0.75], output);
+        let (found, _) = predicted(&[0.75], output);
         assert!(found.iter().all(|mm| (mm - 0.75).abs() < 1e-12));
     }
 }
 
 #[test]
-fn any_number_of_threads_tells_the_same() {
+fn any_number_of_threads_predicts_the_same() {
     let (pictures, spacings) = gratings(&BOARDS, 6);
     let with = |threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
@@ -100,7 +100,7 @@ fn any_number_of_threads_tells_the_same() {
                 SpacingOutput::Length,
                 &SilentProgress,
             );
-            fitted.expect("fits").tell(&pictures).expect("lengths")
+            fitted.expect("fits").predict(&pictures).expect("lengths")
         })
     };
     assert_eq!(with(1), with(3));
@@ -126,7 +126,7 @@ fn pictures_without_spacings_and_pictures_of_another_size_are_refused() {
     }
     let other = Features::new(FeatureShape::flat(20), vec![0.5; 20]).expect("whole");
     for fitted in [fit(&spacings), fit(&[spacings[0]; 12])] {
-        let said = fitted.expect("fits").tell(&other).expect_err("refused");
+        let said = fitted.expect("fits").predict(&other).expect_err("refused");
         assert_eq!(said.to_string(), "pictures of 20 features, fitted to 768");
     }
 }

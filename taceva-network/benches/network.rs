@@ -39,7 +39,7 @@ fn main() {
     }
 }
 
-/// The number of `key` in the state of this process, in MiB, where the system tells.
+/// The number of `key` in the state of this process, in MiB, where the system reports it.
 fn resident(key: &str) -> Option<f64> {
     let state = std::fs::read_to_string("/proc/self/status").ok()?;
     let line = state.lines().find_map(|line| line.strip_prefix(key))?;
@@ -82,7 +82,7 @@ fn measure(side: usize, threads: usize, repeats: usize, before: Option<f64>) {
     let step = || {
         trainer.step().expect("finite").expect("a step is left");
     };
-    tell("training", side, threads, BATCH, best(repeats, step));
+    report("training", side, threads, BATCH, best(repeats, step));
     if let Some((peak, before)) = resident("VmHWM:").zip(before) {
         println!(
             "memory       {side}² {threads} threads {:9.1} MiB at most beyond the process before",
@@ -94,17 +94,17 @@ fn measure(side: usize, threads: usize, repeats: usize, before: Option<f64>) {
     let mut predictor = network.predictor();
     let mut outputs = [0.0; BATCH * OUTPUTS];
     let all = || predictor.predict(&pictures, &mut outputs).expect("finite");
-    tell("inference", side, threads, BATCH, best(repeats, all));
+    report("inference", side, threads, BATCH, best(repeats, all));
     let one = || {
         let picture = &pictures[..input.len()];
         predictor
             .predict(picture, &mut outputs[..OUTPUTS])
             .expect("finite");
     };
-    tell("one picture", side, threads, 1, best(4 * repeats, one));
+    report("one picture", side, threads, 1, best(4 * repeats, one));
 }
 
-fn tell(what: &str, side: usize, threads: usize, images: usize, (busy, wall): (f64, f64)) {
+fn report(what: &str, side: usize, threads: usize, images: usize, (busy, wall): (f64, f64)) {
     let images = images as f64;
     println!(
         "{what:<12} {side}² {threads} threads {:9.1} images a processor second {:9.1} images/s",

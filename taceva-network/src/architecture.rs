@@ -1,12 +1,17 @@
 //! What a network is made of, said as data.
 
+mod pooling;
+mod stage_plan;
+
+pub use self::pooling::Pooling;
+pub use self::stage_plan::StagePlan;
+
 use serde::{Deserialize, Serialize};
 
 use crate::convolution::Convolution;
 use crate::error::NetworkError;
-use crate::max_pool;
 use crate::panel::PANEL;
-use crate::planes::{Layout, Picture};
+use crate::planes::Picture;
 
 /// The make of a network.
 ///
@@ -68,45 +73,6 @@ pub struct PlainLayer {
     pub kernel: usize,
     /// Pixels from one place of the kernel to the next.
     pub stride: usize,
-}
-
-/// How the last pictures become features.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Pooling {
-    /// The mean of each channel over the pixels.
-    Average,
-    /// Every number of every pixel, `[height, width, channels]`.
-    Flatten,
-}
-
-impl Pooling {
-    /// Features of a picture.
-    pub(crate) const fn features(self, picture: Picture) -> usize {
-        match self {
-            Pooling::Average => picture.channels,
-            Pooling::Flatten => picture.len(),
-        }
-    }
-}
-
-/// A part of a network that is passed as a whole.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum StagePlan {
-    /// A convolution of 7 × 7 with stride 2, then the greatest of 3 × 3 with stride 2.
-    Stem {
-        /// Channels it gives.
-        channels: usize,
-    },
-    /// A convolution.
-    Plain(PlainLayer),
-    /// Two convolutions of 3 × 3 and what leads past them: a convolution of 1 × 1 where pictures change their shape.
-    Block {
-        /// Channels it gives.
-        channels: usize,
-        /// Pixels from one place of the first kernel to the next.
-        stride: usize,
-    },
 }
 
 impl Depth {
@@ -276,70 +242,6 @@ impl Architecture {
         match self.body {
             Body::Residual(_) => Pooling::Average,
             Body::Plain { pooling, .. } => pooling,
-        }
-    }
-}
-
-impl StagePlan {
-    /// Its first convolution, of pictures with `inputs` channels.
-    pub(crate) const fn first(&self, inputs: usize) -> Convolution {
-        match *self {
-            StagePlan::Stem { channels } => Convolution {
-                inputs,
-                outputs: channels,
-                kernel: 7,
-                stride: 2,
-            },
-            StagePlan::Plain(PlainLayer {
-                channels,
-                kernel,
-                stride,
-            }) => Convolution {
-                inputs,
-                outputs: channels,
-                kernel,
-                stride,
-            },
-            StagePlan::Block { channels, stride } => Convolution {
-                inputs,
-                outputs: channels,
-                kernel: 3,
-                stride,
-            },
-        }
-    }
-
-    /// Weights, gains and biases that it learns, of pictures with `inputs` channels.
-    fn parameters(&self, inputs: usize) -> u128 {
-        let first = self.first(inputs);
-        let normed = |inputs: usize, taps: usize| {
-            (inputs as u128 * taps as u128 + 2) * first.outputs as u128
-        };
-        let past = match *self {
-            StagePlan::Stem { .. } | StagePlan::Plain(_) => 0,
-            StagePlan::Block { channels, stride } => {
-                let changes = stride != 1 || inputs != channels;
-                normed(channels, 9) + if changes { normed(inputs, 1) } else { 0 }
-            }
-        };
-        normed(inputs, first.taps()) + past
-    }
-
-    /// The picture that it makes of `input`.
-    pub(crate) const fn output(&self, input: Picture) -> Picture {
-        let convolved = self.first(input.channels).output(input);
-        match self {
-            StagePlan::Stem { .. } => max_pool::output(convolved),
-            StagePlan::Plain(_) | StagePlan::Block { .. } => convolved,
-        }
-    }
-
-    /// How pictures that it reads lie.
-    pub(crate) fn input_layout(&self, picture: Picture) -> Layout {
-        let padding = self.first(picture.channels).padding();
-        Layout {
-            picture,
-            border: padding.max(1),
         }
     }
 }

@@ -55,8 +55,8 @@ pub enum NetworkError {
     /// A picture with a number that is not finite.
     #[error("{part} picture {picture}: number {position} is not finite")]
     PictureNotFinite {
-        /// Which part of the samples.
-        part: Part,
+        /// What the samples are for.
+        part: SampleSet,
         /// Which picture.
         picture: usize,
         /// Which of its numbers.
@@ -65,8 +65,8 @@ pub enum NetworkError {
     /// Labels that are no whole number of samples, or of another number of samples than there are pictures.
     #[error("{part}: {labels} labels for {pictures} pictures of {outputs} outputs")]
     Labels {
-        /// Which part of the samples.
-        part: Part,
+        /// What the samples are for.
+        part: SampleSet,
         /// How many labels came.
         labels: usize,
         /// How many pictures came.
@@ -77,18 +77,18 @@ pub enum NetworkError {
     /// A label that is not finite.
     #[error("{part} sample {sample}: label {output} is not finite")]
     LabelNotFinite {
-        /// Which part of the samples.
-        part: Part,
+        /// What the samples are for.
+        part: SampleSet,
         /// Which sample.
         sample: usize,
         /// Which of its labels.
         output: usize,
     },
     /// A class that no output stands for.
-    #[error("{part} sample {sample}: class {class}, the network tells 0 to {}", classes - 1)]
+    #[error("{part} sample {sample}: class {class}, the network has 0 to {}", classes - 1)]
     Class {
-        /// Which part of the samples.
-        part: Part,
+        /// What the samples are for.
+        part: SampleSet,
         /// Which sample.
         sample: usize,
         /// Its class.
@@ -158,9 +158,9 @@ pub enum NetworkError {
     },
 }
 
-/// A part of the samples.
+/// What samples are for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Part {
+pub enum SampleSet {
     /// Learnt from.
     Training,
     /// Chosen by.
@@ -169,12 +169,12 @@ pub enum Part {
     Prediction,
 }
 
-impl std::fmt::Display for Part {
+impl std::fmt::Display for SampleSet {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.write_str(match self {
-            Part::Training => "training",
-            Part::Validation => "validation",
-            Part::Prediction => "prediction",
+            SampleSet::Training => "training",
+            SampleSet::Validation => "validation",
+            SampleSet::Prediction => "prediction",
         })
     }
 }

@@ -142,7 +142,7 @@ impl Head {
         update.update(self.slot + 1, &mut self.bias, &single(bias));
     }
 
-    /// Deals the gradient of features to the pixels of a picture.
+    /// Distributes the gradient of features over the pixels of a picture.
     #[expect(
         clippy::cast_possible_truncation,
         reason = "gradients are formed in double precision and kept in single"

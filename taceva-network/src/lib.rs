@@ -23,7 +23,7 @@ mod training;
 mod update;
 
 pub use architecture::{Architecture, Body, Depth, PlainLayer, Pooling, StagePlan};
-pub use error::{NetworkError, Part};
+pub use error::{NetworkError, SampleSet};
 pub use loss::Loss;
 pub use network::{Gradients, NamedTensor, Network};
 pub use optimizer::{Adam, Momentum, Optimizer, Rule};

@@ -8,7 +8,7 @@ use crate::panel::{Aligned, PANEL};
 use crate::simd::{Job, Vector};
 use crate::update::Update;
 
-/// A rule by which weights follow their gradients; decay acts on every parameter, as PyTorch's does unless told otherwise.
+/// A rule by which weights follow their gradients; decay acts on every parameter, as PyTorch's does by default.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Optimizer {

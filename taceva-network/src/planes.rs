@@ -1,6 +1,6 @@
 //! Pictures in memory: how they lie, and a batch of them.
 
-use crate::error::{NetworkError, Part};
+use crate::error::{NetworkError, SampleSet};
 use crate::panel::Aligned;
 
 /// The size of a picture and how many numbers a pixel has.
@@ -63,7 +63,7 @@ impl Picture {
         match pictures.iter().position(|value| !value.is_finite()) {
             None => Ok(()),
             Some(position) => Err(NetworkError::PictureNotFinite {
-                part: Part::Prediction,
+                part: SampleSet::Prediction,
                 picture: position / self.len(),
                 position: position % self.len(),
             }),

@@ -8,6 +8,7 @@ mod label_scale;
 mod processor;
 mod recipe;
 mod samples;
+mod state;
 
 pub use augmentation::{Augmentation, Jitter};
 pub use breakage::Breakage;
@@ -16,13 +17,13 @@ pub use engine::{Batch, Engine, Moments, Snapshot};
 pub use label_scale::{LabelScale, LabelScaling};
 pub use recipe::Recipe;
 pub use samples::{Labels, Samples};
+pub use state::{Epoch, Step, Trained, TrainingState};
 
 use processor::Processor;
 use rayon::prelude::*;
-use serde::{Deserialize, Serialize};
 
 use crate::architecture::Architecture;
-use crate::error::{NetworkError, Part};
+use crate::error::{NetworkError, SampleSet};
 use crate::network::Network;
 use taceva_core::random::Draws;
 
@@ -44,54 +45,6 @@ pub struct Trainer<'a> {
     best: Option<Network>,
     /// The samples of the current epoch in their order; made anew when an epoch begins.
     order: Vec<usize>,
-}
-
-/// How far a training has come.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct TrainingState {
-    /// Steps that were made.
-    pub step: u64,
-    /// The sum of the losses of the current epoch's steps.
-    pub loss_sum: f64,
-    /// What each whole epoch came to.
-    pub epochs: Vec<Epoch>,
-    /// The epoch that did best on the validation part, counted from 0.
-    pub best: Option<u64>,
-    /// Whether the recipe's patience came to an end.
-    pub is_stopped: bool,
-    /// Where a number was not finite.
-    pub broken: Option<Breakage>,
-}
-
-/// What an epoch came to, in the unit of the scaled labels.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Epoch {
-    /// The mean loss of its steps.
-    pub training_loss: f64,
-    /// The loss of the validation part after it, where there is one.
-    pub validation_loss: Option<f64>,
-}
-
-/// What a step came to.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Step {
-    /// Which step, counted from 0.
-    pub step: u64,
-    /// The loss of its batch, before weights followed it.
-    pub loss: f64,
-    /// What its epoch came to, where it was the last.
-    pub epoch: Option<Epoch>,
-}
-
-/// What a training gave.
-#[derive(Clone, Debug)]
-pub struct Trained {
-    /// The network after the best epoch; after the last one where nothing was there to choose by.
-    pub network: Network,
-    /// How labels were scaled: predictions are to be scaled back by it.
-    pub scale: LabelScale,
-    /// How far the training came.
-    pub state: TrainingState,
 }
 
 /// Purposes of draws.
@@ -137,9 +90,9 @@ impl<'a> Trainer<'a> {
     ) -> Result<Trainer<'a>, NetworkError> {
         recipe.check()?;
         let architecture = snapshot.network.architecture();
-        training.check(Part::Training, architecture, recipe.loss)?;
+        training.check(SampleSet::Training, architecture, recipe.loss)?;
         if let Some(validation) = &validation {
-            validation.check(Part::Validation, architecture, recipe.loss)?;
+            validation.check(SampleSet::Validation, architecture, recipe.loss)?;
         }
         let samples = training.count(architecture);
         if samples < recipe.batch {
@@ -239,7 +192,7 @@ impl<'a> Trainer<'a> {
         }
         let first = usize::try_from(position).expect("below the number of samples") * batch;
         let chosen = self.order[first..first + batch].to_vec();
-        let (pictures, labels, classes) = self.deal(epoch, &chosen);
+        let (pictures, labels, classes) = self.batch_of(epoch, &chosen);
         let batch = Batch {
             pictures: &pictures,
             labels: match self.training.labels {
@@ -293,7 +246,7 @@ impl<'a> Trainer<'a> {
     }
 
     /// The pictures of a batch, augmented, and their scaled labels or their classes.
-    fn deal(&self, epoch: u64, chosen: &[usize]) -> (Vec<Vec<f32>>, Vec<f64>, Vec<u32>) {
+    fn batch_of(&self, epoch: u64, chosen: &[usize]) -> (Vec<Vec<f32>>, Vec<f64>, Vec<u32>) {
         let (picture, outputs) = (self.architecture.input, self.architecture.outputs);
         let draws = self.draws(AUGMENTATION).of(epoch);
         let augmentation = &self.recipe.augmentation;

@@ -69,7 +69,7 @@ fn samples_that_cannot_be_learnt_from_are_refused_where_they_stand() {
     };
     assert_eq!(
         refusal(&entropy, samples),
-        "training sample 0: class 2, the network tells 0 to 1"
+        "training sample 0: class 2, the network has 0 to 1"
     );
     assert!(refusal(&recipe(), samples).starts_with("`loss`: a distance of classes"));
     assert!(refusal(&entropy, values(&good)).starts_with("`loss`: cross entropy of numbers"));

@@ -119,16 +119,16 @@ impl Plan {
                 _ => footprint,
             });
         let default = SensorFacts::default();
-        SensorFacts {
-            footprint,
-            opaque: self.opaque,
-            reference_scene: self
-                .lights
-                .first()
-                .cloned()
-                .unwrap_or(default.reference_scene),
-            frame_size: self.frame.map(|frame| [frame.width, frame.height]),
-        }
+        SensorFacts::default()
+            .with_footprint(footprint)
+            .with_opaque(self.opaque)
+            .with_reference_scene(
+                self.lights
+                    .first()
+                    .cloned()
+                    .unwrap_or(default.reference_scene),
+            )
+            .with_frame_size(self.frame.map(|frame| [frame.width, frame.height]))
     }
 
     /// The presses of one part of the protocol, in order.

@@ -14,7 +14,7 @@ use std::error::Error;
 use std::io::Write as _;
 
 use taceva_metrics::Better;
-use taceva_report::{Printed, Study, Table, catalogue};
+use taceva_report::{FormattedValue, Study, Table, catalogue};
 
 const METRICS: [&str; 3] = ["mae", "r2", "smape"];
 const CHANNELS: [&str; 4] = ["Pxy", "Pz", "Fxy", "Fz"];
@@ -174,7 +174,7 @@ fn mean(values: &[f64]) -> f64 {
 }
 
 fn short(value: f64, width: f64) -> String {
-    Printed::number(value, Some([value - width / 2.0, value + width / 2.0])).value
+    FormattedValue::number(value, Some([value - width / 2.0, value + width / 2.0])).value
 }
 
 /// Kendall's rank correlation of found numbers with published ones; `None` of fewer than two sensors.

@@ -122,10 +122,7 @@ impl LimitsFile {
             );
         }
         if file.limits.is_empty() {
-            return refuse(
-                0,
-                "no [[limit]]: what keeps to nothing is not accepted by it".to_owned(),
-            );
+            return refuse(0, "no [[limit]]: expected at least one".to_owned());
         }
         for (at, limit) in file.limits.iter().enumerate() {
             if Unit::from_symbol(&limit.unit).is_none() {
@@ -192,7 +189,7 @@ fn hold(study: &Study, limit: &Limit) -> Finding {
     let Some(number) = value.number() else {
         finding.reason = value
             .reason()
-            .or_else(|| Some("not one number but many".to_owned()));
+            .or_else(|| Some("not a single number".to_owned()));
         return finding;
     };
     finding.value = Some(number);
@@ -214,7 +211,7 @@ fn broken(limit: &Limit, unit: Unit, value: f64, ends: Option<[f64; 2]>) -> Opti
     let [low, high] = match (limit.whole_interval, ends) {
         (false, _) => [value; 2],
         (true, Some(ends)) => ends,
-        (true, None) => return Some("there is no interval to hold to the limit".to_owned()),
+        (true, None) => return Some("there is no interval to compare with the limit".to_owned()),
     };
     let what = if limit.whole_interval {
         "interval reaches"
@@ -251,7 +248,7 @@ mod tests {
     }
 
     #[test]
-    fn what_cannot_be_told_is_not_kept() {
+    fn what_is_unknown_meets_no_limit() {
         let study = catalogue::find("GelSight").expect("there").as_study();
         for (lines, expected) in [
             (
@@ -264,7 +261,7 @@ mod tests {
             ),
             (
                 "metric=\"mae\"\nchannel=\"Fz\"\nunit=\"N\"\nmost=1\nwhole_interval=true",
-                "there is no interval to hold to the limit",
+                "there is no interval to compare with the limit",
             ),
         ] {
             let finding = &accept(&study, &limits(lines))[0];

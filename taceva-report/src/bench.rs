@@ -2,7 +2,7 @@
 
 use taceva_metrics::Better;
 
-use crate::number::{Printed, numeral};
+use crate::number::{FormattedValue, numeral};
 use crate::results::{DecodeBench, DecodeRow, ModelBench, ModelRow, ScaledError};
 use crate::table::{Column, Direction, Table};
 
@@ -74,7 +74,7 @@ impl ModelRow {
         cells.extend(times.map(time));
         let error = |channel: &&str| match self.error(channel) {
             None => "–".to_owned(),
-            Some(error) => Printed::number(error.mae, error.ci95).phrase(""),
+            Some(error) => FormattedValue::number(error.mae, error.ci95).phrase(""),
         };
         cells.extend(channels.iter().map(error));
         let front = self.front_of().filter(|front| !front.is_empty());
@@ -144,20 +144,20 @@ impl DecodeRow {
     fn cells(&self, channels: &[&str]) -> Vec<String> {
         let pixels = format!("{}×{}", self.width, self.height);
         let mut cells = vec![self.scale(), pixels, numeral(self.decode_s * 1e3)];
-        let printed = |value: Option<f64>, ends| {
+        let formatted = |value: Option<f64>, ends| {
             value.map_or_else(
                 || "–".to_owned(),
-                |value| Printed::number(value, ends).phrase(""),
+                |value| FormattedValue::number(value, ends).phrase(""),
             )
         };
         for channel in channels {
             let own = self.error(channel);
             let error = own.map(|own| &own.error);
-            cells.push(printed(
+            cells.push(formatted(
                 error.map(|error| error.mae),
                 error.and_then(|error| error.ci95),
             ));
-            cells.push(printed(
+            cells.push(formatted(
                 own.and_then(|own| own.change),
                 own.and_then(|own| own.change_ci95),
             ));

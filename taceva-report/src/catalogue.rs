@@ -4,11 +4,18 @@ mod alike;
 mod builtin;
 mod definition;
 mod entry;
+mod facts;
 mod list;
+mod published;
+mod read;
 mod site;
+mod study;
 
-pub use entry::{CatalogueError, Intrinsic, Kind, Limits, Published, Roughly, Sensor, Source};
+pub use entry::{Kind, Sensor};
+pub use facts::{Intrinsic, Limits};
 pub use list::{details, list};
+pub use published::{Missing, Published, Roughly, Source};
+pub use read::CatalogueError;
 pub use site::{SitePage, site};
 
 /// The sensors and studies that come with the program, by name.

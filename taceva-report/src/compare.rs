@@ -243,11 +243,8 @@ fn answer(pair: Pair<'_>, request: &CompareRequest) -> Answer {
     } = pair.scores.a;
     let margins = [format!("{metric}.{channel}"), metric.clone()];
     let margin = margins.iter().find_map(|name| request.margins.get(name));
-    let question = Question {
-        unit: pair.scores.a.unit,
-        better: pair.scores.a.better(),
-        margin: margin.copied(),
-    };
+    let question = Question::new(pair.scores.a.unit, pair.scores.a.better());
+    let question = question.with_margin(margin.copied());
     let (verdict, reason) = match &pair.difference {
         Ok(difference) => (Verdict::of(Ok(difference.clone()), question), None),
         Err(reason) => (

@@ -149,7 +149,7 @@ mod tests {
     }
 
     #[test]
-    fn a_terminal_is_told_nothing_by_a_name() {
+    fn no_name_controls_a_terminal() {
         assert_eq!(terminal("a\u{1b}[2J\u{202e}b"), "a\\u{1b}[2J\\u{202e}b");
     }
 

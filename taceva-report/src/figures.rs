@@ -19,7 +19,7 @@ mod spatial;
 mod thin;
 
 pub use models::{decode_bench, model_bench};
-pub use race::{Contender, Race, race};
+pub use race::{Race, RacePoint, race};
 
 use crate::figure::{Figure, short};
 use crate::results::Study;

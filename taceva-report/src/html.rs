@@ -83,7 +83,7 @@ pub fn report(report: &Report<'_>) -> String {
     );
     if let Some((count, section)) = published::section(studies) {
         let holds = fold::counted(count, "number");
-        let title = "Scores beside what was published of the same sensor";
+        let title = "Scores beside published ones of the same sensor";
         let section = fold("published-all", title, &holds, &section);
         document.section("published", "Published", &section);
     }
@@ -116,14 +116,14 @@ fn details(studies: &[Study], table: &ScoreTable) -> String {
         folded_glossary(named),
         fold(
             "left-out",
-            "Left out, and to be minded",
+            "Skipped scores and remarks",
             &fold::counted(count, "entry").replace("entrys", "entries"),
             &left_out,
         ),
         fold(
             "provenance",
-            "Where it comes from",
-            "digests, settings, seeds, and how intervals were found",
+            "Provenance",
+            "digests, settings, seeds, and methods of intervals",
             &provenance::section(studies, table),
         ),
     ]

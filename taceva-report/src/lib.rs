@@ -35,9 +35,9 @@ pub use escape::{
     markdown as escape_markdown, terminal as escape_terminal,
 };
 pub use figure::{DARK, Figure, LIGHT, SERIES, STYLE};
-pub use figures::{Contender, Race, decode_bench, figures, model_bench, names, race};
+pub use figures::{Race, RacePoint, decode_bench, figures, model_bench, names, race};
 pub use html::{Document, Pick, Picture, Report, Triple, picks, report};
-pub use number::{Printed, spaced, with_interval};
+pub use number::{FormattedValue, spaced, with_interval};
 pub use results::{
     BENCH_SCHEMA, BenchMachine, BenchRecording, ChannelError, DecodeBench, DecodeRow,
     EVALUATION_SCHEMA, Interval, Made, ModelBench, ModelRow, OverSeeds, RUN_SCHEMA, ResultsError,

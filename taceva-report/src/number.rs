@@ -15,7 +15,7 @@ const BEYOND: usize = 3;
 
 /// A value and the ends of its interval, to the digit that the interval supports.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Printed {
+pub struct FormattedValue {
     /// The value; empty if there is none.
     pub value: String,
     /// Both ends of the interval, if there is one.
@@ -24,22 +24,22 @@ pub struct Printed {
     pub reason: Option<String>,
 }
 
-impl Printed {
+impl FormattedValue {
     /// Prints `value` to a twentieth of the width of `interval`; without one to four digits.
-    pub fn of(value: &Value, interval: Option<&Interval>) -> Printed {
+    pub fn of(value: &Value, interval: Option<&Interval>) -> FormattedValue {
         let Some(number) = value.number() else {
-            return Printed {
+            return FormattedValue {
                 reason: value.reason().or_else(|| Some(what(value).to_owned())),
-                ..Printed::default()
+                ..FormattedValue::default()
             };
         };
         let reason = match interval {
             Some(Interval::Absent(reason)) => Some(format!("none: {reason}")),
             _ => None,
         };
-        Printed {
+        FormattedValue {
             reason,
-            ..Printed::number(number, interval.and_then(Interval::ends))
+            ..FormattedValue::number(number, interval.and_then(Interval::ends))
         }
     }
 
@@ -49,11 +49,11 @@ impl Printed {
     /// the interval has up to three more decimals then, and what they do not show has a power of ten.
     ///
     /// ```
-    /// use taceva_report::Printed;
-    /// assert_eq!(Printed::number(-0.001, Some([-0.2, 0.2])).phrase(" N"), "0.00 N (-0.20 … 0.20)");
-    /// assert_eq!(Printed::number(1.4e-17, None).phrase(" s"), "0 s");
+    /// use taceva_report::FormattedValue;
+    /// assert_eq!(FormattedValue::number(-0.001, Some([-0.2, 0.2])).phrase(" N"), "0.00 N (-0.20 … 0.20)");
+    /// assert_eq!(FormattedValue::number(1.4e-17, None).phrase(" s"), "0 s");
     /// ```
-    pub fn number(number: f64, ends: Option<[f64; 2]>) -> Printed {
+    pub fn number(number: f64, ends: Option<[f64; 2]>) -> FormattedValue {
         let all = ends.into_iter().flatten().chain([number]);
         let greatest = all.map(f64::abs).fold(0.0, f64::max);
         // A width that is rounding error is none.
@@ -78,7 +78,7 @@ impl Printed {
             text if end.abs() >= ROUNDING && is_zero(&text) => format!("{end:.0e}"),
             text => text,
         };
-        Printed {
+        FormattedValue {
             value: print(number, decimals),
             interval: ends.map(|ends| ends.map(print_end)),
             reason: None,
@@ -97,7 +97,7 @@ impl Printed {
 
 /// A score as one phrase: `0.55 mm (0.34 … 0.76)`, or why there is none.
 pub fn with_interval(score: &Score) -> String {
-    Printed::of(&score.value, score.interval.as_ref()).phrase(&spaced(score.unit))
+    FormattedValue::of(&score.value, score.interval.as_ref()).phrase(&spaced(score.unit))
 }
 
 /// ` N`, or nothing for a ratio.
@@ -195,7 +195,7 @@ mod tests {
     use super::*;
 
     fn phrase(number: f64, ends: Option<[f64; 2]>) -> String {
-        Printed::number(number, ends).phrase("")
+        FormattedValue::number(number, ends).phrase("")
     }
 
     #[test]
@@ -264,9 +264,9 @@ mod tests {
 
     #[test]
     fn numerals_have_three_digits_and_no_idle_zeros() {
-        let printed = [0.0, 12.0, 0.5, -0.012_34, 1234.4, 0.000_01, -250_000.0].map(numeral);
+        let formatted = [0.0, 12.0, 0.5, -0.012_34, 1234.4, 0.000_01, -250_000.0].map(numeral);
         assert_eq!(
-            printed,
+            formatted,
             ["0", "12", "0.5", "−0.0123", "1234", "1.00e-5", "−2.50e5"]
         );
         assert_eq!(significant(3e-20), "3.00e-20");

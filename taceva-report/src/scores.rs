@@ -8,7 +8,7 @@ use taceva_core::Unit;
 use taceva_metrics::{Standing, catalogue};
 
 use crate::compare::{Answer, CompareRequest, compare};
-use crate::number::{Printed, fixed};
+use crate::number::{FormattedValue, fixed};
 use crate::results::{Interval, Score, Study, Value};
 
 /// The scores of studies side by side.
@@ -43,7 +43,7 @@ pub struct ScoreCell {
     /// The number itself, if there is one.
     pub value: Option<f64>,
     /// As it is printed.
-    pub printed: Printed,
+    pub formatted: FormattedValue,
     /// Both ends of its interval.
     pub ends: Option<[f64; 2]>,
     /// How the interval was found.
@@ -173,7 +173,7 @@ impl Line<'_> {
         }
         row.cells[at] = Some(ScoreCell {
             value: self.value.number(),
-            printed: Printed::of(self.value, self.interval),
+            formatted: FormattedValue::of(self.value, self.interval),
             ends: self.interval.and_then(Interval::ends),
             method: self.interval.and_then(Interval::method).map(str::to_owned),
             n: self.score.n,

@@ -26,7 +26,7 @@ pub(crate) struct Tie {
 }
 
 /// One of those that may be tied.
-struct Told<'a> {
+struct Rival<'a> {
     at: usize,
     study: &'a Study,
     name: &'a str,
@@ -34,7 +34,7 @@ struct Told<'a> {
     value: f64,
 }
 
-/// The ties of `studies` in telling gratings, a line each: `sr line: tie: GelSight and TacTip both tell the gratings down to 0.25 mm to within
+/// The ties of `studies` in telling gratings, a line each: `sr line: tie: GelSight and TacTip both predict the spacing of gratings down to 0.25 mm to within
 /// 0.05 mm`.
 pub fn ties(studies: &[Study]) -> Vec<String> {
     let names = crate::figures::names(studies);
@@ -69,11 +69,11 @@ pub(crate) fn best(
 
 /// Who is tied, bit by bit, where the best of those that take part are several; nothing of one winner and of values that only describe.
 pub(crate) fn tie(studies: &[Study], names: &[String], metric: &str, channel: &str) -> Option<Tie> {
-    let told = studies.iter().zip(names).enumerate();
-    let told = told.filter_map(|(at, (study, name))| {
+    let named = studies.iter().zip(names).enumerate();
+    let rivals = named.filter_map(|(at, (study, name))| {
         let score = study.score(metric, channel)?;
         let takes_part = score.standing.takes_part() && !light::is_low(score);
-        Some(Told {
+        Some(Rival {
             at,
             study,
             name,
@@ -81,12 +81,12 @@ pub(crate) fn tie(studies: &[Study], names: &[String], metric: &str, channel: &s
             value: score.value.number().filter(|_| takes_part)?,
         })
     });
-    let told: Vec<Told<'_>> = told.collect();
-    let unit = told.first()?.score.unit;
-    let same = || told.iter().filter(|one| one.score.unit == unit);
-    let better = told.first()?.score.better();
+    let rivals: Vec<Rival<'_>> = rivals.collect();
+    let unit = rivals.first()?.score.unit;
+    let same = || rivals.iter().filter(|one| one.score.unit == unit);
+    let better = rivals.first()?.score.better();
     let (_, best) = best(same().map(|one| (one.at, one.value)), better)?;
-    let tied: Vec<&Told<'_>> = same()
+    let tied: Vec<&Rival<'_>> = same()
         .filter(|one| one.value.total_cmp(&best).is_eq())
         .collect();
     if tied.len() < 2 {
@@ -107,7 +107,7 @@ pub(crate) fn tie(studies: &[Study], names: &[String], metric: &str, channel: &s
 }
 
 /// How fine those tell that are tied at a share of `best`.
-fn gratings(tied: &[&Told<'_>], best: f64, channel: &str) -> String {
+fn gratings(tied: &[&Rival<'_>], best: f64, channel: &str) -> String {
     let who: Vec<String> = tied.iter().map(|one| one.name.to_owned()).collect();
     let who = match who.len() {
         2 => format!("{} both", listed(&who)),
@@ -132,12 +132,12 @@ fn gratings(tied: &[&Told<'_>], best: f64, channel: &str) -> String {
     });
     let said = match finest.as_deref() {
         Some([mm, ..]) => format!(
-            "tell the gratings down to {} mm to within {} mm",
+            "predict the spacing of gratings down to {} mm to within {} mm",
             numeral(*mm),
             numeral(tolerance)
         ),
         _ => format!(
-            "tell {} of the gratings to within {} mm",
+            "predict the spacing of {} of the gratings to within {} mm",
             percent(best),
             numeral(tolerance)
         ),
@@ -153,7 +153,7 @@ fn gratings(tied: &[&Told<'_>], best: f64, channel: &str) -> String {
             .all(|pair| pair[0].1.total_cmp(&pair[1].1).is_eq());
         let words: Vec<String> = all.into_iter().map(|(words, _)| words).collect();
         match is_same {
-            true => ", and no finer tolerance tells them apart".to_owned(),
+            true => ", and no finer tolerance separates them".to_owned(),
             false => format!("; without any error {}", listed(&words)),
         }
     });
@@ -181,15 +181,15 @@ fn finest(samples: &Samples, kind: &str, tolerance_mm: f64) -> Option<f64> {
         if of != kind {
             continue;
         }
-        let told = samples.number("spacing_predicted_mm", row);
-        let is_told = told.is_some_and(|told| {
-            (nanometres(told) - nanometres(truth)).abs() <= nanometres(tolerance_mm)
+        let predicted = samples.number("spacing_predicted_mm", row);
+        let is_right = predicted.is_some_and(|predicted| {
+            (nanometres(predicted) - nanometres(truth)).abs() <= nanometres(tolerance_mm)
         });
         // Spacings are positive, so their bits are in their order.
-        *boards.entry(truth.max(0.0).to_bits()).or_insert(true) &= is_told;
+        *boards.entry(truth.max(0.0).to_bits()).or_insert(true) &= is_right;
     }
-    let told = boards.iter().rev().take_while(|(_, is_told)| **is_told);
-    told.last().map(|(spacing, _)| f64::from_bits(*spacing))
+    let right = boards.iter().rev().take_while(|(_, is_right)| **is_right);
+    right.last().map(|(spacing, _)| f64::from_bits(*spacing))
 }
 
 /// `98.6 %`
@@ -216,23 +216,23 @@ mod tests {
     }
 
     #[test]
-    fn a_tie_says_how_fine_both_tell_and_a_winner_is_no_tie() {
+    fn a_tie_says_how_fine_both_resolve_and_a_winner_is_no_tie() {
         let fine = "1,line,0.5,0.5\n2,line,0.3,0.35\n3,line,0.2,0.4\n4,dot,0.1,0.1\n";
         let both = [study("a", [0.75, 0.5], fine), study("b", [0.75, 0.5], fine)];
-        let expected = "sr line: tie: a and b both tell the gratings down to 0.3 mm to within 0.05 mm, and no finer tolerance tells them apart";
+        let expected = "sr line: tie: a and b both predict the spacing of gratings down to 0.3 mm to within 0.05 mm, and no finer tolerance separates them";
         assert_eq!(ties(&both), [expected]);
         let other = [study("a", [1.0, 0.5], ""), study("b", [0.9, 0.5], "")];
         assert!(ties(&other).is_empty());
     }
 
     #[test]
-    fn whoever_tells_all_tells_the_finest_that_was_pressed() {
+    fn a_sensor_that_resolves_every_board_resolves_the_finest() {
         let pressed = "1,line,0.5,\n2,line,0.25,\n3,dot,0.1,\n";
         let all = [
             study("a", [1.0, 0.5], pressed),
             study("b", [1.0, 0.25], pressed),
         ];
-        let expected = "sr line: tie: a and b both tell the gratings down to 0.25 mm to within 0.05 mm; without any error a 50 % and b 25 %";
+        let expected = "sr line: tie: a and b both predict the spacing of gratings down to 0.25 mm to within 0.05 mm; without any error a 50 % and b 25 %";
         assert_eq!(ties(&all), [expected]);
     }
 
@@ -242,7 +242,7 @@ mod tests {
         let mut all = [of(0.5), of(0.75), study("worse", [0.2, 0.2], "")];
         "a".clone_into(&mut all[0].sensor);
         "b".clone_into(&mut all[1].sensor);
-        let expected = "sr line: tie: a and b both tell 90 % of the gratings to within 0.05 mm; without any error a 50 % and b 75 %";
+        let expected = "sr line: tie: a and b both predict the spacing of 90 % of the gratings to within 0.05 mm; without any error a 50 % and b 75 %";
         assert_eq!(ties(&all), [expected]);
     }
 

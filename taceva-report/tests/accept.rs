@@ -140,7 +140,7 @@ fn what_has_no_number_or_no_interval_keeps_to_nothing() {
     let whole = "most = 9.0\nwhole_interval = true";
     assert_eq!(
         reason("mae", "Fx", "N", whole),
-        "there is no interval to hold to the limit"
+        "there is no interval to compare with the limit"
     );
     assert!(held("mae", "Fx", "N", "most = 9.0").is_kept);
     assert_eq!(
@@ -149,7 +149,7 @@ fn what_has_no_number_or_no_interval_keeps_to_nothing() {
     );
     assert_eq!(
         reason("sensitivity.curve", "Fz", "1", "most = 9.0"),
-        "not one number but many"
+        "not a single number"
     );
     assert_eq!(
         reason("mae", "Pz", "mm", "most = 9.0"),

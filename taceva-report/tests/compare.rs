@@ -74,7 +74,7 @@ fn a_winner_of_two_names_the_other_one() {
             "Fine, 0.25 N, better than Coarse (p < 0.001)"
         );
         assert_eq!(
-            comparison.tally(),
+            comparison.summary(),
             "1 pairs of scores: 1 differ, 0 are not shown to, 0 have no answer (5 %, by Holm over each metric)"
         );
         let overview = comparison.overview(None);
@@ -88,7 +88,7 @@ fn what_is_not_shown_to_differ_is_counted_as_such_and_has_no_winner() {
     let comparison = of_metric(&errors(&[("one", 0.5), ("two", 0.501)]), "mae");
     assert!(
         comparison
-            .tally()
+            .summary()
             .starts_with("1 pairs of scores: 0 differ, 1 are not shown to, 0 have no answer")
     );
     let decision = &comparison.decisions()[0];

@@ -365,7 +365,7 @@ fn methods_say_that_only_scores_with_skill_are_compared_and_which_marks_there_ar
     assert!(
         unmarked.contains("Scores formed from predictions are compared where the model has skill")
     );
-    assert!(unmarked.contains("no score here is marked otherwise"));
+    assert!(unmarked.contains("no score here lacks it"));
     studies[0].scores[0].standing = taceva_metrics::Standing::NoSkill;
     let marked = page(&studies);
     assert!(marked.contains("are marked “no skill” (the model is not shown to do better than a constant) and take part in no comparison"));

@@ -1,6 +1,6 @@
 //! The classifier of the spacings of gratings, configured from a scene.
 
-use taceva_models::{FeatureSpec, NetworkEstimator, SpacingOutput};
+use taceva_models::{ChosenModel, FeatureSpec, Models, NetworkEstimator, Settings, SpacingOutput};
 use taceva_protocol::{GratingClassifier, Gratings};
 
 use crate::error::StudyError;
@@ -11,8 +11,17 @@ use crate::scene::settings_of;
 pub(crate) enum SpacingClassifier {
     /// Linear discriminants of the radial spectrum.
     Spectrum,
+    /// A model of the radial spectrum that predicts one of its training labels.
+    Model(Box<ModelClassifier>),
     /// A network.
     Network(Box<NetworkClassifier>),
+}
+
+/// A model of the radial spectrum, not fitted yet.
+#[derive(Debug)]
+pub(crate) struct ModelClassifier {
+    pub(crate) model: ChosenModel,
+    pub(crate) settings: Settings,
 }
 
 /// A network that classifies spacings of gratings, not fitted yet.
@@ -28,13 +37,21 @@ impl SpacingClassifier {
     /// The classifier that `spec` asks for.
     ///
     /// # Errors
-    /// [`StudyError`] for a setting that it does not take.
-    pub(crate) fn of(spec: &Gratings) -> Result<SpacingClassifier, StudyError> {
+    /// [`StudyError`] for a setting that it does not take, or a model that is not among `models`.
+    pub(crate) fn of(spec: &Gratings, models: &Models) -> Result<SpacingClassifier, StudyError> {
         let settings = settings_of(&spec.set.value)?;
         let output = match spec.classified_by.value {
             GratingClassifier::Spectrum => {
                 settings.check_keys(&[])?;
                 return Ok(SpacingClassifier::Spectrum);
+            }
+            GratingClassifier::LinfaLogistic => {
+                let model = models.find("linfa/logistic")?;
+                model.estimator(&settings)?;
+                return Ok(SpacingClassifier::Model(Box::new(ModelClassifier {
+                    model,
+                    settings,
+                })));
             }
             GratingClassifier::Cnn => SpacingOutput::Classes,
             GratingClassifier::CnnLength => SpacingOutput::Length,
@@ -56,6 +73,10 @@ impl SpacingClassifier {
             SpacingClassifier::Spectrum => {
                 "sr: spacings are predicted from the radial spectrum of what a picture shows beyond the mean picture, by linear \
                  discriminants, lines and dots apart, fitted on the other two thirds of the presses of every board"
+            }
+            SpacingClassifier::Model(_) => {
+                "sr: spacings are predicted from the radial spectrum of what a picture shows beyond the mean picture, by multinomial \
+                 logistic regression of linfa, lines and dots apart, fitted on the other two thirds of the presses of every board"
             }
             SpacingClassifier::Network(_) => {
                 "sr: spacings are predicted by a convolutional network, lines and dots apart, fitted on the other two thirds of the \

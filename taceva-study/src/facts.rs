@@ -19,18 +19,15 @@ pub(crate) fn of_dataset(
         .as_ref()
         .map(|footprint| footprint.to_core());
     let footprint = footprint.transpose().map_err(StudyError::Request)?;
-    let stated = SensorFacts {
-        footprint,
-        opaque: match header.sensor.opaque {
-            Known::Is(opaque) => Some(opaque),
-            Known::Unknown => None,
-        },
-        frame_size: header
-            .frames
-            .as_ref()
-            .map(|frames| [frames.info.width, frames.info.height]),
-        ..SensorFacts::default()
+    let opaque = match header.sensor.opaque {
+        Known::Is(opaque) => Some(opaque),
+        Known::Unknown => None,
     };
+    let frames = header.frames.as_ref();
+    let stated = SensorFacts::default()
+        .with_footprint(footprint)
+        .with_opaque(opaque)
+        .with_frame_size(frames.map(|frames| [frames.info.width, frames.info.height]));
     Ok(match file {
         Some(file) => of_file(file, stated),
         None => stated,
@@ -39,13 +36,10 @@ pub(crate) fn of_dataset(
 
 /// The facts of `file`, and those of `otherwise` where it has none.
 pub(crate) fn of_file(file: &SensorFile, otherwise: SensorFacts) -> SensorFacts {
-    SensorFacts {
-        footprint: file.footprint.or(otherwise.footprint),
-        opaque: file.opaque.or(otherwise.opaque),
-        reference_scene: file
-            .reference_scene
-            .clone()
-            .unwrap_or(otherwise.reference_scene),
-        frame_size: file.frame_size.or(otherwise.frame_size),
-    }
+    let reference_scene = file.reference_scene.clone();
+    SensorFacts::default()
+        .with_footprint(file.footprint.or(otherwise.footprint))
+        .with_opaque(file.opaque.or(otherwise.opaque))
+        .with_reference_scene(reference_scene.unwrap_or(otherwise.reference_scene))
+        .with_frame_size(file.frame_size.or(otherwise.frame_size))
 }

@@ -144,16 +144,16 @@ impl PlannedScene {
                     })?;
             }
         }
-        self.classifier().map(drop)
+        self.classifier(models).map(drop)
     }
 
     /// The classifier of the spacings of gratings.
     ///
     /// # Errors
-    /// [`StudyError::Scene`] with the line of settings that it does not take.
-    pub(crate) fn classifier(&self) -> Result<SpacingClassifier, StudyError> {
+    /// [`StudyError::Scene`] with the line of settings that it does not take, or of a model that is not there.
+    pub(crate) fn classifier(&self, models: &Models) -> Result<SpacingClassifier, StudyError> {
         let gratings = &self.scene.protocol.gratings;
-        SpacingClassifier::of(gratings).map_err(|error| {
+        SpacingClassifier::of(gratings, models).map_err(|error| {
             let problem = SceneProblem::Contradiction(error.to_string());
             self.text.error(gratings.set.at(), problem)
         })

@@ -43,7 +43,7 @@ pub(crate) fn assess(
         .as_ref()
         .map(|learnt| learnt.predict(study, dataset, &phase_rows, context))
         .transpose()?;
-    let classifier = scene.classifier()?;
+    let classifier = scene.classifier(context.models)?;
     let spacings = phase_rows
         .reads_spacings()
         .then(|| {

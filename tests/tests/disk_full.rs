@@ -14,7 +14,7 @@ fn import(lab: &Lab, target: &Path) -> Vec<PathBuf> {
     let mut words: Vec<PathBuf> = vec![taceva()];
     words.extend(["import", "--quiet", "--jobs", "1"].map(PathBuf::from));
     words.extend([lab.path().to_owned(), "--map".into(), lab.map()]);
-    words.extend(["--to".into(), target.to_owned()]);
+    words.extend(["--out".into(), target.to_owned()]);
     words
 }
 
@@ -170,7 +170,8 @@ fn an_import_to_a_full_disk_says_so_and_leaves_nothing() {
         }
         assert_eq!(*code, REFUSED, "{kib} KiB: {complaint}");
         // Either told before the work began, or met by a write.
-        let is_told = ["No space left", "nothing was begun"].map(|words| complaint.contains(words));
+        let is_told =
+            ["No space left", "nothing was started"].map(|words| complaint.contains(words));
         assert!(is_told.contains(&true), "{complaint}");
         assert_eq!(tried.left, "", "{kib} KiB: {complaint}");
         assert_eq!(*second, 0, "{kib} KiB: {again}");

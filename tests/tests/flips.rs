@@ -97,7 +97,7 @@ fn prepare(folder: &Path) {
     ok(
         folder,
         &format!(
-            "import {} --map {} --to data",
+            "import {} --map {} --out data",
             lab.path().display(),
             lab.map().display()
         ),

@@ -26,7 +26,7 @@ impl Bench {
                 "--map".as_ref(),
                 lab.map().as_os_str(),
             ])
-            .args(["--to".as_ref(), bench.path("set").as_os_str()])
+            .args(["--out".as_ref(), bench.path("set").as_os_str()])
             .output();
         assert!(imported.expect("the program was built").status.success());
         bench

@@ -38,7 +38,7 @@ fn import(lab: &Lab, target: &Path) -> Command {
         .arg(lab.path())
         .arg("--map")
         .arg(lab.map())
-        .arg("--to")
+        .arg("--out")
         .arg(target);
     command
 }

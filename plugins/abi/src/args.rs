@@ -3,6 +3,14 @@
 use crate::text::Text;
 
 /// `taceva_arg`: one argument.
+///
+/// The value is there as text and, where it is a number, as one: a driver reads whichever it needs.
+///
+/// ```
+/// use taceva_abi::{Arg, Text};
+/// let seed = Arg { key: Text::from("seed"), text: Text::from("7"), whole: 7, number: 0.0, kind: Arg::WHOLE, reserved: 0 };
+/// assert_eq!(seed.whole, 7);
+/// ```
 #[derive(Clone, Copy, Debug)]
 #[repr(C)]
 pub struct Arg {
@@ -32,6 +40,15 @@ impl Arg {
 }
 
 /// `taceva_args`: all arguments.
+///
+/// ```
+/// use taceva_abi::{Arg, Args, Text};
+/// let items = [Arg { key: Text::from("fast"), text: Text::from("true"), whole: 1, number: 0.0, kind: Arg::FLAG, reserved: 0 }];
+/// let args = Args { items: items.as_ptr(), count: items.len() };
+/// // SAFETY: `items` lives and has that many.
+/// let read = unsafe { std::slice::from_raw_parts(args.items, args.count) };
+/// assert_eq!(read[0].kind, Arg::FLAG);
+/// ```
 #[derive(Clone, Copy, Debug)]
 #[repr(C)]
 pub struct Args {

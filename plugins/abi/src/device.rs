@@ -8,17 +8,33 @@ use crate::error::Error;
 use crate::status::Status;
 use crate::text::{TakeText, Text};
 
-/// `taceva_stamp`: when something was true, and when it was heard of.
+/// `taceva_stamp`: when something was true, and when it was received.
+///
+/// Frozen: it is part of other structs.
+///
+/// ```
+/// use taceva_abi::Stamp;
+/// let measured = Stamp { valid_ns: 20_000_000, ..Stamp::default() };
+/// assert_eq!(measured.received_ns, 0);
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[repr(C)]
 pub struct Stamp {
     /// When it was true, ns.
     pub valid_ns: u64,
-    /// When it was heard of, ns; 0: not known.
+    /// When it was received, ns; 0: not known.
     pub received_ns: u64,
 }
 
 /// `taceva_rig`: the devices that are opened together, opaque.
+///
+/// Only the plugin knows what it points to; a host keeps the pointer that `open_rig` wrote and hands it back.
+///
+/// ```
+/// use taceva_abi::Rig;
+/// let rig: *mut Rig = std::ptr::null_mut(); // a device that is opened alone has none
+/// assert!(rig.is_null());
+/// ```
 #[repr(C)]
 pub struct Rig {
     opaque: [u8; 0],
@@ -26,6 +42,14 @@ pub struct Rig {
 }
 
 /// `taceva_device_calls`: the calls that every device has. Frozen: it never grows.
+///
+/// ```
+/// use std::ffi::c_void;
+/// use taceva_abi::{DeviceCalls, ForceCalls};
+/// unsafe extern "C" fn close(_: *mut c_void) {}
+/// let calls = DeviceCalls { size: size_of::<ForceCalls>() as u32, reserved: 0, close: Some(close), interrupt: None, extension: None };
+/// assert!(calls.interrupt.is_none(), "its calls never wait");
+/// ```
 #[derive(Clone, Copy, Debug)]
 #[repr(C)]
 pub struct DeviceCalls {
@@ -42,6 +66,14 @@ pub struct DeviceCalls {
 }
 
 /// `taceva_device`: an open device, filled in by `open`.
+///
+/// Frozen: the caller has room for exactly this.
+///
+/// ```
+/// use taceva_abi::Device;
+/// let place = Device { handle: std::ptr::null_mut(), calls: std::ptr::null() }; // what a host hands to `open`
+/// assert!(place.calls.is_null());
+/// ```
 #[derive(Clone, Copy, Debug)]
 #[repr(C)]
 pub struct Device {
@@ -52,6 +84,14 @@ pub struct Device {
 }
 
 /// `taceva_factory`: the drivers of one kind, numbered from 0.
+///
+/// A struct with a size in front grows at its end: a side reads no further than the other's `size` says.
+///
+/// ```
+/// use taceva_abi::Factory;
+/// let none = Factory { size: size_of::<Factory>() as u32, drivers: 0, describe: None, discover: None, open: None };
+/// assert_eq!(none.drivers, 0);
+/// ```
 #[derive(Clone, Copy, Debug)]
 #[repr(C)]
 pub struct Factory {

@@ -7,6 +7,19 @@ use core::mem::size_of;
 pub const MESSAGE_SIZE: usize = 504;
 
 /// `taceva_error`.
+///
+/// A struct with a size in front grows at its end: a side reads no further than the other's `size` says.
+///
+/// ```
+/// use taceva_abi::{Error, Status};
+/// fn open(error: &mut Error) -> Status {
+///     error.write("no camera is plugged in");
+///     Status::NOT_FOUND
+/// }
+/// let mut error = Error::new();
+/// assert_eq!(open(&mut error), Status::NOT_FOUND);
+/// assert_eq!(error.bytes().collect::<Vec<_>>(), b"no camera is plugged in");
+/// ```
 #[derive(Clone, Copy, Debug)]
 #[repr(C)]
 pub struct Error {

@@ -8,6 +8,27 @@ use crate::status::Status;
 use crate::text::{TakeText, Text};
 
 /// `taceva_training_set`: samples to learn from; every number is finite.
+///
+/// A struct with a size in front grows at its end: a side reads no further than the other's `size` says.
+///
+/// ```
+/// use taceva_abi::{Text, TrainingSet};
+/// let (features, targets, names) = ([0.0_f32, 1.0, 2.0, 3.0], [0.1_f64, 0.2], [Text::from("Fz")]);
+/// let set = TrainingSet {
+///     size: size_of::<TrainingSet>() as u32,
+///     channels: 1,
+///     samples: 2,
+///     height: 1,
+///     width: 2,
+///     depth: 1,
+///     reserved: 0,
+///     features: features.as_ptr(),
+///     targets: targets.as_ptr(),
+///     groups: std::ptr::null(),
+///     channel_names: names.as_ptr(),
+/// };
+/// assert_eq!(set.samples * u64::from(set.width), features.len() as u64);
+/// ```
 #[derive(Clone, Copy, Debug)]
 #[repr(C)]
 pub struct TrainingSet {
@@ -35,10 +56,29 @@ pub struct TrainingSet {
     pub channel_names: *const Text,
 }
 
-/// `taceva_progress`: told how far a fit is, from 0 to 1; a return that is not 0 asks it to end.
+/// `taceva_progress`: called with how far a fit is, from 0 to 1; a return that is not 0 asks it to end.
+///
+/// ```
+/// use std::ffi::c_void;
+/// use taceva_abi::Progress;
+/// unsafe extern "C" fn until_half(_: *mut c_void, done: f64) -> i32 {
+///     i32::from(done > 0.5)
+/// }
+/// let progress: Progress = Some(until_half);
+/// // SAFETY: the function takes any context.
+/// assert_eq!(unsafe { progress.expect("set")(std::ptr::null_mut(), 0.7) }, 1);
+/// ```
 pub type Progress = Option<unsafe extern "C" fn(context: *mut c_void, done: f64) -> i32>;
 
 /// `taceva_regressor_calls`.
+///
+/// A struct with a size in front grows at its end: a side reads no further than the other's `size` says.
+///
+/// ```
+/// use taceva_abi::RegressorCalls;
+/// let calls = RegressorCalls { size: size_of::<RegressorCalls>() as u32, reserved: 0, close: None, predict: None, save: None };
+/// assert!(calls.save.is_none(), "a host refuses a model that cannot be kept");
+/// ```
 #[derive(Clone, Copy, Debug)]
 #[repr(C)]
 pub struct RegressorCalls {
@@ -67,6 +107,14 @@ pub struct RegressorCalls {
 }
 
 /// `taceva_regressor`: a fitted model, filled in by `fit` or `load`.
+///
+/// Frozen: the caller has room for exactly this.
+///
+/// ```
+/// use taceva_abi::Regressor;
+/// let place = Regressor { handle: std::ptr::null_mut(), calls: std::ptr::null() }; // what a host hands to `fit`
+/// assert!(place.handle.is_null());
+/// ```
 #[derive(Clone, Copy, Debug)]
 #[repr(C)]
 pub struct Regressor {
@@ -77,6 +125,14 @@ pub struct Regressor {
 }
 
 /// `taceva_estimator_factory`.
+///
+/// A struct with a size in front grows at its end: a side reads no further than the other's `size` says.
+///
+/// ```
+/// use taceva_abi::EstimatorFactory;
+/// let none = EstimatorFactory { size: size_of::<EstimatorFactory>() as u32, estimators: 0, describe: None, fit: None, load: None };
+/// assert_eq!(none.estimators, 0);
+/// ```
 #[derive(Clone, Copy, Debug)]
 #[repr(C)]
 pub struct EstimatorFactory {

@@ -7,6 +7,14 @@ use crate::error::Error;
 use crate::status::Status;
 
 /// `taceva_wrench`: what presses on the gel.
+///
+/// Frozen: the caller has room for exactly this.
+///
+/// ```
+/// use taceva_abi::Wrench;
+/// let pressed = Wrench { force_n: [0.0, 0.0, 1.5], ..Wrench::default() };
+/// assert_eq!(pressed.torque_nm, [0.0; 3]);
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[repr(C)]
 pub struct Wrench {
@@ -17,6 +25,15 @@ pub struct Wrench {
 }
 
 /// `taceva_force_calls`.
+///
+/// A struct with a size in front grows at its end: a side reads no further than the other's `size` says.
+///
+/// ```
+/// use taceva_abi::{DeviceCalls, ForceCalls};
+/// let device = DeviceCalls { size: size_of::<ForceCalls>() as u32, reserved: 0, close: None, interrupt: None, extension: None };
+/// let calls = ForceCalls { device, start: None, read: None, stop: None };
+/// assert!(calls.start.is_none(), "it reads without being started");
+/// ```
 #[derive(Clone, Copy, Debug)]
 #[repr(C)]
 pub struct ForceCalls {

@@ -29,6 +29,28 @@ pub const LIGHTING_FACTORY: &str = "taceva.lighting/1";
 pub const ESTIMATOR_FACTORY: &str = "taceva.estimator/1";
 
 /// `taceva_plugin`: what a plugin exports, as data.
+///
+/// A struct with a size in front grows at its end: a side reads no further than the other's `size` says.
+///
+/// ```
+/// use taceva_abi::{ABI_MAJOR, ABI_MINOR, MAGIC, Plugin, Text};
+/// // A library exports it as the static `taceva_plugin_v1`.
+/// static PLUGIN: Plugin = Plugin {
+///     magic: MAGIC,
+///     size: size_of::<Plugin>() as u32,
+///     abi_major: ABI_MAJOR,
+///     abi_minor: ABI_MINOR,
+///     id: Text::from("org.example.eye"),
+///     version: Text::from("1.0.0"),
+///     init: None,
+///     deinit: None,
+///     factory: None,
+///     open_rig: None,
+///     close_rig: None,
+///     rig_extension: None,
+/// };
+/// assert_eq!(PLUGIN.magic, MAGIC);
+/// ```
 #[derive(Clone, Copy, Debug)]
 #[repr(C)]
 pub struct Plugin {

@@ -7,6 +7,14 @@ use crate::error::Error;
 use crate::status::Status;
 
 /// `taceva_pose`: the tip in the sensor's frame, m and a unit quaternion.
+///
+/// Frozen: it is part of other structs.
+///
+/// ```
+/// use taceva_abi::Pose;
+/// let above = Pose { x: 0.0, y: 0.0, z: -0.005, qw: 1.0, qx: 0.0, qy: 0.0, qz: 0.0 }; // 5 mm above the gel, not turned
+/// assert!(above.z < 0.0);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C)]
 pub struct Pose {
@@ -27,6 +35,15 @@ pub struct Pose {
 }
 
 /// `taceva_motion`.
+///
+/// A struct with a size in front grows at its end: a side reads no further than the other's `size` says.
+///
+/// ```
+/// use taceva_abi::{Motion, Pose};
+/// let target = Pose { x: 0.0, y: 0.0, z: 0.001, qw: 1.0, qx: 0.0, qy: 0.0, qz: 0.0 };
+/// let press = Motion { size: size_of::<Motion>() as u32, reserved: 0, target, speed_m_per_s: 0.002 };
+/// assert_eq!(press.target.z, 0.001);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C)]
 pub struct Motion {
@@ -41,6 +58,15 @@ pub struct Motion {
 }
 
 /// `taceva_robot_calls`.
+///
+/// A struct with a size in front grows at its end: a side reads no further than the other's `size` says.
+///
+/// ```
+/// use taceva_abi::{DeviceCalls, RobotCalls};
+/// let device = DeviceCalls { size: size_of::<RobotCalls>() as u32, reserved: 0, close: None, interrupt: None, extension: None };
+/// let calls = RobotCalls { device, pose: None, move_to: None, wait: None, halt: None, clear_halt: None };
+/// assert!(calls.halt.is_none(), "a host refuses a robot that cannot be halted");
+/// ```
 #[derive(Clone, Copy, Debug)]
 #[repr(C)]
 pub struct RobotCalls {

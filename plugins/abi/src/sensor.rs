@@ -7,6 +7,13 @@ use crate::error::Error;
 use crate::status::Status;
 
 /// How one pixel is stored.
+///
+/// A number rather than an enum, so that a later interface can add one and an older host refuses it.
+///
+/// ```
+/// use taceva_abi::PixelFormat;
+/// assert_eq!(PixelFormat::RGB8, PixelFormat(3));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[repr(transparent)]
 pub struct PixelFormat(pub u32);
@@ -26,6 +33,30 @@ impl PixelFormat {
 pub const FRAME_DROPPED: u32 = 1;
 
 /// `taceva_frame`: a picture, row by row from the top, without padding.
+///
+/// A struct with a size in front grows at its end: a side reads no further than the other's `size` says.
+///
+/// ```
+/// use taceva_abi::{Frame, PixelFormat, Stamp};
+/// let mut pixels = [0_u8; 64 * 48];
+/// let frame = Frame {
+///     size: size_of::<Frame>() as u32,
+///     format: PixelFormat(0), // the plugin fills in what it gives
+///     width: 0,
+///     height: 0,
+///     flags: 0,
+///     reserved: 0,
+///     sequence: 0,
+///     stamp: Stamp::default(),
+///     buffer: pixels.as_mut_ptr(),
+///     buffer_length: pixels.len() as u64,
+///     data: std::ptr::null(),
+///     length: 0,
+///     release: None,
+///     private_data: std::ptr::null_mut(),
+/// };
+/// assert_eq!(frame.buffer_length, 3_072);
+/// ```
 #[derive(Clone, Copy, Debug)]
 #[repr(C)]
 pub struct Frame {
@@ -60,6 +91,15 @@ pub struct Frame {
 }
 
 /// `taceva_sensor_calls`.
+///
+/// A struct with a size in front grows at its end: a side reads no further than the other's `size` says.
+///
+/// ```
+/// use taceva_abi::{DeviceCalls, SensorCalls};
+/// let device = DeviceCalls { size: size_of::<SensorCalls>() as u32, reserved: 0, close: None, interrupt: None, extension: None };
+/// let calls = SensorCalls { device, max_lent: 0, reserved: 0, start: None, capture: None, stop: None };
+/// assert_eq!(calls.max_lent, 0, "it never lends its frames");
+/// ```
 #[derive(Clone, Copy, Debug)]
 #[repr(C)]
 pub struct SensorCalls {

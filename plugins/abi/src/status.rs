@@ -1,6 +1,14 @@
 //! How a call ended.
 
 /// `taceva_status`: 0, or one of the closed list of failures, negative.
+///
+/// A number rather than an enum: a plugin may return any, and one that is not listed is an error of the interface.
+///
+/// ```
+/// use taceva_abi::Status;
+/// assert!(Status::OK.is_ok());
+/// assert_eq!(Status::TIMEOUT, Status(-4));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[repr(transparent)]
 pub struct Status(pub i32);

@@ -9,6 +9,15 @@ use core::ffi::{c_char, c_void};
 use core::str::Utf8Error;
 
 /// `taceva_text`: UTF-8 with a length, borrowed for the call.
+///
+/// Frozen: it is part of other structs.
+///
+/// ```
+/// use taceva_abi::Text;
+/// let text = Text::from("taceva.sensor/1");
+/// // SAFETY: it was made from a text that lives for ever.
+/// assert_eq!(unsafe { text.to_str() }, Ok("taceva.sensor/1"));
+/// ```
 #[derive(Clone, Copy, Debug)]
 #[repr(C)]
 pub struct Text {
@@ -50,4 +59,18 @@ impl Text {
 }
 
 /// `taceva_take_text`: takes what a function lists or writes.
+///
+/// ```
+/// use std::ffi::c_void;
+/// use taceva_abi::{TakeText, Text};
+/// unsafe extern "C" fn count(context: *mut c_void, _: Text) {
+///     // SAFETY: `context` is what was handed over beside this function.
+///     unsafe { *context.cast::<u32>() += 1 };
+/// }
+/// let take: TakeText = Some(count);
+/// let mut texts = 0_u32;
+/// // SAFETY: as the function wants it.
+/// unsafe { take.expect("set")((&raw mut texts).cast(), Text::from("one")) };
+/// assert_eq!(texts, 1);
+/// ```
 pub type TakeText = Option<unsafe extern "C" fn(context: *mut c_void, text: Text)>;

@@ -212,7 +212,7 @@ fn headers() -> Vec<String> {
     found
 }
 
-/// A compiler, and how it is told what to compile.
+/// A compiler, and its arguments.
 struct Compiler {
     program: String,
     need: Need,

@@ -13,9 +13,9 @@ mod probe;
 mod robot;
 mod run;
 mod sensor;
+mod streaming;
 mod subject;
 mod surroundings;
-mod waiting;
 
 use std::collections::BTreeMap;
 use std::os::fd::OwnedFd;

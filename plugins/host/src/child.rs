@@ -15,22 +15,32 @@
 //! The host believes nothing: every length and number that comes is checked ([`wire`]), every call has a time after which the child is
 //! ended ([`Patience`]), and a child that breaks a rule is ended at once.
 
+mod arguments;
 mod array;
+mod bench;
 mod error;
 mod fate;
+mod guarded;
 mod keeper;
+mod kind;
+mod life;
+mod link;
 mod log;
 mod main_hook;
 mod memory;
+mod model;
 mod patience;
+mod plain;
 mod plugin;
-mod proxy;
 mod quarantine;
+mod reply;
 mod sandbox;
 mod serve;
 mod session;
 mod socket;
+mod spec;
 mod start;
+mod watch;
 pub(crate) mod wire;
 
 pub use error::ChildError;
@@ -41,5 +51,6 @@ pub use plugin::main_if_child;
 pub use quarantine::{Quarantine, Quarantined};
 pub use sandbox::{Confinement, Isolation};
 pub use session::ChildSession;
-pub use start::{Child, ChildSpec};
+pub use spec::ChildSpec;
+pub use start::Child;
 pub use wire::read_any_message;

@@ -10,7 +10,7 @@ pub(crate) fn changes_facts(descriptor: &Descriptor, args: &Args) -> bool {
     arguments.any(|argument| argument.changes_facts && argument.is_set_by(args))
 }
 
-/// As [`difference`], of what the library says of a driver that is told `args`: those can change facts where they are declared to.
+/// As [`difference`], of what the library says of a driver with `args`: those can change facts where they are declared to.
 pub(crate) fn difference_with(
     manifest: &Descriptor,
     library: &Descriptor,

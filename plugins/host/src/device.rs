@@ -10,7 +10,7 @@ mod sensor;
 
 pub(crate) use self::bench::PluginBench;
 pub(crate) use self::force::PluginForce;
-pub(crate) use self::handle::{Opened, Owned, open};
+pub(crate) use self::handle::{Opened, Owned, PluginDevice, open};
 pub(crate) use self::lighting::PluginLighting;
 pub(crate) use self::rig::RigHandle;
 pub(crate) use self::robot::PluginRobot;

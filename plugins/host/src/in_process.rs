@@ -3,16 +3,17 @@
 use std::sync::Arc;
 
 use taceva_core::{
-    Access, Args, Descriptor, DriverError, DriverKey, DriverKind, ErrorKind, Facts,
-    ForceTransducer, Found, Lighting, ModelError, Robot, Sensor, SimulatedBench,
+    Access, Args, Descriptor, DriverError, DriverKey, ErrorKind, ForceTransducer, Found, Lighting,
+    ModelError, Robot, Sensor, SimulatedBench,
 };
 
 use crate::call::{ArgList, Failure};
 use crate::device::{
-    PluginBench, PluginForce, PluginLighting, PluginRobot, PluginSensor, RigHandle, open,
+    PluginBench, PluginDevice, PluginForce, PluginLighting, PluginRobot, PluginSensor, RigHandle,
+    open,
 };
 use crate::estimator;
-use crate::library::{Entry, Library, Place};
+use crate::library::{Library, Place};
 use crate::session::{FitRequest, Saved, SavedRegressor, Session};
 
 /// A session in this process: one rig of a loaded library.
@@ -39,26 +40,23 @@ impl InProcess {
         driver: &DriverKey,
         args: &Args,
     ) -> Result<PluginSensor, DriverError> {
-        let (entry, list, said) = self.prepare(driver, (DriverKind::Sensor, args))?;
-        let Facts::Sensor(facts) = said.facts() else {
-            return Err(other_kind(&said));
-        };
-        PluginSensor::new(open(&self.rig, entry, &list)?, facts)
+        self.open_device(driver, args)
     }
 
-    /// What every opening begins with: the entry, the arguments as they cross, and what the library says of them.
-    fn prepare(
+    /// Opens a device of the kind `D`, as the library describes it with these arguments.
+    fn open_device<D: PluginDevice>(
         &self,
         driver: &DriverKey,
-        (kind, args): (DriverKind, &Args),
-    ) -> Result<(&Entry, ArgList, Descriptor), DriverError> {
+        args: &Args,
+    ) -> Result<D, DriverError> {
         let library = self.rig.library();
-        let entry = library.entry(driver, Place::Driver(kind), OPENING)?;
+        let entry = library.entry(driver, Place::Driver(D::KIND), OPENING)?;
         let list = ArgList::new(args, entry.arguments());
         let said = entry
             .describe(library.id(), args)
             .map_err(|failure| failure.of(driver, OPENING))?;
-        Ok((entry, list, said))
+        let facts = D::facts(said.facts()).ok_or_else(|| other_kind(&said))?;
+        D::new(open(&self.rig, entry, &list)?, facts)
     }
 }
 
@@ -114,12 +112,7 @@ impl Session for InProcess {
     }
 
     fn robot(&self, driver: &DriverKey, args: &Args) -> Result<Box<dyn Robot>, DriverError> {
-        let (entry, list, said) = self.prepare(driver, (DriverKind::Robot, args))?;
-        let Facts::Robot(facts) = said.facts() else {
-            return Err(other_kind(&said));
-        };
-        let robot = PluginRobot::new(open(&self.rig, entry, &list)?, facts)?;
-        Ok(Box::new(robot))
+        Ok(Box::new(self.open_device::<PluginRobot>(driver, args)?))
     }
 
     fn force(
@@ -127,22 +120,11 @@ impl Session for InProcess {
         driver: &DriverKey,
         args: &Args,
     ) -> Result<Box<dyn ForceTransducer>, DriverError> {
-        let (entry, list, said) = self.prepare(driver, (DriverKind::Force, args))?;
-        let Facts::Force(facts) = said.facts() else {
-            return Err(other_kind(&said));
-        };
-        let force = PluginForce::new(open(&self.rig, entry, &list)?, facts)?;
-        Ok(Box::new(force))
+        Ok(Box::new(self.open_device::<PluginForce>(driver, args)?))
     }
 
     fn lighting(&self, driver: &DriverKey, args: &Args) -> Result<Box<dyn Lighting>, DriverError> {
-        let (entry, list, said) = self.prepare(driver, (DriverKind::Lighting, args))?;
-        let Facts::Lighting(facts) = said.facts() else {
-            return Err(other_kind(&said));
-        };
-        let opened = open(&self.rig, entry, &list)?;
-        let lighting = PluginLighting::new(opened, facts.scenes.clone())?;
-        Ok(Box::new(lighting))
+        Ok(Box::new(self.open_device::<PluginLighting>(driver, args)?))
     }
 
     fn bench(&self, name: &str) -> Option<Arc<dyn SimulatedBench>> {

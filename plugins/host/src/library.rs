@@ -186,7 +186,7 @@ impl std::fmt::Debug for Library {
 fn open(image: &Image) -> Result<*const abi::Plugin, LoadProblem> {
     let memory = image.try_clone().map_err(LoadProblem::File)?;
     let name = format!("/proc/self/fd/{}", memory.as_raw_fd());
-    let told = |error: libloading::Error| {
+    let message = |error: libloading::Error| {
         // The loader names the file by its number, which tells nobody anything.
         let words = std::error::Error::source(&error).map(ToString::to_string);
         let words = words.unwrap_or_else(|| error.to_string());
@@ -197,14 +197,14 @@ fn open(image: &Image) -> Result<*const abi::Plugin, LoadProblem> {
     let loaded = unsafe { Loaded::open(Some(&name), RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE) };
     let loaded = match loaded {
         Ok(loaded) => loaded,
-        Err(error) => return Err(refused(&File::from(memory), told(error))),
+        Err(error) => return Err(refused(&File::from(memory), message(error))),
     };
     // The loader knows the library by the name of this descriptor, which therefore is never used for another.
     let _ = memory.into_raw_fd();
     let name_of_symbol = abi::ENTRY_SYMBOL.to_bytes_with_nul();
     // SAFETY: only the address is taken; what lies there is looked at before it is believed.
     let symbol = unsafe { loaded.get::<*const abi::Plugin>(name_of_symbol) };
-    let symbol = symbol.map_err(|error| LoadProblem::Symbol(told(error)))?;
+    let symbol = symbol.map_err(|error| LoadProblem::Symbol(message(error)))?;
     let address = *symbol;
     // Never unloaded, whatever becomes of this handle.
     std::mem::forget(loaded);

@@ -13,7 +13,7 @@ const EVERY: Duration = Duration::from_millis(50);
 /// What a line is about that says how many others there were.
 const TARGET: &str = "log";
 
-/// A log that is told of 100 lines at once and of 20 a second from then on; of the others it is told how many they were.
+/// A log that gets 100 lines at once and 20 a second from then on; of the others it gets the count.
 pub(crate) struct Limited {
     log: Log,
     state: Mutex<State>,
@@ -83,8 +83,8 @@ mod tests {
 
     #[test]
     fn a_flood_is_cut_and_counted_and_what_comes_after_it_passes() {
-        let told = Arc::new(Mutex::new(Vec::new()));
-        let lines = Arc::clone(&told);
+        let logged = Arc::new(Mutex::new(Vec::new()));
+        let lines = Arc::clone(&logged);
         let limited = Limited::new(Box::new(move |_, _, message| {
             lines.lock().expect("whole").push(message.to_owned());
         }));
@@ -93,13 +93,13 @@ mod tests {
         for number in 0..1_000 {
             tell(Duration::ZERO, &format!("line {number}"));
         }
-        assert_eq!(told.lock().expect("whole").len(), 100);
+        assert_eq!(logged.lock().expect("whole").len(), 100);
         tell(EVERY, "later");
         tell(EVERY, "too many again");
         limited.lose(41);
         drop(limited);
-        let told = told.lock().expect("whole");
-        let last: Vec<&str> = told[99..].iter().map(String::as_str).collect();
+        let logged = logged.lock().expect("whole");
+        let last: Vec<&str> = logged[99..].iter().map(String::as_str).collect();
         let expected = [
             "line 99",
             "lines left out: 900",

@@ -2,9 +2,12 @@
 
 mod argument;
 mod error;
+mod facts;
 mod library;
 mod need;
 mod provides;
+mod usb_id;
+mod written;
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
@@ -17,8 +20,9 @@ pub use self::error::ManifestError;
 pub use self::library::{LibraryFile, Sha256Digest, platform};
 use self::library::{PLATFORMS, path_fault};
 pub use self::need::{Need, NeedError};
-use self::provides::WrittenProvides;
-pub use self::provides::{EstimatorInfo, Provided, UsbId};
+pub use self::provides::{EstimatorInfo, Provided};
+pub use self::usb_id::UsbId;
+use self::written::WrittenProvides;
 use crate::id::PluginId;
 use crate::shown::{shown, suggestion};
 

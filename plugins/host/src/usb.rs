@@ -1,7 +1,6 @@
 //! Devices on USB that a manifest names, seen without opening any and without running code of a plugin.
 
-use std::fs;
-use std::path::Path;
+use nusb::{DeviceInfo, MaybeFuture as _};
 
 use crate::manifest::UsbId;
 
@@ -13,54 +12,49 @@ pub(crate) struct UsbDevice {
     pub(crate) product: Option<String>,
 }
 
-/// What is plugged in, as the kernel lists it below `root`, `/sys/bus/usb/devices` on Linux; in the order of its names.
-pub(crate) fn plugged_in(root: &Path) -> Vec<UsbDevice> {
-    let Ok(entries) = fs::read_dir(root) else {
+/// What is plugged in, by bus and port; nothing on a system that lists no devices.
+pub(crate) fn plugged_in() -> Vec<UsbDevice> {
+    let Ok(listed) = nusb::list_devices().wait() else {
         return Vec::new();
     };
-    let mut folders: Vec<_> = entries.flatten().map(|entry| entry.path()).collect();
-    folders.sort();
-    let number = |folder: &Path, name: &str| {
-        let text = fs::read_to_string(folder.join(name)).ok()?;
-        u16::from_str_radix(text.trim(), 16).ok()
-    };
-    let devices = folders.iter().filter_map(|folder| {
-        let vendor = number(folder, "idVendor")?;
-        let product = number(folder, "idProduct")?;
-        let name = fs::read_to_string(folder.join("product")).ok();
-        Some(UsbDevice {
-            id: UsbId { vendor, product },
-            product: name.map(|name| crate::shown::shown(name.trim())),
-        })
-    });
-    devices.collect()
+    let mut devices: Vec<DeviceInfo> = listed.collect();
+    devices.sort_by(|first, second| place(first).cmp(&place(second)));
+    devices.iter().map(UsbDevice::of).collect()
 }
 
-#[cfg(test)]
+fn place(device: &DeviceInfo) -> (&str, &[u8]) {
+    (device.bus_id(), device.port_chain())
+}
+
+impl UsbDevice {
+    /// What the system has read of a device already; it is not opened.
+    fn of(device: &DeviceInfo) -> UsbDevice {
+        UsbDevice {
+            id: UsbId {
+                vendor: device.vendor_id(),
+                product: device.product_id(),
+            },
+            product: device
+                .product_string()
+                .map(|name| crate::shown::shown(name.trim())),
+        }
+    }
+}
+
+#[cfg(all(test, target_os = "linux"))]
 mod tests {
     use super::*;
+    use std::fs;
 
+    /// Devices, not hubs of the machine nor interfaces, have a port in their name: `1-2`, not `usb1` nor `1-2:1.0`.
     #[test]
-    fn devices_are_read_as_the_kernel_writes_them() {
-        let root = tempfile::tempdir().expect("a folder");
-        let device = root.path().join("1-2");
-        fs::create_dir(&device).expect("made");
-        fs::create_dir(root.path().join("1-0:1.0")).expect("made");
-        for (name, text) in [
-            ("idVendor", "2833\n"),
-            ("idProduct", "0209\n"),
-            ("product", "DIGIT\n"),
-        ] {
-            fs::write(device.join(name), text).expect("written");
-        }
-        let [found] = &plugged_in(root.path())[..] else {
-            panic!("one device");
-        };
-        let id = UsbId {
-            vendor: 0x2833,
-            product: 0x0209,
-        };
-        assert_eq!((found.id, found.product.as_deref()), (id, Some("DIGIT")));
-        assert!(plugged_in(Path::new("/nonexistent")).is_empty());
+    fn as_many_devices_are_listed_as_the_kernel_has() {
+        let listed = fs::read_dir("/sys/bus/usb/devices").into_iter().flatten();
+        let names = listed.flatten().map(|entry| entry.file_name());
+        let devices = names.filter(|name| {
+            let name = name.to_string_lossy();
+            name.contains('-') && !name.contains(':')
+        });
+        assert_eq!(plugged_in().len(), devices.count());
     }
 }

@@ -7,6 +7,23 @@ use crate::estimator::EstimatorFactory;
 /// A driver or an estimator that a plugin provides: how its factory is made.
 ///
 /// [`export_plugin!`](crate::export_plugin) makes these from the lines that it is given.
+///
+/// ```
+/// # use taceva_core::{Args, Axes, Deadline, Descriptor, DescriptorError, DescriptorSpec, DriverError, DriverKey, DriverSource, Factory};
+/// # use taceva_core::{Facts, ForceFacts, ForceTransducer, Rig, Stamp, Wrench};
+/// # struct Scale(Descriptor);
+/// # impl Factory<dyn ForceTransducer> for Scale {
+/// #     fn descriptor(&self) -> &Descriptor { &self.0 }
+/// #     fn open(&self, _: &Args, _: &mut Rig) -> Result<Box<dyn ForceTransducer>, DriverError> { unreachable!("nothing is opened") }
+/// # }
+/// fn make() -> Result<Box<dyn Factory<dyn ForceTransducer>>, DescriptorError> {
+///     let facts = Facts::Force(ForceFacts { axes: Axes::NORMAL, ..ForceFacts::default() });
+///     let key = DriverKey::fixed("org.example.scale/scale");
+///     Ok(Box::new(Scale(DescriptorSpec::new(key, "a scale", DriverSource::Real, facts).check()?)))
+/// }
+/// use taceva_plugin::{Driver, Provide};
+/// assert!(matches!(<dyn ForceTransducer>::provide(make), Driver::Force(_)));
+/// ```
 #[non_exhaustive]
 pub enum Driver {
     /// A sensor.
@@ -22,9 +39,43 @@ pub enum Driver {
 }
 
 /// Makes the factory of an estimator.
+///
+/// ```
+/// # use taceva_core::{DriverKey, ModelError, Saved, SavedRegressor};
+/// # use taceva_plugin::{EstimatorFactory, FitRequest};
+/// struct Mean(DriverKey);
+/// impl EstimatorFactory for Mean {
+///     fn key(&self) -> &DriverKey { &self.0 }
+///     fn title(&self) -> &str { "the mean of the labels" }
+/// #   fn fit(&self, _: &FitRequest<'_>) -> Result<Box<dyn SavedRegressor>, ModelError> { unreachable!("nothing is fitted") }
+/// #   fn load(&self, _: &Saved<'_>) -> Result<Box<dyn SavedRegressor>, ModelError> { unreachable!("nothing is loaded") }
+///     // `fit` and `load` besides.
+/// }
+/// use taceva_plugin::MakeEstimator;
+/// let make: MakeEstimator = || Box::new(Mean(DriverKey::fixed("org.example.mean/mean")));
+/// assert_eq!(make().title(), "the mean of the labels");
+/// ```
 pub type MakeEstimator = fn() -> Box<dyn EstimatorFactory>;
 
 /// A kind of thing that a plugin can provide, as [`export_plugin!`](crate::export_plugin) names it: `dyn Sensor` for one.
+///
+/// ```
+/// # use taceva_core::{Args, Axes, Deadline, Descriptor, DescriptorError, DescriptorSpec, DriverError, DriverKey, DriverSource, Factory};
+/// # use taceva_core::{Facts, ForceFacts, ForceTransducer, Rig, Stamp, Wrench};
+/// # struct Scale(Descriptor);
+/// # impl Factory<dyn ForceTransducer> for Scale {
+/// #     fn descriptor(&self) -> &Descriptor { &self.0 }
+/// #     fn open(&self, _: &Args, _: &mut Rig) -> Result<Box<dyn ForceTransducer>, DriverError> { unreachable!("nothing is opened") }
+/// # }
+/// fn make() -> Result<Box<dyn Factory<dyn ForceTransducer>>, DescriptorError> {
+///     let facts = Facts::Force(ForceFacts { axes: Axes::NORMAL, ..ForceFacts::default() });
+///     let key = DriverKey::fixed("org.example.scale/scale");
+///     Ok(Box::new(Scale(DescriptorSpec::new(key, "a scale", DriverSource::Real, facts).check()?)))
+/// }
+/// use taceva_plugin::{Driver, Provide};
+/// let drivers: Vec<Driver> = vec![<dyn ForceTransducer>::provide(make)];
+/// assert_eq!(drivers.len(), 1);
+/// ```
 pub trait Provide {
     /// What makes its factory.
     type Make;
@@ -34,6 +85,25 @@ pub trait Provide {
 }
 
 /// Makes the factory of a driver of devices.
+///
+/// ```
+/// # use taceva_core::{Args, Axes, Deadline, Descriptor, DescriptorError, DescriptorSpec, DriverError, DriverKey, DriverSource, Factory};
+/// # use taceva_core::{Facts, ForceFacts, ForceTransducer, Rig, Stamp, Wrench};
+/// # struct Scale(Descriptor);
+/// # impl Factory<dyn ForceTransducer> for Scale {
+/// #     fn descriptor(&self) -> &Descriptor { &self.0 }
+/// #     fn open(&self, _: &Args, _: &mut Rig) -> Result<Box<dyn ForceTransducer>, DriverError> { unreachable!("nothing is opened") }
+/// # }
+/// fn make() -> Result<Box<dyn Factory<dyn ForceTransducer>>, DescriptorError> {
+///     let facts = Facts::Force(ForceFacts { axes: Axes::NORMAL, ..ForceFacts::default() });
+///     let key = DriverKey::fixed("org.example.scale/scale");
+///     Ok(Box::new(Scale(DescriptorSpec::new(key, "a scale", DriverSource::Real, facts).check()?)))
+/// }
+/// use taceva_plugin::MakeFactory;
+/// let make: MakeFactory<dyn ForceTransducer> = make;
+/// assert_eq!(make()?.descriptor().title(), "a scale");
+/// # Ok::<(), DescriptorError>(())
+/// ```
 pub type MakeFactory<D> = fn() -> Result<Box<dyn Factory<D>>, DescriptorError>;
 
 impl Provide for dyn Sensor {

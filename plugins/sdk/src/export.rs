@@ -1,8 +1,22 @@
-//! The one line that makes a library a plugin.
+//! The macro that makes a library a plugin.
 
 use crate::driver::Driver;
 
 /// A crate that is a plugin; [`export_plugin!`](crate::export_plugin) implements it.
+///
+/// ```
+/// use taceva_plugin::{Driver, Export, plugin};
+/// struct Nothing;
+/// impl Export for Nothing {
+///     const ID: &'static str = "org.example.nothing";
+///     const VERSION: &'static str = "1.0.0";
+///     fn drivers() -> Vec<Driver> {
+///         Vec::new()
+///     }
+/// }
+/// let table = plugin::<Nothing>();
+/// assert_eq!(table.abi_major, taceva_plugin::abi::ABI_MAJOR);
+/// ```
 pub trait Export {
     /// Its id, reverse DNS, as in the manifest.
     const ID: &'static str;

@@ -1,4 +1,4 @@
-//! The one line through which every call of the host goes.
+//! The guard of every function that a host calls: no panic unwinds into the host, and every failure becomes a status.
 
 #![expect(unsafe_code, reason = "the caller's memory for the message is written")]
 
@@ -25,7 +25,7 @@ pub(crate) unsafe fn guard(
         Err(panicked) => panicked,
     };
     // SAFETY: promised by the caller.
-    unsafe { tell(error, &failure.message) };
+    unsafe { write_message(error, &failure.message) };
     failure.status
 }
 
@@ -54,7 +54,7 @@ fn words(payload: &(dyn Any + Send)) -> &str {
 }
 
 /// Leaves `message` in the caller's error, cut between two characters where it does not fit.
-unsafe fn tell(error: *mut Error, message: &str) {
+unsafe fn write_message(error: *mut Error, message: &str) {
     const HEAD: usize = offset_of!(Error, message);
     if error.is_null() || !error.is_aligned() {
         return;
@@ -81,7 +81,7 @@ unsafe fn tell(error: *mut Error, message: &str) {
 mod tests {
     use super::*;
 
-    fn told(error: &Error) -> String {
+    fn message(error: &Error) -> String {
         String::from_utf8(error.bytes().collect()).expect("UTF-8")
     }
 
@@ -102,7 +102,7 @@ mod tests {
                 })
             };
             assert_eq!(status, Status::PANICKED);
-            assert_eq!(told(&error), format!("the plugin panicked: {expected}"));
+            assert_eq!(message(&error), format!("the plugin panicked: {expected}"));
         }
     }
 

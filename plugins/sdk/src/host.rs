@@ -29,6 +29,10 @@ fn host() -> Option<&'static Host> {
 }
 
 /// Writes a line to the log of the host. Nobody listens where the driver is linked in.
+///
+/// ```
+/// taceva_plugin::log(taceva_plugin::Level::Warn, "the camera is warm");
+/// ```
 pub fn log(level: Level, message: &str) {
     let Some((host, log)) = host().and_then(|host| Some((host, host.log?))) else {
         return;
@@ -41,10 +45,15 @@ pub fn log(level: Level, message: &str) {
 /// The time of the host's monotonic clock, in which stamps of real devices count.
 ///
 /// Linked in, or before the plugin is initialised, it counts from the first time that it is asked.
+///
+/// ```
+/// let before = taceva_plugin::now();
+/// assert!(taceva_plugin::now() >= before);
+/// ```
 pub fn now() -> Duration {
     static FIRST: OnceLock<Instant> = OnceLock::new();
     match host().and_then(|host| Some((host, host.now_ns?))) {
-        // SAFETY: the host tells the time to any thread.
+        // SAFETY: the host gives the time to any thread.
         Some((host, now_ns)) => Duration::from_nanos(unsafe { now_ns(host.context) }),
         None => FIRST.get_or_init(Instant::now).elapsed(),
     }

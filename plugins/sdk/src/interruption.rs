@@ -34,6 +34,14 @@ struct Pending {
 }
 
 /// Somebody asked the call to end.
+///
+/// ```
+/// use taceva_core::{DriverError, DriverKey, ErrorKind};
+/// use taceva_plugin::Interrupted;
+/// let key = DriverKey::fixed("org.example.scale/scale");
+/// let error = DriverError::new(ErrorKind::Interrupted, &key, "read the force").because(Interrupted);
+/// assert!(error.to_string().contains("it was interrupted"));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Interrupted;
 
@@ -46,6 +54,17 @@ impl fmt::Display for Interrupted {
 impl std::error::Error for Interrupted {}
 
 /// A call that can be interrupted, from its beginning until this is dropped.
+///
+/// ```
+/// use std::time::Duration;
+/// use taceva_core::Interrupt;
+/// use taceva_plugin::{Interrupted, Interruption};
+/// let interruption = Interruption::default();
+/// let call = interruption.call();
+/// assert_eq!(call.rest(Duration::ZERO), Ok(()));
+/// interruption.interrupt();
+/// assert_eq!(call.rest(Duration::from_secs(60)), Err(Interrupted));
+/// ```
 #[derive(Debug)]
 pub struct InterruptibleCall<'a> {
     interruption: &'a Interruption,
@@ -109,7 +128,18 @@ impl Interrupt for Interruption {
 
 /// A halt that latches: what a robot without one of its own gives as its `halt_handle`.
 ///
-/// A motion that rests on it in steps ends within a step; a robot that moves by itself must be told to stop besides.
+/// A motion that rests on it in steps ends within a step; a robot that moves by itself must be stopped besides.
+///
+/// ```
+/// use std::{sync::Arc, time::Duration};
+/// use taceva_plugin::{HaltLatch, Interrupted};
+/// let latch = Arc::new(HaltLatch::default());
+/// latch.handle().halt()?; // from any thread
+/// assert_eq!(latch.rest(Duration::from_secs(60)), Err(Interrupted));
+/// latch.clear();
+/// assert_eq!(latch.rest(Duration::ZERO), Ok(()));
+/// # Ok::<(), taceva_core::DriverError>(())
+/// ```
 #[derive(Debug, Default)]
 pub struct HaltLatch {
     is_halted: Mutex<bool>,

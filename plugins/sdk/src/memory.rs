@@ -1,4 +1,4 @@
-//! The host's memory, checked before it is followed.
+//! Pointers of the host, checked before they are read or written.
 
 #![expect(unsafe_code, reason = "pointers of the host are followed")]
 

@@ -36,7 +36,7 @@ pub fn provides_table(descriptor: &Descriptor) -> String {
         Facts::Robot(facts) => table.robot(facts),
         Facts::Force(facts) => table.force(facts),
         Facts::Lighting(facts) => table.scenes(&facts.scenes),
-        // A kind that is newer than this writer is told by its name alone, which the host refuses in its own words.
+        // Of a kind that is newer than this writer only the name is written, which the host refuses.
         _ => {}
     }
     table.arguments(descriptor.arguments());
@@ -44,6 +44,21 @@ pub fn provides_table(descriptor: &Descriptor) -> String {
 }
 
 /// The same for an estimator.
+///
+/// ```
+/// # use taceva_core::{DriverKey, ModelError, Saved, SavedRegressor};
+/// # use taceva_plugin::{EstimatorFactory, FitRequest};
+/// struct Mean(DriverKey);
+/// impl EstimatorFactory for Mean {
+///     fn key(&self) -> &DriverKey { &self.0 }
+///     fn title(&self) -> &str { "the mean of the labels" }
+/// #   fn fit(&self, _: &FitRequest<'_>) -> Result<Box<dyn SavedRegressor>, ModelError> { unreachable!("nothing is fitted") }
+/// #   fn load(&self, _: &Saved<'_>) -> Result<Box<dyn SavedRegressor>, ModelError> { unreachable!("nothing is loaded") }
+///     // `fit` and `load` besides.
+/// }
+/// let table = taceva_plugin::estimator_table(&Mean(DriverKey::fixed("org.example.mean/mean")));
+/// assert_eq!(table, "kind = \"estimator\"\nkey = \"mean\"\ntitle = \"the mean of the labels\"\n");
+/// ```
 pub fn estimator_table(estimator: &dyn EstimatorFactory) -> String {
     let mut table = Table::new("estimator", estimator.key().as_str(), estimator.title());
     table.arguments(estimator.settings());

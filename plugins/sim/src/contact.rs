@@ -55,7 +55,7 @@ pub struct Contact {
     pub shear_force_n: f64,
     /// The force of the ball on the sensor: along x, along y, and into the gel along the sensor's axis.
     pub force_n: [f64; 3],
-    /// How far the robot travelled after it had found contact, as it was told or, where the press was limited, as far as it came.
+    /// How far the robot travelled after it had found contact, as commanded or, where the press was limited, as far as it came.
     pub travel_mm: f64,
     /// Whether the press stopped at the force limit before it reached its depth.
     pub limited: bool,

@@ -1,4 +1,4 @@
-//! `linfa/logistic`: multinomial logistic regression, which tells classes apart.
+//! `linfa/logistic`: multinomial logistic regression, a classifier.
 
 use linfa::Dataset;
 use linfa::traits::Fit;
@@ -18,7 +18,7 @@ use crate::predictor::{Classes, Planes};
 
 const NAME: &str = "linfa/logistic";
 
-/// Values of a channel that are told apart.
+/// Classes of a channel at most.
 const VALUES_MAX: usize = 256;
 
 const STRENGTH: Number = Number {
@@ -36,13 +36,13 @@ const STRENGTH: Number = Number {
 /// From the weakest to the strongest.
 const STRENGTHS: [f64; 5] = [1e-1, 1.0, 1e1, 1e2, 1e3];
 
-/// Multinomial logistic regression with a penalty on squared weights, each target alone: a channel is told as one of the values that it
+/// Multinomial logistic regression with a penalty on squared weights, each target alone: a channel is predicted as one of the values that it
 /// takes in the training part, for boards, kinds, spacings and levels.
 pub(super) static ADAPTER: Adapter = Adapter {
     model: LibraryModel {
         info: ModelInfo::of_library(
             NAME,
-            "linfa: logistic regression, which tells which of the values it was taught a channel has",
+            "linfa: logistic regression, which predicts one of the labels of the training part",
             &[
                 LibrarySettings::SCALE,
                 STRENGTH.info,
@@ -104,7 +104,7 @@ fn check(training: &TrainingSet<'_>) -> Result<(), ModelError> {
             return Err(ModelError::new(
                 ErrorKind::InvalidArgument,
                 format!(
-                    "`{channel}` takes {values} values in the training part, {NAME} tells at most {VALUES_MAX} apart: for what \
+                    "`{channel}` takes {values} values in the training part, {NAME} has at most {VALUES_MAX} classes: for what \
                      varies freely choose another model, such as linfa/elastic-net"
                 ),
             ));

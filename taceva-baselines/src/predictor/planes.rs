@@ -1,4 +1,4 @@
-//! A plane for each class of each target, of which the highest is told.
+//! A plane for each class of each target, of which the highest is predicted.
 
 use taceva_core::ModelError;
 use taceva_models::{LibraryPredictor, LibrarySizes, LibraryTensor, LibraryTensors};

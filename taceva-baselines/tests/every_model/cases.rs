@@ -14,7 +14,7 @@ pub(crate) const CASES: &[Case] = &[
         order: Some(1e-2),
         ..case("linfa/svr", &[], 0.6)
     },
-    // As many values as samples: the nearest picture is told.
+    // As many values as samples: the label of the nearest picture is predicted.
     case("linfa/logistic", &["strength=100"], 1.5),
     case("smartcore/ridge", &["strength=0.01"], 0.6),
     Case {

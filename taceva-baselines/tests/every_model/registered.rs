@@ -21,6 +21,18 @@ fn no_model_of_a_library_is_registered_without_being_held_to_this() {
 
 #[test]
 fn a_program_without_the_library_names_the_feature_that_it_lacks() {
+    for case in CASES {
+        let name = case.name;
+        let bytes = case.model(&recording(24, 1), None).to_bytes();
+        let said = Models::builtin().read(&bytes.expect("small"));
+        let (library, _) = name.split_once('/').expect("library/model");
+        assert_eq!(
+            said.expect_err("not built in").to_string(),
+            format!(
+                "fitted by `{name}`: this program was built without the feature `{library}`: build it with `--features {library}`"
+            )
+        );
+    }
     let model = case_of("linfa/pls").model(&recording(24, 1), None);
     assert_eq!(model.card().form, Some(Form::Library));
     let library = model.card().library.as_ref().expect("of a library");

@@ -1,4 +1,4 @@
-//! What is typed of what is kept for later runs.
+//! Arguments of `taceva cache`.
 
 use std::path::PathBuf;
 use std::time::Duration;
@@ -6,7 +6,8 @@ use std::time::Duration;
 use clap::{ArgGroup, Args, Subcommand, ValueEnum};
 use taceva_study::CachedStage;
 
-use super::Output;
+use super::renamed::FormerDryRun;
+use super::{ExplainArgs, Output};
 
 #[derive(Debug, Args)]
 pub(crate) struct CacheCommand {
@@ -17,55 +18,61 @@ pub(crate) struct CacheCommand {
 /// What to do with the cache.
 #[derive(Debug, Subcommand)]
 pub(crate) enum CacheSubject {
-    /// List what is kept: by kind, how much of it, how old, and which runs use it
+    /// List what is kept: kinds, sizes, ages, and the runs that use it
     List(CacheList),
-    /// Remove what is old or too much; runs that are under way are not harmed
+    /// Remove entries by age or total size; runs in progress are not affected
     Prune(CachePrune),
 }
 
-/// A run is told by its stages.json: the runs in the folder `runs` are looked at, and those of --run.
+/// Runs name the entries they use in their stages.json: those in the folder `runs` are read, and those of --run.
 #[derive(Debug, Args)]
 pub(crate) struct CacheList {
-    /// The cache [default: taceva in the user's cache folder]
-    #[arg(long, value_name = "DIR")]
-    pub(crate) cache: Option<PathBuf>,
-    /// A row for every entry, not only for every kind
+    #[command(flatten)]
+    pub(crate) cache: CacheFolder,
+    /// Print a row for every entry, not only for every kind
     #[arg(long)]
     pub(crate) entries: bool,
-    /// The folder of a run whose entries are to be named; may be repeated
+    /// The folder of another run; may be repeated
     #[arg(long = "run", value_name = "FOLDER")]
     pub(crate) runs: Vec<PathBuf>,
     #[command(flatten)]
     pub(crate) output: Output,
 }
 
-/// What is removed is made again when it is asked for.
+/// What is removed is computed again when it is needed.
 #[derive(Debug, Args)]
 #[command(group = ArgGroup::new("what").required(true).multiple(true).args(["older_than", "keep"]))]
 pub(crate) struct CachePrune {
-    /// The cache [default: taceva in the user's cache folder]
-    #[arg(long, value_name = "DIR")]
-    pub(crate) cache: Option<PathBuf>,
-    /// Remove what nobody has looked at for longer: 12h, 30d, 8w
+    #[command(flatten)]
+    pub(crate) cache: CacheFolder,
+    /// Remove entries that were unused for longer: 12h, 30d, 8w
     #[arg(long, value_name = "AGE", value_parser = age)]
     pub(crate) older_than: Option<Duration>,
-    /// Remove the longest unused until no more than this is left: 2GiB, 500MB, 0
+    /// Remove the longest unused entries until no more than this is left: 2GiB, 500MB, 0
     #[arg(long, value_name = "SIZE", value_parser = size)]
     pub(crate) keep: Option<u64>,
     /// Only these kinds, separated by commas [default: all]
     #[arg(long, value_enum, value_name = "KINDS", value_delimiter = ',')]
     pub(crate) kind: Vec<StageArg>,
-    /// Say what would go, and remove nothing
-    #[arg(long)]
-    pub(crate) dry_run: bool,
+    #[command(flatten)]
+    pub(crate) explain: ExplainArgs,
+    #[command(flatten)]
+    pub(crate) former: FormerDryRun,
 }
 
-/// A kind of what is kept.
+#[derive(Debug, Args)]
+pub(crate) struct CacheFolder {
+    /// The cache [default: taceva in the user's cache folder]
+    #[arg(id = "cache", long, value_name = "DIR")]
+    pub(crate) path: Option<PathBuf>,
+}
+
+/// A kind of entry.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum StageArg {
     /// Recordings of the simulated bench
     Acquire,
-    /// What models see of frames
+    /// Features of frames
     Features,
     /// Models
     Fit,

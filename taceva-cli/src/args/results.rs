@@ -1,40 +1,39 @@
-//! What is typed of results that are there already: compared, chosen from, held to limits; and of the catalogue.
+//! Arguments of the commands that read results and the catalogue.
 
 use std::path::PathBuf;
 
 use clap::{ArgGroup, Args, Subcommand};
 
-use super::Output;
+use super::renamed::{FormerFrom, FormerWith};
+use super::{Output, PageArgs, SeedArgs};
 
 /// Results are JSON files of `evaluate` and `score`, folders of runs (or their results.json), or names of the catalogue. Where two of them
-/// predict the same samples, mean absolute errors are compared sample by sample: the samples are looked for in `<name>.samples.csv` beside
-/// `<name>.json` (`--samples-out` writes it) and in `reports/` of a run. All else is compared by Welch's test, with Holm's adjustment.
+/// predict the same samples, mean absolute errors are compared sample by sample: the samples are read from `<name>.samples.csv` beside
+/// `<name>.json` (`--samples-out` writes it) and from `reports/` of a run. Other scores are compared by Welch's test, with Holm's adjustment.
 #[derive(Debug, Args)]
 pub(crate) struct Compare {
     /// The results to compare
     #[arg(required = true, value_name = "RESULT", num_args = 1..)]
     pub(crate) results: Vec<PathBuf>,
-    /// Metrics, separated by commas [default: all that are better on one side]
+    /// Metrics, separated by commas [default: all that have a direction]
     #[arg(long, value_name = "METRICS", value_delimiter = ',')]
     pub(crate) metrics: Vec<String>,
-    /// How far apart scores may be and still count as equal, such as mae.Fz=0.01; may be repeated
+    /// The largest difference of scores that still counts as equal, such as mae.Fz=0.01; may be repeated
     #[arg(long = "margin", value_name = "METRIC[.CHANNEL]=NUMBER")]
     pub(crate) margins: Vec<String>,
-    /// The seed of everything that is drawn
-    #[arg(long, value_name = "N", default_value_t = 0)]
-    pub(crate) seed: u64,
-    /// Print every pair with both p values and its interval, and not only what decides; the other formats always have them
+    #[command(flatten)]
+    pub(crate) seed: SeedArgs,
+    /// Print every pair with both p values and its interval, not only the decisions; the other formats always do
     #[arg(long)]
     pub(crate) all: bool,
-    /// Write a page to look at, to print and to send: one file that needs no network
-    #[arg(long, value_name = "FILE.html")]
-    pub(crate) html: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) page: PageArgs,
     #[command(flatten)]
     pub(crate) output: Output,
 }
 
 /// Needs are words (shear, no shear, normal force, depth, deep contact, soft contact, firm contact, planar, fast, ambient light, …) and
-/// numbers (rate >= 50 Hz, force <= 1 N, localisation 0.3 mm, …), separated by commas. Hard ones drop a sensor, soft ones rank.
+/// numbers (rate >= 50 Hz, force <= 1 N, localisation 0.3 mm, …), separated by commas. Hard needs exclude a sensor, soft ones rank.
 #[derive(Debug, Args)]
 #[command(group = ArgGroup::new("asked").required(true).args(["need", "needs"]))]
 pub(crate) struct Choose {
@@ -44,17 +43,18 @@ pub(crate) struct Choose {
     /// A file with `needs = ["…", …]`
     #[arg(long, value_name = "NEEDS.toml")]
     pub(crate) needs: Option<PathBuf>,
-    /// Choose among these results and not from the catalogue; may be repeated
-    #[arg(long, value_name = "RESULT.json")]
-    pub(crate) from: Vec<PathBuf>,
-    /// Write a page to look at, to print and to send: one file that needs no network
-    #[arg(long, value_name = "FILE.html")]
-    pub(crate) html: Option<PathBuf>,
+    /// Choose among these results instead of the catalogue; may be repeated
+    #[arg(long, value_name = "RESULT")]
+    pub(crate) results: Vec<PathBuf>,
+    #[command(flatten)]
+    pub(crate) former: FormerFrom,
+    #[command(flatten)]
+    pub(crate) page: PageArgs,
     #[command(flatten)]
     pub(crate) output: Output,
 }
 
-/// Limits as they are written in a file, one `[[limit]]` or more.
+/// An example of a file of limits.
 const LIMITS_HELP: &str = "\
 Limits:
   name = \"line 3\"
@@ -63,12 +63,12 @@ Limits:
   channel = \"Fz\"
   unit = \"N\"
   most = 0.05               # or least; or both
-  whole_interval = false    # true: the whole interval must keep to it, and not the value alone
+  whole_interval = false    # true: the whole interval must be within it, not only the value
 
-A file to begin with, with what was measured beside each limit:
+A file to start from, with the measured value beside each limit:
   taceva accept --template RESULT.json --out limits.toml";
 
-/// Exit code 1 if a limit is not kept. A score that is missing or undefined keeps to none.
+/// The exit code is 1 if a limit is not met. A score that is missing or undefined meets none.
 #[derive(Debug, Args)]
 #[command(after_help = LIMITS_HELP)]
 pub(crate) struct Accept {
@@ -78,10 +78,10 @@ pub(crate) struct Accept {
     /// The limits: `[[limit]]` with metric, channel, unit, and most or least
     #[arg(long, value_name = "LIMITS.toml", required_unless_present = "template")]
     pub(crate) limits: Option<PathBuf>,
-    /// Write limits that this result keeps, to begin with: a fifth worse than measured, or the worse end of the interval
+    /// Write limits that this result meets, to start from: a fifth worse than measured, or the worse end of the interval
     #[arg(long, value_name = "RESULT.json", conflicts_with_all = ["result", "limits", "html", "date", "format"])]
     pub(crate) template: Option<PathBuf>,
-    /// Write the data sheet: one page to look at, to print and to send
+    /// Write the data sheet: one HTML file that needs no network
     #[arg(long, value_name = "FILE.html")]
     pub(crate) html: Option<PathBuf>,
     /// The date of the data sheet [default: today, in UTC]
@@ -122,9 +122,11 @@ pub(crate) struct CatalogueSite {
     #[arg(long = "out", value_name = "FOLDER")]
     pub(crate) folder: PathBuf,
     /// Results of this program to show apart from published ones; may be repeated
-    #[arg(long, value_name = "RESULT.json")]
-    pub(crate) with: Vec<PathBuf>,
-    /// Replace pages that stand there already
+    #[arg(long, value_name = "RESULT")]
+    pub(crate) results: Vec<PathBuf>,
+    #[command(flatten)]
+    pub(crate) former: FormerWith,
+    /// Replace pages that exist already
     #[arg(long)]
     pub(crate) force: bool,
 }

@@ -1,50 +1,50 @@
-//! What is typed of scenes, and of lists of what there is.
+//! Arguments of the commands that plan and carry out scenes.
 
 use std::path::PathBuf;
 
-use clap::{Args, ValueEnum};
+use clap::Args;
 
-use super::{CacheArgs, Format};
+use super::{CacheArgs, Format, ListFormat, Output};
 
-/// A scene, and what may be said otherwise than it is written there.
+/// A scene, and what overrides it.
 #[derive(Debug, Args)]
 pub(crate) struct SceneArgs {
-    /// A file, or the name of a scene that is built in: quick, paper
+    /// A file, or the name of a built-in scene: quick, paper
     #[arg(value_name = "SCENE", default_value = "quick")]
     pub(crate) scene: String,
-    /// The seed of every draw, in the place of the scene's
+    /// The seed of all random numbers, instead of the scene's
     #[arg(long, value_name = "N")]
     pub(crate) seed: Option<u64>,
 }
 
-/// The folder then holds `report.html`, one file to look at, to print and to send; every figure as SVG and PDF in `figures/`; `results.json`
+/// The folder of the run holds `report.html`, one file that needs no network; every figure as SVG and PDF in `figures/`; `results.json`
 /// with every number; and the tables `scores.csv`, `scores.md` and `scores.tex`.
 #[derive(Debug, Args)]
 pub(crate) struct Run {
     #[command(flatten)]
     pub(crate) scene: SceneArgs,
-    /// The model of every sensor, in the place of the scene's and without its settings: ridge, cnn and so on, as `taceva fit` has them
+    /// The model of every sensor, instead of the scene's and its settings: ridge, cnn and others of `taceva fit`
     #[arg(long, value_name = "NAME")]
     pub(crate) model: Option<String>,
     /// A setting of the model or of its features, such as epochs=30 or size=32x32, beside those of the scene; may be repeated
     #[arg(long = "set", value_name = "KEY=VALUE")]
     pub(crate) set: Vec<String>,
-    /// Seeds that the model is fitted with, such as 1-5 or 1,2,7: how far scores go up and down with the luck of a training. Presses
-    /// and division stay; reports are those of the first, beside means and intervals over all of them
+    /// Seeds that the model is fitted with, such as 1-5 or 1,2,7, to estimate the spread of scores over trainings. Presses and split stay the
+    /// same; reports are those of the first seed, with means and intervals over all of them
     #[arg(long, value_name = "SEEDS", value_parser = Seeds::read)]
     pub(crate) seeds: Option<Seeds>,
     /// The folder of the run [default: runs/SCENE-NUMBER, a new one]
     #[arg(long = "out", value_name = "FOLDER")]
     pub(crate) folder: Option<PathBuf>,
-    /// Go on with the run in that folder, or with the last one
+    /// Continue the run in that folder, or the last one
     #[arg(long, conflicts_with = "force")]
     pub(crate) resume: bool,
-    /// Remove the run in that folder, or the last one, and begin anew
+    /// Remove the run in that folder, or the last one, and start again
     #[arg(long)]
     pub(crate) force: bool,
     #[command(flatten)]
     pub(crate) cache: CacheArgs,
-    /// The form of the reports on standard output
+    /// The format of the reports on standard output
     #[arg(long, value_enum, default_value_t = Format::Text)]
     pub(crate) format: Format,
 }
@@ -54,38 +54,15 @@ pub(crate) struct PlanArgs {
     #[command(flatten)]
     pub(crate) scene: SceneArgs,
     #[command(flatten)]
-    pub(crate) listing: Listing,
+    pub(crate) output: Output<ListFormat>,
 }
 
-/// A list, for people or for programs.
-#[derive(Debug, Args)]
-pub(crate) struct Listing {
-    /// The form of the list
-    #[arg(long, value_enum, default_value_t = ListFormat::Text)]
-    pub(crate) format: ListFormat,
-    /// Write the list to a file instead of standard output
-    #[arg(long = "out", value_name = "PATH")]
-    pub(crate) path: Option<PathBuf>,
-    /// Replace a file that stands there already
-    #[arg(long)]
-    pub(crate) force: bool,
-}
-
-/// The form of a list or a plan.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(crate) enum ListFormat {
-    /// For people
-    Text,
-    /// For programs; the key `schema` says which form it has
-    Json,
-}
-
-/// Seeds as they are typed.
+/// Seeds, as numbers and ranges.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Seeds(pub(crate) Vec<u64>);
 
 impl Seeds {
-    /// So many trainings are enough, and more are a slip of the finger.
+    /// The largest number of seeds; more are taken for a typing error.
     const MOST: usize = 100;
 
     fn read(text: &str) -> Result<Seeds, String> {

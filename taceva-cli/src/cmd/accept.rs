@@ -71,15 +71,15 @@ fn study_of(result: &Path) -> anyhow::Result<Study> {
     match (studies.pop(), studies.len()) {
         (Some(study), 0) => Ok(study),
         (found, others) => Err(Usage::error(format!(
-            "{}: {} sensors, expected the result of one; a run has one a sensor in its folder reports",
+            "{}: {} sensors, expected the result of one; the folder `reports` of a run has a result for each sensor",
             shown(&result),
             others + usize::from(found.is_some())
         ))),
     }
 }
 
-/// The pictures of the sensor, where `result` is a report of a run whose recording is there; what cannot be read is said, and no reason to
-/// stop: the limits are held to numbers.
+/// The pictures of the sensor, where `result` is a report of a run with its recording; a failure to read them is reported and does not stop the
+/// command, since limits apply to numbers.
 fn pictures(result: &Path, context: &Context) -> Option<Triple> {
     let recording = recording_of(result)?;
     let found = Dataset::open(&recording)

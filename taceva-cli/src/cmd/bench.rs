@@ -19,19 +19,19 @@ pub(crate) fn run(args: &Bench, context: &Context) -> anyhow::Result<u8> {
 }
 
 fn run_kernels(args: &BenchKernels, context: &Context) -> anyhow::Result<u8> {
-    for path in args.output.path.iter().chain(&args.svg) {
+    for path in args.output.path.iter().chain(&args.figure.svg) {
         output::check_free(path, args.output.force)?;
     }
     let request = KernelRequest {
         rows: args.rows,
         rounds: args.rounds,
-        seed: args.seed,
+        seed: args.seed.value,
     };
     let bench = kernels(&request, &context.progress)?;
     output::write_as(args.output.format, args.output.path.as_deref(), |out| {
         report::kernel_bench(&bench, args.output.format, out)
     })?;
-    if let Some(path) = &args.svg {
+    if let Some(path) = &args.figure.svg {
         output::write(Some(path), |out| report::kernel_chart(&bench, out))?;
     }
     Ok(exit::DONE)

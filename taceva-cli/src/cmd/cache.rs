@@ -1,4 +1,4 @@
-//! The cache that a command was asked to use, and what is to be said of it; `taceva cache`.
+//! The cache of a command; `taceva cache`.
 
 pub(crate) mod amount;
 mod list;
@@ -18,7 +18,7 @@ pub(crate) fn run(args: &CacheCommand, context: &Context) -> anyhow::Result<u8> 
     }
 }
 
-/// The folder that was named, or the user's.
+/// The named folder, or that of the user.
 fn folder_of(named: Option<PathBuf>) -> anyhow::Result<PathBuf> {
     named.or_else(of_user).ok_or_else(|| {
         Usage::error(
@@ -27,7 +27,7 @@ fn folder_of(named: Option<PathBuf>) -> anyhow::Result<PathBuf> {
     })
 }
 
-/// The cache that was asked for; `None` if none is wanted, or if the user has no folder for one.
+/// The cache to use; `None` with `--no-cache`, or if the user has no folder for one.
 pub(super) fn of(args: &CacheArgs) -> Option<Cache> {
     if args.no_cache {
         return None;
@@ -36,14 +36,14 @@ pub(super) fn of(args: &CacheArgs) -> Option<Cache> {
     Some(Cache::new(folder, bench::models()))
 }
 
-/// Says what went wrong with it.
+/// Reports problems of the cache.
 pub(super) fn note(cache: Option<&Cache>, context: &Context) {
     for note in cache.into_iter().flat_map(Cache::notes) {
         context.say(format_args!("{note}"));
     }
 }
 
-/// The folder `taceva` in the user's cache folder; a relative one is not to be followed.
+/// The folder `taceva` in the user's cache folder; relative paths are ignored, as the XDG specification demands.
 fn of_user() -> Option<PathBuf> {
     let folder = |variable| std::env::var_os(variable).map(PathBuf::from);
     let caches = folder("XDG_CACHE_HOME").filter(|path| path.is_absolute());

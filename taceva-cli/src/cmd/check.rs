@@ -17,7 +17,7 @@ pub(crate) fn run(args: &Check, context: &Context) -> anyhow::Result<u8> {
         seed: args.split.seed.value,
         jobs: context.jobs,
     };
-    if args.explain {
+    if args.explain.is_wanted {
         let plan = check_plan(&dataset, &request)?;
         output::write(None, |out| write!(out, "{plan}"))?;
         return Ok(exit::DONE);

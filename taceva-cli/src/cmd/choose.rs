@@ -11,8 +11,9 @@ use super::{Context, Usage, results};
 use crate::args::Choose;
 use crate::{exit, output};
 
-pub(crate) fn run(args: &Choose, _context: &Context) -> anyhow::Result<u8> {
-    for path in args.output.path.iter().chain(&args.html) {
+pub(crate) fn run(args: &Choose, context: &Context) -> anyhow::Result<u8> {
+    let named = context.either(("--from", &args.former.from), ("--results", &args.results));
+    for path in args.output.path.iter().chain(&args.page.path) {
         output::check_free(path, args.output.force)?;
     }
     let needs = match &args.needs {
@@ -26,16 +27,16 @@ pub(crate) fn run(args: &Choose, _context: &Context) -> anyhow::Result<u8> {
             Need::parse(&said).map_err(|error| Usage::error(error.to_string()))?
         }
     };
-    let sensors = match args.from.is_empty() {
+    let sensors = match named.is_empty() {
         true => catalogue::all(),
         false => {
-            let studies = results::read_all(&args.from)?;
+            let studies = results::read_all(named)?;
             studies.iter().map(Sensor::of_study).collect()
         }
     };
     let choice = choose(&sensors, &needs);
     results::write(&choice.table(), &args.output, || choice.json())?;
-    if let Some(path) = &args.html {
+    if let Some(path) = &args.page.path {
         let words: Vec<&str> = needs.iter().map(|need| need.words.as_str()).collect();
         let page = choice.page(&words.join(", "));
         output::write(Some(path), |out| out.write_all(page.as_bytes()))?;

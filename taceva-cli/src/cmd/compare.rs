@@ -10,15 +10,13 @@ use crate::args::{Compare, Format};
 use crate::{exit, output};
 
 pub(crate) fn run(args: &Compare, context: &Context) -> anyhow::Result<u8> {
-    for path in args.output.path.iter().chain(&args.html) {
+    for path in args.output.path.iter().chain(&args.page.path) {
         output::check_free(path, args.output.force)?;
     }
     results::check_distinct(&args.results)?;
     let results::Found { studies, missing } = results::find_all(&args.results)?;
     if studies.len() < 2 {
-        return Err(Usage::error(
-            "one result: there is nothing to compare it with",
-        ));
+        return Err(Usage::error("one result: expected at least two"));
     }
     for line in missing {
         context.say(format_args!("{line}"));
@@ -30,7 +28,7 @@ pub(crate) fn run(args: &Compare, context: &Context) -> anyhow::Result<u8> {
             .iter()
             .map(|word| margin(word))
             .collect::<anyhow::Result<BTreeMap<_, _>>>()?,
-        seed: args.seed,
+        seed: args.seed.value,
     };
     let comparison = compare(&studies, &request);
     // Only a terminal has no room for whole lines.
@@ -46,7 +44,7 @@ pub(crate) fn run(args: &Compare, context: &Context) -> anyhow::Result<u8> {
     } else {
         results::write(&comparison.table(), &args.output, || comparison.json())?;
     }
-    if let Some(path) = &args.html {
+    if let Some(path) = &args.page.path {
         let page = comparison.page(&studies);
         output::write(Some(path), |out| out.write_all(page.as_bytes()))?;
     }

@@ -3,10 +3,10 @@
 use taceva_drivers::devices;
 
 use super::Context;
-use crate::args::Listing;
+use crate::args::{ListFormat, Output};
 use crate::{exit, output, report};
 
-pub(crate) fn run(args: &Listing, context: &Context) -> anyhow::Result<u8> {
+pub(crate) fn run(args: &Output<ListFormat>, context: &Context) -> anyhow::Result<u8> {
     if let Some(path) = args.path.as_deref() {
         output::check_free(path, args.force)?;
     }

@@ -1,4 +1,4 @@
-//! What long work is going to take, said before it begins: time for its pictures, and room for what is kept of them.
+//! The cost of long work, printed before it begins: time to read its pictures, and disk space for their features.
 
 use std::path::Path;
 use std::time::{Duration, Instant};
@@ -14,12 +14,12 @@ use crate::room;
 /// Work that takes less time is not announced, nor are fewer bytes.
 const LONG: Duration = Duration::from_secs(5);
 const MUCH: u64 = 50_000_000;
-/// Pictures below which nobody waits for them, and how many are read to tell how long the others take.
+/// The number of pictures that are read without an estimate of the time, and how many are read for an estimate.
 const MANY: usize = 200;
 const TRIED: usize = 4;
 
-/// Says what `effort` on `dataset` is going to take, if that is much.
-pub(super) fn tell(effort: &Effort, dataset: &Dataset, cache: Option<&Cache>, context: &Context) {
+/// Prints the cost of `effort` on `dataset`, if it is large.
+pub(super) fn print(effort: &Effort, dataset: &Dataset, cache: Option<&Cache>, context: &Context) {
     let time = time_of(&effort.rows, dataset, context.jobs.get());
     let kept = cache.map_or(0, |_| effort.kept_bytes);
     let free = cache.and_then(|cache| room::free(cache.path()));
@@ -29,7 +29,7 @@ pub(super) fn tell(effort: &Effort, dataset: &Dataset, cache: Option<&Cache>, co
     }
 }
 
-/// How long the pictures of `rows` take, by a few of them; `None` where they are few, or one of them cannot be read, which the work will say.
+/// The time to read the pictures of `rows`, estimated from a few of them; `None` where they are few, or one cannot be read, which the work reports.
 fn time_of(rows: &[usize], dataset: &Dataset, jobs: usize) -> Option<Duration> {
     if rows.len() < MANY {
         return None;
@@ -46,7 +46,7 @@ fn time_of(rows: &[usize], dataset: &Dataset, jobs: usize) -> Option<Duration> {
     each.checked_mul(all)
 }
 
-/// What there is to say.
+/// The lines to print.
 fn lines(
     frames: usize,
     time: Option<Duration>,
@@ -55,7 +55,7 @@ fn lines(
 ) -> Vec<String> {
     let time = time.filter(|time| *time >= LONG).map(|time| {
         format!(
-            "time: about {} to read {frames} pictures, where no features of them are kept; then learning says how far it is",
+            "time: about {} to read {frames} pictures whose features are not in the cache; training then reports its own progress",
             spoken(time)
         )
     });
@@ -95,7 +95,7 @@ mod tests {
         assert_eq!(
             said,
             [
-                "time: about 3 min to read 20000 pictures, where no features of them are kept; then learning says how far it is",
+                "time: about 3 min to read 20000 pictures whose features are not in the cache; training then reports its own progress",
                 "disk: 80.0 MB of features to keep in /cache, 1.50 GB are free; --no-cache keeps none",
             ]
         );

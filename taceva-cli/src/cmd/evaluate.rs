@@ -8,9 +8,9 @@ use crate::args::Evaluate;
 use crate::{exit, output, report};
 
 pub(crate) fn run(args: &Evaluate, context: &Context) -> anyhow::Result<u8> {
-    let files = args.output.path.iter().chain(&args.split_out);
-    let files = files.chain(&args.html).chain(&args.samples_out);
-    for path in files.chain(&args.state_out) {
+    let scoring = &args.scoring;
+    super::check_free(scoring, &args.output)?;
+    if let Some(path) = &args.split_out.path {
         output::check_free(path, args.output.force)?;
     }
     let models = context.models()?;
@@ -41,37 +41,36 @@ pub(crate) fn run(args: &Evaluate, context: &Context) -> anyhow::Result<u8> {
     let dataset = open(&args.dataset)?;
     let request = EvaluateRequest {
         model,
-        metrics: args.metrics.clone(),
-        part: args.part.map(DataPart::from),
-        sensor: args.sensor.as_deref().map(SensorFile::read).transpose()?,
+        metrics: scoring.metrics.clone(),
+        part: args.part.name.map(DataPart::from),
+        sensor: scoring
+            .sensor
+            .as_deref()
+            .map(SensorFile::read)
+            .transpose()?,
     };
-    if args.explain {
+    if scoring.explain.is_wanted {
         let plan = evaluate_plan(&dataset, &request)?;
         output::write(None, |out| write!(out, "{plan}"))?;
         return Ok(exit::DONE);
     }
-    context.tell(|| evaluate_plan(&dataset, &request))?;
+    context.print_plan(|| evaluate_plan(&dataset, &request))?;
     let cache = cache::of(&args.cache);
     let planned = Effort::of_evaluation(&dataset, &request)?;
-    effort::tell(&planned, &dataset, cache.as_ref(), context);
+    effort::print(&planned, &dataset, cache.as_ref(), context);
     let mut evaluated = evaluate(&dataset, &request, context.work(cache.as_ref()))?;
-    if args.samples_out.is_some() {
-        super::note_samples(&mut evaluated.report)?;
+    if scoring.samples_out.is_some() {
+        super::attachments::note_samples(&mut evaluated.report)?;
     }
     cache::note(cache.as_ref(), context);
     output::write_as(args.output.format, args.output.path.as_deref(), |out| {
         report::evaluation(&evaluated.report, args.output.format, out)
     })?;
-    if let Some(path) = &args.state_out {
+    if let Some(path) = &scoring.state_out {
         output::write(Some(path), |out| evaluated.state.write(out))?;
     }
-    let beside = super::Beside {
-        html: args.html.as_deref(),
-        figures: args.figures.as_deref(),
-        samples: args.samples_out.as_deref(),
-    };
-    beside.write(&evaluated.report, context)?;
-    if let (Some(path), Some(manifest)) = (&args.split_out, &evaluated.manifest) {
+    super::Attachments::of(scoring).write(&evaluated.report, context)?;
+    if let (Some(path), Some(manifest)) = (&args.split_out.path, &evaluated.manifest) {
         output::write(Some(path), |out| {
             serde_json::to_writer_pretty(&mut *out, manifest)?;
             writeln!(out)

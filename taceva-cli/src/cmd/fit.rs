@@ -14,7 +14,7 @@ use crate::{exit, output};
 
 pub(crate) fn run(args: &Fit, context: &Context) -> anyhow::Result<u8> {
     output::check_free(&args.out, args.force)?;
-    for path in args.split_out.iter() {
+    if let Some(path) = &args.split_out.path {
         output::check_free(path, args.force)?;
     }
     let dataset = open(&args.dataset)?;
@@ -23,7 +23,7 @@ pub(crate) fn run(args: &Fit, context: &Context) -> anyhow::Result<u8> {
     let checkpoints = checkpoints(args);
     let cache = cache::of(&args.cache);
     let planned = Effort::of_fit(&dataset, &request)?;
-    effort::tell(&planned, &dataset, cache.as_ref(), context);
+    effort::print(&planned, &dataset, cache.as_ref(), context);
     let work = context.work(cache.as_ref());
     let fitted = fit(&dataset, &request, Some(checkpoints.clone()), work)?;
     cache::note(cache.as_ref(), context);
@@ -32,7 +32,7 @@ pub(crate) fn run(args: &Fit, context: &Context) -> anyhow::Result<u8> {
         let path = shown(&checkpoints.path);
         format!("the model is written; cannot remove {path}")
     })?;
-    if let Some(path) = &args.split_out {
+    if let Some(path) = &args.split_out.path {
         output::write(Some(path), |out| {
             serde_json::to_writer_pretty(&mut *out, &fitted.manifest)?;
             writeln!(out)
@@ -50,7 +50,7 @@ pub(crate) fn run(args: &Fit, context: &Context) -> anyhow::Result<u8> {
     Ok(exit::DONE)
 }
 
-/// Beside the model that is to be written.
+/// Checkpoints are written beside the model file.
 fn checkpoints(args: &Fit) -> Checkpoints {
     let mut path = args.out.clone().into_os_string();
     path.push(".checkpoint");
@@ -65,7 +65,7 @@ fn checkpoints(args: &Fit) -> Checkpoints {
     }
 }
 
-/// What was learnt from, what was chosen, and where the model is.
+/// The training samples, the chosen settings, and the model file.
 fn summary(fitted: &Fitted, args: &Fit, out: &mut dyn Write) -> io::Result<()> {
     let card = fitted.model.card();
     writeln!(out, "model    {} on {}", card.model, card.features)?;

@@ -9,14 +9,17 @@ use crate::room::{self, Need};
 use crate::{exit, output};
 
 pub(crate) fn run(args: &Import, context: &Context) -> anyhow::Result<u8> {
-    let target = args.to.as_deref();
+    if args.former.to.is_some() {
+        context.note_former_name("--to", "--out");
+    }
+    let target = args.out.as_deref().or(args.former.to.as_deref());
     if let Some(target) = target {
         // What a kill left of an earlier one first: a dataset that was set aside stands in its place again.
         settle(target)?;
         output::check_free(target, args.force)?;
     }
     let plan = ImportPlan::new(&args.source, &map(args)?)?;
-    let Some(target) = target.filter(|_| !args.explain) else {
+    let Some(target) = target.filter(|_| !args.explain.is_wanted) else {
         output::write(None, |out| write!(out, "{}", plan.summary()))?;
         return Ok(exit::DONE);
     };

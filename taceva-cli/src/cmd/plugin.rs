@@ -19,26 +19,26 @@ pub(crate) fn run(which: &Plugin, context: &Context) -> anyhow::Result<u8> {
 }
 
 fn list(args: &PluginList, context: &Context) -> anyhow::Result<u8> {
-    let listing = &args.listing;
-    if let Some(path) = listing.path.as_deref() {
-        output::check_free(path, listing.force)?;
+    let to = &args.output;
+    if let Some(path) = to.path.as_deref() {
+        output::check_free(path, to.force)?;
     }
     let host = context.plugins(None)?;
-    output::write_as(listing.format, listing.path.as_deref(), |out| {
-        report::plugin::list(&host, args.all, listing.format, out)
+    output::write_as(to.format, to.path.as_deref(), |out| {
+        report::plugin::list(&host, args.all, to.format, out)
     })?;
     Ok(exit::DONE)
 }
 
 fn info(args: &PluginInfo, context: &Context) -> anyhow::Result<u8> {
-    let listing = &args.listing;
-    if let Some(path) = listing.path.as_deref() {
-        output::check_free(path, listing.force)?;
+    let to = &args.output;
+    if let Some(path) = to.path.as_deref() {
+        output::check_free(path, to.force)?;
     }
     let host = context.plugins(None)?;
     let plugin = host.plugins().get(&args.id)?;
-    output::write_as(listing.format, listing.path.as_deref(), |out| {
-        report::plugin::info(&host, plugin, listing.format, out)
+    output::write_as(to.format, to.path.as_deref(), |out| {
+        report::plugin::info(&host, plugin, to.format, out)
     })?;
     Ok(exit::DONE)
 }

@@ -39,14 +39,14 @@ impl Context {
         Ok((drivers, compiled().with(host.models())))
     }
 
-    /// The plugins that are found, delivered as the user decided.
+    /// The plugins that are found, isolated as the user configured.
     pub(crate) fn plugins(&self, scene: Option<&Path>) -> anyhow::Result<Arc<PluginHost>> {
         let mut config = match user_config_file() {
             Some(path) => PluginConfig::read(&path)?,
             None => PluginConfig::default(),
         };
         config.trusted_now.extend(self.plugins.trusted.clone());
-        // What somebody typed is meant from where they stand; nothing else is.
+        // Paths of arguments are relative to the working folder; others are not.
         let typed: Vec<PathBuf> = (self.plugins.folders.iter())
             .map(|folder| std::path::absolute(folder).with_context(|| shown(folder).to_string()))
             .collect::<Result<_, _>>()?;
@@ -61,7 +61,7 @@ impl Context {
         Ok(PluginHost::new(plugins, config, self.plugin_log()))
     }
 
-    /// What plugins log goes to standard error: what is odd always, everything with `-v`.
+    /// Logs of plugins go to standard error: warnings always, everything with `-v`.
     fn plugin_log(&self) -> PluginLog {
         let least = match (self.quiet, self.verbose) {
             (true, _) => Level::Error,

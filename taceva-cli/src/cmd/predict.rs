@@ -30,13 +30,13 @@ pub(crate) fn run(args: &Predict, context: &Context) -> anyhow::Result<u8> {
     let model = context.models()?.open(&args.with)?;
     if args.deviations_out.is_some() && !model.regressor().knows_deviations() {
         return Err(Usage::error(format!(
-            "--deviations-out: a model of {} does not know how sure it is; gaussian-process does",
+            "--deviations-out: a model of {} estimates no standard deviations; gaussian-process does",
             model.card().model
         )));
     }
     let cache = cache::of(&args.cache);
     let work = context.work(cache.as_ref());
-    let predicted = predict(&dataset, &model, args.part.map(DataPart::from), work)?;
+    let predicted = predict(&dataset, &model, args.part.name.map(DataPart::from), work)?;
     cache::note(cache.as_ref(), context);
     output::write(Some(&args.out), |out| match args.unbounded {
         true => predicted.write_unbounded_predictions(out),

@@ -15,7 +15,7 @@ use crate::{exit, output};
 
 /// What describes a dataset.
 const HEADER: &str = "dataset.toml";
-/// A file of this many bytes is none that a person edits.
+/// Files larger than this are not edited by hand.
 const MOST: u64 = 1 << 30;
 
 pub(crate) fn run(args: &Reseal, context: &Context) -> anyhow::Result<u8> {
@@ -36,7 +36,7 @@ pub(crate) fn run(args: &Reseal, context: &Context) -> anyhow::Result<u8> {
     let accepted = accepted.with_context(|| path.display().to_string())?;
     if accepted == text {
         context.say(format_args!(
-            "{}: the seal holds, nothing to accept",
+            "{}: the seal matches, nothing to accept",
             path.display()
         ));
         return Ok(exit::DONE);
@@ -66,13 +66,13 @@ fn text_of(path: &Path) -> anyhow::Result<String> {
     let bytes = fs::read(path).with_context(cannot)?;
     String::from_utf8(bytes).map_err(|_| {
         anyhow::anyhow!(
-            "{}: no text: models are not edited, fit again; expected dataset.toml, results or a state",
+            "{}: not text: models cannot be edited, fit again; expected dataset.toml, results or a state",
             path.display()
         )
     })
 }
 
-/// Writes what is accepted in the place of what was there, if it can be read back; else what was there stays.
+/// Replaces the file by the accepted one if that can be read back; else leaves it unchanged.
 fn replace(path: &Path, before: &str, accepted: &str, is_header: bool) -> anyhow::Result<()> {
     let write = |text: &str| output::write(Some(path), |out| out.write_all(text.as_bytes()));
     write(accepted)?;
@@ -85,7 +85,7 @@ fn replace(path: &Path, before: &str, accepted: &str, is_header: bool) -> anyhow
     if read.is_err() {
         write(before)?;
     }
-    read.with_context(|| format!("{}: left as it was", path.display()))
+    read.with_context(|| format!("{}: left unchanged", path.display()))
 }
 
 fn readable(path: &Path, text: &str) -> anyhow::Result<()> {

@@ -1,4 +1,4 @@
-//! Results that are there already, read for the commands that look at them.
+//! Reading of existing results.
 
 mod samples;
 
@@ -13,19 +13,19 @@ use super::Usage;
 use crate::args::{Format, Output};
 use crate::output;
 
-/// Every number of a run, in its folder.
+/// The file of all results in the folder of a run.
 const RESULTS: &str = "results.json";
 
 /// Results with the samples behind them.
 #[derive(Default)]
 pub(super) struct Found {
-    /// The studies, each with its samples where they are at hand.
+    /// The studies, each with its samples where they were found.
     pub(super) studies: Vec<Study>,
-    /// Where samples were looked for in vain, a line a study.
+    /// A remark for each study whose samples were not found.
     pub(super) missing: Vec<String>,
 }
 
-/// Refuses a result that is named twice: nothing differs from itself.
+/// Refuses a result that is named twice.
 pub(super) fn check_distinct(named: &[PathBuf]) -> anyhow::Result<()> {
     let meant = |path: &PathBuf| path.canonicalize().unwrap_or_else(|_| path.clone());
     for (position, path) in named.iter().enumerate() {
@@ -34,7 +34,7 @@ pub(super) fn check_distinct(named: &[PathBuf]) -> anyhow::Result<()> {
             .any(|before| meant(before) == meant(path))
         {
             return Err(Usage::error(format!(
-                "{}: given twice; a result is compared with others",
+                "{}: given twice; expected different results",
                 shown(path)
             )));
         }
@@ -42,7 +42,7 @@ pub(super) fn check_distinct(named: &[PathBuf]) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// The studies of every result: of files, of folders of runs, or of the catalogue where nothing has that name.
+/// The studies of every result: of files, of folders of runs, or of the catalogue where no file has that name.
 pub(super) fn find_all(named: &[PathBuf]) -> anyhow::Result<Found> {
     let mut all = Found::default();
     for path in named {
@@ -53,7 +53,7 @@ pub(super) fn find_all(named: &[PathBuf]) -> anyhow::Result<Found> {
     Ok(all)
 }
 
-/// The studies of every result, for those who do not ask for samples.
+/// The studies of every result, without remarks on samples.
 pub(super) fn read_all(named: &[PathBuf]) -> anyhow::Result<Vec<Study>> {
     find_all(named).map(|found| found.studies)
 }
@@ -94,7 +94,7 @@ fn find(path: &Path) -> anyhow::Result<Found> {
     samples::beside(&file, studies)
 }
 
-/// Writes rows where and in the form that was asked for; `json` makes the one that is no table.
+/// Writes a table to the place and in the format of `to`; `json` makes JSON.
 pub(super) fn write(
     table: &Table,
     to: &Output,

@@ -28,7 +28,7 @@ pub(crate) fn run(args: &Run, context: &Context) -> anyhow::Result<u8> {
     let formats = formats(&planned)?;
     if args.format == Format::Csv && planned.studies.len() > 1 {
         return Err(Usage::error(format!(
-            "--format csv: rows of {} sensors cannot be told apart in one table; write `formats = [\"csv\"]` under [report] of the scene for a file a sensor, or print them with --format json",
+            "--format csv: one table cannot hold the rows of {} sensors; write `formats = [\"csv\"]` under [report] of the scene for a file for each sensor, or use --format json",
             planned.studies.len()
         )));
     }
@@ -41,7 +41,7 @@ pub(crate) fn run(args: &Run, context: &Context) -> anyhow::Result<u8> {
         .folder
         .clone()
         .unwrap_or_else(|| RunFolder::numbered(Path::new(RUNS), &planned.scene.name, existing));
-    scene::tell_cost(&planned, &path, context)?;
+    scene::print_cost(&planned, &path, context)?;
     let folder = RunFolder::open(&path, &planned, existing)?;
     context.say(format_args!("run in {}", shown(&path)));
     let cache = cache::of(&args.cache);
@@ -55,7 +55,7 @@ pub(crate) fn run(args: &Run, context: &Context) -> anyhow::Result<u8> {
     let reports = run_scene(&planned, &folder, workshop, context.jobs);
     let mut reports = reports.with_context(|| match progress::is_stopped() {
         true => format!(
-            "stopped; taceva run {} --resume --out {} goes on",
+            "stopped; continue with taceva run {} --resume --out {}",
             args.scene.scene,
             shown(&path)
         ),
@@ -63,9 +63,11 @@ pub(crate) fn run(args: &Run, context: &Context) -> anyhow::Result<u8> {
     })?;
     cache::note(cache.as_ref(), context);
     if let Some(cache) = &cache {
-        stages::tell(cache, &folder, context)?;
+        stages::write(cache, &folder, context)?;
     }
-    reports.iter_mut().try_for_each(super::note_samples)?;
+    reports
+        .iter_mut()
+        .try_for_each(super::attachments::note_samples)?;
     write_files(&planned, &folder, &reports, &formats)?;
     let page = folder.path().join(PAGE);
     let drawn = report::page::Page::of(&planned.scene.name, &reports)?;
@@ -85,7 +87,7 @@ pub(crate) fn run(args: &Run, context: &Context) -> anyhow::Result<u8> {
     Ok(exit::DONE)
 }
 
-/// The forms in which the scene wants its reports written into the folder; text and JSON always.
+/// The formats of the reports in the folder: those of the scene, and always text and JSON.
 fn formats(planned: &PlannedScene) -> anyhow::Result<Vec<(Format, &'static str)>> {
     let mut formats = vec![(Format::Json, "json"), (Format::Text, "txt")];
     for name in &planned.scene.report.formats {
@@ -98,7 +100,7 @@ fn formats(planned: &PlannedScene) -> anyhow::Result<Vec<(Format, &'static str)>
             "html" => continue,
             other => {
                 return Err(Usage::error(format!(
-                    "[report] formats: this program writes no `{}`, expected html, text, json, csv, md or tex",
+                    "[report] formats: `{}` is not supported, expected html, text, json, csv, md or tex",
                     shown(other)
                 )));
             }

@@ -1,4 +1,4 @@
-//! The scene that was named: a file, or one that is built in.
+//! The named scene: a file or a built-in one.
 
 use std::path::Path;
 
@@ -15,7 +15,7 @@ pub(super) fn planned(args: &SceneArgs, drivers: &Drivers) -> anyhow::Result<Pla
     Ok(PlannedScene::new(text(&args.scene)?, drivers, args.seed)?)
 }
 
-/// The scene of a run, with the model that was asked for.
+/// The scene of a run, with its overrides.
 pub(super) fn to_run(args: &Run, drivers: &Drivers) -> anyhow::Result<PlannedScene> {
     let instead = Instead {
         seed: args.scene.seed,
@@ -30,11 +30,11 @@ pub(super) fn to_run(args: &Run, drivers: &Drivers) -> anyhow::Result<PlannedSce
     )?)
 }
 
-/// Says what a scene is going to take: presses, the time of their motion on a rig, and room where `target` is going to be.
+/// Prints the cost of a scene: presses, the time of their motion on a rig, and bytes on the disk of `target`.
 ///
 /// # Errors
 /// If its pictures cannot fit there.
-pub(super) fn tell_cost(
+pub(super) fn print_cost(
     planned: &PlannedScene,
     target: &Path,
     context: &Context,
@@ -49,7 +49,7 @@ pub(super) fn tell_cost(
     }
     let minutes: f64 = costs().map(|cost| cost.minutes).sum();
     context.say(format_args!(
-        "time: {presses} presses, {:.0} min of motion on a rig; a simulated bench does not wait for it",
+        "time: {presses} presses, {:.0} min of motion on a rig; the simulated bench runs faster",
         minutes.ceil()
     ));
     let bytes = costs().filter_map(|cost| cost.bytes).sum();
@@ -60,7 +60,7 @@ pub(super) fn tell_cost(
     Ok(())
 }
 
-/// A file of that name comes first, so that nobody's scene is hidden by a built-in one.
+/// A file of that name comes first, so that a built-in scene never hides it.
 fn text(named: &str) -> anyhow::Result<SceneText> {
     let path = Path::new(named);
     if path.is_file() {

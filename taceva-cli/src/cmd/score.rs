@@ -9,10 +9,8 @@ use crate::args::Score;
 use crate::{exit, output, report};
 
 pub(crate) fn run(args: &Score, context: &Context) -> anyhow::Result<u8> {
-    let files = args.output.path.iter().chain(&args.state_out);
-    for path in files.chain(&args.html).chain(&args.samples_out) {
-        output::check_free(path, args.output.force)?;
-    }
+    let asked = &args.scoring;
+    super::check_free(asked, &args.output)?;
     let request = ScoreRequest {
         truth: args.truth.clone(),
         prediction: args.pred.clone(),
@@ -21,34 +19,30 @@ pub(crate) fn run(args: &Score, context: &Context) -> anyhow::Result<u8> {
             .iter()
             .map(|word| unit(word))
             .collect::<anyhow::Result<_>>()?,
-        sensor: args.sensor.clone(),
-        metrics: args.metrics.clone(),
+        sensor: asked.sensor.clone(),
+        metrics: asked.metrics.clone(),
         allow_invalid: args.allow_invalid,
         jobs: context.jobs,
     };
     let scoring = Scoring::read(request)?;
-    if args.explain {
+    if asked.explain.is_wanted {
         output::write(None, |out| write!(out, "{}", scoring.plan()))?;
         return Ok(exit::DONE);
     }
-    context.tell(|| Ok(scoring.plan()))?;
+    context.print_plan(|| Ok(scoring.plan()))?;
     let mut scored = scoring.run(&context.progress)?;
-    let beside = super::Beside {
-        html: args.html.as_deref(),
-        figures: args.figures.as_deref(),
-        samples: args.samples_out.as_deref(),
-    };
-    if beside.is_wanted() {
+    let attachments = super::Attachments::of(asked);
+    if attachments.is_any() {
         scored.report.samples = Some(scoring.samples()?);
     }
-    if args.samples_out.is_some() {
-        super::note_samples(&mut scored.report)?;
+    if asked.samples_out.is_some() {
+        super::attachments::note_samples(&mut scored.report)?;
     }
     output::write_as(args.output.format, args.output.path.as_deref(), |out| {
         report::evaluation(&scored.report, args.output.format, out)
     })?;
-    beside.write(&scored.report, context)?;
-    if let Some(path) = &args.state_out {
+    attachments.write(&scored.report, context)?;
+    if let Some(path) = &asked.state_out {
         output::write(Some(path), |out| scored.state.write(out))?;
     }
     Ok(exit::DONE)

@@ -2,13 +2,13 @@
 
 use std::io::{self, Write};
 
-use taceva_report::{Contender, Race, race};
+use taceva_report::{Race, RacePoint, race};
 use taceva_study::bench::KernelBench;
 
 /// Draws the race for all three scores; the floor is a line.
 pub(super) fn write(bench: &KernelBench, out: &mut dyn Write) -> io::Result<()> {
     let rows = bench.rows.iter().filter(|row| row.scores != "mae");
-    let contenders = rows.map(|row| Contender {
+    let points = rows.map(|row| RacePoint {
         name: match row.order_free {
             true => format!("{} (any order)", row.name),
             false => row.name.clone(),
@@ -26,7 +26,7 @@ pub(super) fn write(bench: &KernelBench, out: &mut dyn Write) -> io::Result<()> 
         gain: "right digits, fewest over all inputs".to_owned(),
         cost: "ns a pair, MAE + R² + sMAPE".to_owned(),
         floor: Some((bench.floor.ns_per_pair.best, bench.floor.name.to_string())),
-        contenders: contenders.collect(),
+        points: points.collect(),
     });
     out.write_all(figure.svg().as_bytes())
 }

@@ -1,21 +1,21 @@
 //! Scores as people read them, by the rule that all reports share.
 
 use taceva_metrics::{Interval, Value};
-use taceva_report::Printed;
+use taceva_report::FormattedValue;
 
 use super::line::Line;
 
 /// A score as printed: its value and the ends of its interval, or why there is none.
-pub(super) fn printed(line: &Line<'_>) -> Printed {
+pub(super) fn formatted(line: &Line<'_>) -> FormattedValue {
     let Value::Scalar(value) = *line.value else {
-        return Printed {
+        return FormattedValue {
             reason: Some(reason(line.value)),
-            ..Printed::default()
+            ..FormattedValue::default()
         };
     };
-    Printed {
+    FormattedValue {
         reason: line.interval.and_then(no_interval),
-        ..Printed::number(value, line.interval.and_then(Interval::ends))
+        ..FormattedValue::number(value, line.interval.and_then(Interval::ends))
     }
 }
 

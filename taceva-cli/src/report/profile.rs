@@ -8,7 +8,7 @@ use taceva_report::{Align, Column, Study, Table, escape_terminal, short_digests}
 use taceva_study::EvaluationReport;
 
 use super::line::{Line, lines, standings};
-use super::number::printed;
+use super::number::formatted;
 use super::page;
 use super::text::{over_seeds, presses};
 
@@ -94,8 +94,9 @@ pub(super) fn write(reports: &[EvaluationReport], out: &mut dyn Write) -> io::Re
 /// the same.
 fn ties(reports: &[EvaluationReport], out: &mut dyn Write) -> io::Result<()> {
     let shares = |report: &EvaluationReport| -> Vec<(String, u64)> {
-        let told = lines(&report.evaluation).into_iter();
-        told.filter(|line| line.name == "sr")
+        let lines = lines(&report.evaluation).into_iter();
+        lines
+            .filter(|line| line.name == "sr")
             .filter_map(|line| Some((line.channel.to_owned(), line.value.scalar()?.to_bits())))
             .collect()
     };
@@ -196,8 +197,8 @@ fn row_of(line: &Line<'_>) -> Row {
 
 fn cell(lines: &[Line<'_>], row: &Row) -> String {
     let line = lines.iter().find(|line| row_of(line) == *row);
-    let printed = line.map(|line| printed(line).value);
-    printed
+    let formatted = line.map(|line| formatted(line).value);
+    formatted
         .filter(|value| !value.is_empty())
         .unwrap_or_else(|| "–".to_owned())
 }

@@ -4,12 +4,12 @@ use std::collections::BTreeSet;
 
 use taceva_metrics::Interval;
 use taceva_report::{
-    Align, Cell, Column, Estimate, Printed, Table, Words, escape_markdown, latex_symbol,
+    Align, Cell, Column, Estimate, FormattedValue, Table, Words, escape_markdown, latex_symbol,
 };
 use taceva_study::EvaluationReport;
 
 use super::line::{Line, lines, read_lines, standings};
-use super::number::{no_interval, printed, reason};
+use super::number::{formatted, no_interval, reason};
 
 /// A row a score or variant, numbers in full.
 pub(super) fn every_number(report: &EvaluationReport) -> Table {
@@ -109,17 +109,17 @@ pub(super) fn for_pages(report: &EvaluationReport) -> Table {
 
 /// The value of a line, with its unit and the ends of its interval, or why there is none.
 fn estimate(line: &Line<'_>) -> Estimate {
-    let Printed {
+    let FormattedValue {
         value,
         interval,
         reason,
-    } = printed(line);
+    } = formatted(line);
     let unit = match (value.is_empty(), line.unit.symbol()) {
         (true, _) | (_, "1") => String::new(),
         _ => line.unit.to_string(),
     };
     Estimate {
-        printed: Printed {
+        formatted: FormattedValue {
             reason: reason.filter(|_| value.is_empty()),
             value,
             interval,

@@ -8,7 +8,7 @@ use taceva_report::{Align, Column, Table, escape_terminal, short_digests};
 use taceva_study::EvaluationReport;
 
 use super::line::{Line, flags, pictures, read_lines, standings};
-use super::number::printed;
+use super::number::formatted;
 
 pub(super) fn write(report: &EvaluationReport, out: &mut dyn Write) -> io::Result<()> {
     heading(report, out)?;
@@ -30,8 +30,8 @@ pub(super) fn write(report: &EvaluationReport, out: &mut dyn Write) -> io::Resul
 
 /// A line of the table, begun with `name`.
 fn cells(name: String, line: &Line<'_>) -> [String; 6] {
-    let printed = printed(line);
-    let interval = printed
+    let formatted = formatted(line);
+    let interval = formatted
         .interval
         .map(|[low, high]| format!("{low} … {high}"));
     let n = match (line.is_headline, line.score.n_invalid) {
@@ -42,12 +42,12 @@ fn cells(name: String, line: &Line<'_>) -> [String; 6] {
     [
         name,
         line.channel.to_owned(),
-        match printed.value.is_empty() {
+        match formatted.value.is_empty() {
             true => "–".to_owned(),
-            false => printed.value,
+            false => formatted.value,
         },
         unit(line.unit.symbol()),
-        interval.or(printed.reason).unwrap_or_default(),
+        interval.or(formatted.reason).unwrap_or_default(),
         n,
     ]
 }

@@ -60,7 +60,7 @@ fn hardest(table: &Table) -> Option<(usize, String)> {
             let unit = channels.iter().nth(at)?.unit();
             Some(format!(
                 "{name} {}",
-                taceva_report::Printed::number(value, None).phrase(&format!(" {unit}"))
+                taceva_report::FormattedValue::number(value, None).phrase(&format!(" {unit}"))
             ))
         })
         .collect();

@@ -49,7 +49,7 @@ pub struct DescriptorSpec {
     pub source: DriverSource,
     /// What is known about it.
     pub facts: Facts,
-    /// What it may be told when it is opened.
+    /// The arguments that it takes when it is opened.
     pub arguments: Vec<ArgSpec>,
 }
 
@@ -250,7 +250,7 @@ impl Descriptor {
         }
     }
 
-    /// What it may be told when it is opened.
+    /// The arguments that it takes when it is opened.
     pub fn arguments(&self) -> &[ArgSpec] {
         &self.spec.arguments
     }

@@ -36,7 +36,7 @@ pub(crate) fn advice(path: &Path) -> String {
     }
     let line = |layout: &str| {
         let folder = quoted(path);
-        format!("{missing}; import it first: taceva import {folder} {layout} --to DATASET")
+        format!("{missing}; import it first: taceva import {folder} {layout} --out DATASET")
     };
     if let Some(preset) = Preset::ALL.iter().find(|preset| preset.is_in(path)) {
         return line(&format!("--preset {}", preset.name()));
@@ -126,14 +126,14 @@ mod tests {
     #[test]
     fn a_known_layout_is_answered_with_its_preset_and_another_with_its_table() {
         for (file, part) in [
-            ("targets.csv", "--preset bristol --to DATASET"),
+            ("targets.csv", "--preset bristol --out DATASET"),
             (
                 "annotations/probe_data.csv",
-                "--preset py3dcal --to DATASET",
+                "--preset py3dcal --out DATASET",
             ),
             (
                 "labels.csv",
-                "--map MAP.toml --to DATASET, where MAP.toml says which column of labels.csv",
+                "--map MAP.toml --out DATASET, where MAP.toml says which column of labels.csv",
             ),
             ("deep/labels.csv", "which column of deep/labels.csv"),
         ] {

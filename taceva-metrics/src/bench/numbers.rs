@@ -1,8 +1,8 @@
-//! The numbers that recipes are made of, as the golden vectors define them.
+//! The numbers that cases are made of, as the golden vectors define them.
 
 use taceva_core::random::SplitMix64;
 
-/// Numbers of one recipe. Whole ones are remainders, as whoever wrote the golden vectors drew them: some are more likely than others, by less
+/// Numbers of one case. Whole ones are remainders, as whoever wrote the golden vectors drew them: some are more likely than others, by less
 /// than 2⁻³².
 #[derive(Debug)]
 pub(super) struct Numbers(SplitMix64);

@@ -1,7 +1,7 @@
 //! What takes samples in and gives scores out; metrics that are finished from the same sums share one.
 
 mod any_family;
-mod parts;
+mod erased_sums;
 mod resampling;
 mod scores;
 
@@ -10,7 +10,7 @@ use std::borrow::Cow;
 use taceva_core::{Batch, Channels};
 
 use self::any_family::{AnyFamily, Erased};
-use self::parts::Parts;
+use self::erased_sums::ErasedSums;
 use crate::error::MetricError;
 use crate::evaluate::independent::rows_as_clusters;
 use crate::evaluate::plan::MetricPlan;
@@ -27,8 +27,8 @@ use crate::stats::clusters::{Clustering, Clusters};
 pub(crate) struct Accumulator {
     family: Box<dyn AnyFamily>,
     channels: Channels,
-    clustering: Clustering<Parts>,
-    clusters: Clusters<Parts>,
+    clustering: Clustering<ErasedSums>,
+    clusters: Clusters<ErasedSums>,
     interval_method: IntervalMethod,
     rows_as_clusters: bool,
 }
@@ -89,7 +89,7 @@ impl Accumulator {
             channels,
         } = self.shape();
         let records =
-            |parts: &Parts| Ok::<_, std::convert::Infallible>(self.family.to_records(parts));
+            |parts: &ErasedSums| Ok::<_, std::convert::Infallible>(self.family.to_records(parts));
         let clusters = match self.clusters.try_map(records) {
             Ok(clusters) => clusters,
             Err(never) => match never {},

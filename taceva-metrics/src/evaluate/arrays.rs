@@ -65,7 +65,7 @@ impl PairSums {
     /// ```
     /// use ndarray::array;
     /// use taceva_metrics::{PairSpec, PairSums, Stream, Streams};
-    /// let mut sums = PairSums::new(PairSpec { streams: Streams::ALL, gate: None });
+    /// let mut sums = PairSums::new(PairSpec::new(Streams::ALL));
     /// let matrix = array![[1.5, 1.0], [1.5, 2.0]];
     /// sums.update_views(matrix.column(0), matrix.column(1))?;
     /// sums.update_views(array![0.5_f32].view(), array![0.25].view())?;

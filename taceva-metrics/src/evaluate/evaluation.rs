@@ -14,6 +14,16 @@ use crate::score::Score;
 use crate::score::standing::{self, Standing};
 
 /// Every score of an evaluation, in the order of reports, and what was left out.
+///
+/// ```
+/// use taceva_metrics::{Channel, Evaluator};
+/// let mut evaluator = Evaluator::of_channels([Channel::FZ])?;
+/// evaluator.update_pairs(Channel::FZ, &[0.25, 0.5], &[0.5, 0.5])?;
+/// let evaluation = evaluator.finish()?;
+/// assert!(evaluation.scores().any(|(metric, channel, _)| metric.id == "rmse" && channel == "Fz"));
+/// assert!(evaluation.to_string().starts_with("metric"));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct Evaluation {
     entries: Vec<Entry>,
@@ -53,7 +63,7 @@ impl Evaluation {
         Evaluation::new(entries, skipped)
     }
 
-    /// The same scores, told which share of the predictions of each channel lies beyond the bounds of the model: each score that is formed
+    /// The same scores with the share of the predictions of each channel that lies beyond the bounds of the model: each score that is formed
     /// from predictions carries the share of its worst channel.
     #[must_use]
     pub fn with_bounded_shares(mut self, shares: &BTreeMap<String, f64>) -> Evaluation {
@@ -67,7 +77,7 @@ impl Evaluation {
         Evaluation::new(self.entries, self.skipped)
     }
 
-    /// The same scores, told that the model has seen the samples: what it shows there is no skill on others, which stays unknown.
+    /// The same scores, of samples on which the model was fitted: they show no skill on others, which stays unknown.
     #[must_use]
     pub fn of_seen_samples(mut self) -> Evaluation {
         for entry in &mut self.entries {

@@ -20,6 +20,18 @@ const BATCH_ROWS: usize = 1024;
 /// Takes samples, one by one or in batches, and finishes a plan's scores.
 ///
 /// Threads and labs may each have one of the same plan; merging them gives what one alone would have given, bit for bit.
+///
+/// ```
+/// use taceva_metrics::{Channel, Evaluator};
+/// let mut left = Evaluator::of_channels([Channel::FZ])?;
+/// let mut right = Evaluator::of_channels([Channel::FZ])?;
+/// left.update_pairs(Channel::FZ, &[0.25], &[0.5])?;
+/// right.update_pairs(Channel::FZ, &[0.5], &[0.5])?;
+/// left.merge(right)?;
+/// let scores = left.finish()?;
+/// assert_eq!(scores.mae(Channel::FZ).and_then(|score| score.value.scalar()), Some(0.125));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub struct Evaluator {
     plan: MetricPlan,
     accumulators: Vec<Accumulator>,

@@ -3,7 +3,15 @@
 use taceva_core::{Footprint, Outline, SkipReason};
 
 /// Facts about a sensor that no sample carries; what nobody has declared is absent.
+///
+/// ```
+/// use taceva_metrics::{Footprint, SensorFacts};
+/// let facts = SensorFacts::default().with_footprint(Footprint::disc(12.5, Some(1.0))?).with_opaque(true);
+/// assert_eq!((facts.opaque, facts.frame_size), (Some(true), None));
+/// # Ok::<(), taceva_metrics::FootprintError>(())
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct SensorFacts {
     /// Where it senses, and how deep it may be pressed.
     pub footprint: Option<Footprint>,
@@ -18,6 +26,42 @@ pub struct SensorFacts {
 impl SensorFacts {
     /// The reference scene of protocols that name no other.
     pub const REFERENCE_SCENE: &'static str = "normal";
+
+    /// The same facts with another [`footprint`](SensorFacts::footprint).
+    #[must_use]
+    pub fn with_footprint(self, footprint: impl Into<Option<Footprint>>) -> SensorFacts {
+        SensorFacts {
+            footprint: footprint.into(),
+            ..self
+        }
+    }
+
+    /// The same facts with another [`opaque`](SensorFacts::opaque).
+    #[must_use]
+    pub fn with_opaque(self, opaque: impl Into<Option<bool>>) -> SensorFacts {
+        SensorFacts {
+            opaque: opaque.into(),
+            ..self
+        }
+    }
+
+    /// The same facts with another [`reference_scene`](SensorFacts::reference_scene).
+    #[must_use]
+    pub fn with_reference_scene(self, reference_scene: impl Into<String>) -> SensorFacts {
+        SensorFacts {
+            reference_scene: reference_scene.into(),
+            ..self
+        }
+    }
+
+    /// The same facts with another [`frame_size`](SensorFacts::frame_size).
+    #[must_use]
+    pub fn with_frame_size(self, frame_size: impl Into<Option<[u32; 2]>>) -> SensorFacts {
+        SensorFacts {
+            frame_size: frame_size.into(),
+            ..self
+        }
+    }
 }
 
 impl Default for SensorFacts {
@@ -33,6 +77,13 @@ impl Default for SensorFacts {
 }
 
 /// A fact without which a metric has no value.
+///
+/// ```
+/// use taceva_metrics::{Fact, catalogue};
+/// let uniformity = catalogue::find("uniformity").ok_or("a metric")?;
+/// assert!(uniformity.facts.contains(&Fact::Footprint));
+/// # Ok::<(), &str>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Fact {

@@ -1,31 +1,16 @@
 //! Which metrics are computed, which are not and why, and what that takes.
 
+mod accumulators;
+mod needed;
+
 use std::collections::BTreeMap;
 
-use taceva_core::{Channels, Field, FieldSet, SkipReason, Skipped};
+use taceva_core::{Channels, Field, FieldSet, Skipped};
 
 use crate::error::MetricError;
-use crate::evaluate::accumulator::Accumulator;
 use crate::evaluate::facts::SensorFacts;
 use crate::evaluate::settings::Settings;
-use crate::families::accuracy::{Pairs, Plane};
-use crate::families::bias_level::Levels;
-use crate::families::channelwise::{ByChannel, Channelwise};
-use crate::families::crosstalk::Crosstalk;
-use crate::families::detection::Idle;
-use crate::families::drift::Drifts;
-use crate::families::family::Family;
-use crate::families::hysteresis::Loops;
-use crate::families::inter_sensor::InterSensor;
-use crate::families::intrinsic::{self, Intrinsic};
-use crate::families::lighting::Lighting;
-use crate::families::linearity::Lines;
-use crate::families::repeatability::Repeats;
-use crate::families::resolution::Resolution;
-use crate::families::spatial::Spatial;
-use crate::families::surface::Surface;
-use crate::families::tolerance::Tolerances;
-use crate::metric::{Formula, Metric};
+use crate::metric::Metric;
 use crate::paired::is_valid;
 use crate::stats::IntervalMethod;
 
@@ -86,7 +71,7 @@ impl MetricPlan {
     /// let plan = MetricPlan::new(&catalogue::select(["uniformity"])?, channels, FieldSet::PAIRS);
     /// assert_eq!(plan.skipped()[0].reason.to_string(), "the sensor's `footprint` is not declared");
     /// let footprint = Some(Footprint::disc(12.5, Some(1.0))?);
-    /// let plan = plan.with_facts(SensorFacts { footprint, ..SensorFacts::default() });
+    /// let plan = plan.with_facts(SensorFacts::default().with_footprint(footprint));
     /// assert_eq!((plan.kept().len(), plan.skipped().len()), (1, 0));
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
@@ -104,30 +89,7 @@ impl MetricPlan {
         Ok(MetricPlan { settings, ..self })
     }
 
-    /// Decides what is kept and what is read.
-    fn decided(mut self) -> MetricPlan {
-        self.kept.clear();
-        self.skipped.clear();
-        self.fields = FieldSet::EMPTY;
-        for metric in self.wanted.clone() {
-            match self.obstacle(metric) {
-                Some(reason) => self.skipped.push(Skipped {
-                    what: format!("metric:{}", metric.id),
-                    reason,
-                }),
-                None => {
-                    self.kept.push(metric);
-                    self.fields = self.fields | metric.needs.fields | self.optional(metric);
-                }
-            }
-        }
-        if !self.kept.is_empty() && self.available.contains(Field::Point) {
-            self.fields = self.fields.with(Field::Point);
-        }
-        self
-    }
-
-    /// The same plan with another seed of the hash that deals contact locations into clusters.
+    /// The same plan with another seed of the hash that assigns contact locations to clusters.
     #[must_use]
     pub fn with_seed(self, seed: u64) -> MetricPlan {
         MetricPlan { seed, ..self }
@@ -138,7 +100,7 @@ impl MetricPlan {
     /// ```
     /// use taceva_core::{Channel, Channels, FieldSet};
     /// use taceva_metrics::{IntervalMethod, MetricPlan, PoissonBootstrap, catalogue};
-    /// let bootstrap = PoissonBootstrap { replicates: 2000, seed: 7, ..PoissonBootstrap::default() };
+    /// let bootstrap = PoissonBootstrap::DEFAULT.with_replicates(2000).with_seed(7);
     /// let plan = MetricPlan::new(&catalogue::ALL, Channels::new([Channel::FZ])?, FieldSet::PAIRS)
     ///     .with_interval_method(IntervalMethod::PoissonBootstrap(bootstrap));
     /// # assert_eq!(plan.interval_method(), IntervalMethod::PoissonBootstrap(bootstrap));
@@ -157,7 +119,7 @@ impl MetricPlan {
     /// ask which samples belong together keep their contact locations.
     ///
     /// Presses at one location are not independent: their intervals would hold the truth too seldom (`docs/coverage.md`). Samples that are equal
-    /// in every channel share a cluster, and more than [`NAMED_CLUSTERS`](crate::NAMED_CLUSTERS) are dealt into
+    /// in every channel share a cluster, and more than [`NAMED_CLUSTERS`](crate::NAMED_CLUSTERS) are assigned by hash to
     /// [`HASHED_CLUSTERS`](crate::HASHED_CLUSTERS), so that scores depend on the set of samples alone.
     ///
     /// ```
@@ -229,7 +191,7 @@ impl MetricPlan {
         self.fields
     }
 
-    /// The seed of the hash that deals contact locations into clusters.
+    /// The seed of the hash that assigns contact locations to clusters.
     pub fn seed(&self) -> u64 {
         self.seed
     }
@@ -263,100 +225,14 @@ impl MetricPlan {
     pub(crate) fn carries(&self, field: Field) -> bool {
         self.available.contains(field)
     }
-
-    /// What `metric` reads where samples carry it, and does without where they do not.
-    fn optional(&self, metric: &Metric) -> FieldSet {
-        let fields = match metric.formula {
-            Formula::Intrinsic => intrinsic::OPTIONAL_FIELDS,
-            _ => FieldSet::EMPTY,
-        };
-        fields.iter().filter(|field| self.carries(*field)).collect()
-    }
-
-    /// What keeps `metric` from having a value.
-    fn obstacle(&self, metric: &Metric) -> Option<SkipReason> {
-        let absent_field = metric
-            .needs
-            .fields
-            .iter()
-            .find(|field| !self.available.contains(*field));
-        if let Some(field) = absent_field {
-            return Some(SkipReason::FieldAbsent(field));
-        }
-        let absent = |name: &&str| self.channels.position(name).is_none();
-        let absent_channel = metric.needs.channels.iter().copied().find(absent);
-        let absent_axis = || match metric.formula {
-            Formula::Plane(_) => Plane::missing_axis(&self.channels),
-            _ => None,
-        };
-        absent_channel
-            .or_else(absent_axis)
-            .map(|name| SkipReason::ChannelAbsent(name.to_owned()))
-            .or_else(|| {
-                let facts = metric.facts.iter();
-                facts.filter_map(|fact| fact.obstacle(&self.facts)).next()
-            })
-            .or_else(|| match metric.formula {
-                Formula::Intrinsic => Intrinsic::obstacle(self),
-                _ => None,
-            })
-    }
-
-    /// One accumulator for all metrics that share what is kept.
-    pub(crate) fn accumulators(&self) -> Vec<Accumulator> {
-        let families = [
-            Pairs::for_plan(self).map(|family| self.by_row(family)),
-            Plane::for_metrics(&self.kept, &self.channels).map(|family| self.by_row(family)),
-            Resolution::for_plan(self).map(|family| self.clustered(family)),
-            Surface::for_plan(self).map(|family| self.clustered(family)),
-            Spatial::for_plan(self).map(|family| self.clustered(family)),
-            Lighting::for_plan(self).map(|family| self.clustered(family)),
-            self.by_channel(Repeats, MetricPlan::clustered),
-            Loops::for_plan(self).map(|family| self.clustered(family)),
-            InterSensor::for_plan(self).map(|family| self.clustered(family)),
-            Intrinsic::for_plan(self).map(|family| self.clustered(family)),
-            Idle::for_plan(self).and_then(|kind| self.by_channel(kind, MetricPlan::clustered)),
-            self.by_channel(Lines, MetricPlan::by_row),
-            Crosstalk::for_plan(self).map(|family| self.by_row(family)),
-            self.by_channel(Levels, MetricPlan::by_row),
-            self.by_channel(Tolerances, MetricPlan::by_row),
-            self.by_channel(Drifts, MetricPlan::clustered),
-        ];
-        families.into_iter().flatten().collect()
-    }
-
-    fn by_channel<K>(
-        &self,
-        kind: K,
-        clustered: fn(&MetricPlan, ByChannel<K>) -> Accumulator,
-    ) -> Option<Accumulator>
-    where
-        K: Channelwise,
-    {
-        ByChannel::for_plan(kind, self).map(|family| clustered(self, family))
-    }
-
-    /// An accumulator whose clusters are rows where samples are taken as independent.
-    fn by_row<F>(&self, family: F) -> Accumulator
-    where
-        F: Family,
-    {
-        Accumulator::new(family, self).with_rows_as_clusters(self.independent)
-    }
-
-    fn clustered<F>(&self, family: F) -> Accumulator
-    where
-        F: Family,
-    {
-        Accumulator::new(family, self)
-    }
 }
 
 #[cfg(test)]
 mod tests {
+    use taceva_core::{Channel, SkipReason};
+
     use super::*;
     use crate::catalogue;
-    use taceva_core::Channel;
 
     #[test]
     fn without_predictions_nothing_is_kept_and_nothing_is_read() {

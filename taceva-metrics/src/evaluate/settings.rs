@@ -7,7 +7,14 @@ use crate::error::MetricError;
 /// The constants of definitions that leave one open; the default is what the paper or its project page says.
 ///
 /// Each is reported with the scores it enters, and states made with other ones do not merge.
+///
+/// ```
+/// use taceva_metrics::Settings;
+/// let settings = Settings::default().with_bins(10).with_n_min(5);
+/// assert_eq!((settings.bins, settings.n_min, settings.ddof), (10, 5, 0));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Settings {
     /// Cells along each side of a map of the surface: 20, at most 1,000.
     pub bins: u32,
@@ -39,6 +46,48 @@ impl Default for Settings {
 impl Settings {
     /// Cells along each side of a map beyond which it would be larger than what it shows.
     pub const BINS_MAX: u32 = 1000;
+
+    /// The same settings with another [`bins`](Settings::bins).
+    #[must_use]
+    pub fn with_bins(self, bins: u32) -> Settings {
+        Settings { bins, ..self }
+    }
+
+    /// The same settings with another [`n_min`](Settings::n_min).
+    #[must_use]
+    pub fn with_n_min(self, n_min: u64) -> Settings {
+        Settings { n_min, ..self }
+    }
+
+    /// The same settings with another [`ddof`](Settings::ddof).
+    #[must_use]
+    pub fn with_ddof(self, ddof: u32) -> Settings {
+        Settings { ddof, ..self }
+    }
+
+    /// The same settings with another [`gate`](Settings::gate).
+    #[must_use]
+    pub fn with_gate(self, gate: Newton) -> Settings {
+        Settings { gate, ..self }
+    }
+
+    /// The same settings with another [`smoothing_window`](Settings::smoothing_window).
+    #[must_use]
+    pub fn with_smoothing_window(self, smoothing_window: u32) -> Settings {
+        Settings {
+            smoothing_window,
+            ..self
+        }
+    }
+
+    /// The same settings with another [`resolution_tolerance`](Settings::resolution_tolerance).
+    #[must_use]
+    pub fn with_resolution_tolerance(self, resolution_tolerance: Nanometre) -> Settings {
+        Settings {
+            resolution_tolerance,
+            ..self
+        }
+    }
 
     /// Refuses constants with which no score is meant.
     pub(crate) fn check(&self) -> Result<(), MetricError> {

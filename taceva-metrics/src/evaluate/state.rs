@@ -11,6 +11,16 @@ use crate::stats::clusters::{Clusters, HASHED_CLUSTERS};
 /// The mergeable summary of some samples.
 ///
 /// States of the same samples are equal, whatever order, split or merges led to them.
+///
+/// ```
+/// use taceva_metrics::{Channel, Evaluator};
+/// let mut evaluator = Evaluator::of_channels([Channel::FZ])?;
+/// evaluator.update_pairs(Channel::FZ, &[0.25], &[0.5])?;
+/// let mut elsewhere = Evaluator::of_channels([Channel::FZ])?;
+/// elsewhere.merge_states(&evaluator.states()?)?;
+/// assert_eq!(elsewhere.states()?, evaluator.states()?);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct State {
@@ -75,8 +85,14 @@ impl State {
 }
 
 /// Counts and exact sums; the schema says of what.
+///
+/// ```
+/// use taceva_metrics::Record;
+/// assert!(Record::default().counts.is_empty());
+/// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
 pub struct Record {
     /// Counts, those of the schema in its order.
     pub counts: Vec<u64>,

@@ -11,6 +11,12 @@ const READABLE_DIGITS: usize = DIGITS - 4;
 ///
 /// # Units
 /// The value is `±Σ digits[i] × 2^(32 (first + i) − 2176)`. Neither end of `digits` is zero; the sum zero has none.
+///
+/// ```
+/// use taceva_metrics::{Canonical, ExactSum};
+/// let sum: ExactSum = [0.5, -0.5].into_iter().collect();
+/// assert_eq!(sum.to_canonical(), Canonical::default());
+/// ```
 #[derive(Clone, Debug, Default, PartialEq, Eq, Hash)]
 #[cfg_attr(
     feature = "serde",
@@ -95,6 +101,11 @@ impl Canonical {
 }
 
 /// Why parts are not the form of a sum.
+///
+/// ```
+/// use taceva_metrics::{Canonical, CanonicalError};
+/// assert_eq!(Canonical::try_new(false, 0, vec![0]), Err(CanonicalError::ZeroAtTheEnd));
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum CanonicalError {

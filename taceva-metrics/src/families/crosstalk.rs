@@ -32,7 +32,7 @@ pub(crate) static CROSSTALK: Metric = Metric {
     documentation: "How far the prediction of one channel moves, as a share of its full scale, when another channel alone moves \
                     over all of its own; full scale is the range of the truth. The score is the greatest magnitude between two \
                     different channels; `matrix` has a row for each predicted and a column for each true channel, its diagonal \
-                    being 1 for a sensor without gain error. Where truths are so alike that no joint fit tells them apart, each \
+                    being 1 for a sensor without gain error. Where truths are so alike that no joint fit separates them, each \
                     slope is that on its own truth alone, and the score is flagged. Of samples with all six channels, or all \
                     of them that there are. A greatest value has no interval.",
     needs: Needs {

@@ -1,4 +1,4 @@
-//! The least force that is told from none.
+//! The least force that is distinguished from none.
 
 use taceva_core::{Batch, Channel, Field, FieldSet, Needs, Unit};
 
@@ -30,7 +30,7 @@ pub(crate) static MINIMUM_DETECTABLE_FORCE: Metric = Metric {
     range: Range::Positive,
     definition: "minimum_detectable_force/1",
     reference: "Currie 1968, Analytical Chemistry 40: detection limit 3.29 σ₀ for risks of 5 %",
-    documentation: "The least force that is told from none, with 5 % of false alarms and 5 % of misses: 3.29 times the standard \
+    documentation: "The least force that is distinguished from none, with 5 % of false alarms and 5 % of misses: 3.29 times the standard \
                     deviation (over n − 1) of predicted force over the samples without contact, |true Fz| < 0.02 N. Of forces \
                     only, and from ten such samples on. It says nothing of a constant offset: see bias.",
     needs: Needs {

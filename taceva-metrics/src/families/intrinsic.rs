@@ -71,7 +71,7 @@ pub(crate) struct Intrinsic {
     frame_size: Option<[u32; 2]>,
 }
 
-/// How contact is told.
+/// How contact is detected.
 #[derive(Clone, Copy, Debug)]
 enum Contact {
     /// From this force on, whose channel stands at the position.

@@ -1,4 +1,4 @@
-//! Spatial resolution: how well the spacing of a grating is told.
+//! Spatial resolution: how well the spacing of a grating is classified.
 
 mod histogram;
 mod success_rate;

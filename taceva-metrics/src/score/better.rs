@@ -3,6 +3,13 @@
 use crate::catalogue;
 
 /// Which values of a metric are good.
+///
+/// ```
+/// use taceva_metrics::{Better, catalogue};
+/// let mae = catalogue::find("mae").ok_or("a metric")?;
+/// assert_eq!((mae.better, mae.better.beside("mae")), (Better::Lower, "mae ↓".to_owned()));
+/// # Ok::<(), &str>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Better {

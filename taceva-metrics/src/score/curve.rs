@@ -8,7 +8,15 @@ use taceva_core::Unit;
 /// `x`, `values`, `counts`: one length; `band` too, if there is one.
 /// # Units
 /// Levels in `x_unit`; values in the unit of the [`Variant`](crate::Variant) that holds the curve.
+///
+/// ```
+/// use taceva_metrics::{Band, Curve, Unit};
+/// let curve = Curve::new(vec![0.5, 1.0], Unit::Newton, vec![Some(0.1), None], vec![9, 0]);
+/// let curve = curve.with_band(Band { low: vec![Some(0.0), None], high: vec![Some(0.2), None] });
+/// assert_eq!((curve.x.len(), curve.band.is_some()), (2, true));
+/// ```
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Curve {
     /// The levels.
     pub x: Vec<f64>,
@@ -22,7 +30,29 @@ pub struct Curve {
     pub band: Option<Band>,
 }
 
-/// Two curves around a third.
+impl Curve {
+    /// The curve through `values` at the levels `x`, without a band, whose shapes the caller has checked.
+    pub fn new(x: Vec<f64>, x_unit: Unit, values: Vec<Option<f64>>, counts: Vec<u64>) -> Curve {
+        Curve {
+            x,
+            x_unit,
+            values,
+            counts,
+            band: None,
+        }
+    }
+
+    /// The same curve within `band`.
+    #[must_use]
+    pub fn with_band(self, band: impl Into<Option<Band>>) -> Curve {
+        Curve {
+            band: band.into(),
+            ..self
+        }
+    }
+}
+
+/// Two curves around a third, a plain pair: it gets no further fields.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Band {
     /// The lower one.

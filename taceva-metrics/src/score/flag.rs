@@ -3,6 +3,11 @@
 use std::fmt;
 
 /// A circumstance under which a defined score says less than it seems to.
+///
+/// ```
+/// use taceva_metrics::Flag;
+/// assert_eq!(Flag::OneBin.to_string(), "one bin");
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 #[non_exhaustive]
 pub enum Flag {

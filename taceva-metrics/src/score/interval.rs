@@ -35,6 +35,16 @@ impl ClusteredBy {
 }
 
 /// A confidence interval of 95 %.
+///
+/// ```
+/// use taceva_metrics::{Channel, Evaluator, Interval, UndefinedReason};
+/// let mut evaluator = Evaluator::of_channels([Channel::FZ])?;
+/// evaluator.update_pairs(Channel::FZ, &[0.25, 0.5], &[0.5, 0.5])?;
+/// let scores = evaluator.finish()?;
+/// let mae = scores.mae(Channel::FZ).ok_or("a score")?;
+/// assert_eq!(mae.interval, Interval::Undefined(UndefinedReason::NoClusters));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Interval {

@@ -6,7 +6,15 @@
 /// `values[row][column]` belongs to `rows[row]` and `columns[column]`.
 /// # Units
 /// Those of the [`Variant`](crate::Variant) that holds the matrix.
+///
+/// ```
+/// use taceva_metrics::Matrix;
+/// let names = || vec!["Fx".to_owned(), "Fz".to_owned()];
+/// let leaks = Matrix::new(names(), names(), vec![vec![None, Some(0.02)], vec![Some(0.05), None]]);
+/// assert_eq!(leaks.values[1][0], Some(0.05));
+/// ```
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Matrix {
     /// The names of the rows.
     pub rows: Vec<String>,
@@ -14,4 +22,15 @@ pub struct Matrix {
     pub columns: Vec<String>,
     /// The value of each pair.
     pub values: Vec<Vec<Option<f64>>>,
+}
+
+impl Matrix {
+    /// The matrix of `values` by the names of rows and columns, whose shapes the caller has checked.
+    pub fn new(rows: Vec<String>, columns: Vec<String>, values: Vec<Vec<Option<f64>>>) -> Matrix {
+        Matrix {
+            rows,
+            columns,
+            values,
+        }
+    }
 }

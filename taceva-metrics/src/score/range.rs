@@ -1,6 +1,11 @@
 //! Which values a quantity can have at all.
 
 /// Which values a quantity can have: what its intervals never leave, and on which scale they are formed.
+///
+/// ```
+/// use taceva_metrics::Range;
+/// assert!(Range::BelowOne.holds(-3.0) && !Range::BelowOne.holds(1.5));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Range {

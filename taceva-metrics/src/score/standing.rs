@@ -21,13 +21,19 @@ pub const GREATEST_BOUNDED_SHARE: f64 = 0.05;
 const ROUNDING: f64 = 1e-9;
 
 /// Whether a score takes part in verdicts, and if not, why; of two, the greater one is the worse.
+///
+/// ```
+/// use taceva_metrics::Standing;
+/// assert!(Standing::SkillUnknown.takes_part() && !Standing::NoSkill.takes_part());
+/// assert_eq!(Standing::ALL.into_iter().max(), Some(Standing::NoSkill));
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
 #[non_exhaustive]
 pub enum Standing {
     /// It takes part.
     #[default]
     Counts,
-    /// It takes part, and a reader is told: nothing says whether the model does better than a constant.
+    /// It takes part and is marked: nothing shows whether the model does better than a constant.
     SkillUnknown,
     /// It takes no part: more than [`GREATEST_BOUNDED_SHARE`] of its predictions lie beyond the bounds of the model.
     Bounded,

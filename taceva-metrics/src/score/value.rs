@@ -9,6 +9,12 @@ use crate::score::map::Map;
 use crate::score::matrix::Matrix;
 
 /// A finished value.
+///
+/// ```
+/// use taceva_metrics::{UndefinedReason, Value};
+/// assert_eq!(Value::Scalar(0.5).scalar(), Some(0.5));
+/// assert_eq!(Value::Undefined(UndefinedReason::Empty).scalar(), None);
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Value {
@@ -46,6 +52,15 @@ impl From<Result<f64, UndefinedReason>> for Value {
 }
 
 /// Why samples determine no value, or no interval.
+///
+/// ```
+/// use taceva_metrics::{Channel, Evaluator, UndefinedReason, Value};
+/// let evaluator = Evaluator::of_channels([Channel::FZ])?;
+/// let scores = evaluator.finish()?;
+/// let mae = scores.mae(Channel::FZ).ok_or("a score")?;
+/// assert_eq!(mae.value, Value::Undefined(UndefinedReason::Empty));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum UndefinedReason {
@@ -216,6 +231,11 @@ impl fmt::Display for UndefinedReason {
 }
 
 /// Why a question does not arise.
+///
+/// ```
+/// use taceva_metrics::InapplicableReason;
+/// assert_eq!(InapplicableReason::NotOneNumber.to_string(), "not one number but many");
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum InapplicableReason {

@@ -25,7 +25,14 @@ pub(crate) const LEAST_REPLICATES: usize = 39;
 /// # Reference
 /// Hanley and MacGibbon, Creating non-parametric bootstrap samples using Poisson frequencies, Computer Methods and Programs in
 /// Biomedicine 83 (2006); Efron and Tibshirani, An Introduction to the Bootstrap (1993), 13.3 for the percentiles.
+///
+/// ```
+/// use taceva_metrics::{BootstrapEnds, PoissonBootstrap};
+/// let bootstrap = PoissonBootstrap::DEFAULT.with_replicates(2000).with_ends(BootstrapEnds::Normal);
+/// assert_eq!((bootstrap.replicates, bootstrap.seed), (2000, 0));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct PoissonBootstrap {
     /// How many times the score is finished with other weights; fewer than 39 give no interval.
     pub replicates: u32,
@@ -38,15 +45,42 @@ pub struct PoissonBootstrap {
 impl Default for PoissonBootstrap {
     /// 1,000 replicates, seed 0, percentiles.
     fn default() -> PoissonBootstrap {
-        PoissonBootstrap {
-            replicates: 1000,
-            seed: 0,
-            ends: BootstrapEnds::Percentile,
-        }
+        PoissonBootstrap::DEFAULT
+    }
+}
+
+impl PoissonBootstrap {
+    /// 1,000 replicates, seed 0, percentiles.
+    pub const DEFAULT: PoissonBootstrap = PoissonBootstrap {
+        replicates: 1000,
+        seed: 0,
+        ends: BootstrapEnds::Percentile,
+    };
+
+    /// The same bootstrap with another [`replicates`](PoissonBootstrap::replicates).
+    #[must_use]
+    pub const fn with_replicates(self, replicates: u32) -> PoissonBootstrap {
+        PoissonBootstrap { replicates, ..self }
+    }
+
+    /// The same bootstrap with another [`seed`](PoissonBootstrap::seed).
+    #[must_use]
+    pub const fn with_seed(self, seed: u64) -> PoissonBootstrap {
+        PoissonBootstrap { seed, ..self }
+    }
+
+    /// The same bootstrap with another [`ends`](PoissonBootstrap::ends).
+    #[must_use]
+    pub const fn with_ends(self, ends: BootstrapEnds) -> PoissonBootstrap {
+        PoissonBootstrap { ends, ..self }
     }
 }
 
 /// How an interval is read off bootstrap replicates.
+///
+/// ```
+/// assert_eq!(taceva_metrics::BootstrapEnds::Percentile.to_string(), "percentile");
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum BootstrapEnds {

@@ -9,7 +9,15 @@ use crate::exact::ExactSum;
 use crate::paired::Paired;
 
 /// Samples of one cluster, and the sum of what is compared.
+///
+/// ```
+/// use taceva_metrics::ClusterSum;
+/// let mut sum = ClusterSum::default();
+/// sum.sum.add(0.25);
+/// assert_eq!((sum.n, sum.sum.to_f64()), (0, 0.25));
+/// ```
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct ClusterSum {
     /// How many samples there are.
     pub n: u64,

@@ -9,7 +9,7 @@ use crate::exact::merge::Merge;
 
 /// Distinct locations up to which each is a cluster of its own.
 pub const NAMED_CLUSTERS: usize = 64;
-/// Clusters that more locations than that are dealt into.
+/// Number of clusters to which more locations than that are assigned by hash.
 pub const HASHED_CLUSTERS: usize = 32;
 
 /// One summary a cluster of samples.
@@ -17,6 +17,15 @@ pub const HASHED_CLUSTERS: usize = 32;
 /// The kinds are stages that are only ever climbed, and which one is reached depends on the set of samples alone: locations
 /// are kept by name until there are more than [`NAMED_CLUSTERS`], then by a hash of the name, and once a sample names no
 /// location there are no clusters at all.
+///
+/// ```
+/// use taceva_metrics::{Channel, Clusters, Evaluator, Rows};
+/// let mut evaluator = Evaluator::of_channels([Channel::FZ])?;
+/// evaluator.update_rows(Rows::new().pairs(Channel::FZ, &[0.5, 1.0], &[0.5, 1.0]).points(["left", "right"]))?;
+/// let states = evaluator.states()?;
+/// assert!(matches!(states[0].clusters(), Clusters::Named(cells) if cells.len() == 2));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]

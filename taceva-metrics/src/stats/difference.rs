@@ -15,6 +15,14 @@ pub(super) const LEVEL: f64 = 0.05;
 ///
 /// Verdict, p value and interval rest on one decision: [`decide`] makes it for a family of differences at once, and until then a difference
 /// is a family of its own.
+///
+/// ```
+/// use taceva_metrics::{Estimate, Sides, welch};
+/// let (a, b) = (Estimate::try_new(0.041, 0.003, 32)?, Estimate::try_new(0.053, 0.004, 32)?);
+/// let difference = welch(Sides { a, b })?;
+/// assert!(difference.is_shown && difference.interval[1] < 0.0);
+/// # Ok::<(), taceva_metrics::ComparisonError>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Difference {
@@ -107,6 +115,13 @@ pub fn decide(family: &mut [Difference]) {
 }
 
 /// A test of whether two scores differ.
+///
+/// ```
+/// use taceva_metrics::{DifferenceTest, Estimate, Sides, welch};
+/// let same = Estimate::try_new(0.041, 0.003, 32)?;
+/// assert_eq!(welch(Sides { a: same, b: same })?.test, DifferenceTest::Welch);
+/// # Ok::<(), taceva_metrics::ComparisonError>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum DifferenceTest {

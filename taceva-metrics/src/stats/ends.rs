@@ -10,6 +10,11 @@ use crate::score::range::Range;
 use crate::score::value::UndefinedReason;
 
 /// On which scale an interval is symmetric about its value.
+///
+/// ```
+/// use taceva_metrics::Scale;
+/// assert_eq!(Scale::Logarithm.to_string(), ", logarithmic");
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Scale {

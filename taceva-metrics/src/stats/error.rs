@@ -8,6 +8,12 @@ use super::sides::{Side, Sides};
 use crate::score::value::{InapplicableReason, UndefinedReason};
 
 /// Why there is no answer to a comparison.
+///
+/// ```
+/// use taceva_metrics::{ComparisonError, Estimate};
+/// let few = Estimate::try_new(0.041, 0.003, 4);
+/// assert_eq!(few, Err(ComparisonError::TooFewClusters { have: 4 }));
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum ComparisonError {

@@ -3,6 +3,12 @@
 use super::bootstrap::PoissonBootstrap;
 
 /// How the interval of a score is found. Either way the contact location is what varies, never the sample.
+///
+/// ```
+/// use taceva_metrics::{IntervalMethod, PoissonBootstrap};
+/// let method = IntervalMethod::PoissonBootstrap(PoissonBootstrap::DEFAULT);
+/// assert_ne!(method, IntervalMethod::default());
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum IntervalMethod {

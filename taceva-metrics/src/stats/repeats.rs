@@ -4,7 +4,14 @@ use super::student::quantile;
 use crate::score::COVERAGE;
 
 /// A few values of one quantity, as repeats gave them.
+///
+/// ```
+/// let repeats = taceva_metrics::Repeats::of(&[0.9, 1.1]).ok_or("two values")?;
+/// assert!(repeats.interval[0] < repeats.mean);
+/// # Ok::<(), &str>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Repeats {
     /// Their mean.
     pub mean: f64,

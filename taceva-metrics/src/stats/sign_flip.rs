@@ -38,6 +38,7 @@ use crate::exact::Dyadic;
 /// Ernst, Permutation methods: a basis for exact inference, Statistical Science 19 (2004); Phipson and Smyth,
 /// Permutation p-values should never be zero, Statistical Applications in Genetics and Molecular Biology 9 (2010).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct SignFlip {
     /// How many patterns of signs are drawn at most.
     pub flips: u32,
@@ -56,6 +57,18 @@ impl Default for SignFlip {
 }
 
 impl SignFlip {
+    /// The same test with at most so many [`flips`](SignFlip::flips).
+    #[must_use]
+    pub const fn with_flips(self, flips: u32) -> SignFlip {
+        SignFlip { flips, ..self }
+    }
+
+    /// The same test with another [`seed`](SignFlip::seed).
+    #[must_use]
+    pub const fn with_seed(self, seed: u64) -> SignFlip {
+        SignFlip { seed, ..self }
+    }
+
     /// The difference of the means over all samples; its standard error by leaving out one cluster after the other, its interval by
     /// the test itself.
     ///

@@ -10,7 +10,14 @@ use super::sides::{Side, Sides};
 use crate::score::better::Better;
 
 /// What is asked of a difference.
+///
+/// ```
+/// use taceva_metrics::{Better, Question, Unit};
+/// let question = Question::new(Unit::Newton, Better::Lower).with_margin(0.01);
+/// assert_eq!(question.margin, Some(0.01));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Question {
     /// The unit of the scores.
     pub unit: Unit,
@@ -18,6 +25,26 @@ pub struct Question {
     pub better: Better,
     /// How far apart scores may be and still count as equal for the purpose, in `unit`; without it equivalence is not asked.
     pub margin: Option<f64>,
+}
+
+impl Question {
+    /// Which of two scores in `unit` is better, without asking for equivalence.
+    pub const fn new(unit: Unit, better: Better) -> Question {
+        Question {
+            unit,
+            better,
+            margin: None,
+        }
+    }
+
+    /// The same question, and whether the scores are equal within [`margin`](Question::margin).
+    #[must_use]
+    pub fn with_margin(self, margin: impl Into<Option<f64>>) -> Question {
+        Question {
+            margin: margin.into(),
+            ..self
+        }
+    }
 }
 
 /// What a comparison says, at a level of 5 %, of a difference that [`decide`](crate::decide) decided about among those of its family.
@@ -29,7 +56,7 @@ pub struct Question {
 ///     a: Estimate::try_new(0.041, 0.0024, 32)?,
 ///     b: Estimate::try_new(0.053, 0.0032, 32)?,
 /// });
-/// let question = Question { unit: Unit::Newton, better: Better::Lower, margin: None };
+/// let question = Question::new(Unit::Newton, Better::Lower);
 /// let verdict = Verdict::of(difference, question);
 /// assert_eq!(verdict.to_string(), "A better by 0.012 N (95 % 0.004…0.020, p = 0.004)");
 /// assert_eq!(verdict.better(), Some(Side::A));

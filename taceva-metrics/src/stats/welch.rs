@@ -8,6 +8,12 @@ use crate::score::value::{InapplicableReason, UndefinedReason, Value};
 use crate::score::{Interval, Score};
 
 /// A score, how far it would move with other clusters, and how many there were to tell.
+///
+/// ```
+/// use taceva_metrics::Estimate;
+/// assert!(Estimate::try_new(0.041, 0.003, 32).is_ok());
+/// assert!(Estimate::try_new(0.041, 0.003, 4).is_err());
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Estimate {
     value: f64,

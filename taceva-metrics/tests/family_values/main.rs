@@ -196,11 +196,9 @@ fn facts_that_nobody_declared_are_named() {
             "metric:r_spatial: the sensor's `footprint` is not declared",
         ]
     );
-    let opaque = SensorFacts {
-        footprint: Some(Footprint::disc(5.0, None).expect("a length")),
-        opaque: Some(true),
-        ..SensorFacts::default()
-    };
+    let opaque = SensorFacts::default()
+        .with_footprint(Some(Footprint::disc(5.0, None).expect("a length")))
+        .with_opaque(Some(true));
     assert_eq!(
         reasons(&plan.with_facts(opaque)),
         [

@@ -8,14 +8,10 @@ fn states_of_another_surface_or_other_constants_are_refused() {
     let states = evaluator(&plan(&["uniformity"]), &samples)
         .states()
         .expect("one channel list");
-    let other_surface = plan(&["uniformity"]).with_facts(SensorFacts {
-        footprint: Some(Footprint::disc(10.0, Some(1.0)).expect("lengths")),
-        ..facts()
-    });
-    let fewer_bins = plan(&["uniformity"]).with_settings(Settings {
-        bins: 10,
-        ..Settings::default()
-    });
+    let other_surface = plan(&["uniformity"]).with_facts(
+        facts().with_footprint(Some(Footprint::disc(10.0, Some(1.0)).expect("lengths"))),
+    );
+    let fewer_bins = plan(&["uniformity"]).with_settings(Settings::default().with_bins(10));
     for plan in [other_surface, fewer_bins.expect("ten bins")] {
         let error = Evaluator::new(&plan)
             .merge_states(&states)
@@ -25,10 +21,7 @@ fn states_of_another_surface_or_other_constants_are_refused() {
             "{error}"
         );
     }
-    let refused = plan(&["uniformity"]).with_settings(Settings {
-        bins: 0,
-        ..Settings::default()
-    });
+    let refused = plan(&["uniformity"]).with_settings(Settings::default().with_bins(0));
     assert_eq!(
         refused.expect_err("no bin").to_string(),
         "setting `bins` is 0, expected 1 to 1000"
@@ -77,10 +70,7 @@ fn a_report_has_maps_curves_and_variants_as_fields_of_their_metric() {
     let samples: Vec<Sample> = (0..5)
         .map(|point| pressed(point, [1.0, 1.0, 0.5], 2.0, 0.25))
         .collect();
-    let two_bins = plan(&METRICS).with_settings(Settings {
-        bins: 2,
-        ..Settings::default()
-    });
+    let two_bins = plan(&METRICS).with_settings(Settings::default().with_bins(2));
     let evaluator = evaluator(&two_bins.expect("two bins"), &samples);
     let evaluation = evaluator.finish().expect("the plan's channels");
     let report = serde_json::to_value(&evaluation).expect("a report");

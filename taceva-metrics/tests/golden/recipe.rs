@@ -3,7 +3,7 @@
 //! Whatever is not understood is a panic, because a case that is skipped proves nothing.
 
 use serde_json::{Map, Value};
-use taceva_metrics::bench::{Kind, Order, Recipe};
+use taceva_metrics::bench::{Kind, Order};
 
 /// A case's inputs in its own order, and what must come of them.
 pub(crate) struct Case {
@@ -185,7 +185,7 @@ fn generate(case: &Map<String, Value>) -> (Vec<f64>, Vec<f64>) {
         "shuffle" => Order::Shuffled(count("seed2")),
         other => panic!("order `{other}` is not known to this reader"),
     };
-    let recipe = Recipe {
+    let recipe = taceva_metrics::bench::Case {
         kind,
         rows: usize::try_from(count("n")).expect("a count"),
         seed: count("seed"),

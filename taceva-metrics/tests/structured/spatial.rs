@@ -57,10 +57,7 @@ fn spatial_robustness_is_formed_in_whole_nanometres() {
         })
         .collect();
     let footprint = Footprint::disc(millimetres(reach), Some(millimetres(deepest)));
-    let facts = SensorFacts {
-        footprint: Some(footprint.expect("lengths")),
-        ..SensorFacts::default()
-    };
+    let facts = SensorFacts::default().with_footprint(Some(footprint.expect("lengths")));
     let channels = [Channel::PX, Channel::PY, Channel::PZ, Channel::FZ];
     let plan = plan(&["r_spatial"], &channels, facts);
     let mut comparison = Comparison::default();
@@ -81,11 +78,7 @@ fn spatial_robustness_is_formed_in_whole_nanometres() {
                 "truth_R",
             ],
         );
-        let settings = Settings {
-            n_min,
-            ddof,
-            ..Settings::default()
-        };
+        let settings = Settings::default().with_n_min(n_min).with_ddof(ddof);
         for (way, evaluation) in in_every_way(&with(&plan, settings), &samples) {
             let what = |name: &str| format!("{key} {name} {way}");
             let of = |name| variant(&evaluation, "r_spatial", "Fz", name);

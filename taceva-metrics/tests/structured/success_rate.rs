@@ -15,10 +15,7 @@ fn spacing_sample(row: usize, truth: Nanometre, predicted: Nanometre) -> Sample 
 /// The share of `samples` within `tolerance`, which must be the same in every way.
 fn success_rates(samples: &[Sample], tolerance: Nanometre) -> Vec<(&'static str, Evaluation)> {
     let plan = plan(&["sr"], &[], SensorFacts::default());
-    let settings = Settings {
-        resolution_tolerance: tolerance,
-        ..Settings::default()
-    };
+    let settings = Settings::default().with_resolution_tolerance(tolerance);
     in_every_way(&with(&plan, settings), samples)
 }
 

@@ -47,20 +47,17 @@ fn sensitivity_and_uniformity_are_rationals_rounded_once() {
         })
         .collect();
     let side = millimetres(half);
-    let facts = SensorFacts {
-        footprint: Some(Footprint::rectangle(side, side, None).expect("a length")),
-        ..SensorFacts::default()
-    };
+    let facts = SensorFacts::default().with_footprint(Some(
+        Footprint::rectangle(side, side, None).expect("a length"),
+    ));
     let plan = plan(
         &["sensitivity", "uniformity"],
         &[Channel::PX, Channel::PY, Channel::PZ, Channel::FZ],
         facts,
     );
-    let settings = Settings {
-        bins: u32::try_from(bins).expect("few bins"),
-        gate: taceva_core::Newton(gate),
-        ..Settings::default()
-    };
+    let settings = Settings::default()
+        .with_bins(u32::try_from(bins).expect("few bins"))
+        .with_gate(taceva_core::Newton(gate));
     let mut comparison = Comparison::default();
     for (key, n_min) in [("nmin1", 1), ("nmin5", 5)] {
         let expected = &golden[key];
@@ -69,11 +66,7 @@ fn sensitivity_and_uniformity_are_rationals_rounded_once() {
             &["bins_used", "mu", "sigma_pop", "sigma_sample", "U", "truth"],
         );
         for ddof in [0, 1] {
-            let settings = Settings {
-                n_min,
-                ddof,
-                ..settings
-            };
+            let settings = settings.with_n_min(n_min).with_ddof(ddof);
             for (way, evaluation) in in_every_way(&with(&plan, settings), &samples) {
                 let what = |name: &str| format!("{key} {name} ddof {ddof} {way}");
                 let of = |name| variant(&evaluation, "uniformity", "Fz", name);

@@ -8,10 +8,7 @@ pub(crate) const METRICS: [&str; 5] = ["sr", "sensitivity", "uniformity", "r_spa
 
 /// A disc of 12.5 mm that is pressed up to 1 mm deep.
 pub(crate) fn facts() -> SensorFacts {
-    SensorFacts {
-        footprint: Some(Footprint::disc(12.5, Some(1.0)).expect("lengths")),
-        ..SensorFacts::default()
-    }
+    SensorFacts::default().with_footprint(Some(Footprint::disc(12.5, Some(1.0)).expect("lengths")))
 }
 
 /// A plan of `metrics` for the six channels of a contact.

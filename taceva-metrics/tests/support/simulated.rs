@@ -86,10 +86,9 @@ impl Method {
         let press = [Channel::PX, Channel::PY, Channel::PZ, Channel::FZ];
         let press = Channels::new(press).expect("four channels");
         let half_mm = f64::from(CELLS) / 2.0;
-        let facts = SensorFacts {
-            footprint: Some(Footprint::rectangle(half_mm, half_mm, None).expect("lengths")),
-            ..SensorFacts::default()
-        };
+        let facts = SensorFacts::default().with_footprint(Some(
+            Footprint::rectangle(half_mm, half_mm, None).expect("lengths"),
+        ));
         let fields: FieldSet = Field::ALL.into_iter().collect();
         let plan = |kind: Kind, channels| {
             let metrics = METRICS
@@ -117,10 +116,7 @@ impl Method {
                 match self {
                     Method::Jackknife | Method::JackknifeBySample => plan,
                     Method::Bootstrap(ends) => {
-                        let bootstrap = PoissonBootstrap {
-                            ends,
-                            ..PoissonBootstrap::default()
-                        };
+                        let bootstrap = PoissonBootstrap::default().with_ends(ends);
                         plan.with_interval_method(IntervalMethod::PoissonBootstrap(bootstrap))
                     }
                 },

@@ -27,10 +27,8 @@ fn evaluate(metric: &str, channels: &[&str], samples: &[Sample]) -> Evaluation {
     let channels = Channels::new(channels.iter().map(channel)).expect("distinct channels");
     let wanted = catalogue::select([metric]).expect("a known name");
     let available: FieldSet = Field::ALL.into_iter().collect();
-    let facts = SensorFacts {
-        footprint: Some(Footprint::disc(10.0, None).expect("a length")),
-        ..SensorFacts::default()
-    };
+    let facts =
+        SensorFacts::default().with_footprint(Some(Footprint::disc(10.0, None).expect("a length")));
     let plan = MetricPlan::new(&wanted, channels, available).with_facts(facts);
     assert_eq!(plan.skipped(), []);
     let mut evaluator = Evaluator::new(&plan);

@@ -29,7 +29,7 @@ pub enum FeatureError {
         /// The frame.
         info: FrameInfo,
     },
-    /// Slopes are asked for and there is no colour to tell lamps apart by.
+    /// Slopes are asked for and there is no colour to distinguish lamps by.
     #[error(
         "frames of {info} have no colour, by which `features=gradients` tells three lamps apart"
     )]

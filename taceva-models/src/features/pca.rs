@@ -4,7 +4,7 @@ use faer::Mat;
 use taceva_core::{FeatureShape, Features, ModelError, Progress};
 
 use crate::linalg::{Design, FeatureScale, Spectrum};
-use crate::problem::invalid;
+use crate::training::problem::invalid;
 
 /// The directions in which the training part varies most, orthonormal, largest first.
 #[derive(Clone, Debug, PartialEq)]

@@ -8,7 +8,7 @@ use rayon::prelude::*;
 use taceva_core::{ModelError, Progress};
 
 use super::design::Design;
-use crate::progress::{Stage, interrupted};
+use crate::training::progress::{Stage, interrupted};
 
 /// Rows and columns of a tile.
 const TILE: usize = 256;

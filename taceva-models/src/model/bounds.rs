@@ -9,7 +9,7 @@ impl Model {
     /// The least and the greatest prediction of the channel at `position`, in its unit; `None` for a model of a time before bounds.
     ///
     /// A quarter of the range of the labels of the training part is allowed on either side: under new light or beyond the depths that
-    /// were taught, a model may be wrong, but not by many times what the sensor can feel. A label that never changes is its own bound.
+    /// of that part, a model may be wrong, but not by many times what the sensor can feel. A label that never changes is its own bound.
     pub fn bounds(&self, position: usize) -> Option<[f64; 2]> {
         let channel = &self.card.channels[position];
         let margin = self.card.margin?;

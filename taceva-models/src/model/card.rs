@@ -4,15 +4,15 @@ use serde::{Deserialize, Serialize};
 use taceva_core::{FrameInfo, Unit};
 
 use super::FitInput;
-use crate::auto::AutoCard;
-use crate::choice::Choice;
-use crate::feature_choice::FeatureChoice;
+use crate::estimators::auto::AutoCard;
+use crate::estimators::library::LibraryCard;
+use crate::estimators::network::NetworkCard;
+use crate::estimators::plugin::PluginCard;
 use crate::features::FeatureSpec;
-use crate::fit::{ModelFit, ModelRegressor};
-use crate::label_scaling::means;
-use crate::library::LibraryCard;
-use crate::network::NetworkCard;
-use crate::plugin::PluginCard;
+use crate::features::choice::FeatureChoice;
+use crate::training::choice::Choice;
+use crate::training::fit::{ModelFit, ModelRegressor};
+use crate::training::label_scaling::means;
 
 /// The description kept in a model file.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -82,7 +82,7 @@ pub enum Form {
         /// How many are kept.
         samples: usize,
     },
-    /// Values that are told apart.
+    /// Classes.
     Classes {
         /// How many there are, over all channels.
         classes: usize,
@@ -97,7 +97,7 @@ pub enum Form {
 }
 
 impl Form {
-    pub(super) fn of(regressor: &ModelRegressor) -> Option<Form> {
+    pub(crate) fn of(regressor: &ModelRegressor) -> Option<Form> {
         match regressor {
             ModelRegressor::Linear(_) | ModelRegressor::Network(_) | ModelRegressor::Plugin(_) => {
                 None

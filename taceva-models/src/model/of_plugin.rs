@@ -3,11 +3,11 @@
 use safetensors::tensor::Dtype;
 use taceva_core::{Channels, Saved};
 
-use super::bytes::FormatError;
 use super::card::ModelCard;
+use crate::estimators::plugin::{PluginCard, PluginRegressor};
+use crate::file::FormatError;
+use crate::file::tensors::{Raw, Tensors};
 use crate::models::Models;
-use crate::plugin::{PluginCard, PluginRegressor};
-use crate::tensors::{Raw, Tensors};
 
 /// The tensor of the bytes.
 const PLUGIN: &str = "plugin";
@@ -23,7 +23,7 @@ pub(crate) fn plugin_tensor(plugin: &PluginRegressor) -> Raw {
 }
 
 /// The model that the tensor holds, loaded by its plugin.
-pub(super) fn plugin_from(
+pub(crate) fn plugin_from(
     models: &Models,
     tensors: &Tensors<'_>,
     (channels, card, plugin): (&Channels, &ModelCard, &PluginCard),

@@ -113,7 +113,7 @@ fn a_choice_among_models_says_what_was_tried_and_keeps_the_one_it_took() {
 }
 
 #[test]
-fn levels_are_told_as_they_were_taught_and_too_many_are_refused() {
+fn levels_are_predicted_as_classes_and_too_many_are_refused() {
     let levels = |mut recording: Recording| {
         // Thirds of the gel: values that no arithmetic gives back by chance.
         let level = |label: &mut f64| *label = 0.1 + (*label / 8.0).floor() / 3.0;
@@ -126,17 +126,17 @@ fn levels_are_told_as_they_were_taught_and_too_many_are_refused() {
         &test.features,
     );
     assert!(found.iter().all(|value| training.labels.contains(value)));
-    let told = found
+    let right = found
         .iter()
         .zip(&test.labels)
         .filter(|(a, b)| a.to_bits() == b.to_bits());
     // A blob near the edge of a third looks like one beyond it.
-    assert!(told.count() > 180);
+    assert!(right.count() > 180);
 
     let said = case_of("lda").refusal(&recording(257, 37), None);
     assert_eq!(
         said,
-        "`Px` takes 257 values in the training part, discriminants tell at most 256 apart: for what varies freely choose another \
+        "`Px` takes 257 values in the training part, discriminants have at most 256 classes: for what varies freely choose another \
          model, such as ridge"
     );
 }

@@ -37,7 +37,7 @@ pub(crate) const CASES: &[Case] = &[
         order: Some(1e-5),
         ..case("knn", &[], 1.0)
     },
-    // As many values as samples: the nearest picture is told.
+    // As many values as samples: the label of the nearest picture is predicted.
     case("lda", &[], 1.5),
     Case {
         order: None,

@@ -94,7 +94,7 @@ impl WeightGradient {
         });
     }
 
-    /// The gradient's memory dealt into tasks: a block of rows of up to four panels each.
+    /// The gradient's memory divided into tasks: a block of rows of up to four panels each.
     fn tasks<'a>(&self, into: &'a mut [f32]) -> Vec<Task<'a>> {
         let mut tasks = Vec::new();
         for (group, panels) in into.chunks_mut(4 * self.rows * PANEL).enumerate() {

@@ -2,7 +2,7 @@
 
 use super::{NamedTensor, Network};
 use crate::convolution::plain;
-use crate::error::{NetworkError, Part};
+use crate::error::{NetworkError, SampleSet};
 use crate::loss::Loss;
 use crate::stage::Stage;
 use crate::training::Samples;
@@ -36,7 +36,7 @@ impl Network {
         samples: Samples<'_>,
         loss: Loss,
     ) -> Result<Gradients, NetworkError> {
-        samples.check(Part::Training, &self.architecture, loss)?;
+        samples.check(SampleSet::Training, &self.architecture, loss)?;
         let (picture, width) = (self.architecture.input, self.architecture.outputs);
         let batch = samples.pictures.len() / picture.len();
         let mut space = self.training_space(batch);

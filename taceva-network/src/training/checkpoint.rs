@@ -1,4 +1,4 @@
-//! A training put aside, to be gone on with later.
+//! Checkpoints: a training saved after a step, to be resumed later.
 
 use std::collections::BTreeMap;
 
@@ -9,7 +9,7 @@ use crate::architecture::Architecture;
 use crate::error::NetworkError;
 use crate::network::{NamedTensor, Network};
 
-/// A training put aside after any step: gone on with, it ends with the same bits as if it had not been.
+/// A training saved after any step: resumed, it ends with the same bits as one that was never interrupted.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Checkpoint {
     /// What a file of a few lines can hold.
@@ -68,7 +68,7 @@ impl<'a> Trainer<'a> {
         }
     }
 
-    /// The training that `checkpoint` was put aside from, with the same samples.
+    /// The training that `checkpoint` was saved from, with the same samples.
     ///
     /// # Errors
     /// [`NetworkError::Checkpoint`] if the samples are others in number, or a tensor of the optimiser does not fit; otherwise as

@@ -8,7 +8,7 @@ use crate::network::{NamedTensor, Network};
 
 /// What passes pictures through a network and changes its weights: the processor of this machine, or another device.
 ///
-/// A [`Trainer`](super::Trainer) draws, deals, judges and stops, and an engine computes; so a recipe means the same on each.
+/// A [`Trainer`](super::Trainer) draws samples, composes batches, evaluates and stops; an engine computes. A recipe means the same on each.
 pub trait Engine: fmt::Debug + Send {
     /// Makes a step: passes a batch, normalised by its own moments, and lets weights and running moments follow. Gives the loss
     /// before they did.

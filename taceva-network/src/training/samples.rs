@@ -1,7 +1,7 @@
 //! Pictures and what is true of them.
 
 use crate::architecture::Architecture;
-use crate::error::{NetworkError, Part};
+use crate::error::{NetworkError, SampleSet};
 use crate::loss::Loss;
 
 /// Pictures and what is true of them.
@@ -31,7 +31,7 @@ impl Samples<'_> {
     /// Whether they go with the architecture and the loss, and are finite.
     pub(crate) fn check(
         &self,
-        part: Part,
+        part: SampleSet,
         architecture: &Architecture,
         loss: Loss,
     ) -> Result<(), NetworkError> {

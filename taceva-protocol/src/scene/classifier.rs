@@ -9,6 +9,9 @@ pub enum GratingClassifier {
     /// Linear discriminants of the radial spectrum of the picture.
     #[default]
     Spectrum,
+    /// Multinomial logistic regression of linfa on the same radial spectrum.
+    #[serde(rename = "linfa/logistic")]
+    LinfaLogistic,
     /// A small network with an output for each spacing.
     Cnn,
     /// A small network with one output, the spacing itself, which may lie between those of the training samples.

@@ -65,18 +65,18 @@ impl MetricSettings {
         let tolerance = self
             .tolerance_mm
             .and_then(|length| Nanometre::from_millimetres(length.value));
-        Settings {
-            bins: self.bins.map_or(default.bins, |bins| bins.value),
-            n_min: self
-                .n_min
-                .map_or(default.n_min, |least| u64::from(least.value)),
-            gate: self.gate_n.map_or(default.gate, |gate| Newton(gate.value)),
-            smoothing_window: self
-                .smoothing
-                .map_or(default.smoothing_window, |width| width.value),
-            resolution_tolerance: tolerance.unwrap_or(default.resolution_tolerance),
-            ..default
-        }
+        let n_min = self
+            .n_min
+            .map_or(default.n_min, |least| u64::from(least.value));
+        let window = self
+            .smoothing
+            .map_or(default.smoothing_window, |width| width.value);
+        Settings::default()
+            .with_bins(self.bins.map_or(default.bins, |bins| bins.value))
+            .with_n_min(n_min)
+            .with_gate(self.gate_n.map_or(default.gate, |gate| Newton(gate.value)))
+            .with_smoothing_window(window)
+            .with_resolution_tolerance(tolerance.unwrap_or(default.resolution_tolerance))
     }
 }
 

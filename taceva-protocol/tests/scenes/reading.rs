@@ -72,7 +72,7 @@ fn gratings_are_classified_by_what_there_is() {
     let error = with("[protocol.gratings]\nclassified_by = \"cnm\"");
     assert!(
         error.starts_with("s.toml, line 10: ")
-            && error.contains("expected one of `spectrum`, `cnn`, `cnn-length`"),
+            && error.contains("expected one of `spectrum`, `linfa/logistic`, `cnn`, `cnn-length`"),
         "{error}"
     );
 }

@@ -4,7 +4,7 @@ use taceva_metrics::Better;
 
 use super::LIMITS_VERSION;
 use crate::escape::terminal;
-use crate::number::{Printed, spaced};
+use crate::number::{FormattedValue, spaced};
 use crate::results::{Interval, Score, Study};
 use crate::scores::ScoreTable;
 
@@ -49,7 +49,7 @@ pub fn limits_template(study: &Study) -> String {
         MARGIN * 100.0
     );
     match limits.is_empty() {
-        true => out += "\n# This result has no score to make a limit of.\n",
+        true => out += "\n# This result has no score to derive a limit from.\n",
         false => out += &limits,
     }
     out + &left_out(&barred)
@@ -71,7 +71,7 @@ fn left_out(barred: &[&Score]) -> String {
     let groups = groups.into_iter();
     let comments = groups.map(|(reason, names)| {
         format!(
-            "\n# Left out, since no limit on them would be kept ({reason}):\n# {}\n",
+            "\n# Left out, since no limit on them would be met ({reason}):\n# {}\n",
             names.join(", ")
         )
     });
@@ -93,7 +93,8 @@ fn limit(score: &Score) -> Option<String> {
         }
         _ => return None,
     };
-    let measured = Printed::of(&score.value, score.interval.as_ref()).phrase(&spaced(score.unit));
+    let measured =
+        FormattedValue::of(&score.value, score.interval.as_ref()).phrase(&spaced(score.unit));
     let text = |text: &str| toml::Value::String(text.to_owned()).to_string();
     Some(format!(
         "\n# measured: {}, n = {}\n[[limit]]\nmetric = {}\nchannel = {}\nunit = {}\n{bounds}",

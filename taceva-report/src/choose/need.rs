@@ -35,7 +35,7 @@ pub struct Bound {
 pub enum NeedError {
     /// There is none.
     #[error(
-        "no need is said: expected words such as `shear` or numbers such as `rate >= 50 Hz`, separated by commas"
+        "no need is given: expected words such as `shear` or numbers such as `rate >= 50 Hz`, separated by commas"
     )]
     Empty,
     /// The word is not known.

@@ -5,7 +5,7 @@ use std::fmt;
 use taceva_metrics::{Better, Standing};
 
 use crate::catalogue::Sensor;
-use crate::number::Printed;
+use crate::number::FormattedValue;
 
 /// A number of a sensor that needs ask for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -126,7 +126,7 @@ impl Property {
 
     /// `value` with its unit, to four digits.
     pub fn shown(self, value: f64) -> String {
-        let value_shown = Printed::number(value, None).value;
+        let value_shown = FormattedValue::number(value, None).value;
         // Published numbers have few digits, and keep them as they were printed.
         let short = value.to_string();
         let digits = if short.len() <= value_shown.len() {
@@ -160,7 +160,9 @@ impl fmt::Display for Property {
             Property::Error(channel) => write!(f, "MAE of {channel}"),
             Property::Repeatability(channel) => write!(f, "repeatability of {channel}"),
             Property::Spatial(channel) => write!(f, "spatial robustness of {channel}"),
-            Property::Resolution(kind) => write!(f, "share of {kind} gratings told within 0.05 mm"),
+            Property::Resolution(kind) => {
+                write!(f, "share of {kind} gratings predicted to within 0.05 mm")
+            }
             Property::Sensitivity => f.write_str("sensitivity"),
             Property::Uniformity => f.write_str("uniformity"),
             Property::FrameRate => f.write_str("frame rate"),

@@ -57,7 +57,7 @@ impl Choice {
         }
         if !self.unknown.is_empty() {
             table.note(format!(
-                "Nothing is known of what is asked: {}.",
+                "Not known of any sensor: {}.",
                 self.unknown.join(", ")
             ));
         }
@@ -69,7 +69,7 @@ impl Choice {
         match self.ranked.as_slice() {
             [] => "No sensor meets every need, as far as is known".to_owned(),
             [best] if !self.barred.is_empty() => {
-                format!("{} alone is ranked; others take no part", best.name)
+                format!("{} alone is ranked; others are excluded", best.name)
             }
             [best] => format!("{} alone meets every need, as far as is known", best.name),
             several => self.leaders().unwrap_or_else(|| {
@@ -123,8 +123,8 @@ impl Choice {
         let answer = format!("<p><strong>{}.</strong></p>", html(&self.headline()));
         document.section("answer", "Answer", &answer);
         let mut table = self.table();
-        "Every number that was looked at".clone_into(&mut table.caption);
-        document.section("steps", "How it came about", &table.html());
+        "Every number considered".clone_into(&mut table.caption);
+        document.section("steps", "How sensors were ranked", &table.html());
         document.finish()
     }
 }

@@ -20,7 +20,7 @@ pub(super) fn of_both(scores: Sides<&Score>) -> Result<Sides<Estimate>, String> 
     };
     if meaning(a) != meaning(b) {
         return Err(format!(
-            "`{}` and `{}` are not one meaning",
+            "the definitions `{}` and `{}` differ",
             meaning(a),
             meaning(b)
         ));
@@ -36,7 +36,7 @@ pub(super) fn of_both(scores: Sides<&Score>) -> Result<Sides<Estimate>, String> 
 fn estimate(score: &Score) -> Result<Estimate, String> {
     let Some(value) = score.value.number() else {
         let reason = score.value.reason();
-        return Err(reason.unwrap_or_else(|| "not one number but many".to_owned()));
+        return Err(reason.unwrap_or_else(|| "not a single number".to_owned()));
     };
     let Some(interval) = &score.interval else {
         return Err("no interval".to_owned());
@@ -52,7 +52,7 @@ fn estimate(score: &Score) -> Result<Estimate, String> {
     };
     let Some(clusters) = interval.clusters() else {
         return Err(format!(
-            "an interval by `{method}` says nothing of clusters"
+            "an interval by `{method}` has no number of clusters"
         ));
     };
     let standard_error = match stated {

@@ -71,7 +71,7 @@ impl Comparison {
     }
 
     /// How many answers say what: one line.
-    pub fn tally(&self) -> String {
+    pub fn summary(&self) -> String {
         let all = self.answers.len();
         let shown = self
             .answers
@@ -105,7 +105,7 @@ impl Comparison {
             1 => "1 more question, and ".to_owned(),
             more => format!("{more} more questions, and "),
         };
-        let mut lines = vec![line(&self.tally())];
+        let mut lines = vec![line(&self.summary())];
         lines.extend(decisions.iter().take(room).map(|of| line(&of.line())));
         lines.extend(notes);
         lines.push(format!(

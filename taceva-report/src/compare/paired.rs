@@ -26,10 +26,7 @@ pub(super) fn difference(
     if !is_same {
         return None;
     }
-    let test = SignFlip {
-        seed,
-        ..SignFlip::default()
-    };
+    let test = SignFlip::default().with_seed(seed);
     Some(test.test(Sides {
         a: &a.sums,
         b: &b.sums,

@@ -90,7 +90,7 @@ impl Comparison {
 
     /// Every question and every answer, for a terminal: score by score, in lines of at most 100 letters.
     pub fn text(&self) -> String {
-        let mut out = format!("{}\n", self.tally());
+        let mut out = format!("{}\n", self.summary());
         for decision in self.decisions() {
             out += &wrapped(&terminal(&decision.line()));
         }
@@ -199,9 +199,9 @@ impl Comparison {
                 format!("<li>{asked}: {}</li>\n", html(&decision.words))
             })
             .collect();
-        let tally = html(&self.tally());
-        let summary = format!("<p>{tally}.</p>\n<ul class=\"verdicts\">\n{lines}</ul>\n");
-        document.section("summary", "What is decided", &summary);
+        let counts = html(&self.summary());
+        let summary = format!("<p>{counts}.</p>\n<ul class=\"verdicts\">\n{lines}</ul>\n");
+        document.section("summary", "Decisions", &summary);
         document.section("answers", "Every pair", &self.pairs());
         let radars: String = figures(studies)
             .iter()
@@ -230,7 +230,7 @@ impl Comparison {
         } else {
             let list = format!("<ul class=\"verdicts\">\n{lines}</ul>");
             let holds = counted(self.won().len(), "line");
-            fold("shown-all", "All that is shown to differ", &holds, &list)
+            fold("shown-all", "All differences that are shown", &holds, &list)
         };
         let table = self.table().html_with_links();
         let holds = counted(self.answers.len(), "answer");

@@ -41,7 +41,7 @@ pub(super) fn draw(studies: &[Study]) -> Option<Figure> {
     }
     Some(Figure {
         id: "crosstalk".to_owned(),
-        title: "What leaks from one channel into another".to_owned(),
+        title: "Crosstalk between channels".to_owned(),
         caption: "Change of the predicted channel (row) over the range of the true channel (column), both as parts of their ranges: 1 on the diagonal and 0 elsewhere would be a sensor without crosstalk. Colours end at ±1.".to_owned(),
         description: format!("Matrices of crosstalk of {}.", super::listed(&names)),
         canvas,

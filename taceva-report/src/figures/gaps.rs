@@ -52,9 +52,9 @@ pub(super) fn draw(studies: &[Study]) -> Option<Figure> {
     }
     Some(Figure {
         id: "units".to_owned(),
-        title: "Units of one sensor".to_owned(),
+        title: "Differences between units".to_owned(),
         caption: format!(
-            "Height of the surface of the second unit less that of the first at the same points, as felt and before the units are laid on each other. Mean distance of the surfaces afterwards: {}.",
+            "Height of the surface of the second unit less that of the first at the same points, as measured, before the two surfaces are aligned. Mean distance of the aligned surfaces: {}.",
             words.join("; ")
         ),
         description: format!(

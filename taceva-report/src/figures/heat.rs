@@ -25,6 +25,7 @@ pub(super) fn draw(heat: &Heat<'_>, area: Area, canvas: &mut Canvas) {
         y_mm,
         values,
         counts,
+        ..
     } = heat.map;
     let cells = values.iter().map(Vec::len).sum::<usize>();
     let ends = |edges: &[f64]| {

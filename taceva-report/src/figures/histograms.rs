@@ -40,7 +40,7 @@ pub(super) fn draw(studies: &[Study]) -> Option<Figure> {
     }
     Some(Figure {
         id: "labels".to_owned(),
-        title: "What was asked: how the labels are spread".to_owned(),
+        title: "Label distributions".to_owned(),
         caption: format!(
             "Shares of the labels of the presses that models are fitted and tested on, in {BINS} bins from the least to the greatest label of all sensors shown."
         ),

@@ -70,7 +70,7 @@ pub(super) fn bias(studies: &[Study]) -> Option<Figure> {
         id: "bias",
         title: "Bias by level",
         caption: format!(
-            "Mean of truth less prediction in bins of the truth with at least {FEWEST} samples; above zero the sensor says too little."
+            "Mean of truth less prediction in bins of the truth with at least {FEWEST} samples; above zero the sensor reads low."
         ),
         description: format!(
             "Bias over the true value, by channel, of {}.",

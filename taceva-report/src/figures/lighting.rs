@@ -51,10 +51,10 @@ pub(super) fn draw(studies: &[Study]) -> Option<Figure> {
     }
     Some(Figure {
         id: "lighting".to_owned(),
-        title: "Error by scene of light".to_owned(),
+        title: "Error by lighting scene".to_owned(),
         caption: caption(studies, &names, &others),
         description: format!(
-            "Mean absolute error by scene of light ({}) over that of untouched light, of {}.",
+            "Mean absolute error by lighting scene ({}) over that in unchanged light, of {}.",
             super::listed(&scenes),
             super::listed(&legend.into_iter().map(|(_, name)| name).collect::<Vec<_>>())
         ),
@@ -70,12 +70,12 @@ fn caption(studies: &[Study], names: &[String], others: &[usize]) -> String {
     let without = match lit.is_empty() {
         true => String::new(),
         false => format!(
-            " The results of {} say no error of a scene, and nothing is drawn of them.",
+            " The results of {} hold no errors by scene and are not drawn.",
             super::listed(&lit)
         ),
     };
     format!(
-        "Mean absolute error in each scene of light as a ratio to that of the same presses in the untouched light, the scene “{LEARNT_IN}” that models learn in: 1 is no change, 10 ten times the error; the axis is logarithmic. Predictions are as the model gives them, not brought back to its bounds, as in r_light. Sensors that no light reaches are not shown. Point at a dot for the light itself.{without}"
+        "Mean absolute error in each lighting scene as a ratio to that of the same presses in unchanged light, the scene “{LEARNT_IN}” that models are trained in: 1 is no change, 10 ten times the error; the axis is logarithmic. Predictions are as the model gives them, not brought back to its bounds, as in r_light. Sensors that no light reaches are not shown. Point at a dot for the light itself.{without}"
     )
 }
 
@@ -129,7 +129,7 @@ impl Sheet {
         };
         let axes = Axes {
             title: self.channel.to_owned(),
-            x: "scene of light".to_owned(),
+            x: "lighting scene".to_owned(),
             y: directed("error, untouched = 1", "mae"),
         };
         panel.axes_of_names(&axes, scenes, canvas);
@@ -156,7 +156,7 @@ impl Sheet {
                     format!(", light {} times", numeral(light))
                 });
                 points.words.push(format!(
-                    "{name}, scene {}: error {} times that of untouched light{light}",
+                    "{name}, scene {}: error {} times that in unchanged light{light}",
                     scene.name,
                     numeral(ratio),
                 ));

@@ -47,7 +47,7 @@ pub(super) fn draw(studies: &[Study]) -> Option<Figure> {
     }
     Some(Figure {
         id: "hysteresis".to_owned(),
-        title: "Into the gel and out again".to_owned(),
+        title: "Loading and unloading".to_owned(),
         caption: format!(
             "True normal force over true depth while loading (whole lines) and unloading (broken lines), at most {MOST} points a sensor, first by name. Area between the branches: {}.",
             words.join("; ")

@@ -20,12 +20,12 @@ pub struct Race {
     /// A cost that nobody can go below, and what it is of.
     pub floor: Option<(f64, String)>,
     /// Those who race.
-    pub contenders: Vec<Contender>,
+    pub points: Vec<RacePoint>,
 }
 
 /// One that races.
 #[derive(Clone, Debug)]
-pub struct Contender {
+pub struct RacePoint {
     /// What it is called.
     pub name: String,
     /// What is gained.
@@ -45,15 +45,10 @@ pub fn race(race: &Race) -> Figure {
         width: 660.0,
         height: 380.0,
     };
-    let costs = race.contenders.iter().map(|contender| contender.cost);
+    let costs = race.points.iter().map(|point| point.cost);
     let floor = race.floor.iter().map(|(cost, _)| *cost);
     let costs = extent(costs.chain(floor).filter(|cost| *cost > 0.0));
-    let gains = extent(
-        race.contenders
-            .iter()
-            .map(|contender| contender.gain)
-            .chain([0.0]),
-    );
+    let gains = extent(race.points.iter().map(|point| point.gain).chain([0.0]));
     if let (Some([cheap, dear]), Some(gains)) = (costs, gains) {
         let panel = Panel {
             area,
@@ -77,20 +72,17 @@ pub fn race(race: &Race) -> Figure {
             canvas.label(Label::new([area.left + 6.0, y - 5.0], words, Anchor::Start));
         }
         let mut names = Vec::new();
-        for contender in &race.contenders {
-            let at = panel.at(contender.gain, contender.cost);
-            names.push((at, short(&contender.name, 40)));
-            dot(contender, at, &mut canvas);
+        for point in &race.points {
+            let at = panel.at(point.gain, point.cost);
+            names.push((at, short(&point.name, 40)));
+            dot(point, at, &mut canvas);
         }
         for name in beside(&names, area) {
             canvas.label(name);
         }
     }
-    let front = race
-        .contenders
-        .iter()
-        .filter(|contender| contender.is_on_front);
-    let front: Vec<String> = front.map(|contender| contender.name.clone()).collect();
+    let front = race.points.iter().filter(|point| point.is_on_front);
+    let front: Vec<String> = front.map(|point| point.name.clone()).collect();
     Figure {
         id: "race".to_owned(),
         title: race.title.clone(),
@@ -104,19 +96,19 @@ pub fn race(race: &Race) -> Figure {
     }
 }
 
-fn dot(contender: &Contender, at: [f64; 2], canvas: &mut Canvas) {
+fn dot(point: &RacePoint, at: [f64; 2], canvas: &mut Canvas) {
     let words = format!(
         "{}: {} at {}",
-        contender.name,
-        numeral(contender.gain),
-        numeral(contender.cost)
+        point.name,
+        numeral(point.gain),
+        numeral(point.cost)
     );
     let one = |words: Vec<String>| Points {
         at: vec![at],
         words,
     };
     canvas.points(one(vec![words]), Ink::Series(0), 5.5, 1.0);
-    if !contender.is_on_front {
+    if !point.is_on_front {
         canvas.points(one(Vec::new()), Ink::Paper, 3.9, 1.0);
     }
 }
@@ -127,7 +119,7 @@ mod tests {
 
     #[test]
     fn the_cheaper_stands_lower_and_the_better_to_the_right() {
-        let contender = |name: &str, gain, cost| Contender {
+        let point = |name: &str, gain, cost| RacePoint {
             name: name.to_owned(),
             gain,
             cost,
@@ -139,7 +131,7 @@ mod tests {
             gain: "digits".to_owned(),
             cost: "ns".to_owned(),
             floor: Some((0.5, "reading".to_owned())),
-            contenders: vec![contender("fast", 8.0, 1.0), contender("right", 17.0, 30.0)],
+            points: vec![point("fast", 8.0, 1.0), point("right", 17.0, 30.0)],
         });
         let svg = drawn.svg();
         let place = |name: &str| {

@@ -27,7 +27,7 @@ pub(super) fn draw(studies: &[Study]) -> Option<Figure> {
             sheets.push(Sheet {
                 title: title.to_owned(),
                 x: "tolerance ε (mm)".to_owned(),
-                y: directed("share told within ε", "sr"),
+                y: directed("share within ε", "sr"),
                 y_unit: Unit::One,
                 least: Some([0.0, 1.0]),
                 ways: Ways::Straight,
@@ -38,7 +38,9 @@ pub(super) fn draw(studies: &[Study]) -> Option<Figure> {
     let words = Words {
         id: "resolution",
         title: "Spatial resolution: SR(ε)",
-        caption: "Share of presses of gratings whose spacing is told within ε; at 0 the very board is told.".to_owned(),
+        caption:
+            "Share of presses of gratings whose spacing is predicted to within ε; at 0 exactly."
+                .to_owned(),
         description: format!(
             "Success rate over tolerance for gratings of lines and dots of {}.",
             super::listed(&super::names(studies))

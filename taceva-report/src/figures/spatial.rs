@@ -96,13 +96,12 @@ mod tests {
 
     #[test]
     fn a_rolling_mean_skips_empty_bins_and_shrinks_at_the_ends() {
-        let curve = Curve {
-            x: vec![0.0, 1.0, 2.0, 3.0],
-            x_unit: Unit::Millimetre,
-            values: vec![Some(1.0), None, Some(2.0), Some(6.0)],
-            counts: vec![1, 0, 2, 3],
-            band: None,
-        };
+        let curve = Curve::new(
+            vec![0.0, 1.0, 2.0, 3.0],
+            Unit::Millimetre,
+            vec![Some(1.0), None, Some(2.0), Some(6.0)],
+            vec![1, 0, 2, 3],
+        );
         let levels = rolling(&curve);
         let means: Vec<f64> = levels.iter().filter_map(|level| level.y).collect();
         assert_eq!(means.len(), 3);

@@ -71,7 +71,7 @@ fn entry(metric: &Metric) -> String {
         Better::Lower => "lower is better (↓)",
         Better::Higher => "higher is better (↑)",
         Better::NearZero => "nearer to zero is better (→0)",
-        _ => "describes, and is neither good nor bad by itself",
+        _ => "descriptive, neither good nor bad by itself",
     };
     format!(
         "<dt id=\"metric-{}\" tabindex=\"-1\">{} <code>{}</code></dt><dd>{} Unit: {}; {better}. Definition <code>{}</code>: {}.</dd>",

@@ -35,7 +35,7 @@ pub(super) fn section(studies: &[Study]) -> (usize, String) {
     }
     if rows.is_empty() {
         let nothing =
-            "<p>Nothing was skipped, every score has a value, and there is nothing to mind.</p>";
+            "<p>Nothing was skipped, every score has a value, and no remark was made.</p>";
         return (0, nothing.to_owned());
     }
     let table = format!(

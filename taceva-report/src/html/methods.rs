@@ -73,10 +73,8 @@ fn origin(studies: &[Study]) -> String {
         .count();
     let mut out = match (simulated, studies.len() - simulated) {
         (0, _) => String::new(),
-        (_, 0) => {
-            " All samples were simulated on TacEva's bench; nothing was measured on hardware."
-                .to_owned()
-        }
+        (_, 0) => " All samples were simulated on TacEva's bench, none was measured on hardware."
+            .to_owned(),
         (some, _) => format!(
             " The samples of {} were simulated on TacEva's bench.",
             counted(some, "sensor")
@@ -110,7 +108,7 @@ fn divided(studies: &[Study]) -> String {
         return String::new();
     };
     let mut out = format!(
-        " Samples for learning were divided by the split {}",
+        " Samples for training were divided by the split {}",
         listed(&splits)
     );
     if let Some(seeds) = values(studies, "seed") {

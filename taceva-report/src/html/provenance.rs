@@ -31,7 +31,7 @@ pub(super) fn section(studies: &[Study], table: &ScoreTable) -> String {
         .flat_map(|row| row.cells.iter().flatten())
         .filter_map(|cell| cell.method.as_deref())
         .collect();
-    out += "<h3>Intervals</h3>\n<p>All intervals are of 95 %; what may vary are contact points, not samples, but where a line says otherwise.</p><ul>";
+    out += "<h3>Intervals</h3>\n<p>All intervals are of 95 %, by contact point unless a line says otherwise.</p><ul>";
     for method in methods {
         out += &format!("<li>{}</li>", html(method));
     }

@@ -3,7 +3,7 @@
 use super::glossary::metric_link;
 use crate::escape::html;
 use crate::figures::names;
-use crate::number::{Printed, minus};
+use crate::number::{FormattedValue, minus};
 use crate::results::{OverSeeds, SeedScore, Study};
 
 /// How many scores there are, and a table a study; `None` where no model was fitted with several seeds.
@@ -20,7 +20,7 @@ pub(super) fn section(studies: &[Study]) -> Option<(usize, String)> {
         }
     }
     (count > 0).then(|| {
-        let note = "The interval is of the mean over ever more seeds, at 95 %; it says how much of a score is the luck of its training, and takes part in no verdict.";
+        let note = "The 95 % interval is that of the mean over seeds; it shows how much a score varies between trainings, and takes part in no verdict.";
         (count, format!("<p class=\"note\">{note}</p>\n{out}"))
     })
 }
@@ -44,8 +44,8 @@ fn table(over: &OverSeeds, name: &str) -> String {
 }
 
 fn row(score: &SeedScore) -> String {
-    let printed = Printed::number(score.mean, Some(score.interval));
-    let [low, high] = printed.interval.unwrap_or_default();
+    let formatted = FormattedValue::number(score.mean, Some(score.interval));
+    let [low, high] = formatted.interval.unwrap_or_default();
     let unit = match score.unit {
         taceva_core::Unit::One => "",
         unit => unit.symbol(),
@@ -55,7 +55,7 @@ fn row(score: &SeedScore) -> String {
         metric_link(&score.metric),
         html(&score.channel),
         score.mean,
-        minus(&printed.value),
+        minus(&formatted.value),
         minus(&low),
         minus(&high),
         score.standard_deviation,

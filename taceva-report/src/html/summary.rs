@@ -43,7 +43,7 @@ pub(crate) const QUESTIONS: [(&str, &str, &str); 11] = [
     ("sr", "line", "Fine lines"),
     ("sr", "dot", "Fine dots"),
     ("sensitivity", "Fz", "Sensitivity"),
-    ("uniformity", "Fz", "Evenness of the surface"),
+    ("uniformity", "Fz", "Uniformity of the surface"),
     ("r_light", "Fz", "Force in changing light"),
     ("repeatability", "Pz", "Repeated depth"),
     ("hysteresis", "Fz", "Hysteresis"),
@@ -93,7 +93,7 @@ fn answer(studies: &[Study], table: &ScoreTable, row: &ScoreRow) -> Option<Strin
 fn alone(row: &ScoreRow) -> Option<String> {
     let cell = row.cells.first()?.as_ref()?;
     if cell.value.is_none() {
-        let reason = cell.printed.reason.as_deref()?;
+        let reason = cell.formatted.reason.as_deref()?;
         return Some(format!("no value ({}).", html(reason)));
     }
     let why = cell.standing.reason();
@@ -211,8 +211,8 @@ fn rivals(best: usize, known: &[Known<'_>], (table, row): (&ScoreTable, &ScoreRo
 
 fn phrase(cell: &ScoreCell, row: &ScoreRow) -> String {
     let unit = spaced(row.unit);
-    let value = minus(&cell.printed.value);
-    let value = match &cell.printed.interval {
+    let value = minus(&cell.formatted.value);
+    let value = match &cell.formatted.interval {
         Some([low, high]) => {
             let [low, high] = [low, high].map(|end| minus(end));
             format!(

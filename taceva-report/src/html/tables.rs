@@ -42,20 +42,20 @@ fn cell(cell: Option<&ScoreCell>) -> String {
     let Some(cell) = cell else {
         return "<td class=\"none\" data-v=\"\">–</td>".to_owned();
     };
-    let printed = &cell.printed;
+    let formatted = &cell.formatted;
     let Some(value) = cell.value else {
-        let reason = html(printed.reason.as_deref().unwrap_or("no value"));
+        let reason = html(formatted.reason.as_deref().unwrap_or("no value"));
         return format!("<td class=\"none\" data-v=\"\">– <span class=\"ci\">{reason}</span></td>");
     };
     let shown = match cell.is_best {
-        true => format!("<b>{}</b>", minus(&printed.value)),
-        false => minus(&printed.value),
+        true => format!("<b>{}</b>", minus(&formatted.value)),
+        false => minus(&formatted.value),
     };
     let invalid = match cell.n_invalid {
         0 => String::new(),
         invalid => format!(" (+{invalid} invalid)"),
     };
-    let interval = match (&printed.interval, &printed.reason) {
+    let interval = match (&formatted.interval, &formatted.reason) {
         (Some([low, high]), _) => {
             let (low, high, n) = (minus(low), minus(high), cell.n);
             // Where it is broken, it is behind the comma.
@@ -67,7 +67,7 @@ fn cell(cell: Option<&ScoreCell>) -> String {
     let remark = cell.remark().map_or_else(String::new, |remark| {
         format!("<span class=\"ci\">{}</span>", html(&remark))
     });
-    let why = printed.reason.as_deref().unwrap_or_default();
+    let why = formatted.reason.as_deref().unwrap_or_default();
     let hover = match why {
         "" => String::new(),
         why => format!(" title=\"interval {}\"", html(why)),

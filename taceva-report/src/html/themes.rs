@@ -19,7 +19,7 @@ struct Theme {
 const THEMES: [Theme; 6] = [
     Theme {
         id: "asked",
-        title: "What was asked",
+        title: "Label distributions",
         metrics: &[],
         figures: &["labels"],
     },
@@ -94,7 +94,7 @@ pub(super) fn section(table: &ScoreTable, figures: &[Figure]) -> String {
         out += "<p>There is no score in these results.</p>";
     }
     if figures.is_empty() {
-        out += "<p>There is nothing to draw: no score has a map or a curve, and the samples are not at hand.</p>";
+        out += "<p>There is nothing to draw: no score has a map or a curve, and there are no samples.</p>";
     }
     let (mut rows_left, mut figures_left): (Vec<&ScoreRow>, Vec<&Figure>) = (
         headlines.rows.iter().collect(),

@@ -161,7 +161,7 @@ impl ScoreRow {
             Cell::text(cell.method.as_deref().unwrap_or_default()),
             Cell::Number(cell.n.to_string()),
             Cell::Number(cell.n_invalid.to_string()),
-            Cell::text(cell.printed.reason.as_deref().unwrap_or_default()),
+            Cell::text(cell.formatted.reason.as_deref().unwrap_or_default()),
             Cell::text(cell.standing.words().unwrap_or_default()),
             number(cell.bounded_share),
         ]
@@ -171,7 +171,7 @@ impl ScoreRow {
 /// A value with its interval, or why there is none.
 fn estimate(cell: Option<&ScoreCell>) -> Cell {
     Cell::Estimate(cell.map_or_else(Estimate::default, |cell| Estimate {
-        printed: cell.printed.clone(),
+        formatted: cell.formatted.clone(),
         unit: String::new(),
         remark: cell.remark(),
         is_best: cell.is_best,
@@ -182,7 +182,7 @@ fn estimate(cell: Option<&ScoreCell>) -> Cell {
 fn without_reason(cell: Option<&ScoreCell>) -> Cell {
     match estimate(cell) {
         Cell::Estimate(mut estimate) => {
-            estimate.printed.reason = None;
+            estimate.formatted.reason = None;
             Cell::Estimate(estimate)
         }
         other => other,
@@ -196,6 +196,6 @@ fn short(cell: Option<&ScoreCell>) -> Cell {
         is_best: cell.is_some_and(|cell| cell.is_best),
         ..Estimate::default()
     };
-    short.printed.value = value.unwrap_or_default();
+    short.formatted.value = value.unwrap_or_default();
     Cell::Estimate(short)
 }

@@ -3,7 +3,7 @@
 use super::Words;
 use super::latex::number;
 use crate::escape;
-use crate::number::Printed;
+use crate::number::FormattedValue;
 
 /// A cell of a table.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -22,7 +22,7 @@ pub enum Cell {
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Estimate {
     /// Value and interval, or why there is none.
-    pub printed: Printed,
+    pub formatted: FormattedValue,
     /// The unit of this cell; empty where the table says it elsewhere or there is none.
     pub unit: String,
     /// What a reader must know of it.
@@ -83,15 +83,15 @@ impl Estimate {
             "" => String::new(),
             unit => format!(" {unit}"),
         };
-        self.with_remark(self.printed.phrase(&unit))
+        self.with_remark(self.formatted.phrase(&unit))
     }
 
     fn in_markdown(&self) -> String {
-        let Printed {
+        let FormattedValue {
             value,
             interval,
             reason,
-        } = &self.printed;
+        } = &self.formatted;
         if value.is_empty() {
             return escape::markdown(reason.as_deref().unwrap_or("–"));
         }
@@ -111,12 +111,12 @@ impl Estimate {
     }
 
     fn in_latex(&self) -> String {
-        if self.printed.value.is_empty() {
-            return escape::latex(self.printed.reason.as_deref().unwrap_or("–"));
+        if self.formatted.value.is_empty() {
+            return escape::latex(self.formatted.reason.as_deref().unwrap_or("–"));
         }
         let value = match self.is_best {
-            true => format!("\\textbf{{{}}}", number(&self.printed.value)),
-            false => number(&self.printed.value),
+            true => format!("\\textbf{{{}}}", number(&self.formatted.value)),
+            false => number(&self.formatted.value),
         };
         match self.unit.as_str() {
             "" => value,
@@ -125,7 +125,7 @@ impl Estimate {
     }
 
     fn latex_below(&self) -> String {
-        let ends = self.printed.interval.as_ref();
+        let ends = self.formatted.interval.as_ref();
         let ends = ends.map(|[low, high]| format!("[{}, {}]", number(low), number(high)));
         let remark = self.remark.as_ref().map(|remark| escape::latex(remark));
         let parts: Vec<String> = ends.into_iter().chain(remark).collect();

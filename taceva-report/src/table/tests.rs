@@ -75,7 +75,7 @@ fn each_number_of_a_mixed_column_stands_to_the_right_where_it_says_so() {
 fn an_estimate_is_a_phrase_or_two_lines_of_a_paper() {
     let estimate = |number: f64, is_best: bool| {
         Cell::Estimate(Estimate {
-            printed: crate::Printed::number(number, Some([number - 0.2, number + 0.2])),
+            formatted: crate::FormattedValue::number(number, Some([number - 0.2, number + 0.2])),
             unit: "N".to_owned(),
             remark: (!is_best).then(|| "no skill".to_owned()),
             is_best,

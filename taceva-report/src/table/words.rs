@@ -25,7 +25,8 @@ impl Words {
     /// A name in a table, such as `r_spatial`: Markdown prints letters, digits and what joins them as they stand.
     pub fn name(plain: impl Into<String>) -> Words {
         let plain = plain.into();
-        let is_name = |letter: char| letter.is_alphanumeric() || matches!(letter, '_' | '.' | '-');
+        let is_name =
+            |letter: char| letter.is_alphanumeric() || matches!(letter, '_' | '.' | '-' | ':');
         Words {
             markdown: plain.chars().all(is_name).then(|| plain.clone()),
             ..Words::new(plain)

@@ -7,6 +7,8 @@ mod support;
 
 mod axe;
 mod cdp;
+mod every_page;
+mod layout;
 mod print;
 
 use std::path::Path;
@@ -15,10 +17,7 @@ use cdp::Browser;
 use serde_json::{Value, json};
 use support::drawn;
 use taceva_needs::skip;
-use taceva_report::{
-    Acceptance, CompareRequest, LimitsFile, Need, Report, Study, accept, catalogue, choose,
-    compare, report,
-};
+use taceva_report::{Report, Study, report};
 
 /// A page of drawn results in a file, opened.
 struct Opened {
@@ -158,57 +157,6 @@ fn tables_sort_by_number_both_ways() {
 }
 
 #[test]
-fn paper_cuts_no_table() {
-    let Some(mut opened) = open(&two()) else {
-        return;
-    };
-    let browser = &mut opened.browser;
-    browser.call("Emulation.setEmulatedMedia", json!({"media": "print"}));
-    // The width of A4 less its margins, at 96 dots an inch.
-    browser.call(
-        "Emulation.setDeviceMetricsOverride",
-        json!({"width": 688, "height": 971, "deviceScaleFactor": 1, "mobile": false}),
-    );
-    let cut = browser.evaluate(
-        "[...document.querySelectorAll('table')].filter((table) => table.getBoundingClientRect().right > innerWidth + 1).map((table) => table.id || table.textContent.slice(0, 80))",
-    );
-    assert_eq!(cut, json!([]));
-    assert!(print::pages(browser) > 3);
-    browser.assert_quiet();
-}
-
-/// The height of a screen, in pixels.
-const SCREEN: f64 = 900.0;
-
-#[test]
-fn a_report_of_four_sensors_is_at_most_twelve_screens_until_it_is_unfolded() {
-    let four = [1.0, 1.4, 1.8, 2.2].map(|scale| drawn(&format!("sensor {scale}"), 150, scale));
-    let Some(mut opened) = open(&four) else {
-        return;
-    };
-    let browser = &mut opened.browser;
-    browser.call(
-        "Emulation.setDeviceMetricsOverride",
-        json!({"width": 1280, "height": 900, "deviceScaleFactor": 1, "mobile": false}),
-    );
-    let height = "document.documentElement.scrollHeight";
-    let folded = browser.evaluate(height).as_f64().expect("a height") / SCREEN;
-    let first = "(() => { const last = [...document.querySelectorAll('#summary li')].pop(); return last.getBoundingClientRect().bottom; })()";
-    let summary = browser.evaluate(first).as_f64().expect("a height") / SCREEN;
-    let unfold = "document.querySelector('[data-unfold]').click()";
-    browser.evaluate(unfold);
-    let unfolded = browser.evaluate(height).as_f64().expect("a height") / SCREEN;
-    print(&format!(
-        "screens of {SCREEN} px: summary {summary:.1}, folded {folded:.1}, unfolded {unfolded:.1}"
-    ));
-    assert!(
-        folded <= 12.0 && unfolded > folded * 2.0,
-        "{folded} {unfolded}"
-    );
-    browser.assert_quiet();
-}
-
-#[test]
 fn whoever_follows_a_metric_sees_what_it_means() {
     let Some(mut opened) = open(&two()) else {
         return;
@@ -252,63 +200,6 @@ fn methods_are_copied_by_keyboard() {
 }
 
 #[test]
-fn paper_unfolds_everything() {
-    let Some(mut opened) = open(&two()) else {
-        return;
-    };
-    let browser = &mut opened.browser;
-    browser.call("Emulation.setEmulatedMedia", json!({"media": "print"}));
-    let hidden = browser.evaluate(
-        "[...document.querySelectorAll('main figure svg')].filter((one) => one.getBoundingClientRect().height < 10).length",
-    );
-    assert_eq!(hidden, json!(0));
-    browser.assert_quiet();
-}
-
-#[test]
-fn a_phone_says_where_a_table_goes_on_and_cuts_no_radar() {
-    let Some(mut opened) = open(&two()) else {
-        return;
-    };
-    let browser = &mut opened.browser;
-    browser.call(
-        "Emulation.setDeviceMetricsOverride",
-        json!({"width": 390, "height": 844, "deviceScaleFactor": 2, "mobile": true}),
-    );
-    browser.evaluate("document.querySelectorAll('details').forEach((fold) => { fold.open = true; }); new Promise((done) => setTimeout(done, 300))");
-    let silent = browser.evaluate(
-        "[...document.querySelectorAll('.scroll, main figure')].filter((box) => box.scrollWidth > box.clientWidth + 2 && getComputedStyle(box, '::before').content === 'none').length",
-    );
-    assert_eq!(silent, json!(0), "every box that goes on says so");
-    let told = browser.evaluate("document.querySelectorAll('[data-more]').length");
-    assert!(told.as_u64() > Some(3), "{told}");
-    let cut = browser.evaluate(
-        "[...document.querySelectorAll('[id^=figure-radar] svg')].filter((svg) => svg.getBoundingClientRect().right > innerWidth || [...svg.querySelectorAll('text')].some((text) => { const box = text.getBoundingClientRect(); return box.left < 0 || box.right > innerWidth; })).map((svg) => svg.textContent.slice(0, 30))",
-    );
-    assert_eq!(cut, json!([]));
-    browser.assert_quiet();
-}
-
-#[test]
-fn a_phone_scrolls_down_and_squeezes_nothing() {
-    let Some(mut opened) = open(&two()) else {
-        return;
-    };
-    let browser = &mut opened.browser;
-    browser.call(
-        "Emulation.setDeviceMetricsOverride",
-        json!({"width": 400, "height": 800, "deviceScaleFactor": 2, "mobile": true}),
-    );
-    let wide = browser.evaluate("document.documentElement.scrollWidth <= innerWidth");
-    assert_eq!(wide, json!(true), "nothing leaves the page to the right");
-    let squeezed = browser.evaluate(
-        "[...document.querySelectorAll('p, li, dd, figcaption, caption')].filter((one) => one.textContent.length > 40 && one.getBoundingClientRect().width < 140 && one.checkVisibility()).map((one) => one.textContent.slice(0, 60))",
-    );
-    assert_eq!(squeezed, json!([]));
-    browser.assert_quiet();
-}
-
-#[test]
 fn no_naughty_name_runs_asks_or_speaks() {
     let strings = naughty_strings::BLNS
         .iter()
@@ -325,80 +216,6 @@ fn no_naughty_name_runs_asks_or_speaks() {
         return;
     };
     opened.browser.assert_quiet();
-}
-
-/// Limits of three metrics of every channel: what a unit of six channels is held to.
-fn sheet(limits_of: &[&str]) -> String {
-    let mut text = "limits_version = 1\nname = \"line 3\"\n".to_owned();
-    for metric in limits_of {
-        for channel in support::SIX {
-            let unit = match (*metric, channel.starts_with('P')) {
-                ("r2" | "r_light", _) => "1",
-                (_, true) => "mm",
-                (_, false) => "N",
-            };
-            text += &format!(
-                "[[limit]]\nmetric = \"{metric}\"\nchannel = \"{channel}\"\nunit = \"{unit}\"\nmost = 0.05\n"
-            );
-        }
-    }
-    let limits = LimitsFile::read(&text).expect("limits");
-    let study = drawn("one", 60, 1.0);
-    let findings = accept(&study, &limits);
-    assert!(findings.iter().any(|finding| !finding.is_kept));
-    let acceptance = Acceptance {
-        name: &limits.name,
-        study: &study,
-        findings: &findings,
-        date: Some("2026-11-22"),
-        pictures: None,
-    };
-    acceptance.page()
-}
-
-#[test]
-fn a_data_sheet_is_one_page_of_paper() {
-    for metrics in [&["mae"][..], &["mae", "r2", "r_spatial", "repeatability"]] {
-        let Some(mut opened) = open_page(&sheet(metrics)) else {
-            return;
-        };
-        assert_eq!(print::pages(&mut opened.browser), 1, "{metrics:?}");
-        opened.browser.assert_quiet();
-    }
-}
-
-#[test]
-fn no_page_keeps_anybody_out() {
-    let axe = match axe::source() {
-        Ok(axe) => axe,
-        Err(why) => return skip(taceva_needs::Need::Axe, why),
-    };
-    let studies = two();
-    let needs = Need::parse("accurate shear, ambient light").expect("needs");
-    let site = catalogue::site(&catalogue::all(), &studies);
-    let mut pages = vec![
-        ("report", page_of(&studies)),
-        (
-            "comparison",
-            compare(&studies, &CompareRequest::default()).page(&studies),
-        ),
-        (
-            "choice",
-            choose(&catalogue::all(), &needs).page("accurate shear, ambient light"),
-        ),
-        ("data sheet", sheet(&["mae"])),
-    ];
-    for file in ["index.html", "vitactip.html", "digit.html"] {
-        let page = site.iter().find(|page| page.file == file).expect("there");
-        pages.push((file, page.text.clone()));
-    }
-    let Some(mut opened) = open_page(&pages[0].1) else {
-        return;
-    };
-    for (name, page) in &pages {
-        opened.show(page);
-        axe::assert_accessible(&mut opened.browser, &axe, name);
-    }
 }
 
 #[test]

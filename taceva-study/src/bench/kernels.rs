@@ -3,7 +3,7 @@
 use serde::Serialize;
 use taceva_core::Progress;
 use taceva_metrics::bench::{
-    ALL_DIGITS, Contender, Kind, Order, Recipe, Scores, digits, nasty_inputs, shuffled, stream_sum,
+    ALL_DIGITS, Case, Kernel, Kind, Order, Scores, digits, nasty_inputs, shuffled, stream_sum,
 };
 use taceva_metrics::{Isa, Paired};
 
@@ -115,7 +115,7 @@ pub struct InputDigits {
 /// One candidate of the race.
 #[derive(Clone, Copy)]
 struct Candidate {
-    contender: Contender,
+    contender: Kernel,
     mae_only: bool,
 }
 
@@ -220,7 +220,7 @@ pub fn kernels(
 }
 
 fn candidates() -> Vec<Candidate> {
-    let all = Contender::available();
+    let all = Kernel::available();
     let full = all.iter().map(|contender| Candidate {
         contender: *contender,
         mae_only: false,
@@ -236,7 +236,7 @@ fn candidates() -> Vec<Candidate> {
 fn columns(request: &KernelRequest) -> Vec<Paired<Vec<f64>>> {
     (0..CHANNELS as u64)
         .map(|channel| {
-            let recipe = Recipe {
+            let recipe = Case {
                 kind: LAB,
                 rows: request.rows,
                 seed: request.seed.wrapping_add(channel),
@@ -290,7 +290,7 @@ fn on_every_input(candidate: Candidate) -> Vec<InputDigits> {
     nasty_inputs()
         .map(|(input, recipe)| {
             let columns = recipe.columns();
-            let truth = Contender::truth(as_slices(&columns));
+            let truth = Kernel::truth(as_slices(&columns));
             InputDigits {
                 input,
                 digits: candidate.digits(as_slices(&columns), &truth),
@@ -311,9 +311,9 @@ fn survives_shuffling(candidate: Candidate, seed: u64) -> bool {
 }
 
 /// The instruction set that a contender was made for.
-fn isa(contender: Contender) -> Option<String> {
+fn isa(contender: Kernel) -> Option<String> {
     match contender {
-        Contender::Exact(isa) => Some(isa.name().to_owned()),
+        Kernel::Exact(isa) => Some(isa.name().to_owned()),
         _ => None,
     }
 }

@@ -135,6 +135,6 @@ impl<'a> FitPlan<'a> {
 
     /// Keeps checkpoints of a long training from now on, and resumes from one that is there.
     pub(crate) fn keep_checkpoints(&mut self, checkpoints: Checkpoints) {
-        self.estimator.put_aside(checkpoints);
+        self.estimator.keep_checkpoints(checkpoints);
     }
 }

@@ -1,5 +1,6 @@
 //! Which spacing each press of a grating is taken for, by a model that has not seen that press.
 
+mod model;
 mod network;
 mod spectrum;
 
@@ -8,6 +9,7 @@ use std::collections::BTreeMap;
 use taceva_core::{Column, GratingKind, Nanometre};
 use taceva_dataset::Dataset;
 
+use self::spectrum::ByFold;
 use super::RunContext;
 use crate::cache::{CachedStage, Key};
 use crate::classifier::SpacingClassifier;
@@ -48,7 +50,12 @@ impl PredictedSpacings {
             for presses in boards.values() {
                 match classifier {
                     SpacingClassifier::Spectrum => {
-                        spectrum::classify(dataset, presses, work, &mut predicted)?
+                        let by = ByFold::Discriminants;
+                        spectrum::classify(dataset, presses, (by, work), &mut predicted)?
+                    }
+                    SpacingClassifier::Model(model) => {
+                        let by = ByFold::Model(model);
+                        spectrum::classify(dataset, presses, (by, work), &mut predicted)?
                     }
                     SpacingClassifier::Network(network) => {
                         network::classify(dataset, presses, (network, work), &mut predicted)?;
@@ -64,7 +71,7 @@ impl PredictedSpacings {
         let presses: usize = boards.values().map(Vec::len).sum();
         let times = match classifier {
             // Once for the mean picture, once for each picture itself.
-            SpacingClassifier::Spectrum => 2,
+            SpacingClassifier::Spectrum | SpacingClassifier::Model(_) => 2,
             SpacingClassifier::Network(_) => 1,
         };
         let frames_decoded = times * presses as u64;

@@ -106,22 +106,24 @@ impl WrittenPlan {
         let fields: FieldSet = self.fields.iter().map(field).collect::<Result<_, _>>()?;
         let footprint = self.footprint.as_ref().map(WrittenFootprint::to_core);
         let plan = MetricPlan::new(&metrics, channels, fields)
-            .with_facts(SensorFacts {
-                footprint: footprint.transpose().map_err(wrong)?,
-                opaque: self.opaque,
-                reference_scene: self.reference_scene.clone(),
-                frame_size: self.frame_size,
-            })
+            .with_facts(
+                SensorFacts::default()
+                    .with_footprint(footprint.transpose().map_err(wrong)?)
+                    .with_opaque(self.opaque)
+                    .with_reference_scene(self.reference_scene.clone())
+                    .with_frame_size(self.frame_size),
+            )
             .with_seed(self.seed)
             .with_constants(self.constants.clone())?
-            .with_settings(Settings {
-                bins: self.bins,
-                n_min: self.n_min,
-                ddof: self.ddof,
-                gate: Newton(self.gate_n),
-                smoothing_window: self.smoothing_window,
-                resolution_tolerance: Nanometre(self.resolution_tolerance_nm),
-            });
+            .with_settings(
+                Settings::default()
+                    .with_bins(self.bins)
+                    .with_n_min(self.n_min)
+                    .with_ddof(self.ddof)
+                    .with_gate(Newton(self.gate_n))
+                    .with_smoothing_window(self.smoothing_window)
+                    .with_resolution_tolerance(Nanometre(self.resolution_tolerance_nm)),
+            );
         Ok(plan?)
     }
 }

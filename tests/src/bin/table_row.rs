@@ -16,7 +16,7 @@ use std::io::{self, Read as _};
 
 use anyhow::{Context as _, bail, ensure};
 use taceva_core::Unit;
-use taceva_report::{Printed, spaced};
+use taceva_report::{FormattedValue, spaced};
 
 /// One score.
 #[derive(Clone, Debug)]
@@ -107,7 +107,7 @@ fn score(table: &str, cell: &str) -> anyhow::Result<Score> {
 
 /// `0.91 N (0.69 … 1.20)`, and what bars it from verdicts.
 fn with_standing(score: &Score) -> String {
-    let printed = Printed::number(score.value, score.ends).phrase(&spaced(score.unit));
+    let printed = FormattedValue::number(score.value, score.ends).phrase(&spaced(score.unit));
     match &*score.standing {
         "" => printed,
         standing => format!("{printed}, {standing}"),

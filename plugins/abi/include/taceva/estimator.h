@@ -20,7 +20,7 @@ typedef struct taceva_training_set {
   const taceva_text *channel_names;        /* [channels]: "Px", "Fz" ... */
 } taceva_training_set;
 
-/* Told how far a fit is, from 0 to 1; a return that is not 0 asks it to end with INTERRUPTED. */
+/* Called with how far a fit is, from 0 to 1; a return that is not 0 asks it to end with INTERRUPTED. */
 typedef int32_t (*taceva_progress)(void *context, double done);
 
 typedef struct taceva_regressor_calls {

@@ -114,7 +114,7 @@ typedef struct taceva_host {
   uint64_t (*now_ns)(void *context);                                                  /* [any] CLOCK_MONOTONIC */
 } taceva_host;
 
-/* ---- when something was true, and when it was heard of ---- */
+/* ---- when something was true, and when it was received ---- */
 
 typedef struct taceva_stamp {
   uint64_t valid_ns;

@@ -11,6 +11,14 @@ use crate::text::{TakeText, Text};
 pub const BENCH: &str = "taceva.rig.bench/draft-1";
 
 /// `taceva_specimen`: what a robot carries.
+///
+/// A struct with a size in front grows at its end: a side reads no further than the other's `size` says.
+///
+/// ```
+/// use taceva_abi::ext::Specimen;
+/// let ball = Specimen { size: size_of::<Specimen>() as u32, kind: Specimen::SPHERE, size_nm: 4_000_000 }; // 4 mm radius
+/// assert_ne!(ball.kind, Specimen::LINE);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(C)]
 pub struct Specimen {
@@ -32,6 +40,23 @@ impl Specimen {
 }
 
 /// `taceva_bench_calls`; `bench` is the name that the devices were opened with as `rig=`.
+///
+/// A struct with a size in front grows at its end: a side reads no further than the other's `size` says.
+///
+/// ```
+/// use taceva_abi::ext::BenchCalls;
+/// let calls = BenchCalls {
+///     size: size_of::<BenchCalls>() as u32,
+///     reserved: 0,
+///     now_ns: None,
+///     rest: None,
+///     mount: None,
+///     name_press: None,
+///     schedule: None,
+///     provenance: None,
+/// };
+/// assert!(calls.now_ns.is_none(), "a host takes a table without a clock for no bench");
+/// ```
 #[derive(Clone, Copy, Debug)]
 #[repr(C)]
 pub struct BenchCalls {

@@ -11,6 +11,16 @@ use crate::status::Status;
 pub const GUARDED_MOTION: &str = "taceva.robot.guarded-motion/1";
 
 /// `taceva_guarded_stop`: how a guarded motion ended.
+///
+/// A struct with a size in front grows at its end: a side reads no further than the other's `size` says.
+///
+/// ```
+/// use taceva_abi::ext::GuardedStop;
+/// use taceva_abi::{Pose, Stamp};
+/// let pose = Pose { x: 0.0, y: 0.0, z: 0.0008, qw: 1.0, qx: 0.0, qy: 0.0, qz: 0.0 };
+/// let stop = GuardedStop { size: size_of::<GuardedStop>() as u32, is_guarded: 1, pose, stamp: Stamp::default() };
+/// assert_eq!(stop.is_guarded, 1, "the force was reached before the target");
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C)]
 pub struct GuardedStop {
@@ -25,6 +35,14 @@ pub struct GuardedStop {
 }
 
 /// `taceva_guarded_motion_calls`.
+///
+/// A struct with a size in front grows at its end: a side reads no further than the other's `size` says.
+///
+/// ```
+/// use taceva_abi::ext::GuardedMotionCalls;
+/// let calls = GuardedMotionCalls { size: size_of::<GuardedMotionCalls>() as u32, reserved: 0, move_guarded: None };
+/// assert!(calls.move_guarded.is_none(), "a host refuses a device that names this ability and lacks its function");
+/// ```
 #[derive(Clone, Copy, Debug)]
 #[repr(C)]
 pub struct GuardedMotionCalls {

@@ -10,6 +10,14 @@ use crate::text::Text;
 pub const SENSOR_LIGHTING: &str = "taceva.sensor.lighting/1";
 
 /// `taceva_sensor_lighting_calls`.
+///
+/// A struct with a size in front grows at its end: a side reads no further than the other's `size` says.
+///
+/// ```
+/// use taceva_abi::ext::SensorLightingCalls;
+/// let calls = SensorLightingCalls { size: size_of::<SensorLightingCalls>() as u32, reserved: 0, set: None };
+/// assert!(calls.set.is_none(), "a host refuses a device that names this ability and lacks its function");
+/// ```
 #[derive(Clone, Copy, Debug)]
 #[repr(C)]
 pub struct SensorLightingCalls {

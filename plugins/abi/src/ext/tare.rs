@@ -9,6 +9,14 @@ use crate::status::Status;
 pub const TARE: &str = "taceva.force.tare/1";
 
 /// `taceva_tare_calls`.
+///
+/// A struct with a size in front grows at its end: a side reads no further than the other's `size` says.
+///
+/// ```
+/// use taceva_abi::ext::TareCalls;
+/// let calls = TareCalls { size: size_of::<TareCalls>() as u32, reserved: 0, zero: None };
+/// assert!(calls.zero.is_none(), "a host refuses a device that names this ability and lacks its function");
+/// ```
 #[derive(Clone, Copy, Debug)]
 #[repr(C)]
 pub struct TareCalls {

@@ -154,17 +154,17 @@ fn hostile(subject: &Subject) -> Result<(), Ending> {
     let bytes = fit(subject, &samples, &SilentProgress)?.save()?;
     let mut draw = Draw::new(subject.probe.seed);
     for length in [0, 1, 7, 64, 4096] {
-        let told = load(subject, &samples, &draw.bytes(length));
+        let answer = load(subject, &samples, &draw.bytes(length));
         let kinds = [
             ErrorKind::Protocol,
             ErrorKind::InvalidArgument,
             ErrorKind::OutOfRange,
         ];
-        expect_failure(&format!("{length} bytes of rubbish"), told, &kinds)?;
+        expect_failure(&format!("{length} bytes of rubbish"), answer, &kinds)?;
     }
     for cut in 0..bytes.len().min(200) {
-        let told = load(subject, &samples, &bytes[..cut]);
-        ensure(told.is_err(), || {
+        let answer = load(subject, &samples, &bytes[..cut]);
+        ensure(answer.is_err(), || {
             format!("the first {cut} bytes of a model were taken for one")
         })?;
     }
@@ -228,7 +228,7 @@ fn threads(subject: &Subject) -> Result<(), Ending> {
             .all(|thread| thread.join().unwrap_or(false))
     });
     ensure(same, || {
-        "four threads were told something else than one".to_owned()
+        "four threads got other predictions than one".to_owned()
     })
 }
 

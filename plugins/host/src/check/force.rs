@@ -1,22 +1,43 @@
 //! Checks of force transducers.
 
-use taceva_core::{Axis, Deadline, DriverKind, ErrorKind, ForceTransducer};
+use std::sync::Arc;
 
+use taceva_core::{Axis, Deadline, DriverError, DriverKind, ForceTransducer, Interrupt, Stamp};
+
+use super::streaming::{self, Streams};
 use super::subject::{Ending, PATIENT, Subject, ensure};
-use super::{Check, Of, waiting};
+use super::{Check, Of};
 use crate::session::Session;
 
 pub(super) const CHECKS: &[Check] = &[
-    check("force/reads", reads),
+    check("force/reads", streaming::gives::<Transducer>),
     check("force/measures-what-it-says", measures),
-    check("force/stamps-in-order", stamps),
-    check("force/read-before-start", before_start),
-    check("force/starts-and-stops-in-any-order", any_order),
-    check("force/passed-deadline", passed_deadline),
-    check("force/keeps-deadlines", keeps_deadlines),
-    check("force/interrupt-within-50-ms", interrupt),
+    check("force/stamps-in-order", streaming::stamps::<Transducer>),
+    check(
+        "force/read-before-start",
+        streaming::before_start::<Transducer>,
+    ),
+    check(
+        "force/starts-and-stops-in-any-order",
+        streaming::any_order::<Transducer>,
+    ),
+    check(
+        "force/passed-deadline",
+        streaming::passed_deadline::<Transducer>,
+    ),
+    check(
+        "force/keeps-deadlines",
+        streaming::keeps_deadlines::<Transducer>,
+    ),
+    check(
+        "force/interrupt-within-50-ms",
+        streaming::interrupt::<Transducer>,
+    ),
     check("force/tares", tares),
-    check("force/dropped-in-any-state", dropped),
+    check(
+        "force/dropped-in-any-state",
+        streaming::dropped::<Transducer>,
+    ),
 ];
 
 const fn check(name: &'static str, run: fn(&Subject) -> Result<(), Ending>) -> Check {
@@ -27,26 +48,35 @@ const fn check(name: &'static str, run: fn(&Subject) -> Result<(), Ending>) -> C
     }
 }
 
-fn open(subject: &Subject) -> Result<Box<dyn ForceTransducer>, Ending> {
-    Ok(subject.session.force(subject.key()?, &subject.args()?)?)
-}
+type Transducer = Box<dyn ForceTransducer>;
 
-fn started(subject: &Subject) -> Result<Box<dyn ForceTransducer>, Ending> {
-    let mut force = open(subject)?;
-    force.start(PATIENT)?;
-    Ok(force)
-}
+impl Streams for Transducer {
+    const ITEM: &'static str = "reading";
+    const COUNT: usize = 20;
 
-fn reads(subject: &Subject) -> Result<(), Ending> {
-    let mut force = started(subject)?;
-    for _ in 0..20 {
-        force.read(PATIENT)?;
+    fn open(subject: &Subject) -> Result<Transducer, Ending> {
+        Ok(subject.session.force(subject.key()?, &subject.args()?)?)
     }
-    Ok(force.stop()?)
+
+    fn begin(&mut self) -> Result<(), DriverError> {
+        self.start(PATIENT)
+    }
+
+    fn end(&mut self) -> Result<(), DriverError> {
+        self.stop()
+    }
+
+    fn next(&mut self, deadline: Deadline) -> Result<Stamp, DriverError> {
+        Ok(self.read(deadline)?.1)
+    }
+
+    fn interrupter(&self) -> Option<Arc<dyn Interrupt>> {
+        self.interrupt_handle()
+    }
 }
 
 fn measures(subject: &Subject) -> Result<(), Ending> {
-    let mut force = started(subject)?;
+    let mut force = Transducer::started(subject)?;
     let said = subject.said()?;
     let facts = said
         .force()
@@ -66,76 +96,13 @@ fn measures(subject: &Subject) -> Result<(), Ending> {
     })
 }
 
-fn stamps(subject: &Subject) -> Result<(), Ending> {
-    let mut force = started(subject)?;
-    let mut last = f64::NEG_INFINITY;
-    for _ in 0..20 {
-        let (_, stamp) = force.read(PATIENT)?;
-        ensure(stamp.valid_s > last, || {
-            format!("a reading of {} s after one of {last} s", stamp.valid_s)
-        })?;
-        last = stamp.valid_s;
-    }
-    Ok(())
-}
-
-/// A reading before the start comes or is refused; either way the device goes on.
-fn before_start(subject: &Subject) -> Result<(), Ending> {
-    let mut force = open(subject)?;
-    match force.read(PATIENT) {
-        Err(error) if error.kind() != ErrorKind::InvalidArgument => return Err(error.into()),
-        _ => {}
-    }
-    force.start(PATIENT)?;
-    force.read(PATIENT)?;
-    Ok(())
-}
-
-fn any_order(subject: &Subject) -> Result<(), Ending> {
-    let mut force = open(subject)?;
-    force.stop()?;
-    for _ in 0..3 {
-        force.start(PATIENT)?;
-        force.start(PATIENT)?;
-        force.read(PATIENT)?;
-        force.stop()?;
-        force.stop()?;
-    }
-    Ok(())
-}
-
-fn passed_deadline(subject: &Subject) -> Result<(), Ending> {
-    waiting::passed_deadline(&mut started(subject)?)
-}
-
-fn keeps_deadlines(subject: &Subject) -> Result<(), Ending> {
-    waiting::keeps_deadlines(&mut started(subject)?)
-}
-
-fn interrupt(subject: &Subject) -> Result<(), Ending> {
-    waiting::interrupt(&mut started(subject)?)
-}
-
 fn tares(subject: &Subject) -> Result<(), Ending> {
-    let mut force = started(subject)?;
+    let mut force = Transducer::started(subject)?;
     let Some(tare) = force.tare() else {
         return Err(Ending::Skipped("it cannot tare".to_owned()));
     };
     tare.zero(PATIENT)?;
     tare.zero(PATIENT)?;
     force.read(PATIENT)?;
-    Ok(())
-}
-
-fn dropped(subject: &Subject) -> Result<(), Ending> {
-    drop(open(subject)?);
-    drop(started(subject)?);
-    let mut force = started(subject)?;
-    let _ = force.read(Deadline::PASSED);
-    drop(force);
-    let mut force = started(subject)?;
-    force.stop()?;
-    drop(force);
-    drop(started(subject)?);
     Ok(())
 }

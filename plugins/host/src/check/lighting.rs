@@ -69,18 +69,18 @@ fn refuses_others(subject: &Subject) -> Result<(), Ending> {
         abi::Text::EMPTY,
         rubbish,
     ] {
-        let told = set(&lamp, scene, timeout(PATIENT));
+        let answer = set(&lamp, scene, timeout(PATIENT));
         expect_failure(
             "a scene that it does not have",
-            told,
+            answer,
             &[ErrorKind::InvalidArgument],
         )?;
     }
     if !scenes(subject)?.iter().any(|scene| scene == shorter) {
-        let told = set(&lamp, abi::Text::from(shorter), timeout(PATIENT));
+        let answer = set(&lamp, abi::Text::from(shorter), timeout(PATIENT));
         expect_failure(
             "the beginning of a scene",
-            told,
+            answer,
             &[ErrorKind::InvalidArgument],
         )?;
     }
@@ -91,11 +91,11 @@ fn refuses_others(subject: &Subject) -> Result<(), Ending> {
 fn passed_deadline(subject: &Subject) -> Result<(), Ending> {
     let lamp = subject.open()?;
     for scene in scenes(subject)? {
-        let (told, took) = timed(|| set(&lamp, abi::Text::from(&scene), 0));
+        let (answer, took) = timed(|| set(&lamp, abi::Text::from(&scene), 0));
         ensure(took < SOON, || {
             format!("no time was given, and it took {took:?}")
         })?;
-        match told {
+        match answer {
             Err(error) if error.kind() != ErrorKind::Timeout => return Err(error.into()),
             _ => {}
         }

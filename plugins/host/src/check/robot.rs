@@ -1,22 +1,18 @@
 //! Checks of robots. Those that move one are made on simulations alone, unless the user allows it.
 
-#![expect(
-    unsafe_code,
-    reason = "the functions of the device are called as no host does"
-)]
+mod bare;
 
 use std::thread;
 use std::time::{Duration, Instant};
 
 use taceva_abi as abi;
 use taceva_core::{
-    Deadline, DriverError, DriverKind, ErrorKind, Guard, Millimetre, Newton, Pose, Robot,
-    RobotFacts, SiPose, Speed,
+    Deadline, DriverKind, ErrorKind, Guard, Millimetre, Newton, Pose, Robot, RobotFacts, Speed,
 };
 
+use self::bare::{Bare, bare_move, bare_pose, no_speeds, no_targets, outside, wait_without};
 use super::subject::{AT_ONCE, Ending, PATIENT, SOON, Subject, ensure, expect_failure, timed};
 use super::{Check, Of};
-use crate::device::Opened;
 use crate::session::Session;
 
 pub(super) const CHECKS: &[Check] = &[
@@ -95,126 +91,14 @@ fn moves(subject: &Subject) -> Result<(), Ending> {
     Ok(())
 }
 
-type Bare = Opened<abi::RobotCalls>;
-
-fn bare_move(robot: &Bare, target: abi::Pose, speed: f64) -> Result<u64, DriverError> {
-    let move_to = robot.handle.needs(robot.calls.move_to, "move_to")?;
-    let motion = abi::Motion {
-        size: u32::try_from(size_of::<abi::Motion>()).expect("a small struct"),
-        reserved: 0,
-        target,
-        speed_m_per_s: speed,
-    };
-    let mut token = 0;
-    robot.handle.call("move", |raw, error| {
-        // SAFETY: [owner & open], with a motion, a place for the token and an error that outlive the call.
-        unsafe { move_to(raw, &raw const motion, &raw mut token, error) }
-    })?;
-    Ok(token)
-}
-
-fn bare_pose(subject: &Subject) -> Result<abi::Pose, Ending> {
-    let mut robot = open(subject)?;
-    let SiPose {
-        position_m: [x, y, z],
-        quaternion: [qw, qx, qy, qz],
-    } = here(&mut *robot)?.into();
-    Ok(abi::Pose {
-        x,
-        y,
-        z,
-        qw,
-        qx,
-        qy,
-        qz,
-    })
-}
-
-fn no_targets(subject: &Subject) -> Result<(), Ending> {
-    let pose = bare_pose(subject)?;
-    let robot: Bare = subject.open()?;
-    let none = f64::NAN;
-    let targets = [
-        abi::Pose { x: none, ..pose },
-        abi::Pose {
-            z: f64::INFINITY,
-            ..pose
-        },
-        abi::Pose { qw: none, ..pose },
-        abi::Pose {
-            qw: 0.0,
-            qx: 0.0,
-            qy: 0.0,
-            qz: 0.0,
-            ..pose
-        },
-    ];
-    for target in targets {
-        let told = bare_move(&robot, target, 0.001);
-        expect_failure("a target that is none", told, &[ErrorKind::InvalidArgument])?;
-    }
-    Ok(())
-}
-
-fn no_speeds(subject: &Subject) -> Result<(), Ending> {
-    let pose = bare_pose(subject)?;
-    let robot: Bare = subject.open()?;
-    for speed in [0.0, -0.001, f64::NAN, f64::INFINITY] {
-        let told = bare_move(&robot, pose, speed);
-        let kinds = [ErrorKind::InvalidArgument, ErrorKind::OutOfRange];
-        expect_failure(&format!("a speed of {speed} m/s"), told, &kinds)?;
-    }
-    Ok(())
-}
-
-fn outside(subject: &Subject) -> Result<(), Ending> {
-    let Some(workspace) = facts(subject)?.workspace else {
-        return Err(Ending::Skipped("it declares no workspace".to_owned()));
-    };
-    let pose = bare_pose(subject)?;
-    let robot: Bare = subject.open()?;
-    let beyond = [workspace.least.x.0 - 1.0, workspace.greatest.x.0 + 1.0];
-    for x_mm in beyond {
-        let target = abi::Pose {
-            x: x_mm / 1e3,
-            ..pose
-        };
-        let told = bare_move(&robot, target, 0.001);
-        expect_failure(
-            &format!("a target at x = {x_mm} mm"),
-            told,
-            &[ErrorKind::OutOfRange],
-        )?;
-    }
-    Ok(())
-}
-
-fn wait_without(subject: &Subject) -> Result<(), Ending> {
-    let robot: Bare = subject.open()?;
-    let wait = robot.handle.needs(robot.calls.wait, "wait")?;
-    let mut stamp = abi::Stamp::default();
-    for token in [0, 77, u64::MAX] {
-        let (_, took) = timed(|| {
-            robot.handle.call("wait", |raw, error| {
-                // SAFETY: [owner & open], with a place for the stamp and an error that outlive the call.
-                unsafe { wait(raw, token, &raw mut stamp, 100_000_000, error) }
-            })
-        });
-        ensure(took < SOON + SOON, || {
-            format!("waiting for no motion took {took:?}")
-        })?;
-    }
-    Ok(())
-}
-
 fn latches(subject: &Subject) -> Result<(), Ending> {
     subject.may_move()?;
     let mut robot = open(subject)?;
     let home = here(&mut *robot)?;
     robot.halt()?;
     robot.halt()?;
-    let told = robot.move_to(above(home, 0.1), speed(5.0)?, PATIENT);
-    expect_failure("a move after a halt", told, &[ErrorKind::Interrupted])?;
+    let answer = robot.move_to(above(home, 0.1), speed(5.0)?, PATIENT);
+    expect_failure("a move after a halt", answer, &[ErrorKind::Interrupted])?;
     here(&mut *robot)?;
     robot.clear_halt(PATIENT)?;
     robot.clear_halt(PATIENT)?;
@@ -238,7 +122,7 @@ fn halts(subject: &Subject) -> Result<(), Ending> {
         )
     });
     // Slow: a simulation counts its own time, and may be there before the halt is.
-    let told = robot.move_to(
+    let answer = robot.move_to(
         above(home, 1.0),
         speed(0.01)?,
         Deadline::after(Duration::from_secs(200)),
@@ -249,8 +133,8 @@ fn halts(subject: &Subject) -> Result<(), Ending> {
         .map_err(|_| Ending::Broken("the check panicked".to_owned()))?;
     sent.map_err(Ending::Broken)?;
     ensure(took < AT_ONCE, || format!("`halt` itself took {took:?}"))?;
-    if told.is_err() {
-        expect_failure("a move that was halted", told, &[ErrorKind::Interrupted])?;
+    if answer.is_err() {
+        expect_failure("a move that was halted", answer, &[ErrorKind::Interrupted])?;
         let late = ended.saturating_duration_since(at);
         ensure(late < AT_ONCE, || {
             format!("it took {late:?}, expected at most {AT_ONCE:?}")
@@ -266,8 +150,8 @@ fn timeout_stops(subject: &Subject) -> Result<(), Ending> {
     let mut robot = open(subject)?;
     let home = here(&mut *robot)?;
     let short = Deadline::after(Duration::from_millis(20));
-    let told = robot.move_to(above(home, 1.0), speed(1.0)?, short);
-    expect_failure("a move of 1 s in 20 ms", told, &[ErrorKind::Timeout])?;
+    let answer = robot.move_to(above(home, 1.0), speed(1.0)?, short);
+    expect_failure("a move of 1 s in 20 ms", answer, &[ErrorKind::Timeout])?;
     let once = here(&mut *robot)?;
     thread::sleep(Duration::from_millis(50));
     let again = here(&mut *robot)?;
@@ -312,10 +196,10 @@ fn no_guards(subject: &Subject) -> Result<(), Ending> {
         let guard = Guard {
             force: Newton(force),
         };
-        let told = guarded.move_guarded(home, speed(1.0)?, guard, PATIENT);
+        let answer = guarded.move_guarded(home, speed(1.0)?, guard, PATIENT);
         expect_failure(
             &format!("a guard of {force} N"),
-            told,
+            answer,
             &[ErrorKind::InvalidArgument],
         )?;
     }

@@ -1,24 +1,48 @@
 //! Checks of sensors.
 
+use std::sync::Arc;
+
 use taceva_core::{
-    Deadline, DriverError, DriverKind, DriverSource, ErrorKind, FrameInfo, FrameMut, Sensor, Stamp,
+    Deadline, DriverError, DriverKind, DriverSource, FrameMut, Interrupt, Sensor, Stamp,
 };
 
+use super::streaming::{self, Streams};
 use super::subject::{Ending, PATIENT, Subject, ensure};
-use super::{Check, Of, waiting};
+use super::{Check, Of};
 use crate::device::PluginSensor;
 
 pub(super) const CHECKS: &[Check] = &[
-    check("sensor/gives-the-frames-it-says", gives_frames),
-    check("sensor/stamps-in-order", stamps),
-    check("sensor/capture-before-start", before_start),
-    check("sensor/starts-and-stops-in-any-order", any_order),
-    check("sensor/passed-deadline", passed_deadline),
-    check("sensor/keeps-deadlines", keeps_deadlines),
-    check("sensor/interrupt-within-50-ms", interrupt),
+    check(
+        "sensor/gives-the-frames-it-says",
+        streaming::gives::<PluginSensor>,
+    ),
+    check("sensor/stamps-in-order", streaming::stamps::<PluginSensor>),
+    check(
+        "sensor/capture-before-start",
+        streaming::before_start::<PluginSensor>,
+    ),
+    check(
+        "sensor/starts-and-stops-in-any-order",
+        streaming::any_order::<PluginSensor>,
+    ),
+    check(
+        "sensor/passed-deadline",
+        streaming::passed_deadline::<PluginSensor>,
+    ),
+    check(
+        "sensor/keeps-deadlines",
+        streaming::keeps_deadlines::<PluginSensor>,
+    ),
+    check(
+        "sensor/interrupt-within-50-ms",
+        streaming::interrupt::<PluginSensor>,
+    ),
     check("sensor/same-frames-of-a-simulation", same_frames),
     check("sensor/sets-the-light", sets_light),
-    check("sensor/dropped-in-any-state", dropped),
+    check(
+        "sensor/dropped-in-any-state",
+        streaming::dropped::<PluginSensor>,
+    ),
 ];
 
 const fn check(name: &'static str, run: fn(&Subject) -> Result<(), Ending>) -> Check {
@@ -29,89 +53,38 @@ const fn check(name: &'static str, run: fn(&Subject) -> Result<(), Ending>) -> C
     }
 }
 
-fn open(subject: &Subject) -> Result<PluginSensor, Ending> {
-    Ok(subject
-        .session
-        .open_sensor(subject.key()?, &subject.args()?)?)
-}
-
-fn started(subject: &Subject) -> Result<PluginSensor, Ending> {
-    let mut sensor = open(subject)?;
-    sensor.start(PATIENT)?;
-    Ok(sensor)
-}
-
-fn buffer(info: FrameInfo) -> Vec<u8> {
-    vec![0; info.byte_len().unwrap_or(0)]
-}
-
-pub(super) fn capture(
-    sensor: &mut PluginSensor,
-    deadline: Deadline,
-) -> Result<(Stamp, Vec<u8>), DriverError> {
+fn capture(sensor: &mut PluginSensor, deadline: Deadline) -> Result<(Stamp, Vec<u8>), DriverError> {
     let info = sensor.frame_info();
-    let mut pixels = buffer(info);
+    let mut pixels = vec![0; info.byte_len().unwrap_or(0)];
     let into = FrameMut::new(info, &mut pixels).expect("made for it");
     let stamp = sensor.capture(into, deadline)?;
     Ok((stamp, pixels))
 }
 
-fn gives_frames(subject: &Subject) -> Result<(), Ending> {
-    let mut sensor = started(subject)?;
-    for _ in 0..5 {
-        capture(&mut sensor, PATIENT)?;
+impl Streams for PluginSensor {
+    const ITEM: &'static str = "frame";
+    const COUNT: usize = 10;
+
+    fn open(subject: &Subject) -> Result<PluginSensor, Ending> {
+        let args = subject.args()?;
+        Ok(subject.session.open_sensor(subject.key()?, &args)?)
     }
-    Ok(sensor.stop()?)
-}
 
-fn stamps(subject: &Subject) -> Result<(), Ending> {
-    let mut sensor = started(subject)?;
-    let mut last = f64::NEG_INFINITY;
-    for _ in 0..10 {
-        let (stamp, _) = capture(&mut sensor, PATIENT)?;
-        ensure(stamp.valid_s > last, || {
-            format!("a frame of {} s after one of {last} s", stamp.valid_s)
-        })?;
-        last = stamp.valid_s;
+    fn begin(&mut self) -> Result<(), DriverError> {
+        self.start(PATIENT)
     }
-    Ok(())
-}
 
-/// A frame before the start comes or is refused; either way the sensor goes on.
-fn before_start(subject: &Subject) -> Result<(), Ending> {
-    let mut sensor = open(subject)?;
-    match capture(&mut sensor, PATIENT) {
-        Err(error) if error.kind() != ErrorKind::InvalidArgument => return Err(error.into()),
-        _ => {}
+    fn end(&mut self) -> Result<(), DriverError> {
+        self.stop()
     }
-    sensor.start(PATIENT)?;
-    capture(&mut sensor, PATIENT)?;
-    Ok(())
-}
 
-fn any_order(subject: &Subject) -> Result<(), Ending> {
-    let mut sensor = open(subject)?;
-    sensor.stop()?;
-    for _ in 0..3 {
-        sensor.start(PATIENT)?;
-        sensor.start(PATIENT)?;
-        capture(&mut sensor, PATIENT)?;
-        sensor.stop()?;
-        sensor.stop()?;
+    fn next(&mut self, deadline: Deadline) -> Result<Stamp, DriverError> {
+        Ok(capture(self, deadline)?.0)
     }
-    Ok(())
-}
 
-fn passed_deadline(subject: &Subject) -> Result<(), Ending> {
-    waiting::passed_deadline(&mut started(subject)?)
-}
-
-fn keeps_deadlines(subject: &Subject) -> Result<(), Ending> {
-    waiting::keeps_deadlines(&mut started(subject)?)
-}
-
-fn interrupt(subject: &Subject) -> Result<(), Ending> {
-    waiting::interrupt(&mut started(subject)?)
+    fn interrupter(&self) -> Option<Arc<dyn Interrupt>> {
+        self.interrupt_handle()
+    }
 }
 
 fn same_frames(subject: &Subject) -> Result<(), Ending> {
@@ -131,7 +104,7 @@ fn same_frames(subject: &Subject) -> Result<(), Ending> {
 }
 
 fn sets_light(subject: &Subject) -> Result<(), Ending> {
-    let mut sensor = started(subject)?;
+    let mut sensor = PluginSensor::started(subject)?;
     let Some(lighting) = sensor.lighting() else {
         return Err(Ending::Skipped("it does not set the light".to_owned()));
     };
@@ -139,18 +112,5 @@ fn sets_light(subject: &Subject) -> Result<(), Ending> {
         lighting.set(&scene, PATIENT)?;
     }
     capture(&mut sensor, PATIENT)?;
-    Ok(())
-}
-
-fn dropped(subject: &Subject) -> Result<(), Ending> {
-    drop(open(subject)?);
-    drop(started(subject)?);
-    let mut sensor = started(subject)?;
-    let _ = capture(&mut sensor, Deadline::PASSED);
-    drop(sensor);
-    let mut sensor = started(subject)?;
-    sensor.stop()?;
-    drop(sensor);
-    drop(started(subject)?);
     Ok(())
 }

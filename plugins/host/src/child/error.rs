@@ -5,7 +5,7 @@ use std::fmt;
 use taceva_core::{Access, DriverError, DriverKey, ErrorKind, Found};
 
 use super::fate::Fate;
-use super::keeper::plain;
+use super::plain::plain;
 use super::wire::Failure;
 
 /// The longest message of a plugin that is passed on, in characters.

@@ -5,8 +5,8 @@ use std::os::unix::process::ExitStatusExt;
 use std::process::ExitStatus;
 use std::time::Duration;
 
-use super::proxy::CLOSING;
-
+/// What a device is asked for last; nobody waits for it any more.
+pub(super) const CLOSING: &str = "close the device";
 /// What a child is asked for last.
 pub(super) const ENDING: &str = "end";
 

@@ -7,8 +7,8 @@ use std::thread::JoinHandle;
 use std::time::Duration;
 
 use super::fate::Fate;
-use super::keeper::Watch;
 use super::socket::{LinkError, Socket, send_now};
+use super::watch::Watch;
 use super::wire::variants;
 use crate::library::{Level, Log};
 use crate::log::Limited;
@@ -16,7 +16,7 @@ use crate::shown::shown;
 
 /// What comes by that socket.
 #[derive(Debug, PartialEq)]
-enum Told {
+enum LogMessage {
     Line {
         level: Level,
         target: String,
@@ -26,7 +26,7 @@ enum Told {
     Lost { count: u64 },
 }
 
-variants!(Told, "a line of the log" {
+variants!(LogMessage, "a line of the log" {
     0 => Line { level, target, message },
     1 => Lost { count },
 });
@@ -46,7 +46,7 @@ pub(super) fn send(level: Level, target: &str, message: &str) -> bool {
     let Some(host) = HOST.get() else {
         return false;
     };
-    let line = Told::Line {
+    let line = LogMessage::Line {
         level,
         target: target.to_owned(),
         message: message.to_owned(),
@@ -57,20 +57,20 @@ pub(super) fn send(level: Level, target: &str, message: &str) -> bool {
     true
 }
 
-/// Tells how many lines found no room since that was told last.
+/// Sends how many lines found no room since the last count was sent.
 fn tell_how_many(host: &OwnedFd) -> Result<(), LinkError> {
     let count = LOST.swap(0, Ordering::Relaxed);
-    let told = match count {
+    let sent = match count {
         0 => Ok(()),
-        _ => send_now(host.as_fd(), &Told::Lost { count }),
+        _ => send_now(host.as_fd(), &LogMessage::Lost { count }),
     };
-    if told.is_err() {
+    if sent.is_err() {
         LOST.fetch_add(count, Ordering::Relaxed);
     }
-    told
+    sent
 }
 
-/// In the child: tells at its end what could not be told before, as long as its host reads.
+/// In the child: sends at its end what could not be sent before, as long as its host reads.
 pub(super) fn end() {
     let Some(host) = HOST.get() else {
         return;
@@ -95,13 +95,13 @@ pub(super) fn listen(
         .name("taceva-log".to_owned())
         .spawn(move || {
             loop {
-                match socket.receive::<Told>() {
-                    Ok(Told::Line {
+                match socket.receive::<LogMessage>() {
+                    Ok(LogMessage::Line {
                         level,
                         target,
                         message,
                     }) => log.tell(level, &shown(&target), &shown(&message)),
-                    Ok(Told::Lost { count }) => log.lose(count),
+                    Ok(LogMessage::Lost { count }) => log.lose(count),
                     Err(LinkError::Closed) => return,
                     Err(LinkError::Breach(what) | LinkError::Unsendable(what)) => {
                         watch.condemn(Fate::Breach { what });

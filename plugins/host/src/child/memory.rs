@@ -89,7 +89,7 @@ impl SharedMemory {
         unsafe { std::ptr::copy_nonoverlapping(self.start.as_ptr(), into.as_mut_ptr(), into.len()) }
     }
 
-    /// Its bytes, for the process that writes: the other one reads after it was told that they are whole.
+    /// Its bytes, for the process that writes: the other one reads once the answer says that they are whole.
     pub(crate) fn bytes_mut(&mut self) -> &mut [u8] {
         // SAFETY: the mapping is valid for `length` bytes while `self` lives, and `&mut self` is the only way to it in this process.
         unsafe { std::slice::from_raw_parts_mut(self.start.as_ptr(), self.length) }

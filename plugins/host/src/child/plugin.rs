@@ -14,7 +14,7 @@ use taceva_core::{ArgSpec, DriverKey, ErrorKind};
 
 use super::main_hook::main_if_child_with;
 use super::quarantine::Quarantine;
-use super::start::ChildSpec;
+use super::spec::ChildSpec;
 use super::wire::{Wire, decode, fields};
 use crate::in_process::InProcess;
 use crate::library::{Image, Level, Library};

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
 
-use super::keeper::plain;
+use super::plain::plain;
 use crate::manifest::Sha256Digest;
 
 /// The folder in which a user keeps what crashed: a file a library, called by its digest, so that a new build is another one.

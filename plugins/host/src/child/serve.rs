@@ -1,19 +1,19 @@
 //! What a child does: it opens devices and answers calls to them, each device on threads of its own.
 
-mod answer;
-mod bench;
 mod device;
-mod model;
 
 use std::os::fd::OwnedFd;
 use std::sync::Arc;
 
-use taceva_core::{ArgSpec, ArgValue, Args, DriverError, DriverKey, DriverKind, ErrorKind};
+use taceva_core::{Args, DriverError, DriverKey, DriverKind, ErrorKind};
 
+use self::device::Opening;
+use super::arguments::arguments;
+use super::guarded::guarded;
 use super::socket::{LinkError, Socket};
-use super::wire::{Failure, Order, OrderAnswer};
+use super::wire::{Failure, OpenedDevice, Order, OrderAnswer};
+use super::{bench, model};
 use crate::session::Session;
-use device::{Opening, guarded};
 
 /// Answers orders until the host is gone or says so. Without a session, only the last one.
 pub(super) fn serve(mut orders: Socket, session: Option<&Arc<dyn Session>>) {
@@ -90,16 +90,19 @@ fn open(
     driver: &DriverKey,
     args: &Args,
     opening: Opening,
-) -> Result<super::wire::OpenedDevice, Failure> {
-    let doing = "open the device";
+) -> Result<OpenedDevice, Failure> {
     match kind {
-        DriverKind::Sensor => opening.serve(called(doing, || session.sensor(driver, args))?),
-        DriverKind::Robot => opening.serve(called(doing, || session.robot(driver, args))?),
-        DriverKind::Force => opening.serve(called(doing, || session.force(driver, args))?),
-        DriverKind::Lighting => opening.serve(called(doing, || session.lighting(driver, args))?),
+        DriverKind::Sensor => opening.serve(|| session.sensor(driver, args)),
+        DriverKind::Robot => opening.serve(|| session.robot(driver, args)),
+        DriverKind::Force => opening.serve(|| session.force(driver, args)),
+        DriverKind::Lighting => opening.serve(|| session.lighting(driver, args)),
         _ => {
             let why = format!("devices of the kind {kind} are not known here");
-            Err(Failure::new(ErrorKind::Unsupported, doing, &why))
+            Err(Failure::new(
+                ErrorKind::Unsupported,
+                "open the device",
+                &why,
+            ))
         }
     }
 }
@@ -109,50 +112,10 @@ fn called<T>(doing: &str, call: impl FnOnce() -> Result<T, DriverError>) -> Resu
     guarded(doing, call)?.map_err(|error| Failure::of(&error))
 }
 
-/// The arguments that the host has checked, as they were: declared here by what they are.
-fn arguments(pairs: &[(String, ArgValue)]) -> Result<Args, Failure> {
-    let specs: Vec<ArgSpec> = pairs
-        .iter()
-        .map(|(key, value)| match value {
-            ArgValue::Text(_) => ArgSpec::text(key),
-            ArgValue::Whole(_) => ArgSpec::whole(key, i64::MIN, i64::MAX),
-            ArgValue::Number(_) => ArgSpec::number(key, f64::NEG_INFINITY, f64::INFINITY),
-            ArgValue::Flag(_) => ArgSpec::flag(key),
-        })
-        .collect();
-    let texts = pairs.iter().map(|(key, value)| (key, value.to_string()));
-    Args::from_pairs(&specs, texts).map_err(|error| {
-        Failure::new(
-            ErrorKind::InvalidArgument,
-            "read the arguments",
-            &error.to_string(),
-        )
-    })
-}
-
 fn broken(expected: &str) -> Failure {
     Failure::new(
         ErrorKind::Protocol,
         "read an order",
         &format!("expected {expected}"),
     )
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn arguments_arrive_as_they_were_whatever_they_are() {
-        let pairs = [
-            ("depth".to_owned(), ArgValue::Number(0.1 + 0.2)),
-            ("fast".to_owned(), ArgValue::Flag(false)),
-            ("seed".to_owned(), ArgValue::Whole(i64::MIN)),
-            ("table".to_owned(), ArgValue::Text(" a;b = 1\n".to_owned())),
-        ];
-        let args = arguments(&pairs).expect("sound");
-        for (key, value) in &pairs {
-            assert_eq!(args.get(key), Some(value));
-        }
-    }
 }

@@ -5,19 +5,23 @@ use std::os::fd::{AsFd, BorrowedFd};
 use std::sync::Arc;
 
 use taceva_core::{
-    ArgSpec, ArgValue, Args, Channels, Descriptor, DriverError, DriverKey, DriverKind, ErrorKind,
-    FeatureShape, ForceTransducer, Found, Lighting, ModelError, Progress, Robot, Sensor,
-    SilentProgress, SimulatedBench,
+    ArgSpec, ArgValue, Args, Channels, Descriptor, DriverError, DriverKey, ErrorKind, FeatureShape,
+    ForceTransducer, Found, Lighting, ModelError, Progress, Robot, Sensor, SilentProgress,
+    SimulatedBench,
 };
 
 use super::array;
+use super::bench::BenchProxy;
 use super::error::{ChildError, plain_found};
+use super::kind::Kind;
+use super::link::Link;
 use super::memory::SharedMemory;
+use super::model::{ModelProxy, of_failure, of_link};
 use super::plugin::arguments;
-use super::proxy::{self, BenchProxy, Link, ModelProxy, of_failure, of_link};
 use super::socket::{LinkError, Socket};
-use super::start::{Child, ChildSpec};
-use super::wire::{Failure, ModelOrder, OpenedDevice, Order, OrderAnswer};
+use super::spec::ChildSpec;
+use super::start::Child;
+use super::wire::{Failure, ModelOrder, Order, OrderAnswer};
 use crate::manifest::Manifest;
 use crate::session::{FitRequest, Saved, SavedRegressor, Session};
 
@@ -59,12 +63,12 @@ impl ChildSession {
         &self.child
     }
 
-    fn open(
+    fn open<K: Kind + ?Sized>(
         &self,
-        kind: DriverKind,
         driver: &DriverKey,
         args: &Args,
-    ) -> Result<(Link, OpenedDevice), DriverError> {
+    ) -> Result<Box<K>, DriverError> {
+        let kind = K::KIND;
         let doing = format!("open the {kind}");
         let no_socket = |error: rustix::io::Errno| {
             DriverError::new(ErrorKind::Internal, driver, doing.clone()).because(error)
@@ -81,7 +85,7 @@ impl ChildSession {
         match answer.map_err(|error| error.of(driver, &doing))? {
             OrderAnswer::Opened { device } => {
                 let link = Link::new(Arc::clone(&self.child), driver.clone(), calls, urgent);
-                Ok((link, device))
+                K::proxy(link, device)
             }
             OrderAnswer::Failed { failure } => Err(failure.to_error(driver)),
             _ => Err(self.other_answer(driver, &doing)),
@@ -133,13 +137,11 @@ impl Session for ChildSession {
     }
 
     fn sensor(&self, driver: &DriverKey, args: &Args) -> Result<Box<dyn Sensor>, DriverError> {
-        let (link, opened) = self.open(DriverKind::Sensor, driver, args)?;
-        proxy::sensor(link, opened)
+        self.open(driver, args)
     }
 
     fn robot(&self, driver: &DriverKey, args: &Args) -> Result<Box<dyn Robot>, DriverError> {
-        let (link, opened) = self.open(DriverKind::Robot, driver, args)?;
-        proxy::robot(link, opened)
+        self.open(driver, args)
     }
 
     fn force(
@@ -147,13 +149,11 @@ impl Session for ChildSession {
         driver: &DriverKey,
         args: &Args,
     ) -> Result<Box<dyn ForceTransducer>, DriverError> {
-        let (link, opened) = self.open(DriverKind::Force, driver, args)?;
-        proxy::force(link, opened)
+        self.open(driver, args)
     }
 
     fn lighting(&self, driver: &DriverKey, args: &Args) -> Result<Box<dyn Lighting>, DriverError> {
-        let (link, opened) = self.open(DriverKind::Lighting, driver, args)?;
-        proxy::lighting(link, opened)
+        self.open(driver, args)
     }
 
     fn bench(&self, name: &str) -> Option<Arc<dyn SimulatedBench>> {

@@ -13,101 +13,19 @@ use rustix::pipe::{PipeFlags, pipe_with};
 
 use super::error::ChildError;
 use super::fate::{ENDING, Fate};
-use super::keeper::{Kept, Watch, keep};
+use super::keeper::{Kept, keep};
+use super::life::Life;
 use super::log::listen;
 use super::main_hook::{CHILD_ARGUMENT, can_be_child};
-use super::patience::Patience;
 use super::quarantine::{Quarantine, Quarantined};
-use super::sandbox::{Confinement, Isolation};
-use super::socket::{Caller, LinkError, Socket};
+use super::sandbox::Isolation;
+use super::socket::{Caller, Socket};
+use super::spec::{ChildSpec, Ended};
 use super::wire::{Greeting, Hello, Order, OrderAnswer};
-use crate::library::Log;
 use crate::manifest::Sha256Digest;
 
 /// The program that is running: the same file, even if another one has taken its name since.
 const THIS_PROGRAM: &str = "/proc/self/exe";
-
-/// What is called with how a child ended.
-type Ended = Box<dyn FnOnce(&Fate) + Send>;
-
-/// A child to be started.
-pub struct ChildSpec {
-    /// The name of the plugin, for messages.
-    pub plugin: String,
-    /// The program whose `main` begins with [`main_if_child`](crate::main_if_child): this one, if none is named.
-    pub program: Option<PathBuf>,
-    /// What is handed to it, at most three files; it decides what they are.
-    pub files: Vec<OwnedFd>,
-    /// What it must confine itself to.
-    pub confinement: Confinement,
-    /// How long it is waited for.
-    pub patience: Patience,
-    /// Called once with how it ended, from the thread that watches it.
-    pub ended: Option<Ended>,
-    /// Whether it loads anything; one that does not only shows what is enforced upon it.
-    pub loads: bool,
-    /// Takes what its plugin logs, from a thread of its own; without, the errors and warnings stand among what the child prints.
-    pub log: Option<Log>,
-    /// Where its library is kept if it crashes, and where it must not be; and the digest of that library.
-    pub quarantine: Option<(Quarantine, Sha256Digest)>,
-}
-
-impl ChildSpec {
-    /// A child of this program that is given `files`, with the usual confinement and patience.
-    pub fn new(plugin: impl Into<String>, files: Vec<OwnedFd>) -> ChildSpec {
-        ChildSpec {
-            plugin: plugin.into(),
-            program: None,
-            files,
-            confinement: Confinement::default(),
-            patience: Patience::default(),
-            ended: None,
-            loads: true,
-            log: None,
-            quarantine: None,
-        }
-    }
-}
-
-impl fmt::Debug for ChildSpec {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("ChildSpec")
-            .field("plugin", &self.plugin)
-            .field("program", &self.program)
-            .field("confinement", &self.confinement)
-            .finish_non_exhaustive()
-    }
-}
-
-/// What is known about a child for as long as anybody may ask, even after it ended.
-#[derive(Debug)]
-pub(crate) struct Life {
-    plugin: String,
-    pub(crate) watch: Arc<Watch>,
-    pub(crate) patience: Patience,
-}
-
-impl Life {
-    /// What became of a question that was not answered; waits until it is known how the child ended.
-    pub(crate) fn lost(&self, error: LinkError) -> ChildError {
-        match error {
-            LinkError::Unsendable(why) => return ChildError::Unsendable { why },
-            LinkError::Breach(what) => self.watch.condemn(Fate::Breach { what }),
-            LinkError::Closed => {}
-        }
-        let fate = self.watch.final_fate();
-        ChildError::Gone {
-            plugin: self.plugin.clone(),
-            fate,
-            printed: self.watch.printed(),
-        }
-    }
-
-    /// Ends a child that broke a rule.
-    pub(crate) fn broke(&self, what: &str) -> ChildError {
-        self.lost(LinkError::Breach(what.to_owned()))
-    }
-}
 
 /// A running child; it is asked to end when the last device of it and the last owner of this are gone.
 pub struct Child {
@@ -214,7 +132,7 @@ impl Child {
             Greeting::Refused { failure } => Err(ChildError::Refused {
                 plugin: plugin.clone(),
                 kind: failure.kind,
-                why: super::keeper::plain(&failure.cause.unwrap_or(failure.doing)),
+                why: super::plain::plain(&failure.cause.unwrap_or(failure.doing)),
             }),
         }
     }
@@ -280,11 +198,11 @@ fn refuse_quarantined(
     }
 }
 
-/// What is done when a child has ended: a library that crashed goes into quarantine, then whoever wants to know is told.
+/// What is done when a child has ended: a library that crashed goes into quarantine, then whoever wants to know is called.
 fn when_ended(
     plugin: String,
     quarantine: Option<(Quarantine, Sha256Digest)>,
-    told: Option<Ended>,
+    on_end: Option<Ended>,
 ) -> impl FnOnce(&Fate) + Send + 'static {
     move |fate| {
         if let Some((quarantine, digest)) = quarantine.filter(|_| fate.is_its_own_fault()) {
@@ -292,8 +210,8 @@ fn when_ended(
             // Its devices have failed already, and say why; that it may be started again is the lesser evil.
             let _ = quarantine.put(&entry);
         }
-        if let Some(told) = told {
-            told(fate);
+        if let Some(on_end) = on_end {
+            on_end(fate);
         }
     }
 }
@@ -312,7 +230,7 @@ impl Drop for Child {
             let _ = keeper.join();
         }
         if let Some(listener) = self.listener.take() {
-            // As above: what it was told last is told before the child is forgotten.
+            // As above: its last messages are read before the child is forgotten.
             let _ = listener.join();
         }
         watch.end(call);

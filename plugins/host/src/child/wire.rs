@@ -4,20 +4,23 @@
 //! message that is not read to its end.
 
 mod any;
+mod basic;
+mod bench;
 mod describe;
+mod device;
+mod macros;
 mod message;
 mod model;
 mod value;
 
 pub use any::read_any_message;
-pub(crate) use message::{
-    Answer, BenchAnswer, BenchCall, Call, Failure, Greeting, Hello, OpenedDevice, Order,
-    OrderAnswer, Urgent,
-};
+pub(crate) use bench::{BenchAnswer, BenchCall};
+pub(crate) use device::{Answer, Call, OpenedDevice, Urgent};
+pub(crate) use macros::{fields, messages, variants};
+pub(crate) use message::{Failure, Greeting, Hello, Order, OrderAnswer};
 pub(crate) use model::{ModelAnswer, ModelCall, ModelEvent, ModelOrder, ModelWord, SetShape};
 
 use std::fmt;
-use std::time::Duration;
 
 /// The longest message in bytes; pictures and arrays go through shared memory.
 pub(crate) const MESSAGE_MAX: usize = 64 * 1024;
@@ -129,162 +132,6 @@ impl<'a> Reader<'a> {
             .ok_or_else(|| self.malformed("a count of items that the message holds"))
     }
 }
-
-fn write_count(count: usize, into: &mut Vec<u8>) {
-    // A count beyond 2³² makes a message that is far too long to be sent.
-    u32::try_from(count).unwrap_or(u32::MAX).write(into);
-}
-
-macro_rules! numbers {
-    ($($type:ty, $expected:literal;)*) => {$(
-        impl Wire for $type {
-            fn write(&self, into: &mut Vec<u8>) {
-                into.extend(self.to_le_bytes());
-            }
-            fn read(from: &mut Reader<'_>) -> Result<$type, Malformed> {
-                Ok(<$type>::from_le_bytes(from.array($expected)?))
-            }
-        }
-    )*};
-}
-
-numbers! {
-    u8, "a byte";
-    u32, "a number of 4 bytes";
-    i32, "a number of 4 bytes";
-    u64, "a number of 8 bytes";
-    i64, "a number of 8 bytes";
-    f64, "a number of 8 bytes";
-}
-
-impl Wire for bool {
-    fn write(&self, into: &mut Vec<u8>) {
-        u8::from(*self).write(into);
-    }
-
-    fn read(from: &mut Reader<'_>) -> Result<bool, Malformed> {
-        match u8::read(from)? {
-            0 => Ok(false),
-            1 => Ok(true),
-            _ => Err(from.malformed("0 or 1")),
-        }
-    }
-}
-
-impl Wire for String {
-    fn write(&self, into: &mut Vec<u8>) {
-        write_count(self.len(), into);
-        into.extend(self.as_bytes());
-    }
-
-    fn read(from: &mut Reader<'_>) -> Result<String, Malformed> {
-        let count = from.count()?;
-        let bytes = from.take(count, "the text")?;
-        std::str::from_utf8(bytes)
-            .map(str::to_owned)
-            .map_err(|_| from.malformed("UTF-8"))
-    }
-}
-
-impl<T: Wire> Wire for Option<T> {
-    fn write(&self, into: &mut Vec<u8>) {
-        self.is_some().write(into);
-        if let Some(value) = self {
-            value.write(into);
-        }
-    }
-
-    fn read(from: &mut Reader<'_>) -> Result<Option<T>, Malformed> {
-        bool::read(from)?.then(|| T::read(from)).transpose()
-    }
-}
-
-impl<T: Wire> Wire for Vec<T> {
-    fn write(&self, into: &mut Vec<u8>) {
-        write_count(self.len(), into);
-        for item in self {
-            item.write(into);
-        }
-    }
-
-    fn read(from: &mut Reader<'_>) -> Result<Vec<T>, Malformed> {
-        let count = from.count()?;
-        // Grown as it is read: a count that lies allocates nothing.
-        let mut items = Vec::new();
-        for _ in 0..count {
-            items.push(T::read(from)?);
-        }
-        Ok(items)
-    }
-}
-
-impl<A: Wire, B: Wire> Wire for (A, B) {
-    fn write(&self, into: &mut Vec<u8>) {
-        self.0.write(into);
-        self.1.write(into);
-    }
-
-    fn read(from: &mut Reader<'_>) -> Result<(A, B), Malformed> {
-        Ok((A::read(from)?, B::read(from)?))
-    }
-}
-
-impl Wire for Duration {
-    fn write(&self, into: &mut Vec<u8>) {
-        u64::try_from(self.as_nanos())
-            .unwrap_or(u64::MAX)
-            .write(into);
-    }
-
-    fn read(from: &mut Reader<'_>) -> Result<Duration, Malformed> {
-        Ok(Duration::from_nanos(u64::read(from)?))
-    }
-}
-
-/// Writes and reads a struct field by field, in the order given.
-macro_rules! fields {
-    ($type:ident { $($field:ident),* $(,)? }) => {
-        impl $crate::child::wire::Wire for $type {
-            fn write(&self, into: &mut Vec<u8>) {
-                let $type { $($field),* } = self;
-                $($crate::child::wire::Wire::write($field, into);)*
-            }
-            fn read(
-                from: &mut $crate::child::wire::Reader<'_>,
-            ) -> Result<$type, $crate::child::wire::Malformed> {
-                Ok($type { $($field: $crate::child::wire::Wire::read(from)?),* })
-            }
-        }
-    };
-}
-
-/// Writes and reads an enum: a byte that tells which variant it is, then its fields in the order given.
-macro_rules! variants {
-    ($type:ident, $expected:literal { $($tag:literal => $variant:ident { $($field:ident),* }),* $(,)? }) => {
-        impl $crate::child::wire::Wire for $type {
-            fn write(&self, into: &mut Vec<u8>) {
-                match self {
-                    $($type::$variant { $($field),* } => {
-                        into.push($tag);
-                        $($crate::child::wire::Wire::write($field, into);)*
-                    })*
-                }
-            }
-            fn read(
-                from: &mut $crate::child::wire::Reader<'_>,
-            ) -> Result<$type, $crate::child::wire::Malformed> {
-                match <u8 as $crate::child::wire::Wire>::read(from)? {
-                    $($tag => Ok($type::$variant {
-                        $($field: $crate::child::wire::Wire::read(from)?),*
-                    }),)*
-                    _ => Err(from.malformed($expected)),
-                }
-            }
-        }
-    };
-}
-
-pub(crate) use {fields, variants};
 
 #[cfg(test)]
 mod tests {

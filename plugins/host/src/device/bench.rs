@@ -118,11 +118,11 @@ impl SimulatedBench for PluginBench {
     fn provenance(&self) -> Option<String> {
         let mut taken = Taken::default();
         let context = taken.context();
-        let told = self.call("say what it is", self.calls.provenance, |tell, error| {
+        let said = self.call("say what it is", self.calls.provenance, |tell, error| {
             // SAFETY: [any], on a rig that `self` keeps open, with a text, a context and an error that outlive the call.
             unsafe { tell(self.rig.raw(), self.text(), Some(take), context, error) }
         });
-        told.ok()?;
+        said.ok()?;
         taken.whole().ok().filter(|text| !text.is_empty())
     }
 }

@@ -8,11 +8,11 @@ use std::sync::Arc;
 use taceva_abi as abi;
 use taceva_abi::ext::{TARE, TareCalls};
 use taceva_core::{
-    Axes, Axis, Deadline, DriverError, ErrorKind, ForceFacts, ForceTransducer, Interrupt, Stamp,
-    Tare, Wrench, check_wrench,
+    Axes, Axis, Deadline, DriverError, DriverKind, ErrorKind, Facts, ForceFacts, ForceTransducer,
+    Interrupt, Stamp, Tare, Wrench, check_wrench,
 };
 
-use super::handle::{Handle, Opened, Owned};
+use super::handle::{Handle, Opened, Owned, PluginDevice};
 use super::sensor::stamp;
 use crate::call::timeout;
 
@@ -35,19 +35,27 @@ type Read = unsafe extern "C" fn(
 
 const OPENING: &str = "open the force transducer";
 
-impl PluginForce {
-    pub(crate) fn new(
+impl PluginDevice for PluginForce {
+    const KIND: DriverKind = DriverKind::Force;
+    type Calls = abi::ForceCalls;
+    type Facts = ForceFacts;
+
+    fn facts(facts: &Facts) -> Option<&ForceFacts> {
+        match facts {
+            Facts::Force(facts) => Some(facts),
+            _ => None,
+        }
+    }
+
+    fn new(
         opened: Opened<abi::ForceCalls>,
         facts: &ForceFacts,
     ) -> Result<PluginForce, DriverError> {
         let Opened { handle, calls } = opened;
         let read = handle.needs(calls.read, "read")?;
         let tare = if facts.tare {
-            let table = handle.extension::<TareCalls>(TARE, OPENING)?;
-            let zero = table.and_then(|table| table.zero).ok_or_else(|| {
-                let why = format!("it says it can tare, yet has no `{TARE}`");
-                handle.failed(ErrorKind::Abi, OPENING, why)
-            })?;
+            let zero = |table: TareCalls| table.zero;
+            let zero = handle.ability((TARE, OPENING), "it says it can tare", zero)?;
             let handle = handle.share();
             Some(TareAbility { handle, zero })
         } else {

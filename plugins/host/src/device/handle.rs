@@ -10,7 +10,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, PoisonError, RwLock};
 
 use taceva_abi as abi;
-use taceva_core::{DriverError, DriverKey, ErrorKind, Interrupt};
+use taceva_core::{DriverError, DriverKey, DriverKind, ErrorKind, Facts, Interrupt};
 
 use super::rig::RigHandle;
 use crate::call::{ArgList, Failure, Table, call, table};
@@ -43,6 +43,22 @@ pub(crate) struct Opened<T> {
 
 /// The one owner of a handle.
 pub(crate) struct Owned(Arc<Handle>);
+
+/// A kind of device as the tables of a library have it.
+pub(crate) trait PluginDevice: Sized {
+    /// Its name.
+    const KIND: DriverKind;
+    /// The table of an open one.
+    type Calls: Table;
+    /// What a library says of it.
+    type Facts;
+
+    /// What is said of this kind, if `facts` are of it.
+    fn facts(facts: &Facts) -> Option<&Self::Facts>;
+
+    /// The device that was opened, of which the library says `facts`.
+    fn new(opened: Opened<Self::Calls>, facts: &Self::Facts) -> Result<Self, DriverError>;
+}
 
 /// Opens the driver of `entry` in `rig`.
 pub(crate) fn open<T: Table>(
@@ -191,6 +207,20 @@ impl Owned {
         why: impl Into<String>,
     ) -> DriverError {
         Failure::new(kind, why).of(&self.0.driver, doing)
+    }
+
+    /// A function of the table `id` of an ability that the device has, as `says` puts it.
+    pub(crate) fn ability<T: Table, F>(
+        &self,
+        (id, doing): (&'static str, &'static str),
+        says: &str,
+        function: impl FnOnce(T) -> Option<F>,
+    ) -> Result<F, DriverError> {
+        let found = self.extension::<T>(id, doing)?.and_then(function);
+        found.ok_or_else(|| {
+            let why = format!("{says}, yet has no `{id}`");
+            self.failed(ErrorKind::Abi, doing, why)
+        })
     }
 
     /// A function of the table that this kind of device cannot do without.

@@ -9,9 +9,9 @@ use std::ffi::c_void;
 use std::sync::Arc;
 
 use taceva_abi as abi;
-use taceva_core::{Deadline, DriverError, ErrorKind, Lighting};
+use taceva_core::{Deadline, DriverError, DriverKind, ErrorKind, Facts, Lighting, LightingFacts};
 
-use super::handle::{Handle, Opened, Owned};
+use super::handle::{Handle, Opened, Owned, PluginDevice};
 use crate::call::{Failure, timeout};
 
 type Set = unsafe extern "C" fn(*mut c_void, abi::Text, u64, *mut abi::Error) -> abi::Status;
@@ -61,15 +61,26 @@ pub(crate) struct PluginLighting {
     _handle: Owned,
 }
 
-impl PluginLighting {
-    pub(crate) fn new(
+impl PluginDevice for PluginLighting {
+    const KIND: DriverKind = DriverKind::Lighting;
+    type Calls = abi::LightingCalls;
+    type Facts = LightingFacts;
+
+    fn facts(facts: &Facts) -> Option<&LightingFacts> {
+        match facts {
+            Facts::Lighting(facts) => Some(facts),
+            _ => None,
+        }
+    }
+
+    fn new(
         opened: Opened<abi::LightingCalls>,
-        scenes: Vec<String>,
+        facts: &LightingFacts,
     ) -> Result<PluginLighting, DriverError> {
         let Opened { handle, calls } = opened;
         let set = handle.needs(calls.set, "set")?;
         Ok(PluginLighting {
-            ability: LightingAbility::new(handle.share(), set, scenes),
+            ability: LightingAbility::new(handle.share(), set, facts.scenes.clone()),
             _handle: handle,
         })
     }

@@ -12,11 +12,11 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use taceva_abi as abi;
 use taceva_abi::ext::{GUARDED_MOTION, GuardedMotionCalls};
 use taceva_core::{
-    Deadline, DriverError, DriverKey, ErrorKind, Guard, GuardedMotion, GuardedStop, Halt, Pose,
-    Robot, RobotFacts, SiPose, Speed, Stamp, check_pose,
+    Deadline, DriverError, DriverKey, DriverKind, ErrorKind, Facts, Guard, GuardedMotion,
+    GuardedStop, Halt, Pose, Robot, RobotFacts, SiPose, Speed, Stamp, check_pose,
 };
 
-use super::handle::{Handle, Opened, Owned};
+use super::handle::{Handle, Opened, Owned, PluginDevice};
 use super::sensor::stamp;
 use crate::call::{Failure, call, timeout};
 
@@ -55,8 +55,19 @@ struct Functions {
 const OPENING: &str = "open the robot";
 const MOVING: &str = "move";
 
-impl PluginRobot {
-    pub(crate) fn new(
+impl PluginDevice for PluginRobot {
+    const KIND: DriverKind = DriverKind::Robot;
+    type Calls = abi::RobotCalls;
+    type Facts = RobotFacts;
+
+    fn facts(facts: &Facts) -> Option<&RobotFacts> {
+        match facts {
+            Facts::Robot(facts) => Some(facts),
+            _ => None,
+        }
+    }
+
+    fn new(
         opened: Opened<abi::RobotCalls>,
         facts: &RobotFacts,
     ) -> Result<PluginRobot, DriverError> {
@@ -74,14 +85,11 @@ impl PluginRobot {
             is_halted: AtomicBool::new(false),
         });
         let guarded = if facts.guarded_motion {
-            let table = handle.extension::<GuardedMotionCalls>(GUARDED_MOTION, OPENING)?;
-            let move_guarded = table.and_then(|table| table.move_guarded).ok_or_else(|| {
-                let why = format!("it says it stops at a force, yet has no `{GUARDED_MOTION}`");
-                handle.failed(ErrorKind::Abi, OPENING, why)
-            })?;
+            let stops = "it says it stops at a force";
+            let move_guarded = |table: GuardedMotionCalls| table.move_guarded;
             Some(GuardedAbility {
                 halt: Arc::clone(&halt),
-                move_guarded,
+                move_guarded: handle.ability((GUARDED_MOTION, OPENING), stops, move_guarded)?,
             })
         } else {
             None

@@ -11,11 +11,11 @@ use std::time::Duration;
 use taceva_abi as abi;
 use taceva_abi::ext::{SENSOR_LIGHTING, SensorLightingCalls};
 use taceva_core::{
-    Deadline, DriverError, ErrorKind, FrameInfo, FrameMut, Interrupt, Lighting, PixelFormat,
-    Sensor, SensorFacts, Stamp,
+    Deadline, DriverError, DriverKind, ErrorKind, Facts, FrameInfo, FrameMut, Interrupt, Lighting,
+    PixelFormat, Sensor, SensorFacts, Stamp,
 };
 
-use super::handle::{Opened, Owned};
+use super::handle::{Opened, Owned, PluginDevice};
 use super::lighting::LightingAbility;
 use crate::call::timeout;
 
@@ -54,9 +54,19 @@ pub struct LentFrame<'a> {
 const OPENING: &str = "open the sensor";
 const CAPTURING: &str = "capture a frame";
 
-impl PluginSensor {
-    /// A sensor that was opened, whose library says `facts` of it.
-    pub(crate) fn new(
+impl PluginDevice for PluginSensor {
+    const KIND: DriverKind = DriverKind::Sensor;
+    type Calls = abi::SensorCalls;
+    type Facts = SensorFacts;
+
+    fn facts(facts: &Facts) -> Option<&SensorFacts> {
+        match facts {
+            Facts::Sensor(facts) => Some(facts),
+            _ => None,
+        }
+    }
+
+    fn new(
         opened: Opened<abi::SensorCalls>,
         facts: &SensorFacts,
     ) -> Result<PluginSensor, DriverError> {
@@ -73,11 +83,8 @@ impl PluginSensor {
         let lighting = if facts.scenes.is_empty() {
             None
         } else {
-            let table = handle.extension::<SensorLightingCalls>(SENSOR_LIGHTING, OPENING)?;
-            let set = table.and_then(|table| table.set).ok_or_else(|| {
-                let why = format!("it names scenes, yet has no `{SENSOR_LIGHTING}`");
-                handle.failed(ErrorKind::Abi, OPENING, why)
-            })?;
+            let set = |table: SensorLightingCalls| table.set;
+            let set = handle.ability((SENSOR_LIGHTING, OPENING), "it names scenes", set)?;
             Some(LightingAbility::new(
                 handle.share(),
                 set,
@@ -93,7 +100,9 @@ impl PluginSensor {
             lighting,
         })
     }
+}
 
+impl PluginSensor {
     /// Waits for the next frame and shows it where it lies in the plugin's memory: nothing is copied.
     ///
     /// # Errors

@@ -1,6 +1,5 @@
 //! A driver of a plugin among other drivers.
 
-use std::path::Path;
 use std::sync::Arc;
 
 use taceva_core::{
@@ -87,12 +86,12 @@ impl PluginDriver {
         plugin.map_err(|error| DriverError::new(ErrorKind::NotFound, key, doing).because(error))
     }
 
-    /// The devices that the manifest names and the kernel lists.
+    /// The devices that the manifest names and the system lists.
     fn seen(&self) -> Vec<Found> {
         if self.usb.is_empty() {
             return Vec::new();
         }
-        let devices = usb::plugged_in(Path::new("/sys/bus/usb/devices"));
+        let devices = usb::plugged_in();
         let ours = devices
             .into_iter()
             .filter(|device| self.usb.contains(&device.id));

@@ -82,7 +82,7 @@ impl EstimatorFactory for PluginEstimator {
         Ok(Some(format!("sha256:{}", self.digest()?)))
     }
 
-    /// A manifest that demands one build demands it of models too; otherwise another build is told of.
+    /// A manifest that demands one build demands it of models too; otherwise another build is reported.
     fn admit(&self, fitted_by: Option<&str>) -> Result<(), ModelError> {
         let build = format!("sha256:{}", self.digest()?);
         if fitted_by == Some(build.as_str()) {

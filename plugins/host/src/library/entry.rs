@@ -44,7 +44,7 @@ impl fmt::Display for Place {
 }
 
 impl Entry {
-    /// What it may be told.
+    /// The arguments it takes.
     pub(crate) fn arguments(&self) -> &[ArgSpec] {
         match &self.provided {
             Provided::Driver { descriptor, .. } => descriptor.arguments(),
@@ -52,7 +52,7 @@ impl Entry {
         }
     }
 
-    /// What the library says of the driver that is told `args`, compared with what it said without any.
+    /// What the library says of the driver with `args`, compared with what it said without any.
     pub(crate) fn describe(&self, id: &PluginId, args: &Args) -> Result<Descriptor, Failure> {
         let list = ArgList::new(args, self.arguments());
         let said = self.said(id, &list.args())?;

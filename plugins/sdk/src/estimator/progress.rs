@@ -1,15 +1,15 @@
-//! How far a fit is, told to the host.
+//! How far a fit is, reported to the host.
 
 use std::ffi::c_void;
 use std::sync::atomic::{AtomicBool, AtomicPtr, AtomicU64, Ordering};
 use std::thread::{self, ThreadId};
 
-use taceva_abi::Progress as Told;
+use taceva_abi::Progress as Report;
 use taceva_core::Progress;
 
-/// Tells the host, from the thread on which it asked for the fit; other threads learn what it last answered.
-pub(super) struct ToldProgress {
-    told: Told,
+/// Reports to the host, from the thread on which it asked for the fit; other threads learn what it last answered.
+pub(super) struct ReportedProgress {
+    report: Report,
     context: AtomicPtr<c_void>,
     thread: ThreadId,
     done: AtomicU64,
@@ -17,10 +17,10 @@ pub(super) struct ToldProgress {
     is_cancelled: AtomicBool,
 }
 
-impl ToldProgress {
-    pub(super) fn new(told: Told, context: *mut c_void) -> ToldProgress {
-        ToldProgress {
-            told,
+impl ReportedProgress {
+    pub(super) fn new(report: Report, context: *mut c_void) -> ReportedProgress {
+        ReportedProgress {
+            report,
             context: AtomicPtr::new(context),
             thread: thread::current().id(),
             done: AtomicU64::new(0),
@@ -38,36 +38,39 @@ impl ToldProgress {
     }
 
     #[expect(unsafe_code, reason = "a function of the host is called")]
-    fn tell(&self) {
-        let Some(told) = self.told.filter(|_| thread::current().id() == self.thread) else {
+    fn report_now(&self) {
+        let Some(report) = self
+            .report
+            .filter(|_| thread::current().id() == self.thread)
+        else {
             return;
         };
         // SAFETY: the host's own function with its own context, on the thread on which it waits for the fit.
-        let answer = unsafe { told(self.context.load(Ordering::Relaxed), self.share()) };
+        let answer = unsafe { report(self.context.load(Ordering::Relaxed), self.share()) };
         if answer != 0 {
             self.is_cancelled.store(true, Ordering::Release);
         }
     }
 }
 
-impl Progress for ToldProgress {
+impl Progress for ReportedProgress {
     fn begin(&self, _: &str, steps: Option<u64>) {
         self.done.store(0, Ordering::Relaxed);
         self.steps.store(steps.unwrap_or(0), Ordering::Relaxed);
-        self.tell();
+        self.report_now();
     }
 
     fn advance(&self, steps: u64) {
         self.done.fetch_add(steps, Ordering::Relaxed);
-        self.tell();
+        self.report_now();
     }
 
     fn end(&self) {
-        self.tell();
+        self.report_now();
     }
 
     fn is_cancelled(&self) -> bool {
-        self.tell();
+        self.report_now();
         self.is_cancelled.load(Ordering::Acquire)
     }
 }

@@ -6,14 +6,14 @@ use std::ffi::c_void;
 use std::sync::Arc;
 
 use taceva_abi::{
-    Args as AbiArgs, Error, EstimatorFactory as Table, Progress as Told, Regressor as AbiRegressor,
-    RegressorCalls, Status, TakeText, TrainingSet as AbiSet,
+    Args as AbiArgs, Error, EstimatorFactory as Table, Progress as Report,
+    Regressor as AbiRegressor, RegressorCalls, Status, TakeText, TrainingSet as AbiSet,
 };
 use taceva_core::{
     Channels, ErrorKind, FeatureShape, Features, SavedRegressor, Targets, TrainingSet,
 };
 
-use super::progress::ToldProgress;
+use super::progress::ReportedProgress;
 use super::{EstimatorFactory, FitRequest, kept};
 use crate::failure::Failure;
 use crate::guard::guard;
@@ -79,7 +79,7 @@ unsafe extern "C" fn fit(
     settings: *const AbiArgs,
     training: *const AbiSet,
     validation: *const AbiSet,
-    told: Told,
+    report: Report,
     context: *mut c_void,
     regressor: *mut AbiRegressor,
     error: *mut Error,
@@ -104,7 +104,7 @@ unsafe extern "C" fn fit(
             settings: &settings,
             training: &training.borrowed(),
             validation: validation.as_ref().map(Set::borrowed).as_ref(),
-            progress: &ToldProgress::new(told, context),
+            progress: &ReportedProgress::new(report, context),
         })?;
         *place = opened(fitted);
         Ok(())

@@ -86,7 +86,7 @@ fn smoothed(plane: &[f64], width: usize) -> Vec<f64> {
 
 /// Means over presses with the half-width of their 95 % interval, by Student's t.
 pub(crate) fn summary(presses: &[Likeness]) -> String {
-    let told = |of: fn(&Likeness) -> f64, digits: usize| {
+    let row = |of: fn(&Likeness) -> f64, digits: usize| {
         let count = presses.len() as f64;
         let mean = presses.iter().map(of).sum::<f64>() / count;
         let squares = presses
@@ -98,9 +98,9 @@ pub(crate) fn summary(presses: &[Likeness]) -> String {
         format!("{text:<23}")
     };
     [
-        told(|press| press.l1_dn, 2),
-        told(|press| press.psnr_db, 1),
-        told(|press| press.ssim, 3),
+        row(|press| press.l1_dn, 2),
+        row(|press| press.psnr_db, 1),
+        row(|press| press.ssim, 3),
     ]
     .concat()
 }

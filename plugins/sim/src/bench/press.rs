@@ -4,7 +4,7 @@ use super::PressError;
 use crate::parameters::{Outline, Parameters};
 use crate::specimen::Indenter;
 
-/// A press as the rig is told to make it.
+/// A press as the rig is commanded to make it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Press {
     /// Its name: random numbers of this press alone go by it.

@@ -83,7 +83,7 @@ impl Factory<dyn Robot> for RobotFactory {
     }
 }
 
-/// What it may be told. A gel of its own is for sensors that are not of this bench: their pictures do not show it, the forces are its.
+/// Its arguments. A gel of its own is for sensors that are not of this bench: their pictures do not show it, the forces are its.
 fn arguments() -> [ArgSpec; 3] {
     let gels = Model::ALL.map(Model::key);
     [

@@ -1,5 +1,9 @@
 //! What goes on in a simulated rig: a tip that moves, a gel that remembers, a clock that both turn.
 
+mod travel;
+
+pub(super) use self::travel::{Ended, Motion};
+
 use std::time::Duration;
 
 use taceva_core::{Millimetre, Pose};
@@ -8,7 +12,7 @@ use super::mounted::Mounted;
 use super::place::{Visits, nanometres, point_of};
 use super::ticks::Ticks;
 use super::touch::Touch;
-use super::visit::{Ground, Visit, VisitErrors};
+use super::visit::{SurfaceBelow, Visit, VisitErrors};
 use crate::bench::Bench;
 use crate::contact::{BoardStand, Contact, History};
 use crate::optics::AmbientLight;
@@ -42,33 +46,8 @@ pub(super) struct State {
     history: History,
 }
 
-/// How a motion ended.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Ended {
-    /// At its target.
-    Arrived,
-    /// Because its time was up.
-    OutOfTime,
-    /// Because somebody halted it.
-    Halted,
-    /// Because the guard was reached.
-    Guarded,
-}
-
-/// A motion to be made.
-pub(super) struct Motion<'a> {
-    pub(super) target: Pose,
-    pub(super) speed_mm_per_s: f64,
-    pub(super) patience: Duration,
-    pub(super) is_halted: &'a dyn Fn() -> bool,
-    pub(super) guard_n: Option<f64>,
-}
-
 /// Where the tip begins: out of every gel.
 pub(super) const HOME_MM: [f64; 3] = [0.0, 0.0, -20.0];
-/// The way of a tip is followed in steps of this length.
-const STEP_MM: f64 = 0.05;
-
 impl State {
     pub(super) fn new() -> State {
         let parameters = Model::GelSight.parameters();
@@ -114,7 +93,7 @@ impl State {
         self.random = bench.random();
         self.errors = TransducerModel::new(self.transducer, self.random);
         self.visit.touch = None;
-        self.visit.ground = None;
+        self.visit.surface = None;
         self.visit.errors = self.visit_errors();
         self.bench = Some(bench);
     }
@@ -167,58 +146,6 @@ impl State {
     /// Notes a press that was made before this rig was set up.
     pub(super) fn remember(&mut self, place_mm: [f64; 2], deepest_mm: f64) {
         self.history.finish(point_of(place_mm), deepest_mm);
-    }
-
-    /// Moves the tip along a straight line.
-    pub(super) fn travel(&mut self, motion: &Motion<'_>) -> Ended {
-        let (from, sent) = (self.tip_mm, coordinates(&self.sent));
-        let target = coordinates(&motion.target);
-        let error = self.visit.errors.position_mm;
-        let to: [f64; 3] = std::array::from_fn(|axis| target[axis] + error[axis]);
-        let length = distance(from, to);
-        let steps = (length / STEP_MM).ceil().max(1.0);
-        let step_s = length / steps / motion.speed_mm_per_s;
-        let (start, mut last) = (self.now, Ticks::default());
-        let patience = Ticks::of(motion.patience);
-        let mut done = 0.0;
-        let mut ended = Ended::Arrived;
-        while done < steps {
-            if (motion.is_halted)() {
-                ended = Ended::Halted;
-                break;
-            }
-            // Time is counted from the start, so that it does not depend on how the sum is rounded.
-            let then = Ticks::of(Duration::from_secs_f64((done + 1.0) * step_s));
-            if then > patience {
-                ended = Ended::OutOfTime;
-                break;
-            }
-            done += 1.0;
-            // The end is met to the bit, wherever the way began.
-            self.tip_mm = if done < steps {
-                mix(from, to, done / steps)
-            } else {
-                to
-            };
-            self.now = start.after(then);
-            self.follow(then.since(last).seconds());
-            last = then;
-            let reached = |guard: f64| size(self.force_n()) >= guard;
-            if motion.guard_n.is_some_and(reached) {
-                ended = Ended::Guarded;
-                break;
-            }
-        }
-        self.sent = if ended == Ended::Arrived {
-            motion.target
-        } else {
-            let [x, y, z] = mix(sent, target, done / steps).map(Millimetre);
-            let mut stopped = self.sent;
-            (stopped.position.x, stopped.position.y, stopped.position.z) = (x, y, z);
-            stopped.on_grid()
-        };
-        self.arrive();
-        ended
     }
 
     /// What the transducer says next.
@@ -330,7 +257,7 @@ impl State {
         self.tip_mm = std::array::from_fn(|axis| sent[axis] + error[axis]);
     }
 
-    /// Tells the gel where the tip is, `step_s` after it was told last.
+    /// Follows the tip into the gel, `step_s` after the last step.
     fn follow(&mut self, step_s: f64) {
         let Some(bench) = &self.bench else {
             return;
@@ -344,12 +271,12 @@ impl State {
                 if z < -bench.unit().height_max_mm() {
                     return;
                 }
-                let ground = Ground::under(bench, self.mounted, [x, y], self.visit.ground);
-                self.visit.ground = Some(ground);
-                if z <= ground.surface_mm {
+                let surface = SurfaceBelow::at(bench, self.mounted, [x, y], self.visit.surface);
+                self.visit.surface = Some(surface);
+                if z <= surface.surface_mm {
                     return;
                 }
-                Touch::above(bench, [x, y], ground.surface_mm, self.history.wear(point))
+                Touch::above(bench, [x, y], surface.surface_mm, self.history.wear(point))
             }
         };
         if touch.follow(bench, self.mounted, self.tip_mm, step_s) {
@@ -371,16 +298,4 @@ fn pose([x, y, z]: [f64; 3]) -> Pose {
 fn coordinates(pose: &Pose) -> [f64; 3] {
     let position = &pose.position;
     [position.x.0, position.y.0, position.z.0]
-}
-
-fn mix(from: [f64; 3], to: [f64; 3], share: f64) -> [f64; 3] {
-    std::array::from_fn(|axis| from[axis] + (to[axis] - from[axis]) * share)
-}
-
-fn distance(from: [f64; 3], to: [f64; 3]) -> f64 {
-    size(std::array::from_fn(|axis| to[axis] - from[axis]))
-}
-
-fn size(vector: [f64; 3]) -> f64 {
-    vector.iter().map(|side| side * side).sum::<f64>().sqrt()
 }

@@ -19,7 +19,7 @@ pub(super) struct Visit {
     pub(super) has_touched: bool,
     pub(super) touch: Option<Touch>,
     pub(super) errors: VisitErrors,
-    pub(super) ground: Option<Ground>,
+    pub(super) surface: Option<SurfaceBelow>,
 }
 
 /// What robot and transducer err by throughout a visit: drawn once.
@@ -51,25 +51,25 @@ impl VisitErrors {
 
 /// Where the gel begins under a place: worked out once, however often the tip is still above it.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Ground {
+pub(super) struct SurfaceBelow {
     mounted: Mounted,
     place_mm: [f64; 2],
     pub(super) surface_mm: f64,
 }
 
-impl Ground {
-    /// The ground under `place_mm`: `known`, if it is that.
-    pub(super) fn under(
+impl SurfaceBelow {
+    /// The surface below `place_mm`: `known`, if it was worked out for that place and specimen.
+    pub(super) fn at(
         bench: &Bench,
         mounted: Mounted,
         place_mm: [f64; 2],
-        known: Option<Ground>,
-    ) -> Ground {
-        let is_here = |known: &Ground| {
+        known: Option<SurfaceBelow>,
+    ) -> SurfaceBelow {
+        let is_here = |known: &SurfaceBelow| {
             known.mounted == mounted
                 && known.place_mm.map(f64::to_bits) == place_mm.map(f64::to_bits)
         };
-        known.filter(is_here).unwrap_or_else(|| Ground {
+        known.filter(is_here).unwrap_or_else(|| SurfaceBelow {
             mounted,
             place_mm,
             surface_mm: surface_mm(bench, mounted, place_mm),

@@ -43,7 +43,7 @@ impl CameraSpec {
         flicker: 0.0,
     };
 
-    /// The noise that a picture 96 pixels wide has as `camera` says, told for a pixel of a picture `width` pixels wide.
+    /// The noise that `camera` states for a picture 96 pixels wide, scaled to a picture `width` pixels wide.
     fn new(camera: &parameters::Camera, width: u32) -> CameraSpec {
         let across = f64::from(width) / REFERENCE_WIDTH;
         CameraSpec {
@@ -54,7 +54,7 @@ impl CameraSpec {
     }
 }
 
-/// The width of the picture for which parameters tell the noise.
+/// The width of the picture for which parameters state the noise.
 const REFERENCE_WIDTH: f64 = 96.0;
 
 fn pixels(count: f64) -> u32 {

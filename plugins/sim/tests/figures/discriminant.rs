@@ -55,7 +55,7 @@ impl Discriminant {
     }
 
     /// The class that a vector most probably is of.
-    pub(crate) fn tell(&self, vector: &[f64]) -> usize {
+    pub(crate) fn classify(&self, vector: &[f64]) -> usize {
         let score = |class: usize| {
             let (weight, half) = &self.weights[class];
             product(weight, vector) - half

@@ -1,4 +1,4 @@
-//! Which gratings can be told apart in the pictures, by a reader that is made for gratings: a linear discriminant on the logarithm of the
+//! Which gratings can be distinguished in the pictures, by a reader that is made for gratings: a linear discriminant on the logarithm of the
 //! radial spectrum. What a network reads in the paper's scene is for the study to say; this is what the pictures hold.
 
 use taceva_core::{FrameMut, GratingKind, Nanometre};
@@ -17,14 +17,14 @@ const STEP: usize = 5;
 /// Side of a board, over whose area its force is spread.
 const BOARD_MM: f64 = 10.0;
 
-/// Published success rates of the dome, of spacings told with an error below these hundredths of a millimetre.
+/// Published success rates of the dome, of spacings classified with an error below these hundredths of a millimetre.
 const PUBLISHED: [(GratingKind, [f64; 5]); 2] = [
     (GratingKind::Line, [0.81, 0.88, 0.895, 0.948, 0.973]),
     (GratingKind::Dot, [0.80, 0.90, 0.923, 0.967, 0.983]),
 ];
 const BELOW: [u32; 5] = [5, 10, 15, 25, 45];
 
-/// The part of the pictures whose spacing is told with an error below each of the limits: below 0.05 mm is exactly.
+/// The part of the pictures whose spacing is classified with an error below each of the limits: below 0.05 mm is exactly.
 fn success(model: Model, kind: GratingKind) -> [f64; 5] {
     let spacings: Vec<u32> = SPACINGS.step_by(STEP).collect();
     let mut reader = Reader::new(model);
@@ -44,9 +44,9 @@ fn success(model: Model, kind: GratingKind) -> [f64; 5] {
     let mut counts = [0_u32; 5];
     for (spacing, spectra) in spacings.iter().zip(&asked) {
         for spectrum in spectra {
-            let told = spacings[discriminant.tell(spectrum)];
+            let classified = spacings[discriminant.classify(spectrum)];
             for (count, below) in counts.iter_mut().zip(BELOW) {
-                *count += u32::from(told.abs_diff(*spacing) < below);
+                *count += u32::from(classified.abs_diff(*spacing) < below);
             }
         }
     }

@@ -123,7 +123,7 @@ impl Trial {
         let mut force = open(&self.forces, "", &mut rig);
         let mut lighting = open(&self.lamps, "", &mut rig);
         let bench = SimulatedRig::of(&mut rig, "bench");
-        let (mut clock, mut hands) = (BenchClock(bench.clone()), BenchClock(bench.clone()));
+        let (mut clock, mut changer) = (BenchClock(bench.clone()), BenchClock(bench.clone()));
         let cancel = Cancel::new();
         let (mut begun, mut retried) = (0, 0);
         let mut events = |event: &Event| {
@@ -147,7 +147,7 @@ impl Trial {
                 force: force.as_mut(),
                 sensor: Some(sensor.as_mut()),
                 lighting: Some(lighting.as_mut()),
-                specimens: Some(&mut hands),
+                specimens: Some(&mut changer),
             },
             log,
             Controls {

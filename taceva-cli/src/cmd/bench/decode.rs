@@ -13,11 +13,11 @@ use super::pressed::Pressed;
 use crate::args::BenchDecode;
 use crate::{exit, output};
 
-/// The quality of frames that are made JPEG for the benchmark: what cameras call fine.
+/// The JPEG quality of frames that are encoded for the benchmark.
 const QUALITY: u8 = 95;
 
 pub(super) fn run(args: &BenchDecode, context: &Context) -> anyhow::Result<u8> {
-    for path in args.output.path.iter().chain(&args.svg) {
+    for path in args.output.path.iter().chain(&args.figure.svg) {
         output::check_free(path, args.output.force)?;
     }
     let known = context.models()?;
@@ -35,13 +35,13 @@ pub(super) fn run(args: &BenchDecode, context: &Context) -> anyhow::Result<u8> {
             write_as_jpeg(&pressed.dataset, &path, QUALITY, &context.progress)?;
             let mut bench = race(&open(&path)?, "simulated bench", &request, context)?;
             bench.note = format!(
-                "The bench records PNG; for this its frames were rounded to 8 bits and encoded as JPEG of quality {QUALITY}."
+                "The bench records PNG; for this benchmark its frames were rounded to 8 bits and encoded as JPEG of quality {QUALITY}."
             );
             bench
         }
     };
     results::write(&bench.table(), &args.output, || bench.json())?;
-    if let Some(path) = &args.svg {
+    if let Some(path) = &args.figure.svg {
         draw(&bench, path)?;
     }
     Ok(exit::DONE)

@@ -16,7 +16,7 @@ use super::pressed::Pressed;
 use crate::args::{BenchModels, SplitArgs};
 use crate::{exit, output};
 
-/// What is raced only where it is named: minutes to hours on most machines, or no model of its own.
+/// Models that run only where they are named: they take minutes to hours, or are no model of their own.
 const NAMED_ONLY: [&str; 6] = [
     "resnet10",
     "resnet18",
@@ -26,7 +26,7 @@ const NAMED_ONLY: [&str; 6] = [
     "auto",
 ];
 
-/// Settings that make a race short.
+/// Settings for a short benchmark.
 const QUICK: [(&str, &str); 3] = [
     ("cnn", "epochs=20,size=32x32"),
     ("gradient-boosting", "most=60"),
@@ -34,7 +34,7 @@ const QUICK: [(&str, &str); 3] = [
 ];
 
 pub(super) fn run(args: &BenchModels, context: &Context) -> anyhow::Result<u8> {
-    for path in args.output.path.iter().chain(&args.svg) {
+    for path in args.output.path.iter().chain(&args.figure.svg) {
         output::check_free(path, args.output.force)?;
     }
     let known = context.models()?;
@@ -56,7 +56,7 @@ pub(super) fn run(args: &BenchModels, context: &Context) -> anyhow::Result<u8> {
         }
     };
     results::write(&bench.table(), &args.output, || bench.json())?;
-    if let Some(path) = &args.svg {
+    if let Some(path) = &args.figure.svg {
         draw(&bench, path)?;
     }
     Ok(exit::DONE)

@@ -1,4 +1,4 @@
-//! A recording of the simulated bench, pressed for a benchmark and removed after it.
+//! A recording of the simulated bench, made for a benchmark and removed after it.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -10,7 +10,7 @@ use taceva_study::{Existing, PlannedScene, RunFolder, SceneText, Workshop, run_s
 use super::super::Context;
 use super::super::run::bench::surroundings;
 
-/// What is pressed: one sensor, its whole surface. The study that comes with it fits the baseline only.
+/// The scene: one sensor, its whole surface. Its study fits the baseline only.
 const SCENE: &str = r#"scene_version = 1
 name = "ViTacTip"
 seed = 0
@@ -38,7 +38,7 @@ indentations = 4
 /// Contact points of a race, and of a quick one.
 const POINTS: [usize; 2] = [400, 60];
 
-/// A recording that is gone when this is dropped.
+/// A recording that is removed on drop.
 pub(super) struct Pressed {
     pub(super) dataset: Dataset,
     folder: Folder,

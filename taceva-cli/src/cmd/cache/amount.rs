@@ -1,4 +1,4 @@
-//! Bytes and times as people say them.
+//! Bytes and times for people.
 
 use std::time::Duration;
 

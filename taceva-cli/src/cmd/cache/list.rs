@@ -15,17 +15,17 @@ use crate::args::CacheList;
 use crate::cmd::results;
 use crate::{exit, output};
 
-/// Where runs are numbered, and what says which stages each used.
+/// The folder of numbered runs, and the file of a run that lists the stages it used.
 const RUNS: &str = "runs";
 const STAGES: &str = "stages.json";
-/// The digits by which people tell entries.
+/// How many digits of a key are shown.
 const SHORT: usize = 12;
 
 pub(super) fn run(args: &CacheList) -> anyhow::Result<u8> {
     if let Some(path) = &args.output.path {
         output::check_free(path, args.output.force)?;
     }
-    let folder = super::folder_of(args.cache.clone())?;
+    let folder = super::folder_of(args.cache.path.clone())?;
     let entries = cache_entries(&folder)
         .with_context(|| format!("cannot read {}", taceva_core::shown(&folder)))?;
     let used = runs_of(&args.runs)?;
@@ -140,15 +140,15 @@ fn one_by_one(folder: &Path, entries: &[CacheEntry], used: &Used, now: SystemTim
 }
 
 fn caption(folder: &Path) -> String {
-    format!("Kept for later runs in {}", taceva_core::shown(&folder))
+    format!("Cache in {}", taceva_core::shown(&folder))
 }
 
 fn close(table: &mut Table, entries: &[CacheEntry]) {
     let all = entries.iter().map(|entry| entry.bytes).sum();
     let own = entries.iter().map(|entry| entry.own_bytes).sum();
     table.note(match entries.is_empty() {
-        true => "Nothing is kept there.".to_owned(),
-        false => format!("{} altogether, of which {} are shared with no run; `taceva cache prune` removes what is old or too much.", bytes(all), bytes(own)),
+        true => "The cache is empty.".to_owned(),
+        false => format!("{} in total, of which {} are shared with no run; `taceva cache prune` removes entries by age or total size.", bytes(all), bytes(own)),
     });
 }
 

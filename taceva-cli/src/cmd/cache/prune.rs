@@ -11,7 +11,11 @@ use crate::cmd::Context;
 use crate::{exit, output};
 
 pub(super) fn run(args: &CachePrune, context: &Context) -> anyhow::Result<u8> {
-    let folder = super::folder_of(args.cache.clone())?;
+    if args.former.dry_run {
+        context.note_former_name("--dry-run", "--explain");
+    }
+    let is_explained = args.explain.is_wanted || args.former.dry_run;
+    let folder = super::folder_of(args.cache.path.clone())?;
     let read = || format!("cannot read {}", taceva_core::shown(&folder));
     let entries = cache_entries(&folder).with_context(read)?;
     let pruning = Pruning {
@@ -27,7 +31,7 @@ pub(super) fn run(args: &CachePrune, context: &Context) -> anyhow::Result<u8> {
             entry.name,
             bytes(entry.bytes)
         ));
-        if !args.dry_run {
+        if !is_explained {
             remove_entry(&folder, entry)
                 .with_context(|| format!("cannot remove {}", taceva_core::shown(&entry.path)))?;
         }
@@ -35,7 +39,7 @@ pub(super) fn run(args: &CachePrune, context: &Context) -> anyhow::Result<u8> {
     let freed = going.iter().map(|entry| entry.own_bytes).sum();
     let staying: u64 = entries.iter().map(|entry| entry.bytes).sum::<u64>()
         - going.iter().map(|entry| entry.bytes).sum::<u64>();
-    let verb = if args.dry_run {
+    let verb = if is_explained {
         "would remove"
     } else {
         "removed"

@@ -12,9 +12,9 @@ use crate::cmd::{Context, Usage};
 use crate::{exit, output, report};
 
 pub(super) fn run(args: &PluginCheck, context: &Context) -> anyhow::Result<u8> {
-    let listing = &args.listing;
-    if let Some(path) = listing.path.as_deref() {
-        output::check_free(path, listing.force)?;
+    let to = &args.output;
+    if let Some(path) = to.path.as_deref() {
+        output::check_free(path, to.force)?;
     }
     let host = context.plugins(None)?;
     let plugin = host.plugins().get(&args.id)?;
@@ -28,34 +28,34 @@ pub(super) fn run(args: &PluginCheck, context: &Context) -> anyhow::Result<u8> {
         arguments.insert(key, selector.arguments().to_owned());
     }
     let request = CheckRequest {
-        seed: args.seed,
+        seed: args.seed.value,
         only: args.only.clone(),
         arguments,
         moves: args.moves,
         limit: Duration::from_secs(args.limit),
     };
-    // Whoever looks on sees each check when it is made; a list for a program or a file is written at the end.
-    let is_watched = listing.format == ListFormat::Text && listing.path.is_none();
+    // On standard output each check is printed when it is done; JSON and files are written at the end.
+    let is_watched = to.format == ListFormat::Text && to.path.is_none();
     let mut results = Vec::new();
     host.check(plugin, &request, &mut |result| {
         if is_watched {
-            // A reader that has gone is told by the summary.
+            // A closed standard output is reported by the summary.
             let _ = output::write(None, |out| report::plugin_check::line(&result, out));
         }
         results.push(result);
     })?;
     if results.is_empty() {
         return Err(Usage::error(format!(
-            "--only {}: no check of this plugin begins so",
+            "--only {}: no check of this plugin has such a name",
             args.only.join(",")
         )));
     }
-    output::write_as(listing.format, listing.path.as_deref(), |out| {
+    output::write_as(to.format, to.path.as_deref(), |out| {
         report::plugin_check::write(
             &args.id,
-            args.seed,
+            args.seed.value,
             (&results, is_watched),
-            listing.format,
+            to.format,
             out,
         )
     })?;

@@ -1,8 +1,8 @@
-//! `taceva plugin new` and `taceva plugin headers`: folders that begin a plugin.
+//! `taceva plugin new` and `taceva plugin headers`: folders to start a plugin from.
 
 use std::fs;
 use std::io;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use taceva_core::shown;
 
 use anyhow::{Context as _, bail};
@@ -11,6 +11,9 @@ use taceva_template::{File, Sources};
 use crate::args::{PluginHeaders, PluginNew};
 use crate::cmd::Context;
 use crate::exit;
+
+/// The folder of headers where none is named.
+const INCLUDE: &str = "include";
 
 pub(super) fn project(args: &PluginNew, context: &Context) -> anyhow::Result<u8> {
     let sources = if args.registry {
@@ -30,12 +33,17 @@ pub(super) fn project(args: &PluginNew, context: &Context) -> anyhow::Result<u8>
 }
 
 pub(super) fn headers(args: &PluginHeaders, context: &Context) -> anyhow::Result<u8> {
-    write_folder(&args.to, "include/", &taceva_template::headers())?;
-    context.say(format_args!("{}: for `cc -I`", shown(&args.to)));
+    if args.former.folder.is_some() {
+        context.note_former_name("plugin headers DIR", "plugin headers --out DIR");
+    }
+    let folder = args.out.as_ref().or(args.former.folder.as_ref());
+    let folder = folder.map_or(Path::new(INCLUDE), PathBuf::as_path);
+    write_folder(folder, "include/", &taceva_template::headers())?;
+    context.say(format_args!("{}: for `cc -I`", shown(folder)));
     Ok(exit::DONE)
 }
 
-/// Makes `folder` with `files`, whose paths begin with `above`: beside its place first, so that it is absent or whole.
+/// Writes `files`, whose paths begin with `above`, to `folder`: beside its place first, so that it is absent or whole.
 fn write_folder(folder: &Path, above: &str, files: &[File]) -> anyhow::Result<()> {
     if folder.symlink_metadata().is_ok() {
         bail!("{} exists already", shown(folder));

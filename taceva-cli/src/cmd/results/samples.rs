@@ -1,4 +1,4 @@
-//! The samples behind results: where `evaluate`, `score` and `run` put them.
+//! The samples behind results, in the places where `evaluate`, `score` and `run` write them.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -9,9 +9,9 @@ use taceva_report::{Samples, Study, escape_terminal};
 
 use super::{Found, RESULTS};
 
-/// What the name of a table of samples ends with, in the place of `json`.
+/// The extension of a table of samples, instead of `json`.
 const SAMPLES: &str = "samples.csv";
-/// Where a run has the reports of its studies, each begun with the number of the study.
+/// The folder of reports of a run, whose names begin with the number of the study.
 const REPORTS: &str = "reports";
 
 /// The studies of `file` with their samples: those of a run are in `reports/<number>-*.samples.csv`, those of one evaluation beside it in
@@ -36,7 +36,7 @@ pub(super) fn beside(file: &Path, mut studies: Vec<Study>) -> anyhow::Result<Fou
         match found {
             Some(path) => study.samples = Some(read(&path, study)?),
             None => missing.push(format!(
-                "{}: no samples of {}, looked for {}: compared without pairs, by Welch's test",
+                "{}: no samples of {} in {}: compared without pairs, by Welch's test",
                 shown(file),
                 escape_terminal(&study.sensor),
                 shown(&wanted)
@@ -69,12 +69,12 @@ fn of_run(reports: &Path, number: u32) -> anyhow::Result<Option<PathBuf>> {
 /// The table of samples at `path`, which must be the one that was written with the results of `study`.
 fn read(path: &Path, study: &Study) -> anyhow::Result<Samples> {
     let table = fs::read_to_string(path).with_context(|| format!("cannot read {}", shown(path)))?;
-    let mut told = study.provenance.iter();
-    let expected = told.find_map(|(name, text)| (name == "samples_table").then_some(text));
+    let mut provenance = study.provenance.iter();
+    let expected = provenance.find_map(|(name, text)| (name == "samples_table").then_some(text));
     let found = taceva_seal::digest_of_bytes(table.as_bytes());
     if let Some(expected) = expected.filter(|expected| **expected != found) {
         bail!(
-            "{}: damaged or of other results: expected {expected}, found {found}",
+            "{}: damaged or of other results: expected digest {expected}, found {found}",
             shown(path)
         );
     }

@@ -1,4 +1,4 @@
-//! What the simulated bench has beside its devices: a clock that turns as fast as it is worked out, and hands that change specimens.
+//! What the simulated bench has beside its devices: a clock that runs as fast as it is computed, and changes of specimens.
 
 use std::sync::Arc;
 use std::time::Duration;
@@ -9,14 +9,14 @@ use taceva_protocol::{ContentId, SpecimenChanger, Timekeeper};
 use taceva_sim::{MODEL_VERSION, Model};
 use taceva_study::{Surroundings, Upcoming};
 
-/// The surroundings of the rig whose robot was opened by `robot`; `None` where that is of no simulated bench.
+/// The surroundings of the rig whose robot was opened by `robot`; `None` on a real rig.
 pub(in crate::cmd) fn surroundings(robot: &Selector, rig: &mut Rig) -> Option<Surroundings> {
     let bench = rig.bench(&robot.bench()?)?;
     let gel = bench.provenance();
     let [announced, shared] = [0; 2].map(|_| Arc::clone(&bench));
     Some(Surroundings {
-        clock: Box::new(Hands(Arc::clone(&bench))),
-        specimens: Some(Box::new(Hands(bench))),
+        clock: Box::new(BenchClock(Arc::clone(&bench))),
+        specimens: Some(Box::new(BenchClock(bench))),
         upcoming: Some(Box::new(move |upcoming: Upcoming| {
             let named = announced.name_press(name_of(upcoming.press));
             unless_gone(named.and_then(|()| announced.schedule(upcoming.begins)));
@@ -27,12 +27,12 @@ pub(in crate::cmd) fn surroundings(robot: &Selector, rig: &mut Rig) -> Option<Su
     })
 }
 
-/// Leaves a bench that is gone to the next call of one of its devices, which meets the same end and can say so.
+/// Ignores that the bench is gone: the next call of one of its devices fails with the same error and reports it.
 fn unless_gone(done: Result<(), DriverError>) {
     drop(done);
 }
 
-/// What the bench is a model of: its version and the parameters that are built in.
+/// The version of the bench and the digests of its built-in parameters.
 pub(in crate::cmd) fn models() -> String {
     let digests = Model::ALL.map(|model| model.parameters().digest().to_string());
     format!("bench {MODEL_VERSION}: {}", digests.join(" "))
@@ -47,10 +47,10 @@ fn name_of(press: ContentId) -> u64 {
     first.expect("a digest is written as 32 hexadecimal digits")
 }
 
-/// The clock and the hands of a bench.
-struct Hands(Arc<dyn SimulatedBench>);
+/// The clock of a bench, which also changes its specimens.
+struct BenchClock(Arc<dyn SimulatedBench>);
 
-impl Timekeeper for Hands {
+impl Timekeeper for BenchClock {
     fn now_s(&self) -> f64 {
         Stamp::at(self.0.now()).valid_s
     }
@@ -60,7 +60,7 @@ impl Timekeeper for Hands {
     }
 }
 
-impl SpecimenChanger for Hands {
+impl SpecimenChanger for BenchClock {
     fn mount(&mut self, specimen: Specimen, _: Deadline) -> Result<(), DriverError> {
         self.0.mount(specimen)
     }

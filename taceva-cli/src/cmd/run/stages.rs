@@ -1,4 +1,4 @@
-//! What is said of stages that were found.
+//! The stages of a run: which were reused from the cache.
 
 use serde::Serialize;
 use taceva_study::{Cache, RunFolder, StageRecord};
@@ -13,8 +13,8 @@ struct Stages {
     stages: Vec<StageRecord>,
 }
 
-/// Says what was found, and writes the stages into the folder of the run, where no report depends on them.
-pub(super) fn tell(cache: &Cache, folder: &RunFolder, context: &Context) -> anyhow::Result<()> {
+/// Writes the stages into the folder of the run, and prints them with `-v`; no report depends on them.
+pub(super) fn write(cache: &Cache, folder: &RunFolder, context: &Context) -> anyhow::Result<()> {
     let stages = cache.stages();
     for record in &stages {
         let done = if record.reused { "reused" } else { "done" };

@@ -5,32 +5,37 @@ use std::collections::BTreeMap;
 
 use taceva_core::{Batch, Labels};
 
-use super::parts::Parts;
+use super::erased_sums::ErasedSums;
 use crate::evaluate::state::Record;
 use crate::families::family::{Details, Family, Intervals, Numbers, Output};
 use crate::metric::Metric;
 use crate::score::value::{InapplicableReason, UndefinedReason};
 
-/// A [`Family`] whose sums are [`Parts`]: what each method says stands there.
+/// A [`Family`] whose sums are [`ErasedSums`]: what each method says stands there.
 pub(super) trait AnyFamily: Send {
     fn schema(&self) -> &'static str;
     fn parameters(&self) -> BTreeMap<String, String>;
-    fn empty(&self) -> Parts;
-    fn deposit(&mut self, parts: &mut Parts, batch: &Batch, rows: Option<&[u32]>);
+    fn empty(&self) -> ErasedSums;
+    fn deposit(&mut self, parts: &mut ErasedSums, batch: &Batch, rows: Option<&[u32]>);
     fn clusters<'a>(&self, batch: &'a Batch) -> Option<Cow<'a, Labels>>;
     fn unclustered(&self) -> UndefinedReason;
-    fn to_records(&self, parts: &Parts) -> Vec<Record>;
+    fn to_records(&self, parts: &ErasedSums) -> Vec<Record>;
     /// Back from a state, which must have a record a part.
-    fn read_records(&self, records: &[Record]) -> Result<Parts, String>;
+    fn read_records(&self, records: &[Record]) -> Result<ErasedSums, String>;
     fn outputs(&self, metric: &Metric) -> Vec<Output>;
-    fn count(&self, metric: &Metric, parts: &Parts, part: usize) -> u64;
-    fn invalid(&self, parts: &Parts, part: usize) -> u64;
-    fn numbers(&self, metric: &Metric, output: &Output, parts: &Parts, part: usize) -> Numbers;
-    fn joint(&self, metric: &Metric, output: &Output, parts: &Parts) -> Option<Numbers>;
+    fn count(&self, metric: &Metric, parts: &ErasedSums, part: usize) -> u64;
+    fn invalid(&self, parts: &ErasedSums, part: usize) -> u64;
+    fn numbers(&self, metric: &Metric, output: &Output, parts: &ErasedSums, part: usize)
+    -> Numbers;
+    fn joint(&self, metric: &Metric, output: &Output, parts: &ErasedSums) -> Option<Numbers>;
     fn inapplicable(&self, metric: &Metric, output: &Output) -> Option<InapplicableReason>;
-    fn details(&self, metric: &Metric, output: &Output, parts: &Parts) -> Details;
-    fn intervals(&self, metric: &Metric, output: &Output, clusters: &[&Parts])
-    -> Option<Intervals>;
+    fn details(&self, metric: &Metric, output: &Output, parts: &ErasedSums) -> Details;
+    fn intervals(
+        &self,
+        metric: &Metric,
+        output: &Output,
+        clusters: &[&ErasedSums],
+    ) -> Option<Intervals>;
 }
 
 /// A family as an [`AnyFamily`].
@@ -45,11 +50,11 @@ impl<F: Family> AnyFamily for Erased<F> {
         self.0.parameters()
     }
 
-    fn empty(&self) -> Parts {
-        Parts::new(self.0.empty())
+    fn empty(&self) -> ErasedSums {
+        ErasedSums::new(self.0.empty())
     }
 
-    fn deposit(&mut self, parts: &mut Parts, batch: &Batch, rows: Option<&[u32]>) {
+    fn deposit(&mut self, parts: &mut ErasedSums, batch: &Batch, rows: Option<&[u32]>) {
         self.0.deposit(parts.sums_mut(), batch, rows);
     }
 
@@ -61,7 +66,7 @@ impl<F: Family> AnyFamily for Erased<F> {
         self.0.unclustered()
     }
 
-    fn to_records(&self, parts: &Parts) -> Vec<Record> {
+    fn to_records(&self, parts: &ErasedSums) -> Vec<Record> {
         let mut records = Vec::new();
         for sums in parts.sums() {
             records.push(self.0.to_record(sums));
@@ -69,7 +74,7 @@ impl<F: Family> AnyFamily for Erased<F> {
         records
     }
 
-    fn read_records(&self, records: &[Record]) -> Result<Parts, String> {
+    fn read_records(&self, records: &[Record]) -> Result<ErasedSums, String> {
         let expected = self.0.empty().len();
         if records.len() != expected {
             return Err(format!("{} records, expected {expected}", records.len()));
@@ -78,26 +83,32 @@ impl<F: Family> AnyFamily for Erased<F> {
         for (position, record) in records.iter().enumerate() {
             parts.push(self.0.read_record(position, record)?);
         }
-        Ok(Parts::new(parts))
+        Ok(ErasedSums::new(parts))
     }
 
     fn outputs(&self, metric: &Metric) -> Vec<Output> {
         self.0.outputs(metric)
     }
 
-    fn count(&self, metric: &Metric, parts: &Parts, part: usize) -> u64 {
+    fn count(&self, metric: &Metric, parts: &ErasedSums, part: usize) -> u64 {
         self.0.count(metric, &parts.sums()[part])
     }
 
-    fn invalid(&self, parts: &Parts, part: usize) -> u64 {
+    fn invalid(&self, parts: &ErasedSums, part: usize) -> u64 {
         self.0.invalid(&parts.sums()[part])
     }
 
-    fn numbers(&self, metric: &Metric, output: &Output, parts: &Parts, part: usize) -> Numbers {
+    fn numbers(
+        &self,
+        metric: &Metric,
+        output: &Output,
+        parts: &ErasedSums,
+        part: usize,
+    ) -> Numbers {
         self.0.numbers(metric, output, &parts.sums()[part])
     }
 
-    fn joint(&self, metric: &Metric, output: &Output, parts: &Parts) -> Option<Numbers> {
+    fn joint(&self, metric: &Metric, output: &Output, parts: &ErasedSums) -> Option<Numbers> {
         self.0.joint(metric, output, parts.sums())
     }
 
@@ -105,7 +116,7 @@ impl<F: Family> AnyFamily for Erased<F> {
         self.0.inapplicable(metric, output)
     }
 
-    fn details(&self, metric: &Metric, output: &Output, parts: &Parts) -> Details {
+    fn details(&self, metric: &Metric, output: &Output, parts: &ErasedSums) -> Details {
         let sums = parts.sums();
         let mut of_output = Vec::new();
         for &part in &output.parts {
@@ -118,7 +129,7 @@ impl<F: Family> AnyFamily for Erased<F> {
         &self,
         metric: &Metric,
         output: &Output,
-        clusters: &[&Parts],
+        clusters: &[&ErasedSums],
     ) -> Option<Intervals> {
         let mut sums = Vec::with_capacity(clusters.len());
         for parts in clusters {

@@ -2,7 +2,7 @@
 
 use std::borrow::Cow;
 
-use super::parts::Parts;
+use super::erased_sums::ErasedSums;
 use crate::exact::merge::Merge;
 use crate::families::family::{Finished, Numbers};
 use crate::score::Interval;
@@ -12,16 +12,16 @@ use crate::stats::jackknife::{self, LeftOut};
 use crate::stats::{Estimated, PoissonBootstrap};
 
 /// A cluster: a number that stands for its name, and the sums of each part.
-pub(super) type Cell<'a> = (u64, &'a Parts);
+pub(super) type Cell<'a> = (u64, &'a ErasedSums);
 
 /// Shows `visit` each cluster with the sums of all the others.
 ///
 /// Sums of the clusters before and of those after are carried along, so that nothing need ever be taken away: sets that only
 /// grow have intervals too.
 pub(super) fn each_left_out(
-    empty: &Parts,
+    empty: &ErasedSums,
     cells: &[Cell<'_>],
-    visit: &mut dyn FnMut(&Parts, &Parts),
+    visit: &mut dyn FnMut(&ErasedSums, &ErasedSums),
 ) {
     let mut after = Vec::with_capacity(cells.len());
     let mut sums = empty.clone();
@@ -75,10 +75,10 @@ impl Resampling {
     pub(super) fn weigh(
         &mut self,
         bootstrap: PoissonBootstrap,
-        empty: &Parts,
+        empty: &ErasedSums,
         cells: &[Cell<'_>],
         (total, samples): (&Numbers, u64),
-        finish: &dyn Fn(&Parts) -> Numbers,
+        finish: &dyn Fn(&ErasedSums) -> Numbers,
     ) {
         let keys: Vec<u64> = cells.iter().map(|(key, _)| *key).collect();
         let mut replicates: Vec<Vec<Finished>> = Vec::new();

@@ -1,7 +1,7 @@
 //! From sums to scores with their intervals.
 
 use super::Accumulator;
-use super::parts::Parts;
+use super::erased_sums::ErasedSums;
 use super::resampling::{Cell, Resampling, each_left_out};
 use crate::evaluate::evaluation::Entry;
 use crate::families::family::{Details, Numbers, Output};
@@ -39,7 +39,7 @@ impl Accumulator {
     }
 
     /// The numbers of an output: one part's, the mean of two, or what the family makes of them.
-    fn numbers(&self, metric: &Metric, output: &Output, sums: &Parts) -> Numbers {
+    fn numbers(&self, metric: &Metric, output: &Output, sums: &ErasedSums) -> Numbers {
         if let Some(numbers) = self.family.joint(metric, output, sums) {
             return numbers;
         }
@@ -56,14 +56,14 @@ impl Accumulator {
     }
 
     /// Samples of a cluster that take part in an output.
-    fn samples(&self, metric: &Metric, output: &Output, sums: &Parts) -> u64 {
+    fn samples(&self, metric: &Metric, output: &Output, sums: &ErasedSums) -> u64 {
         let parts = output.parts.iter();
         let counts = parts.map(|&part| self.family.count(metric, sums, part));
         counts.fold(0, u64::saturating_add)
     }
 
     /// Every score of `metrics`, without intervals.
-    fn requests(&self, metrics: &[&'static Metric], total: &Parts) -> Vec<Request> {
+    fn requests(&self, metrics: &[&'static Metric], total: &ErasedSums) -> Vec<Request> {
         let mut requests = Vec::new();
         for &metric in metrics {
             for output in self.family.outputs(metric) {
@@ -101,7 +101,7 @@ impl Accumulator {
                         .copied()
                         .filter(|(_, cell)| self.samples(metric, output, cell) > 0)
                         .collect();
-                    let finish = |sums: &Parts| self.numbers(metric, output, sums);
+                    let finish = |sums: &ErasedSums| self.numbers(metric, output, sums);
                     let counts = cells.iter();
                     let counts = counts.map(|(_, cell)| self.samples(metric, output, cell));
                     let total = (&request.numbers, counts.fold(0, u64::saturating_add));
@@ -112,7 +112,7 @@ impl Accumulator {
         }
     }
 
-    fn score(&self, request: Request, total: &Parts, cells: Option<&[Cell<'_>]>) -> Score {
+    fn score(&self, request: Request, total: &ErasedSums, cells: Option<&[Cell<'_>]>) -> Score {
         let Request {
             metric,
             output,
@@ -128,7 +128,7 @@ impl Accumulator {
         };
         let own = match (self.interval_method, cells) {
             (IntervalMethod::Jackknife, Some(cells)) => {
-                let cells: Vec<&Parts> = cells.iter().map(|(_, cell)| *cell).collect();
+                let cells: Vec<&ErasedSums> = cells.iter().map(|(_, cell)| *cell).collect();
                 self.family.intervals(metric, &output, &cells)
             }
             _ => None,

@@ -9,12 +9,38 @@ use crate::families::accuracy::streams::{Stream, Streams};
 use crate::paired::Paired;
 
 /// What is to be summed, and from which magnitude of truth on the gated score counts a sample.
+///
+/// ```
+/// use taceva_metrics::{PairSpec, Streams};
+/// let spec = PairSpec::new(Streams::ALL).with_gate(0.1);
+/// assert_eq!(spec.gate, Some(0.1));
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[non_exhaustive]
 pub struct PairSpec {
     /// The sums that are kept.
     pub streams: Streams,
     /// The least |y| of a sample of the gated sMAPE, in the channel's unit; without it there is no such score.
     pub gate: Option<f64>,
+}
+
+impl PairSpec {
+    /// These sums, without a gated one.
+    pub const fn new(streams: Streams) -> PairSpec {
+        PairSpec {
+            streams,
+            gate: None,
+        }
+    }
+
+    /// The same sums, and the gated one of samples with a |y| of at least `gate`.
+    #[must_use]
+    pub fn with_gate(self, gate: impl Into<Option<f64>>) -> PairSpec {
+        PairSpec {
+            gate: gate.into(),
+            ..self
+        }
+    }
 }
 
 /// Counts and exact sums of the pairs of one channel.
@@ -23,7 +49,7 @@ pub struct PairSpec {
 ///
 /// ```
 /// use taceva_metrics::{PairSpec, PairSums, Paired, Stream, Streams};
-/// let mut sums = PairSums::new(PairSpec { streams: Streams::ALL, gate: None });
+/// let mut sums = PairSums::new(PairSpec::new(Streams::ALL));
 /// sums.update(Paired::try_columns(&[1.5, 1.5], &[1.0, 2.0])?);
 /// assert_eq!((sums.n(), sums.sum(Stream::Absolute).to_f64()), (2, 1.0));
 /// # Ok::<(), taceva_metrics::MetricError>(())
@@ -196,10 +222,7 @@ mod tests {
     fn a_channel_of_lab_values_is_kept_in_about_a_hundred_bytes() {
         let truth: Vec<f64> = (0..1600).map(|row| f64::from(row) / 91.3 - 8.7).collect();
         let prediction: Vec<f64> = truth.iter().map(|y| y * 0.98 + 0.013).collect();
-        let mut sums = PairSums::new(PairSpec {
-            streams: Streams::ALL,
-            gate: None,
-        });
+        let mut sums = PairSums::new(PairSpec::new(Streams::ALL));
         sums.update(Paired::try_columns(&prediction, &truth).expect("one length"));
         let digits: usize = Stream::ALL
             .iter()

@@ -5,6 +5,13 @@ use crate::exact::merge::Merge;
 use crate::paired::Paired;
 
 /// Count and exact sum of Euclidean distances.
+///
+/// ```
+/// use taceva_metrics::{Paired, PlaneSums};
+/// let mut sums = PlaneSums::default();
+/// sums.add(Paired { estimate: 3.0, reference: 0.0 }, Paired { estimate: 4.0, reference: 0.0 });
+/// assert_eq!((sums.n(), sums.distance().to_f64()), (1, 5.0));
+/// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct PlaneSums {
     pub(crate) n: u64,

@@ -4,6 +4,11 @@ use std::fmt;
 use std::ops::BitOr;
 
 /// One quantity of a pair that is summed; d = RN(y − ŷ), y the truth, ŷ the prediction.
+///
+/// ```
+/// use taceva_metrics::Stream;
+/// assert_eq!(Stream::Absolute.name(), "abs_d");
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[repr(u8)]
 pub enum Stream {
@@ -46,6 +51,12 @@ impl Stream {
 }
 
 /// A set of streams.
+///
+/// ```
+/// use taceva_metrics::{Stream, Streams};
+/// let streams = Streams::of(&[Stream::Absolute]) | Streams::of(&[Stream::Truth]);
+/// assert!(streams.contains(Stream::Truth) && !streams.contains(Stream::Squared));
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct Streams {
     bits: u8,

@@ -91,7 +91,7 @@ struct Factor {
 }
 
 impl Factor {
-    /// `None` if the truths cannot be told apart.
+    /// `None` if the truths cannot be separated.
     fn of(sums: &JointSums, varying: &[usize]) -> Option<Factor> {
         /// What is left of a truth's variance, at 1, once the others have explained it.
         const LEAST_OWN: f64 = 1e-8;

@@ -12,7 +12,7 @@ use crate::features::spec::FeatureSpec;
 
 /// Markers that speak for a cell.
 const SPEAKERS: usize = 12;
-/// Markers whose absence is told of a cell.
+/// Markers near a cell whose absence counts.
 const NEAREST: usize = 4;
 /// How far from every marker a cell may be and still be spoken for, in spacings.
 const REACH: f64 = 1.5;
@@ -89,12 +89,12 @@ impl Part for MarkerField {
                 .collect();
             let nearest = &cell.speakers[..cell.speakers.len().min(NEAREST)];
             let unseen = nearest.iter().filter(|own| !tracked[**own].is_seen).count();
-            let told = || {
+            let measured = || {
                 // None of them is seen: what was filled in from further away.
                 let own = cell.speakers.first()?;
                 Some(tracked[*own].displacement_px)
             };
-            let moved = displacement(cell.middle_px, spacing_px, &known).or_else(told);
+            let moved = displacement(cell.middle_px, spacing_px, &known).or_else(measured);
             let [right, down] = moved.unwrap_or([0.0; 2]);
             place[0] = (right / spacing_px) as f32;
             place[1] = (down / spacing_px) as f32;

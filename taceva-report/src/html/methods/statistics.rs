@@ -55,7 +55,7 @@ fn skill(studies: &[Study]) -> String {
         .collect();
     let marks: Vec<String> = marks.into_iter().map(explained).collect();
     let marked = match marks.is_empty() {
-        true => "no score here is marked otherwise".to_owned(),
+        true => "no score here lacks it".to_owned(),
         false => format!(
             "the others keep their values, are marked {} and take part in no comparison",
             listed(&marks)

@@ -164,17 +164,17 @@ fn interval(place: &Place<'_>) -> Result<Option<Interval>, ResultsError> {
 }
 
 fn map(place: &Place<'_>) -> Result<Map, ResultsError> {
-    let map = Map {
-        x_mm: numbers(&place.entry("x_mm")?)?,
-        y_mm: numbers(&place.entry("y_mm")?)?,
-        values: grid(&place.entry("values")?)?,
-        counts: place
+    let map = Map::new(
+        numbers(&place.entry("x_mm")?)?,
+        numbers(&place.entry("y_mm")?)?,
+        grid(&place.entry("values")?)?,
+        place
             .entry("counts")?
             .items()?
             .iter()
             .map(counts)
             .collect::<Result<_, _>>()?,
-    };
+    );
     let fits = |rows: &[usize]| {
         let columns = |columns: &usize| columns + 1 == map.x_mm.len();
         rows.len() + 1 == map.y_mm.len() && rows.iter().all(columns)
@@ -195,13 +195,13 @@ fn curve(place: &Place<'_>) -> Result<Curve, ResultsError> {
         }),
         None => None,
     };
-    let curve = Curve {
-        x: numbers(&place.entry("x")?)?,
-        x_unit: unit(&place.entry("x_unit")?)?,
-        values: optional_numbers(&place.entry("values")?)?,
-        counts: counts(&place.entry("counts")?)?,
-        band,
-    };
+    let curve = Curve::new(
+        numbers(&place.entry("x")?)?,
+        unit(&place.entry("x_unit")?)?,
+        optional_numbers(&place.entry("values")?)?,
+        counts(&place.entry("counts")?)?,
+    )
+    .with_band(band);
     let levels = curve.x.len();
     let band_fits = curve
         .band
@@ -218,11 +218,11 @@ fn matrix(place: &Place<'_>) -> Result<Matrix, ResultsError> {
         let items = place.entry(key)?.items()?;
         items.iter().map(|at| Ok(at.text()?.to_owned())).collect()
     };
-    let matrix = Matrix {
-        rows: names("rows")?,
-        columns: names("columns")?,
-        values: grid(&place.entry("values")?)?,
-    };
+    let matrix = Matrix::new(
+        names("rows")?,
+        names("columns")?,
+        grid(&place.entry("values")?)?,
+    );
     let columns = matrix.columns.len();
     match matrix.values.len() == matrix.rows.len()
         && matrix.values.iter().all(|row| row.len() == columns)

@@ -32,7 +32,7 @@ pub(super) fn classify(
             classifier.output,
             work.progress,
         )?;
-        let found: Result<Vec<Nanometre>, ModelError> = network.tell(&pictures.select(&asked));
+        let found: Result<Vec<Nanometre>, ModelError> = network.predict(&pictures.select(&asked));
         predicted.extend(asked.iter().map(|&at| presses[at].0).zip(found?));
     }
     Ok(())

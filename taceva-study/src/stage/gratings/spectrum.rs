@@ -1,23 +1,31 @@
-//! Spacings predicted by linear discriminants of the radial spectrum.
+//! Spacings predicted from the radial spectrum, by linear discriminants or by a model.
 
 use taceva_core::Nanometre;
 use taceva_dataset::{Dataset, Pass};
 use taceva_models::{Discriminant, FourierPlane, RadialSpectrum};
 
-use super::{FOLDS, SpacingOfRow, folds};
+use super::{FOLDS, SpacingOfRow, folds, model};
+use crate::classifier::ModelClassifier;
 use crate::error::StudyError;
 use crate::work::Work;
+
+/// What is fitted to the spectra of each fold.
+#[derive(Clone, Copy)]
+pub(super) enum ByFold<'a> {
+    Discriminants,
+    Model(&'a ModelClassifier),
+}
 
 /// Classifies `presses`, whose pictures are in `dataset`, fold by fold.
 pub(super) fn classify(
     dataset: &Dataset,
     presses: &[(usize, Nanometre)],
-    work: Work<'_>,
+    (by, work): (ByFold<'_>, Work<'_>),
     predicted: &mut SpacingOfRow,
 ) -> Result<(), StudyError> {
     let seen = Pictures::new(dataset, presses, work)?.seen()?;
     for fold in 0..FOLDS {
-        classify_fold(&seen, fold, predicted)?;
+        classify_fold(&seen, fold, (by, work), predicted)?;
     }
     Ok(())
 }
@@ -120,10 +128,21 @@ impl<'a> Pictures<'a> {
 fn classify_fold(
     seen: &[Seen],
     fold: usize,
+    (by, work): (ByFold<'_>, Work<'_>),
     predicted: &mut SpacingOfRow,
 ) -> Result<(), StudyError> {
     let (asked, taught): (Vec<&Seen>, Vec<&Seen>) = seen.iter().partition(|seen| seen.fold == fold);
     if asked.is_empty() || taught.is_empty() {
+        return Ok(());
+    }
+    if let ByFold::Model(classifier) = by {
+        let of = |seen: &[&Seen]| -> Vec<Vec<f64>> {
+            let spectra = seen.iter();
+            spectra.map(|seen| seen.spectra[fold].clone()).collect()
+        };
+        let spacings: Vec<Nanometre> = taught.iter().map(|seen| seen.spacing).collect();
+        let found = model::predict(classifier, (&of(&taught), &spacings), &of(&asked), work)?;
+        predicted.extend(asked.iter().map(|seen| seen.row).zip(found));
         return Ok(());
     }
     let mut boards: Vec<Nanometre> = taught.iter().map(|seen| seen.spacing).collect();

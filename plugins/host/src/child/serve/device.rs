@@ -1,15 +1,12 @@
 //! An open device and its two threads: one answers its calls in turn, the other what is urgent.
 
-use std::any::Any;
 use std::os::fd::OwnedFd;
-use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
 
-use taceva_core::{
-    DriverError, ErrorKind, ForceTransducer, Halt, Interrupt, Lighting, Robot, Sensor,
-};
+use taceva_core::{DriverError, ErrorKind, Halt, Interrupt};
 
-use super::answer::{ForceServer, LightingServer, RobotServer, SensorServer};
+use crate::child::guarded::{guarded, start};
+use crate::child::kind::{Kind, Server};
 use crate::child::socket::Socket;
 use crate::child::wire::{Answer, Call, Failure, OpenedDevice, Urgent};
 
@@ -19,18 +16,8 @@ pub(super) struct Opening {
     pub(super) urgent: OwnedFd,
 }
 
-/// A device that answers calls.
-pub(super) trait Answers: Send {
-    /// What is known about it now that it is open.
-    fn opened(&mut self) -> OpenedDevice;
-
-    /// Its answer to a call; `files` came beside it.
-    fn answer(&mut self, call: Call, files: Vec<OwnedFd>) -> Result<Answer, Failure>;
-}
-
 /// What goes round the calls of a device.
-#[derive(Clone, Default)]
-pub(super) struct Round {
+struct Round {
     interrupt: Option<Arc<dyn Interrupt>>,
     halt: Option<Arc<dyn Halt>>,
 }
@@ -49,56 +36,23 @@ impl Round {
     }
 }
 
-/// A kind of device that can be served.
-pub(super) trait Serve {
-    /// The device as one that answers calls, and what goes round them.
-    fn server(self: Box<Self>) -> (Box<dyn Answers>, Round);
-}
-
-impl Serve for dyn Sensor {
-    fn server(self: Box<Self>) -> (Box<dyn Answers>, Round) {
-        let round = Round {
-            interrupt: self.interrupt_handle(),
-            halt: None,
-        };
-        (Box::new(SensorServer::new(self)), round)
-    }
-}
-
-impl Serve for dyn Robot {
-    fn server(self: Box<Self>) -> (Box<dyn Answers>, Round) {
-        let round = Round {
-            interrupt: None,
-            halt: Some(self.halt_handle()),
-        };
-        (Box::new(RobotServer(self)), round)
-    }
-}
-
-impl Serve for dyn ForceTransducer {
-    fn server(self: Box<Self>) -> (Box<dyn Answers>, Round) {
-        let round = Round {
-            interrupt: self.interrupt_handle(),
-            halt: None,
-        };
-        (Box::new(ForceServer(self)), round)
-    }
-}
-
-impl Serve for dyn Lighting {
-    fn server(self: Box<Self>) -> (Box<dyn Answers>, Round) {
-        (Box::new(LightingServer(self)), Round::default())
-    }
-}
-
 impl Opening {
-    /// Serves an open device on threads of its own, and says what it is.
-    pub(super) fn serve<D: Serve + ?Sized + 'static>(
+    /// Opens a device and serves it on threads of its own; the answer says what was opened.
+    pub(super) fn serve<K: Kind + ?Sized>(
         self,
-        device: Box<D>,
+        open: impl FnOnce() -> Result<Box<K>, DriverError>,
     ) -> Result<OpenedDevice, Failure> {
-        let (mut server, round) = device.server();
-        let opened = guarded("open the device", || server.opened())?;
+        let open = || -> Result<_, DriverError> {
+            let mut server = open()?.server();
+            let round = Round {
+                interrupt: server.interrupt(),
+                halt: server.halt(),
+            };
+            let opened = server.opened();
+            Ok((server, round, opened))
+        };
+        let (server, round, opened) =
+            guarded("open the device", open)?.map_err(|error| Failure::of(&error))?;
         let urgent = Socket::from(self.urgent);
         let calls = Socket::from(self.calls);
         start("taceva-urgent", move || serve_urgent(urgent, &round))?;
@@ -107,17 +61,8 @@ impl Opening {
     }
 }
 
-/// Starts a thread.
-pub(super) fn start(name: &str, run: impl FnOnce() + Send + 'static) -> Result<(), Failure> {
-    std::thread::Builder::new()
-        .name(name.to_owned())
-        .spawn(run)
-        .map(drop)
-        .map_err(|error| Failure::new(ErrorKind::Internal, "start a thread", &error.to_string()))
-}
-
 /// Answers calls until the device is closed; whatever ends this drops the device.
-fn serve_calls(mut calls: Socket, server: Box<dyn Answers>) {
+fn serve_calls(mut calls: Socket, server: Box<dyn Server>) {
     let mut server = Some(server);
     while let Ok(((sequence, call), files)) = calls.receive_with_files::<(u32, Call)>() {
         let is_last = call == Call::Close {};
@@ -162,27 +107,5 @@ fn serve_urgent(mut socket: Socket, round: &Round) {
         if socket.send(&(sequence, answer), &[]).is_err() {
             return;
         }
-    }
-}
-
-/// Runs code of a driver; a panic is a failure that says what it said.
-pub(super) fn guarded<T>(doing: &str, run: impl FnOnce() -> T) -> Result<T, Failure> {
-    // Whoever panicked is not called again.
-    catch_unwind(AssertUnwindSafe(run)).map_err(|payload| {
-        let said = said(&*payload);
-        // Dropping what it panicked with might panic again.
-        std::mem::forget(payload);
-        Failure::new(ErrorKind::Panicked, doing, &said)
-    })
-}
-
-fn said(payload: &(dyn Any + Send)) -> String {
-    let text = payload
-        .downcast_ref::<&str>()
-        .copied()
-        .or_else(|| payload.downcast_ref::<String>().map(String::as_str));
-    match text {
-        Some(text) => format!("the driver panicked: {text}"),
-        None => "the driver panicked".to_owned(),
     }
 }

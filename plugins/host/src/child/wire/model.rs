@@ -3,25 +3,22 @@
 use taceva_core::{ArgValue, Channel, Channels, DriverKey, FeatureShape, Unit};
 
 use super::value::listed;
-use super::{Failure, Malformed, Reader, Wire, fields, variants};
+use super::{Failure, Malformed, Reader, Wire, fields, messages};
 
-/// What a child is asked to make a model from; a socket for the talk about it comes beside it, and memory.
-#[derive(Clone, Debug, PartialEq)]
-pub(crate) enum ModelOrder {
-    /// Fits; beside it the memory of `training`, and of `validation` if there is one.
-    Fit {
-        estimator: DriverKey,
-        settings: Vec<(String, ArgValue)>,
-        training: SetShape,
-        validation: Option<SetShape>,
-    },
-    /// Loads; beside it the memory of as many bytes as were saved.
-    Load {
-        estimator: DriverKey,
-        channels: Channels,
-        shape: FeatureShape,
-        length: u64,
-    },
+messages! {
+    /// What a child is asked to make a model from; a socket for the talk about it comes beside it, and memory.
+    #[derive(Clone, Debug, PartialEq)]
+    enum ModelOrder: "an order for a model" {
+        /// Fits; beside it the memory of `training`, and of `validation` if there is one.
+        0 => Fit {
+            estimator: DriverKey,
+            settings: Vec<(String, ArgValue)>,
+            training: SetShape,
+            validation: Option<SetShape>,
+        },
+        /// Loads; beside it the memory of as many bytes as were saved.
+        1 => Load { estimator: DriverKey, channels: Channels, shape: FeatureShape, length: u64 },
+    }
 }
 
 /// What a set of samples is like; its numbers are in memory.
@@ -34,50 +31,43 @@ pub(crate) struct SetShape {
     pub(crate) has_groups: bool,
 }
 
-/// What a child says while a model is made.
-#[derive(Clone, Debug, PartialEq)]
-pub(crate) enum ModelEvent {
-    Begins {
-        stage: String,
-        steps: Option<u64>,
-    },
-    Advances {
-        steps: u64,
-    },
-    Ends {},
-    /// There is a model, which answers calls from now on.
-    Made {},
-    Failed {
-        failure: Failure,
-    },
-}
+messages! {
+    /// What a child says while a model is made.
+    #[derive(Clone, Debug, PartialEq)]
+    enum ModelEvent: "an event of a fit" {
+        0 => Begins { stage: String, steps: Option<u64> },
+        1 => Advances { steps: u64 },
+        2 => Ends {},
+        /// There is a model, which answers calls from now on.
+        3 => Made {},
+        4 => Failed { failure: Failure },
+    }
 
-/// What the host says while a model is made.
-#[derive(Clone, Debug, PartialEq)]
-pub(crate) enum ModelWord {
-    Cancel {},
-}
+    /// What the host says while a model is made.
+    #[derive(Clone, Debug, PartialEq)]
+    enum ModelWord: "a word about a fit" {
+        0 => Cancel {},
+    }
 
-/// A call to a model.
-#[derive(Clone, Debug, PartialEq)]
-pub(crate) enum ModelCall {
-    /// Predicts; beside it memory that holds the features, and the predictions afterwards.
-    Predict {
-        samples: u64,
-    },
-    /// Makes the bytes to be kept, and says how many.
-    Save {},
-    /// Writes them into the memory beside it.
-    Fetch {},
-    Close {},
-}
+    /// A call to a model.
+    #[derive(Clone, Debug, PartialEq)]
+    enum ModelCall: "a call to a model" {
+        /// Predicts; beside it memory that holds the features, and the predictions afterwards.
+        0 => Predict { samples: u64 },
+        /// Makes the bytes to be kept, and says how many.
+        1 => Save {},
+        /// Writes them into the memory beside it.
+        2 => Fetch {},
+        3 => Close {},
+    }
 
-/// The answer to a [`ModelCall`].
-#[derive(Clone, Debug, PartialEq)]
-pub(crate) enum ModelAnswer {
-    Done {},
-    Saved { length: u64 },
-    Failed { failure: Failure },
+    /// The answer to a [`ModelCall`].
+    #[derive(Clone, Debug, PartialEq)]
+    enum ModelAnswer: "the answer of a model" {
+        0 => Done {},
+        1 => Saved { length: u64 },
+        2 => Failed { failure: Failure },
+    }
 }
 
 fields!(SetShape {
@@ -85,36 +75,6 @@ fields!(SetShape {
     shape,
     channels,
     has_groups
-});
-
-variants!(ModelOrder, "an order for a model" {
-    0 => Fit { estimator, settings, training, validation },
-    1 => Load { estimator, channels, shape, length },
-});
-
-variants!(ModelEvent, "an event of a fit" {
-    0 => Begins { stage, steps },
-    1 => Advances { steps },
-    2 => Ends {},
-    3 => Made {},
-    4 => Failed { failure },
-});
-
-variants!(ModelWord, "a word about a fit" {
-    0 => Cancel {},
-});
-
-variants!(ModelCall, "a call to a model" {
-    0 => Predict { samples },
-    1 => Save {},
-    2 => Fetch {},
-    3 => Close {},
-});
-
-variants!(ModelAnswer, "the answer of a model" {
-    0 => Done {},
-    1 => Saved { length },
-    2 => Failed { failure },
 });
 
 listed! {

@@ -147,7 +147,7 @@ macro_rules! listed {
         impl Wire for $type {
             fn write(&self, into: &mut Vec<u8>) {
                 let place = $list.iter().position(|listed| listed == self);
-                super::write_count(place.unwrap_or($list.len()), into);
+                super::basic::write_count(place.unwrap_or($list.len()), into);
             }
             fn read(from: &mut Reader<'_>) -> Result<$type, Malformed> {
                 let place = usize::try_from(u32::read(from)?).ok();

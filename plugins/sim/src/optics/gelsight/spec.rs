@@ -99,7 +99,7 @@ impl MarkerGrid {
     }
 }
 
-/// Mean gray of the untouched gel without markers as the lamps are told above (fit).
+/// Mean gray of the untouched gel without markers with the lamps given above (fit).
 const NOMINAL_GRAY: f64 = 144.8;
 
 fn whole(count: f64) -> u16 {

@@ -61,5 +61,5 @@ impl MagictacSpec {
     }
 }
 
-/// Mean gray of the untouched block as the glow is told above (fit).
+/// Mean gray of the untouched block with the glow given above (fit).
 const NOMINAL_GRAY: f64 = 114.8;

@@ -1,6 +1,6 @@
 #![expect(
     unsafe_code,
-    reason = "vectors and arrays of four numbers are told to be the same bytes"
+    reason = "vectors and arrays of four numbers are reinterpreted as the same bytes"
 )]
 //! Four numbers in one register.
 //!

@@ -6,7 +6,7 @@ use crate::parameters::{Dome, Parameters};
 
 /// A clear dome with markers in its skin, seen from inside by a wide lens.
 ///
-/// Places in the picture are told in radii of the dome's rim as it is seen; the rim is 1 away from the middle.
+/// Places in the picture are given in radii of the dome's rim as it is seen; the rim is 1 away from the middle.
 #[derive(Clone, Debug, PartialEq)]
 pub struct VitactipSpec {
     /// Radius of the dome (geometry).
@@ -76,7 +76,7 @@ impl VitactipSpec {
     }
 }
 
-/// Mean gray of the untouched dome as the skin is told above (fit).
+/// Mean gray of the untouched dome with the skin given above (fit).
 const NOMINAL_GRAY: f64 = 12.0;
 
 fn rings(columns: f64) -> i32 {

@@ -105,7 +105,7 @@ impl<'a> Growth<'a> {
                 is_seen: true,
             },
             None => Tracked {
-                displacement_px: self.told(own, &all),
+                displacement_px: self.displacement(own, &all),
                 is_seen: false,
             },
         };
@@ -113,7 +113,7 @@ impl<'a> Growth<'a> {
     }
 
     /// What the neighbours of a marker say, or everybody where no neighbour is seen; 0 where nobody is.
-    fn told(&self, own: usize, all: &[Moved]) -> [f64; 2] {
+    fn displacement(&self, own: usize, all: &[Moved]) -> [f64; 2] {
         let place = self.tracker.places[own];
         let spacing_px = self.tracker.lattice.spacings_px[own];
         displacement(place, spacing_px, &self.around(own))

@@ -1,0 +1,51 @@
+//! Arguments of a driver as the interface has them.
+
+use taceva_abi as abi;
+use taceva_core::{ArgSpec, ArgValue, Args};
+
+/// Arguments in the interface's form; they borrow from the texts kept beside them.
+pub(crate) struct ArgList {
+    items: Vec<abi::Arg>,
+    // What the items point to, on the heap: moving the list moves none of it.
+    _texts: Vec<(String, String)>,
+}
+
+impl ArgList {
+    /// The arguments that `args` holds, out of those that `specs` declare.
+    pub(crate) fn new(args: &Args, specs: &[ArgSpec]) -> ArgList {
+        let given = specs
+            .iter()
+            .filter_map(|spec| Some((spec, args.get(&spec.key)?)));
+        let (mut items, mut texts) = (Vec::new(), Vec::new());
+        for (spec, value) in given {
+            texts.push((spec.key.clone(), value.to_string()));
+            let (key, text) = texts.last().expect("it was pushed");
+            let (kind, whole, number) = match *value {
+                ArgValue::Text(_) => (abi::Arg::TEXT, 0, 0.0),
+                ArgValue::Whole(whole) => (abi::Arg::WHOLE, whole, 0.0),
+                ArgValue::Number(number) => (abi::Arg::NUMBER, 0, number),
+                ArgValue::Flag(flag) => (abi::Arg::FLAG, i64::from(flag), 0.0),
+            };
+            items.push(abi::Arg {
+                key: abi::Text::from(key),
+                text: abi::Text::from(text),
+                whole,
+                number,
+                kind,
+                reserved: 0,
+            });
+        }
+        ArgList {
+            items,
+            _texts: texts,
+        }
+    }
+
+    /// What is handed over; it borrows from the list.
+    pub(crate) fn args(&self) -> abi::Args {
+        abi::Args {
+            items: self.items.as_ptr(),
+            count: self.items.len(),
+        }
+    }
+}

@@ -1,0 +1,105 @@
+//! Texts that a library gives.
+
+#![expect(unsafe_code, reason = "texts come through the plugin's functions")]
+
+use std::ffi::c_void;
+
+use taceva_abi as abi;
+use taceva_core::ErrorKind;
+
+use super::Failure;
+
+/// What a plugin lists: one text a call.
+#[derive(Debug, Default)]
+pub(crate) struct Taken {
+    texts: Vec<String>,
+    bytes: usize,
+    fault: Option<&'static str>,
+}
+
+/// No plugin lists more.
+const TEXTS_MAX: usize = 4_096;
+/// Nor more bytes.
+const BYTES_MAX: usize = 1 << 20;
+
+impl Taken {
+    /// What [`take`] is called with.
+    pub(crate) fn context(&mut self) -> *mut c_void {
+        std::ptr::from_mut(self).cast()
+    }
+
+    /// The texts, unless one of them was none.
+    pub(crate) fn texts(self) -> Result<Vec<String>, Failure> {
+        match self.fault {
+            None => Ok(self.texts),
+            Some(fault) => Err(Failure::new(ErrorKind::Abi, fault)),
+        }
+    }
+
+    /// All texts as one.
+    pub(crate) fn whole(self) -> Result<String, Failure> {
+        Ok(self.texts()?.concat())
+    }
+
+    fn add(&mut self, text: abi::Text) {
+        self.bytes = self.bytes.saturating_add(text.length);
+        if text.data.is_null() && text.length > 0 {
+            self.fault = Some("a text without bytes that has a length");
+        } else if self.bytes > BYTES_MAX || self.texts.len() >= TEXTS_MAX {
+            self.fault = Some("more text than anybody could mean");
+        }
+        if self.fault.is_some() {
+            return;
+        }
+        // SAFETY: not NULL above a length of 0, and borrowed for this call by the rule of `taceva_take_text`; a length beyond what is
+        // mapped is a breach of the plugin's promise, and no length above 1 MiB is believed.
+        match unsafe { text.to_str() } {
+            Ok(text) => self.texts.push(text.to_owned()),
+            Err(_) => self.fault = Some("a text that is not UTF-8"),
+        }
+    }
+}
+
+/// Takes one text into the [`Taken`] that `context` is.
+pub(crate) unsafe extern "C" fn take(context: *mut c_void, text: abi::Text) {
+    // SAFETY: `context` is what `Taken::context` gave for the call that is under way, and nobody else looks at it meanwhile.
+    let taken = unsafe { &mut *context.cast::<Taken>() };
+    taken.add(text);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn text_that_is_none_is_a_fault_and_nothing_of_it_is_read() {
+        let taken = |texts: &[abi::Text]| {
+            let mut taken = Taken::default();
+            for text in texts {
+                // SAFETY: the context is that of `taken`, and each text is as long as it says or refused by its length.
+                unsafe { take(taken.context(), *text) };
+            }
+            taken.whole()
+        };
+        assert_eq!(
+            taken(&[abi::Text::from("a"), abi::Text::from("b")]),
+            Ok("ab".to_owned())
+        );
+        let nothing = abi::Text {
+            data: std::ptr::null(),
+            length: 5,
+        };
+        let endless = abi::Text {
+            data: c"x".as_ptr(),
+            length: usize::MAX,
+        };
+        let odd = abi::Text {
+            data: c"\xff\xfe".as_ptr(),
+            length: 2,
+        };
+        for text in [nothing, endless, odd] {
+            assert!(taken(&[text]).is_err());
+            assert!(taken(&[abi::Text::from("a"), text]).is_err());
+        }
+    }
+}

@@ -1,0 +1,223 @@
+//! A model that lives in a child.
+
+use std::os::fd::{AsFd, BorrowedFd};
+use std::sync::{Arc, Mutex, PoisonError};
+use std::time::Duration;
+
+use rustix::event::{PollFd, PollFlags, Timespec, poll};
+use taceva_core::{
+    Channels, DriverKey, ErrorKind, FeatureShape, Features, ModelError, Progress, Regressor,
+};
+
+use crate::child::array::{get, memory, put};
+use crate::child::memory::SharedMemory;
+use crate::child::plain::plain;
+use crate::child::socket::{Caller, LinkError, Socket, send_now};
+use crate::child::start::Child;
+use crate::child::wire::{Failure, ModelAnswer, ModelCall, ModelEvent, ModelWord};
+use crate::session::SavedRegressor;
+
+/// How often it is asked whether a fit should end.
+const ASKED_EVERY: Timespec = Timespec {
+    tv_sec: 0,
+    tv_nsec: 50_000_000,
+};
+
+/// A kept model has at most this many bytes.
+const SAVED_MAX: u64 = 1 << 30;
+
+/// A fitted model in a child.
+pub(crate) struct ModelProxy {
+    child: Arc<Child>,
+    estimator: DriverKey,
+    calls: Mutex<Caller>,
+    channels: Channels,
+    shape: FeatureShape,
+}
+
+impl ModelProxy {
+    /// The model that the child makes, once it has; `talk` is the socket to whoever makes it.
+    pub(crate) fn when_made(
+        child: Arc<Child>,
+        estimator: DriverKey,
+        talk: Socket,
+        (channels, shape): (Channels, FeatureShape),
+        progress: &dyn Progress,
+    ) -> Result<ModelProxy, ModelError> {
+        let mut talk = talk;
+        let mut is_cancelled = None;
+        let failed = |failure: Failure| of_failure(&estimator, &failure);
+        loop {
+            if is_cancelled.is_none() && progress.is_cancelled() {
+                // One that cannot be reached is gone, or ends by its time.
+                let _ = send_now(talk.as_fd(), &ModelWord::Cancel {});
+                let life = child.life();
+                is_cancelled = Some(life.watch.begin("end a fit", life.patience.open));
+            }
+            let mut polled = [PollFd::new(&talk, PollFlags::IN)];
+            // An interrupted poll says nothing.
+            if !matches!(poll(&mut polled, Some(&ASKED_EVERY)), Ok(1..)) {
+                continue;
+            }
+            let event = talk.receive::<ModelEvent>();
+            let ended = match event {
+                Ok(ModelEvent::Begins { stage, steps }) => {
+                    progress.begin(&plain(&stage), steps);
+                    continue;
+                }
+                Ok(ModelEvent::Advances { steps }) => {
+                    progress.advance(steps);
+                    continue;
+                }
+                Ok(ModelEvent::Ends {}) => {
+                    progress.end();
+                    continue;
+                }
+                Ok(ModelEvent::Made {}) => Ok(()),
+                Ok(ModelEvent::Failed { failure }) => Err(failed(failure)),
+                Err(error) => Err(of_link(&child, &estimator, error)),
+            };
+            if let Some(call) = is_cancelled {
+                child.life().watch.end(call);
+            }
+            ended?;
+            return Ok(ModelProxy {
+                child,
+                estimator,
+                calls: Mutex::new(Caller::from(talk)),
+                channels,
+                shape,
+            });
+        }
+    }
+
+    fn ask(
+        &self,
+        call: &ModelCall,
+        files: &[BorrowedFd<'_>],
+        doing: &str,
+        after: Duration,
+    ) -> Result<ModelAnswer, ModelError> {
+        let mut calls = self.calls.lock().unwrap_or_else(PoisonError::into_inner);
+        let watch = &self.child.life().watch;
+        let id = watch.begin(doing, after);
+        let answer = calls.ask(call, files);
+        watch.end(id);
+        match answer {
+            Ok(ModelAnswer::Failed { failure }) => Err(of_failure(&self.estimator, &failure)),
+            Ok(answer) => Ok(answer),
+            Err(error) => Err(of_link(&self.child, &self.estimator, error)),
+        }
+    }
+
+    fn other_answer(&self) -> ModelError {
+        let error = LinkError::Breach("the answer to another question".to_owned());
+        of_link(&self.child, &self.estimator, error)
+    }
+
+    fn failed(&self, kind: ErrorKind, doing: &str, why: &str) -> ModelError {
+        of_failure(&self.estimator, &Failure::new(kind, doing, why))
+    }
+}
+
+impl Regressor for ModelProxy {
+    fn channels(&self) -> &Channels {
+        &self.channels
+    }
+
+    fn shape(&self) -> FeatureShape {
+        self.shape
+    }
+
+    fn predict(&self, features: &Features, into: &mut [f64]) -> Result<(), ModelError> {
+        const DOING: &str = "predict";
+        let samples = features.samples();
+        if features.shape() != self.shape || into.len() != samples * self.channels.len() {
+            let why = format!(
+                "{samples} samples of {:?} into {} numbers, expected samples of {:?} and {} numbers each",
+                features.shape(),
+                into.len(),
+                self.shape,
+                self.channels.len()
+            );
+            return Err(self.failed(ErrorKind::InvalidArgument, DOING, &why));
+        }
+        let bytes = (size_of_val(features.values())).max(size_of_val(into));
+        let mut memory =
+            memory(Some(bytes)).map_err(|failure| of_failure(&self.estimator, &failure))?;
+        put(features.values(), memory.bytes_mut());
+        let samples = samples as u64;
+        // A second for each thousand samples, beyond what a call may take anyway.
+        let after = self.child.life().patience.open + Duration::from_millis(samples);
+        let call = ModelCall::Predict { samples };
+        match self.ask(&call, &[memory.file()], DOING, after)? {
+            ModelAnswer::Done {} => {}
+            _ => return Err(self.other_answer()),
+        }
+        // Copied before it is looked at: the other process can still write there.
+        let mut copy = vec![0; size_of_val(into)];
+        memory.copy_to(&mut copy);
+        let (predictions, _) = get::<f64>(into.len(), &copy).unwrap_or_default();
+        into.copy_from_slice(&predictions);
+        match into.iter().position(|value| !value.is_finite()) {
+            None => Ok(()),
+            Some(place) => {
+                let sample = place / self.channels.len().max(1);
+                let why = format!("sample {sample}: {}, expected a number", into[place]);
+                Err(self.failed(ErrorKind::DeviceFault, DOING, &why))
+            }
+        }
+    }
+}
+
+impl SavedRegressor for ModelProxy {
+    fn save(&self) -> Result<Vec<u8>, ModelError> {
+        const DOING: &str = "save";
+        let patience = self.child.life().patience.open;
+        let length = match self.ask(&ModelCall::Save {}, &[], DOING, patience)? {
+            ModelAnswer::Saved { length } if length <= SAVED_MAX => length,
+            ModelAnswer::Saved { length } => {
+                let why = format!("{length} bytes, expected at most {SAVED_MAX}");
+                return Err(self.failed(ErrorKind::OutOfRange, DOING, &why));
+            }
+            _ => return Err(self.other_answer()),
+        };
+        let mut bytes = vec![0; usize::try_from(length).unwrap_or(0)];
+        let memory: SharedMemory =
+            memory(Some(bytes.len())).map_err(|failure| of_failure(&self.estimator, &failure))?;
+        match self.ask(&ModelCall::Fetch {}, &[memory.file()], DOING, patience)? {
+            ModelAnswer::Done {} => memory.copy_to(&mut bytes),
+            _ => return Err(self.other_answer()),
+        }
+        Ok(bytes)
+    }
+}
+
+impl Drop for ModelProxy {
+    fn drop(&mut self) {
+        let calls = self.calls.get_mut().unwrap_or_else(PoisonError::into_inner);
+        // It is not answered: the child closes the model when it hears this, or that nobody is there.
+        let _ = send_now(calls.as_fd(), &(0_u32, ModelCall::Close {}));
+    }
+}
+
+/// An error of the estimator as it would read without a child between.
+pub(crate) fn of_failure(estimator: &DriverKey, failure: &Failure) -> ModelError {
+    let why = match &failure.cause {
+        // What an estimator says names it already.
+        Some(cause) if cause.starts_with(estimator.as_str()) => plain(cause),
+        Some(cause) => format!(
+            "{estimator}: cannot {}: {}",
+            plain(&failure.doing),
+            plain(cause)
+        ),
+        None => format!("{estimator}: cannot {}", plain(&failure.doing)),
+    };
+    ModelError::new(failure.kind, why)
+}
+
+/// An error of a child that did not answer.
+pub(crate) fn of_link(child: &Child, estimator: &DriverKey, error: LinkError) -> ModelError {
+    let error = child.life().lost(error);
+    ModelError::new(error.kind(), format!("{estimator}: {error}")).because(error)
+}

@@ -1,0 +1,74 @@
+//! What an operation returns, as it crosses: the answer that carries it, and whether it is a reading.
+
+use taceva_core::{GuardedStop, Pose, Stamp, Wrench, check_pose, check_wrench};
+
+use super::wire::Answer;
+
+/// What an operation of a device returns.
+pub(super) trait Reply: Sized {
+    /// The answer that carries it.
+    fn into_answer(self) -> Answer;
+
+    /// What `answer` carries; `None` if it is the answer to another question.
+    fn from_answer(answer: Answer) -> Option<Self>;
+
+    /// Refuses numbers that no device reads; the error says which.
+    fn check(&self) -> Result<(), String>;
+}
+
+/// A row for each type: the value by its parts, the answer that carries them, and their check.
+macro_rules! replies {
+    ($($type:ty: $value:pat_param = $parts:expr => $answer:ident { $($part:ident),* }, $check:expr;)*) => {$(
+        impl Reply for $type {
+            fn into_answer(self) -> Answer {
+                let $value = self;
+                Answer::$answer { $($part),* }
+            }
+
+            fn from_answer(answer: Answer) -> Option<$type> {
+                match answer {
+                    Answer::$answer { $($part),* } => Some($parts),
+                    _ => None,
+                }
+            }
+
+            fn check(&self) -> Result<(), String> {
+                let check: fn(&$type) -> Result<(), String> = $check;
+                check(self)
+            }
+        }
+    )*};
+}
+
+replies! {
+    (): () = () => Done {}, |()| Ok(());
+    Stamp: stamp = stamp => Stamped { stamp }, is_time;
+    (Pose, Stamp): (pose, stamp) = (pose, stamp) => At { pose, stamp }, is_pose;
+    (Wrench, Stamp): (wrench, stamp) = (wrench, stamp) => Load { wrench, stamp }, is_load;
+    GuardedStop: stop = stop => Stopped { stop }, is_stop;
+}
+
+fn is_time(stamp: &Stamp) -> Result<(), String> {
+    let is_time = |time_s: f64| time_s >= 0.0 && time_s.is_finite();
+    if is_time(stamp.valid_s) && stamp.received_s.is_none_or(is_time) {
+        return Ok(());
+    }
+    Err(format!("a stamp of {} s, expected a time", stamp.valid_s))
+}
+
+fn is_pose((pose, stamp): &(Pose, Stamp)) -> Result<(), String> {
+    check_pose(pose).map_err(|error| error.to_string())?;
+    is_time(stamp)
+}
+
+fn is_load((wrench, stamp): &(Wrench, Stamp)) -> Result<(), String> {
+    check_wrench(wrench).map_err(|error| error.to_string())?;
+    is_time(stamp)
+}
+
+fn is_stop(stop: &GuardedStop) -> Result<(), String> {
+    match *stop {
+        GuardedStop::Arrived { stamp } => is_time(&stamp),
+        GuardedStop::Guarded { pose, stamp } => is_pose(&(pose, stamp)),
+    }
+}

@@ -1,0 +1,56 @@
+//! Calls to one open device, and their answers.
+
+use taceva_core::{Axes, Deadline, FrameInfo, Guard, GuardedStop, Pose, Speed, Stamp, Wrench};
+
+use super::{Failure, messages};
+
+messages! {
+    /// What is known about a device once it is open.
+    #[derive(Clone, Debug, PartialEq)]
+    enum OpenedDevice: "an open device" {
+        0 => Sensor { frame: FrameInfo, interrupts: bool, scenes: Option<Vec<String>> },
+        1 => Robot { guarded: bool },
+        2 => Force { axes: Axes, interrupts: bool, tare: bool },
+        3 => Lighting { scenes: Vec<String> },
+    }
+
+    /// A call to one device.
+    #[derive(Clone, Debug, PartialEq)]
+    enum Call: "a call" {
+        0 => Start { deadline: Deadline },
+        1 => Stop {},
+        /// The memory for frames comes beside it.
+        2 => Attach {},
+        /// Writes the next frame into that memory.
+        3 => Capture { deadline: Deadline },
+        4 => Light { scene: String, deadline: Deadline },
+        5 => Pose { deadline: Deadline },
+        6 => MoveTo { target: Pose, speed: Speed, deadline: Deadline },
+        7 => MoveGuarded { target: Pose, speed: Speed, guard: Guard, deadline: Deadline },
+        8 => ClearHalt { deadline: Deadline },
+        9 => Read { deadline: Deadline },
+        10 => Zero { deadline: Deadline },
+        /// Stops the device and gives back what it holds.
+        11 => Close {},
+    }
+
+    /// The answer to a [`Call`].
+    #[derive(Debug, PartialEq)]
+    enum Answer: "an answer" {
+        0 => Done {},
+        1 => Stamped { stamp: Stamp },
+        2 => At { pose: Pose, stamp: Stamp },
+        3 => Load { wrench: Wrench, stamp: Stamp },
+        4 => Stopped { stop: GuardedStop },
+        5 => Failed { failure: Failure },
+    }
+
+    /// What goes round the queue of a device's calls.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    enum Urgent: "an urgent call" {
+        /// Nobody waits for an answer.
+        0 => Interrupt {},
+        /// Answered with [`Answer::Done`] or [`Answer::Failed`].
+        1 => Halt {},
+    }
+}

@@ -1,0 +1,40 @@
+//! How far a fit is, from the library to whoever listens.
+
+#![expect(unsafe_code, reason = "a function that the library calls")]
+
+use std::ffi::c_void;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+
+use taceva_core::Progress;
+
+/// Steps of a fit, as whoever listens counts them.
+pub(super) const STEPS: u64 = 1_000;
+
+pub(super) struct Listener<'a> {
+    pub(super) progress: &'a dyn Progress,
+    pub(super) reported: u64,
+}
+
+/// Passes on how far a fit is.
+pub(super) unsafe extern "C" fn progress(context: *mut c_void, done: f64) -> i32 {
+    // SAFETY: `context` is the listener that `fit` handed over for the call that is under way.
+    let listener = unsafe { &mut *context.cast::<Listener<'_>>() };
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        clippy::cast_precision_loss,
+        reason = "clamped to the number of steps; NaN becomes 0"
+    )]
+    let reached = (done.clamp(0.0, 1.0) * STEPS as f64) as u64;
+    let reported = listener.reported;
+    listener.reported = reported.max(reached);
+    let progress = listener.progress;
+    // A panic of whoever listens must not cross the line: it ends the fit.
+    let cancelled = catch_unwind(AssertUnwindSafe(|| {
+        if reached > reported {
+            progress.advance(reached - reported);
+        }
+        progress.is_cancelled()
+    }));
+    i32::from(cancelled.unwrap_or(true))
+}

@@ -1,0 +1,139 @@
+//! What a `[[provides]]` table says of a device, as facts of its kind.
+
+use taceva_core::{
+    Axes, Axis, Facts, Footprint, ForceFacts, FrameInfo, Hertz, LightingFacts, Millimetre, Newton,
+    Point, RobotFacts, SensorFacts, Speed, Workspace,
+};
+use toml::Spanned;
+
+use super::Refused;
+use super::written::{Kind, Shape, WrittenFootprint, WrittenProvides};
+use crate::shown::shown;
+
+impl WrittenProvides {
+    /// The facts of a device of its kind.
+    pub(super) fn facts(&self) -> Result<Facts, Refused> {
+        match self.kind {
+            Kind::Sensor => Ok(Facts::Sensor(Box::new(self.sensor()?))),
+            Kind::Robot => Ok(Facts::Robot(self.robot()?)),
+            Kind::Force => Ok(Facts::Force(self.force()?)),
+            Kind::Lighting => Ok(Facts::Lighting(LightingFacts {
+                scenes: value(&self.scenes).unwrap_or_default(),
+            })),
+            Kind::Estimator => {
+                let problem = "an estimator is no device";
+                Err(Refused::at(&self.key, problem))
+            }
+        }
+    }
+
+    fn sensor(&self) -> Result<SensorFacts, Refused> {
+        let gel = self.gel.as_ref().map(Spanned::get_ref);
+        let limits = self.limits.as_ref().map(Spanned::get_ref);
+        Ok(SensorFacts {
+            frame: self.frame.as_ref().map(|frame| {
+                let frame = frame.get_ref();
+                FrameInfo {
+                    width: frame.width,
+                    height: frame.height,
+                    format: frame.format,
+                }
+            }),
+            rate: value(&self.rate_hz).map(Hertz),
+            opaque: gel.and_then(|gel| gel.opaque),
+            markers: gel.and_then(|gel| gel.markers),
+            scenes: value(&self.scenes).unwrap_or_default(),
+            footprint: self.footprint.as_ref().map(footprint).transpose()?,
+            depth_max: limits.and_then(|limits| limits.depth_mm).map(Millimetre),
+            force_max: limits.and_then(|limits| limits.force_n).map(Newton),
+            camera: self
+                .camera
+                .as_ref()
+                .map(|camera| [camera.get_ref().width, camera.get_ref().height]),
+            gel_thickness: gel.and_then(|gel| gel.thickness_mm).map(Millimetre),
+            field_of_view_mm2: value(&self.field_of_view_mm2),
+        })
+    }
+
+    fn robot(&self) -> Result<RobotFacts, Refused> {
+        let corner = |[x, y, z]: [f64; 3]| Point {
+            x: Millimetre(x),
+            y: Millimetre(y),
+            z: Millimetre(z),
+        };
+        let limits = self.limits.as_ref();
+        let speed = limits.and_then(|limits| Some((limits, limits.get_ref().speed_max_mm_s?)));
+        Ok(RobotFacts {
+            workspace: self.workspace.as_ref().map(|workspace| Workspace {
+                least: corner(workspace.get_ref().least_mm),
+                greatest: corner(workspace.get_ref().greatest_mm),
+            }),
+            speed_max: speed
+                .map(|(limits, speed)| {
+                    Speed::try_new(speed)
+                        .map_err(|error| Refused::at(limits, format!("`speed_max_mm_s`: {error}")))
+                })
+                .transpose()?,
+            repeatability: value(&self.repeatability_mm).map(Millimetre),
+            guarded_motion: value(&self.guarded_motion).unwrap_or(false),
+        })
+    }
+
+    fn force(&self) -> Result<ForceFacts, Refused> {
+        let limits = self.limits.as_ref().map(Spanned::get_ref);
+        let axes = match &self.axes {
+            Some(axes) => axes.get_ref().iter().try_fold(Axes::NONE, with_axis)?,
+            None => Axes::NONE,
+        };
+        Ok(ForceFacts {
+            axes,
+            rate: value(&self.rate_hz).map(Hertz),
+            force_max: limits.and_then(|limits| limits.force_n).map(Newton),
+            tare: value(&self.tare).unwrap_or(false),
+        })
+    }
+}
+
+fn value<T: Clone>(key: &Option<Spanned<T>>) -> Option<T> {
+    key.as_ref().map(|key| key.get_ref().clone())
+}
+
+fn with_axis(axes: Axes, written: &Spanned<String>) -> Result<Axes, Refused> {
+    let name = written.get_ref();
+    let axis = Axis::ALL.into_iter().find(|axis| axis.name() == name);
+    match axis.filter(|axis| !axes.contains(*axis)) {
+        Some(axis) => Ok(axes.with(axis)),
+        None => Err(Refused::at(
+            written,
+            format!(
+                "`axes`: {:?}, expected each of `Fx`, `Fy`, `Fz`, `Tx`, `Ty`, `Tz` at most once",
+                shown(name)
+            ),
+        )),
+    }
+}
+
+fn footprint(written: &Spanned<WrittenFootprint>) -> Result<Footprint, Refused> {
+    let WrittenFootprint {
+        shape,
+        radius_mm,
+        half_x_mm,
+        half_y_mm,
+        depth_max_mm,
+    } = *written.get_ref();
+    let footprint = match (shape, radius_mm, half_x_mm, half_y_mm) {
+        (Shape::Disc, Some(radius), None, None) => Footprint::disc(radius, depth_max_mm),
+        (Shape::Rect, None, Some(half_x), Some(half_y)) => {
+            Footprint::rectangle(half_x, half_y, depth_max_mm)
+        }
+        (Shape::Disc, ..) => {
+            let problem = "`footprint`: a disc has `radius_mm` and no half sides";
+            return Err(Refused::at(written, problem));
+        }
+        (Shape::Rect, ..) => {
+            let problem = "`footprint`: a rect has `half_x_mm` and `half_y_mm` and no radius";
+            return Err(Refused::at(written, problem));
+        }
+    };
+    footprint.map_err(|error| Refused::at(written, format!("`footprint`: {error}")))
+}

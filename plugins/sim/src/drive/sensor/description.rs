@@ -1,0 +1,135 @@
+//! What a simulated sensor says of itself, and its arguments.
+
+use taceva_core::{
+    ArgSpec, ArgValue, Args, DescriptorSpec, DriverKey, DriverSource, Facts, Footprint, FrameInfo,
+    Hertz, Millimetre, Newton, SensorFacts,
+};
+
+use crate::drive::error::rig_argument;
+use crate::drive::lighting::scenes;
+use crate::optics::{Bits, OpticsSpec};
+use crate::parameters::{Body, Model, Outline, Parameters};
+
+/// The name of its driver.
+pub(super) fn key(model: Model) -> DriverKey {
+    match model {
+        Model::ViTacTip => DriverKey::fixed("sim/vitactip"),
+        Model::MagicTac => DriverKey::fixed("sim/magictac"),
+        Model::GelSight => DriverKey::fixed("sim/gelsight"),
+        Model::GelSightWm => DriverKey::fixed("sim/gelsight-wm"),
+    }
+}
+
+/// Everything that is known of it before it is opened.
+pub(super) fn describe(
+    model: Model,
+    parameters: &Parameters,
+    frame: Option<FrameInfo>,
+) -> DescriptorSpec {
+    let depth_max_mm = parameters.probing.depth_max_mm;
+    let footprint = match parameters.outline() {
+        Outline::Disc { radius_mm } => Footprint::disc(radius_mm, Some(depth_max_mm)),
+        Outline::Rectangle { half_mm: [x, y] } => Footprint::rectangle(x, y, Some(depth_max_mm)),
+    };
+    let surface = &parameters.surface;
+    let is_transparent = parameters.camera.transparency > 0.5;
+    let facts = SensorFacts {
+        frame,
+        rate: Some(Hertz(parameters.camera.rate_hz)),
+        opaque: Some(!is_transparent),
+        markers: Some(parameters.markers.is_some() || parameters.lattice.is_some()),
+        scenes: if is_transparent { scenes() } else { Vec::new() },
+        footprint: footprint.ok(),
+        depth_max: Some(Millimetre(depth_max_mm)),
+        force_max: Some(Newton(parameters.probing.force_max_n)),
+        camera: Some([parameters.camera.width_px, parameters.camera.height_px].map(pixels)),
+        gel_thickness: match parameters.body {
+            Body::Layer(layer) => Some(Millimetre(layer.thickness_mm)),
+            Body::Dome(_) => None,
+        },
+        field_of_view_mm2: Some(match parameters.body {
+            Body::Layer(_) => surface.width_mm * surface.height_mm,
+            Body::Dome(_) => std::f64::consts::FRAC_PI_4 * surface.width_mm * surface.height_mm,
+        }),
+    };
+    DescriptorSpec::new(
+        key(model),
+        format!("simulated {}", parameters.name),
+        DriverSource::Simulated,
+        Facts::Sensor(Box::new(facts)),
+    )
+    .arguments([
+        rig_argument(),
+        ArgSpec::whole("seed", 0, i64::MAX)
+            .default(ArgValue::Whole(0))
+            .help("what all noise of the bench is drawn from"),
+        ArgSpec::whole("unit", 0, UNITS)
+            .default(ArgValue::Whole(0))
+            .help("the specimen of the sensor; 0 is nominal"),
+        ArgSpec::whole("reduction", 1, REDUCTIONS)
+            .optional()
+            .help("how many pixels of the camera, along x and along y, make one of the frame")
+            .changes_facts(),
+        ArgSpec::choice("bits", Bits::ALL.map(Bits::name))
+            .optional()
+            .help("bits of a sample, 8 where the frame has the size of the camera and 16 where it is reduced, if nothing is said")
+            .changes_facts(),
+        ArgSpec::text("table")
+            .optional()
+            .help("a table of parameters in the place of the compiled-in one, its whole text")
+            .changes_facts(),
+    ])
+}
+
+/// Numbers of units.
+const UNITS: i64 = 1_000_000;
+/// The greatest reduction.
+const REDUCTIONS: i64 = 64;
+/// Frames are reduced to about so many pixels along their longer side, if nothing else is asked for.
+const LONGER_SIDE: u32 = 160;
+
+/// The reduction that `args` ask for.
+pub(super) fn reduction(args: &Args, parameters: &Parameters) -> u32 {
+    match args.get("reduction") {
+        Some(&ArgValue::Whole(reduction)) => u32::try_from(reduction).unwrap_or(1),
+        _ => default_reduction(parameters),
+    }
+}
+
+/// The reduction where none is asked for.
+pub(super) fn default_reduction(parameters: &Parameters) -> u32 {
+    let [width, height] = OpticsSpec::new(parameters).native;
+    (width.max(height) / LONGER_SIDE).clamp(1, 64)
+}
+
+/// The size of a frame, reduced.
+pub(super) fn reduced(native: [u32; 2], reduction: u32) -> [u32; 2] {
+    native.map(|side| (side / reduction).max(1))
+}
+
+/// The bits of a sample that `args` ask for.
+pub(super) fn bits(args: &Args) -> Option<Bits> {
+    let name = args.get("bits").and_then(ArgValue::as_text)?;
+    Bits::ALL.into_iter().find(|bits| bits.name() == name)
+}
+
+/// The frame of such a sensor; `None` if there is none, which opening it says in detail.
+pub(super) fn frame(
+    parameters: &Parameters,
+    reduction: u32,
+    bits: Option<Bits>,
+) -> Option<FrameInfo> {
+    let spec = OpticsSpec::new(parameters);
+    let info = spec.frame_info(reduced(spec.native, reduction)).ok()?;
+    Some(bits.map_or(info, |bits| bits.of(info)))
+}
+
+fn pixels(count: f64) -> u32 {
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "parameters are checked to lie between 16 and 16,384"
+    )]
+    let count = count.round() as u32;
+    count
+}

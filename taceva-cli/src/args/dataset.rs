@@ -1,0 +1,60 @@
+//! Arguments of the commands that make datasets and look at them.
+
+use std::path::PathBuf;
+
+use clap::{ArgGroup, Args};
+
+use super::renamed::FormerTo;
+use super::{ExplainArgs, Output, SplitArgs};
+
+/// The map says, in TOML, which column is which channel, in which unit, and where the pictures are.
+#[derive(Debug, Args)]
+#[command(group = ArgGroup::new("layout").required(true).args(["map", "preset"]))]
+pub(crate) struct Import {
+    /// The folder that holds the table and the pictures
+    pub(crate) source: PathBuf,
+    /// The map; see the documentation of taceva-dataset for its keys
+    #[arg(long, value_name = "MAP.toml")]
+    pub(crate) map: Option<PathBuf>,
+    /// A known layout: bristol, py3dcal
+    #[arg(long, value_name = "NAME")]
+    pub(crate) preset: Option<String>,
+    /// The dataset to write: a new folder
+    #[arg(long, value_name = "DATASET", required_unless_present_any = ["explain", "to"])]
+    pub(crate) out: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) former: FormerTo,
+    #[command(flatten)]
+    pub(crate) explain: ExplainArgs,
+    /// Replace a dataset that exists already
+    #[arg(long)]
+    pub(crate) force: bool,
+}
+
+/// Files that decide a number or a claim are sealed: dataset.toml, results, states and models. One that was changed is refused until the edit
+/// is accepted here; reports show the history. A model is not edited but fitted again.
+#[derive(Debug, Args)]
+pub(crate) struct Reseal {
+    /// The dataset, or the file: dataset.toml, results or a state
+    #[arg(value_name = "FILE|DATASET")]
+    pub(crate) file: PathBuf,
+    /// Why it was changed; reports show it
+    #[arg(long, value_name = "TEXT")]
+    pub(crate) reason: String,
+}
+
+/// Every finding has a stable code and a hint. The exit code is 1 if one of them is an error.
+#[derive(Debug, Args)]
+pub(crate) struct Check {
+    /// The dataset to check
+    pub(crate) dataset: PathBuf,
+    /// Make only the checks with these codes, separated by commas
+    #[arg(long, value_name = "CODES", value_delimiter = ',')]
+    pub(crate) only: Vec<String>,
+    #[command(flatten)]
+    pub(crate) split: SplitArgs,
+    #[command(flatten)]
+    pub(crate) explain: ExplainArgs,
+    #[command(flatten)]
+    pub(crate) output: Output,
+}

@@ -1,0 +1,123 @@
+//! Arguments of the commands that fit and use models.
+
+use std::path::PathBuf;
+
+use clap::{ArgGroup, Args};
+use taceva_models::Checkpoints;
+
+use super::{
+    CacheArgs, ModelArgs, OptionalModelArgs, Output, PartArgs, ScoringArgs, SplitArgs, SplitOutArgs,
+};
+
+/// While a network is trained, a checkpoint is written every half a minute, and when the training is stopped, to the file MODEL.checkpoint;
+/// the same command goes on from it, writes the same bytes as an uninterrupted one, and removes it.
+#[derive(Debug, Args)]
+pub(crate) struct Fit {
+    /// The dataset to train on
+    pub(crate) dataset: PathBuf,
+    #[command(flatten)]
+    pub(crate) model: ModelArgs,
+    #[command(flatten)]
+    pub(crate) split: SplitArgs,
+    /// The model file to write
+    #[arg(long, value_name = "MODEL")]
+    pub(crate) out: PathBuf,
+    #[command(flatten)]
+    pub(crate) split_out: SplitOutArgs,
+    /// Seconds between two checkpoints of a training, 0 for one after each step
+    #[arg(long, value_name = "SECONDS", default_value_t = Checkpoints::EVERY.as_secs())]
+    pub(crate) checkpoint_every: u64,
+    #[command(flatten)]
+    pub(crate) cache: CacheArgs,
+    /// Replace a file that exists already, and the checkpoint of another training
+    #[arg(long)]
+    pub(crate) force: bool,
+}
+
+/// With --model, the model is fitted on the training part, its settings are chosen on the validation part, and the test
+/// part is scored. With --with, a fitted model is used: on its own dataset only the part it has not seen is scored.
+#[derive(Debug, Args)]
+#[command(group = ArgGroup::new("which").required(true).args(["with", "name"]))]
+pub(crate) struct Evaluate {
+    /// The dataset to evaluate
+    pub(crate) dataset: PathBuf,
+    /// A fitted model file
+    #[arg(long, value_name = "MODEL")]
+    pub(crate) with: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) model: OptionalModelArgs,
+    #[command(flatten)]
+    pub(crate) split: SplitArgs,
+    #[command(flatten)]
+    pub(crate) split_out: SplitOutArgs,
+    #[command(flatten)]
+    pub(crate) cache: CacheArgs,
+    #[command(flatten)]
+    pub(crate) part: PartArgs,
+    #[command(flatten)]
+    pub(crate) scoring: ScoringArgs,
+    #[command(flatten)]
+    pub(crate) output: Output,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct Predict {
+    /// The dataset to predict
+    pub(crate) dataset: PathBuf,
+    /// A fitted model file
+    #[arg(long, value_name = "MODEL")]
+    pub(crate) with: PathBuf,
+    #[command(flatten)]
+    pub(crate) cache: CacheArgs,
+    #[command(flatten)]
+    pub(crate) part: PartArgs,
+    /// The table of predictions to write; `score --pred` reads it
+    #[arg(long, value_name = "PRED.csv")]
+    pub(crate) out: PathBuf,
+    /// Write predictions as the model gives them, not clamped to its bounds; robustness is computed from these
+    #[arg(long)]
+    pub(crate) unbounded: bool,
+    /// Also write the standard deviation of each prediction, of a model that estimates it: gaussian-process
+    #[arg(long, value_name = "DEVIATIONS.csv")]
+    pub(crate) deviations_out: Option<PathBuf>,
+    /// Also write the truth of the same samples; `score --truth` reads it
+    #[arg(long, value_name = "TRUTH.csv")]
+    pub(crate) truth_out: Option<PathBuf>,
+    /// Replace files that exist already
+    #[arg(long)]
+    pub(crate) force: bool,
+}
+
+/// Both tables have a header with channel names; rows are matched by `id` where both have one, else by order.
+#[derive(Debug, Args)]
+pub(crate) struct Score {
+    /// The truth: a table with columns Px,Py,Pz (mm), Fx,Fy,Fz (N) or named others
+    #[arg(long, value_name = "TRUTH.csv")]
+    pub(crate) truth: PathBuf,
+    /// The predictions: a table with the same channels
+    #[arg(long, value_name = "PRED.csv")]
+    pub(crate) pred: PathBuf,
+    /// Units of channels beside the six, as NAME=UNIT, separated by commas [default: 1]
+    #[arg(long, value_name = "NAME=UNIT", value_delimiter = ',')]
+    pub(crate) units: Vec<String>,
+    /// Count NaN and infinite cells as n_invalid instead of refusing the file
+    #[arg(long)]
+    pub(crate) allow_invalid: bool,
+    #[command(flatten)]
+    pub(crate) scoring: ScoringArgs,
+    #[command(flatten)]
+    pub(crate) output: Output,
+}
+
+/// States are what `evaluate` and `score` write with --state-out. They must be of the same metrics, channels and settings.
+#[derive(Debug, Args)]
+pub(crate) struct Merge {
+    /// The states to merge
+    #[arg(required = true, value_name = "STATE")]
+    pub(crate) states: Vec<PathBuf>,
+    /// Write the merged state, which can be merged again
+    #[arg(long, value_name = "STATE")]
+    pub(crate) state_out: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) output: Output,
+}

@@ -1,0 +1,59 @@
+//! What is written beside the scores of an evaluation.
+
+use std::path::Path;
+
+use taceva_report::escape_csv;
+use taceva_study::EvaluationReport;
+
+use super::Context;
+use crate::args::ScoringArgs;
+use crate::output;
+use crate::report::page::Page;
+
+/// Files beside the scores, where they are asked for.
+pub(super) struct Attachments<'a> {
+    page: Option<&'a Path>,
+    figures: Option<&'a Path>,
+    samples: Option<&'a Path>,
+}
+
+impl<'a> Attachments<'a> {
+    pub(super) fn of(args: &'a ScoringArgs) -> Attachments<'a> {
+        Attachments {
+            page: args.page.path.as_deref(),
+            figures: args.figures.as_deref(),
+            samples: args.samples_out.as_deref(),
+        }
+    }
+
+    pub(super) fn is_any(&self) -> bool {
+        self.page.is_some() || self.figures.is_some() || self.samples.is_some()
+    }
+
+    pub(super) fn write(&self, report: &EvaluationReport, context: &Context) -> anyhow::Result<()> {
+        if self.page.is_some() || self.figures.is_some() {
+            let title = format!("{}: how well it measures", report.subject.sensor);
+            let page = Page::of(&title, std::slice::from_ref(report))?;
+            if let Some(path) = self.page {
+                output::write(Some(path), |out| page.write(out))?;
+            }
+            if let Some(folder) = self.figures {
+                page.write_figures(folder, context)?;
+            }
+        }
+        if let (Some(path), Some(samples)) = (self.samples, &report.samples) {
+            output::write(Some(path), |out| samples.write(out, escape_csv))?;
+        }
+        Ok(())
+    }
+}
+
+/// Adds to a report the digest of the table of its samples, which ties the two files together.
+pub(super) fn note_samples(report: &mut EvaluationReport) -> anyhow::Result<()> {
+    if let Some(samples) = &report.samples {
+        let mut table = Vec::new();
+        samples.write(&mut table, escape_csv)?;
+        report.provenance.samples_table = Some(taceva_seal::digest_of_bytes(&table));
+    }
+    Ok(())
+}

@@ -1,0 +1,88 @@
+//! What every command works with.
+
+use std::num::NonZeroUsize;
+
+use taceva_study::{Cache, Plan, StudyError, Work};
+
+use crate::args::{Everywhere, PluginArgs};
+use crate::progress::TerminalProgress;
+use crate::stderr;
+
+/// The options of every command, resolved.
+pub(crate) struct Context {
+    pub(crate) progress: TerminalProgress,
+    pub(crate) jobs: NonZeroUsize,
+    pub(super) plugins: PluginArgs,
+    pub(super) verbose: bool,
+    pub(super) quiet: bool,
+}
+
+impl Context {
+    pub(crate) fn new(everywhere: &Everywhere) -> Context {
+        let all_cores = || std::thread::available_parallelism().unwrap_or(NonZeroUsize::MIN);
+        let asked = everywhere
+            .jobs
+            .and_then(|jobs| NonZeroUsize::new(usize::from(jobs)));
+        Context {
+            progress: TerminalProgress::new(everywhere.quiet),
+            jobs: asked.unwrap_or_else(all_cores),
+            verbose: everywhere.verbose > 0,
+            quiet: everywhere.quiet,
+            plugins: everywhere.plugins.clone(),
+        }
+    }
+
+    /// The environment of a stage.
+    pub(crate) fn work<'a>(&'a self, cache: Option<&'a Cache>) -> Work<'a> {
+        Work {
+            jobs: self.jobs,
+            progress: &self.progress,
+            cache,
+        }
+    }
+
+    /// Prints a remark on standard error, unless `--quiet` is given.
+    pub(crate) fn say(&self, words: std::fmt::Arguments<'_>) {
+        if !self.quiet {
+            stderr::say(words);
+        }
+    }
+
+    /// Prints a remark if `-v` is given.
+    pub(crate) fn say_more(&self, words: std::fmt::Arguments<'_>) {
+        if self.verbose {
+            self.say(words);
+        }
+    }
+
+    /// Prints the plan of a command if `-v` is given.
+    pub(crate) fn print_plan(
+        &self,
+        plan: impl FnOnce() -> Result<Plan, StudyError>,
+    ) -> anyhow::Result<()> {
+        if self.verbose {
+            stderr::write(&plan()?.to_string());
+        }
+        Ok(())
+    }
+
+    /// Notes that an option was given by its former name.
+    pub(crate) fn note_former_name(&self, former: &str, now: &str) {
+        self.say(format_args!(
+            "{former} is called {now} now; the former name is accepted for one more version"
+        ));
+    }
+
+    /// The values of an option that was given by its former name or by its present one; clap refuses both together.
+    pub(super) fn either<'a, T>(
+        &self,
+        (former_name, former): (&str, &'a [T]),
+        (name, values): (&str, &'a [T]),
+    ) -> &'a [T] {
+        if former.is_empty() {
+            return values;
+        }
+        self.note_former_name(former_name, name);
+        former
+    }
+}

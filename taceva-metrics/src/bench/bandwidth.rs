@@ -1,0 +1,69 @@
+//! What reading the columns takes: the bandwidth of the memory, which no kernel can exceed.
+
+use taceva_core::Isa;
+
+use crate::exact::{Job, Machine, Vector};
+use crate::paired::Paired;
+
+/// Sums that are in flight at once, so that no addition waits for the one before.
+const IN_FLIGHT: usize = 4;
+
+/// The rounded sum of all values of both columns, with eight vector sums in flight on the widest vectors there are: reading
+/// the columns from memory takes at least this long, whatever is made of them.
+pub fn stream_sum(pairs: Paired<&[f64]>) -> f64 {
+    let widest = Isa::available().into_iter().find_map(Machine::with);
+    widest.unwrap_or_else(Machine::detect).run(Reading(pairs))
+}
+
+struct Reading<'a>(Paired<&'a [f64]>);
+
+impl Job for Reading<'_> {
+    type Output = f64;
+
+    #[inline(always)]
+    fn run<V: Vector>(self, proof: V::Proof) -> f64 {
+        let Paired {
+            estimate,
+            reference,
+        } = self.0;
+        let mut sums = [[V::splat(proof, 0.0); IN_FLIGHT]; 2];
+        let estimates = estimate.chunks_exact(IN_FLIGHT * V::LANES);
+        let references = reference.chunks_exact(IN_FLIGHT * V::LANES);
+        let rest = estimates.remainder().iter().chain(references.remainder());
+        let rest: f64 = rest.sum();
+        for (estimate, reference) in estimates.zip(references) {
+            add(proof, &mut sums[0], estimate);
+            add(proof, &mut sums[1], reference);
+        }
+        let mut total = sums[0][0];
+        for sum in sums.iter().flatten().skip(1) {
+            total = total.plus(*sum);
+        }
+        rest + total.sum_of_lanes()
+    }
+}
+
+#[inline(always)]
+fn add<V: Vector>(proof: V::Proof, sums: &mut [V; IN_FLIGHT], values: &[f64]) {
+    for (sum, values) in sums.iter_mut().zip(values.chunks_exact(V::LANES)) {
+        *sum = sum.plus(V::load(proof, values));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn it_reads_every_value_once() {
+        let column: Vec<f64> = (0..1003).map(f64::from).collect();
+        let pairs = Paired {
+            estimate: &column[..],
+            reference: &column,
+        };
+        assert_eq!(
+            stream_sum(pairs).to_bits(),
+            f64::from(1002 * 1003).to_bits()
+        );
+    }
+}

@@ -1,0 +1,309 @@
+//! The ways to sum.
+
+use taceva_core::Isa;
+
+use super::compensated::{Kahan, Neumaier, Plain, RunningSum, Single, pairwise};
+use crate::exact::Machine;
+use crate::families::accuracy::pair_sums::{PairSpec, PairSums};
+use crate::families::accuracy::streams::{Stream, Streams};
+use crate::families::accuracy::{MAE, R2, SMAPE};
+use crate::metric::{Formula, Metric};
+use crate::paired::Paired;
+
+/// A way to form MAE, R² and sMAPE of two columns.
+///
+/// All but [`Exact`](Kernel::Exact) round at every step, each as a library that sums so would.
+///
+/// ```
+/// use taceva_metrics::bench::Kernel;
+/// assert!(Kernel::available().iter().any(|kernel| kernel.is_exact()));
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Kernel {
+    /// One pass in binary64, SST by the textbook: Σy² − (Σy)² / n.
+    Naive,
+    /// The same with the sums in binary32.
+    Single,
+    /// The mean of y first, then Σ(y − ȳ)².
+    TwoPass,
+    /// Two passes with sums of halves, as numpy does.
+    Pairwise,
+    /// One pass with Kahan's sums.
+    Kahan,
+    /// One pass with Neumaier's sums.
+    Neumaier,
+    /// One pass, SST by Welford's update.
+    Welford,
+    /// This crate's sums, on the vectors of an instruction set.
+    Exact(Isa),
+}
+
+/// What a kernel found; `None` where it found no number.
+///
+/// ```
+/// use taceva_metrics::{Paired, bench::Kernel};
+/// let scores = Kernel::Naive.run(Paired { estimate: &[0.5, 0.5], reference: &[0.25, 0.5] });
+/// assert_eq!(scores.mae, Some(0.125));
+/// ```
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Scores {
+    /// Mean absolute error, in the unit of the columns.
+    pub mae: Option<f64>,
+    /// Coefficient of determination.
+    pub r2: Option<f64>,
+    /// Symmetric mean absolute percentage error, as a fraction.
+    pub smape: Option<f64>,
+}
+
+impl Kernel {
+    /// Those that this machine can run, ours last and the widest vectors before the others.
+    pub fn available() -> Vec<Kernel> {
+        let rounding = [
+            Kernel::Naive,
+            Kernel::Single,
+            Kernel::TwoPass,
+            Kernel::Pairwise,
+            Kernel::Kahan,
+            Kernel::Neumaier,
+            Kernel::Welford,
+        ];
+        let exact = Isa::available().into_iter().map(Kernel::Exact);
+        rounding.into_iter().chain(exact).collect()
+    }
+
+    /// A name for tables: `two-pass`, `exact avx2`.
+    pub fn name(self) -> String {
+        match self {
+            Kernel::Naive => "naive f64".to_owned(),
+            Kernel::Single => "naive f32".to_owned(),
+            Kernel::TwoPass => "two-pass".to_owned(),
+            Kernel::Pairwise => "pairwise".to_owned(),
+            Kernel::Kahan => "Kahan".to_owned(),
+            Kernel::Neumaier => "Neumaier".to_owned(),
+            Kernel::Welford => "Welford".to_owned(),
+            Kernel::Exact(isa) => format!("exact {isa}"),
+        }
+    }
+
+    /// Whether nothing is rounded before the end.
+    pub fn is_exact(self) -> bool {
+        matches!(self, Kernel::Exact(_))
+    }
+
+    /// All three scores.
+    ///
+    /// # Shapes
+    /// `pairs.estimate`, `pairs.reference`: one length.
+    pub fn run(self, pairs: Paired<&[f64]>) -> Scores {
+        match self {
+            Kernel::Naive => one_pass::<Plain>(pairs),
+            Kernel::Single => one_pass::<Single>(pairs),
+            Kernel::TwoPass => two_pass(pairs),
+            Kernel::Pairwise => in_halves(pairs),
+            Kernel::Kahan => one_pass::<Kahan>(pairs),
+            Kernel::Neumaier => one_pass::<Neumaier>(pairs),
+            Kernel::Welford => welford(pairs),
+            Kernel::Exact(isa) => Scores::of(&exact(isa, THREE_SCORES, pairs)),
+        }
+    }
+
+    /// The mean absolute error alone.
+    pub fn run_mae(self, pairs: Paired<&[f64]>) -> Option<f64> {
+        match self {
+            Kernel::Naive | Kernel::TwoPass | Kernel::Welford => mean_error::<Plain>(pairs),
+            Kernel::Single => mean_error::<Single>(pairs),
+            Kernel::Kahan => mean_error::<Kahan>(pairs),
+            Kernel::Neumaier => mean_error::<Neumaier>(pairs),
+            Kernel::Pairwise => {
+                let rows: Vec<Paired<f64>> = pairs.iter().collect();
+                number(pairwise(&rows, &|pair| pair.residual().abs()) / length(pairs))
+            }
+            Kernel::Exact(isa) => {
+                let streams = Streams::of(&[Stream::Absolute]);
+                score(&MAE, &exact(isa, streams, pairs))
+            }
+        }
+    }
+
+    /// The true scores: every row added to the superaccumulators on its own, every quotient rounded once.
+    pub fn truth(pairs: Paired<&[f64]>) -> Scores {
+        let mut sums = PairSums::new(spec(THREE_SCORES));
+        pairs.blocks(1).for_each(|row| sums.update(row));
+        Scores::of(&sums)
+    }
+}
+
+const THREE_SCORES: Streams = Streams::of(&[
+    Stream::Absolute,
+    Stream::Squared,
+    Stream::Truth,
+    Stream::TruthSquared,
+    Stream::Symmetric,
+]);
+
+fn spec(streams: Streams) -> PairSpec {
+    PairSpec {
+        streams,
+        gate: None,
+    }
+}
+
+/// The sums of `pairs` on `isa`, or on what there is: that changes the time and not the result.
+fn exact(isa: Isa, streams: Streams, pairs: Paired<&[f64]>) -> PairSums {
+    let machine = Machine::with(isa).unwrap_or_else(Machine::detect);
+    let mut sums = PairSums::with_machine(spec(streams), machine);
+    sums.update(pairs);
+    sums
+}
+
+impl Scores {
+    fn of(sums: &PairSums) -> Scores {
+        Scores {
+            mae: score(&MAE, sums),
+            r2: score(&R2, sums),
+            smape: score(&SMAPE, sums),
+        }
+    }
+}
+
+fn score(metric: &Metric, sums: &PairSums) -> Option<f64> {
+    match &metric.formula {
+        Formula::Pairs { finish, .. } => (finish.evaluate)(sums)
+            .ok()
+            .filter(|value| value.is_finite()),
+        _ => None,
+    }
+}
+
+/// Σ|d|, Σd², SST and Σt as a library rounds them, over n rows.
+fn finish(n: f64, absolute: f64, squared: f64, total: f64, symmetric: f64) -> Scores {
+    Scores {
+        mae: number(absolute / n),
+        r2: number(1.0 - squared / total),
+        smape: number(symmetric / n),
+    }
+}
+
+fn number(value: f64) -> Option<f64> {
+    value.is_finite().then_some(value)
+}
+
+fn one_pass<S: RunningSum>(pairs: Paired<&[f64]>) -> Scores {
+    let [
+        mut absolute,
+        mut squared,
+        mut truth,
+        mut truth_squared,
+        mut symmetric,
+    ] = [S::default(); 5];
+    for pair in pairs.iter() {
+        let residual = pair.residual();
+        absolute.add(residual.abs());
+        squared.add(residual * residual);
+        truth.add(pair.reference);
+        truth_squared.add(pair.reference * pair.reference);
+        symmetric.add(pair.symmetric_term());
+    }
+    let n = length(pairs);
+    let total = truth_squared.total() - truth.total() * truth.total() / n;
+    finish(
+        n,
+        absolute.total(),
+        squared.total(),
+        total,
+        symmetric.total(),
+    )
+}
+
+fn two_pass(pairs: Paired<&[f64]>) -> Scores {
+    let n = length(pairs);
+    let mean = pairs.reference.iter().sum::<f64>() / n;
+    let (mut absolute, mut squared, mut total, mut symmetric) = (0.0, 0.0, 0.0, 0.0);
+    for pair in pairs.iter() {
+        let (residual, deviation) = (pair.residual(), pair.reference - mean);
+        absolute += residual.abs();
+        squared += residual * residual;
+        total += deviation * deviation;
+        symmetric += pair.symmetric_term();
+    }
+    finish(n, absolute, squared, total, symmetric)
+}
+
+fn in_halves(pairs: Paired<&[f64]>) -> Scores {
+    let n = length(pairs);
+    let rows: Vec<Paired<f64>> = pairs.iter().collect();
+    let mean = pairwise(&rows, &|pair| pair.reference) / n;
+    let square = |value: f64| value * value;
+    finish(
+        n,
+        pairwise(&rows, &|pair| pair.residual().abs()),
+        pairwise(&rows, &|pair| square(pair.residual())),
+        pairwise(&rows, &|pair| square(pair.reference - mean)),
+        pairwise(&rows, &|pair| pair.symmetric_term()),
+    )
+}
+
+fn welford(pairs: Paired<&[f64]>) -> Scores {
+    let (mut absolute, mut squared, mut total, mut symmetric) = (0.0, 0.0, 0.0, 0.0);
+    let (mut n, mut mean) = (0.0, 0.0);
+    for pair in pairs.iter() {
+        let residual = pair.residual();
+        absolute += residual.abs();
+        squared += residual * residual;
+        symmetric += pair.symmetric_term();
+        n += 1.0;
+        let deviation = pair.reference - mean;
+        mean += deviation / n;
+        total += deviation * (pair.reference - mean);
+    }
+    finish(n, absolute, squared, total, symmetric)
+}
+
+fn mean_error<S: RunningSum>(pairs: Paired<&[f64]>) -> Option<f64> {
+    let mut absolute = S::default();
+    pairs
+        .iter()
+        .for_each(|pair| absolute.add(pair.residual().abs()));
+    number(absolute.total() / length(pairs))
+}
+
+#[expect(
+    clippy::cast_precision_loss,
+    reason = "no column has 2^53 rows, and those who round would round this too"
+)]
+fn length(pairs: Paired<&[f64]>) -> f64 {
+    pairs.estimate.len() as f64
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn all_agree_where_nothing_needs_rounding() {
+        let pairs = Paired {
+            estimate: &[1.0, 2.0, 6.0, 7.0][..],
+            reference: &[1.0, 4.0, 4.0, 7.0],
+        };
+        for kernel in Kernel::available() {
+            let scores = kernel.run(pairs);
+            assert_eq!(scores.mae, Some(1.0), "{}", kernel.name());
+            assert_eq!(kernel.run_mae(pairs), Some(1.0), "{}", kernel.name());
+            let r2 = scores.r2.expect("the truth varies");
+            assert!((r2 - (1.0 - 8.0 / 18.0)).abs() < 1e-6, "{}", kernel.name());
+        }
+        assert_eq!(
+            Kernel::truth(pairs),
+            Kernel::Exact(Isa::Portable).run(pairs)
+        );
+    }
+
+    #[test]
+    fn nothing_has_no_scores() {
+        for kernel in Kernel::available() {
+            assert_eq!(kernel.run(Paired::default()), Scores::default());
+            assert_eq!(kernel.run_mae(Paired::default()), None);
+        }
+    }
+}

@@ -1,0 +1,69 @@
+//! The sums of a family without the name of their type, so that what holds, joins and resamples them is compiled once.
+
+use std::any::Any;
+
+use crate::exact::merge::Merge;
+
+/// The sums of every part of one family: a `Vec` of its sums.
+pub(crate) struct ErasedSums(Box<dyn AnySums>);
+
+/// What is done with parts whose type is not known.
+trait AnySums: Any + Send {
+    fn merge(&mut self, other: &dyn Any);
+    fn merge_times(&mut self, other: &dyn Any, times: u32);
+    fn copy(&self) -> ErasedSums;
+}
+
+impl<S: Merge + Clone + Send + 'static> AnySums for Vec<S> {
+    fn merge(&mut self, other: &dyn Any) {
+        Merge::merge(self, typed::<S>(other));
+    }
+
+    fn merge_times(&mut self, other: &dyn Any, times: u32) {
+        Merge::merge_times(self, typed::<S>(other), times);
+    }
+
+    fn copy(&self) -> ErasedSums {
+        ErasedSums::new(self.clone())
+    }
+}
+
+fn typed<S: 'static>(parts: &dyn Any) -> &Vec<S> {
+    parts.downcast_ref().expect(ONE_FAMILY)
+}
+
+/// Why a type is the one that is asked for: an accumulator has one family, which made all its parts.
+const ONE_FAMILY: &str = "parts of one family";
+
+impl ErasedSums {
+    pub(super) fn new<S: Merge + Clone + Send + 'static>(sums: Vec<S>) -> ErasedSums {
+        ErasedSums(Box::new(sums))
+    }
+
+    /// The sums, whose type is that of the family they belong to.
+    pub(super) fn sums<S: 'static>(&self) -> &Vec<S> {
+        typed(&*self.0)
+    }
+
+    /// The sums, to be added to.
+    pub(super) fn sums_mut<S: 'static>(&mut self) -> &mut Vec<S> {
+        let parts: &mut dyn Any = &mut *self.0;
+        parts.downcast_mut().expect(ONE_FAMILY)
+    }
+}
+
+impl Clone for ErasedSums {
+    fn clone(&self) -> ErasedSums {
+        self.0.copy()
+    }
+}
+
+impl Merge for ErasedSums {
+    fn merge(&mut self, other: &ErasedSums) {
+        self.0.merge(&*other.0);
+    }
+
+    fn merge_times(&mut self, other: &ErasedSums, times: u32) {
+        self.0.merge_times(&*other.0, times);
+    }
+}

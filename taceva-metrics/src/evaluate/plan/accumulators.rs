@@ -1,0 +1,72 @@
+//! The accumulators of a plan: one for all metrics that are finished from the same sums.
+
+use super::MetricPlan;
+use crate::evaluate::accumulator::Accumulator;
+use crate::families::accuracy::{Pairs, Plane};
+use crate::families::bias_level::Levels;
+use crate::families::channelwise::{ByChannel, Channelwise};
+use crate::families::crosstalk::Crosstalk;
+use crate::families::detection::Idle;
+use crate::families::drift::Drifts;
+use crate::families::family::Family;
+use crate::families::hysteresis::Loops;
+use crate::families::inter_sensor::InterSensor;
+use crate::families::intrinsic::Intrinsic;
+use crate::families::lighting::Lighting;
+use crate::families::linearity::Lines;
+use crate::families::repeatability::Repeats;
+use crate::families::resolution::Resolution;
+use crate::families::spatial::Spatial;
+use crate::families::surface::Surface;
+use crate::families::tolerance::Tolerances;
+
+impl MetricPlan {
+    /// One accumulator for all metrics that share what is kept.
+    pub(crate) fn accumulators(&self) -> Vec<Accumulator> {
+        let families = [
+            Pairs::for_plan(self).map(|family| self.by_row(family)),
+            Plane::for_metrics(&self.kept, &self.channels).map(|family| self.by_row(family)),
+            Resolution::for_plan(self).map(|family| self.clustered(family)),
+            Surface::for_plan(self).map(|family| self.clustered(family)),
+            Spatial::for_plan(self).map(|family| self.clustered(family)),
+            Lighting::for_plan(self).map(|family| self.clustered(family)),
+            self.by_channel(Repeats, MetricPlan::clustered),
+            Loops::for_plan(self).map(|family| self.clustered(family)),
+            InterSensor::for_plan(self).map(|family| self.clustered(family)),
+            Intrinsic::for_plan(self).map(|family| self.clustered(family)),
+            Idle::for_plan(self).and_then(|kind| self.by_channel(kind, MetricPlan::clustered)),
+            self.by_channel(Lines, MetricPlan::by_row),
+            Crosstalk::for_plan(self).map(|family| self.by_row(family)),
+            self.by_channel(Levels, MetricPlan::by_row),
+            self.by_channel(Tolerances, MetricPlan::by_row),
+            self.by_channel(Drifts, MetricPlan::clustered),
+        ];
+        families.into_iter().flatten().collect()
+    }
+
+    fn by_channel<K>(
+        &self,
+        kind: K,
+        clustered: fn(&MetricPlan, ByChannel<K>) -> Accumulator,
+    ) -> Option<Accumulator>
+    where
+        K: Channelwise,
+    {
+        ByChannel::for_plan(kind, self).map(|family| clustered(self, family))
+    }
+
+    /// An accumulator whose clusters are rows where samples are taken as independent.
+    fn by_row<F>(&self, family: F) -> Accumulator
+    where
+        F: Family,
+    {
+        Accumulator::new(family, self).with_rows_as_clusters(self.independent)
+    }
+
+    fn clustered<F>(&self, family: F) -> Accumulator
+    where
+        F: Family,
+    {
+        Accumulator::new(family, self)
+    }
+}

@@ -1,0 +1,16 @@
+//! The models that are fitted, a file or folder each.
+
+pub(crate) mod auto;
+pub(crate) mod baseline;
+pub(crate) mod discriminant;
+pub(crate) mod elastic_net;
+pub(crate) mod kernel;
+pub(crate) mod library;
+pub(crate) mod linear;
+pub(crate) mod neighbours;
+pub(crate) mod network;
+pub(crate) mod pls;
+pub(crate) mod plugin;
+pub(crate) mod projected;
+pub(crate) mod ridge;
+pub(crate) mod trees;

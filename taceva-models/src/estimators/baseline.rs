@@ -1,0 +1,69 @@
+//! Predicts the mean of the training part: the line every model must beat.
+
+use taceva_core::{ModelError, Progress, TrainingSet};
+
+use crate::estimators::linear::{LinearEstimator, LinearFit, LinearRegressor};
+use crate::registry::ModelInfo;
+use crate::settings::{SettingError, Settings};
+use crate::training::choice::{Choice, rmse};
+use crate::training::fit::estimator;
+use crate::training::label_scaling::means;
+use crate::training::problem::Problem;
+
+/// Predicts the mean of the training part, whatever it sees.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Baseline;
+
+impl Baseline {
+    /// What the registry says of it.
+    pub const INFO: ModelInfo = ModelInfo {
+        name: "baseline",
+        about: "predicts the mean of the training part: the line every model must beat",
+        settings: &[],
+        features: None,
+        make: |settings| Ok(Box::new(Baseline::from_settings(settings)?)),
+    };
+
+    /// The baseline; it knows no setting.
+    ///
+    /// # Errors
+    /// [`SettingError::Unknown`] for any setting.
+    pub fn from_settings(settings: &Settings) -> Result<Baseline, SettingError> {
+        settings.check_keys(Baseline::INFO.settings)?;
+        Ok(Baseline)
+    }
+}
+
+impl LinearEstimator for Baseline {
+    fn fit_linear(
+        &self,
+        training: &TrainingSet<'_>,
+        validation: Option<&TrainingSet<'_>>,
+        _progress: &dyn Progress,
+    ) -> Result<LinearFit, ModelError> {
+        let problem = Problem::new(*training)?;
+        let validation = problem.validation(validation)?;
+        let channels = problem.channels();
+        let spans = problem.scaling.span();
+        // The constant of the model card, to the last bit: no skill is shown by rounding.
+        let bias = means(training.targets);
+        let error = |channel: usize| {
+            let labels = validation.as_ref()?.labels.col_as_slice(channel);
+            let squares: f64 = labels.iter().map(|label| label * label).sum();
+            rmse(squares / labels.len() as f64, spans[channel])
+        };
+        Ok(LinearFit {
+            choice: Choice::nobodys((0..channels).map(error)),
+            regressor: LinearRegressor::new(
+                training.targets.channels.clone(),
+                training.features.shape(),
+                vec![0.0; channels * training.features.shape().len()],
+                bias,
+            )?,
+            scaling: problem.scaling,
+            refitted: false,
+        })
+    }
+}
+
+estimator!(Baseline, |_| Baseline::INFO.name);

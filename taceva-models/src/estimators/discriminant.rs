@@ -1,0 +1,146 @@
+//! Linear discriminants: every channel is predicted as one of its training labels.
+
+mod classes;
+mod regressor;
+
+use std::ops::Range;
+
+use rayon::prelude::*;
+use taceva_core::{Channel, ModelError, Progress, TrainingSet};
+
+pub use self::classes::Discriminant;
+pub use self::regressor::ClassRegressor;
+use self::regressor::Planes;
+use crate::features::FeatureSpec;
+use crate::linalg::{Design, FeatureScale};
+use crate::registry::ModelInfo;
+use crate::settings::{SettingError, Settings};
+use crate::training::choice::{Choice, errors};
+use crate::training::fit::{ModelEstimator, ModelFit, ModelRegressor, estimator};
+use crate::training::problem::{Problem, invalid};
+use crate::training::progress::{Stage, interrupted};
+
+/// Linear discriminants: a channel is predicted as one of the values that it takes in the training part, that whose mean picture is
+/// nearest once the scatter within values is made round ([`Discriminant`]).
+///
+/// For boards, kinds and levels; what varies freely is refused, having too many values. Nothing is chosen by error, so the validation
+/// part is only scored.
+///
+/// # Reference
+/// R. A. Fisher, Ann. Eugen. 7 (1936) 179; O. Ledoit, M. Wolf, J. Multivar. Anal. 88 (2004) 365, eqs. 9-14.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct LinearDiscriminant {
+    scale: FeatureScale,
+}
+
+/// Classes of a channel at most.
+const VALUES_MAX: usize = 256;
+
+/// Features that a covariance is kept of: 134 MB.
+const FEATURES_MAX: usize = 4096;
+
+impl LinearDiscriminant {
+    /// What the registry says of it.
+    pub const INFO: ModelInfo = ModelInfo {
+        name: "lda",
+        about: "linear discriminants: predicts one of the labels of the training part, for kinds, boards and levels",
+        settings: &[FeatureScale::SETTING],
+        features: Some(FeatureSpec::DEFAULT),
+        make: |settings| Ok(Box::new(LinearDiscriminant::from_settings(settings)?)),
+    };
+
+    /// Linear discriminants as `settings` ask for.
+    ///
+    /// # Errors
+    /// [`SettingError`] for an unknown key or a value out of range.
+    pub fn from_settings(settings: &Settings) -> Result<LinearDiscriminant, SettingError> {
+        settings.check_keys(LinearDiscriminant::INFO.settings)?;
+        Ok(LinearDiscriminant {
+            scale: FeatureScale::from_settings(settings)?,
+        })
+    }
+}
+
+/// The labels of one channel, as values and which of them each sample has.
+struct Levels {
+    /// Ascending.
+    values: Vec<f64>,
+    classes: Vec<usize>,
+}
+
+impl Levels {
+    fn of(training: &TrainingSet<'_>, position: usize) -> Result<Levels, ModelError> {
+        let channels = training.targets.channels.as_slice();
+        let labels = training.targets.values.iter().skip(position);
+        let labels: Vec<f64> = labels.step_by(channels.len()).copied().collect();
+        let mut values = labels.clone();
+        values.sort_by(f64::total_cmp);
+        values.dedup_by(|a, b| a.total_cmp(b).is_eq());
+        if values.len() > VALUES_MAX {
+            return Err(too_many(&channels[position], values.len()));
+        }
+        let class = |label: &f64| values.partition_point(|value| value.total_cmp(label).is_lt());
+        Ok(Levels {
+            classes: labels.iter().map(class).collect(),
+            values,
+        })
+    }
+}
+
+fn too_many(channel: &Channel, values: usize) -> ModelError {
+    invalid(format!(
+        "`{channel}` takes {values} values in the training part, discriminants have at most {VALUES_MAX} classes: for what varies freely \
+         choose another model, such as ridge"
+    ))
+}
+
+impl ModelEstimator for LinearDiscriminant {
+    fn fit_model(
+        &self,
+        training: &TrainingSet<'_>,
+        validation: Option<&TrainingSet<'_>>,
+        progress: &dyn Progress,
+    ) -> Result<ModelFit, ModelError> {
+        let problem = Problem::new(*training)?;
+        let held = problem.validation(validation)?;
+        let width = training.features.shape().len();
+        if width > FEATURES_MAX {
+            return Err(invalid(format!(
+                "{width} features, discriminants take at most {FEATURES_MAX}: a smaller `size` or `pca` would be accepted"
+            )));
+        }
+        let design = Design::new(training.features, self.scale);
+        let blocks = |samples: Range<usize>| design.block(samples, 0..width);
+        let stage = Stage::begin(progress, "channels", problem.channels());
+        // Of several channels that are refused it is always the first that is said, whichever thread was done before.
+        let planes: Vec<Result<Planes, ModelError>> = (0..problem.channels())
+            .into_par_iter()
+            .map(|position| {
+                interrupted(progress)?;
+                let Levels { values, classes } = Levels::of(training, position)?;
+                let discriminant = Discriminant::of_blocks(&blocks, &classes, progress)?;
+                stage.advance();
+                Ok(Planes::new(values, discriminant.planes(), &design))
+            })
+            .collect();
+        drop(stage);
+        let regressor = ClassRegressor::new(
+            (training.targets.channels.clone(), training.features.shape()),
+            planes
+                .into_iter()
+                .collect::<Result<Vec<Planes>, ModelError>>()?,
+        );
+        let errors = match validation.filter(|_| held.is_some()) {
+            Some(set) => errors(&regressor, set)?,
+            None => vec![None; problem.channels()],
+        };
+        Ok(ModelFit {
+            choice: Choice::nobodys(errors),
+            regressor: ModelRegressor::Classes(Box::new(regressor)),
+            refitted: false,
+            scaling: problem.scaling,
+        })
+    }
+}
+
+estimator!(LinearDiscriminant, |_| LinearDiscriminant::INFO.name);

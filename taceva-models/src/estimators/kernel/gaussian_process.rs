@@ -1,0 +1,310 @@
+//! A Gaussian process on landmarks, its settings those under which the labels are likeliest.
+
+use std::borrow::Cow;
+
+use faer::Mat;
+use taceva_core::{Features, ModelError, Progress, Regressor, TrainingSet};
+
+use super::reach::reach;
+use super::regressor::KernelRegressor;
+use super::uncertainty::Uncertainty;
+use super::{Kernel, Mapped};
+use crate::estimators::linear::LinearRegressor;
+use crate::features::FeatureSpec;
+use crate::linalg::{Design, FeatureScale, Spectrum};
+use crate::registry::ModelInfo;
+use crate::settings::{SettingError, Settings};
+use crate::training::choice::{ChannelChoice, Choice, ChosenBy, rmse};
+use crate::training::fit::{ModelEstimator, ModelFit, ModelRegressor, estimator};
+use crate::training::problem::{Problem, Validation, centred, joined, stacked};
+use crate::training::progress::interrupted;
+
+/// Gaussian process regression in Nyström's form, which also says how sure it is.
+///
+/// Each channel has a signal of variance s² and noise of variance λs². Of 41 ratios λ from 10⁻⁸ to 10² each channel gets the one
+/// under which its labels are likeliest; s² follows; the length of the kernel is one for all channels, likeliest for all together. No sample is
+/// held out for it. Where there is a validation part, the deviations of each channel are then brought to where 95 % of it lie within 1.96 of them: what
+/// landmarks leave out makes them too wide by themselves.
+///
+/// # Reference
+/// C. E. Rasmussen, C. K. I. Williams, Gaussian Processes for Machine Learning, MIT Press 2006, eqs. 5.8 and 8.14, 8.15.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct GaussianProcess {
+    kernel: Kernel,
+    refit: bool,
+}
+
+impl GaussianProcess {
+    /// What the registry says of it.
+    pub const INFO: ModelInfo = ModelInfo {
+        name: "gaussian-process",
+        about: "a Gaussian process on landmarks: says how sure it is of every prediction",
+        settings: Kernel::SETTINGS,
+        features: Some(FeatureSpec::DEFAULT),
+        make: |settings| Ok(Box::new(GaussianProcess::from_settings(settings)?)),
+    };
+
+    /// A Gaussian process as `settings` ask for.
+    ///
+    /// # Errors
+    /// [`SettingError`] for an unknown key or a value out of range.
+    pub fn from_settings(settings: &Settings) -> Result<GaussianProcess, SettingError> {
+        settings.check_keys(GaussianProcess::INFO.settings)?;
+        Ok(GaussianProcess {
+            kernel: Kernel::from_settings(settings)?,
+            refit: settings.refit()?,
+        })
+    }
+}
+
+/// The ratios that are tried.
+fn ratios() -> Vec<f64> {
+    (0..=40)
+        .map(|step| 10_f64.powf(-8.0 + 0.25 * f64::from(step)))
+        .collect()
+}
+
+/// What one channel is likeliest to be.
+#[derive(Clone, Copy, Debug)]
+struct Likeliest {
+    /// −2 log of the likelihood, up to what no setting changes.
+    cost: f64,
+    /// λ.
+    ratio: f64,
+    /// s² of scaled labels.
+    signal: f64,
+}
+
+/// Of each column of centred `labels`, given the spectrum of the centred features.
+fn likeliest(spectrum: &Spectrum<'_, '_>, rotated: &Mat<f64>, labels: &Mat<f64>) -> Vec<Likeliest> {
+    let eigenvalues = spectrum.eigenvalues();
+    let samples = labels.nrows() as f64;
+    let unseen = samples - eigenvalues.len() as f64;
+    let of = |channel: usize| {
+        let column = labels.col_as_slice(channel);
+        let total: f64 = column.iter().map(|label| label * label).sum();
+        // The squares of the labels along the eigenvectors of the samples.
+        let along: Vec<f64> = eigenvalues
+            .iter()
+            .zip(rotated.col_as_slice(channel))
+            .map(|(&eigenvalue, rotated)| match spectrum.spans_samples() {
+                true => rotated * rotated,
+                false if eigenvalue > spectrum.noise() => rotated * rotated / eigenvalue,
+                false => 0.0,
+            })
+            .collect();
+        let rest = (total - along.iter().sum::<f64>()).max(0.0);
+        let candidates = ratios().into_iter().map(|ratio| {
+            let seen = along.iter().zip(eigenvalues);
+            let inside: f64 = seen.map(|(along, value)| along / (value + ratio)).sum();
+            let signal = (inside + rest / ratio) / samples;
+            let volume: f64 = eigenvalues.iter().map(|value| (value + ratio).ln()).sum();
+            let cost = if signal > 0.0 {
+                samples * signal.ln() + volume + unseen * ratio.ln()
+            } else {
+                // Every label is the same: nothing is likelier than anything else.
+                0.0
+            };
+            Likeliest {
+                cost,
+                ratio,
+                signal,
+            }
+        });
+        let best = candidates.reduce(|best, next| if next.cost <= best.cost { next } else { best });
+        best.expect("there are ratios to try")
+    };
+    (0..labels.ncols()).map(of).collect()
+}
+
+/// A Gaussian process of one length.
+struct Fit {
+    cost: f64,
+    mapped: Mapped,
+    linear: LinearRegressor,
+    uncertainty: Uncertainty,
+}
+
+impl Fit {
+    /// The error of each channel on a part that was not learnt from, and by how much its deviations must grow to hold 95 % there.
+    fn judged(
+        &self,
+        problem: &Problem<'_>,
+        part: &Validation<'_>,
+    ) -> Result<(Vec<Option<f64>>, Vec<f64>), ModelError> {
+        let mapped = self.mapped.map.of(part.features);
+        let (samples, channels) = (part.labels.nrows(), problem.channels());
+        let mut found = vec![0.0; samples * channels];
+        self.linear.predict(&mapped, &mut found)?;
+        let mut deviations = vec![0.0; found.len()];
+        for (sample, into) in deviations.chunks_exact_mut(channels).enumerate() {
+            self.uncertainty.write(mapped.sample(sample), into);
+        }
+        let reach_of = |channel: usize| {
+            let residuals = problem.residuals_of(&found, part, channel);
+            let own = deviations.iter().skip(channel).step_by(channels);
+            reach(residuals.zip(own).map(|(miss, own)| miss / own).collect())
+        };
+        let reaches = (0..channels).map(reach_of).collect();
+        Ok((problem.errors_of(&found, part), reaches))
+    }
+}
+
+fn fit_length(
+    problem: &Problem<'_>,
+    mapped: Mapped,
+    validation: Option<&Validation<'_>>,
+    progress: &dyn Progress,
+) -> Result<Fit, ModelError> {
+    let (features, labels): (Cow<'_, Features>, _) =
+        match validation.zip(mapped.validation.as_ref()) {
+            Some((part, features)) => (
+                Cow::Owned(joined(&mapped.training, features)),
+                stacked(&problem.centred, &part.labels),
+            ),
+            None => (Cow::Borrowed(&mapped.training), problem.centred.clone()),
+        };
+    let (shift, labels) = centred(labels);
+    let design = Design::new(&features, FeatureScale::None);
+    let spectrum = Spectrum::new(&design, progress)?;
+    let rotated = spectrum.rotate(labels.as_ref());
+    let best = likeliest(&spectrum, &rotated, &labels);
+    let eigenvalues = spectrum.eigenvalues();
+    let coefficients = Mat::from_fn(eigenvalues.len(), best.len(), |row, channel| {
+        rotated[(row, channel)] / (eigenvalues[row] + best[channel].ratio)
+    });
+    let weights = spectrum.weights(coefficients.as_ref());
+    let mean: Vec<f64> = problem
+        .mean
+        .iter()
+        .zip(&shift)
+        .map(|(a, b)| a + b)
+        .collect();
+    let linear = LinearRegressor::from_mapped(problem, &design, &weights, &mean)?;
+    let known = eigenvalues
+        .iter()
+        .filter(|value| **value > spectrum.noise())
+        .count();
+    let vectors = spectrum.leading_feature_vectors(known);
+    let samples = labels.nrows() as f64;
+    let spans = problem.scaling.span();
+    let uncertainty = Uncertainty {
+        centre: design.centre().to_vec(),
+        vectors: (0..known)
+            .flat_map(|column| vectors.col_as_slice(column).to_vec())
+            .collect(),
+        eigenvalues: eigenvalues.iter().rev().take(known).copied().collect(),
+        ratio: best.iter().map(|best| best.ratio).collect(),
+        signal: best
+            .iter()
+            .zip(spans)
+            .map(|(best, span)| best.signal * span * span)
+            .collect(),
+        noise: best
+            .iter()
+            .map(|best| best.ratio * (1.0 + 1.0 / samples))
+            .collect(),
+    };
+    drop(spectrum);
+    Ok(Fit {
+        cost: best.iter().map(|best| best.cost).sum(),
+        mapped,
+        linear,
+        uncertainty,
+    })
+}
+
+impl ModelEstimator for GaussianProcess {
+    fn fit_model(
+        &self,
+        training: &TrainingSet<'_>,
+        validation: Option<&TrainingSet<'_>>,
+        progress: &dyn Progress,
+    ) -> Result<ModelFit, ModelError> {
+        let problem = Problem::new(*training)?;
+        let held = problem.validation(validation)?;
+        let landmarks = self.kernel.landmarks(training.features, progress)?;
+        // Without the validation part, what it says of the settings is no flattery.
+        let learn = |part: Option<&Validation<'_>>, lengths: &[f64]| {
+            let mut best: Option<Fit> = None;
+            for &length in lengths.iter().rev() {
+                interrupted(progress)?;
+                let mapped = Mapped::new(&landmarks, length, part.map(|part| part.features));
+                let fit = fit_length(&problem, mapped, part, progress)?;
+                if best.as_ref().is_none_or(|best| fit.cost < best.cost) {
+                    best = Some(fit);
+                }
+            }
+            Ok::<Fit, ModelError>(best.expect("there is a length to try"))
+        };
+        let first = learn(None, &self.kernel.lengths())?;
+        let ratios = first.uncertainty.ratio.clone();
+        let (errors, reaches) = match &held {
+            Some(part) => first.judged(&problem, part)?,
+            None => (
+                vec![None; problem.channels()],
+                vec![1.0; problem.channels()],
+            ),
+        };
+        let refitted = self.refit && held.is_some();
+        let fit = if refitted {
+            learn(held.as_ref(), &[first.mapped.map.length])?
+        } else {
+            first
+        };
+        let edges = self::ratios();
+        let channels = ratios
+            .iter()
+            .zip(errors)
+            .map(|(&ratio, rmse)| ChannelChoice {
+                value: Some(ratio),
+                rmse,
+                at_edge: ratio <= edges[0] || ratio >= edges[edges.len() - 1],
+            });
+        let shape = training.features.shape();
+        let known = Some(fit.uncertainty.reaching(&reaches));
+        let regressor = KernelRegressor::new(shape, fit.mapped.map, fit.linear, known);
+        Ok(ModelFit {
+            regressor: ModelRegressor::Kernel(Box::new(regressor)),
+            choice: Choice {
+                by: ChosenBy::Likelihood,
+                setting: Some("noise_ratio".to_owned()),
+                channels: channels.collect(),
+            },
+            scaling: problem.scaling,
+            refitted,
+        })
+    }
+}
+
+impl Problem<'_> {
+    /// The root mean square error of each channel of predictions in its unit, a row a sample of `part`.
+    pub(crate) fn errors_of(&self, found: &[f64], part: &Validation<'_>) -> Vec<Option<f64>> {
+        let channels = self.channels();
+        let of = |channel: usize| {
+            let span = self.scaling.span()[channel];
+            let residuals = self.residuals_of(found, part, channel);
+            let squares: f64 = residuals.map(|residual| (residual / span).powi(2)).sum();
+            rmse(squares / part.labels.nrows() as f64, span)
+        };
+        (0..channels).map(of).collect()
+    }
+
+    /// Prediction minus label of each sample of `part`, in the unit of the channel.
+    fn residuals_of<'a>(
+        &'a self,
+        found: &'a [f64],
+        part: &'a Validation<'_>,
+        channel: usize,
+    ) -> impl Iterator<Item = f64> + 'a {
+        let span = self.scaling.span()[channel];
+        let offset = self.scaling.minimum()[channel] + span * self.mean[channel];
+        let labels = part.labels.col_as_slice(channel).iter();
+        let found = found.iter().skip(channel).step_by(self.channels());
+        labels
+            .zip(found)
+            .map(move |(label, found)| found - offset - span * label)
+    }
+}
+
+estimator!(GaussianProcess, |_| GaussianProcess::INFO.name);

@@ -1,0 +1,181 @@
+//! Features whose products are the kernel, as far as the landmarks explain it.
+
+use rayon::prelude::*;
+use taceva_core::{FeatureShape, Features};
+
+use super::landmarks::{EXPLAINED, Landmarks, kernel, rate};
+use crate::linalg::distance::squared_distance;
+use crate::linalg::dot;
+use crate::linalg::standard::Standard;
+
+/// φ(x) = L⁻¹ k(x) with L Lᵀ the kernel between the landmarks and k(x) that from them to x; φ(x)ᵀφ(x') is Nyström's kernel.
+///
+/// # Reference
+/// C. K. I. Williams, M. Seeger, NIPS 13 (2001) 682.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Nystrom {
+    pub(super) standard: Standard,
+    /// The length ℓ, for a card.
+    pub(super) length: f64,
+    /// 1 / 2ℓ²D.
+    pub(super) rate: f64,
+    /// The landmarks as `standard` has them.
+    pub(super) rows: Vec<f32>,
+    /// L row by row, only its lower triangle.
+    pub(super) factor: Vec<f64>,
+    /// Which of the chosen landmarks these are.
+    kept: Vec<usize>,
+}
+
+/// Samples a thread takes at a time.
+const CHUNK: usize = 16;
+
+impl Nystrom {
+    /// Those of `landmarks` that a kernel of this length still separates.
+    pub(super) fn new(landmarks: &Landmarks, length: f64) -> Nystrom {
+        let rate = rate(length, landmarks.variance);
+        let width = landmarks.standard.centre().len();
+        let (mut kept, mut rows, mut factor) = (Vec::new(), Vec::new(), Vec::new());
+        for (position, &sample) in landmarks.chosen.iter().enumerate() {
+            let distances = landmarks.of(sample);
+            let mut row: Vec<f64> = kept
+                .iter()
+                .map(|&other: &usize| kernel(distances[other], rate))
+                .collect();
+            substitute(&factor, &mut row);
+            let left = 1.0 - dot(&row, &row);
+            if left > EXPLAINED {
+                kept.push(position);
+                factor.extend(row);
+                factor.push(left.sqrt());
+                rows.extend_from_slice(&landmarks.rows[position * width..(position + 1) * width]);
+            }
+        }
+        Nystrom {
+            standard: landmarks.standard.clone(),
+            length,
+            rate,
+            rows,
+            factor,
+            kept,
+        }
+    }
+
+    /// Of ready numbers, whose lengths were checked.
+    pub(super) fn ready(
+        standard: Standard,
+        (length, rate): (f64, f64),
+        rows: Vec<f32>,
+        factor: Vec<f64>,
+    ) -> Nystrom {
+        let count = rows.len() / standard.centre().len().max(1);
+        Nystrom {
+            standard,
+            length,
+            rate,
+            rows,
+            factor,
+            kept: (0..count).collect(),
+        }
+    }
+
+    /// How many features there are: one a landmark.
+    pub(super) fn len(&self) -> usize {
+        self.kept.len()
+    }
+
+    /// The features of the training samples, from distances that are known.
+    pub(super) fn of_training(&self, landmarks: &Landmarks) -> Features {
+        let count = landmarks.chosen.len();
+        let samples = landmarks.distances.par_chunks_exact(count);
+        let values: Vec<Vec<f32>> = samples
+            .map(|distances| {
+                let kernels = self
+                    .kept
+                    .iter()
+                    .map(|&kept| kernel(distances[kept], self.rate));
+                self.finish(kernels.collect())
+            })
+            .collect();
+        self.features(values)
+    }
+
+    /// The features of any samples.
+    pub(super) fn of(&self, features: &Features) -> Features {
+        let width = self.standard.centre().len();
+        let samples = features.values().par_chunks(CHUNK * width);
+        let values: Vec<Vec<f32>> = samples
+            .map(|samples| {
+                let samples = samples.chunks_exact(width);
+                samples.flat_map(|sample| self.of_one(sample)).collect()
+            })
+            .collect();
+        self.features(values)
+    }
+
+    /// The features of one sample.
+    pub(super) fn of_one(&self, sample: &[f32]) -> Vec<f32> {
+        let mut own = vec![0.0; sample.len()];
+        self.standard.write(sample, &mut own);
+        let landmarks = self.rows.chunks_exact(sample.len());
+        let kernels = landmarks.map(|row| kernel(squared_distance(&own, row), self.rate));
+        self.finish(kernels.collect())
+    }
+
+    #[expect(
+        clippy::cast_possible_truncation,
+        reason = "features are kept in single precision"
+    )]
+    fn finish(&self, mut kernels: Vec<f64>) -> Vec<f32> {
+        substitute(&self.factor, &mut kernels);
+        kernels.into_iter().map(|value| value as f32).collect()
+    }
+
+    fn features(&self, values: Vec<Vec<f32>>) -> Features {
+        Features::new(FeatureShape::flat(self.len()), values.concat())
+            .expect("a value a landmark for every sample")
+    }
+}
+
+/// L⁻¹ `values`, in place.
+fn substitute(factor: &[f64], values: &mut [f64]) {
+    let mut start = 0;
+    for position in 0..values.len() {
+        let row = &factor[start..start + position];
+        let known = dot(row, &values[..position]);
+        values[position] = (values[position] - known) / factor[start + position];
+        start += position + 1;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::linalg::FeatureScale;
+    use taceva_core::SilentProgress;
+
+    #[test]
+    fn where_every_sample_is_a_landmark_products_are_the_kernel() {
+        let mut random = taceva_core::random::SplitMix64::new(6);
+        let values = (0..40).map(|_| f32::from(random.next_u64().to_le_bytes()[0]));
+        let values: Vec<f32> = values.collect();
+        let features = Features::new(FeatureShape::flat(4), values).expect("ten samples");
+        let landmarks = Landmarks::choose(&features, FeatureScale::Unit, 10, &SilentProgress)
+            .expect("not cancelled");
+        let map = Nystrom::new(&landmarks, 0.5);
+        assert_eq!(map.len(), 10, "every sample is one");
+        let mapped = map.of_training(&landmarks);
+        assert_eq!(mapped, map.of(&features));
+        for a in 0..10 {
+            for b in 0..10 {
+                let products = mapped.sample(a).iter().zip(mapped.sample(b));
+                let found: f64 = products.map(|(a, b)| f64::from(a * b)).sum();
+                let rows = landmarks.standard.rows(&features);
+                let distance = squared_distance(&rows[4 * a..4 * a + 4], &rows[4 * b..4 * b + 4]);
+                let expected = kernel(distance, map.rate);
+                // Ten products of features in single precision.
+                assert!((found - expected).abs() < 2e-6, "{found} for {expected}");
+            }
+        }
+    }
+}

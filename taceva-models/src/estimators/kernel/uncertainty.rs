@@ -1,0 +1,114 @@
+//! How sure a Gaussian process is of a prediction.
+
+use crate::file::FormatError;
+use crate::file::tensors::{Raw, Tensors};
+use crate::linalg::dot;
+
+/// The posterior of the weights, channel by channel.
+///
+/// Var(x) = s² ((1 − φᵀφ) + λ φᵀ(ΦᵀΦ + λ)⁻¹φ + λ (1 + 1/n)), with φ in the second term centred as Φ is: what landmarks do not explain, what
+/// the samples leave open, and the noise λs² of a label with that of the mean.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Uncertainty {
+    /// The mean of Φ.
+    pub(super) centre: Vec<f64>,
+    /// The eigenvectors of ΦᵀΦ, one after the other.
+    pub(super) vectors: Vec<f64>,
+    /// The eigenvalues that go with them.
+    pub(super) eigenvalues: Vec<f64>,
+    /// λ of each channel: the variance of the noise over that of the signal.
+    pub(super) ratio: Vec<f64>,
+    /// s² of each channel, in its unit squared.
+    pub(super) signal: Vec<f64>,
+    /// λ (1 + 1/n) of each channel.
+    pub(super) noise: Vec<f64>,
+}
+
+const CENTRE: &str = "posterior.centre";
+const VECTORS: &str = "posterior.vectors";
+const EIGENVALUES: &str = "posterior.eigenvalues";
+const RATIO: &str = "posterior.ratio";
+const SIGNAL: &str = "posterior.signal";
+const NOISE: &str = "posterior.noise";
+
+impl Uncertainty {
+    /// Writes the standard deviation of each channel of a sample whose features are `mapped`.
+    pub(super) fn write(&self, mapped: &[f32], into: &mut [f64]) {
+        let own: f64 = mapped.iter().map(|&value| f64::from(value).powi(2)).sum();
+        let centred: Vec<f64> = mapped
+            .iter()
+            .zip(&self.centre)
+            .map(|(&value, centre)| f64::from(value) - centre)
+            .collect();
+        let along: Vec<f64> = self
+            .vectors
+            .chunks_exact(centred.len())
+            .map(|vector| dot(vector, &centred).powi(2))
+            .collect();
+        let unseen = (dot(&centred, &centred) - along.iter().sum::<f64>()).max(0.0);
+        let unexplained = (1.0 - own).max(0.0);
+        for (channel, place) in into.iter_mut().enumerate() {
+            let ratio = self.ratio[channel];
+            let seen = along.iter().zip(&self.eigenvalues);
+            let open: f64 = seen
+                .map(|(along, value)| along * ratio / (value + ratio))
+                .sum();
+            let share = unexplained + open + unseen + self.noise[channel];
+            *place = (self.signal[channel] * share).sqrt();
+        }
+    }
+
+    /// The same, its deviations times `reaches`, channel by channel.
+    pub(super) fn reaching(mut self, reaches: &[f64]) -> Uncertainty {
+        let signals = self.signal.iter_mut().zip(reaches);
+        signals.for_each(|(signal, reach)| *signal *= reach * reach);
+        self
+    }
+
+    pub(super) fn tensors(&self) -> Vec<Raw> {
+        let list = |name, values: &[f64]| Raw::doubles(name, vec![values.len()], values);
+        let shape = vec![self.eigenvalues.len(), self.centre.len()];
+        vec![
+            list(CENTRE, &self.centre),
+            list(EIGENVALUES, &self.eigenvalues),
+            list(NOISE, &self.noise),
+            list(RATIO, &self.ratio),
+            list(SIGNAL, &self.signal),
+            Raw::doubles(VECTORS, shape, &self.vectors),
+        ]
+    }
+
+    /// What a file of `count` landmarks holds of it, if anything.
+    pub(super) fn from_tensors(
+        tensors: &Tensors<'_>,
+        count: usize,
+        channels: usize,
+    ) -> Result<Option<Uncertainty>, FormatError> {
+        if !tensors.has(VECTORS) {
+            return Ok(None);
+        }
+        let known = tensors.rows(VECTORS)?;
+        let found = Uncertainty {
+            centre: tensors.doubles(CENTRE, &[count])?,
+            vectors: tensors.doubles(VECTORS, &[known, count])?,
+            eigenvalues: tensors.doubles(EIGENVALUES, &[known])?,
+            ratio: tensors.doubles(RATIO, &[channels])?,
+            signal: tensors.doubles(SIGNAL, &[channels])?,
+            noise: tensors.doubles(NOISE, &[channels])?,
+        };
+        let finite = [&found.centre, &found.vectors, &found.eigenvalues];
+        let positive = [&found.ratio, &found.noise];
+        let valid = finite.into_iter().flatten().all(|value| value.is_finite())
+            && found
+                .eigenvalues
+                .iter()
+                .chain(&found.signal)
+                .all(|value| *value >= 0.0)
+            && positive.into_iter().flatten().all(|value| *value > 0.0);
+        if valid {
+            Ok(Some(found))
+        } else {
+            Err(FormatError::Card)
+        }
+    }
+}

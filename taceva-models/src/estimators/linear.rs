@@ -1,0 +1,289 @@
+//! A prediction that is linear in the features, which is what every estimator here arrives at.
+
+use faer::Mat;
+use rayon::prelude::*;
+use taceva_core::{
+    Channels, ErrorKind, Estimator, FeatureShape, Features, ModelError, Progress, Regressor,
+    TrainingSet,
+};
+
+use crate::features::Pca;
+use crate::file::FormatError;
+use crate::file::tensors::{Raw, Tensors};
+use crate::linalg::Design;
+use crate::training::choice::Choice;
+use crate::training::label_scaling::LabelScaling;
+use crate::training::output::{check_call, check_finite};
+use crate::training::problem::{Problem, invalid};
+
+/// An estimator whose regressor is linear, and that can say what it chose.
+pub trait LinearEstimator: Estimator {
+    /// Learns as [`Estimator::fit`] does.
+    ///
+    /// # Errors
+    /// As [`Estimator::fit`].
+    fn fit_linear(
+        &self,
+        training: &TrainingSet<'_>,
+        validation: Option<&TrainingSet<'_>>,
+        progress: &dyn Progress,
+    ) -> Result<LinearFit, ModelError>;
+}
+
+/// What fitting gave.
+#[derive(Clone, Debug)]
+pub struct LinearFit {
+    /// The fitted model, in the units of the channels.
+    pub regressor: LinearRegressor,
+    /// What was chosen for each channel, and how well it did.
+    pub choice: Choice,
+    /// The label ranges it was fitted in.
+    pub scaling: LabelScaling,
+    /// Whether the validation part was learnt from too, once the settings were chosen.
+    pub refitted: bool,
+}
+
+/// Predicts each channel as bias + Σ weight · feature.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LinearRegressor {
+    channels: Channels,
+    shape: FeatureShape,
+    weights: Vec<f64>,
+    bias: Vec<f64>,
+}
+
+/// The tensors of a linear model, in the order of their names.
+const BIAS: &str = "bias";
+const WEIGHTS: &str = "weights";
+
+/// Samples a thread takes at a time.
+const CHUNK: usize = 64;
+
+impl LinearRegressor {
+    /// A regressor of ready weights.
+    ///
+    /// # Shapes
+    /// `weights`: `[channels, features]`; `bias`: `[channels]`.
+    /// # Units
+    /// Those of the channels.
+    /// # Errors
+    /// [`ModelError`] if a length differs or a number is not finite.
+    pub fn new(
+        channels: Channels,
+        shape: FeatureShape,
+        weights: Vec<f64>,
+        bias: Vec<f64>,
+    ) -> Result<LinearRegressor, ModelError> {
+        let expected = channels.len().checked_mul(shape.len());
+        if Some(weights.len()) != expected || bias.len() != channels.len() {
+            return Err(invalid(format!(
+                "{} weights and {} biases for {} channels of {} features",
+                weights.len(),
+                bias.len(),
+                channels.len(),
+                shape.len()
+            )));
+        }
+        if !weights.iter().chain(&bias).all(|value| value.is_finite()) {
+            return Err(ModelError::new(
+                ErrorKind::OutOfRange,
+                "a weight is not finite",
+            ));
+        }
+        Ok(LinearRegressor {
+            channels,
+            shape,
+            weights,
+            bias,
+        })
+    }
+
+    /// The regressor that `weights` of the centred features of `design` and the `mean` of scaled labels make.
+    pub(crate) fn from_scaled(
+        problem: &Problem<'_>,
+        design: &Design<'_>,
+        weights: &Mat<f64>,
+        mean: &[f64],
+    ) -> Result<LinearRegressor, ModelError> {
+        let shape = problem.training.features.shape();
+        LinearRegressor::of_design((problem, shape), design, weights, mean)
+    }
+
+    /// The same of features that something else was made into: those of a kernel.
+    pub(crate) fn from_mapped(
+        problem: &Problem<'_>,
+        design: &Design<'_>,
+        weights: &Mat<f64>,
+        mean: &[f64],
+    ) -> Result<LinearRegressor, ModelError> {
+        let shape = FeatureShape::flat(design.width());
+        LinearRegressor::of_design((problem, shape), design, weights, mean)
+    }
+
+    fn of_design(
+        (problem, shape): (&Problem<'_>, FeatureShape),
+        design: &Design<'_>,
+        weights: &Mat<f64>,
+        mean: &[f64],
+    ) -> Result<LinearRegressor, ModelError> {
+        let mut flat = Vec::with_capacity(weights.nrows() * weights.ncols());
+        let mut bias = Vec::with_capacity(mean.len());
+        for (channel, mean) in mean.iter().enumerate() {
+            let (minimum, span) = (
+                problem.scaling.minimum()[channel],
+                problem.scaling.span()[channel],
+            );
+            let start = flat.len();
+            flat.extend(
+                weights
+                    .col_as_slice(channel)
+                    .iter()
+                    .map(|weight| weight * span),
+            );
+            if let Some(factor) = design.factor() {
+                let places = flat[start..].iter_mut().zip(factor);
+                places.for_each(|(weight, factor)| *weight *= factor);
+            }
+            let at_centre: f64 = flat[start..]
+                .iter()
+                .zip(design.centre())
+                .map(|(weight, centre)| weight * centre)
+                .sum();
+            bias.push(minimum + span * mean - at_centre);
+        }
+        LinearRegressor::new(problem.training.targets.channels.clone(), shape, flat, bias)
+    }
+
+    /// The tensors of a file.
+    pub(crate) fn tensors(&self) -> Vec<Raw> {
+        let (channels, features) = (self.channels.len(), self.shape.len());
+        vec![
+            Raw::doubles(BIAS, vec![channels], &self.bias),
+            Raw::doubles(WEIGHTS, vec![channels, features], &self.weights),
+        ]
+    }
+
+    /// The model that a file holds.
+    pub(crate) fn from_tensors(
+        tensors: &Tensors<'_>,
+        channels: Channels,
+        shape: FeatureShape,
+    ) -> Result<LinearRegressor, FormatError> {
+        tensors.only(&[BIAS, WEIGHTS])?;
+        let bias = tensors.doubles(BIAS, &[channels.len()])?;
+        let weights = tensors.doubles(WEIGHTS, &[channels.len(), shape.len()])?;
+        Ok(LinearRegressor::new(channels, shape, weights, bias)?)
+    }
+
+    /// The weights of each channel's features.
+    ///
+    /// # Shapes
+    /// `[channels, features]`.
+    pub fn weights(&self) -> &[f64] {
+        &self.weights
+    }
+
+    /// What each channel is predicted as where every feature is 0.
+    pub fn bias(&self) -> &[f64] {
+        &self.bias
+    }
+
+    /// The regressor of pixels that equals `self` on the components of `pca`.
+    pub(crate) fn through(&self, pca: &Pca) -> Result<LinearRegressor, ModelError> {
+        let components = self.shape.len();
+        let mut weights = vec![0.0; self.channels.len() * pca.mean().len()];
+        let mut bias = self.bias.clone();
+        let rows = weights.chunks_exact_mut(pca.mean().len());
+        for ((row, bias), own) in rows
+            .zip(&mut bias)
+            .zip(self.weights.chunks_exact(components))
+        {
+            for (weight, component) in own.iter().zip(pca.components()) {
+                let places = row.iter_mut().zip(component);
+                places.for_each(|(place, value)| *place += weight * value);
+            }
+            let at_mean: f64 = row
+                .iter()
+                .zip(pca.mean())
+                .map(|(weight, mean)| weight * mean)
+                .sum();
+            *bias -= at_mean;
+        }
+        LinearRegressor::new(self.channels.clone(), pca.shape(), weights, bias)
+    }
+
+    /// Predicts one sample.
+    ///
+    /// # Shapes
+    /// `sample`: `[features]`; `into`: `[channels]`, the caller's.
+    /// # Errors
+    /// [`ModelError`] if a shape differs, or a prediction is not finite.
+    pub fn predict_one(&self, sample: &[f32], into: &mut [f64]) -> Result<(), ModelError> {
+        if sample.len() != self.shape.len() || into.len() != self.channels.len() {
+            return Err(invalid(format!(
+                "a sample of {} features into {} places, expected {} and {}",
+                sample.len(),
+                into.len(),
+                self.shape.len(),
+                self.channels.len()
+            )));
+        }
+        self.write(sample, into);
+        match into.iter().position(|value| !value.is_finite()) {
+            None => Ok(()),
+            Some(channel) => Err(ModelError::new(
+                ErrorKind::OutOfRange,
+                format!(
+                    "the prediction of `{}` is not finite",
+                    self.channels.as_slice()[channel]
+                ),
+            )),
+        }
+    }
+
+    pub(crate) fn write(&self, sample: &[f32], into: &mut [f64]) {
+        let rows = self.weights.chunks_exact(sample.len().max(1));
+        for ((place, row), bias) in into.iter_mut().zip(rows).zip(&self.bias) {
+            *place = bias + dot(row, sample);
+        }
+    }
+}
+
+/// Eight partial sums, so that the additions do not wait for each other; always in the same order.
+fn dot(weights: &[f64], values: &[f32]) -> f64 {
+    let (weights, last_weights) = weights.as_chunks::<8>();
+    let (values, last_values) = values.as_chunks::<8>();
+    let mut sums = [0.0; 8];
+    for (weights, values) in weights.iter().zip(values) {
+        for ((sum, weight), &value) in sums.iter_mut().zip(weights).zip(values) {
+            *sum += weight * f64::from(value);
+        }
+    }
+    let last = last_weights.iter().zip(last_values);
+    let rest: f64 = last.map(|(weight, &value)| weight * f64::from(value)).sum();
+    sums.iter().sum::<f64>() + rest
+}
+
+impl Regressor for LinearRegressor {
+    fn channels(&self) -> &Channels {
+        &self.channels
+    }
+
+    fn shape(&self) -> FeatureShape {
+        self.shape
+    }
+
+    fn predict(&self, features: &Features, into: &mut [f64]) -> Result<(), ModelError> {
+        let channels = self.channels.len();
+        check_call(&self.channels, self.shape, features, into)?;
+        into.par_chunks_mut(CHUNK * channels)
+            .zip(features.values().par_chunks(CHUNK * self.shape.len()))
+            .for_each(|(into, samples)| {
+                let samples = samples.chunks_exact(self.shape.len());
+                for (into, sample) in into.chunks_exact_mut(channels).zip(samples) {
+                    self.write(sample, into);
+                }
+            });
+        check_finite(&self.channels, into)
+    }
+}

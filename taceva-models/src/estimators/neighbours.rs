@@ -1,0 +1,157 @@
+//! The mean of the training samples that look most alike.
+
+mod regressor;
+
+use faer::Mat;
+use rayon::prelude::*;
+use taceva_core::{ModelError, Progress, TrainingSet};
+
+pub use self::regressor::NeighbourRegressor;
+use self::regressor::{nearest, weighted};
+use crate::features::FeatureSpec;
+use crate::linalg::FeatureScale;
+use crate::linalg::standard::Standard;
+use crate::registry::ModelInfo;
+use crate::settings::{SettingError, SettingInfo, Settings, number};
+use crate::training::choice::Errors;
+use crate::training::fit::{ModelEstimator, ModelFit, ModelRegressor, estimator};
+use crate::training::output::OutputScale;
+use crate::training::problem::Problem;
+use crate::training::progress::interrupted;
+use crate::training::trials::{Trials, rows_of};
+
+/// k nearest neighbours: the labels of the k training samples of least distance, each weighted by 1 / distance.
+///
+/// Samples exactly as far as the k-th count too, and where a sample equals some training samples, these alone. Of the numbers
+/// 1, 2, 3, 5, 8, 13, 21, 34 each channel gets its own: the one of least squared error on the validation part; without one, on
+/// folds of the training part.
+///
+/// # Reference
+/// T. M. Cover, P. E. Hart, IEEE Trans. Inf. Theory 13 (1967) 21; D. Shepard, ACM Nat. Conf. 23 (1968) 517 (weights).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Neighbours {
+    scale: FeatureScale,
+    count: Option<usize>,
+    refit: bool,
+}
+
+const COUNT: SettingInfo = SettingInfo {
+    key: "neighbours",
+    accepts: "a number from 1 to 1000",
+    default: "chosen for each channel",
+    about: "how many training samples a prediction is the mean of",
+};
+
+/// The numbers that are tried; more neighbours are plainer.
+const COUNTS: [usize; 8] = [1, 2, 3, 5, 8, 13, 21, 34];
+
+impl Neighbours {
+    /// What the registry says of it.
+    pub const INFO: ModelInfo = ModelInfo {
+        name: "knn",
+        about: "the mean of the training samples that look most alike: nothing is assumed, nothing extrapolated",
+        settings: &[FeatureScale::SETTING, COUNT, SettingInfo::REFIT],
+        features: Some(FeatureSpec::DEFAULT),
+        make: |settings| Ok(Box::new(Neighbours::from_settings(settings)?)),
+    };
+
+    /// Nearest neighbours as `settings` ask for.
+    ///
+    /// # Errors
+    /// [`SettingError`] for an unknown key or a value out of range.
+    pub fn from_settings(settings: &Settings) -> Result<Neighbours, SettingError> {
+        settings.check_keys(Neighbours::INFO.settings)?;
+        Ok(Neighbours {
+            scale: FeatureScale::from_settings(settings)?,
+            count: settings.value(&COUNT, None, |text| number(text, 1..=1000).map(Some))?,
+            refit: settings.refit()?,
+        })
+    }
+}
+
+/// The summed squares of each channel (inner) for each number of neighbours (outer), on samples that are held out.
+fn squares(
+    learnt: (&[f32], &Mat<f64>),
+    held: (&[f32], &Mat<f64>),
+    counts: &[usize],
+    progress: &dyn Progress,
+) -> Result<Errors, ModelError> {
+    let channels = learnt.1.ncols();
+    let width = learnt.0.len() / learnt.1.nrows();
+    let most = counts.iter().copied().max().unwrap_or(1);
+    let samples: Result<Vec<Errors>, ModelError> = held
+        .0
+        .par_chunks_exact(width)
+        .enumerate()
+        .map(|(row, sample)| {
+            interrupted(progress)?;
+            let near = nearest(sample, learnt.0, most);
+            let of = |count: usize, channel: usize| {
+                let found = weighted(&near, count, |sample| learnt.1[(sample, channel)]);
+                (found - held.1[(row, channel)]).powi(2)
+            };
+            let counts = counts.iter();
+            Ok(counts
+                .map(|&count| (0..channels).map(|channel| of(count, channel)).collect())
+                .collect())
+        })
+        .collect();
+    let mut total = vec![vec![0.0; channels]; counts.len()];
+    for own in samples? {
+        let places = total.iter_mut().flatten();
+        places
+            .zip(own.iter().flatten())
+            .for_each(|(place, own)| *place += own);
+    }
+    Ok(total)
+}
+
+impl ModelEstimator for Neighbours {
+    fn fit_model(
+        &self,
+        training: &TrainingSet<'_>,
+        validation: Option<&TrainingSet<'_>>,
+        progress: &dyn Progress,
+    ) -> Result<ModelFit, ModelError> {
+        let problem = Problem::new(*training)?;
+        let held = problem.validation(validation)?;
+        let trials = Trials::new(&problem, held.as_ref(), self.count.is_none());
+        let counts = self
+            .count
+            .map_or_else(|| COUNTS.to_vec(), |count| vec![count]);
+        let errors = trials.errors(progress, |round| {
+            let features = trials.features.select(&round.learnt);
+            let standard = Standard::of(&features, self.scale);
+            let learnt = (
+                standard.rows(&features),
+                rows_of(&trials.labels, &round.learnt),
+            );
+            let held = standard.rows(&trials.features.select(&round.held));
+            let truth = rows_of(&trials.labels, &round.held);
+            squares((&learnt.0, &learnt.1), (&held, &truth), &counts, progress)
+        })?;
+        let values: Vec<f64> = counts.iter().map(|&count| count as f64).collect();
+        let (chosen, choice) = trials.choose(&problem, COUNT.key, &values, errors.as_ref());
+        let rows = trials.learnt(self.refit);
+        let standard = Standard::of(training.features, self.scale);
+        let features = trials.features.select(&rows);
+        let labels = rows_of(&trials.labels, &rows);
+        let regressor = NeighbourRegressor::new(
+            (training.targets.channels.clone(), training.features.shape()),
+            standard.rows(&features),
+            standard,
+            &labels,
+            OutputScale::of(&problem),
+            chosen.iter().map(|&candidate| counts[candidate]).collect(),
+        );
+        let refitted = self.refit && trials.has_validation();
+        Ok(ModelFit {
+            regressor: ModelRegressor::Neighbours(Box::new(regressor)),
+            choice,
+            refitted,
+            scaling: problem.scaling.clone(),
+        })
+    }
+}
+
+estimator!(Neighbours, |_| Neighbours::INFO.name);

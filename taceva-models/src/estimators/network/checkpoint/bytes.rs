@@ -1,0 +1,121 @@
+//! A checkpoint as bytes: a safetensors file whose metadata name the training.
+
+use std::collections::BTreeMap;
+use std::io::{self, BufWriter, Write};
+
+use safetensors::tensor::{Dtype, SafeTensors};
+use serde::{Deserialize, Serialize};
+use serde_json::json;
+use sha2::{Digest, Sha256};
+use taceva_network::{Checkpoint, NamedTensor, Summary};
+
+use super::identity::{Identity, Origin, add_numbers, hexadecimal};
+
+/// The key of the metadata.
+const KEY: &str = "taceva.checkpoint";
+/// A file of any other version is refused: it is of a training that another program began.
+const FORMAT: &str = "2";
+
+/// Four times the largest model: its weights now and at their best, and two moments of each.
+pub(super) const FILE_MAX: u64 = 1 << 30;
+
+/// What the metadata hold.
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Card {
+    format: String,
+    of: Origin,
+    summary: Summary,
+    /// The digest of the summary and of all tensors in the order of their names.
+    digest: String,
+}
+
+/// Writes `checkpoint` of the training that is `identity` to `file`, tensor by tensor, so that no second copy is made of it.
+pub(super) fn write(
+    identity: &Identity,
+    checkpoint: &Checkpoint,
+    file: impl Write,
+) -> io::Result<()> {
+    let card = Card {
+        format: FORMAT.to_owned(),
+        of: identity.of.clone(),
+        summary: checkpoint.summary.clone(),
+        digest: digest(checkpoint)?,
+    };
+    let card = serde_json::to_string(&card)?;
+    let mut header = BTreeMap::from([("__metadata__".to_owned(), json!({ KEY: card }))]);
+    let mut end = 0;
+    for tensor in &checkpoint.tensors {
+        let begin = end;
+        end += size_of_val(tensor.values.as_slice());
+        let place = json!({ "dtype": "F32", "shape": tensor.shape, "data_offsets": [begin, end] });
+        header.insert(tensor.name.clone(), place);
+    }
+    let mut header = serde_json::to_vec(&header)?;
+    // Tensors begin at a whole word.
+    header.resize(header.len().next_multiple_of(8), b' ');
+    let mut out = BufWriter::new(file);
+    out.write_all(&(header.len() as u64).to_le_bytes())?;
+    out.write_all(&header)?;
+    for tensor in &checkpoint.tensors {
+        for number in &tensor.values {
+            out.write_all(&number.to_le_bytes())?;
+        }
+    }
+    out.flush()
+}
+
+/// The checkpoint in `bytes`, and what it is of; or what is wrong with them.
+pub(super) fn read(bytes: &[u8]) -> Result<(Origin, Checkpoint), String> {
+    if bytes.len() as u64 > FILE_MAX {
+        return Err(format!("more than {FILE_MAX} bytes"));
+    }
+    let container = |error| format!("not a whole safetensors file: {error}");
+    let (_, header) = SafeTensors::read_metadata(bytes).map_err(container)?;
+    let text = header.metadata().as_ref().and_then(|keys| keys.get(KEY));
+    let text = text.ok_or_else(|| format!("the metadata lack `{KEY}`"))?;
+    let card: Card = serde_json::from_str(text).map_err(|error| error.to_string())?;
+    if card.format != FORMAT {
+        return Err(format!("format {}, expected {FORMAT}", card.format));
+    }
+    let found = SafeTensors::deserialize(bytes).map_err(container)?;
+    let mut tensors: Vec<NamedTensor> = Vec::new();
+    for (name, tensor) in found.tensors() {
+        if tensor.dtype() != Dtype::F32 {
+            return Err(format!(
+                "tensor `{}` is {:?}, expected F32",
+                taceva_core::shown(&name),
+                tensor.dtype()
+            ));
+        }
+        let (numbers, _) = tensor.data().as_chunks::<4>();
+        tensors.push(NamedTensor {
+            name,
+            shape: tensor.shape().to_vec(),
+            values: numbers
+                .iter()
+                .map(|bytes| f32::from_le_bytes(*bytes))
+                .collect(),
+        });
+    }
+    tensors.sort_by(|a, b| a.name.cmp(&b.name));
+    let checkpoint = Checkpoint {
+        summary: card.summary,
+        tensors,
+    };
+    match digest(&checkpoint) {
+        Ok(digest) if digest == card.digest => Ok((card.of, checkpoint)),
+        _ => Err("its numbers are not those that were written".to_owned()),
+    }
+}
+
+fn digest(checkpoint: &Checkpoint) -> serde_json::Result<String> {
+    let mut digest = Sha256::new();
+    digest.update(serde_json::to_vec(&checkpoint.summary)?);
+    for tensor in &checkpoint.tensors {
+        digest.update(&tensor.name);
+        digest.update([0]);
+        add_numbers(&mut digest, &tensor.values);
+    }
+    Ok(hexadecimal(digest))
+}

@@ -1,0 +1,241 @@
+//! Networks before they are fitted: what can be set.
+
+use taceva_core::FeatureShape;
+use taceva_gpu::GpuKind;
+use taceva_network::{Architecture, Augmentation, Depth, Jitter, Loss, Optimizer, Recipe};
+
+use super::regressor::picture;
+use super::{Checkpoints, Preprocessing};
+use crate::features::{Color, FeatureKinds, FeatureSpec};
+use crate::registry::ModelInfo;
+use crate::settings::{SettingError, SettingInfo, Settings, number};
+
+/// A network to be fitted: AdamW, one cycle of the rate, Huber's loss on standardised labels, the epoch that does best on the
+/// validation part.
+#[derive(Clone, Debug, PartialEq)]
+pub struct NetworkEstimator {
+    kind: Kind,
+    pub(super) recipe: Recipe,
+    pub(super) preprocessing: Preprocessing,
+    /// How the GPU that trains is reached, where the processor does not.
+    pub(super) gpu: Option<GpuKind>,
+    pub(super) checkpoints: Option<Checkpoints>,
+}
+
+/// Which network.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Kind {
+    FiveLayers,
+    Residual(Depth),
+}
+
+const EPOCHS: SettingInfo = SettingInfo {
+    key: "epochs",
+    accepts: "a number from 1 to 100000",
+    default: "200 for cnn, 60 for the residual ones",
+    about: "how often each training sample is seen",
+};
+const BATCH: SettingInfo = SettingInfo {
+    key: "batch",
+    accepts: "a number from 2 to 4096",
+    default: "32",
+    about: "samples of a step",
+};
+const RATE: SettingInfo = SettingInfo {
+    key: "rate",
+    accepts: "a number above 0 and at most 10",
+    default: "0.003 for cnn, 0.001 for the residual ones",
+    about: "the highest rate of the cycle",
+};
+const DECAY: SettingInfo = SettingInfo {
+    key: "weight_decay",
+    accepts: "a number from 0 to 10",
+    default: "0.1",
+    about: "the decay of weights",
+};
+const SEED: SettingInfo = SettingInfo {
+    key: "seed",
+    accepts: "a whole number",
+    default: "1",
+    about: "what first weights, order and augmentation are drawn from",
+};
+const PATIENCE: SettingInfo = SettingInfo {
+    key: "patience",
+    accepts: "a number of epochs from 1 on",
+    default: "all epochs are made",
+    about: "epochs without a better one on the validation part after which training stops",
+};
+const JITTER: SettingInfo = SettingInfo {
+    key: "jitter",
+    accepts: "a number of pixels from 0 to 100",
+    default: "3",
+    about: "how far training pictures are shifted",
+};
+const NOISE: SettingInfo = SettingInfo {
+    key: "noise",
+    accepts: "a number from 0 to 10",
+    default: "0.1",
+    about: "the standard deviation of what is added to training pictures, after preprocessing",
+};
+const BRIGHTNESS: SettingInfo = SettingInfo {
+    key: "brightness",
+    accepts: "a number from 0 to 1",
+    default: "0",
+    about: "by which share training pictures are made brighter or darker at most, after preprocessing",
+};
+const LOCAL_MEAN: SettingInfo = SettingInfo {
+    key: "local_mean",
+    accepts: "a number of pixels from 0 to 100",
+    default: "6",
+    about: "the standard deviation of the Gaussian whose mean is subtracted around each pixel; 0 subtracts nothing",
+};
+const CONTRAST: SettingInfo = SettingInfo {
+    key: "contrast",
+    accepts: "true or false",
+    default: "true",
+    about: "whether each picture is divided by its standard deviation",
+};
+const DEVICE: SettingInfo = SettingInfo {
+    key: "device",
+    accepts: "cpu, cuda or wgpu",
+    default: "cpu",
+    about: "what trains; a GPU needs a program built with the feature of that name, and gives other last digits each time",
+};
+
+const SETTINGS: &[SettingInfo] = &[
+    EPOCHS, BATCH, RATE, DECAY, SEED, PATIENCE, JITTER, NOISE, BRIGHTNESS, LOCAL_MEAN, CONTRAST,
+    DEVICE,
+];
+
+/// What networks see where nothing else is asked for.
+const FEATURES: FeatureSpec = FeatureSpec {
+    kinds: FeatureKinds::PIXELS,
+    width: 128,
+    height: 96,
+    color: Color::Gray,
+    difference: false,
+    pca: None,
+};
+
+/// A [`ModelInfo`] of a network.
+macro_rules! info {
+    ($name:literal, $about:literal, $kind:expr) => {
+        ModelInfo {
+            name: $name,
+            about: $about,
+            settings: SETTINGS,
+            features: Some(FEATURES),
+            make: |settings| Ok(Box::new(NetworkEstimator::from_settings($kind, settings)?)),
+        }
+    };
+}
+
+impl NetworkEstimator {
+    /// The small network in the list of models.
+    pub const CNN: ModelInfo = info!(
+        "cnn",
+        "five convolutions: sees where markers move, fitted in a minute",
+        Kind::FiveLayers
+    );
+    /// The residual network of ten layers in the list of models.
+    pub const RESNET_10: ModelInfo = info!(
+        "resnet10",
+        "a residual network of ten layers",
+        Kind::Residual(Depth::Ten)
+    );
+    /// The residual network of eighteen layers in the list of models.
+    pub const RESNET_18: ModelInfo = info!(
+        "resnet18",
+        "a residual network of eighteen layers",
+        Kind::Residual(Depth::Eighteen)
+    );
+    /// The residual network of thirty-four layers in the list of models.
+    pub const RESNET_34: ModelInfo = info!(
+        "resnet34",
+        "a residual network of thirty-four layers",
+        Kind::Residual(Depth::ThirtyFour)
+    );
+
+    /// The small network as `settings` ask for.
+    ///
+    /// # Errors
+    /// [`SettingError`] for an unknown key or a value out of range.
+    pub fn cnn(settings: &Settings) -> Result<NetworkEstimator, SettingError> {
+        NetworkEstimator::from_settings(Kind::FiveLayers, settings)
+    }
+
+    fn from_settings(kind: Kind, settings: &Settings) -> Result<NetworkEstimator, SettingError> {
+        settings.check_keys(SETTINGS)?;
+        let (epochs, rate) = match kind {
+            Kind::FiveLayers => (200, 3e-3),
+            Kind::Residual(_) => (60, 1e-3),
+        };
+        let weight_decay = settings.value(&DECAY, 0.1, |text| number(text, 0.0..=10.0))?;
+        let gpu = settings.value(&DEVICE, None, gpu_of)?;
+        if let Some(kind) = gpu {
+            kind.check_built()
+                .map_err(|source| SettingError::Device { kind, source })?;
+        }
+        let pixels = settings.value(&JITTER, 3, |text| number(text, 0..=100))?;
+        Ok(NetworkEstimator {
+            kind,
+            recipe: Recipe {
+                epochs: settings.value(&EPOCHS, epochs, |text| number(text, 1..=100_000))?,
+                batch: settings.value(&BATCH, 32, |text| number(text, 2..=4096))?,
+                rate: settings.value(&RATE, rate, |text| {
+                    number(text, 0.0..=10.0).filter(|rate| *rate > 0.0)
+                })?,
+                optimizer: Optimizer::AdamW {
+                    betas: (0.9, 0.999),
+                    epsilon: 1e-8,
+                    weight_decay,
+                },
+                loss: Loss::Huber { delta: 1.0 },
+                seed: settings.value(&SEED, 1, |text| text.parse().ok())?,
+                patience: settings.value(&PATIENCE, None, |text| number(text, 1..).map(Some))?,
+                augmentation: Augmentation {
+                    brightness: settings.value(&BRIGHTNESS, 0.0, |text| number(text, 0.0..=1.0))?,
+                    noise: settings.value(&NOISE, 0.1, |text| number(text, 0.0..=10.0))?,
+                    jitter: Jitter {
+                        pixels,
+                        label_per_pixel: Vec::new(),
+                    },
+                },
+                ..Recipe::default()
+            },
+            preprocessing: Preprocessing {
+                local_mean_px: settings.value(&LOCAL_MEAN, 6.0, |text| {
+                    number(text, 0.0..=Preprocessing::LOCAL_MEAN_MAX)
+                })?,
+                contrast: settings.value(&CONTRAST, true, |text| text.parse().ok())?,
+            },
+            gpu,
+            checkpoints: None,
+        })
+    }
+
+    pub(super) fn info(&self) -> ModelInfo {
+        match self.kind {
+            Kind::FiveLayers => NetworkEstimator::CNN,
+            Kind::Residual(Depth::Ten) => NetworkEstimator::RESNET_10,
+            Kind::Residual(Depth::Eighteen) => NetworkEstimator::RESNET_18,
+            Kind::Residual(Depth::ThirtyFour) => NetworkEstimator::RESNET_34,
+        }
+    }
+
+    pub(super) fn architecture(&self, shape: FeatureShape, outputs: usize) -> Architecture {
+        match self.kind {
+            Kind::FiveLayers => Architecture::five_layers(picture(shape), outputs),
+            Kind::Residual(depth) => Architecture::residual(depth, picture(shape), outputs),
+        }
+    }
+}
+
+/// The GPU that `device` means, none for the processor.
+fn gpu_of(device: &str) -> Option<Option<GpuKind>> {
+    if device == "cpu" {
+        return Some(None);
+    }
+    let mut kinds = GpuKind::ALL.into_iter();
+    kinds.find(|kind| kind.name() == device).map(Some)
+}

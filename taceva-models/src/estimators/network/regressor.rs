@@ -1,0 +1,188 @@
+//! A fitted network.
+
+use std::sync::Mutex;
+
+use taceva_core::{Channels, ErrorKind, FeatureShape, Features, ModelError, Regressor};
+use taceva_network::{NamedTensor, Network, Picture, Predictor};
+
+use super::NetworkCard;
+use crate::training::problem::invalid;
+
+/// A fitted network, from features to channels.
+#[derive(Debug)]
+pub struct NetworkRegressor {
+    channels: Channels,
+    card: NetworkCard,
+    network: Network,
+    /// Predictors that nobody uses right now: each call takes one, or makes one.
+    spare: Mutex<Vec<Predictor>>,
+}
+
+impl NetworkRegressor {
+    /// A regressor of a ready network.
+    ///
+    /// # Errors
+    /// [`ModelError`] if the card, the network and the channels do not go together.
+    pub(crate) fn new(
+        channels: Channels,
+        card: NetworkCard,
+        network: Network,
+    ) -> Result<NetworkRegressor, ModelError> {
+        let outputs = card.architecture.outputs;
+        let varying = card.constant.iter().filter(|label| label.is_none()).count();
+        let lengths = [card.scale.offset.len(), card.scale.span.len()];
+        // Where every label was the same, one output is left that nobody reads.
+        if card.constant.len() != channels.len()
+            || varying.max(1) != outputs
+            || lengths != [outputs; 2]
+            || network.architecture() != &card.architecture
+        {
+            return Err(invalid(
+                "the card of the network is of other channels than its outputs",
+            ));
+        }
+        let numbers = card.scale.offset.iter().chain(&card.scale.span);
+        let mut numbers = numbers
+            .copied()
+            .chain(card.constant.iter().flatten().copied());
+        if !numbers.all(f64::is_finite) || !card.preprocessing.is_valid() {
+            return Err(ModelError::new(
+                ErrorKind::OutOfRange,
+                "the card of the network has a number out of range",
+            ));
+        }
+        Ok(NetworkRegressor {
+            channels,
+            card,
+            network,
+            spare: Mutex::new(Vec::new()),
+        })
+    }
+
+    /// What a file says of it.
+    pub fn card(&self) -> &NetworkCard {
+        &self.card
+    }
+
+    /// Its tensors: for residual networks under the names of torchvision.
+    pub fn tensors(&self) -> Vec<NamedTensor> {
+        self.network.tensors()
+    }
+
+    /// Whether any channel is predicted from what is seen.
+    pub(crate) fn reads_features(&self) -> bool {
+        self.card.constant.iter().any(Option::is_none)
+    }
+
+    /// The outputs for pictures that were preprocessed.
+    fn outputs(&self, pictures: &[f32], into: &mut [f64]) -> Result<(), ModelError> {
+        let spare = || {
+            self.spare
+                .lock()
+                .unwrap_or_else(std::sync::PoisonError::into_inner)
+        };
+        let taken = spare().pop();
+        let mut predictor = taken.unwrap_or_else(|| self.network.predictor());
+        let result = predictor.predict(pictures, into);
+        spare().push(predictor);
+        result.map_err(|error| invalid("predicting").because(error))
+    }
+}
+
+impl Clone for NetworkRegressor {
+    fn clone(&self) -> NetworkRegressor {
+        NetworkRegressor {
+            channels: self.channels.clone(),
+            card: self.card.clone(),
+            network: self.network.clone(),
+            spare: Mutex::new(Vec::new()),
+        }
+    }
+}
+
+impl PartialEq for NetworkRegressor {
+    fn eq(&self, other: &NetworkRegressor) -> bool {
+        self.channels == other.channels
+            && self.card == other.card
+            && self.tensors() == other.tensors()
+    }
+}
+
+/// Features as a network sees them.
+pub(super) const fn picture(shape: FeatureShape) -> Picture {
+    Picture {
+        height: shape.height,
+        width: shape.width,
+        channels: shape.depth,
+    }
+}
+
+impl Regressor for NetworkRegressor {
+    fn channels(&self) -> &Channels {
+        &self.channels
+    }
+
+    fn shape(&self) -> FeatureShape {
+        let Picture {
+            height,
+            width,
+            channels,
+        } = self.card.architecture.input;
+        FeatureShape {
+            height,
+            width,
+            depth: channels,
+        }
+    }
+
+    fn predict(&self, features: &Features, into: &mut [f64]) -> Result<(), ModelError> {
+        let channels = self.channels.len();
+        if features.shape() != self.shape() {
+            return Err(invalid(format!(
+                "features of shape {:?} for a model of {:?}",
+                features.shape(),
+                self.shape()
+            )));
+        }
+        if into.len() != features.samples() * channels {
+            return Err(invalid(format!(
+                "{} places for {} samples of {channels} channels",
+                into.len(),
+                features.samples()
+            )));
+        }
+        let width = self.card.architecture.outputs;
+        let mut outputs = vec![0.0; features.samples() * width];
+        if self.reads_features() {
+            let pictures = self
+                .card
+                .preprocessing
+                .apply(self.shape(), features.values());
+            self.outputs(&pictures, &mut outputs)?;
+        }
+        for (sample, (into, outputs)) in into
+            .chunks_exact_mut(channels)
+            .zip(outputs.chunks_exact(width))
+            .enumerate()
+        {
+            let mut outputs = outputs.iter().enumerate();
+            for (channel, (place, constant)) in into.iter_mut().zip(&self.card.constant).enumerate()
+            {
+                *place = match constant {
+                    Some(label) => *label,
+                    None => {
+                        let (output, value) = outputs.next().expect("an output a varying channel");
+                        self.card.scale.unscaled(output, *value)
+                    }
+                };
+                if !place.is_finite() {
+                    let name = &self.channels.as_slice()[channel];
+                    let message =
+                        format!("sample {sample}: the prediction of `{name}` is not finite");
+                    return Err(ModelError::new(ErrorKind::OutOfRange, message));
+                }
+            }
+        }
+        Ok(())
+    }
+}

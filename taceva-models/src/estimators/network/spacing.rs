@@ -1,0 +1,175 @@
+//! The spacing of a grating, predicted by a network.
+
+use taceva_core::{FeatureShape, Features, ModelError, Nanometre, Progress};
+use taceva_gpu::Gpu;
+use taceva_network::{LabelScale, Labels, Loss, Network, Recipe, Samples, Trained};
+
+use super::Preprocessing;
+use super::estimator::NetworkEstimator;
+use super::training::{Training, no_gpu, refused};
+use crate::training::problem::invalid;
+
+/// What the outputs of a network say of a spacing.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SpacingOutput {
+    /// An output for each spacing of the training pictures, learnt by cross-entropy: the prediction is one of them.
+    Classes,
+    /// One output, the spacing itself, learnt by Huber's loss: the prediction may lie between those of the training pictures.
+    Length,
+}
+
+/// A fitted network that predicts spacings.
+#[derive(Debug)]
+pub struct SpacingNetwork {
+    shape: FeatureShape,
+    preprocessing: Preprocessing,
+    /// Absent where all training pictures have one spacing: there is nothing to be learnt.
+    network: Option<(Network, LabelScale)>,
+    output: SpacingOutput,
+    /// The spacings of the training pictures, ascending.
+    known: Vec<Nanometre>,
+}
+
+impl NetworkEstimator {
+    /// A network that predicts the spacing of the grating in each of `pictures`, fitted with the recipe of this one.
+    ///
+    /// # Shapes
+    /// `spacings`: `[samples]`.
+    /// # Errors
+    /// [`ModelError`] if there are no pictures or not as many as spacings, or as [`Estimator::fit`](taceva_core::Estimator::fit).
+    pub fn fit_spacings(
+        &self,
+        (pictures, spacings): (&Features, &[Nanometre]),
+        output: SpacingOutput,
+        progress: &dyn Progress,
+    ) -> Result<SpacingNetwork, ModelError> {
+        let shape = pictures.shape();
+        if spacings.is_empty() || pictures.samples() != spacings.len() {
+            return Err(invalid(format!(
+                "{} pictures of gratings and {} spacings, expected as many of each, at least one",
+                pictures.samples(),
+                spacings.len()
+            )));
+        }
+        let mut known = spacings.to_vec();
+        known.sort_unstable();
+        known.dedup();
+        let outputs = match output {
+            SpacingOutput::Classes => known.len(),
+            SpacingOutput::Length => 1,
+        };
+        let learnt = Learnt::new(spacings, &known);
+        let labels = match output {
+            SpacingOutput::Classes => Labels::Classes(&learnt.classes),
+            SpacingOutput::Length => Labels::Values(&learnt.lengths),
+        };
+        let values = self.preprocessing.apply(shape, pictures.values());
+        let gpu = self.gpu.map(Gpu::find).transpose().map_err(no_gpu)?;
+        let network = if known.len() > 1 {
+            let training = Training {
+                architecture: &self.architecture(shape, outputs),
+                recipe: &self.recipe_of(output, spacings.len()),
+                samples: Samples {
+                    pictures: &values,
+                    labels,
+                },
+                validation: None,
+                gpu: gpu.as_ref(),
+                checkpoints: self.checkpoints.as_ref(),
+            };
+            let Trained { network, scale, .. } = training.run(progress)?;
+            Some((network, scale))
+        } else {
+            None
+        };
+        Ok(SpacingNetwork {
+            shape,
+            preprocessing: self.preprocessing,
+            network,
+            output,
+            known,
+        })
+    }
+
+    /// The recipe for outputs of that kind, in batches that `samples` make.
+    fn recipe_of(&self, output: SpacingOutput, samples: usize) -> Recipe {
+        Recipe {
+            batch: self.recipe.batch.min(samples),
+            loss: match output {
+                SpacingOutput::Classes => Loss::CrossEntropy,
+                SpacingOutput::Length => self.recipe.loss,
+            },
+            ..self.recipe.clone()
+        }
+    }
+}
+
+/// Spacings as labels.
+struct Learnt {
+    classes: Vec<u32>,
+    lengths: Vec<f64>,
+}
+
+impl Learnt {
+    fn new(spacings: &[Nanometre], known: &[Nanometre]) -> Learnt {
+        let class = |spacing: &Nanometre| known.partition_point(|other| other < spacing);
+        let classes = spacings.iter().map(class);
+        Learnt {
+            classes: classes
+                .map(|class| u32::try_from(class).expect("fewer classes than pictures in memory"))
+                .collect(),
+            lengths: spacings
+                .iter()
+                .map(|spacing| spacing.to_millimetres())
+                .collect(),
+        }
+    }
+}
+
+impl SpacingNetwork {
+    /// The spacing in each of `pictures`.
+    ///
+    /// # Errors
+    /// [`ModelError`] if the pictures are of another shape, or a prediction is no length.
+    pub fn predict(&self, pictures: &Features) -> Result<Vec<Nanometre>, ModelError> {
+        if pictures.shape() != self.shape {
+            return Err(invalid(format!(
+                "pictures of {} features, fitted to {}",
+                pictures.shape().len(),
+                self.shape.len()
+            )));
+        }
+        let Some((network, scale)) = &self.network else {
+            return Ok(vec![self.known[0]; pictures.samples()]);
+        };
+        let width = network.architecture().outputs;
+        let values = self
+            .preprocessing
+            .apply(pictures.shape(), pictures.values());
+        let mut outputs = vec![0.0; pictures.samples() * width];
+        let predicted = network.predictor().predict(&values, &mut outputs);
+        predicted.map_err(refused)?;
+        let found = outputs
+            .chunks_exact(width)
+            .map(|outputs| match self.output {
+                SpacingOutput::Classes => Some(self.known[greatest(outputs)]),
+                SpacingOutput::Length => Nanometre::from_millimetres(scale.unscaled(0, outputs[0])),
+            });
+        found
+            .collect::<Option<_>>()
+            .ok_or_else(|| invalid("a predicted spacing is no length"))
+    }
+}
+
+/// The place of the greatest number; the first of equal ones.
+fn greatest(outputs: &[f64]) -> usize {
+    let mut places = 0..outputs.len();
+    let first = places.next().unwrap_or(0);
+    places.fold(first, |best, place| {
+        if outputs[place] > outputs[best] {
+            place
+        } else {
+            best
+        }
+    })
+}

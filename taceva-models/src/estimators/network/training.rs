@@ -1,0 +1,118 @@
+//! A training, gone on with where it was interrupted.
+
+use taceva_core::shown;
+use taceva_core::{ErrorKind, ModelError, Progress};
+use taceva_gpu::{Gpu, GpuError};
+use taceva_network::{Architecture, NetworkError, Recipe, Samples, Trained, Trainer};
+
+use super::Checkpoints;
+use super::checkpoint::{Identity, Shelf};
+use crate::training::progress::{Stage, interrupted};
+
+/// What a training is made of.
+pub(super) struct Training<'a> {
+    pub(super) architecture: &'a Architecture,
+    pub(super) recipe: &'a Recipe,
+    pub(super) samples: Samples<'a>,
+    pub(super) validation: Option<Samples<'a>>,
+    /// What trains it, where the processor does not.
+    pub(super) gpu: Option<&'a Gpu>,
+    /// Where its checkpoints are kept.
+    pub(super) checkpoints: Option<&'a Checkpoints>,
+}
+
+impl<'a> Training<'a> {
+    /// Makes all steps that are left, with a word to whoever listens after each.
+    pub(super) fn run(&self, progress: &dyn Progress) -> Result<Trained, ModelError> {
+        let mut shelf = self.shelf();
+        let (name, mut trainer) = self.begin(shelf.as_ref())?;
+        let steps = usize::try_from(trainer.steps()).unwrap_or(usize::MAX);
+        let stage = Stage::begin(progress, name, steps);
+        stage.advance_by(trainer.state().step);
+        loop {
+            if let Err(stopped) = interrupted(progress) {
+                if let Some(shelf) = &mut shelf {
+                    shelf.put(&trainer)?;
+                }
+                return Err(stopped);
+            }
+            match trainer.step() {
+                Ok(Some(_)) => stage.advance(),
+                Ok(None) => return trainer.finish().map_err(refused),
+                Err(error) => return Err(broken(error, &trainer, shelf)),
+            }
+            if let Some(shelf) = &mut shelf {
+                shelf.put_if_due(&trainer)?;
+            }
+        }
+    }
+
+    fn shelf(&self) -> Option<Shelf<'a>> {
+        self.checkpoints.map(|checkpoints| {
+            let samples = (self.samples, self.validation);
+            let kind = self.gpu.map(Gpu::kind);
+            let identity = Identity::new(self.architecture, self.recipe, samples, kind);
+            Shelf::new(checkpoints, identity)
+        })
+    }
+
+    /// The training from its checkpoint, or a new one, and what to call it.
+    fn begin(&self, shelf: Option<&Shelf<'_>>) -> Result<(&'static str, Trainer<'a>), ModelError> {
+        let (samples, validation) = (self.samples, self.validation);
+        let found = shelf.map(Shelf::take).transpose()?.flatten();
+        let (name, trainer) = match found {
+            Some(found) => (
+                "training goes on",
+                Trainer::resume(found, samples, validation),
+            ),
+            None => (
+                "training",
+                Trainer::new(self.architecture, self.recipe, samples, validation),
+            ),
+        };
+        let trainer = trainer.map_err(refused)?;
+        let trainer = match self.gpu {
+            None => trainer,
+            Some(gpu) => {
+                let engine = |snapshot: &_, recipe: &_| gpu.engine(snapshot, recipe);
+                trainer.on(engine).map_err(refused)?
+            }
+        };
+        Ok((name, trainer))
+    }
+}
+
+/// What is said of a training that cannot go on, whose best epoch is kept where there is a place for it.
+fn broken(error: NetworkError, trainer: &Trainer<'_>, shelf: Option<Shelf<'_>>) -> ModelError {
+    let refusal = refused(error);
+    let Some((best, mut shelf)) = trainer.state().best.zip(shelf) else {
+        return refusal;
+    };
+    let epoch = format!("the best epoch until then, {},", best + 1);
+    let kept = match shelf.put(trainer) {
+        Ok(()) => format!("{epoch} is kept in {}", shown(&shelf.path())),
+        Err(problem) => format!("{epoch} could not be kept: {problem}"),
+    };
+    ModelError::new(refusal.kind(), format!("{refusal}; {kept}")).because(refusal)
+}
+
+/// What a network refused, as models say it.
+pub(super) fn refused(error: NetworkError) -> ModelError {
+    let kind = match error {
+        NetworkError::LossNotFinite { .. } | NetworkError::WeightNotFinite { .. } => {
+            ErrorKind::OutOfRange
+        }
+        NetworkError::Device { .. } => ErrorKind::DeviceFault,
+        _ => ErrorKind::InvalidArgument,
+    };
+    ModelError::new(kind, error.to_string()).because(error)
+}
+
+/// Why there is no GPU, as models say it.
+pub(super) fn no_gpu(error: GpuError) -> ModelError {
+    let kind = match error {
+        GpuError::NotFound { .. } => ErrorKind::NotFound,
+        _ => ErrorKind::Unsupported,
+    };
+    ModelError::new(kind, error.to_string()).because(error)
+}

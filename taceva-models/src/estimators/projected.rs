@@ -1,0 +1,78 @@
+//! A regressor of principal components, kept with them: what is not linear cannot be folded into weights of pixels.
+
+use taceva_core::{Channels, FeatureShape, Features, ModelError, Regressor};
+
+use crate::features::Pca;
+use crate::file::FormatError;
+use crate::file::tensors::{Raw, Tensors};
+use crate::training::fit::ModelRegressor;
+use crate::training::output::check_call;
+
+/// Principal components, and what predicts from them.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ProjectedRegressor {
+    pca: Pca,
+    inner: ModelRegressor,
+}
+
+const COMPONENTS: &str = "pca.components";
+const MEAN: &str = "pca.mean";
+const RATIO: &str = "pca.variance_ratio";
+
+impl ProjectedRegressor {
+    pub(crate) fn new(pca: Pca, inner: ModelRegressor) -> ProjectedRegressor {
+        ProjectedRegressor { pca, inner }
+    }
+
+    /// The regressor of components.
+    pub fn inner(&self) -> &ModelRegressor {
+        &self.inner
+    }
+
+    /// The standard deviation of every prediction, where the model knows it.
+    pub(crate) fn deviations(&self, features: &Features) -> Result<Option<Vec<f64>>, ModelError> {
+        self.inner.deviations(&self.pca.transform(features)?)
+    }
+
+    /// The tensors of a file.
+    pub(crate) fn tensors(&self) -> Vec<Raw> {
+        let (count, width) = (self.pca.variance_ratio().len(), self.pca.mean().len());
+        let components: Vec<f64> = self.pca.components().flatten().copied().collect();
+        let own = [
+            Raw::doubles(COMPONENTS, vec![count, width], &components),
+            Raw::doubles(MEAN, vec![width], self.pca.mean()),
+            Raw::doubles(RATIO, vec![count], self.pca.variance_ratio()),
+        ];
+        own.into_iter().chain(self.inner.tensors()).collect()
+    }
+
+    /// The components that a file holds.
+    pub(crate) fn pca_from(
+        tensors: &Tensors<'_>,
+        shape: FeatureShape,
+        count: usize,
+    ) -> Result<Pca, FormatError> {
+        let width = shape.len();
+        Ok(Pca::ready(
+            shape,
+            tensors.doubles(MEAN, &[width])?,
+            tensors.doubles(COMPONENTS, &[count, width])?,
+            tensors.doubles(RATIO, &[count])?,
+        )?)
+    }
+}
+
+impl Regressor for ProjectedRegressor {
+    fn channels(&self) -> &Channels {
+        self.inner.channels()
+    }
+
+    fn shape(&self) -> FeatureShape {
+        self.pca.shape()
+    }
+
+    fn predict(&self, features: &Features, into: &mut [f64]) -> Result<(), ModelError> {
+        check_call(self.channels(), self.shape(), features, into)?;
+        self.inner.predict(&self.pca.transform(features)?, into)
+    }
+}

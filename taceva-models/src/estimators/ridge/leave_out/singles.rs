@@ -1,0 +1,91 @@
+//! Samples left out one after the other: groups of one, all at once.
+
+use faer::Mat;
+use rayon::prelude::*;
+use taceva_core::{ModelError, Progress};
+
+use super::{LeaveOut, rows};
+use crate::linalg::multiply;
+use crate::training::choice::Errors;
+use crate::training::progress::{Stage, interrupted};
+
+/// Samples a block.
+const BLOCK: usize = 256;
+
+/// The diagonals of λ / (σ² + λ) and their products with the rotated targets, for every penalty.
+struct Shrunk {
+    shrinkage: Mat<f64>,
+    /// A column a penalty and channel, channels of one penalty side by side.
+    coefficients: Mat<f64>,
+}
+
+impl LeaveOut<'_> {
+    /// The mean squared error of each target at each penalty, each sample predicted by a fit that never saw it.
+    pub(in crate::estimators::ridge) fn singles(
+        &self,
+        penalties: &[f64],
+        progress: &dyn Progress,
+    ) -> Result<Errors, ModelError> {
+        let (samples, channels) = (self.targets.nrows(), self.targets.ncols());
+        let columns = penalties.len() * channels;
+        let shrinkage = self.shrinkage(penalties);
+        let coefficients = Mat::from_fn(shrinkage.nrows(), columns, |row, column| {
+            shrinkage[(row, column / channels)] * self.rotated[(row, column % channels)]
+        });
+        let shrunk = Shrunk {
+            shrinkage,
+            coefficients,
+        };
+        let rows: Vec<usize> = (0..samples).collect();
+        let stage = Stage::begin(progress, "leaving samples out", samples.div_ceil(BLOCK));
+        let blocks: Result<Vec<Vec<f64>>, ModelError> = rows
+            .par_chunks(BLOCK)
+            .map(|block| {
+                interrupted(progress)?;
+                let squares = self.squares(block, &shrunk);
+                stage.advance();
+                Ok(squares)
+            })
+            .collect();
+        let blocks = blocks?;
+        let errors: Vec<f64> = (0..columns)
+            .map(|column| blocks.iter().map(|block| block[column]).sum::<f64>() / samples as f64)
+            .collect();
+        Ok(errors.chunks_exact(channels).map(<[f64]>::to_vec).collect())
+    }
+
+    /// The summed squares of the samples of `block`, a number a penalty and channel.
+    fn squares(&self, block: &[usize], shrunk: &Shrunk) -> Vec<f64> {
+        let channels = self.targets.ncols();
+        let vectors = rows(&self.vectors, block);
+        let squared = Mat::from_fn(vectors.nrows(), vectors.ncols(), |row, column| {
+            vectors[(row, column)].powi(2)
+        });
+        let complement = multiply(squared.as_ref(), shrunk.shrinkage.as_ref());
+        let residuals = multiply(vectors.as_ref(), shrunk.coefficients.as_ref());
+        let unspanned_residuals = self.unspanned_residuals(block, &vectors);
+        let unspanned: Vec<f64> = if self.complete {
+            vec![0.0; block.len()]
+        } else {
+            let centring = 1.0 - 1.0 / self.targets.nrows() as f64;
+            let spanned = (0..block.len()).map(|row| squared.row(row).iter().sum::<f64>());
+            spanned.map(|spanned| centring - spanned).collect()
+        };
+        let left_out = |row: usize, column: usize| {
+            let share = complement[(row, column / channels)] + unspanned[row];
+            if share > 0.0 {
+                (residuals[(row, column)] + unspanned_residuals[(row, column % channels)]) / share
+            } else {
+                // Rounding left nothing, at a penalty too weak to judge.
+                f64::INFINITY
+            }
+        };
+        (0..residuals.ncols())
+            .map(|column| {
+                (0..block.len())
+                    .map(|row| left_out(row, column).powi(2))
+                    .sum()
+            })
+            .collect()
+    }
+}

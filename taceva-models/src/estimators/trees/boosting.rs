@@ -1,0 +1,258 @@
+//! Gradient boosting.
+
+use faer::Mat;
+use rayon::prelude::*;
+use taceva_core::{Features, ModelError, Progress, TrainingSet};
+
+use super::bins::Binned;
+use super::forest::{draw, part, share};
+use super::grow::{Growth, Samples, Tree};
+use super::regressor::{Member, TreeRegressor};
+use crate::features::FeatureSpec;
+use crate::registry::ModelInfo;
+use crate::settings::{SettingError, SettingInfo, Settings, number};
+use crate::training::fit::{ModelEstimator, ModelFit, ModelRegressor, estimator};
+use crate::training::output::OutputScale;
+use crate::training::problem::{Problem, centred};
+use crate::training::progress::{Stage, interrupted};
+use crate::training::trials::{Trials, rows_of};
+
+/// Gradient boosting of squared errors: each tree is fitted to what those before it left, and a share of it is added.
+///
+/// Each channel has trees of its own, and its own number of them: the one of least squared error on the validation part; without
+/// one, on folds of the training part.
+///
+/// # Reference
+/// J. H. Friedman, Ann. Stat. 29 (2001) 1189, algorithm 2; Comput. Stat. Data Anal. 38 (2002) 367 (drawn features take the place of drawn samples).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct GradientBoosting {
+    most: usize,
+    trees: Option<usize>,
+    rate: f64,
+    growth: Growing,
+    seed: u64,
+    refit: bool,
+}
+
+/// How each tree grows.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Growing {
+    share: f64,
+    depth: usize,
+    leaf: usize,
+}
+
+const MOST: SettingInfo = SettingInfo {
+    key: "most",
+    accepts: "a number from 1 to 10000",
+    default: "300",
+    about: "how many trees of a channel are tried at most where their number is chosen",
+};
+const TREES: SettingInfo = SettingInfo {
+    key: "trees",
+    accepts: "a number from 1 to 10000",
+    default: "chosen for each channel",
+    about: "how many trees each channel has",
+};
+const RATE: SettingInfo = SettingInfo {
+    key: "rate",
+    accepts: "a number above 0 and at most 1",
+    default: "0.1",
+    about: "the share of each tree that is added",
+};
+const SHARE: SettingInfo = SettingInfo {
+    key: "share",
+    accepts: "a number above 0 and at most 1",
+    default: "0.1",
+    about: "the share of the features that a split looks at",
+};
+const DEPTH: SettingInfo = SettingInfo {
+    key: "depth",
+    accepts: "a number from 1 to 30",
+    default: "5",
+    about: "questions on the way to a leaf at most",
+};
+const LEAF: SettingInfo = SettingInfo {
+    key: "leaf",
+    accepts: "a number from 1 to 10000",
+    default: "5",
+    about: "samples of a leaf at least",
+};
+const SEED: SettingInfo = SettingInfo {
+    key: "seed",
+    accepts: "a whole number",
+    default: "1",
+    about: "what features are drawn from",
+};
+
+impl GradientBoosting {
+    /// What the registry says of it.
+    pub const INFO: ModelInfo = ModelInfo {
+        name: "gradient-boosting",
+        about: "trees that each mend what those before left",
+        settings: &[
+            TREES,
+            MOST,
+            RATE,
+            SHARE,
+            DEPTH,
+            LEAF,
+            SEED,
+            SettingInfo::REFIT,
+        ],
+        features: Some(FeatureSpec::DEFAULT),
+        make: |settings| Ok(Box::new(GradientBoosting::from_settings(settings)?)),
+    };
+
+    /// Gradient boosting as `settings` ask for.
+    ///
+    /// # Errors
+    /// [`SettingError`] for an unknown key or a value out of range.
+    pub fn from_settings(settings: &Settings) -> Result<GradientBoosting, SettingError> {
+        settings.check_keys(GradientBoosting::INFO.settings)?;
+        Ok(GradientBoosting {
+            most: settings.value(&MOST, 300, |text| number(text, 1..=10_000))?,
+            trees: settings.value(&TREES, None, |text| number(text, 1..=10_000).map(Some))?,
+            rate: settings.value(&RATE, 0.1, share)?,
+            growth: Growing {
+                share: settings.value(&SHARE, 0.1, share)?,
+                depth: settings.value(&DEPTH, 5, |text| number(text, 1..=30))?,
+                leaf: settings.value(&LEAF, 5, |text| number(text, 1..=10_000))?,
+            },
+            seed: settings.value(&SEED, 1, |text| text.parse().ok())?,
+            refit: settings.refit()?,
+        })
+    }
+
+    /// Calls `take` with each tree of a channel, its values times the rate, the first fitted to `labels`.
+    fn boost(
+        &self,
+        features: &Features,
+        binned: &Binned,
+        labels: &[f64],
+        (channel, trees): (usize, usize),
+        progress: &dyn Progress,
+        mut take: impl FnMut(Tree),
+    ) -> Result<(), ModelError> {
+        let growth = Growth {
+            depth: self.growth.depth,
+            leaf: self.growth.leaf,
+            features: part(self.growth.share, binned.features()),
+        };
+        let mut left = Mat::from_fn(labels.len(), 1, |row, _| labels[row]);
+        let rows: Vec<u32> = (0..labels.len())
+            .map(|row| u32::try_from(row).expect("fewer than 2^32"))
+            .collect();
+        for number in 0..trees {
+            interrupted(progress)?;
+            let samples = Samples {
+                binned,
+                targets: &left,
+                growth,
+            };
+            let mut random = draw(self.seed.wrapping_add(channel as u64), number);
+            let mut tree = samples.grow(rows.clone(), &mut random);
+            tree.values.iter_mut().for_each(|value| *value *= self.rate);
+            let places = left.col_as_slice_mut(0).par_iter_mut();
+            places.enumerate().for_each(|(row, place)| {
+                *place -= tree.values[tree.leaf(features.sample(row))];
+            });
+            take(tree);
+        }
+        Ok(())
+    }
+}
+
+impl ModelEstimator for GradientBoosting {
+    fn fit_model(
+        &self,
+        training: &TrainingSet<'_>,
+        validation: Option<&TrainingSet<'_>>,
+        progress: &dyn Progress,
+    ) -> Result<ModelFit, ModelError> {
+        let problem = Problem::new(*training)?;
+        let held = problem.validation(validation)?;
+        let trials = Trials::new(&problem, held.as_ref(), self.trees.is_none());
+        let channels = problem.channels();
+        // The most first: of equals the last is the plainest.
+        let counts: Vec<usize> = match self.trees {
+            Some(trees) => vec![trees],
+            None => (1..=self.most).rev().collect(),
+        };
+        let most = counts[0];
+        let errors = trials.errors(progress, |round| {
+            let features = trials.features.select(&round.learnt);
+            let binned = Binned::new(&features);
+            let (shift, labels) = centred(rows_of(&trials.labels, &round.learnt));
+            let held = trials.features.select(&round.held);
+            let mut squares = vec![vec![0.0; channels]; counts.len()];
+            for channel in 0..channels {
+                let mut left: Vec<f64> = round
+                    .held
+                    .iter()
+                    .map(|&row| trials.labels[(row, channel)] - shift[channel])
+                    .collect();
+                let mut number = 0;
+                let column = labels.col_as_slice(channel);
+                self.boost(
+                    &features,
+                    &binned,
+                    column,
+                    (channel, most),
+                    progress,
+                    |tree| {
+                        let places = left.par_iter_mut().enumerate();
+                        places.for_each(|(row, place)| {
+                            *place -= tree.values[tree.leaf(held.sample(row))];
+                        });
+                        number += 1;
+                        if let Some(candidate) = counts.iter().position(|&count| count == number) {
+                            squares[candidate][channel] = left.iter().map(|left| left * left).sum();
+                        }
+                    },
+                )?;
+            }
+            Ok(squares)
+        })?;
+        let values: Vec<f64> = counts.iter().map(|&count| count as f64).collect();
+        let (chosen, choice) = trials.choose(&problem, TREES.key, &values, errors.as_ref());
+        let rows = trials.learnt(self.refit);
+        let features = trials.features.select(&rows);
+        let binned = Binned::new(&features);
+        let (shift, labels) = centred(rows_of(&trials.labels, &rows));
+        let mut members = Vec::new();
+        let stage = Stage::begin(progress, "trees", channels);
+        for (channel, &candidate) in chosen.iter().enumerate() {
+            let column = labels.col_as_slice(channel);
+            let trees = counts[candidate];
+            self.boost(
+                &features,
+                &binned,
+                column,
+                (channel, trees),
+                progress,
+                |tree| {
+                    members.push(Member {
+                        tree,
+                        channel: Some(channel),
+                    });
+                },
+            )?;
+            stage.advance();
+        }
+        drop(stage);
+        let scale = OutputScale::of(&problem).moved(&shift);
+        let refitted = self.refit && trials.has_validation();
+        let shape = training.features.shape();
+        let regressor =
+            TreeRegressor::new((training.targets.channels.clone(), shape), scale, members);
+        Ok(ModelFit {
+            regressor: ModelRegressor::Trees(Box::new(regressor)),
+            choice,
+            refitted,
+            scaling: problem.scaling.clone(),
+        })
+    }
+}
+
+estimator!(GradientBoosting, |_| GradientBoosting::INFO.name);

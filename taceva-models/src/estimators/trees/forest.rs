@@ -1,0 +1,215 @@
+//! A random forest.
+
+use faer::Mat;
+use rayon::prelude::*;
+use taceva_core::random::SplitMix64;
+use taceva_core::{Features, ModelError, Progress, Regressor, TrainingSet};
+
+use super::bins::Binned;
+use super::grow::{Growth, Samples};
+use super::regressor::{Member, TreeRegressor};
+use crate::features::FeatureSpec;
+use crate::registry::ModelInfo;
+use crate::settings::{SettingError, SettingInfo, Settings, number};
+use crate::training::choice::Choice;
+use crate::training::fit::{ModelEstimator, ModelFit, ModelRegressor, estimator};
+use crate::training::output::OutputScale;
+use crate::training::problem::{Problem, centred};
+use crate::training::progress::{Stage, interrupted};
+use crate::training::trials::{Trials, rows_of};
+
+/// A random forest a channel: the mean of trees that each saw its own draw of the samples, and at each split its own draw of the features.
+///
+/// Nothing is chosen by error. Where there is a validation part, a forest of the training part alone is scored on it, and the one that is
+/// kept has learnt from both.
+///
+/// # Reference
+/// L. Breiman, Mach. Learn. 45 (2001) 5.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RandomForest {
+    trees: usize,
+    share: f64,
+    depth: usize,
+    leaf: usize,
+    seed: u64,
+    refit: bool,
+}
+
+const TREES: SettingInfo = SettingInfo {
+    key: "trees",
+    accepts: "a number from 1 to 10000",
+    default: "100",
+    about: "how many trees each channel has",
+};
+const SHARE: SettingInfo = SettingInfo {
+    key: "share",
+    accepts: "a number above 0 and at most 1",
+    default: "0.1",
+    about: "the share of the features that a split looks at",
+};
+const DEPTH: SettingInfo = SettingInfo {
+    key: "depth",
+    accepts: "a number from 1 to 60",
+    default: "30",
+    about: "questions on the way to a leaf at most",
+};
+const LEAF: SettingInfo = SettingInfo {
+    key: "leaf",
+    accepts: "a number from 1 to 10000",
+    default: "2",
+    about: "samples of a leaf at least",
+};
+const SEED: SettingInfo = SettingInfo {
+    key: "seed",
+    accepts: "a whole number",
+    default: "1",
+    about: "what samples and features are drawn from",
+};
+
+impl RandomForest {
+    /// What the registry says of it.
+    pub const INFO: ModelInfo = ModelInfo {
+        name: "random-forest",
+        about: "the mean of many trees: no scale to choose, and hard to upset",
+        settings: &[TREES, SHARE, DEPTH, LEAF, SEED, SettingInfo::REFIT],
+        features: Some(FeatureSpec::DEFAULT),
+        make: |settings| Ok(Box::new(RandomForest::from_settings(settings)?)),
+    };
+
+    /// A random forest as `settings` ask for.
+    ///
+    /// # Errors
+    /// [`SettingError`] for an unknown key or a value out of range.
+    pub fn from_settings(settings: &Settings) -> Result<RandomForest, SettingError> {
+        settings.check_keys(RandomForest::INFO.settings)?;
+        Ok(RandomForest {
+            trees: settings.value(&TREES, 100, |text| number(text, 1..=10_000))?,
+            share: settings.value(&SHARE, 0.1, share)?,
+            depth: settings.value(&DEPTH, 30, |text| number(text, 1..=60))?,
+            leaf: settings.value(&LEAF, 2, |text| number(text, 1..=10_000))?,
+            seed: settings.value(&SEED, 1, |text| text.parse().ok())?,
+            refit: settings.refit()?,
+        })
+    }
+
+    /// The trees of every channel, grown on `features` and labels about their mean.
+    fn grown(
+        &self,
+        features: &Features,
+        labels: &Mat<f64>,
+        progress: &dyn Progress,
+    ) -> Result<Vec<Member>, ModelError> {
+        let binned = Binned::new(features);
+        let growth = Growth {
+            depth: self.depth,
+            leaf: self.leaf,
+            features: part(self.share, binned.features()),
+        };
+        let columns: Vec<Mat<f64>> = (0..labels.ncols())
+            .map(|channel| Mat::from_fn(labels.nrows(), 1, |row, _| labels[(row, channel)]))
+            .collect();
+        let count = columns.len() * self.trees;
+        let stage = Stage::begin(progress, "trees", count);
+        let trees = (0..count).into_par_iter().map(|place| {
+            interrupted(progress)?;
+            let (channel, number) = (place / self.trees, place % self.trees);
+            let mut random = draw(self.seed.wrapping_add(channel as u64), number);
+            let samples = labels.nrows();
+            let mut rows: Vec<u32> = (0..samples)
+                .map(|_| u32::try_from(random.below(samples)).expect("fewer than 2^32"))
+                .collect();
+            rows.sort_unstable();
+            let known = Samples {
+                binned: &binned,
+                targets: &columns[channel],
+                growth,
+            };
+            let mut tree = known.grow(rows, &mut random);
+            let values = tree.values.iter_mut();
+            values.for_each(|value| *value /= self.trees as f64);
+            stage.advance();
+            Ok(Member {
+                tree,
+                channel: Some(channel),
+            })
+        });
+        trees.collect()
+    }
+
+    /// The forest of `rows` of the samples of `trials`.
+    fn regressor(
+        &self,
+        problem: &Problem<'_>,
+        (trials, rows): (&Trials<'_>, &[usize]),
+        progress: &dyn Progress,
+    ) -> Result<TreeRegressor, ModelError> {
+        let features = trials.features.select(rows);
+        let (shift, labels) = centred(rows_of(&trials.labels, rows));
+        let members = self.grown(&features, &labels, progress)?;
+        let scale = OutputScale::of(problem).moved(&shift);
+        let training = &problem.training;
+        let kind = (training.targets.channels.clone(), training.features.shape());
+        Ok(TreeRegressor::new(kind, scale, members))
+    }
+}
+
+/// A share above 0.
+pub(super) fn share(text: &str) -> Option<f64> {
+    number(text, 0.0..=1.0).filter(|share| *share > 0.0)
+}
+
+/// A share of some features, at least one.
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "at most the number of features"
+)]
+pub(super) fn part(share: f64, features: usize) -> usize {
+    (share * features as f64).ceil().max(1.0) as usize
+}
+
+/// The generator of one draw among many from one seed.
+pub(super) fn draw(seed: u64, number: usize) -> SplitMix64 {
+    SplitMix64::new(SplitMix64::new(seed ^ (number as u64).rotate_left(32)).next_u64())
+}
+
+impl ModelEstimator for RandomForest {
+    fn fit_model(
+        &self,
+        training: &TrainingSet<'_>,
+        validation: Option<&TrainingSet<'_>>,
+        progress: &dyn Progress,
+    ) -> Result<ModelFit, ModelError> {
+        let problem = Problem::new(*training)?;
+        let held = problem.validation(validation)?;
+        let trials = Trials::new(&problem, held.as_ref(), false);
+        let all = trials.learnt(self.refit);
+        let regressor = self.regressor(&problem, (&trials, &all), progress)?;
+        let errors = match &held {
+            None => vec![None; problem.channels()],
+            Some(part) => {
+                let apart = match self.refit {
+                    true => Some(self.regressor(
+                        &problem,
+                        (&trials, &trials.learnt(false)),
+                        progress,
+                    )?),
+                    false => None,
+                };
+                let scored = apart.as_ref().unwrap_or(&regressor);
+                let mut found = vec![0.0; part.labels.nrows() * problem.channels()];
+                scored.predict(part.features, &mut found)?;
+                problem.errors_of(&found, part)
+            }
+        };
+        let refitted = self.refit && trials.has_validation();
+        Ok(ModelFit {
+            choice: Choice::nobodys(errors),
+            regressor: ModelRegressor::Trees(Box::new(regressor)),
+            refitted,
+            scaling: problem.scaling.clone(),
+        })
+    }
+}
+
+estimator!(RandomForest, |_| RandomForest::INFO.name);

@@ -1,0 +1,301 @@
+//! One regression tree, grown on histograms of binned features.
+
+use faer::Mat;
+use rayon::prelude::*;
+
+use super::bins::{BINS, Binned};
+use taceva_core::random::SplitMix64;
+
+/// How far a tree grows.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Growth {
+    /// Questions on the way to a leaf at most.
+    pub(super) depth: usize,
+    /// Samples of a leaf at least.
+    pub(super) leaf: usize,
+    /// Features looked at for a split, drawn anew for each.
+    pub(super) features: usize,
+}
+
+/// A tree: node 0 is the root, and the children of a node lie side by side behind it.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct Tree {
+    /// The feature that a node asks for.
+    pub(super) feature: Vec<u32>,
+    /// At most this: to the left.
+    pub(super) threshold: Vec<f32>,
+    /// The left child, the right one beside it; 0 for a leaf.
+    pub(super) left: Vec<u32>,
+    /// The mean of each output over the samples of a node.
+    pub(super) values: Vec<f64>,
+}
+
+impl Tree {
+    /// The leaf that a sample falls into.
+    pub(super) fn leaf(&self, sample: &[f32]) -> usize {
+        let mut node = 0;
+        while self.left[node] > 0 {
+            let goes_left = sample[self.feature[node] as usize] <= self.threshold[node];
+            node = self.left[node] as usize + usize::from(!goes_left);
+        }
+        node
+    }
+}
+
+/// A question, and how much it explains.
+#[derive(Clone, Copy, Debug)]
+struct Question {
+    gain: f64,
+    feature: usize,
+    bin: usize,
+}
+
+/// The samples that a tree is grown on.
+pub(super) struct Samples<'a> {
+    pub(super) binned: &'a Binned,
+    /// A row a sample, a column an output.
+    pub(super) targets: &'a Mat<f64>,
+    pub(super) growth: Growth,
+}
+
+impl Samples<'_> {
+    /// A tree of the samples `rows`, which may repeat.
+    ///
+    /// Each split explains the most of the summed variance of all outputs; of equals, the first feature and the lowest bin. A
+    /// feature is summed by one thread in the order of `rows`.
+    pub(super) fn grow(&self, mut rows: Vec<u32>, random: &mut SplitMix64) -> Tree {
+        let mut tree = Tree::default();
+        let mut order: Vec<usize> = (0..self.binned.features()).collect();
+        self.push(&mut tree, &rows);
+        let mut open = vec![(0_usize, 0..rows.len(), 0_usize)];
+        while let Some((node, range, depth)) = open.pop() {
+            if depth >= self.growth.depth || range.len() < 2 * self.growth.leaf {
+                continue;
+            }
+            let looked_at = self.draw(&mut order, random);
+            let Some(best) = self.best(&rows[range.clone()], &looked_at) else {
+                continue;
+            };
+            let bins = self.binned.of(best.feature);
+            let own = &mut rows[range.clone()];
+            let goes_left = |row: &&u32| usize::from(bins[**row as usize]) <= best.bin;
+            let (left, right): (Vec<&u32>, Vec<&u32>) = own.iter().partition(goes_left);
+            let middle = range.start + left.len();
+            let parted: Vec<u32> = left.into_iter().chain(right).copied().collect();
+            own.copy_from_slice(&parted);
+            let first = tree.left.len();
+            tree.feature[node] = u32::try_from(best.feature).expect("fewer features than 2^32");
+            tree.threshold[node] = self.binned.edge(best.feature, best.bin);
+            tree.left[node] = u32::try_from(first).expect("fewer nodes than 2^32");
+            for (child, range) in [range.start..middle, middle..range.end]
+                .into_iter()
+                .enumerate()
+            {
+                self.push(&mut tree, &rows[range.clone()]);
+                open.push((first + child, range, depth + 1));
+            }
+        }
+        tree
+    }
+
+    /// A leaf of these samples.
+    fn push(&self, tree: &mut Tree, rows: &[u32]) {
+        tree.feature.push(0);
+        tree.threshold.push(0.0);
+        tree.left.push(0);
+        for output in 0..self.targets.ncols() {
+            let column = self.targets.col_as_slice(output);
+            let sum: f64 = rows.iter().map(|&row| column[row as usize]).sum();
+            tree.values.push(sum / rows.len() as f64);
+        }
+    }
+
+    /// Some features, ascending.
+    fn draw(&self, order: &mut [usize], random: &mut SplitMix64) -> Vec<usize> {
+        let count = self.growth.features.min(order.len());
+        for position in 0..count {
+            let other = position + random.below(order.len() - position);
+            order.swap(position, other);
+        }
+        let mut drawn = order[..count].to_vec();
+        drawn.sort_unstable();
+        drawn
+    }
+
+    fn best(&self, rows: &[u32], features: &[usize]) -> Option<Question> {
+        let total: Vec<f64> = (0..self.targets.ncols())
+            .map(|output| {
+                let column = self.targets.col_as_slice(output);
+                rows.iter().map(|&row| column[row as usize]).sum()
+            })
+            .collect();
+        let whole = total.iter().map(|sum| sum * sum).sum::<f64>() / rows.len() as f64;
+        let spread: f64 = (0..self.targets.ncols())
+            .map(|output| {
+                let column = self.targets.col_as_slice(output);
+                rows.iter()
+                    .map(|&row| column[row as usize].powi(2))
+                    .sum::<f64>()
+            })
+            .sum();
+        let found: Vec<Option<Question>> = features
+            .par_iter()
+            .with_min_len(16)
+            .map_init(
+                || Histogram::new(total.len()),
+                |histogram, &feature| self.best_bin(histogram, rows, feature, &total),
+            )
+            .collect();
+        let better = |best: Option<Question>, next: Question| match best {
+            Some(best) if next.gain <= best.gain => Some(best),
+            _ => Some(next),
+        };
+        let best = found.into_iter().flatten().fold(None, better)?;
+        // What rounding alone may seem to explain is nothing.
+        (best.gain - whole > 1e-12 * spread).then_some(best)
+    }
+
+    fn best_bin(
+        &self,
+        histogram: &mut Histogram,
+        rows: &[u32],
+        feature: usize,
+        total: &[f64],
+    ) -> Option<Question> {
+        histogram.fill(self.binned.of(feature), self.targets, rows);
+        let mut left = vec![0.0; total.len()];
+        let (mut count, mut best) = (0, None::<Question>);
+        // Behind the last bin nothing is left.
+        let bins = histogram
+            .held
+            .split_last()
+            .map_or(&[][..], |(_, bins)| bins);
+        for &bin in bins {
+            let bin = usize::from(bin);
+            count += histogram.counts[bin] as usize;
+            let sums = &histogram.sums[bin * total.len()..(bin + 1) * total.len()];
+            left.iter_mut()
+                .zip(sums)
+                .for_each(|(left, sum)| *left += sum);
+            let rest = rows.len() - count;
+            if count < self.growth.leaf || rest < self.growth.leaf {
+                continue;
+            }
+            let sides = left.iter().zip(total).map(|(left, total)| {
+                left * left / count as f64 + (total - left) * (total - left) / rest as f64
+            });
+            let gain = sides.sum();
+            if best.is_none_or(|best| gain > best.gain) {
+                best = Some(Question { gain, feature, bin });
+            }
+        }
+        histogram.clear();
+        best
+    }
+}
+
+/// Counts and summed outputs of each bin.
+struct Histogram {
+    counts: Vec<u32>,
+    sums: Vec<f64>,
+    outputs: usize,
+    /// The bins that hold any, ascending.
+    held: Vec<u8>,
+}
+
+impl Histogram {
+    fn new(outputs: usize) -> Histogram {
+        Histogram {
+            counts: vec![0; BINS],
+            sums: vec![0.0; BINS * outputs],
+            outputs,
+            held: Vec::with_capacity(BINS),
+        }
+    }
+
+    /// Adds `rows` to an empty histogram.
+    fn fill(&mut self, bins: &[u8], targets: &Mat<f64>, rows: &[u32]) {
+        for &row in rows {
+            let bin = bins[row as usize];
+            let count = &mut self.counts[usize::from(bin)];
+            if *count == 0 {
+                self.held.push(bin);
+            }
+            *count += 1;
+        }
+        match self.held.len() {
+            0..64 => self.held.sort_unstable(),
+            _ => {
+                let holds = |bin: &u8| self.counts[usize::from(*bin)] > 0;
+                self.held = (0..=u8::MAX).filter(holds).collect();
+            }
+        }
+        for output in 0..self.outputs {
+            let column = targets.col_as_slice(output);
+            for &row in rows {
+                let bin = usize::from(bins[row as usize]);
+                self.sums[bin * self.outputs + output] += column[row as usize];
+            }
+        }
+    }
+
+    /// Empties it: of few samples few bins hold any, which are all that is touched.
+    fn clear(&mut self) {
+        for bin in self.held.drain(..) {
+            let bin = usize::from(bin);
+            self.counts[bin] = 0;
+            self.sums[bin * self.outputs..(bin + 1) * self.outputs].fill(0.0);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use taceva_core::{FeatureShape, Features};
+
+    #[test]
+    fn the_split_is_where_the_labels_change() {
+        // The second feature separates the labels, the first does not.
+        let values = vec![5.0, 0.0, 1.0, 0.1, 4.0, 0.9, 2.0, 1.0];
+        let features = Features::new(FeatureShape::flat(2), values).expect("four samples");
+        let binned = Binned::new(&features);
+        let targets = Mat::from_fn(4, 1, |row, _| [1.0, 1.0, 3.0, 3.0][row]);
+        let growth = Growth {
+            depth: 4,
+            leaf: 1,
+            features: 2,
+        };
+        let samples = Samples {
+            binned: &binned,
+            targets: &targets,
+            growth,
+        };
+        let tree = samples.grow(vec![0, 1, 2, 3], &mut SplitMix64::new(1));
+        assert_eq!((tree.feature[0], tree.left.len()), (1, 3));
+        assert!((tree.threshold[0] - 0.5).abs() < 1e-6);
+        assert!((tree.values[tree.leaf(&[9.0, 0.2])] - 1.0).abs() < 1e-15);
+        assert!((tree.values[tree.leaf(&[9.0, 0.6])] - 3.0).abs() < 1e-15);
+    }
+
+    #[test]
+    fn nothing_is_asked_where_nothing_is_to_be_learnt() {
+        let features = Features::new(FeatureShape::flat(1), vec![1.0, 2.0, 3.0]).expect("whole");
+        let binned = Binned::new(&features);
+        let targets = Mat::from_fn(3, 1, |_, _| 0.7);
+        let growth = Growth {
+            depth: 4,
+            leaf: 1,
+            features: 1,
+        };
+        let samples = Samples {
+            binned: &binned,
+            targets: &targets,
+            growth,
+        };
+        assert_eq!(
+            samples.grow(vec![0, 1, 2], &mut SplitMix64::new(1)).left,
+            [0]
+        );
+    }
+}

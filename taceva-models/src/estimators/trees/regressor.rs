@@ -1,0 +1,196 @@
+//! Fitted trees, whose answers are added up.
+
+use rayon::prelude::*;
+use taceva_core::{Channels, FeatureShape, Features, ModelError, Regressor};
+
+use super::grow::Tree;
+use crate::file::FormatError;
+use crate::file::tensors::{Raw, Tensors};
+use crate::training::output::{OutputScale, check_call, check_finite};
+
+/// Trees, each for one channel or for all.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TreeRegressor {
+    channels: Channels,
+    shape: FeatureShape,
+    scale: OutputScale,
+    trees: Vec<Member>,
+}
+
+/// A tree, and what its values are.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Member {
+    pub(super) tree: Tree,
+    /// The one channel that it predicts; `None` where it predicts all.
+    pub(super) channel: Option<usize>,
+}
+
+/// Samples a thread takes at a time.
+const CHUNK: usize = 64;
+
+/// How a file says that a tree predicts all channels.
+const ALL: u32 = u32::MAX;
+
+const CHANNEL: &str = "trees.channel";
+const FEATURE: &str = "trees.feature";
+const LEFT: &str = "trees.left";
+const OFFSET: &str = "trees.offset";
+const SIZE: &str = "trees.size";
+const SPAN: &str = "trees.span";
+const THRESHOLD: &str = "trees.threshold";
+const VALUES: &str = "trees.values";
+
+impl TreeRegressor {
+    /// Trees whose values, centred and scaled labels, add up to the prediction.
+    pub(super) fn new(
+        (channels, shape): (Channels, FeatureShape),
+        scale: OutputScale,
+        trees: Vec<Member>,
+    ) -> TreeRegressor {
+        TreeRegressor {
+            channels,
+            shape,
+            scale,
+            trees,
+        }
+    }
+
+    /// How many trees there are.
+    pub fn trees(&self) -> usize {
+        self.trees.len()
+    }
+
+    /// Whether any tree asks for anything.
+    pub(crate) fn reads_features(&self) -> bool {
+        self.trees.iter().any(|member| member.tree.left[0] > 0)
+    }
+
+    fn write(&self, sample: &[f32], into: &mut [f64]) {
+        into.fill(0.0);
+        for Member { tree, channel } in &self.trees {
+            let leaf = tree.leaf(sample);
+            match channel {
+                Some(channel) => into[*channel] += tree.values[leaf],
+                None => {
+                    let values = &tree.values[leaf * into.len()..];
+                    into.iter_mut()
+                        .zip(values)
+                        .for_each(|(place, value)| *place += value);
+                }
+            }
+        }
+        self.scale.unscale(into);
+    }
+
+    /// The tensors of a file.
+    pub(crate) fn tensors(&self) -> Vec<Raw> {
+        let trees = || self.trees.iter().map(|member| &member.tree);
+        let short = |value: usize| u32::try_from(value).expect("fewer than 2^32");
+        let sizes: Vec<u32> = trees().map(|tree| short(tree.left.len())).collect();
+        let of = |member: &Member| member.channel.map_or(ALL, short);
+        let channels: Vec<u32> = self.trees.iter().map(of).collect();
+        let features: Vec<u32> = trees()
+            .flat_map(|tree| tree.feature.iter().copied())
+            .collect();
+        let left: Vec<u32> = trees().flat_map(|tree| tree.left.iter().copied()).collect();
+        let threshold: Vec<f32> = trees()
+            .flat_map(|tree| tree.threshold.iter().copied())
+            .collect();
+        let values: Vec<f64> = trees()
+            .flat_map(|tree| tree.values.iter().copied())
+            .collect();
+        let count = self.channels.len();
+        vec![
+            Raw::integers(CHANNEL, vec![channels.len()], &channels),
+            Raw::integers(FEATURE, vec![features.len()], &features),
+            Raw::integers(LEFT, vec![left.len()], &left),
+            Raw::doubles(OFFSET, vec![count], &self.scale.offset),
+            Raw::integers(SIZE, vec![sizes.len()], &sizes),
+            Raw::doubles(SPAN, vec![count], &self.scale.span),
+            Raw::singles(THRESHOLD, vec![threshold.len()], &threshold),
+            Raw::doubles(VALUES, vec![values.len()], &values),
+        ]
+    }
+
+    /// The model that a file holds: every tree ends in leaves, and asks for features that there are.
+    pub(crate) fn from_tensors(
+        tensors: &Tensors<'_>,
+        channels: Channels,
+        shape: FeatureShape,
+    ) -> Result<TreeRegressor, FormatError> {
+        let count = channels.len();
+        let (trees, nodes) = (tensors.rows(SIZE)?, tensors.rows(LEFT)?);
+        let sizes = tensors.integers(SIZE, &[trees])?;
+        let owners = tensors.integers(CHANNEL, &[trees])?;
+        let mut feature = tensors.integers(FEATURE, &[nodes])?.into_iter();
+        let mut threshold = tensors.singles(THRESHOLD, &[nodes])?.into_iter();
+        let mut left = tensors.integers(LEFT, &[nodes])?.into_iter();
+        let numbers = tensors.rows(VALUES)?;
+        let mut values = tensors.doubles(VALUES, &[numbers])?.into_iter();
+        let mut members = Vec::new();
+        for (size, owner) in sizes.into_iter().zip(owners) {
+            let size = size as usize;
+            let channel = (owner != ALL).then_some(owner as usize);
+            let width = if channel.is_none() { count } else { 1 };
+            let places = size.checked_mul(width).ok_or(FormatError::Card)?;
+            let tree = Tree {
+                feature: feature.by_ref().take(size).collect(),
+                threshold: threshold.by_ref().take(size).collect(),
+                left: left.by_ref().take(size).collect(),
+                values: values.by_ref().take(places).collect(),
+            };
+            let whole = tree.left.len() == size && tree.values.len() == places;
+            let known = channel.is_none_or(|channel| channel < count);
+            if !(whole && known && is_sound(&tree, shape.len())) {
+                return Err(FormatError::Card);
+            }
+            members.push(Member { tree, channel });
+        }
+        let scale = OutputScale {
+            offset: tensors.doubles(OFFSET, &[count])?,
+            span: tensors.doubles(SPAN, &[count])?,
+        };
+        let rest = left.next().is_some() || values.next().is_some();
+        if rest || !scale.is_valid(count) {
+            return Err(FormatError::Card);
+        }
+        Ok(TreeRegressor::new((channels, shape), scale, members))
+    }
+}
+
+/// Whether every child lies behind its parent, every feature exists and every number is finite.
+fn is_sound(tree: &Tree, features: usize) -> bool {
+    let nodes = tree.left.len();
+    let mut asked = tree.left.iter().zip(&tree.feature).enumerate();
+    let leads_on = asked.all(|(node, (&left, &feature))| {
+        let left = left as usize;
+        left == 0 || (left > node && left + 1 < nodes && (feature as usize) < features)
+    });
+    let finite = tree.threshold.iter().all(|value| value.is_finite())
+        && tree.values.iter().all(|value| value.is_finite());
+    nodes > 0 && leads_on && finite
+}
+
+impl Regressor for TreeRegressor {
+    fn channels(&self) -> &Channels {
+        &self.channels
+    }
+
+    fn shape(&self) -> FeatureShape {
+        self.shape
+    }
+
+    fn predict(&self, features: &Features, into: &mut [f64]) -> Result<(), ModelError> {
+        check_call(&self.channels, self.shape, features, into)?;
+        let (channels, width) = (self.channels.len(), self.shape.len());
+        into.par_chunks_mut(CHUNK * channels)
+            .zip(features.values().par_chunks(CHUNK * width))
+            .for_each(|(into, samples)| {
+                let samples = samples.chunks_exact(width);
+                for (into, sample) in into.chunks_exact_mut(channels).zip(samples) {
+                    self.write(sample, into);
+                }
+            });
+        check_finite(&self.channels, into)
+    }
+}

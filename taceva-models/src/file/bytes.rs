@@ -1,0 +1,73 @@
+//! A model as bytes: a safetensors file whose metadata holds the card.
+
+use std::collections::HashMap;
+
+use safetensors::tensor::TensorView;
+
+use super::error::FormatError;
+use super::seal::{digested, is_sealed, seal_over};
+use crate::model::Model;
+use crate::models::Models;
+
+/// The key of the card in the metadata.
+pub(super) const CARD: &str = "taceva.model";
+
+/// Longest header: a card is a few kilobytes.
+pub(super) const HEADER_MAX: u64 = 1 << 20;
+
+/// Largest file: 1000 × 1000 RGB weights of ten channels are 240 MB.
+pub(super) const FILE_MAX: u64 = 1 << 28;
+
+impl Model {
+    /// The model as a file would hold it; equal models give equal bytes.
+    ///
+    /// # Errors
+    /// [`FormatError`] if the card or the weights are larger than a file may be.
+    pub fn to_bytes(&self) -> Result<Vec<u8>, FormatError> {
+        let card = serde_json::to_string(&self.card)?;
+        let tensors = self.regressor.tensors();
+        let card = match is_sealed(&self.card.format) {
+            true => {
+                let digested = tensors.iter().map(|tensor| {
+                    digested(&tensor.name, tensor.kind, (&tensor.shape, &tensor.bytes))
+                });
+                seal_over(&card, &digested.collect::<Vec<_>>())?
+            }
+            false => card,
+        };
+        // One key only: the order of several would not be defined.
+        let metadata = HashMap::from([(CARD.to_owned(), card)]);
+        let views: Result<Vec<_>, _> = tensors
+            .iter()
+            .map(|tensor| {
+                let view = TensorView::new(tensor.kind, tensor.shape.clone(), &tensor.bytes);
+                view.map(|view| (tensor.name.as_str(), view))
+            })
+            .collect();
+        let bytes = safetensors::serialize(views?, Some(metadata))?;
+        check_sizes(&bytes)?;
+        Ok(bytes)
+    }
+
+    /// The model that `bytes` of a file hold, of those that are built in.
+    ///
+    /// # Errors
+    /// As [`Models::read`].
+    pub fn from_bytes(bytes: &[u8]) -> Result<Model, FormatError> {
+        Models::builtin().read(bytes)
+    }
+}
+
+/// Refuses what is longer than a model, or has a longer header.
+pub(super) fn check_sizes(bytes: &[u8]) -> Result<(), FormatError> {
+    let length = bytes.len() as u64;
+    if length > FILE_MAX {
+        return Err(FormatError::FileSize { length });
+    }
+    let length = bytes.first_chunk::<8>().ok_or(FormatError::Short)?;
+    let length = u64::from_le_bytes(*length);
+    if length > HEADER_MAX {
+        return Err(FormatError::HeaderSize { length });
+    }
+    Ok(())
+}

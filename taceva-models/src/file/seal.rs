@@ -1,0 +1,61 @@
+//! The seal of a model file: over the card and a digest of each tensor.
+
+use safetensors::tensor::{Dtype, SafeTensors};
+use sha2::{Digest as _, Sha256};
+
+use super::error::FormatError;
+
+/// A tensor's name, and a digest of its type, its shape and its numbers.
+pub(super) fn digested(
+    name: &str,
+    kind: Dtype,
+    (shape, bytes): (&[usize], &[u8]),
+) -> (String, Vec<u8>) {
+    let mut hasher = Sha256::new();
+    hasher.update(format!("{kind:?} {shape:?} ").as_bytes());
+    hasher.update(bytes);
+    (format!("tensor {name}"), hasher.finalize().to_vec())
+}
+
+/// The card with its seal, over the tensors as well.
+pub(super) fn seal_over(card: &str, tensors: &[(String, Vec<u8>)]) -> Result<String, FormatError> {
+    let mut attached = attached(tensors);
+    attached.sort_unstable();
+    Ok(taceva_seal::json::seal_with(card, &attached)?)
+}
+
+fn attached(tensors: &[(String, Vec<u8>)]) -> Vec<(&str, &[u8])> {
+    tensors
+        .iter()
+        .map(|(name, digest)| (name.as_str(), digest.as_slice()))
+        .collect()
+}
+
+/// Whether card and tensors are what they were when they were written.
+pub(super) fn check_seal(
+    card: &str,
+    tensors: &SafeTensors<'_>,
+    version: &str,
+) -> Result<(), FormatError> {
+    let views = tensors.tensors();
+    let digested: Vec<_> = views
+        .iter()
+        .map(|(name, view)| digested(name, view.dtype(), (view.shape(), view.data())))
+        .collect();
+    let mut attached = attached(&digested);
+    attached.sort_unstable();
+    let version = match is_sealed(version) {
+        true => taceva_seal::Version::Sealed,
+        false => taceva_seal::Version::BeforeSeals,
+    };
+    taceva_seal::json::check_with(card, &attached, version)?;
+    Ok(())
+}
+
+/// Whether files of this version are sealed: all since 1.1.
+pub(crate) fn is_sealed(version: &str) -> bool {
+    let minor = version
+        .split_once('.')
+        .and_then(|(_, minor)| minor.parse().ok());
+    minor.is_some_and(|minor: u32| minor >= 1)
+}

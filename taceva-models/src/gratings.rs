@@ -1,6 +1,0 @@
-//! What tells the spacing of a grating: how strong each fineness is in a picture, whatever the direction.
-
-mod fourier;
-mod radial;
-
-pub use radial::{FourierPlane, RadialSpectrum};

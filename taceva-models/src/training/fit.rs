@@ -1,0 +1,251 @@
+//! What fitting gives, whichever kind of model it is: a regressor that a model file can keep, and what was chosen on the way.
+
+use taceva_core::{
+    Channels, Estimator, FeatureShape, Features, ModelError, Progress, Regressor, TrainingSet,
+};
+
+use crate::estimators::auto::AutoCard;
+use crate::estimators::discriminant::ClassRegressor;
+use crate::estimators::kernel::KernelRegressor;
+use crate::estimators::library::LibraryRegressor;
+use crate::estimators::linear::{LinearEstimator, LinearRegressor};
+use crate::estimators::neighbours::NeighbourRegressor;
+use crate::estimators::network::{Checkpoints, NetworkRegressor};
+use crate::estimators::plugin::PluginRegressor;
+use crate::estimators::projected::ProjectedRegressor;
+use crate::estimators::trees::TreeRegressor;
+use crate::features::Pca;
+use crate::file::tensors::Raw;
+use crate::model::plugin_tensor;
+use crate::training::choice::Choice;
+use crate::training::label_scaling::LabelScaling;
+use crate::training::problem::invalid;
+
+/// What a network says to features that are a list.
+pub(crate) const NO_PICTURE: &str = "a network reads pictures, and principal components are none";
+
+/// What the model of a plugin says to principal components.
+const OPAQUE: &str = "the model of a plugin reads pixels; it cannot be joined with principal components, and may find its own";
+
+/// Implements [`Estimator`] for a [`ModelEstimator`]: its name, and the regressor that it fits.
+macro_rules! estimator {
+    ($estimator:ty, |$own:pat_param| $name:expr) => {
+        impl taceva_core::Estimator for $estimator {
+            fn name(&self) -> &str {
+                let $own = self;
+                $name
+            }
+
+            fn fit(
+                &self,
+                training: &taceva_core::TrainingSet<'_>,
+                validation: Option<&taceva_core::TrainingSet<'_>>,
+                progress: &dyn taceva_core::Progress,
+            ) -> Result<Box<dyn taceva_core::Regressor>, taceva_core::ModelError> {
+                use crate::training::fit::ModelEstimator as _;
+                let fit = self.fit_model(training, validation, progress)?;
+                Ok(Box::new(fit.regressor))
+            }
+        }
+    };
+}
+pub(crate) use estimator;
+
+/// An estimator whose regressor a model file can keep, and that can say what it chose.
+pub trait ModelEstimator: Estimator {
+    /// The estimator that takes the place of this one on `training`, and why; `None` for every one but that which only chooses.
+    ///
+    /// # Errors
+    /// As [`Estimator::fit`].
+    fn choose(
+        &self,
+        _training: &TrainingSet<'_>,
+        _progress: &dyn Progress,
+    ) -> Result<Option<Chosen>, ModelError> {
+        Ok(None)
+    }
+
+    /// Learns as [`Estimator::fit`] does.
+    ///
+    /// # Errors
+    /// As [`Estimator::fit`].
+    fn fit_model(
+        &self,
+        training: &TrainingSet<'_>,
+        validation: Option<&TrainingSet<'_>>,
+        progress: &dyn Progress,
+    ) -> Result<ModelFit, ModelError>;
+
+    /// Keeps checkpoints of trainings from now on, and resumes from what is found there; a model that is fitted in one step keeps none.
+    fn keep_checkpoints(&mut self, _: Checkpoints) {}
+}
+
+impl<L: LinearEstimator> ModelEstimator for L {
+    fn fit_model(
+        &self,
+        training: &TrainingSet<'_>,
+        validation: Option<&TrainingSet<'_>>,
+        progress: &dyn Progress,
+    ) -> Result<ModelFit, ModelError> {
+        let fit = self.fit_linear(training, validation, progress)?;
+        Ok(ModelFit {
+            regressor: ModelRegressor::Linear(fit.regressor),
+            choice: fit.choice,
+            scaling: fit.scaling,
+            refitted: fit.refitted,
+        })
+    }
+}
+
+/// A model that was chosen among others.
+pub struct Chosen {
+    /// The model.
+    pub estimator: Box<dyn ModelEstimator>,
+    /// What was tried, and what came of it.
+    pub card: AutoCard,
+}
+
+/// What fitting gave.
+#[derive(Clone, Debug)]
+pub struct ModelFit {
+    /// The fitted model, in the units of the channels.
+    pub regressor: ModelRegressor,
+    /// What was chosen for each channel, and how well it did.
+    pub choice: Choice,
+    /// The label ranges of the training part.
+    pub scaling: LabelScaling,
+    /// Whether the validation part was learnt from too, once the settings were chosen.
+    pub refitted: bool,
+}
+
+/// A fitted model of a kind that a file can keep.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum ModelRegressor {
+    /// Linear in the features.
+    Linear(LinearRegressor),
+    /// Linear in a kernel of landmarks.
+    Kernel(Box<KernelRegressor>),
+    /// The mean of the nearest training samples.
+    Neighbours(Box<NeighbourRegressor>),
+    /// One of the labels of the training part.
+    Classes(Box<ClassRegressor>),
+    /// Trees whose answers are added up.
+    Trees(Box<TreeRegressor>),
+    /// A network that reads features as a picture.
+    Network(Box<NetworkRegressor>),
+    /// Of another library, whose parameters are kept.
+    Library(Box<LibraryRegressor>),
+    /// Of a plugin, which answers.
+    Plugin(PluginRegressor),
+    /// Any of them but the linear and the network, on principal components.
+    Projected(Box<ProjectedRegressor>),
+}
+
+impl ModelRegressor {
+    /// The regressor of pixels that equals `self` on the components of `pca`.
+    ///
+    /// # Errors
+    /// [`ModelError`] for a network, which reads pictures, and for a plugin's, which nobody can look into.
+    pub(crate) fn through(self, pca: Pca) -> Result<ModelRegressor, ModelError> {
+        match self {
+            ModelRegressor::Linear(linear) => linear.through(&pca).map(ModelRegressor::Linear),
+            ModelRegressor::Network(_) => Err(invalid(NO_PICTURE)),
+            ModelRegressor::Plugin(_) => Err(invalid(OPAQUE)),
+            other => {
+                let projected = ProjectedRegressor::new(pca, other);
+                Ok(ModelRegressor::Projected(Box::new(projected)))
+            }
+        }
+    }
+
+    /// Whether predictions depend on what is seen: a linear model without weights needs no frame.
+    pub(crate) fn reads_features(&self) -> bool {
+        match self {
+            ModelRegressor::Linear(linear) => {
+                linear.weights().iter().any(|weight| weight.abs() > 0.0)
+            }
+            ModelRegressor::Kernel(kernel) => kernel.reads_features(),
+            ModelRegressor::Neighbours(neighbours) => neighbours.reads_features(),
+            ModelRegressor::Classes(classes) => classes.reads_features(),
+            ModelRegressor::Trees(trees) => trees.reads_features(),
+            ModelRegressor::Network(network) => network.reads_features(),
+            ModelRegressor::Library(library) => library.reads_features(),
+            ModelRegressor::Plugin(_) => true,
+            ModelRegressor::Projected(projected) => projected.inner().reads_features(),
+        }
+    }
+
+    /// Whether it knows the standard deviations of its predictions.
+    pub fn knows_deviations(&self) -> bool {
+        match self {
+            ModelRegressor::Kernel(kernel) => kernel.knows_deviations(),
+            ModelRegressor::Projected(projected) => projected.inner().knows_deviations(),
+            _ => false,
+        }
+    }
+
+    /// The standard deviation of every prediction; `None` for a model that does not know it.
+    ///
+    /// # Shapes
+    /// `[samples, channels]`.
+    /// # Units
+    /// Those of the channels.
+    /// # Errors
+    /// [`ModelError`] if the features are of another shape.
+    pub fn deviations(&self, features: &Features) -> Result<Option<Vec<f64>>, ModelError> {
+        match self {
+            ModelRegressor::Kernel(kernel) => kernel.deviations(features),
+            ModelRegressor::Projected(projected) => projected.deviations(features),
+            _ => Ok(None),
+        }
+    }
+
+    /// The tensors of a file.
+    pub(crate) fn tensors(&self) -> Vec<Raw> {
+        match self {
+            ModelRegressor::Linear(linear) => linear.tensors(),
+            ModelRegressor::Kernel(kernel) => kernel.tensors(),
+            ModelRegressor::Neighbours(neighbours) => neighbours.tensors(),
+            ModelRegressor::Classes(classes) => classes.tensors(),
+            ModelRegressor::Trees(trees) => trees.tensors(),
+            ModelRegressor::Network(network) => {
+                let tensors = network.tensors().into_iter();
+                tensors
+                    .map(|tensor| Raw::singles(&tensor.name, tensor.shape, &tensor.values))
+                    .collect()
+            }
+            ModelRegressor::Library(library) => library.tensors(),
+            ModelRegressor::Plugin(plugin) => vec![plugin_tensor(plugin)],
+            ModelRegressor::Projected(projected) => projected.tensors(),
+        }
+    }
+
+    fn inner(&self) -> &dyn Regressor {
+        match self {
+            ModelRegressor::Linear(linear) => linear,
+            ModelRegressor::Kernel(kernel) => &**kernel,
+            ModelRegressor::Neighbours(neighbours) => &**neighbours,
+            ModelRegressor::Classes(classes) => &**classes,
+            ModelRegressor::Trees(trees) => &**trees,
+            ModelRegressor::Network(network) => &**network,
+            ModelRegressor::Library(library) => &**library,
+            ModelRegressor::Plugin(plugin) => plugin,
+            ModelRegressor::Projected(projected) => &**projected,
+        }
+    }
+}
+
+impl Regressor for ModelRegressor {
+    fn channels(&self) -> &Channels {
+        self.inner().channels()
+    }
+
+    fn shape(&self) -> FeatureShape {
+        self.inner().shape()
+    }
+
+    fn predict(&self, features: &Features, into: &mut [f64]) -> Result<(), ModelError> {
+        self.inner().predict(features, into)
+    }
+}

@@ -1,0 +1,101 @@
+//! Labels brought to 0..1 by the range of the training part, and predictions brought back.
+
+use faer::Mat;
+use taceva_core::Targets;
+
+/// The range of each channel over the training part.
+///
+/// Models learn (label − minimum) / span; what they predict is always brought back to the unit of the channel. A label that
+/// never changes has the span 1, maps to 0, and is [named](LabelScaling::is_constant).
+#[derive(Clone, Debug, PartialEq)]
+pub struct LabelScaling {
+    minimum: Vec<f64>,
+    span: Vec<f64>,
+    constant: Vec<bool>,
+}
+
+impl LabelScaling {
+    /// The ranges of `targets`, which hold a sample.
+    pub(crate) fn of(targets: Targets<'_>) -> LabelScaling {
+        let channels = targets.channels.len();
+        let column = |channel: usize| {
+            let values = targets.values.iter().skip(channel);
+            values.step_by(channels.max(1)).copied()
+        };
+        let extreme = |of: fn(f64, f64) -> f64, from| {
+            (0..channels).map(move |channel| column(channel).fold(from, of))
+        };
+        let minimum: Vec<f64> = extreme(f64::min, f64::INFINITY).collect();
+        let spans = extreme(f64::max, f64::NEG_INFINITY).zip(&minimum);
+        let span: Vec<f64> = spans.map(|(maximum, minimum)| maximum - minimum).collect();
+        let constant: Vec<bool> = span.iter().map(|&span| span <= 0.0).collect();
+        LabelScaling {
+            span: span
+                .iter()
+                .map(|&span| if span > 0.0 { span } else { 1.0 })
+                .collect(),
+            minimum,
+            constant,
+        }
+    }
+
+    /// The least label of each channel, in the unit of the channel.
+    pub fn minimum(&self) -> &[f64] {
+        &self.minimum
+    }
+
+    /// Greatest minus least label of each channel, in the unit of the channel; 1 where that is 0.
+    pub fn span(&self) -> &[f64] {
+        &self.span
+    }
+
+    /// Whether the label at `position` never changes.
+    pub fn is_constant(&self, position: usize) -> bool {
+        self.constant[position]
+    }
+
+    /// The scaled labels, a row a sample.
+    pub(crate) fn scaled(&self, targets: Targets<'_>) -> Mat<f64> {
+        let channels = self.span.len();
+        let samples = targets.values.len() / channels.max(1);
+        Mat::from_fn(samples, channels, |sample, channel| {
+            let value = targets.values[sample * channels + channel];
+            (value - self.minimum[channel]) / self.span[channel]
+        })
+    }
+}
+
+/// The mean label of each channel, in the unit of the channel: the best constant prediction of `targets`, which hold a sample.
+pub(crate) fn means(targets: Targets<'_>) -> Vec<f64> {
+    let channels = targets.channels.len();
+    let mean = |channel: usize| {
+        let own = || targets.values.iter().skip(channel).step_by(channels.max(1));
+        let (sum, count) = own().fold((0.0, 0.0), |(sum, count), label| (sum + label, count + 1.0));
+        // Rounding takes no mean beyond its labels: of equal ones it is their value.
+        let least = own().copied().fold(f64::INFINITY, f64::min);
+        let greatest = own().copied().fold(f64::NEG_INFINITY, f64::max);
+        (sum / count).max(least).min(greatest)
+    };
+    (0..channels).map(mean).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use taceva_core::{Channel, Channels};
+
+    #[test]
+    fn labels_map_to_zero_to_one_and_constant_ones_to_zero() {
+        let channels = Channels::new([Channel::FX, Channel::FZ]).expect("distinct");
+        let targets = Targets {
+            channels: &channels,
+            values: &[-1.0, 5.0, 3.0, 5.0, 0.0, 5.0],
+        };
+        let scaling = LabelScaling::of(targets);
+        assert_eq!(scaling.span(), [4.0, 1.0]);
+        assert!(!scaling.is_constant(0) && scaling.is_constant(1));
+        let scaled = scaling.scaled(targets);
+        assert_eq!(scaled.col_as_slice(0), [0.0, 1.0, 0.25]);
+        assert_eq!(scaled.col_as_slice(1), [0.0, 0.0, 0.0]);
+    }
+}

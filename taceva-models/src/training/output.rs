@@ -1,0 +1,90 @@
+//! What every regressor checks before it predicts and after, and how scaled predictions become units.
+
+use taceva_core::{Channels, ErrorKind, FeatureShape, Features, ModelError};
+
+use crate::training::problem::{Problem, invalid};
+
+/// Refuses features of another shape and a buffer of another length.
+pub(crate) fn check_call(
+    channels: &Channels,
+    shape: FeatureShape,
+    features: &Features,
+    into: &[f64],
+) -> Result<(), ModelError> {
+    if features.shape() != shape {
+        return Err(invalid(format!(
+            "features of shape {:?} for a model of {shape:?}",
+            features.shape()
+        )));
+    }
+    let channels = channels.len();
+    if into.len() != features.samples() * channels {
+        return Err(invalid(format!(
+            "{} places for {} samples of {channels} channels",
+            into.len(),
+            features.samples()
+        )));
+    }
+    Ok(())
+}
+
+/// Refuses a prediction that is not finite.
+pub(crate) fn check_finite(channels: &Channels, predictions: &[f64]) -> Result<(), ModelError> {
+    match predictions.iter().position(|value| !value.is_finite()) {
+        None => Ok(()),
+        Some(position) => Err(ModelError::new(
+            ErrorKind::OutOfRange,
+            format!(
+                "sample {}: the prediction of `{}` is not finite",
+                position / channels.len(),
+                channels.as_slice()[position % channels.len()]
+            ),
+        )),
+    }
+}
+
+/// From centred, scaled labels back to the units of the channels: offset + span · value.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct OutputScale {
+    pub(crate) offset: Vec<f64>,
+    pub(crate) span: Vec<f64>,
+}
+
+impl OutputScale {
+    /// The same for values about a mean that lies `shift` away.
+    pub(crate) fn moved(mut self, shift: &[f64]) -> OutputScale {
+        let moved = self.span.iter().zip(shift);
+        let places = self.offset.iter_mut().zip(moved);
+        places.for_each(|(offset, (span, shift))| *offset += span * shift);
+        self
+    }
+
+    /// That of the labels of `problem`.
+    pub(crate) fn of(problem: &Problem<'_>) -> OutputScale {
+        let span = problem.scaling.span().to_vec();
+        let minimum = problem.scaling.minimum().iter();
+        let mean = span.iter().zip(&problem.mean);
+        OutputScale {
+            offset: minimum
+                .zip(mean)
+                .map(|(minimum, (span, mean))| minimum + span * mean)
+                .collect(),
+            span,
+        }
+    }
+
+    /// Whether all numbers are finite and there is one of each for `channels` channels.
+    pub(crate) fn is_valid(&self, channels: usize) -> bool {
+        let mut numbers = self.offset.iter().chain(&self.span);
+        [self.offset.len(), self.span.len()] == [channels; 2]
+            && numbers.all(|value| value.is_finite())
+    }
+
+    /// Brings the centred, scaled predictions of a sample back.
+    pub(crate) fn unscale(&self, sample: &mut [f64]) {
+        let own = self.offset.iter().zip(&self.span);
+        for (place, (offset, span)) in sample.iter_mut().zip(own) {
+            *place = offset + span * *place;
+        }
+    }
+}

@@ -1,0 +1,176 @@
+//! What every estimator starts from: checked features and labels, scaled and centred.
+
+use faer::Mat;
+use taceva_core::{ErrorKind, Features, ModelError, TrainingSet};
+
+use crate::training::label_scaling::LabelScaling;
+
+/// A training part that something can be learnt from.
+#[derive(Debug)]
+pub(crate) struct Problem<'a> {
+    pub(crate) training: TrainingSet<'a>,
+    pub(crate) scaling: LabelScaling,
+    /// The mean of each scaled label.
+    pub(crate) mean: Vec<f64>,
+    /// Scaled labels minus their mean, a row a sample.
+    pub(crate) centred: Mat<f64>,
+}
+
+impl<'a> Problem<'a> {
+    /// Least number of samples that a model can be fitted on.
+    pub(crate) const SAMPLES_MIN: usize = 2;
+
+    pub(crate) fn new(training: TrainingSet<'a>) -> Result<Problem<'a>, ModelError> {
+        check(&training, "training")?;
+        let samples = training.features.samples();
+        if samples < Problem::SAMPLES_MIN {
+            return Err(invalid(format!(
+                "{samples} training samples, at least {} are needed",
+                Problem::SAMPLES_MIN
+            )));
+        }
+        let scaling = LabelScaling::of(training.targets);
+        let (mean, centred) = centred(scaling.scaled(training.targets));
+        Ok(Problem {
+            training,
+            scaling,
+            mean,
+            centred,
+        })
+    }
+
+    /// The validation part, if it has a sample and fits the training part.
+    pub(crate) fn validation<'v>(
+        &self,
+        validation: Option<&TrainingSet<'v>>,
+    ) -> Result<Option<Validation<'v>>, ModelError> {
+        let Some(part) = validation.filter(|part| part.features.samples() > 0) else {
+            return Ok(None);
+        };
+        check(part, "validation")?;
+        if part.features.shape() != self.training.features.shape() {
+            return Err(invalid(format!(
+                "validation samples of {} features, training samples of {}",
+                part.features.shape().len(),
+                self.training.features.shape().len()
+            )));
+        }
+        if part.targets.channels != self.training.targets.channels {
+            return Err(invalid("validation and training have different channels"));
+        }
+        let mut labels = self.scaling.scaled(part.targets);
+        subtract(&mut labels, &self.mean);
+        Ok(Some(Validation {
+            features: part.features,
+            labels,
+        }))
+    }
+
+    /// The groups of the training part, if there are at least two to choose from.
+    pub(crate) fn groups(&self) -> Option<Vec<Vec<usize>>> {
+        let groups = self.training.groups?;
+        let mut members = std::collections::BTreeMap::<u32, Vec<usize>>::new();
+        for (row, &group) in groups.iter().enumerate() {
+            members.entry(group).or_default().push(row);
+        }
+        (members.len() > 1).then(|| members.into_values().collect())
+    }
+
+    pub(crate) fn channels(&self) -> usize {
+        self.mean.len()
+    }
+}
+
+/// A validation part in the labels of the training part.
+#[derive(Debug)]
+pub(crate) struct Validation<'v> {
+    pub(crate) features: &'v Features,
+    /// Scaled labels minus the mean of the training part.
+    pub(crate) labels: Mat<f64>,
+}
+
+/// The mean of each column, and the columns without it.
+pub(crate) fn centred(mut values: Mat<f64>) -> (Vec<f64>, Mat<f64>) {
+    let rows = values.nrows() as f64;
+    let mean: Vec<f64> = (0..values.ncols())
+        .map(|column| values.col_as_slice(column).iter().sum::<f64>() / rows)
+        .collect();
+    subtract(&mut values, &mean);
+    (mean, values)
+}
+
+fn subtract(values: &mut Mat<f64>, mean: &[f64]) {
+    for (column, mean) in mean.iter().enumerate() {
+        values
+            .col_as_slice_mut(column)
+            .iter_mut()
+            .for_each(|value| *value -= mean);
+    }
+}
+
+/// One matrix under the other.
+pub(crate) fn stacked(upper: &Mat<f64>, lower: &Mat<f64>) -> Mat<f64> {
+    let mut whole = Mat::zeros(upper.nrows() + lower.nrows(), upper.ncols());
+    whole.subrows_mut(0, upper.nrows()).copy_from(upper);
+    whole
+        .subrows_mut(upper.nrows(), lower.nrows())
+        .copy_from(lower);
+    whole
+}
+
+/// The samples of one part after those of another of the same shape.
+pub(crate) fn joined(first: &Features, second: &Features) -> Features {
+    let values = [first.values(), second.values()].concat();
+    Features::new(first.shape(), values).expect("whole samples of one shape, twice")
+}
+
+fn check(part: &TrainingSet<'_>, name: &str) -> Result<(), ModelError> {
+    let (samples, length) = (part.features.samples(), part.features.shape().len());
+    let channels = part.targets.channels.len();
+    if length == 0 || channels == 0 {
+        return Err(invalid(format!(
+            "{length} features and {channels} channels: at least one of each is needed"
+        )));
+    }
+    if part.targets.values.len() != samples * channels {
+        return Err(invalid(format!(
+            "{} labels for {samples} {name} samples of {channels} channels",
+            part.targets.values.len()
+        )));
+    }
+    if let Some(groups) = part.groups.filter(|groups| groups.len() != samples) {
+        return Err(invalid(format!(
+            "{} groups for {samples} {name} samples",
+            groups.len()
+        )));
+    }
+    if let Some(position) = part
+        .features
+        .values()
+        .iter()
+        .position(|value| !value.is_finite())
+    {
+        return Err(invalid(format!(
+            "{name} sample {}: feature {} is not finite",
+            position / length,
+            position % length
+        )));
+    }
+    if let Some(position) = part
+        .targets
+        .values
+        .iter()
+        .position(|value| !value.is_finite())
+    {
+        return Err(invalid(format!(
+            "{name} sample {}: `{}` is not finite",
+            position / channels,
+            part.targets.channels.as_slice()[position % channels]
+        )));
+    }
+    Ok(())
+}
+
+pub(crate) fn invalid(message: impl Into<String>) -> ModelError {
+    ModelError::new(ErrorKind::InvalidArgument, message)
+}

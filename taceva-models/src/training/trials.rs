@@ -1,0 +1,180 @@
+//! Trials of settings: which samples are learnt from and which are held out, and the error that follows.
+
+use std::borrow::Cow;
+
+use faer::Mat;
+use taceva_core::{Features, ModelError, Progress};
+
+use crate::training::choice::{ChannelChoice, Choice, ChosenBy, Errors, least, rmse};
+use crate::training::problem::{Problem, Validation, joined, stacked};
+use crate::training::progress::{Stage, interrupted};
+
+/// Fits that choosing without a validation part costs at most.
+pub(crate) const FOLDS: usize = 10;
+
+/// All samples that a choice may use, and the rounds it is made in.
+#[derive(Debug)]
+pub(crate) struct Trials<'a> {
+    /// Those of the training part, then those of the validation part.
+    pub(crate) features: Cow<'a, Features>,
+    /// Their labels, scaled and centred by the training part.
+    pub(crate) labels: Mat<f64>,
+    by: ChosenBy,
+    rounds: Vec<Round>,
+    training: usize,
+}
+
+/// Rows that are learnt from, and rows that are predicted.
+#[derive(Debug)]
+pub(crate) struct Round {
+    pub(crate) learnt: Vec<usize>,
+    pub(crate) held: Vec<usize>,
+}
+
+impl<'a> Trials<'a> {
+    /// The validation part held out, where there is one; else the groups of the training part one after the other, more than
+    /// ten assigned to ten folds; else ten runs of neighbouring samples. Without a choice nothing but a validation part is held out.
+    pub(crate) fn new(
+        problem: &Problem<'a>,
+        validation: Option<&Validation<'_>>,
+        has_choice: bool,
+    ) -> Trials<'a> {
+        let training = problem.centred.nrows();
+        let held = |held: Vec<usize>| {
+            let mut inside = vec![false; training];
+            held.iter().for_each(|&row| inside[row] = true);
+            Round {
+                learnt: (0..training).filter(|&row| !inside[row]).collect(),
+                held,
+            }
+        };
+        let Some(part) = validation else {
+            let (by, folds) = match (has_choice, problem.groups()) {
+                (false, _) => (ChosenBy::Nobody, Vec::new()),
+                (true, Some(groups)) if groups.len() <= FOLDS => {
+                    (ChosenBy::LeaveOneGroupOut, groups)
+                }
+                (true, Some(groups)) => (ChosenBy::TenFolds, folds_of(groups)),
+                (true, None) => (ChosenBy::TenFolds, folds(training)),
+            };
+            return Trials {
+                features: Cow::Borrowed(problem.training.features),
+                labels: problem.centred.clone(),
+                by,
+                rounds: folds.into_iter().map(held).collect(),
+                training,
+            };
+        };
+        let samples = training + part.labels.nrows();
+        Trials {
+            features: Cow::Owned(joined(problem.training.features, part.features)),
+            labels: stacked(&problem.centred, &part.labels),
+            by: if has_choice {
+                ChosenBy::Validation
+            } else {
+                ChosenBy::Nobody
+            },
+            rounds: vec![Round {
+                learnt: (0..training).collect(),
+                held: (training..samples).collect(),
+            }],
+            training,
+        }
+    }
+
+    /// The rows that the model learns from once everything is chosen.
+    pub(crate) fn learnt(&self, refit: bool) -> Vec<usize> {
+        if refit {
+            (0..self.labels.nrows()).collect()
+        } else {
+            (0..self.training).collect()
+        }
+    }
+
+    /// Whether there is a validation part to learn from too.
+    pub(crate) fn has_validation(&self) -> bool {
+        self.labels.nrows() > self.training
+    }
+
+    /// The mean squared error of each channel at each candidate; `squares` gives the summed squares of a round.
+    pub(crate) fn errors(
+        &self,
+        progress: &dyn Progress,
+        mut squares: impl FnMut(&Round) -> Result<Errors, ModelError>,
+    ) -> Result<Option<Errors>, ModelError> {
+        let stage = Stage::begin(progress, "settings tried", self.rounds.len());
+        let mut total: Option<Errors> = None;
+        for round in self.rounds.iter().filter(|round| !round.learnt.is_empty()) {
+            interrupted(progress)?;
+            let own = squares(round)?;
+            match &mut total {
+                None => total = Some(own),
+                Some(total) => {
+                    let places = total.iter_mut().flatten();
+                    places
+                        .zip(own.iter().flatten())
+                        .for_each(|(place, own)| *place += own);
+                }
+            }
+            stage.advance();
+        }
+        let held: usize = self.rounds.iter().map(|round| round.held.len()).sum();
+        if let Some(total) = &mut total {
+            let places = total.iter_mut().flatten();
+            places.for_each(|place| *place /= held as f64);
+        }
+        Ok(total)
+    }
+
+    /// The candidate of each channel of least error, and what a card says of it; `values` go with the candidates.
+    pub(crate) fn choose(
+        &self,
+        problem: &Problem<'_>,
+        setting: &str,
+        values: &[f64],
+        errors: Option<&Errors>,
+    ) -> (Vec<usize>, Choice) {
+        let chosen: Vec<usize> = (0..problem.channels())
+            .map(|channel| errors.map_or(0, |errors| least(errors, channel)))
+            .collect();
+        let spans = problem.scaling.span();
+        let channels = chosen.iter().enumerate().map(|(channel, &candidate)| {
+            let error = errors.map(|errors| errors[candidate][channel]);
+            ChannelChoice {
+                value: values.get(candidate).copied(),
+                rmse: error.and_then(|error| rmse(error, spans[channel])),
+                at_edge: values.len() > 1 && (candidate == 0 || candidate == values.len() - 1),
+            }
+        });
+        let choice = Choice {
+            by: self.by,
+            setting: Some(setting.to_owned()),
+            channels: channels.collect(),
+        };
+        (chosen, choice)
+    }
+}
+
+/// Many groups assigned to ten folds, each kept whole: every fold left out costs a fit.
+pub(crate) fn folds_of(groups: Vec<Vec<usize>>) -> Vec<Vec<usize>> {
+    let mut folds = vec![Vec::new(); FOLDS];
+    for (position, group) in groups.into_iter().enumerate() {
+        folds[position % FOLDS].extend(group);
+    }
+    folds
+}
+
+/// Ten runs of neighbouring samples, or as many as there are samples.
+pub(crate) fn folds(samples: usize) -> Vec<Vec<usize>> {
+    let count = FOLDS.min(samples);
+    (0..count)
+        .map(|fold| (fold * samples / count..(fold + 1) * samples / count).collect())
+        .collect()
+}
+
+/// Of some rows of `labels`, row by row.
+pub(crate) fn rows_of(labels: &Mat<f64>, rows: &[usize]) -> Mat<f64> {
+    Mat::from_fn(rows.len(), labels.ncols(), |row, channel| {
+        labels[(rows[row], channel)]
+    })
+}

@@ -1,0 +1,200 @@
+//! What is no model, or another one than was written.
+
+use std::path::Path;
+
+use taceva_models::{FormatError, Model, ModelFileError, ModelRegressor};
+
+use crate::{SPEC, fit};
+
+#[test]
+fn a_path_that_cannot_be_is_named() {
+    let (model, _) = fit("baseline", &[], SPEC);
+    let path = Path::new("no/such/folder/model.safetensors");
+    let error = model.save(path).expect_err("no folder");
+    assert!(matches!(error, ModelFileError::Write { .. }));
+    assert!(
+        error
+            .to_string()
+            .starts_with("cannot write model no/such/folder/model.safetensors: ")
+    );
+    assert!(matches!(
+        Model::open(path),
+        Err(ModelFileError::Read { .. })
+    ));
+}
+
+/// A card with a seal that holds, over the tensors of the file as well.
+fn sealed(card: &str, bytes: &[u8]) -> String {
+    use sha2::Digest as _;
+    let file = safetensors::SafeTensors::deserialize(bytes).expect("a whole file");
+    let digested = |(name, tensor): (String, safetensors::tensor::TensorView<'_>)| {
+        let mut hasher = sha2::Sha256::new();
+        hasher.update(format!("{:?} {:?} ", tensor.dtype(), tensor.shape()).as_bytes());
+        hasher.update(tensor.data());
+        (format!("tensor {name}"), hasher.finalize().to_vec())
+    };
+    let mut digests: Vec<_> = file.tensors().into_iter().map(digested).collect();
+    digests.sort();
+    let attached: Vec<(&str, &[u8])> = digests
+        .iter()
+        .map(|(name, digest)| (name.as_str(), digest.as_slice()))
+        .collect();
+    taceva_seal::json::seal_with(card, &attached).expect("a card")
+}
+
+/// A model's bytes with its card rewritten, and a seal that holds where its version has one.
+fn with_card(bytes: &[u8], change: impl Fn(&mut serde_json::Value)) -> Vec<u8> {
+    with_card_text(bytes, |card| {
+        let mut card: serde_json::Value = serde_json::from_str(card).expect("a card");
+        change(&mut card);
+        card.as_object_mut().expect("an object").remove("seal");
+        match card["format"].as_str() {
+            Some("1.0") => card.to_string(),
+            _ => sealed(&card.to_string(), bytes),
+        }
+    })
+}
+
+/// A model's bytes with the text of its card rewritten.
+fn with_card_text(bytes: &[u8], change: impl Fn(&str) -> String) -> Vec<u8> {
+    let length = u64::from_le_bytes(*bytes.first_chunk().expect("a header"));
+    let end = 8 + usize::try_from(length).expect("small");
+    let mut header: serde_json::Value = serde_json::from_slice(&bytes[8..end]).expect("a header");
+    let text = header["__metadata__"]["taceva.model"]
+        .as_str()
+        .expect("a card");
+    header["__metadata__"]["taceva.model"] = change(text).into();
+    let mut text = header.to_string();
+    while !text.len().is_multiple_of(8) {
+        text.push(' ');
+    }
+    let mut changed = (text.len() as u64).to_le_bytes().to_vec();
+    changed.extend(text.bytes());
+    changed.extend(&bytes[end..]);
+    changed
+}
+
+#[test]
+fn a_number_a_setting_or_a_seal_that_is_another_one_is_refused_by_its_key() {
+    let bytes = fit("ridge", &[], SPEC).0.to_bytes().expect("small");
+    let refused = |bytes: &[u8]| {
+        let error = Model::from_bytes(bytes).expect_err("changed");
+        error.to_string()
+    };
+    let setting = with_card_text(&bytes, |card| {
+        assert!(card.contains("\"difference\":false"), "{card}");
+        card.replace("\"difference\":false", "\"difference\":true")
+    });
+    let message = refused(&setting);
+    assert!(
+        message.contains("`features.difference` was changed"),
+        "{message}"
+    );
+    let mut weight = bytes.clone();
+    *weight.last_mut().expect("a weight") ^= 1;
+    let message = refused(&weight);
+    assert!(message.contains("`tensor "), "{message}");
+    let without = with_card_text(&bytes, |card| {
+        let (card, _) = card.split_once(",\"seal\"").expect("a seal");
+        format!("{card}}}")
+    });
+    assert!(refused(&without).contains("the seal is gone"));
+    let older = with_card(&bytes, |card| card["format"] = "1.0".into());
+    assert!(
+        Model::from_bytes(&older).is_ok(),
+        "files of before seals are read"
+    );
+}
+
+#[test]
+fn newer_minor_versions_are_read_and_newer_major_ones_refused() {
+    let bytes = fit("ridge", &[], SPEC).0.to_bytes().expect("small");
+    let minor = with_card(&bytes, |card| {
+        card["format"] = "1.7".into();
+        card["mood"] = "sunny".into();
+    });
+    assert!(Model::from_bytes(&minor).is_ok());
+    for version in ["2.0", "0.9", "1", "one", ""] {
+        let other = with_card(&bytes, |card| card["format"] = version.into());
+        let error = Model::from_bytes(&other).expect_err(version);
+        assert!(matches!(error, FormatError::Version { .. }), "{error}");
+    }
+}
+
+#[test]
+fn a_card_that_does_not_fit_its_tensors_is_refused() {
+    let bytes = fit("ridge", &[], SPEC).0.to_bytes().expect("small");
+    let refused = |change: fn(&mut serde_json::Value)| {
+        let changed = with_card(&bytes, change);
+        Model::from_bytes(&changed)
+            .expect_err("refused")
+            .to_string()
+    };
+    assert_eq!(
+        refused(|card| card["features"]["width"] = 6.into()),
+        "tensor `weights` is F64 [2, 20], the card says F64 [2, 24]"
+    );
+    assert!(refused(|card| card["features"]["width"] = 0.into()).contains("contradicts itself"));
+    assert!(refused(|card| card["channels"][0]["unit"] = "mm".into()).contains("channel"));
+    assert!(refused(|card| card["channels"][0]["name"] = "z y".into()).contains("channel"));
+    assert!(refused(|card| card["features"]["smell"] = true.into()).contains("smell"));
+}
+
+#[test]
+fn numbers_that_are_not_finite_are_refused() {
+    let sealed = fit("ridge", &[], SPEC).0.to_bytes().expect("small");
+    // Where the seal is checked first, the number is never looked at.
+    let mut bytes = with_card(&sealed, |card| card["format"] = "1.0".into());
+    let end = bytes.len();
+    bytes[end - 8..].copy_from_slice(&f64::NAN.to_le_bytes());
+    let error = Model::from_bytes(&bytes).expect_err("refused");
+    assert_eq!(error.to_string(), "a weight is not finite");
+}
+
+#[test]
+fn a_huge_header_is_refused_before_it_is_read() {
+    let error = Model::from_bytes(&[0xff; 64]).expect_err("refused");
+    assert!(matches!(error, FormatError::HeaderSize { .. }));
+    let foreign = safetensors::serialize::<&str, safetensors::tensor::TensorView<'_>, _>([], None);
+    let error = Model::from_bytes(&foreign.expect("empty")).expect_err("refused");
+    assert!(matches!(error, FormatError::NoCard));
+}
+
+#[test]
+fn damaged_files_never_panic_and_truncated_ones_are_never_models() {
+    let bytes = fit("ridge", &[], SPEC).0.to_bytes().expect("small");
+    for length in 0..bytes.len() {
+        assert!(
+            Model::from_bytes(&bytes[..length]).is_err(),
+            "{length} bytes"
+        );
+    }
+    let seed = 20_261_121_u64;
+    let mut state = seed;
+    let mut next = |bound: usize| {
+        state = state
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1);
+        usize::try_from(state >> 33).expect("31 bits") % bound
+    };
+    for round in 0..20_000 {
+        let mut damaged = bytes.clone();
+        for _ in 0..=next(4) {
+            let position = next(damaged.len());
+            damaged[position] = u8::try_from(next(256)).expect("a byte");
+        }
+        // What still opens has finite numbers of the shape its card names.
+        if let Ok(model) = Model::from_bytes(&damaged) {
+            let ModelRegressor::Linear(linear) = model.regressor() else {
+                panic!("a linear model became another")
+            };
+            let weights = linear.weights();
+            assert_eq!(
+                weights.len(),
+                model.channels().len() * model.card().features.shape().len(),
+                "seed {seed}, round {round}"
+            );
+            assert!(weights.iter().all(|weight| weight.is_finite()));
+        }
+    }
+}

@@ -1,0 +1,89 @@
+//! A stage of a network, before it has weights.
+
+use super::PlainLayer;
+use crate::convolution::Convolution;
+use crate::max_pool;
+use crate::planes::{Layout, Picture};
+
+/// A part of a network that is passed as a whole.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum StagePlan {
+    /// A convolution of 7 × 7 with stride 2, then the greatest of 3 × 3 with stride 2.
+    Stem {
+        /// Channels it gives.
+        channels: usize,
+    },
+    /// A convolution.
+    Plain(PlainLayer),
+    /// Two convolutions of 3 × 3 and what leads past them: a convolution of 1 × 1 where pictures change their shape.
+    Block {
+        /// Channels it gives.
+        channels: usize,
+        /// Pixels from one place of the first kernel to the next.
+        stride: usize,
+    },
+}
+
+impl StagePlan {
+    /// Its first convolution, of pictures with `inputs` channels.
+    pub(crate) const fn first(&self, inputs: usize) -> Convolution {
+        match *self {
+            StagePlan::Stem { channels } => Convolution {
+                inputs,
+                outputs: channels,
+                kernel: 7,
+                stride: 2,
+            },
+            StagePlan::Plain(PlainLayer {
+                channels,
+                kernel,
+                stride,
+            }) => Convolution {
+                inputs,
+                outputs: channels,
+                kernel,
+                stride,
+            },
+            StagePlan::Block { channels, stride } => Convolution {
+                inputs,
+                outputs: channels,
+                kernel: 3,
+                stride,
+            },
+        }
+    }
+
+    /// Weights, gains and biases that it learns, of pictures with `inputs` channels.
+    pub(super) fn parameters(&self, inputs: usize) -> u128 {
+        let first = self.first(inputs);
+        let normed = |inputs: usize, taps: usize| {
+            (inputs as u128 * taps as u128 + 2) * first.outputs as u128
+        };
+        let past = match *self {
+            StagePlan::Stem { .. } | StagePlan::Plain(_) => 0,
+            StagePlan::Block { channels, stride } => {
+                let changes = stride != 1 || inputs != channels;
+                normed(channels, 9) + if changes { normed(inputs, 1) } else { 0 }
+            }
+        };
+        normed(inputs, first.taps()) + past
+    }
+
+    /// The picture that it makes of `input`.
+    pub(crate) const fn output(&self, input: Picture) -> Picture {
+        let convolved = self.first(input.channels).output(input);
+        match self {
+            StagePlan::Stem { .. } => max_pool::output(convolved),
+            StagePlan::Plain(_) | StagePlan::Block { .. } => convolved,
+        }
+    }
+
+    /// How pictures that it reads lie.
+    pub(crate) fn input_layout(&self, picture: Picture) -> Layout {
+        let padding = self.first(picture.channels).padding();
+        Layout {
+            picture,
+            border: padding.max(1),
+        }
+    }
+}

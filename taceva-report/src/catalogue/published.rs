@@ -1,0 +1,86 @@
+//! Published numbers of a sensor, and their sources.
+
+use serde::Deserialize;
+use taceva_metrics::Standing;
+
+/// Where numbers are from.
+#[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Source {
+    /// By what it is named in the file.
+    pub id: String,
+    /// Who, what, where, when.
+    pub text: String,
+    /// Its address, if it has one.
+    pub link: Option<String>,
+}
+
+/// A published number.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Published {
+    /// The metric: `mae`.
+    pub metric: String,
+    /// The channel or plane.
+    pub channel: String,
+    /// The number, in `unit`.
+    pub value: f64,
+    /// The unit.
+    pub unit: String,
+    /// The id of the source.
+    pub source: String,
+    /// Where in the source: `table`, `figure`, `text`, or `derived` from its numbers.
+    pub read_from: String,
+    /// How it was measured.
+    pub conditions: String,
+    /// How it is defined.
+    pub definition: String,
+    /// How the number is to be read where it is no measured value: `about` it, `above` or `below` it.
+    pub bound: Option<Roughly>,
+    /// What a reader must know.
+    pub note: Option<String>,
+    /// Which part it takes in verdicts: by the published R² of its channel.
+    #[serde(skip)]
+    pub standing: Standing,
+}
+
+impl Published {
+    /// The number as it was published, with `≈`, `>` or `<` where its authors said no more.
+    pub fn shown(&self) -> String {
+        let sign = self.bound.map_or("", Roughly::sign);
+        format!("{sign}{}", self.value)
+    }
+}
+
+/// What authors say of a number that they do not state exactly. It is shown, and takes part in no comparison.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Roughly {
+    /// About as much.
+    About,
+    /// More than that.
+    Above,
+    /// Less than that.
+    Below,
+}
+
+impl Roughly {
+    /// The sign before the number.
+    pub const fn sign(self) -> &'static str {
+        match self {
+            Roughly::About => "≈ ",
+            Roughly::Above => "> ",
+            Roughly::Below => "< ",
+        }
+    }
+}
+
+/// A number that was not published.
+#[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Missing {
+    /// The metric.
+    pub metric: String,
+    /// Why there is none.
+    pub reason: String,
+}

@@ -1,0 +1,95 @@
+//! Reading of the files of the catalogue.
+
+use taceva_core::{Unit, shown};
+use taceva_metrics::Standing;
+
+use super::definition;
+use super::entry::Sensor;
+
+/// Why a file of the catalogue cannot be read.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum CatalogueError {
+    /// It is no TOML, or has other keys than it may have.
+    #[error("{file}: {source}")]
+    Toml {
+        /// The file.
+        file: String,
+        /// What is wrong, with its line.
+        source: Box<toml::de::Error>,
+    },
+    /// A value is none of those that are accepted.
+    #[error("{file}: {what} `{found}`: expected {expected}")]
+    Value {
+        /// The file.
+        file: String,
+        /// What the value is of.
+        what: &'static str,
+        /// What is there.
+        found: String,
+        /// What is accepted.
+        expected: &'static str,
+    },
+}
+
+impl Sensor {
+    /// The sensor described by `text`, the content of `file`.
+    ///
+    /// # Errors
+    /// [`CatalogueError`] with file and line.
+    pub fn read(file: &str, text: &str) -> Result<Sensor, CatalogueError> {
+        let mut sensor: Sensor = toml::from_str(text).map_err(|source| CatalogueError::Toml {
+            file: file.to_owned(),
+            source: Box::new(source),
+        })?;
+        let refuse = |what, found: &str, expected| CatalogueError::Value {
+            file: file.to_owned(),
+            what,
+            found: shown(found).to_string(),
+            expected,
+        };
+        if sensor.catalogue_version != 1 {
+            let found = sensor.catalogue_version.to_string();
+            return Err(refuse("catalogue_version", &found, "1"));
+        }
+        if let Some(word) = sensor
+            .mechanism
+            .iter()
+            .find(|word| !["IMM", "MDM", "MFM"].contains(&word.as_str()))
+        {
+            return Err(refuse("mechanism", word, "IMM, MDM or MFM"));
+        }
+        for result in &sensor.results {
+            let expected = definition::of(&result.metric, &result.channel);
+            if let Some(expected) = expected
+                && result.definition != expected
+            {
+                // One column, one definition.
+                return Err(refuse("definition", &result.definition, expected));
+            }
+            if expected.is_none() && definition::is_ours(&result.metric) {
+                return Err(refuse(
+                    "metric",
+                    &result.metric,
+                    "a name that results of this program do not have, since no definition is known here",
+                ));
+            }
+            if Unit::from_symbol(&result.unit).is_none() {
+                return Err(refuse("unit", &result.unit, "mm, N, mm/N, N·mm or 1"));
+            }
+            if !result.value.is_finite() {
+                return Err(refuse(
+                    "value",
+                    &result.value.to_string(),
+                    "a finite number",
+                ));
+            }
+        }
+        let judged = sensor.as_study();
+        for result in &mut sensor.results {
+            let score = judged.score(&result.metric, &result.channel);
+            result.standing = score.map_or(Standing::Counts, |score| score.standing);
+        }
+        Ok(sensor)
+    }
+}

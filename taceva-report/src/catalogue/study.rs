@@ -1,0 +1,114 @@
+//! Sensors of the catalogue as studies, and studies as sensors.
+
+use std::collections::BTreeMap;
+
+use taceva_core::Unit;
+use taceva_metrics::Standing;
+
+use super::definition;
+use super::entry::{Kind, Sensor};
+use super::published::Published;
+use crate::results::{Interval, Made, Score, Study, Value, by_published_r2};
+
+impl Sensor {
+    /// Results as a sensor that can be chosen: its numbers, and whether light is kept out as far as the results say. What a sensor stands is no
+    /// result; it is taken from the sensor of that name in the catalogue, if there is one.
+    pub fn of_study(study: &Study) -> Sensor {
+        let result = |score: &Score| {
+            Some(Published {
+                metric: score.metric.clone(),
+                channel: score.channel.clone(),
+                value: score.value.number()?,
+                unit: score.unit.symbol().to_owned(),
+                source: "result".to_owned(),
+                read_from: study.source.clone(),
+                conditions: "as its provenance says".to_owned(),
+                definition: score.definition.clone(),
+                bound: None,
+                note: None,
+                standing: score.standing,
+            })
+        };
+        let is_opaque = |reason: &str| reason.contains("opaque");
+        let skips = study.skipped.iter().any(|skip| is_opaque(&skip.reason));
+        let has_light = study.of_metric("r_light").next().is_some();
+        Sensor {
+            catalogue_version: 1,
+            name: study.sensor.clone(),
+            kind: Kind::Sensor,
+            mechanism: Vec::new(),
+            shape: None,
+            opaque: (skips || has_light).then_some(skips),
+            markers: None,
+            intrinsic: None,
+            limits: super::find(&study.sensor).and_then(|known| known.limits),
+            sources: Vec::new(),
+            results: study.scores.iter().filter_map(result).collect(),
+            missing: Vec::new(),
+            reported: BTreeMap::new(),
+            applications: BTreeMap::new(),
+        }
+    }
+
+    /// Its published numbers as results that can be shown and compared beside others; their source is `published`, and none has an interval.
+    pub fn as_study(&self) -> Study {
+        let score = |metric: &str, channel: &str, value: f64, unit: Unit| Score {
+            metric: metric.to_owned(),
+            channel: channel.to_owned(),
+            value: Value::Number(value),
+            unit,
+            n: 0,
+            n_invalid: 0,
+            interval: Some(Interval::Absent("published without one".to_owned())),
+            definition: "published".to_owned(),
+            parameters: Vec::new(),
+            counts: Vec::new(),
+            flags: Vec::new(),
+            standing: Standing::Counts,
+            bounded_share: None,
+            of: Vec::new(),
+            variants: Vec::new(),
+        };
+        let is_score =
+            |result: &&Published| definition::is_ours(&result.metric) && result.bound.is_none();
+        let published = self.results.iter().filter(is_score);
+        let mut scores: Vec<Score> = published
+            .map(|result| {
+                let unit = Unit::from_symbol(&result.unit).unwrap_or(Unit::One);
+                score(&result.metric, &result.channel, result.value, unit)
+            })
+            .collect();
+        if let Some(intrinsic) = &self.intrinsic {
+            let camera = [
+                ("frame_rate", intrinsic.frame_rate_hz, Unit::Hertz),
+                (
+                    "field_of_view",
+                    intrinsic.field_of_view_mm2,
+                    Unit::SquareMillimetre,
+                ),
+                ("resolution", intrinsic.camera_mp * 1e6, Unit::Pixel),
+            ];
+            scores.extend(camera.map(|(name, value, unit)| score("intrinsic", name, value, unit)));
+        }
+        by_published_r2(&mut scores);
+        let sources = self
+            .sources
+            .iter()
+            .map(|source| ("source".to_owned(), source.text.clone()));
+        Study {
+            sensor: self.name.clone(),
+            serial: "unknown".to_owned(),
+            gel: "unknown".to_owned(),
+            source: "published".to_owned(),
+            scores,
+            skipped: Vec::new(),
+            provenance: sources.collect(),
+            made: Made::default(),
+            notes: vec![
+                "published numbers; nothing here was measured with this program".to_owned(),
+            ],
+            over_seeds: None,
+            samples: None,
+        }
+    }
+}

@@ -1,0 +1,52 @@
+//! Spacings predicted by a model that predicts one of its training labels.
+
+use taceva_core::{
+    Channel, Channels, FeatureShape, Features, Nanometre, Regressor, Targets, TrainingSet, Unit,
+};
+
+use crate::classifier::ModelClassifier;
+use crate::error::StudyError;
+use crate::work::Work;
+
+/// The spacings of the spectra `asked`, by a model of `known` spectra with their spacings.
+pub(super) fn predict(
+    classifier: &ModelClassifier,
+    (known, spacings): (&[Vec<f64>], &[Nanometre]),
+    asked: &[Vec<f64>],
+    work: Work<'_>,
+) -> Result<Vec<Nanometre>, StudyError> {
+    let estimator = classifier.model.estimator(&classifier.settings)?;
+    let labels: Vec<f64> = spacings.iter().map(|one| one.to_millimetres()).collect();
+    let channel = Channel::named("spacing", Unit::Millimetre).expect("a word");
+    let channels = Channels::new([channel]).expect("one channel");
+    let features = features(known)?;
+    let training = TrainingSet {
+        features: &features,
+        targets: Targets {
+            channels: &channels,
+            values: &labels,
+        },
+        groups: None,
+    };
+    let fit = estimator.fit_model(&training, None, work.progress)?;
+    let mut found = vec![0.0; asked.len()];
+    fit.regressor.predict(&self::features(asked)?, &mut found)?;
+    let off = |label: f64, millimetres: f64| (label - millimetres).abs();
+    let nearest = |millimetres: &f64| {
+        let pairs = spacings.iter().zip(&labels);
+        let nearest =
+            pairs.min_by(|a, b| off(*a.1, *millimetres).total_cmp(&off(*b.1, *millimetres)));
+        nearest.map(|(spacing, _)| *spacing)
+    };
+    Ok(found.iter().filter_map(nearest).collect())
+}
+
+#[expect(
+    clippy::cast_possible_truncation,
+    reason = "features are kept in single precision"
+)]
+fn features(spectra: &[Vec<f64>]) -> Result<Features, StudyError> {
+    let width = spectra.first().map_or(0, Vec::len);
+    let values = spectra.iter().flatten().map(|&value| value as f32);
+    Ok(Features::new(FeatureShape::flat(width), values.collect())?)
+}
