@@ -1,4 +1,4 @@
-//! Plays seeds of the fault simulation: `faults [COUNT] [FIRST]`, 1,000 from seed 0 unless told otherwise.
+//! Plays seeds of the fault simulation: `faults [COUNT] [FIRST]`, 1,000 from seed 0 by default.
 //!
 //! Ends with 1 and the failing seeds if anything happened that must not, or if a kind of fault hardly struck; `faults 1 SEED` plays one
 //! again.

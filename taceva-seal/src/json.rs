@@ -268,7 +268,7 @@ mod tests {
     }
 
     #[test]
-    fn edits_are_told_one_after_the_other() {
+    fn edits_are_listed_one_after_the_other() {
         let first = seal(TEXT).expect("sealed").replace("0.5", "0.25");
         let second = reseal(&first, "2026-11-22", "typed wrongly").expect("accepted");
         let third = reseal(

@@ -220,7 +220,7 @@ mod tests {
     }
 
     #[test]
-    fn an_accepted_edit_is_told_and_sealed() {
+    fn an_accepted_edit_is_listed_and_sealed() {
         let edited = seal(BODY).expect("TOML").replace("5.0", "4.0");
         let accepted = reseal(&edited, "2026-11-22", "measured \"again\"").expect("accepted");
         let opened = check(&accepted, Version::Sealed).expect("holds");

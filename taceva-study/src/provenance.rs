@@ -65,13 +65,13 @@ impl Provenance {
     pub(crate) fn of(dataset: &Dataset) -> Provenance {
         let digest = dataset.digest().to_string();
         let presses = &dataset.header().presses;
-        let told = (!presses.is_empty()).then(|| (digest.clone(), presses.clone()));
+        let counted = (!presses.is_empty()).then(|| (digest.clone(), presses.clone()));
         let seal = &dataset.header().seal;
         let edits = seal.history.iter();
         Provenance {
             taceva: env!("CARGO_PKG_VERSION").to_owned(),
             dataset: Some(digest),
-            presses: told.into_iter().collect(),
+            presses: counted.into_iter().collect(),
             edits: edits.map(|edit| format!("dataset.toml, {edit}")).collect(),
             unsealed: match seal.is_sealed {
                 true => Vec::new(),

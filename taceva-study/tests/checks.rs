@@ -184,7 +184,7 @@ fn swapped_colours_are_noticed_with_and_without_a_reference() {
 }
 
 #[test]
-fn full_pixels_are_noticed_and_binarised_pictures_are_told_apart() {
+fn full_pixels_are_noticed_and_binarised_pictures_are_distinguished() {
     let brighter = |byte: u8| byte.saturating_mul(2);
     let black_and_white = |byte: u8| if byte > 100 { 255 } else { 0 };
     let levels: [(&dyn Fn(u8) -> u8, Severity); 2] = [

@@ -161,7 +161,7 @@ mod tests {
     }
 
     #[test]
-    fn an_absent_path_a_file_and_an_empty_folder_are_told_apart() {
+    fn an_absent_path_a_file_and_an_empty_folder_are_distinguished() {
         let empty = folder(&["a.txt"]);
         assert_eq!(
             advice(&empty.path().join("b")),

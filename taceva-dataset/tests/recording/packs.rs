@@ -110,7 +110,7 @@ fn a_pack_with_a_changed_byte_gives_no_other_picture() {
                 found => assert_eq!(found.expect("whole"), Some(textured(row, format)), "{at}"),
             }
         }
-        // Of the first frame the others are differences to: none of them can be told.
+        // The others are differences to the first frame: none of them can be decoded.
         let first = dataset.table().frames()[0]
             .as_ref()
             .and_then(|entry| entry.span);

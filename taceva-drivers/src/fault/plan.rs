@@ -125,7 +125,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_drawn_fault_comes_as_often_and_lasts_as_long_as_told() {
+    fn a_drawn_fault_comes_as_often_and_lasts_as_long_as_planned() {
         let likelihood = Likelihood {
             per_thousand: 10,
             calls: 4,

@@ -61,8 +61,8 @@ fn every_reason_has_its_golden_line_in_the_text_of_a_plan() {
         plan.skipped = vec![PlanSkip { subject, reason }];
         let text = plan.to_string();
         let last = text.lines().last().expect("a plan has lines").to_owned();
-        let is_told = last.starts_with("skip  ") || last.starts_with("join  ");
-        if is_told { last } else { String::new() }
+        let is_explained = last.starts_with("skip  ") || last.starts_with("join  ");
+        if is_explained { last } else { String::new() }
     };
     let lines: Vec<String> = PlanReason::all()
         .into_iter()
@@ -199,7 +199,7 @@ fn each_metric_is_computed_on_the_presses_that_vary_what_it_reads() {
 }
 
 #[test]
-fn metrics_are_told_of_the_sensor_what_the_plan_knows() {
+fn metrics_get_the_facts_of_the_sensor_that_the_plan_knows() {
     let facts = planned(SMALL, rig_of(sensor(), Axes::FORCE)).sensor_facts();
     assert_eq!(
         (facts.opaque, facts.frame_size),

@@ -91,7 +91,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn lost_frames_are_counted_and_the_last_complaint_of_the_sensor_is_told() {
+    fn lost_frames_are_counted_and_the_last_error_of_the_sensor_is_named() {
         let said = |last: Option<&str>| {
             let last = last.map(str::to_owned);
             StopCause::Frames { attempts: 3, last }.to_string()

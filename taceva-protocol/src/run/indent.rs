@@ -70,7 +70,7 @@ impl Run<'_> {
         self.sample(planned, spot, rested, gathered)
     }
 
-    /// The limit of the gel that stopped the tip, which is told; any other cause stops the run.
+    /// The limit of the gel that stopped the tip, reported as an event; any other cause stops the run.
     pub(super) fn limit_of(&mut self, cause: StopCause) -> Step<Limit> {
         let StopCause::Tripped(trip) = cause else {
             return Err(cause);

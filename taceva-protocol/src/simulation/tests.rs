@@ -184,7 +184,7 @@ fn a_rehearsal_visits_every_place_touches_nothing_and_records_nothing() {
 }
 
 #[test]
-fn a_rehearsal_goes_as_far_above_the_height_of_travel_as_it_is_told() {
+fn a_rehearsal_goes_as_far_above_the_height_of_travel_as_it_is_asked_to() {
     let mut bench = Bench::new(SOFT);
     // Presses without waypoints, after which the tip is where it went first.
     let presses = &mut bench.plan.presses;

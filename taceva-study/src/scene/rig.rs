@@ -81,8 +81,8 @@ impl RigSpec {
         let mut arguments = self.located(written.arguments(), taken);
         for (key, value) in [("seed", self.seed.to_string()), ("unit", unit.to_owned())] {
             let takes = taken.iter().any(|argument| argument.key == key);
-            let told = arguments.split(';').filter_map(|part| part.split_once('='));
-            if takes && !told.into_iter().any(|(told, _)| told.trim() == key) {
+            let given = arguments.split(';').filter_map(|part| part.split_once('='));
+            if takes && !given.into_iter().any(|(name, _)| name.trim() == key) {
                 let separator = if arguments.is_empty() { "" } else { ";" };
                 arguments = format!("{arguments}{separator}{key}={value}");
             }

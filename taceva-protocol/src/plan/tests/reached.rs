@@ -211,7 +211,7 @@ fn scenes() -> Vec<(Plan, Subject, PlanReason)> {
 }
 
 #[test]
-fn each_scene_that_lacks_something_is_told_what_it_lacks() {
+fn each_scene_that_lacks_something_gets_the_reason() {
     for (plan, subject, expected) in scenes() {
         let found = reason(&plan, &subject);
         assert_eq!(found, Some(expected), "{subject}\n{plan}");

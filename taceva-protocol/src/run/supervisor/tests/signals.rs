@@ -101,7 +101,7 @@ fn travel_forgets_the_force_before_it_for_its_zero_may_have_moved() {
 }
 
 #[test]
-fn the_first_reason_of_a_halt_is_told_whatever_comes_after_it() {
+fn the_first_reason_of_a_halt_is_kept_whatever_comes_after_it() {
     let (mut supervisor, halts) = watching(PRESS);
     let hard = Observation::Force(force(9.0), at(10.0));
     let first = supervisor.observe(&hard, 10.0).expect_err("a limit");
