@@ -61,7 +61,7 @@ pub(crate) struct SeedArgs {
 #[derive(Debug, Args)]
 pub(crate) struct SplitOutArgs {
     /// Write the ids of the training, validation and test samples as JSON
-    #[arg(id = "split_out", long, value_name = "SPLIT.json")]
+    #[arg(id = "split_out", long = "split-out", value_name = "SPLIT.json")]
     pub(crate) path: Option<PathBuf>,
 }
 
