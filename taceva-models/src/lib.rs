@@ -19,9 +19,7 @@ pub use estimators::auto::{Auto, AutoCard, AutoTrial, Untried};
 pub use estimators::baseline::Baseline;
 pub use estimators::discriminant::{ClassRegressor, Discriminant, LinearDiscriminant};
 pub use estimators::elastic_net::ElasticNet;
-pub use estimators::kernel::{
-    GaussianProcess, KernelRegressor, KernelRidge, NORMAL_95, SupportVectors,
-};
+pub use estimators::kernel::{GaussianProcess, KernelRegressor, KernelRidge, NORMAL_95};
 pub use estimators::library::{
     LibraryCard, LibraryLearner, LibraryModel, LibraryPredictor, LibraryRegressor, LibrarySettings,
     LibrarySizes, LibraryTask, LibraryTensor, LibraryTensors, LoadedPredictor, Numbers,

@@ -10,7 +10,7 @@ use crate::estimators::auto::Auto;
 use crate::estimators::library::LibraryModel;
 use crate::estimators::plugin::PluginEstimator;
 use crate::features::FeatureSpec;
-use crate::registry::{ALL, ModelInfo, UnknownModel};
+use crate::registry::{ALL, ModelInfo, UnknownModel, replaced};
 use crate::settings::{SettingError, Settings};
 use crate::training::fit::ModelEstimator;
 
@@ -65,6 +65,7 @@ impl Models {
     /// # Errors
     /// [`UnknownModel`] with the nearest name, or with the plugin that it would be of.
     pub fn find(&self, name: &str) -> Result<ChosenModel, UnknownModel> {
+        let name = replaced(name);
         if let Some(factory) = self.offered(name) {
             return Ok(ChosenModel::Offered(Arc::clone(factory)));
         }

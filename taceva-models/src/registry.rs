@@ -6,7 +6,7 @@ use crate::estimators::auto::Auto;
 use crate::estimators::baseline::Baseline;
 use crate::estimators::discriminant::LinearDiscriminant;
 use crate::estimators::elastic_net::ElasticNet;
-use crate::estimators::kernel::{GaussianProcess, KernelRidge, SupportVectors};
+use crate::estimators::kernel::{GaussianProcess, KernelRidge};
 use crate::estimators::library::library_of;
 use crate::estimators::neighbours::Neighbours;
 use crate::estimators::network::NetworkEstimator;
@@ -49,7 +49,6 @@ pub const ALL: &[ModelInfo] = &[
     Pls::INFO,
     ElasticNet::INFO,
     KernelRidge::INFO,
-    SupportVectors::INFO,
     GaussianProcess::INFO,
     Neighbours::INFO,
     LinearDiscriminant::INFO,
@@ -61,6 +60,17 @@ pub const ALL: &[ModelInfo] = &[
     NetworkEstimator::RESNET_34,
     Auto::INFO,
 ];
+
+/// Names of models that were ours, and the model of a library that each means now.
+const REPLACED: [(&str, &str); 1] = [("svr", "linfa/svr")];
+
+/// What `name` means now, where it was the name of a model of ours.
+pub(crate) fn replaced(name: &str) -> &str {
+    let mut known = REPLACED.iter();
+    known
+        .find(|(old, _)| *old == name)
+        .map_or(name, |(_, now)| now)
+}
 
 /// The model called `name`.
 ///
@@ -76,6 +86,7 @@ pub const ALL: &[ModelInfo] = &[
 /// # Errors
 /// [`UnknownModel`] with the nearest name.
 pub fn find(name: &str) -> Result<&'static ModelInfo, UnknownModel> {
+    let name = replaced(name);
     ALL.iter()
         .find(|info| info.name == name)
         .ok_or_else(|| UnknownModel::new(name, ALL.iter().map(|info| info.name)))

@@ -10,14 +10,12 @@ mod nystrom;
 mod reach;
 mod regressor;
 mod ridge;
-mod support_vector;
 mod uncertainty;
 
 pub use self::gaussian_process::GaussianProcess;
 pub use self::reach::NORMAL_95;
 pub use self::regressor::KernelRegressor;
 pub use self::ridge::KernelRidge;
-pub use self::support_vector::SupportVectors;
 
 use taceva_core::{Features, ModelError, Progress, TrainingSet};
 

@@ -26,10 +26,6 @@ pub(crate) const CASES: &[Case] = &[
         ..case("kernel-ridge", &[], 0.4)
     },
     Case {
-        order: None,
-        ..case("svr", &[], 0.6)
-    },
-    Case {
         order: Some(1e-4),
         ..case("gaussian-process", &[], 0.4)
     },

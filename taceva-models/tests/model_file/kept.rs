@@ -3,6 +3,7 @@
 use taceva_core::{FeatureShape, Features, FrameInfo, Unit};
 use taceva_models::{FeatureError, FeatureKind, FeatureSpec, Model};
 
+use crate::refused::with_card;
 use crate::{FRAME, SPEC, fit};
 
 #[test]
@@ -133,4 +134,15 @@ fn features_other_than_asked_for_are_refused() {
     let (model, _) = fit("ridge", &[], SPEC);
     let other = Features::new(FeatureShape::flat(20), vec![0.0; 20]).expect("whole");
     assert!(model.predict(&other).is_err());
+}
+
+#[test]
+fn support_vectors_of_before_are_read_and_predict_as_they_did() {
+    let (model, features) = fit("kernel-ridge", &[], SPEC);
+    let bytes = model.to_bytes().expect("small");
+    let old = with_card(&bytes, |card| card["model"] = "svr".into());
+    let read = Model::from_bytes(&old).expect("a kernel, whoever fitted it");
+    assert_eq!(read.card().model, "svr");
+    let predictions = |model: &Model| model.predict(&features).expect("its shape");
+    assert_eq!(predictions(&read), predictions(&model));
 }

@@ -43,7 +43,7 @@ fn sealed(card: &str, bytes: &[u8]) -> String {
 }
 
 /// A model's bytes with its card rewritten, and a seal that holds where its version has one.
-fn with_card(bytes: &[u8], change: impl Fn(&mut serde_json::Value)) -> Vec<u8> {
+pub(crate) fn with_card(bytes: &[u8], change: impl Fn(&mut serde_json::Value)) -> Vec<u8> {
     with_card_text(bytes, |card| {
         let mut card: serde_json::Value = serde_json::from_str(card).expect("a card");
         change(&mut card);

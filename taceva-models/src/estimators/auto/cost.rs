@@ -45,11 +45,10 @@ pub(super) fn seconds(name: &str, sizes: Sizes) -> Option<f64> {
         }
         "kernel-ridge" => kernel,
         "gaussian-process" => 1.5 * kernel,
-        "svr" => kernel + 6.0 * 300.0 * channels * samples * landmarks,
         "knn" => samples * samples * features,
         "lda" => channels * (0.5 * samples * features * features + 9.0 * features.powi(3)),
         "random-forest" => {
-            100.0 * channels * 0.1 * features * samples * samples.log2().max(1.0) * 2.0
+            100.0 * channels * 0.3 * features * samples * samples.log2().max(1.0) * 2.0
         }
         "gradient-boosting" => {
             2.0 * 300.0 * channels * 0.1 * features * (5.0 * samples + 32.0 * 256.0)

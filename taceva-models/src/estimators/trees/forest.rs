@@ -44,7 +44,7 @@ const TREES: SettingInfo = SettingInfo {
 const SHARE: SettingInfo = SettingInfo {
     key: "share",
     accepts: "a number above 0 and at most 1",
-    default: "0.1",
+    default: "0.3",
     about: "the share of the features that a split looks at",
 };
 const DEPTH: SettingInfo = SettingInfo {
@@ -84,7 +84,7 @@ impl RandomForest {
         settings.check_keys(RandomForest::INFO.settings)?;
         Ok(RandomForest {
             trees: settings.value(&TREES, 100, |text| number(text, 1..=10_000))?,
-            share: settings.value(&SHARE, 0.1, share)?,
+            share: settings.value(&SHARE, 0.3, share)?,
             depth: settings.value(&DEPTH, 30, |text| number(text, 1..=60))?,
             leaf: settings.value(&LEAF, 2, |text| number(text, 1..=10_000))?,
             seed: settings.value(&SEED, 1, |text| text.parse().ok())?,
