@@ -1,4 +1,4 @@
-//! The one door through which a library is called: a panic inside becomes an error, and nothing is printed.
+//! Catches panics of linfa and smartcore and returns them as errors; nothing is printed.
 
 use std::cell::Cell;
 use std::fmt::Display;

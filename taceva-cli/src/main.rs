@@ -5,12 +5,12 @@
 mod args;
 mod cmd;
 mod date;
-mod ends;
+mod disk_space;
 mod exit;
 mod output;
+mod process_limits;
 mod progress;
 mod report;
-mod room;
 mod stderr;
 
 // Its drivers are found by being linked, and what is only named in Cargo.toml is not linked.
@@ -31,7 +31,7 @@ fn main() -> ExitCode {
     // Before anything else: the program runs itself again to keep a plugin in a process of its own.
     #[cfg(target_os = "linux")]
     taceva_host::main_if_child();
-    if ends::standard_output_is_closed() {
+    if process_limits::standard_output_is_closed() {
         stderr::say(format_args!(
             "standard output is closed, and the result would be lost: nothing was done; redirect it to a file or to /dev/null"
         ));
@@ -42,7 +42,7 @@ fn main() -> ExitCode {
         Err(code) => return code,
     };
     progress::listen_for_signals();
-    ends::refuse_to_end_at_the_limit_of_file_sizes();
+    process_limits::refuse_to_end_at_the_limit_of_file_sizes();
     let context = Context::new(&cli.everywhere);
     let done = cmd::check_isa().and_then(|()| run(&cli.command, &context));
     let code = done.unwrap_or_else(|error| {

@@ -1,4 +1,4 @@
-//! Foreign decoders are called through one guard: a panic inside becomes an error, and nothing is printed.
+//! Catches panics of third-party decoders and returns them as errors; nothing is printed.
 
 use std::cell::Cell;
 use std::panic::{self, AssertUnwindSafe};

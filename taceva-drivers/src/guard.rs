@@ -1,11 +1,11 @@
-//! The one door to code that may panic on what it is given: foreign decoders, and drivers under test.
+//! Catches panics of third-party decoders and of drivers under test and returns their messages.
 
 use std::cell::Cell;
 use std::panic::{self, AssertUnwindSafe};
 use std::sync::Once;
 
 thread_local! {
-    /// How many doors this thread stands behind.
+    /// How many calls of [`contained`] are nested on this thread.
     static DEPTH: Cell<usize> = const { Cell::new(0) };
 }
 

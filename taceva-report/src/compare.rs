@@ -1,11 +1,11 @@
 //! Whether sensors or models differ: every pair, every score, with intervals and in words.
 
-mod aside;
+mod comparability;
 mod estimate;
-mod footing;
 mod overview;
 mod page;
 mod paired;
+mod remarks;
 mod render;
 
 pub use overview::{Decision, OVERVIEW_LINES, OVERVIEW_WIDTH};
@@ -19,7 +19,7 @@ use taceva_metrics::{
 };
 
 use crate::results::{Score, Study};
-use aside::Aside;
+use remarks::Remarks;
 
 /// What a comparison is asked.
 #[derive(Clone, Debug, Default)]
@@ -42,7 +42,7 @@ pub struct Comparison {
     /// What a reader must know before comparing them.
     pub notes: Vec<String>,
     /// Remarks on the verdicts, by score.
-    asides: Vec<Aside>,
+    asides: Vec<Remarks>,
 }
 
 /// One score of two studies.
@@ -133,22 +133,22 @@ pub fn compare(studies: &[Study], request: &CompareRequest) -> Comparison {
     }
     Comparison {
         asides: asides(studies, &names, &answers),
-        notes: footing::notes(studies, &names).into_iter().collect(),
+        notes: comparability::notes(studies, &names).into_iter().collect(),
         names,
         answers,
     }
 }
 
 /// Remarks on the answers, by score.
-fn asides(studies: &[Study], names: &[String], answers: &[Answer]) -> Vec<Aside> {
-    let mut asides: Vec<Aside> = Vec::new();
+fn asides(studies: &[Study], names: &[String], answers: &[Answer]) -> Vec<Remarks> {
+    let mut asides: Vec<Remarks> = Vec::new();
     for Answer {
         metric, channel, ..
     } in answers
     {
-        let is_known = |aside: &Aside| aside.metric == *metric && aside.channel == *channel;
+        let is_known = |aside: &Remarks| aside.metric == *metric && aside.channel == *channel;
         if !asides.iter().any(is_known) {
-            asides.push(Aside::of(studies, names, metric, channel));
+            asides.push(Remarks::of(studies, names, metric, channel));
         }
     }
     asides
@@ -190,7 +190,7 @@ fn pairs<'a>(
                     a: names[a].as_str(),
                     b: &names[b],
                 };
-                let difference = match footing::barred(scores, of_both) {
+                let difference = match comparability::barred(scores, of_both) {
                     Some(reason) => Err(reason),
                     None => difference(scores, Sides { a: study, b: other }, request.seed),
                 };

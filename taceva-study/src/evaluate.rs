@@ -24,7 +24,7 @@ use crate::samples::Samples;
 use crate::skill::with_skill;
 use crate::state_file::StateFile;
 use crate::subject::Subject;
-use crate::taken::Taken;
+use crate::taken_rows::Taken;
 use crate::work::Work;
 
 use passes::Passes;

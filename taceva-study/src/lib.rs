@@ -29,7 +29,7 @@ mod skill;
 mod stage;
 mod state_file;
 mod subject;
-mod taken;
+mod taken_rows;
 mod work;
 
 pub use acquire::{Surroundings, SurroundingsOf, Upcoming, Workshop};

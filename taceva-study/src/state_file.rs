@@ -15,7 +15,7 @@ use crate::bounded::Bounded;
 use crate::error::StudyError;
 use crate::provenance::Provenance;
 use crate::subject::Subject;
-use crate::taken::Taken;
+use crate::taken_rows::Taken;
 use plan::WrittenPlan;
 
 pub use merge::merge;

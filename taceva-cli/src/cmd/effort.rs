@@ -8,8 +8,8 @@ use taceva_study::{Cache, Effort};
 
 use super::Context;
 use super::cache::amount::bytes;
+use crate::disk_space;
 use crate::progress::spoken;
-use crate::room;
 
 /// Work that takes less time is not announced, nor are fewer bytes.
 const LONG: Duration = Duration::from_secs(5);
@@ -22,7 +22,7 @@ const TRIED: usize = 4;
 pub(super) fn print(effort: &Effort, dataset: &Dataset, cache: Option<&Cache>, context: &Context) {
     let time = time_of(&effort.rows, dataset, context.jobs.get());
     let kept = cache.map_or(0, |_| effort.kept_bytes);
-    let free = cache.and_then(|cache| room::free(cache.path()));
+    let free = cache.and_then(|cache| disk_space::free(cache.path()));
     let folder = cache.map_or(Path::new("."), Cache::path);
     for line in lines(effort.rows.len(), time, (kept, free), folder) {
         context.say(format_args!("{line}"));

@@ -5,7 +5,7 @@ use taceva_dataset::{ImportMap, ImportPlan, Preset, settle};
 
 use super::{Context, Usage};
 use crate::args::Import;
-use crate::room::{self, Need};
+use crate::disk_space::{self, Need};
 use crate::{exit, output};
 
 pub(crate) fn run(args: &Import, context: &Context) -> anyhow::Result<u8> {
@@ -28,7 +28,7 @@ pub(crate) fn run(args: &Import, context: &Context) -> anyhow::Result<u8> {
         at_least: bytes,
         at_most: bytes,
     };
-    if let Some(room) = need.hold_against(room::free(target), target)? {
+    if let Some(room) = need.hold_against(disk_space::free(target), target)? {
         context.say(format_args!("disk: {room}"));
     }
     let report = match args.force {

@@ -8,7 +8,7 @@ use taceva_study::{Instead, PlannedScene, SceneText};
 
 use super::{Context, Usage};
 use crate::args::{Run, SceneArgs};
-use crate::room::{self, Need};
+use crate::disk_space::{self, Need};
 
 /// The scene of `args`, planned with `drivers`.
 pub(super) fn planned(args: &SceneArgs, drivers: &Drivers) -> anyhow::Result<PlannedScene> {
@@ -54,7 +54,7 @@ pub(super) fn print_cost(
     ));
     let bytes = costs().filter_map(|cost| cost.bytes).sum();
     let need = Need::of_pictures(bytes);
-    if let Some(room) = need.hold_against(room::free(target), target)? {
+    if let Some(room) = need.hold_against(disk_space::free(target), target)? {
         context.say(format_args!("disk: {room}"));
     }
     Ok(())

@@ -1,4 +1,4 @@
-//! How far predictions may go: what was never seen is not extrapolated wildly.
+//! Clamps predictions to the range of the training labels and a quarter of it on either side.
 
 use super::Model;
 
@@ -6,10 +6,10 @@ use super::Model;
 pub(super) const MARGIN: f64 = 0.25;
 
 impl Model {
-    /// The least and the greatest prediction of the channel at `position`, in its unit; `None` for a model of a time before bounds.
+    /// The least and the greatest prediction of the channel at `position`, in its unit; `None` for a model file written before bounds were stored.
     ///
-    /// A quarter of the range of the labels of the training part is allowed on either side: under new light or beyond the depths that
-    /// of that part, a model may be wrong, but not by many times what the sensor can feel. A label that never changes is its own bound.
+    /// A quarter of the range of the labels of the training part is allowed on either side: for lighting or depths
+    /// outside those of the training part a model may be wrong, but not by many times the range that it was fitted on. A label that never changes is its own bound.
     pub fn bounds(&self, position: usize) -> Option<[f64; 2]> {
         let channel = &self.card.channels[position];
         let margin = self.card.margin?;

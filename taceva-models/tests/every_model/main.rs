@@ -1,6 +1,5 @@
 //! What every registered model promises, from its training samples to its file.
 
-mod beyond;
 #[path = "../blobs/mod.rs"]
 mod blobs;
 mod case;
@@ -8,6 +7,7 @@ mod cases;
 mod determinism;
 mod files;
 mod fits;
+mod model_specific;
 mod networks;
 mod refusals;
 

@@ -94,10 +94,10 @@ impl Tip<'_> {
     }
 
     fn go_clear(&mut self) -> Step<()> {
-        // A wish to stop is no reason to stay in the gel.
-        self.deaf = true;
+        // Cancellation must not interrupt the retraction.
+        self.ignores_cancel = true;
         let done = self.retreat();
-        self.deaf = false;
+        self.ignores_cancel = false;
         done
     }
 

@@ -47,8 +47,8 @@ pub(super) struct Tip<'a> {
     pub(super) contact_mm: Option<f64>,
     /// Whether the robot itself reported a fault: then a person must look first.
     pub(super) robot_failed: bool,
-    /// Whether a wish to stop is left for later, because the tip is leaving already.
-    pub(super) deaf: bool,
+    /// Whether cancellation is ignored, because the tip is retracting already.
+    pub(super) ignores_cancel: bool,
 }
 
 /// How fast, how far, how hard.
@@ -101,7 +101,7 @@ impl<'a> Tip<'a> {
             target: Pose::default(),
             contact_mm: None,
             robot_failed: false,
-            deaf: false,
+            ignores_cancel: false,
         }
     }
 
@@ -239,7 +239,7 @@ impl<'a> Tip<'a> {
 
     /// One straight motion, then a look.
     pub(super) fn go(&mut self, target: Pose, speed: Speed) -> Step<()> {
-        if self.cancel.is_cancelled() && !self.deaf {
+        if self.cancel.is_cancelled() && !self.ignores_cancel {
             return Err(StopCause::Cancelled);
         }
         if !is_straight_up(&self.at, &target) {

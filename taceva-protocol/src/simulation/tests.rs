@@ -156,7 +156,7 @@ fn a_force_that_comes_late_costs_time_and_no_way() {
 }
 
 #[test]
-fn a_wish_to_stop_leaves_the_tip_above_the_gel() {
+fn cancel_leaves_the_tip_above_the_gel() {
     let mut bench = Bench::new(SOFT);
     bench.cancel.cancel();
     let error = bench

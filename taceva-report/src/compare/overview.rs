@@ -2,7 +2,7 @@
 
 use taceva_metrics::Better;
 
-use super::{Answer, Aside, Comparison};
+use super::{Answer, Comparison, Remarks};
 use crate::figures::listed;
 use crate::html::QUESTIONS;
 use crate::number::{numeral, significant, spaced};
@@ -119,7 +119,7 @@ impl Comparison {
         let answers: Vec<&Answer> = self.answers.iter().filter(is_of_it).collect();
         let better = answers.first()?.direction;
         let unit = spaced(answers.first()?.unit);
-        let is_of_score = |aside: &&Aside| aside.metric == metric && aside.channel == channel;
+        let is_of_score = |aside: &&Remarks| aside.metric == metric && aside.channel == channel;
         let aside = self.asides.iter().find(is_of_score)?;
         let is_low = |at: usize| aside.low.iter().any(|(low, _)| *low == at);
         let answers = answers.into_iter();

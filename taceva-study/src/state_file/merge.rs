@@ -8,7 +8,7 @@ use taceva_metrics::Evaluator;
 use super::{ReadState, StateFile};
 use crate::error::StudyError;
 use crate::report::EvaluationReport;
-use crate::taken::{AllTaken, Taken};
+use crate::taken_rows::{AllTaken, Taken};
 
 /// The scores of several states together, and the merged state.
 ///

@@ -4,7 +4,7 @@ use std::fmt;
 
 use taceva_core::{Access, DriverError, DriverKey, ErrorKind, Found};
 
-use super::fate::Fate;
+use super::exit_status::Fate;
 use super::plain::plain;
 use super::wire::Failure;
 

@@ -14,7 +14,7 @@ use std::thread::JoinHandle;
 use rustix::event::{PollFd, PollFlags, Timespec, poll};
 use rustix::process::{Pid, PidfdFlags, Signal, pidfd_open, pidfd_send_signal};
 
-use super::fate::Fate;
+use super::exit_status::Fate;
 use super::watch::{PRINTED_MAX, Watch};
 
 /// How much a pipe holds.

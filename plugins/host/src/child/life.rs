@@ -3,9 +3,9 @@
 use std::sync::Arc;
 
 use super::error::ChildError;
-use super::fate::Fate;
-use super::patience::Patience;
+use super::exit_status::Fate;
 use super::socket::LinkError;
+use super::timeouts::Patience;
 use super::watch::Watch;
 
 /// What is known about a child for as long as anybody may ask, even after it ended.

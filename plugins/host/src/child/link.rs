@@ -8,7 +8,7 @@ use std::time::Duration;
 
 use taceva_core::{Deadline, DriverError, DriverKey, ErrorKind, Halt, Interrupt};
 
-use super::fate::{CLOSING, Fate};
+use super::exit_status::{CLOSING, Fate};
 use super::life::Life;
 use super::reply::Reply;
 use super::socket::{Caller, LinkError, Socket, send_now};

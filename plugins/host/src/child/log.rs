@@ -6,7 +6,7 @@ use std::sync::{Arc, OnceLock};
 use std::thread::JoinHandle;
 use std::time::Duration;
 
-use super::fate::Fate;
+use super::exit_status::Fate;
 use super::socket::{LinkError, Socket, send_now};
 use super::watch::Watch;
 use super::wire::variants;

@@ -4,10 +4,10 @@ use std::fmt;
 use std::os::fd::OwnedFd;
 use std::path::PathBuf;
 
-use super::fate::Fate;
-use super::patience::Patience;
+use super::exit_status::Fate;
 use super::quarantine::Quarantine;
 use super::sandbox::Confinement;
+use super::timeouts::Patience;
 use crate::library::Log;
 use crate::manifest::Sha256Digest;
 

@@ -12,7 +12,7 @@ use taceva_core::shown;
 use rustix::pipe::{PipeFlags, pipe_with};
 
 use super::error::ChildError;
-use super::fate::{ENDING, Fate};
+use super::exit_status::{ENDING, Fate};
 use super::keeper::{Kept, keep};
 use super::life::Life;
 use super::log::listen;

@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 
 use rustix::event::{EventfdFlags, eventfd};
 
-use super::fate::Fate;
+use super::exit_status::Fate;
 use super::plain::plain;
 
 /// How much of the last that a child printed is kept.

@@ -7,7 +7,7 @@ use crate::tie::{Tie, tie};
 
 /// What a reader must know of one score of all studies.
 #[derive(Clone, Debug)]
-pub(super) struct Aside {
+pub(super) struct Remarks {
     pub(super) metric: String,
     pub(super) channel: String,
     /// Who is tied for the best.
@@ -18,8 +18,8 @@ pub(super) struct Aside {
     pub(super) spread: String,
 }
 
-impl Aside {
-    pub(super) fn of(studies: &[Study], names: &[String], metric: &str, channel: &str) -> Aside {
+impl Remarks {
+    pub(super) fn of(studies: &[Study], names: &[String], metric: &str, channel: &str) -> Remarks {
         let scores = studies.iter().enumerate();
         let scores: Vec<_> = scores
             .filter_map(|(at, study)| Some((at, study.score(metric, channel)?)))
@@ -32,7 +32,7 @@ impl Aside {
             let words = Light::of(score).low_stimulus()?;
             Some((*at, format!("{}: {words}", names.get(*at)?)))
         });
-        Aside {
+        Remarks {
             metric: metric.to_owned(),
             channel: channel.to_owned(),
             tie: tie(studies, names, metric, channel),

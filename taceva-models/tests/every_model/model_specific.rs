@@ -7,7 +7,7 @@ use crate::blobs::{Recording, SHAPE, recording};
 use crate::case::{case_of, predict};
 
 #[test]
-fn a_gaussian_process_knows_how_sure_it_is() {
+fn deviations_of_a_gaussian_process_cover_its_errors() {
     let (training, test) = (recording(200, 31), recording(200, 32));
     let regressor = case_of("gaussian-process")
         .fitted(&training, None)
@@ -36,7 +36,7 @@ fn a_gaussian_process_knows_how_sure_it_is() {
 }
 
 #[test]
-fn what_was_never_seen_is_not_extrapolated_beyond_the_bounds() {
+fn predictions_stay_within_the_bounds_outside_the_training_range() {
     let training = recording(60, 33);
     let model = case_of("ridge").model(&training, None);
     let glaring = training.features.values().iter().map(|value| 50.0 * value);
@@ -72,7 +72,7 @@ fn beyond(model: &Model, predictions: &[f64]) -> Vec<usize> {
 }
 
 #[test]
-fn every_model_knows_the_mean_of_its_labels_and_the_baseline_says_it_to_the_last_bit() {
+fn cards_hold_the_mean_of_the_labels_and_the_baseline_predicts_it_to_the_last_bit() {
     let training = recording(61, 35);
     for name in ["baseline", "ridge"] {
         let model = case_of(name).model(&training, None);
