@@ -41,7 +41,7 @@ impl Draws {
         mix(self.key.wrapping_add(counter.wrapping_mul(STEP)))
     }
 
-    /// A number of 0 ≤ u < 1, as [`unit`] makes it.
+    /// A number of 0 ≤ u < 1, as [`unit`](super::unit()) makes it.
     #[inline]
     #[must_use]
     pub const fn unit(self, counter: u64) -> f64 {
