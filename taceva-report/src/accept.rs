@@ -11,6 +11,7 @@ use taceva_core::Unit;
 use taceva_core::shown;
 use taceva_metrics::Standing;
 
+use crate::light;
 use crate::number::numeral;
 use crate::results::{Interval, Study};
 
@@ -194,7 +195,7 @@ fn hold(study: &Study, limit: &Limit) -> Finding {
     };
     finding.value = Some(number);
     finding.ends = interval.as_ref().and_then(Interval::ends);
-    let barred = score.standing.reason().map(str::to_owned);
+    let barred = light::barred(score).map(str::to_owned);
     finding.reason = barred.or_else(|| broken(limit, unit, number, finding.ends));
     finding.is_kept = finding.reason.is_none();
     finding

@@ -90,6 +90,12 @@ pub(crate) fn is_low(score: &Score) -> bool {
     score.metric == METRIC && score.flags.contains(&flag)
 }
 
+/// Why `score` takes part in no verdict, if it does not: its standing, or light that hardly changed.
+pub(crate) fn barred(score: &Score) -> Option<&'static str> {
+    let low = || is_low(score).then_some("low stimulus: in some scene the light hardly changed");
+    score.standing.reason().or_else(low)
+}
+
 /// What light does to each study, whichever part its score takes in verdicts: `ViTacTip: errors become 66 to 325 times as large in the lit
 /// scenes`; nothing of other metrics.
 pub(crate) fn words(studies: &[Study], names: &[String], metric: &str, channel: &str) -> String {

@@ -4,8 +4,8 @@ mod support;
 
 use serde_json::{Value, json};
 use taceva_report::{
-    CompareRequest, Comparison, OVERVIEW_LINES, OVERVIEW_WIDTH, Report, Study, compare, figures,
-    report,
+    CompareRequest, Comparison, LimitsFile, OVERVIEW_LINES, OVERVIEW_WIDTH, Report, Study, accept,
+    compare, figures, limits_template, report,
 };
 
 /// Drawn studies, each changed by `change`.
@@ -185,4 +185,49 @@ fn questions_without_room_are_counted_and_no_line_is_cut_away_from_a_terminal() 
         assert!(all.contains(&decision.asked()), "{}", decision.question);
         assert!(page.contains(&format!("<strong>{}</strong>", decision.question)));
     }
+}
+
+#[test]
+fn a_radar_places_nothing_without_an_interval_or_of_light_that_hardly_changed() {
+    let names = ["dim", "other"];
+    let undefined = json!({"undefined": "1 clusters, 5 are needed"});
+    let studies = studies(&names, |at, metrics| {
+        metrics["sensitivity"]["Fz"]["ci95"] = undefined.clone();
+        if at == 0 {
+            metrics["r_light"]["Fz"]["flags"] = json!(["low stimulus"]);
+        }
+    });
+    let drawn = figures(&studies);
+    let caption = |id: &str| {
+        let figure = drawn.iter().find(|figure| figure.id == id);
+        figure.expect("a radar").caption.clone()
+    };
+    let sensor = caption("radar-sensor");
+    for name in names {
+        let missing = format!("sensitivity S of {name} (no interval)");
+        assert!(sensor.contains(&missing), "{sensor}");
+    }
+    let robustness = caption("radar-robustness");
+    assert!(
+        robustness.contains("lighting Fz of dim (low stimulus)"),
+        "{robustness}"
+    );
+    assert!(!robustness.contains("lighting Fz of other"), "{robustness}");
+}
+
+#[test]
+fn a_limit_on_light_that_hardly_changed_is_not_kept_and_no_template_has_one() {
+    let studies = studies(&["dim"], |_, metrics| {
+        metrics["r_light"]["Fz"]["flags"] = json!(["low stimulus"]);
+    });
+    let text = "limits_version = 1\n[[limit]]\nmetric=\"r_light\"\nchannel=\"Fz\"\nunit=\"1\"\nleast=0.0\n";
+    let limits = LimitsFile::read(text).expect("limits");
+    let found = accept(&studies[0], &limits);
+    let reason = found[0].reason.as_deref();
+    assert!(
+        reason.is_some_and(|reason| reason.starts_with("low stimulus")),
+        "{reason:?}"
+    );
+    let template = limits_template(&studies[0]);
+    assert!(template.contains("low stimulus"), "{template}");
 }

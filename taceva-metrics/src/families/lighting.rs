@@ -108,6 +108,8 @@ impl Family for Lighting {
                     Unit::One,
                     Value::from(robustness::of_plane([x, y], &self.reference)),
                 )],
+                // Both axes were lit alike: what a flag of one warns of holds for the plane.
+                flags: robustness::flags(parts, &self.reference),
                 ..Details::default()
             },
             _ => Details::default(),

@@ -79,6 +79,9 @@ fn little_light_and_smaller_errors_are_flagged() {
     let evaluation = evaluate(&["r_light"], &samples);
     let score = evaluation.score("r_light", "Fz").expect("a score");
     assert_eq!(score.flags, [Flag::LowStimulus, Flag::ImprovedError]);
+    // The light of a plane is that of its axes.
+    let plane = evaluation.score("r_light", "Fxy").expect("a plane");
+    assert_eq!(plane.flags, score.flags);
     assert_eq!(
         score.variant("plus").map(|plus| &plus.value),
         Some(&Value::Scalar(1.0))

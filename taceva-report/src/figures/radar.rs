@@ -5,6 +5,7 @@ use std::f64::consts::TAU;
 use taceva_metrics::Better;
 
 use crate::figure::{Anchor, Canvas, Figure, Ink, Label, Points, SERIES, Stroke, short};
+use crate::light;
 use crate::number::numeral;
 use crate::results::{Score, Study};
 
@@ -60,7 +61,7 @@ const ROBUSTNESS: [Axis; 7] = [
     low("repeatability", "Fz", "repeatability Fz"),
     Axis {
         variant: "ratio",
-        ..low("hysteresis", "Fz", "hysteresis")
+        ..low("hysteresis", "Fz", "hysteresis ratio")
     },
 ];
 
@@ -126,7 +127,7 @@ fn one(studies: &[Study], axes: &[Axis], (id, title): (&str, &str)) -> Option<Fi
     let barred = match barred.is_empty() {
         true => String::new(),
         false => format!(
-            " Not drawn, since it takes no part in verdicts: {}.",
+            " Not drawn, since a place is a verdict: {}.",
             barred.join("; ")
         ),
     };
@@ -153,10 +154,29 @@ impl Axis {
     fn barred(&self, studies: &[Study], names: &[String]) -> Vec<String> {
         let of_one = |(study, name): (&Study, &String)| {
             let score = study.score(self.metric, self.channel)?;
-            let is_barred = !score.standing.takes_part() && score.value.number().is_some();
-            is_barred.then(|| format!("{} of {name} ({})", self.name, score.standing))
+            let reason = self.without_place(score)?;
+            Some(format!("{} of {name} ({reason})", self.name))
         };
         studies.iter().zip(names).filter_map(of_one).collect()
+    }
+
+    /// Why `score` has no place on the axis, which is a verdict: it takes no part in any, its light hardly changed, or nobody knows how sure
+    /// it is. Published values have no interval and a place.
+    fn without_place(&self, score: &Score) -> Option<String> {
+        score.value.number()?;
+        let interval = match self.variant {
+            "" => score.interval.as_ref(),
+            variant => score.variant(variant)?.interval.as_ref(),
+        };
+        if !score.standing.takes_part() {
+            Some(score.standing.to_string())
+        } else if light::is_low(score) {
+            Some("low stimulus".to_owned())
+        } else if interval.is_some_and(|interval| interval.ends().is_none()) {
+            Some("no interval".to_owned())
+        } else {
+            None
+        }
     }
 
     /// For each study the share of the best and the value itself.
@@ -173,7 +193,7 @@ impl Axis {
             .map(|study| {
                 let found = study.score(self.metric, self.channel);
                 let found = found
-                    .filter(|score| score.standing.takes_part())
+                    .filter(|score| self.without_place(score).is_none())
                     .and_then(value);
                 // A share of a negative number says nothing.
                 found.filter(|value| *value >= 0.0)

@@ -180,7 +180,7 @@ fn model(studies: &[Study]) -> String {
         true => sentences,
         false => {
             sentences
-                + " Every score that is formed from predictions is of samples that the model had not seen; scores of the gel alone, such as sensitivity, uniformity and hysteresis, are of all samples."
+                + " Every score that is formed from predictions is of samples that the model had not seen; scores of the gel alone, such as sensitivity, uniformity and hysteresis, are of all samples of their part of the protocol."
         }
     }
 }

@@ -86,7 +86,7 @@ const THEMES: [Theme; 6] = [
 pub(super) fn section(table: &ScoreTable, figures: &[Figure]) -> String {
     let headlines = table.headlines();
     let mut out = String::from(
-        "<p class=\"note\">Below each value its 95 % interval and n. Bold: shown to be better than every other sensor, at a level of 5 % after Holm's adjustment over the metric. Columns sort. \
+        "<p class=\"note\">Below each value its 95 % interval and n. Bold: shown to be better than every other sensor that takes part in verdicts, at a level of 5 % after Holm's adjustment over the metric. Columns sort. \
          Point at a mark of a figure for its value and n, or step through its marks with the arrow keys.</p>\n\
          <p class=\"screen\"><button type=\"button\" class=\"act\" data-unfold hidden>Unfold everything</button></p>\n",
     );

@@ -131,23 +131,32 @@ pub(super) fn details(sums: &LightingSums, reference: &str) -> Details {
         .iter()
         .filter(|(_, change)| change.robustness().is_ok());
     let count = |name, value| Count { name, value };
-    let flag = |flag: Flag, raised: fn(Change) -> bool| {
-        let raised = changes.iter().any(|(_, change)| raised(*change));
-        raised.then_some(flag)
-    };
-    let flags = [
-        flag(Flag::LowStimulus, Change::is_low_stimulus),
-        flag(Flag::ImprovedError, Change::is_improved),
-    ];
     Details {
         variants: vec![Variant::plain("scenes", Unit::One, scenes)],
         counts: vec![
             count("scenes", changes.iter().fold(0, |scenes, _| scenes + 1)),
             count("scenes_defined", defined.fold(0, |defined, _| defined + 1)),
         ],
-        flags: flags.into_iter().flatten().collect(),
+        flags: flags(&[sums], reference),
         ..Details::default()
     }
+}
+
+/// What to beware of in some scene of one of `parts`.
+pub(super) fn flags(parts: &[&LightingSums], reference: &str) -> Vec<Flag> {
+    let found = parts
+        .iter()
+        .filter_map(|sums| changes(sums, reference).ok());
+    let all: Vec<Change> = found.flatten().map(|(_, change)| change).collect();
+    let flag = |flag: Flag, raised: fn(Change) -> bool| {
+        let raised = all.iter().any(|change| raised(*change));
+        raised.then_some(flag)
+    };
+    let flags = [
+        flag(Flag::LowStimulus, Change::is_low_stimulus),
+        flag(Flag::ImprovedError, Change::is_improved),
+    ];
+    flags.into_iter().flatten().collect()
 }
 
 /// The value if the error is that of the plane: the mean of both axes' mean absolute errors, scene by scene.
