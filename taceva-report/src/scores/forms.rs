@@ -69,6 +69,9 @@ impl ScoreTable {
             let cells = row.cells.iter().map(|cell| estimate(cell.as_ref()));
             table.push(words.map(Cell::text).into_iter().chain(cells));
         }
+        if self.names.len() > 1 {
+            table.note(Words::new(BOLD[0]).latex(BOLD[1]));
+        }
         table
     }
 

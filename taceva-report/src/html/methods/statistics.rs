@@ -5,6 +5,7 @@ use std::collections::BTreeSet;
 use taceva_metrics::{Standing, catalogue};
 
 use crate::figures::listed;
+use crate::light::is_low;
 use crate::results::{Score, Study};
 use crate::scores::ScoreTable;
 
@@ -35,6 +36,9 @@ pub(super) fn statistics(studies: &[Study], table: &ScoreTable) -> String {
         );
     }
     out += &skill(studies);
+    if studies.iter().flat_map(|study| &study.scores).any(is_low) {
+        out += " A robustness to lighting of a sensor whose light hardly changed in some scene is flagged low stimulus and takes part in no comparison either.";
+    }
     out + &seeds(studies)
 }
 
