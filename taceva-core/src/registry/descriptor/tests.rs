@@ -1,0 +1,135 @@
+//! What a descriptor refuses, and what it says of a device.
+
+use super::*;
+use crate::driver::Axes;
+use crate::footprint::Footprint;
+use crate::frame::{FrameInfo, PixelFormat};
+use crate::geometry::Point;
+use crate::quantity::{Hertz, Millimetre, Newton};
+use crate::registry::{LightingFacts, Workspace};
+
+const KEY: DriverKey = DriverKey::fixed("test/device");
+
+fn check(source: DriverSource, facts: Facts) -> Result<Descriptor, String> {
+    DescriptorSpec::new(KEY, "a device", source, facts)
+        .check()
+        .map_err(|error| error.to_string())
+}
+
+fn sensor(facts: SensorFacts) -> Result<Descriptor, String> {
+    check(DriverSource::Simulated, Facts::Sensor(Box::new(facts)))
+}
+
+#[test]
+fn facts_that_contradict_each_other_are_refused_when_built() {
+    let opaque = SensorFacts {
+        opaque: Some(true),
+        scenes: vec!["S1".to_owned()],
+        ..SensorFacts::default()
+    };
+    assert_eq!(
+        sensor(opaque).expect_err("opaque"),
+        "the driver `test/device` contradicts itself: an opaque gel, yet the light around it can be set to `S1`"
+    );
+    let deep = SensorFacts {
+        footprint: Some(Footprint::disc(17.0, Some(3.5)).expect("lengths")),
+        depth_max: Some(Millimetre(4.0)),
+        ..SensorFacts::default()
+    };
+    assert_eq!(
+        sensor(deep).expect_err("deep"),
+        "the driver `test/device` contradicts itself: a depth limit of 4 mm, yet the footprint is 3.5 mm deep"
+    );
+    let recorded = check(DriverSource::Recorded, Facts::Robot(RobotFacts::default()));
+    assert!(recorded.expect_err("a film").contains("a recorded robot"));
+}
+
+#[test]
+fn facts_that_no_device_has_are_refused_when_built() {
+    let frame = |width| {
+        Some(FrameInfo {
+            width,
+            height: 2,
+            format: PixelFormat::Gray8,
+        })
+    };
+    let impossible = [
+        SensorFacts {
+            frame: frame(0),
+            ..Default::default()
+        },
+        SensorFacts {
+            rate: Some(Hertz(0.0)),
+            ..Default::default()
+        },
+        SensorFacts {
+            rate: Some(Hertz(f64::NAN)),
+            ..Default::default()
+        },
+        SensorFacts {
+            force_max: Some(Newton(-1.0)),
+            ..Default::default()
+        },
+        SensorFacts {
+            camera: Some([640, 0]),
+            ..Default::default()
+        },
+        SensorFacts {
+            scenes: vec!["a".into(), "a".into()],
+            ..Default::default()
+        },
+    ];
+    for facts in impossible {
+        assert!(sensor(facts.clone()).is_err(), "{facts:?}");
+    }
+    let corner = |side| Point {
+        x: Millimetre(side),
+        ..Point::default()
+    };
+    let inside_out = RobotFacts {
+        workspace: Some(Workspace {
+            least: corner(1.0),
+            greatest: corner(-1.0),
+        }),
+        ..RobotFacts::default()
+    };
+    assert!(check(DriverSource::Real, Facts::Robot(inside_out)).is_err());
+    assert!(check(DriverSource::Real, Facts::Force(ForceFacts::default())).is_err());
+    assert!(
+        check(
+            DriverSource::Real,
+            Facts::Lighting(LightingFacts::default())
+        )
+        .is_err()
+    );
+    let good = ForceFacts {
+        axes: Axes::NORMAL,
+        ..ForceFacts::default()
+    };
+    assert!(check(DriverSource::Real, Facts::Force(good)).is_ok());
+}
+
+#[test]
+fn an_argument_declared_twice_is_refused() {
+    let facts = Facts::Sensor(Box::default());
+    let error = DescriptorSpec::new(KEY, "a device", DriverSource::Real, facts)
+        .arguments([ArgSpec::flag("a"), ArgSpec::text("a")])
+        .check()
+        .expect_err("twice");
+    assert_eq!(
+        error.to_string(),
+        "the driver `test/device` contradicts itself: argument `a` is declared twice"
+    );
+}
+
+#[test]
+fn the_depth_limit_is_that_of_the_footprint_unless_it_is_tighter() {
+    let footprint = Footprint::disc(17.0, Some(3.5)).expect("lengths");
+    let mut facts = SensorFacts {
+        footprint: Some(footprint),
+        ..Default::default()
+    };
+    assert_eq!(facts.depth_limit(), Some(Millimetre(3.5)));
+    facts.depth_max = Some(Millimetre(3.0));
+    assert_eq!(facts.depth_limit(), Some(Millimetre(3.0)));
+}
