@@ -162,21 +162,16 @@ impl Axis {
 
     /// Why `score` has no place on the axis, which is a verdict: it takes no part in any, its light hardly changed, or nobody knows how sure
     /// it is. Published values have no interval and a place.
-    fn without_place(&self, score: &Score) -> Option<String> {
+    fn without_place(&self, score: &Score) -> Option<&'static str> {
         score.value.number()?;
         let interval = match self.variant {
             "" => score.interval.as_ref(),
             variant => score.variant(variant)?.interval.as_ref(),
         };
-        if !score.standing.takes_part() {
-            Some(score.standing.to_string())
-        } else if light::is_low(score) {
-            Some("low stimulus".to_owned())
-        } else if interval.is_some_and(|interval| interval.ends().is_none()) {
-            Some("no interval".to_owned())
-        } else {
-            None
-        }
+        let is_unsure = || interval.is_some_and(|interval| interval.ends().is_none());
+        // The name of the reason, without its explanation.
+        let barred = light::barred(score).and_then(|reason| reason.split(':').next());
+        barred.or_else(|| is_unsure().then_some("no interval"))
     }
 
     /// For each study the share of the best and the value itself.
