@@ -101,6 +101,7 @@ impl Numbers<'_> {
         clippy::cast_sign_loss,
         reason = "read as a whole number of 32 bits"
     )]
+    #[cfg(feature = "smartcore")]
     pub(crate) fn whole(&self, number: &Number) -> u32 {
         self.real(number) as u32
     }

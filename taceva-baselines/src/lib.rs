@@ -12,6 +12,8 @@ mod predictor;
 mod smartcore;
 #[cfg(any(feature = "linfa", feature = "smartcore"))]
 mod span;
+#[cfg(any(feature = "linfa", feature = "smartcore"))]
+mod support_vector;
 
 use taceva_models::LibraryModel;
 

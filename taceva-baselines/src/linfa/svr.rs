@@ -14,6 +14,7 @@ use super::{RELEASE, labels, records};
 use crate::adapter::{Adapter, Number, Numbers, Unset, any};
 use crate::guard::{guarded, interrupted};
 use crate::predictor::{Machine, Support};
+use crate::support_vector::{LENGTH, TUBE};
 
 const NAME: &str = "linfa/svr";
 
@@ -28,29 +29,6 @@ const COST: Number = Number {
     is_whole: false,
     unset: Unset::ChosenAmong(&COSTS),
 };
-const LENGTH: Number = Number {
-    info: SettingInfo {
-        key: "length",
-        accepts: "a number from 0.01 to 100",
-        default: "1",
-        about: "how far the kernel reaches, in typical distances of a sample from the mean",
-    },
-    range: [0.01, 100.0],
-    is_whole: false,
-    unset: Unset::Is(1.0),
-};
-const TUBE: Number = Number {
-    info: SettingInfo {
-        key: "tube",
-        accepts: "a number from 1e-6 to 0.5",
-        default: "0.01",
-        about: "errors that cost nothing, as a share of the range of labels",
-    },
-    range: [1e-6, 0.5],
-    is_whole: false,
-    unset: Unset::Is(0.01),
-};
-
 /// From the dearest to the cheapest: of equals the last is the plainest.
 const COSTS: [f64; 4] = [100.0, 10.0, 1.0, 0.1];
 

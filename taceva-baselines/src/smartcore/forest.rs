@@ -132,37 +132,37 @@ fn work(sizes: LibrarySizes) -> Option<f64> {
 /// The trees of one target as the library serialises them, each split among so many features; or why there are none.
 type Grow = fn(&Numbers<'_>, &DenseMatrix<f64>, &Vec<f64>, usize) -> Result<Value, String>;
 
-fn random_forest(
-    set: &Numbers<'_>,
-    records: &DenseMatrix<f64>,
-    labels: &Vec<f64>,
-    among: usize,
-) -> Result<Value, String> {
-    let parameters = RandomForestRegressorParameters::default()
-        .with_n_trees(set.whole(&TREES) as usize)
-        .with_min_samples_leaf(set.whole(&LEAF) as usize)
-        .with_m(among)
-        .with_seed(u64::from(set.whole(&SEED)));
-    let fitted = RandomForestRegressor::fit(records, labels, parameters);
-    let fitted = fitted.map_err(|error| error.to_string())?;
-    serde_json::to_value(&fitted).map_err(|error| error.to_string())
+/// A `Grow` of the library's type `$regressor`, whose parameters are a type of their own with the same methods.
+macro_rules! grow {
+    ($name:ident, $regressor:ident, $parameters:ident) => {
+        fn $name(
+            set: &Numbers<'_>,
+            records: &DenseMatrix<f64>,
+            labels: &Vec<f64>,
+            among: usize,
+        ) -> Result<Value, String> {
+            let parameters = $parameters::default()
+                .with_n_trees(set.whole(&TREES) as usize)
+                .with_min_samples_leaf(set.whole(&LEAF) as usize)
+                .with_m(among)
+                .with_seed(u64::from(set.whole(&SEED)));
+            let fitted = $regressor::fit(records, labels, parameters);
+            let fitted = fitted.map_err(|error| error.to_string())?;
+            serde_json::to_value(&fitted).map_err(|error| error.to_string())
+        }
+    };
 }
 
-fn extra_trees(
-    set: &Numbers<'_>,
-    records: &DenseMatrix<f64>,
-    labels: &Vec<f64>,
-    among: usize,
-) -> Result<Value, String> {
-    let parameters = ExtraTreesRegressorParameters::default()
-        .with_n_trees(set.whole(&TREES) as usize)
-        .with_min_samples_leaf(set.whole(&LEAF) as usize)
-        .with_m(among)
-        .with_seed(u64::from(set.whole(&SEED)));
-    let fitted = ExtraTreesRegressor::fit(records, labels, parameters);
-    let fitted = fitted.map_err(|error| error.to_string())?;
-    serde_json::to_value(&fitted).map_err(|error| error.to_string())
-}
+grow!(
+    random_forest,
+    RandomForestRegressor,
+    RandomForestRegressorParameters
+);
+grow!(
+    extra_trees,
+    ExtraTreesRegressor,
+    ExtraTreesRegressorParameters
+);
 
 /// The trees of a serialised forest.
 fn trees(forest: &Value) -> Option<Vec<Tree>> {

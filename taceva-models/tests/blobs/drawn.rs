@@ -1,0 +1,87 @@
+//! Pictures of a blob, drawn to any size.
+
+use taceva_core::{Channel, Channels, FeatureShape, Features, Targets, TrainingSet};
+
+/// Pictures, and where the blob is in each.
+#[derive(Clone)]
+pub(crate) struct Recording {
+    pub(crate) features: Features,
+    pub(crate) channels: Channels,
+    pub(crate) labels: Vec<f64>,
+}
+
+/// Even numbers in 0..1 from a linear congruential generator (Knuth's MMIX constants).
+pub(crate) fn numbers(seed: u64) -> impl FnMut() -> f64 {
+    let mut state = seed;
+    move || {
+        state = state
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1_442_695_040_888_963_407);
+        f64::from(u32::try_from(state >> 32).expect("32 bits")) / 2_f64.powi(32)
+    }
+}
+
+/// What pictures to draw; lengths in pixels.
+pub(crate) struct Blob {
+    pub(crate) shape: FeatureShape,
+    /// The least y and x of the middle.
+    pub(crate) from: f64,
+    /// How far y and x of the middle go from there.
+    pub(crate) reach: [f64; 2],
+    /// Twice the square of the standard deviation.
+    pub(crate) spread: f64,
+    /// Labels a pixel.
+    pub(crate) scale: f64,
+}
+
+impl Blob {
+    #[expect(
+        clippy::cast_possible_truncation,
+        reason = "features are kept in single precision"
+    )]
+    pub(crate) fn recording(&self, samples: usize, seed: u64) -> Recording {
+        let mut next = numbers(seed);
+        let (mut values, mut labels) = (Vec::new(), Vec::new());
+        let side = |pixels: usize| u8::try_from(pixels).expect("a small picture");
+        let (rows, columns) = (side(self.shape.height), side(self.shape.width));
+        for _ in 0..samples {
+            let [y, x] = self.reach.map(|reach| self.from + reach * next());
+            for (row, column) in
+                (0..rows).flat_map(|row| (0..columns).map(move |column| (row, column)))
+            {
+                let square = (f64::from(row) - y).powi(2) + (f64::from(column) - x).powi(2);
+                values.push((0.2 + 0.5 * (-square / self.spread).exp() + 0.01 * next()) as f32);
+            }
+            labels.extend([x, y].map(|place| self.scale * place));
+        }
+        Recording {
+            features: Features::new(self.shape, values).expect("whole samples"),
+            channels: Channels::new([Channel::PX, Channel::PY]).expect("distinct"),
+            labels,
+        }
+    }
+}
+
+impl Recording {
+    pub(crate) fn set(&self) -> TrainingSet<'_> {
+        TrainingSet {
+            features: &self.features,
+            targets: Targets {
+                channels: &self.channels,
+                values: &self.labels,
+            },
+            groups: None,
+        }
+    }
+
+    pub(crate) fn select(&self, rows: &[usize]) -> Recording {
+        Recording {
+            features: self.features.select(rows),
+            channels: self.channels.clone(),
+            labels: rows
+                .iter()
+                .flat_map(|&row| self.labels[row * 2..row * 2 + 2].to_vec())
+                .collect(),
+        }
+    }
+}
