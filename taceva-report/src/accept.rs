@@ -11,7 +11,6 @@ use taceva_core::Unit;
 use taceva_core::shown;
 use taceva_metrics::Standing;
 
-use crate::light;
 use crate::number::numeral;
 use crate::results::{Interval, Study};
 
@@ -82,7 +81,7 @@ pub struct Finding {
     pub n: u64,
     /// Whether the limit is kept.
     pub is_kept: bool,
-    /// Why it is not kept, in words.
+    /// Why it is not kept, or that it is kept without an interval, in words.
     pub reason: Option<String>,
     /// Which part the score takes in verdicts: one that takes none keeps no limit.
     pub standing: Standing,
@@ -195,9 +194,12 @@ fn hold(study: &Study, limit: &Limit) -> Finding {
     };
     finding.value = Some(number);
     finding.ends = interval.as_ref().and_then(Interval::ends);
-    let barred = light::barred(score).map(str::to_owned);
+    let barred = score.standing.reason().map(str::to_owned);
     finding.reason = barred.or_else(|| broken(limit, unit, number, finding.ends));
     finding.is_kept = finding.reason.is_none();
+    if finding.is_kept && finding.ends.is_none() {
+        finding.reason = Some("kept by the value alone: there is no interval".to_owned());
+    }
     finding
 }
 

@@ -1,11 +1,13 @@
 //! Which sensor for a task: hard needs drop, soft ones rank, and every step shows the numbers that decided.
 
+mod evidence;
 mod need;
 mod place;
 mod property;
 mod render;
 mod words;
 
+pub use evidence::{Evidence, choose_results};
 pub use need::{Bound, Need, NeedError};
 pub use property::Property;
 pub use render::CHOICE_SCHEMA;
@@ -27,6 +29,8 @@ pub struct Choice {
     pub barred: Vec<Dropped>,
     /// Those of which not a single number is known that a need asks for.
     pub unknown: Vec<String>,
+    /// The differences between those that are ranked that tests show; none where nothing was tested, as of published numbers.
+    pub evidence: Option<Vec<Evidence>>,
 }
 
 /// A sensor that meets every hard need, as far as is known.
@@ -49,6 +53,8 @@ pub struct Step {
     pub property: Property,
     /// The number; none if it is not known.
     pub value: Option<f64>,
+    /// Its interval of 95 %, if there is one.
+    pub interval: Option<[f64; 2]>,
     /// Which part the number takes in verdicts.
     pub standing: Standing,
     /// Its share of the best of those that remain; none for hard needs and unknown numbers.
@@ -95,6 +101,7 @@ pub fn choose(sensors: &[Sensor], needs: &[Need]) -> Choice {
         dropped: Vec::new(),
         barred: Vec::new(),
         unknown: Vec::new(),
+        evidence: None,
     };
     let mut remaining: Vec<&Sensor> = Vec::new();
     for sensor in sensors.iter().filter(|entry| entry.kind == Kind::Sensor) {
@@ -182,6 +189,7 @@ fn candidate(sensor: &Sensor, remaining: &[&Sensor], needs: &[Need]) -> Candidat
                 need: need.words.clone(),
                 property: bound.property,
                 value: bound.property.of(sensor),
+                interval: bound.property.interval(sensor),
                 standing: bound.property.standing(sensor),
                 share: None,
                 is_bound: true,
@@ -196,6 +204,7 @@ fn candidate(sensor: &Sensor, remaining: &[&Sensor], needs: &[Need]) -> Candidat
                 need: need.words.clone(),
                 property: *property,
                 value,
+                interval: property.interval(sensor),
                 standing: property.standing(sensor),
                 share,
                 is_bound: false,

@@ -24,7 +24,8 @@ pub use accept::{
     ACCEPTANCE_SCHEMA, Acceptance, Finding, Limit, LimitsError, LimitsFile, accept, limits_template,
 };
 pub use choose::{
-    Bound, CHOICE_SCHEMA, Candidate, Choice, Dropped, Need, NeedError, Property, Step, choose,
+    Bound, CHOICE_SCHEMA, Candidate, Choice, Dropped, Evidence, Need, NeedError, Property, Step,
+    choose, choose_results,
 };
 pub use compare::{
     Answer, COMPARISON_SCHEMA, CompareRequest, Comparison, Decision, OVERVIEW_LINES,

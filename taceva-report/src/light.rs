@@ -48,7 +48,7 @@ impl Light {
         };
         Light {
             scenes,
-            is_low: is_low(score),
+            is_low: score.metric == METRIC && score.flags.contains(&Flag::LowStimulus.to_string()),
         }
     }
 
@@ -82,18 +82,6 @@ impl Light {
         });
         Some(format!("{}{}", said.unwrap_or_default(), Flag::LowStimulus))
     }
-}
-
-/// Whether `score` is flagged as one of too little change of light to be told from others by it.
-pub(crate) fn is_low(score: &Score) -> bool {
-    let flag = Flag::LowStimulus.to_string();
-    score.metric == METRIC && score.flags.contains(&flag)
-}
-
-/// Why `score` takes part in no verdict, if it does not: its standing, or light that hardly changed.
-pub(crate) fn barred(score: &Score) -> Option<&'static str> {
-    let low = || is_low(score).then_some("low stimulus: in some scene the light hardly changed");
-    score.standing.reason().or_else(low)
 }
 
 /// What light does to each study, whichever part its score takes in verdicts: `ViTacTip: errors become 66 to 325 times as large in the lit

@@ -20,6 +20,8 @@ pub struct ScoreTable {
     pub rows: Vec<ScoreRow>,
     /// How each score compares between each two studies.
     pub answers: Vec<Answer>,
+    /// Which channels have labels of different spread, in a sentence; none where all are alike.
+    pub(crate) spread: Option<String>,
 }
 
 /// One score of every study.
@@ -84,6 +86,7 @@ impl ScoreTable {
         }
         ScoreTable {
             names: crate::figures::names(studies),
+            spread: spread(studies, &rows),
             rows,
             answers,
         }
@@ -108,6 +111,7 @@ impl ScoreTable {
             names: self.names.clone(),
             rows: self.rows.iter().filter(is_kept).cloned().collect(),
             answers: self.answers.clone(),
+            spread: self.spread.clone(),
         }
     }
 }
@@ -209,6 +213,15 @@ impl ScoreCell {
             None => words.to_owned(),
         })
     }
+}
+
+/// Which channels of mean absolute errors have labels of different spread.
+fn spread(studies: &[Study], rows: &[ScoreRow]) -> Option<String> {
+    let errors = rows
+        .iter()
+        .filter(|row| row.metric == "mae" && row.is_headline);
+    let channels: Vec<&str> = errors.map(|row| row.channel.as_str()).collect();
+    crate::spread::note(studies, &channels)
 }
 
 /// Marks the cell of each row that is shown to be better than all others that take part.

@@ -31,6 +31,24 @@ pub(crate) fn words(studies: &[Study], which: &[usize], metric: &str, channel: &
     }
 }
 
+/// The channels and planes of `channels` whose labels spread differently, in a sentence for below a table: `Labels differ in spread between
+/// the sensors (Fxy 0.047 N to 0.174 N): …`; none where all are alike.
+pub(crate) fn note(studies: &[Study], channels: &[&str]) -> Option<String> {
+    let all: Vec<usize> = (0..studies.len()).collect();
+    let differing = channels.iter().filter_map(|channel| {
+        let words = words(studies, &all, "mae", channel);
+        let range = words.rsplit_once(": ")?.1.strip_suffix(')')?;
+        Some(format!("{channel} {range}"))
+    });
+    let differing: Vec<String> = differing.collect();
+    (!differing.is_empty()).then(|| {
+        format!(
+            "Labels differ in spread between the sensors ({}): errors in units, repeatability, spatial robustness and shares within a tolerance follow it.",
+            differing.join("; ")
+        )
+    })
+}
+
 /// How far the labels of a channel or plane lie about the constant that skill is measured by: the root mean square error over √(1 − skill).
 /// Without them, about their mean, from the samples.
 fn spread(study: &Study, channel: &str) -> Option<f64> {

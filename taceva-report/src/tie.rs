@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 
 use taceva_metrics::Better;
 
+use crate::compare::{Answer, CompareRequest, compare};
 use crate::figures::listed;
-use crate::light;
 use crate::number::{numeral, spaced};
 use crate::results::{Score, Study};
 use crate::samples::Samples;
@@ -23,6 +23,58 @@ pub(crate) struct Tie {
     pub(crate) who: Vec<usize>,
     /// `tie: GelSight and TacTip have the same value, 0.42 mm/N`
     pub(crate) words: String,
+}
+
+impl Tie {
+    /// Whom of `others` those that are tied are not shown to be better than, by `answers` about this score: `; neither is shown to be better
+    /// than MagicTac and ViTacTip`. A tie says who shares the best value, and no more.
+    pub(crate) fn unbeaten(
+        &self,
+        answers: &[&Answer],
+        others: impl IntoIterator<Item = usize>,
+        names: &[String],
+    ) -> String {
+        let others: Vec<usize> = others
+            .into_iter()
+            .filter(|at| !self.who.contains(at))
+            .collect();
+        let unbeaten = |tied: usize| -> Vec<usize> {
+            let loses = |other: usize| {
+                let mut answers = answers.iter();
+                answers.any(|answer| {
+                    let both = [answer.sides.a, answer.sides.b];
+                    both.contains(&other) && answer.better() == Some(tied)
+                })
+            };
+            others.iter().copied().filter(|at| !loses(*at)).collect()
+        };
+        let all: Vec<Vec<usize>> = self.who.iter().map(|tied| unbeaten(*tied)).collect();
+        let named = |rivals: &[usize]| {
+            let names: Vec<String> = rivals.iter().map(|at| names[*at].clone()).collect();
+            listed(&names)
+        };
+        let who = match self.who.len() {
+            2 => "neither",
+            _ => "none of them",
+        };
+        match all.as_slice() {
+            _ if others.is_empty() => String::new(),
+            [first, rest @ ..] if rest.iter().all(|other| other == first) => match first.is_empty()
+            {
+                true => "; each is shown to be better than every other one".to_owned(),
+                false => format!("; {who} is shown to be better than {}", named(first)),
+            },
+            _ => {
+                let pairs = self.who.iter().zip(&all);
+                let pairs = pairs.filter(|(_, rivals)| !rivals.is_empty());
+                let said = pairs.map(|(tied, rivals)| {
+                    let (name, rivals) = (&names[*tied], named(rivals));
+                    format!("; {name} is not shown to be better than {rivals}")
+                });
+                said.collect()
+            }
+        }
+    }
 }
 
 /// One of those that may be tied.
@@ -44,10 +96,22 @@ pub fn ties(studies: &[Study]) -> Vec<String> {
             channels.push(&score.channel);
         }
     }
+    let request = CompareRequest {
+        metrics: vec![GRATINGS.to_owned()],
+        ..CompareRequest::default()
+    };
+    let answers = compare(studies, &request).answers;
     let channels = channels.into_iter();
     let lines = channels.filter_map(|channel| {
         let tie = tie(studies, &names, GRATINGS, channel)?;
-        Some(format!("{GRATINGS} {channel}: {}", tie.words))
+        let answers = answers.iter().filter(|answer| answer.channel == channel);
+        let answers: Vec<&Answer> = answers.collect();
+        let others = (0..studies.len()).filter(|at| {
+            let score = studies[*at].score(GRATINGS, channel);
+            score.is_some_and(|score| score.standing.takes_part() && score.value.number().is_some())
+        });
+        let unbeaten = tie.unbeaten(&answers, others, &names);
+        Some(format!("{GRATINGS} {channel}: {}{unbeaten}", tie.words))
     });
     lines.collect()
 }
@@ -72,7 +136,7 @@ pub(crate) fn tie(studies: &[Study], names: &[String], metric: &str, channel: &s
     let named = studies.iter().zip(names).enumerate();
     let rivals = named.filter_map(|(at, (study, name))| {
         let score = study.score(metric, channel)?;
-        let takes_part = score.standing.takes_part() && !light::is_low(score);
+        let takes_part = score.standing.takes_part();
         Some(Rival {
             at,
             study,
@@ -242,7 +306,7 @@ mod tests {
         let mut all = [of(0.5), of(0.75), study("worse", [0.2, 0.2], "")];
         "a".clone_into(&mut all[0].sensor);
         "b".clone_into(&mut all[1].sensor);
-        let expected = "sr line: tie: a and b both predict the spacing of 90 % of the gratings to within 0.05 mm; without any error a 50 % and b 75 %";
+        let expected = "sr line: tie: a and b both predict the spacing of 90 % of the gratings to within 0.05 mm; without any error a 50 % and b 75 %; neither is shown to be better than worse";
         assert_eq!(ties(&all), [expected]);
     }
 

@@ -200,3 +200,13 @@ fn limits_that_name_no_version_are_of_the_first() {
     let first = LimitsFile::read(&format!("limits_version = 1\n{limit}")).expect("limits");
     assert_eq!(unversioned, first);
 }
+
+#[test]
+fn a_value_without_an_interval_is_kept_by_itself_and_that_is_said() {
+    let finding = held("mae", "Fx", "N", "most = 0.75");
+    assert!(finding.is_kept);
+    let reason = "kept by the value alone: there is no interval";
+    assert_eq!(finding.reason.as_deref(), Some(reason));
+    let finding = held("mae", "Fx", "N", "most = 0.75\nwhole_interval = true");
+    assert!(!finding.is_kept);
+}

@@ -176,10 +176,10 @@ fn a_score_without_skill_has_no_answer_but_its_reason() {
     assert_eq!(reasons, [None, Some(reason), Some(reason)]);
     assert!(comparison.answers[0].difference.is_some());
     let decision = &comparison.decisions()[0];
-    assert_eq!(decision.winner, None);
+    assert_eq!(decision.winner, Some(0));
     assert_eq!(
         decision.words,
-        "one, 0.25 N, better than 1 of 2 others (p < 0.001), not than none"
+        "one, 0.25 N, better than two (p < 0.001); none: no skill"
     );
 }
 

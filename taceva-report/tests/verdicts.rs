@@ -3,9 +3,10 @@
 mod support;
 
 use serde_json::{Value, json};
+use taceva_metrics::Standing;
 use taceva_report::{
-    CompareRequest, Comparison, LimitsFile, OVERVIEW_LINES, OVERVIEW_WIDTH, Report, Study, accept,
-    compare, figures, limits_template, report,
+    CompareRequest, Comparison, LimitsFile, Need, OVERVIEW_LINES, OVERVIEW_WIDTH, Report,
+    ScoreTable, Study, accept, choose_results, compare, figures, limits_template, report,
 };
 
 /// Drawn studies, each changed by `change`.
@@ -107,7 +108,7 @@ fn what_light_does_is_said_of_a_score_that_is_barred_as_bounded() {
     });
     for score in &mut studies[0].scores {
         if score.metric == "r_light" {
-            score.standing = taceva_metrics::Standing::Bounded;
+            score.standing = Standing::Bounded;
         }
     }
     let page = summary(&studies);
@@ -153,6 +154,104 @@ fn errors_of_labels_that_spread_differently_are_said_to_be() {
     let overview = compared(&studies).overview(None);
     let line = overview.lines().find(|line| line.contains("mae Fxy"));
     assert!(line.is_some_and(|line| line.contains(words)), "{overview}");
+}
+
+#[test]
+fn a_tie_says_whom_those_that_share_the_value_are_not_shown_to_be_better_than() {
+    // Those that tie have the best value of three; the third is within everyone's interval, the fourth far from it.
+    let values = [2.5, 2.5, 2.4, 0.5];
+    let studies = studies(&["one", "two", "near", "far"], |at, metrics| {
+        let value = values[at];
+        metrics["sensitivity"]["Fz"]["value"] = json!(value);
+        metrics["sensitivity"]["Fz"]["ci95"] = json!([value - 0.2, value + 0.2]);
+    });
+    let words = "; neither is shown to be better than near";
+    let page = summary(&studies);
+    assert!(page.contains(words), "{page}");
+    let comparison = compared(&studies);
+    let of = comparison.decisions();
+    let of = of
+        .iter()
+        .find(|of| of.metric == "sensitivity")
+        .expect("asked");
+    assert!(of.words.ends_with(words), "{}", of.words);
+    let alone = compared(&studies[..2]);
+    assert!(!alone.text().contains("neither"), "{}", alone.text());
+}
+
+#[test]
+fn tables_name_the_channels_whose_labels_differ_in_spread() {
+    let studies = studies(&["one", "two"], |at, metrics| {
+        let (rmse, skill) = [(0.012, 0.91), (0.136, 0.36)][at];
+        metrics["rmse"]["Fxy"] = json!({"value": rmse, "unit": "N"});
+        metrics["skill"]["Fxy"] = json!({"value": skill, "unit": "1"});
+    });
+    let table = ScoreTable::of(&studies);
+    let words = "Labels differ in spread between the sensors (Fxy 0.04 N to 0.17 N)";
+    for table in [
+        table.for_pages(),
+        table.for_papers("drawn"),
+        table.for_column("drawn"),
+    ] {
+        let text = table.text();
+        assert!(text.contains(words), "{text}");
+    }
+    let alike = ScoreTable::of(&studies[..1]).for_pages().text();
+    assert!(!alike.contains("Labels differ"), "{alike}");
+}
+
+#[test]
+fn a_value_that_takes_no_part_is_marked_where_a_column_has_no_room_for_the_reason() {
+    let mut studies = studies(&["lit", "other"], |_, _| ());
+    for score in &mut studies[0].scores {
+        if score.metric == "r_light" {
+            score.standing = Standing::Bounded;
+        }
+    }
+    let table = ScoreTable::of(&studies).for_column("drawn");
+    let row = table
+        .rows
+        .iter()
+        .find(|row| row.plain()[0].starts_with("r_light Fz"));
+    let row = row.expect("a row").plain();
+    assert!(row[1].ends_with('†') && !row[2].ends_with('†'), "{row:?}");
+    let note = "†: takes no part in verdicts (bounded).";
+    assert!(table.text().contains(note), "{}", table.text());
+}
+
+#[test]
+fn a_choice_by_values_alone_says_that_no_test_shows_the_difference() {
+    let needs = Need::parse("soft contact").expect("needs");
+    let of = |values: [f64; 2]| {
+        let studies = studies(&["one", "two"], |at, metrics| {
+            let value = values[at];
+            metrics["sensitivity"]["Fz"]["value"] = json!(value);
+            metrics["sensitivity"]["Fz"]["ci95"] = json!([value - 0.2, value + 0.2]);
+        });
+        choose_results(&studies, &needs)
+    };
+    let near = of([2.5, 2.4]);
+    let headline =
+        "one first, two second, by values alone: no test shows one to be better than two";
+    assert_eq!(near.headline(), headline);
+    let text = near.table().text();
+    assert!(text.contains("2.3 … 2.7"), "{text}");
+    let note = "Tests: one is not shown to be better than two in any of these numbers.";
+    assert!(text.contains(note), "{text}");
+    let far = of([2.5, 0.5]);
+    assert_eq!(far.headline(), "one first, two second");
+    let shown = far.evidence.as_deref().expect("tested");
+    assert_eq!(
+        (shown[0].better.as_str(), shown[0].than.as_str()),
+        ("one", "two")
+    );
+    assert!(shown[0].p < 0.05);
+    assert!(
+        far.table()
+            .text()
+            .contains("Tests: one is shown to be better than two in sensitivity (p = ")
+    );
+    assert!(far.json().contains("\"p_holm\""));
 }
 
 #[test]

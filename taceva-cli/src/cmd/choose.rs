@@ -4,8 +4,7 @@ use std::fs;
 use taceva_core::shown;
 
 use anyhow::Context as _;
-use taceva_report::catalogue::{self, Sensor};
-use taceva_report::{Need, choose};
+use taceva_report::{Need, catalogue, choose, choose_results};
 
 use super::{Context, Usage, results};
 use crate::args::Choose;
@@ -27,14 +26,10 @@ pub(crate) fn run(args: &Choose, context: &Context) -> anyhow::Result<u8> {
             Need::parse(&said).map_err(|error| Usage::error(error.to_string()))?
         }
     };
-    let sensors = match named.is_empty() {
-        true => catalogue::all(),
-        false => {
-            let studies = results::read_all(named)?;
-            studies.iter().map(Sensor::of_study).collect()
-        }
+    let choice = match named.is_empty() {
+        true => choose(&catalogue::all(), &needs),
+        false => choose_results(&results::read_all(named)?, &needs),
     };
-    let choice = choose(&sensors, &needs);
     results::write(&choice.table(), &args.output, || choice.json())?;
     if let Some(path) = &args.page.path {
         let words: Vec<&str> = needs.iter().map(|need| need.words.as_str()).collect();

@@ -2,12 +2,14 @@
 
 use taceva_core::{Batch, Field, FieldSet, Needs, Unit};
 
+use crate::evaluate::plan::MetricPlan;
 use crate::evaluate::state::Record;
 use crate::exact::Dyadic;
 use crate::exact::level::{from_millionths, millionths, step};
 use crate::exact::merge::Merge;
 use crate::families::channelwise::{Channelwise, each_pair};
 use crate::families::family::{Details, Finished, Numbers, Output};
+use crate::families::resolution::OF_CONSTANT;
 use crate::metric::{Formula, Metric, ScoreUnit};
 use crate::score::better::Better;
 use crate::score::curve::Curve;
@@ -30,7 +32,9 @@ pub(crate) static TOLERANCE: Metric = Metric {
     reference: "distribution of |truth − prediction|",
     documentation: "Which share of predictions is within 0.05 mm or 0.05 N of the truth, 0.5 for degrees and N mm; `curve` has the \
                     share for tolerances from 0.01 to 2, or 0.1 to 20. Truth and prediction are rounded to a millionth of the \
-                    unit first, so that 0.40 is within 0.05 of 0.35; an error as large as the tolerance is within it.",
+                    unit first, so that 0.40 is within 0.05 of 0.35; an error as large as the tolerance is within it. `of_constant` is the \
+                    share that the constant of the skill score reaches, where the training part is known: a score whose interval \
+                    does not lie above it takes part in no verdict.",
     needs: Needs {
         fields: FieldSet::EMPTY.with(Field::Truth).with(Field::Prediction),
         channels: &[],
@@ -56,7 +60,36 @@ fn tolerances(unit: Unit) -> Option<[i64; 8]> {
 }
 
 /// Magnitudes of errors.
-pub(crate) struct Tolerances;
+pub(crate) struct Tolerances {
+    /// What the model is measured by, channel by channel, in millionths of the unit; none where the training part is not known.
+    constants: Vec<Option<i64>>,
+}
+
+impl Tolerances {
+    /// Those of `plan`.
+    pub(crate) fn for_plan(plan: &MetricPlan) -> Tolerances {
+        let channels = plan.channels().iter();
+        let constants = channels.map(|channel| plan.constant(channel.name()).and_then(millionths));
+        Tolerances {
+            constants: constants.collect(),
+        }
+    }
+
+    /// The share that the constants of the channels at `positions` reach, the mean over a plane; none unless all are known.
+    fn of_constant(&self, positions: &[usize], parts: &[&ErrorCounts]) -> Option<f64> {
+        let share = |(position, sums): (&usize, &&ErrorCounts)| {
+            let of_constant = sums.of_constant.filter(|_| sums.n > 0)?;
+            let is_of_model = self.constants[*position] == Some(of_constant.constant);
+            is_of_model.then(|| Dyadic::from(of_constant.met).over(&Dyadic::from(sums.n)))
+        };
+        let shares: Option<Vec<f64>> = positions.iter().zip(parts).map(share).collect();
+        match shares?[..] {
+            [share] => Some(share),
+            [x, y] => Some(f64::midpoint(x, y)),
+            _ => None,
+        }
+    }
+}
 
 /// How many errors of one channel need which tolerance.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -65,6 +98,26 @@ pub(crate) struct ErrorCounts {
     n_invalid: u64,
     /// Errors within each tolerance and not within the one before.
     classes: [u64; TOLERANCES.len()],
+    /// What the constant of the channel reaches; none where it is not known, and of samples whose models have different ones.
+    of_constant: Option<OfConstant>,
+}
+
+/// How many truths a constant meets within the tolerance of the score.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct OfConstant {
+    /// In millionths of the unit.
+    constant: i64,
+    met: u64,
+}
+
+impl OfConstant {
+    /// Both together, if they are of the same constant.
+    fn and(self, other: OfConstant) -> Option<OfConstant> {
+        (self.constant == other.constant).then(|| OfConstant {
+            met: self.met.saturating_add(other.met),
+            ..self
+        })
+    }
 }
 
 impl ErrorCounts {
@@ -102,6 +155,17 @@ impl Channelwise for Tolerances {
                 sums.n_invalid += 1;
                 return;
             };
+            let of_row = self.constants[position].map(|constant| OfConstant {
+                constant,
+                met: u64::from(truth.abs_diff(constant) <= tolerances[HEADLINE].unsigned_abs()),
+            });
+            sums.of_constant = match sums.n {
+                0 => of_row,
+                _ => sums
+                    .of_constant
+                    .zip(of_row)
+                    .and_then(|(known, new)| known.and(new)),
+            };
             sums.n += 1;
             let error = (truth - estimate).abs();
             if let Some(class) = tolerances.iter().position(|tolerance| error <= *tolerance) {
@@ -112,25 +176,43 @@ impl Channelwise for Tolerances {
 
     fn to_record(&self, sums: &ErrorCounts) -> Record {
         let counts = [sums.n, sums.n_invalid].into_iter().chain(sums.classes);
+        let of_constant = sums
+            .of_constant
+            .map(|of| [of.constant.cast_unsigned(), of.met]);
         Record {
-            counts: counts.collect(),
+            counts: counts.chain(of_constant.into_iter().flatten()).collect(),
             ..Record::default()
         }
     }
 
     fn read_record(&self, record: &Record) -> Result<ErrorCounts, String> {
-        let (&[n, n_invalid, ref classes @ ..], []) = record.exactly::<10, 0>()?;
+        // States of before constants were counted have two numbers less.
+        let ((n, n_invalid, classes), of_constant) = match record.counts.len() {
+            10 => {
+                let (&[n, n_invalid, ref classes @ ..], []) = record.exactly::<10, 0>()?;
+                ((n, n_invalid, *classes), None)
+            }
+            _ => {
+                let (&[n, n_invalid, ref classes @ .., constant, met], []) =
+                    record.exactly::<12, 0>()?;
+                let constant = constant.cast_signed();
+                ((n, n_invalid, *classes), Some(OfConstant { constant, met }))
+            }
+        };
         let within = classes
             .iter()
             .try_fold(0_u64, |sum, count| sum.checked_add(*count));
-        match within.filter(|within| *within <= n) {
-            Some(_) => Ok(ErrorCounts {
-                n,
-                n_invalid,
-                classes: *classes,
-            }),
-            None => Err(format!("more than {n} errors in classes")),
+        let is_possible = within.is_some_and(|within| within <= n)
+            && of_constant.is_none_or(|of_constant| of_constant.met <= n);
+        if !is_possible {
+            return Err(format!("more than {n} errors in classes"));
         }
+        Ok(ErrorCounts {
+            n,
+            n_invalid,
+            classes,
+            of_constant,
+        })
     }
 
     fn count(&self, sums: &ErrorCounts) -> u64 {
@@ -151,8 +233,14 @@ impl Channelwise for Tolerances {
     }
 
     fn details(&self, _metric: &Metric, output: &Output, parts: &[&ErrorCounts]) -> Details {
+        let of_constant = self.of_constant(&output.parts, parts);
+        let of_constant =
+            of_constant.map(|share| Variant::plain(OF_CONSTANT, Unit::One, Value::Scalar(share)));
         let (&[sums], Some(tolerances)) = (parts, tolerances(output.unit)) else {
-            return Details::default();
+            return Details {
+                variants: of_constant.into_iter().collect(),
+                ..Details::default()
+            };
         };
         let positions = 0..tolerances.len();
         let curve = Curve {
@@ -165,7 +253,9 @@ impl Channelwise for Tolerances {
             band: None,
         };
         Details {
-            variants: vec![Variant::plain("curve", Unit::One, Value::Curve(curve))],
+            variants: std::iter::once(Variant::plain("curve", Unit::One, Value::Curve(curve)))
+                .chain(of_constant)
+                .collect(),
             ..Details::default()
         }
     }
@@ -173,6 +263,14 @@ impl Channelwise for Tolerances {
 
 impl Merge for ErrorCounts {
     fn merge(&mut self, other: &ErrorCounts) {
+        self.of_constant = match (self.n, other.n) {
+            (0, _) => other.of_constant,
+            (_, 0) => self.of_constant,
+            _ => self
+                .of_constant
+                .zip(other.of_constant)
+                .and_then(|(own, others)| own.and(others)),
+        };
         self.n = self.n.saturating_add(other.n);
         self.n_invalid = self.n_invalid.saturating_add(other.n_invalid);
         for (class, other) in self.classes.iter_mut().zip(other.classes) {

@@ -11,6 +11,7 @@ use taceva_core::Field;
 use crate::evaluate::evaluation::Entry;
 use crate::families::resolution::OF_CONSTANT;
 use crate::metric::{Formula, Metric};
+use crate::score::flag::Flag;
 use crate::score::value::UndefinedReason;
 use crate::score::{Interval, Score};
 
@@ -37,16 +38,19 @@ pub enum Standing {
     SkillUnknown,
     /// It takes no part: more than [`GREATEST_BOUNDED_SHARE`] of its predictions lie beyond the bounds of the model.
     Bounded,
+    /// It takes no part: in some scene the light hardly changed, so that its robustness to light says little.
+    LowStimulus,
     /// It takes no part: the model is not shown to do better than a constant.
     NoSkill,
 }
 
 impl Standing {
     /// Every standing, the best first.
-    pub const ALL: [Standing; 4] = [
+    pub const ALL: [Standing; 5] = [
         Standing::Counts,
         Standing::SkillUnknown,
         Standing::Bounded,
+        Standing::LowStimulus,
         Standing::NoSkill,
     ];
 
@@ -67,6 +71,7 @@ impl Standing {
             Standing::Counts => None,
             Standing::SkillUnknown => Some("skill unknown"),
             Standing::Bounded => Some("bounded"),
+            Standing::LowStimulus => Some("low stimulus"),
             Standing::NoSkill => Some("no skill"),
         }
     }
@@ -84,6 +89,7 @@ impl Standing {
             Standing::Bounded => {
                 Some("bounded: more than 5 % of its predictions lie beyond the bounds of the model")
             }
+            Standing::LowStimulus => Some("low stimulus: in some scene the light hardly changed"),
             Standing::NoSkill => {
                 Some("no skill: the model is not shown to do better than a constant")
             }
@@ -161,12 +167,16 @@ pub(crate) fn judge(entries: &mut [Entry]) {
 }
 
 fn of_skill_score(skill: &Score) -> Standing {
-    let low = match skill.interval {
+    Standing::of_skill(low_end(skill))
+}
+
+/// Where the interval of a score begins.
+fn low_end(score: &Score) -> Option<f64> {
+    match score.interval {
         // A model that errs nowhere leaves nothing that could vary.
-        Interval::Undefined(UndefinedReason::AtEnd) => skill.value.scalar(),
+        Interval::Undefined(UndefinedReason::AtEnd) => score.value.scalar(),
         interval => interval.ends().map(|[low, _]| low),
-    };
-    Standing::of_skill(low)
+    }
 }
 
 /// The channels that a score called `channel` is made of.
@@ -184,7 +194,7 @@ fn of_score(
     skills: &[(String, Standing)],
 ) -> Standing {
     if matches!(metric.formula, Formula::Resolution) {
-        return of_success_rate(score);
+        return of_share(score);
     }
     let channels = channels(channel, score);
     let of_channel = |name: &str| {
@@ -198,18 +208,30 @@ fn of_score(
     let bounded = score
         .bounded_share
         .map_or(Standing::Counts, Standing::of_bounded_share);
-    skill.max(bounded)
+    let of_tolerance = match metric.formula {
+        Formula::Tolerance if score.variant(OF_CONSTANT).is_some() => of_share(score),
+        _ => Standing::Counts,
+    };
+    let is_low = score.flags.contains(&Flag::LowStimulus);
+    let light = if is_low {
+        Standing::LowStimulus
+    } else {
+        Standing::Counts
+    };
+    [skill, bounded, of_tolerance, light]
+        .into_iter()
+        .max()
+        .unwrap_or_default()
 }
 
-/// A success rate shows skill where its interval lies above what the best constant answer would reach.
-fn of_success_rate(score: &Score) -> Standing {
+/// A share of right answers shows skill where its interval lies above what a constant answer would reach.
+fn of_share(score: &Score) -> Standing {
     let of_constant = score
         .variant(OF_CONSTANT)
         .and_then(|variant| variant.value.scalar());
-    let low = score.interval.ends().map(|[low, _]| low);
     match of_constant {
         None => Standing::SkillUnknown,
-        Some(constant) => Standing::of_skill(low.map(|low| low - constant)),
+        Some(constant) => Standing::of_skill(low_end(score).map(|low| low - constant)),
     }
 }
 

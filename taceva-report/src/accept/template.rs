@@ -4,7 +4,6 @@ use taceva_metrics::Better;
 
 use super::LIMITS_VERSION;
 use crate::escape::terminal;
-use crate::light;
 use crate::number::{FormattedValue, spaced};
 use crate::results::{Interval, Score, Study};
 use crate::scores::ScoreTable;
@@ -35,7 +34,7 @@ pub fn limits_template(study: &Study) -> String {
     let scores: Vec<&Score> = scores.collect();
     let (kept, barred): (Vec<&Score>, Vec<&Score>) = scores
         .into_iter()
-        .partition(|score| light::barred(score).is_none());
+        .partition(|score| score.standing.takes_part());
     let limits: String = kept.into_iter().filter_map(limit).collect();
     let name = toml::Value::String(format!("limits of {}", study.sensor));
     let mut out = format!(
@@ -60,7 +59,7 @@ pub fn limits_template(study: &Study) -> String {
 fn left_out(barred: &[&Score]) -> String {
     let mut groups: Vec<(&str, Vec<String>)> = Vec::new();
     for score in barred.iter().filter(|score| score.value.number().is_some()) {
-        let Some(reason) = light::barred(score) else {
+        let Some(reason) = score.standing.reason() else {
             continue;
         };
         let name = line(&format!("{} {}", score.metric, score.channel));

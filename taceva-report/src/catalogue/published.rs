@@ -42,6 +42,9 @@ pub struct Published {
     /// Which part it takes in verdicts: by the published R² of its channel.
     #[serde(skip)]
     pub standing: Standing,
+    /// Its interval of 95 %; none of published numbers.
+    #[serde(skip)]
+    pub interval: Option<[f64; 2]>,
 }
 
 impl Published {

@@ -27,6 +27,7 @@ impl Sensor {
                 bound: None,
                 note: None,
                 standing: score.standing,
+                interval: score.interval.as_ref().and_then(Interval::ends),
             })
         };
         let is_opaque = |reason: &str| reason.contains("opaque");

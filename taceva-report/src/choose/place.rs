@@ -56,7 +56,7 @@ impl Choice {
         };
         let both = [said(&first, FIRST), second];
         let both: Vec<String> = both.into_iter().flatten().collect();
-        Some(both.join(", "))
+        Some(format!("{}{}", both.join(", "), self.caveat()))
     }
 }
 
@@ -78,6 +78,7 @@ mod tests {
                 need: "even surface".to_owned(),
                 property: Property::Uniformity,
                 value: Some(*share),
+                interval: None,
                 standing: Standing::Counts,
                 share: (!is_bound).then_some(*share),
                 is_bound,
@@ -89,6 +90,7 @@ mod tests {
             dropped: Vec::new(),
             barred: Vec::new(),
             unknown: Vec::new(),
+            evidence: None,
         }
     }
 

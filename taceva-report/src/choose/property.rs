@@ -61,7 +61,7 @@ impl Property {
     }
 
     /// The metric and channel of the score that it is, where it is one.
-    fn score(self) -> Option<(&'static str, &'static str)> {
+    pub(super) fn score(self) -> Option<(&'static str, &'static str)> {
         match self {
             Property::Error(channel) => Some(("mae", channel)),
             Property::Repeatability(channel) => Some(("repeatability", channel)),
@@ -76,6 +76,12 @@ impl Property {
             | Property::GreatestForce
             | Property::Opaque => None,
         }
+    }
+
+    /// The interval of 95 % of the number of `sensor`, if there is one.
+    pub fn interval(self, sensor: &Sensor) -> Option<[f64; 2]> {
+        let (metric, channel) = self.score()?;
+        sensor.result(metric, channel)?.interval
     }
 
     /// Which part the number of `sensor` takes in verdicts; what is no score counts.

@@ -6,12 +6,12 @@ use super::{Candidate, Choice, Dropped, Step};
 use crate::escape::html;
 use crate::figures::listed;
 use crate::html::Document;
-use crate::number::fixed;
+use crate::number::{fixed, numeral};
 use crate::table::{Column, Direction, Table};
 
 /// The schema of a choice as JSON. 1.1: `open` lists those of which it is not known whether they meet a hard need. 1.2: each step
-/// says which numbers are good. 1.3: each that is ranked has a place, and says whether it is tied.
-pub const CHOICE_SCHEMA: &str = "taceva.choice/1.3";
+/// says which numbers are good. 1.3: each that is ranked has a place, and says whether it is tied. 1.4: intervals, and the differences that are shown.
+pub const CHOICE_SCHEMA: &str = "taceva.choice/1.4";
 
 impl Choice {
     /// A row a sensor, need and number; the best sensor first, those that were dropped last.
@@ -22,6 +22,7 @@ impl Choice {
             Column::new("need"),
             Column::new("looked at").direction(Direction::OfRows),
             Column::new("number"),
+            Column::new("95 % interval"),
             Column::new("share of the best"),
             Column::new("mean share"),
         ];
@@ -40,11 +41,17 @@ impl Choice {
                     step.need.clone(),
                     step.property.to_string(),
                     shown(step),
+                    step.interval.map_or_else(String::new, |[low, high]| {
+                        format!("{} … {}", numeral(low), numeral(high))
+                    }),
                     step.share.map_or_else(String::new, |share| fixed(share, 2)),
                     once(fixed(candidate.share, 2)),
                 ];
                 table.push_directed(Some(step.property.better()), cells);
             }
+        }
+        for sentence in self.tested() {
+            table.note(format!("Tests: {sentence}."));
         }
         for open in &self.open {
             table.note(format!("Open: {}: {}.", open.name, open.reason));
@@ -92,6 +99,7 @@ impl Choice {
                 "better": step.property.better().name(),
                 "value": step.value,
                 "unit": step.property.unit(),
+                "ci95": step.interval,
                 "standing": step.standing.words(),
                 "share": step.share,
             })
@@ -112,7 +120,12 @@ impl Choice {
         let open: Vec<_> = open
             .map(|open| json!({"name": open.name, "reason": open.reason}))
             .collect();
-        let whole = json!({"schema": CHOICE_SCHEMA, "ranked": ranked, "open": open, "dropped": dropped, "barred": barred, "unknown": self.unknown});
+        let evidence = self.evidence.as_ref().map(|all| {
+            let all = all.iter();
+            all.map(|of| json!({"better": of.better, "than": of.than, "looked_at": of.property.to_string(), "p_holm": of.p}))
+                .collect::<Vec<_>>()
+        });
+        let whole = json!({"schema": CHOICE_SCHEMA, "ranked": ranked, "open": open, "dropped": dropped, "barred": barred, "unknown": self.unknown, "evidence": evidence});
         format!("{whole:#}\n")
     }
 

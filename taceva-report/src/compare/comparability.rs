@@ -5,7 +5,6 @@ use std::collections::BTreeSet;
 use taceva_metrics::Sides;
 
 use crate::figures::listed;
-use crate::light::Light;
 use crate::results::{Score, Study};
 
 /// Why two scores give no verdict, if one of them takes no part or is of light that hardly changed: `ViTacTip: no skill: …`.
@@ -14,8 +13,7 @@ pub(super) fn barred(scores: Sides<&Score>, names: Sides<&str>) -> Option<String
     let reasons: Vec<String> = sides
         .into_iter()
         .filter_map(|(score, name)| {
-            let reason = score.standing.reason().map(str::to_owned);
-            let reason = reason.or_else(|| Light::of(score).low_stimulus())?;
+            let reason = score.standing.reason()?;
             Some(format!("{name}: {reason}"))
         })
         .collect();

@@ -121,16 +121,20 @@ impl Comparison {
         let unit = spaced(answers.first()?.unit);
         let is_of_score = |aside: &&Remarks| aside.metric == metric && aside.channel == channel;
         let aside = self.asides.iter().find(is_of_score)?;
-        let is_low = |at: usize| aside.low.iter().any(|(low, _)| *low == at);
+        let is_barred = |at: usize| aside.barred.iter().any(|(barred, _)| *barred == at);
         let answers = answers.into_iter();
         let answers: Vec<&Answer> = answers
-            .filter(|answer| !is_low(answer.sides.a) && !is_low(answer.sides.b))
+            .filter(|answer| !is_barred(answer.sides.a) && !is_barred(answer.sides.b))
             .collect();
         let valued = values(&answers, |_| true);
         let tested = values(&answers, |answer| answer.difference.is_some());
         let (winner, words) = match (best(tested, better), &aside.tie) {
             // Of those that are tied for the best none is shown to be better, whomever else they beat.
-            (_, Some(tie)) => (None, tie.words.clone()),
+            (_, Some(tie)) => {
+                let others = valued.iter().map(|(at, _)| *at);
+                let unbeaten = tie.unbeaten(&answers, others, &self.names);
+                (None, format!("{}{unbeaten}", tie.words))
+            }
             (None, None) if answers.is_empty() => (None, "no verdict".to_owned()),
             (None, None) => (None, untested(&answers, &valued, &self.names)),
             (Some((at, value)), None) => {
@@ -173,8 +177,8 @@ impl Comparison {
                 }
             }
         };
-        let low = aside.low.iter().map(|(_, words)| format!("; {words}"));
-        let words = format!("{words}{}{}", aside.spread, low.collect::<String>());
+        let barred = aside.barred.iter().map(|(_, words)| format!("; {words}"));
+        let words = format!("{words}{}{}", aside.spread, barred.collect::<String>());
         let tied = aside.tie.as_ref().map(|tie| tie.who.clone());
         Some(Decision {
             tied: tied.unwrap_or_default(),

@@ -5,7 +5,6 @@ use std::f64::consts::TAU;
 use taceva_metrics::Better;
 
 use crate::figure::{Anchor, Canvas, Figure, Ink, Label, Points, SERIES, Stroke, short};
-use crate::light;
 use crate::number::numeral;
 use crate::results::{Score, Study};
 
@@ -160,8 +159,7 @@ impl Axis {
         studies.iter().zip(names).filter_map(of_one).collect()
     }
 
-    /// Why `score` has no place on the axis, which is a verdict: it takes no part in any, its light hardly changed, or nobody knows how sure
-    /// it is. Published values have no interval and a place.
+    /// Why `score` has no place on the axis, which is a verdict: it takes no part in any, or nobody knows how sure it is. Published values have no interval and a place.
     fn without_place(&self, score: &Score) -> Option<&'static str> {
         score.value.number()?;
         let interval = match self.variant {
@@ -169,8 +167,10 @@ impl Axis {
             variant => score.variant(variant)?.interval.as_ref(),
         };
         let is_unsure = || interval.is_some_and(|interval| interval.ends().is_none());
-        // The name of the reason, without its explanation.
-        let barred = light::barred(score).and_then(|reason| reason.split(':').next());
+        let barred = score
+            .standing
+            .words()
+            .filter(|_| !score.standing.takes_part());
         barred.or_else(|| is_unsure().then_some("no interval"))
     }
 

@@ -60,6 +60,7 @@ fn paragraph(studies: &[Study], table: &ScoreTable) -> String {
     out += &pressed(studies);
     out += &divided(studies);
     out += &model(studies);
+    out += &gratings(studies);
     out += &statistics::statistics(studies, table);
     out
 }
@@ -183,6 +184,18 @@ fn model(studies: &[Study]) -> String {
                 + " Every score that is formed from predictions is of samples that the model had not seen; scores of the gel alone, such as sensitivity, uniformity and hysteresis, are of all samples of their part of the protocol."
         }
     }
+}
+
+/// How the spacings of gratings were predicted, as the results say in their notes.
+fn gratings(studies: &[Study]) -> String {
+    let notes = studies.iter().flat_map(|study| &study.notes);
+    let ways: BTreeSet<&str> = notes.filter_map(|note| note.strip_prefix("sr: ")).collect();
+    let sentence = |way: &str| {
+        let mut letters = way.chars();
+        let first = letters.next().map(|first| first.to_uppercase().to_string());
+        format!(" {}{}.", first.unwrap_or_default(), letters.as_str())
+    };
+    ways.into_iter().map(sentence).collect()
 }
 
 /// The different values of an entry of provenance, in the order of the studies.

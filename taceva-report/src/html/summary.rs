@@ -1,11 +1,10 @@
 //! The results in words.
 
-use taceva_metrics::Flag;
-
 use super::glossary::score_link;
+use crate::compare::Answer;
 use crate::escape::html;
 use crate::figures::{listed, names};
-use crate::light::{self, is_low};
+use crate::light;
 use crate::number::{minus, spaced};
 use crate::results::{Score, Study};
 use crate::scores::{ScoreCell, ScoreRow, ScoreTable};
@@ -113,21 +112,29 @@ fn verdict(studies: &[Study], table: &ScoreTable, row: &ScoreRow) -> Option<Stri
                 at,
                 cell,
                 value: cell.value?,
-                is_low: score(at).is_some_and(is_low),
             })
         })
         .collect();
     let better = (0..studies.len()).find_map(score).map(Score::better)?;
     let barred = barred(&known, table);
     let beside = format!("{}{barred}", without(row, table));
-    let known: Vec<Known<'_>> = known.into_iter().filter(Known::takes_part).collect();
+    let known = known.into_iter().filter(|known| known.cell.takes_part());
+    let known: Vec<Known<'_>> = known.collect();
     if known.is_empty() && !barred.is_empty() {
         return Some(format!("no verdict.{barred}"));
     }
     let which: Vec<usize> = known.iter().map(|known| known.at).collect();
     let spread = spread::words(studies, &which, &row.metric, &row.channel);
     if let Some(tie) = tie(studies, &table.names, &row.metric, &row.channel) {
-        return Some(format!("{}{spread}.{beside}", html(&tie.words)));
+        let answers = table.answers.iter();
+        let answers = answers.filter(|of| of.metric == row.metric && of.channel == row.channel);
+        let answers: Vec<&Answer> = answers.collect();
+        let unbeaten = tie.unbeaten(&answers, which, &table.names);
+        return Some(format!(
+            "{}{spread}{}.{beside}",
+            html(&tie.words),
+            html(&unbeaten)
+        ));
     }
     let (at, _) = best(known.iter().map(|known| (known.at, known.value)), better)?;
     let best = known.iter().find(|known| known.at == at)?;
@@ -152,20 +159,6 @@ struct Known<'a> {
     at: usize,
     cell: &'a ScoreCell,
     value: f64,
-    /// Whether the light hardly changed, so that no verdict is given.
-    is_low: bool,
-}
-
-impl Known<'_> {
-    fn takes_part(&self) -> bool {
-        self.cell.takes_part() && !self.is_low
-    }
-
-    /// Why it takes no part: `no skill`, `low stimulus`.
-    fn remark(&self) -> Option<String> {
-        let low = self.is_low.then(|| Flag::LowStimulus.to_string());
-        self.cell.remark().or(low)
-    }
 }
 
 /// Those that have no value: ` No value: GelSightWM.`
@@ -181,10 +174,10 @@ fn without(row: &ScoreRow, table: &ScoreTable) -> String {
 
 /// Those whose value claims nothing, and why: ` Takes no part: GelSightWM (no skill).`
 fn barred(known: &[Known<'_>], table: &ScoreTable) -> String {
-    let barred = known.iter().filter(|known| !known.takes_part());
+    let barred = known.iter().filter(|known| !known.cell.takes_part());
     let barred: Vec<String> = barred
         .filter_map(|known| {
-            let (name, remark) = (&table.names[known.at], known.remark()?);
+            let (name, remark) = (&table.names[known.at], known.cell.remark()?);
             Some(format!("{} ({})", html(name), html(&remark)))
         })
         .collect();

@@ -38,7 +38,7 @@ fn judge(scores: &mut [Score], of_r2: impl Fn(&Score) -> Standing) {
             false => &score.of,
         };
         let channels = channels.iter().map(String::as_str);
-        score.standing = Standing::of_channels(metric, channels, skill_of);
+        score.standing = Standing::of_channels(metric, channels, skill_of).max(score.standing);
     }
 }
 

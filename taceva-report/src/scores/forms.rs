@@ -1,5 +1,7 @@
 //! The tables of scores: every number for programs, and those that fit a page for pages and papers.
 
+use std::collections::BTreeSet;
+
 use taceva_core::Unit;
 use taceva_metrics::Better;
 
@@ -24,6 +26,9 @@ const REPEATABILITY: [&str; 2] = [
     "σ rep: repeatability.",
     "$\\sigma_{\\mathrm{rep}}$: repeatability.",
 ];
+
+/// Beside a value that takes no part in verdicts, where there is no room for the reason.
+const BARRED: &str = "†";
 
 impl ScoreTable {
     /// A row a score and study, for programs: numbers in shortest round-trip form.
@@ -72,6 +77,9 @@ impl ScoreTable {
         if self.names.len() > 1 {
             table.note(Words::new(BOLD[0]).latex(BOLD[1]));
         }
+        if let Some(spread) = &self.spread {
+            table.note(Words::new(spread));
+        }
         table
     }
 
@@ -105,6 +113,9 @@ impl ScoreTable {
         if self.names.len() > 1 {
             table.note(Words::new(BOLD[0]).latex(BOLD[1]));
         }
+        if let Some(spread) = &self.spread {
+            table.note(Words::new(spread));
+        }
         table
     }
 
@@ -134,6 +145,21 @@ impl ScoreTable {
         }
         if main.names.len() > 1 {
             table.note(Words::new(SHORT_BOLD[0]).latex(SHORT_BOLD[1]));
+        }
+        let cells = main.rows.iter().flat_map(|row| row.cells.iter().flatten());
+        let barred: BTreeSet<&str> = cells
+            .filter(|cell| is_barred(cell))
+            .filter_map(|cell| cell.standing.words())
+            .collect();
+        if !barred.is_empty() {
+            let why: Vec<&str> = barred.into_iter().collect();
+            table.note(format!(
+                "{BARRED}: takes no part in verdicts ({}).",
+                why.join(", ")
+            ));
+        }
+        if let Some(spread) = &main.spread {
+            table.note(Words::new(spread));
         }
         table
     }
@@ -192,6 +218,11 @@ fn without_reason(cell: Option<&ScoreCell>) -> Cell {
     }
 }
 
+/// Whether a cell has a value that claims nothing.
+fn is_barred(cell: &ScoreCell) -> bool {
+    cell.value.is_some() && !cell.takes_part()
+}
+
 /// A value with at most three digits: a column has no room for more, and the long table has them.
 fn short(cell: Option<&ScoreCell>) -> Cell {
     let value = cell.and_then(|cell| cell.value).map(numeral);
@@ -199,6 +230,13 @@ fn short(cell: Option<&ScoreCell>) -> Cell {
         is_best: cell.is_some_and(|cell| cell.is_best),
         ..Estimate::default()
     };
-    short.formatted.value = value.unwrap_or_default();
+    let mark = if cell.is_some_and(is_barred) {
+        BARRED
+    } else {
+        ""
+    };
+    short.formatted.value = value
+        .map(|value| format!("{value}{mark}"))
+        .unwrap_or_default();
     Cell::Estimate(short)
 }

@@ -38,7 +38,7 @@ impl MetricPlan {
             self.by_channel(Lines, MetricPlan::by_row),
             Crosstalk::for_plan(self).map(|family| self.by_row(family)),
             self.by_channel(Levels, MetricPlan::by_row),
-            self.by_channel(Tolerances, MetricPlan::by_row),
+            self.by_channel(Tolerances::for_plan(self), MetricPlan::by_row),
             self.by_channel(Drifts, MetricPlan::clustered),
         ];
         families.into_iter().flatten().collect()

@@ -1,11 +1,11 @@
 //! Intervals, tests, and what earns a comparison, in the sentences of a paper.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use taceva_metrics::{Standing, catalogue};
 
 use crate::figures::listed;
-use crate::light::is_low;
+use crate::html::fold::counted;
 use crate::results::{Score, Study};
 use crate::scores::ScoreTable;
 
@@ -23,22 +23,22 @@ pub(super) fn statistics(studies: &[Study], table: &ScoreTable) -> String {
         true => String::new(),
         false => format!(" Intervals are of 95 % ({}).", methods.join("; ")),
     };
-    let tests: BTreeSet<String> = table
-        .answers
-        .iter()
-        .filter_map(|answer| Some(answer.difference.as_ref()?.test.to_string()))
-        .collect();
+    let mut tests: BTreeMap<String, usize> = BTreeMap::new();
+    let answers = table.answers.iter();
+    for difference in answers.filter_map(|answer| answer.difference.as_ref()) {
+        *tests.entry(difference.test.to_string()).or_default() += 1;
+    }
     if studies.len() > 1 && !tests.is_empty() {
-        let tests: Vec<String> = tests.into_iter().collect();
+        let tests = tests.into_iter();
+        let tests: Vec<String> = tests
+            .map(|(test, count)| format!("{test}: {}", counted(count, "pair")))
+            .collect();
         out += &format!(
             " Sensors were compared pair by pair ({}), with p values adjusted by Holm's method over all pairs and channels of a metric and a level of 5 %.",
             tests.join("; ")
         );
     }
     out += &skill(studies);
-    if studies.iter().flat_map(|study| &study.scores).any(is_low) {
-        out += " A robustness to lighting of a sensor whose light hardly changed in some scene is flagged low stimulus and takes part in no comparison either.";
-    }
     out + &seeds(studies)
 }
 
@@ -66,7 +66,7 @@ fn skill(studies: &[Study]) -> String {
         ),
     };
     format!(
-        " Scores formed from predictions are compared where the model has skill: the lower end of the 95 % interval of 1 − MSE(model) / MSE(constant) must lie above zero on each channel that a score is formed from, on samples that the model had not seen, and a success rate above that of the best constant answer; {marked}."
+        " Scores formed from predictions are compared where the model has skill: the lower end of the 95 % interval of 1 − MSE(model) / MSE(constant) must lie above zero on each channel that a score is formed from, on samples that the model had not seen, and the interval of a share of right answers (sr, and tolerance where the constant is known) above what a constant answer reaches; {marked}."
     )
 }
 

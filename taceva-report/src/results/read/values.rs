@@ -2,7 +2,7 @@
 
 use taceva_core::Unit;
 use taceva_core::shown;
-use taceva_metrics::{Band, Curve, Map, Matrix, Standing};
+use taceva_metrics::{Band, Curve, Flag, Map, Matrix, Standing};
 
 use super::super::{Interval, ResultsError, Score, Value, Variant};
 use super::place::Place;
@@ -61,6 +61,11 @@ pub(super) fn score(metric: &str, channel: &str, place: &Place<'_>) -> Result<Sc
             });
         }
     }
+    let flags = texts("flags")?;
+    let said = match place.optional("standing") {
+        Some(at) => standing(&at)?,
+        None => Standing::Counts,
+    };
     Ok(Score {
         metric: metric.to_owned(),
         channel: channel.to_owned(),
@@ -81,11 +86,8 @@ pub(super) fn score(metric: &str, channel: &str, place: &Place<'_>) -> Result<Sc
             .iter()
             .map(|(name, at)| Ok(((*name).to_owned(), at.count()?)))
             .collect::<Result<_, ResultsError>>()?,
-        flags: texts("flags")?,
-        standing: match place.optional("standing") {
-            Some(at) => standing(&at)?,
-            None => Standing::Counts,
-        },
+        standing: said.max(of_light(metric, &flags)),
+        flags,
         bounded_share: place
             .optional("bounded_share")
             .map(|at| at.number())
@@ -95,11 +97,20 @@ pub(super) fn score(metric: &str, channel: &str, place: &Place<'_>) -> Result<Sc
     })
 }
 
+/// The standing that flags say: results of before `low stimulus` was one have the flag alone.
+fn of_light(metric: &str, flags: &[String]) -> Standing {
+    let is_low = flags.contains(&Flag::LowStimulus.to_string());
+    match metric == "r_light" && is_low {
+        true => Standing::LowStimulus,
+        false => Standing::Counts,
+    }
+}
+
 fn standing(place: &Place<'_>) -> Result<Standing, ResultsError> {
     let words = place.text()?;
     Standing::from_words(words).ok_or_else(|| {
         place.refuse_found(
-            "`skill unknown`, `bounded` or `no skill`",
+            "`skill unknown`, `bounded`, `low stimulus` or `no skill`",
             format!("`{}`", words.escape_debug()),
         )
     })

@@ -1,0 +1,79 @@
+//! Which scores take part in verdicts.
+
+use std::collections::BTreeMap;
+
+use taceva_metrics::{
+    Channel, Channels, Evaluation, Evaluator, Field, FieldSet, MetricPlan, Rows, Standing, Value,
+    catalogue,
+};
+
+/// Ten presses at each of eight points, with truths 0 to 0.09 N and one constant error. The constant 0 is within 0.05 N of six of ten.
+fn evaluated(errors: [f64; 2], constant: Option<f64>) -> Evaluation {
+    let channels = Channels::new([Channel::FZ]).expect("one channel");
+    let fields = FieldSet::PAIRS.with(Field::Point);
+    let constants: BTreeMap<String, f64> = constant
+        .map(|constant| ("Fz".to_owned(), constant))
+        .into_iter()
+        .collect();
+    let plan = MetricPlan::new(&catalogue::ALL, channels, fields)
+        .with_constants(constants)
+        .expect("of its channel");
+    let truth: Vec<f64> = (0..80).map(|row| f64::from(row % 10) / 100.0).collect();
+    let error = |row: usize| errors[usize::from(row % 10 == row / 10)];
+    let prediction: Vec<f64> = (0..80).map(|row| truth[row] + error(row)).collect();
+    let points = (0..80).map(|row| (row / 10).to_string());
+    let mut evaluator = Evaluator::new(&plan);
+    let rows = Rows::new().pairs(Channel::FZ, &truth, &prediction);
+    evaluator.update_rows(rows.points(points)).expect("80 rows");
+    evaluator.finish().expect("scores")
+}
+
+/// The standing of `tolerance`, and the share that the constant reaches.
+fn tolerance(evaluation: &Evaluation) -> (Standing, Option<f64>) {
+    let score = evaluation.score("tolerance", "Fz").expect("a score");
+    let of_constant = score.variant("of_constant");
+    let of_constant = of_constant.and_then(|variant| variant.value.scalar());
+    (score.standing, of_constant)
+}
+
+#[test]
+fn a_share_within_tolerance_counts_above_what_the_constant_reaches_and_not_below() {
+    let near = evaluated([0.001, 0.06], Some(0.0));
+    assert_eq!(tolerance(&near), (Standing::Counts, Some(0.6)));
+    // Nine of ten errors beyond the tolerance: the constant meets more, though the model may be nearer in the mean square.
+    let far = evaluated([0.06, 0.001], Some(0.0));
+    assert_eq!(tolerance(&far), (Standing::NoSkill, Some(0.6)));
+}
+
+#[test]
+fn without_a_constant_that_is_known_a_share_within_tolerance_has_the_standing_of_its_skill() {
+    let evaluation = evaluated([0.001, 0.002], None);
+    let skill = evaluation.score("skill", "Fz").expect("a score");
+    assert!(matches!(skill.value, Value::Scalar(skill) if skill > 0.9));
+    assert_eq!(tolerance(&evaluation), (Standing::Counts, None));
+}
+
+#[test]
+fn what_a_constant_reaches_is_merged_with_that_of_the_same_constant_and_lost_beside_another() {
+    let share = |constants: [f64; 2]| {
+        let channels = Channels::new([Channel::FZ]).expect("one channel");
+        let fields = FieldSet::PAIRS.with(Field::Point);
+        let parts = constants.map(|constant| {
+            let constants = [("Fz".to_owned(), constant)].into();
+            let plan = MetricPlan::new(&catalogue::ALL, channels.clone(), fields);
+            let plan = plan.with_constants(constants).expect("of its channel");
+            let mut part = Evaluator::new(&plan);
+            let points = (0..6).map(|row| row.to_string());
+            let rows = Rows::new().pairs(Channel::FZ, [0.25; 6], [0.25; 6]);
+            part.update_rows(rows.points(points)).expect("6 rows");
+            part
+        });
+        let [mut one, mut other] = parts;
+        one.merge_states(&other.states().expect("states"))
+            .expect("of one plan");
+        tolerance(&one.finish().expect("scores")).1
+    };
+    assert_eq!(share([0.25, 0.25]), Some(1.0));
+    assert_eq!(share([0.0, 0.0]), Some(0.0));
+    assert_eq!(share([0.25, 0.0]), None);
+}
