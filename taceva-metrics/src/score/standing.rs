@@ -40,17 +40,21 @@ pub enum Standing {
     Bounded,
     /// It takes no part: in some scene the light hardly changed, so that its robustness to light says little.
     LowStimulus,
+    /// It takes no part: a share of good answers whose interval does not lie above the share that the constant of the skill score reaches,
+    /// though the model may be nearer in the mean square.
+    NotAboveConstant,
     /// It takes no part: the model is not shown to do better than a constant.
     NoSkill,
 }
 
 impl Standing {
     /// Every standing, the best first.
-    pub const ALL: [Standing; 5] = [
+    pub const ALL: [Standing; 6] = [
         Standing::Counts,
         Standing::SkillUnknown,
         Standing::Bounded,
         Standing::LowStimulus,
+        Standing::NotAboveConstant,
         Standing::NoSkill,
     ];
 
@@ -72,6 +76,7 @@ impl Standing {
             Standing::SkillUnknown => Some("skill unknown"),
             Standing::Bounded => Some("bounded"),
             Standing::LowStimulus => Some("low stimulus"),
+            Standing::NotAboveConstant => Some("not above the constant"),
             Standing::NoSkill => Some("no skill"),
         }
     }
@@ -90,6 +95,9 @@ impl Standing {
                 Some("bounded: more than 5 % of its predictions lie beyond the bounds of the model")
             }
             Standing::LowStimulus => Some("low stimulus: in some scene the light hardly changed"),
+            Standing::NotAboveConstant => Some(
+                "not above the constant: its interval does not lie above the share that a constant answer reaches",
+            ),
             Standing::NoSkill => {
                 Some("no skill: the model is not shown to do better than a constant")
             }
@@ -209,7 +217,11 @@ fn of_score(
         .bounded_share
         .map_or(Standing::Counts, Standing::of_bounded_share);
     let of_tolerance = match metric.formula {
-        Formula::Tolerance if score.variant(OF_CONSTANT).is_some() => of_share(score),
+        Formula::Tolerance => match of_share(score) {
+            Standing::NoSkill => Standing::NotAboveConstant,
+            // Without a constant that is known, skill alone decides.
+            _ => Standing::Counts,
+        },
         _ => Standing::Counts,
     };
     let is_low = score.flags.contains(&Flag::LowStimulus);
