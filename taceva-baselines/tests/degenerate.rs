@@ -42,14 +42,7 @@ fn fit_all(training: &Data, held: Option<&Data>) -> Vec<String> {
     };
     let (seen, held_seen) = (features(training), held.map(features));
     fn set<'a>(data: &'a Data, features: &'a Features) -> TrainingSet<'a> {
-        TrainingSet {
-            features,
-            targets: Targets {
-                channels: &data.channels,
-                values: &data.labels,
-            },
-            groups: None,
-        }
+        TrainingSet::new(features, Targets::new(&data.channels, &data.labels))
     }
     let held_set = held.zip(held_seen.as_ref());
     let held_set = held_set.map(|(data, features)| set(data, features));

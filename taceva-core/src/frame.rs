@@ -59,7 +59,7 @@ impl PixelFormat {
     }
 }
 
-/// The size and the pixel format of a frame.
+/// The size and the pixel format of a frame. A plain value, which gets no further fields.
 ///
 /// ```
 /// use taceva_core::{FrameInfo, PixelFormat};

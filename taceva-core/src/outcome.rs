@@ -3,6 +3,11 @@
 use std::fmt;
 
 /// A limit of the gel that a press is kept within.
+///
+/// ```
+/// use taceva_core::Limit;
+/// assert_eq!((Limit::NormalForce.name(), Limit::from_name("depth")), ("normal-force", Some(Limit::Depth)));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]

@@ -3,6 +3,11 @@
 use std::fmt;
 
 /// The unit in which TacEva keeps and reports a channel.
+///
+/// ```
+/// use taceva_core::Unit;
+/// assert_eq!((Unit::Newton.symbol(), Unit::from_symbol("mm")), ("N", Some(Unit::Millimetre)));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
@@ -228,6 +233,12 @@ impl SourceUnit {
 }
 
 /// A unit that nobody declared.
+///
+/// ```
+/// use taceva_core::SourceUnit;
+/// let error = SourceUnit::parse("furlong").unwrap_err();
+/// assert!(error.to_string().starts_with("unknown unit `furlong`, expected one of mm, "));
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct UnitError {
     symbol: String,

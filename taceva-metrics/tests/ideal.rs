@@ -12,12 +12,10 @@ const LEVELS: std::ops::RangeInclusive<i64> = 5..=35;
 const STEP_NM: i64 = 50_000;
 
 fn told(truth: i64, prediction: i64) -> Sample {
-    Sample {
-        kind: Some(GratingKind::Line),
-        spacing: Some(Nanometre(truth * STEP_NM)),
-        predicted_spacing: Some(Nanometre(prediction * STEP_NM)),
-        ..Sample::default()
-    }
+    Sample::default()
+        .with_kind(GratingKind::Line)
+        .with_spacing(Nanometre(truth * STEP_NM))
+        .with_predicted_spacing(Nanometre(prediction * STEP_NM))
 }
 
 fn success_rate(samples: &[Sample]) -> Value {

@@ -70,14 +70,7 @@ fn recording((samples, width): (usize, usize)) -> Recording {
 
 impl Recording {
     fn set(&self) -> TrainingSet<'_> {
-        TrainingSet {
-            features: &self.features,
-            targets: Targets {
-                channels: &self.channels,
-                values: &self.labels,
-            },
-            groups: None,
-        }
+        TrainingSet::new(&self.features, Targets::new(&self.channels, &self.labels))
     }
 }
 

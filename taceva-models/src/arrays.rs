@@ -101,14 +101,7 @@ impl<E: ModelEstimator + ?Sized> EstimatorArrays for E {
             Some(values) => Cow::Borrowed(values),
             None => Cow::Owned(targets.iter().copied().collect()),
         };
-        let training = TrainingSet {
-            features: &features,
-            targets: Targets {
-                channels,
-                values: &values,
-            },
-            groups: None,
-        };
+        let training = TrainingSet::new(&features, Targets::new(channels, &values));
         self.fit_model(&training, None, progress)
     }
 }

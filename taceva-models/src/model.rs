@@ -184,11 +184,9 @@ impl Model {
 }
 
 /// The same samples, seen as `features` where there are others.
-fn with_features<'s>(set: TrainingSet<'s>, features: Option<&'s Features>) -> TrainingSet<'s> {
-    TrainingSet {
-        features: features.unwrap_or(set.features),
-        ..set
-    }
+fn with_features<'s>(mut set: TrainingSet<'s>, features: Option<&'s Features>) -> TrainingSet<'s> {
+    set.features = features.unwrap_or(set.features);
+    set
 }
 
 /// The channels that a card lists.

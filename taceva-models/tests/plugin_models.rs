@@ -156,14 +156,7 @@ fn fit(way: Way, words: &[&str], features: FeatureSpec) -> Result<Model, ModelEr
             height: 2,
             format: PixelFormat::Gray8,
         },
-        training: TrainingSet {
-            features: &seen,
-            targets: Targets {
-                channels: &channels,
-                values: &labels,
-            },
-            groups: None,
-        },
+        training: TrainingSet::new(&seen, Targets::new(&channels, &labels)),
         validation: None,
         provenance: Provenance::default(),
     };

@@ -10,6 +10,7 @@ mod workspace;
 pub mod power_cut;
 pub mod recorded;
 pub mod renew;
+pub mod source;
 pub mod toy;
 
 pub use binary::{example, library, taceva};

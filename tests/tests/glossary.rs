@@ -2,8 +2,8 @@
 
 use std::collections::BTreeSet;
 use std::fs;
-use std::path::{Path, PathBuf};
 
+use taceva_tests::source::{rust_files, without_text};
 use taceva_tests::{metadata, read};
 
 /// Words that were replaced in all crates, each with the term in its place. A word is entered once it is gone from every `src`.
@@ -86,7 +86,7 @@ fn replaced_words_do_not_come_back_as_identifiers() {
             .iter()
             .find(|(name, _)| *name == package.name.as_str());
         let own = own.map_or(&[][..], |(_, words)| *words);
-        for file in sources(&src) {
+        for file in rust_files(&src) {
             let text = fs::read_to_string(&file).expect("readable");
             for identifier in identifiers(&without_text(&text)) {
                 for word in words_of(&identifier) {
@@ -110,82 +110,6 @@ fn identifiers_are_read_without_comments_and_strings() {
     assert_eq!(words_of("is_told"), ["is", "told"]);
     assert_eq!(words_of("ToldOnce"), ["told", "once"]);
     assert_eq!(words_of("MAX_TOLD"), ["max", "told"]);
-}
-
-/// Every Rust file below `folder`.
-fn sources(folder: &Path) -> Vec<PathBuf> {
-    let mut found = Vec::new();
-    for entry in fs::read_dir(folder).into_iter().flatten() {
-        let path = entry.expect("readable").path();
-        if path.is_dir() {
-            found.extend(sources(&path));
-        } else if path.extension().is_some_and(|end| end == "rs") {
-            found.push(path);
-        }
-    }
-    found
-}
-
-/// Code without comments, strings and letters in quotation marks.
-fn without_text(code: &str) -> String {
-    let mut left = String::new();
-    let mut rest = code;
-    while let Some(letter) = rest.chars().next() {
-        let skipped = length_of_text(rest, left.chars().last());
-        if skipped > 0 {
-            left.push(' ');
-            rest = &rest[skipped..];
-        } else {
-            left.push(letter);
-            rest = &rest[letter.len_utf8()..];
-        }
-    }
-    left
-}
-
-/// How many bytes of comment, string or letter `code` begins with, after the letter `before`.
-fn length_of_text(code: &str, before: Option<char>) -> usize {
-    if code.starts_with("//") {
-        return code.find('\n').unwrap_or(code.len());
-    }
-    if code.starts_with("/*") {
-        return code.find("*/").map_or(code.len(), |end| end + 2);
-    }
-    let is_in_word = before.is_some_and(|letter| letter.is_alphanumeric() || letter == '_');
-    let hashes = code
-        .strip_prefix('r')
-        .map(|after| after.len() - after.trim_start_matches('#').len());
-    if let Some(hashes) = hashes.filter(|_| !is_in_word)
-        && code[1 + hashes..].starts_with('"')
-    {
-        let end = format!("\"{}", "#".repeat(hashes));
-        let start = hashes + 2;
-        return code[start..]
-            .find(&end)
-            .map_or(code.len(), |at| start + at + end.len());
-    }
-    match code.chars().next() {
-        Some('"') => end_of_quote(code, '"').unwrap_or(code.len()),
-        // A lifetime has no second quotation mark so near.
-        Some('\'') => end_of_quote(code, '\'')
-            .filter(|end| code[..*end].chars().count() == 3 || code.starts_with("'\\"))
-            .unwrap_or(0),
-        _ => 0,
-    }
-}
-
-/// Where the text ends that begins with `mark`.
-fn end_of_quote(code: &str, mark: char) -> Option<usize> {
-    let mut is_escaped = false;
-    for (at, letter) in code.char_indices().skip(1) {
-        match letter {
-            _ if is_escaped => is_escaped = false,
-            '\\' => is_escaped = true,
-            _ if letter == mark => return Some(at + letter.len_utf8()),
-            _ => {}
-        }
-    }
-    None
 }
 
 fn identifiers(code: &str) -> BTreeSet<String> {

@@ -7,6 +7,14 @@ use super::nearest::nearest;
 use super::spec::ArgSpec;
 
 /// An argument that the driver does not take; every text is as the user wrote it.
+///
+/// ```
+/// use taceva_core::{ArgError, ArgSpec, Args};
+/// let specs = [ArgSpec::whole("seed", 0, 99)];
+/// let error = Args::parse(&specs, "seed=100").unwrap_err();
+/// assert!(matches!(&error, ArgError::Value { key, .. } if key == "seed"));
+/// assert_eq!(error.to_string(), "`seed`: `100`, expected a whole number from 0 to 99");
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum ArgError {

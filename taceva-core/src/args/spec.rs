@@ -9,7 +9,15 @@ use super::value::ArgValue;
 use crate::unit::SourceUnit;
 
 /// The declaration of one argument of a driver.
+///
+/// ```
+/// use taceva_core::{ArgSpec, ArgValue};
+/// let rate = ArgSpec::number("rate", 1.0, 60.0).unit("Hz").default(ArgValue::Number(30.0)).help("frames a second");
+/// assert_eq!(rate.parse("25 Hz"), Ok(ArgValue::Number(25.0)));
+/// assert_eq!(rate.expected(), "a number from 1 to 60 Hz");
+/// ```
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct ArgSpec {
     /// Its key.
     pub key: String,
@@ -26,6 +34,12 @@ pub struct ArgSpec {
 }
 
 /// What the value of an argument is.
+///
+/// ```
+/// use taceva_core::{ArgKind, ArgSpec};
+/// let spec = ArgSpec::new("seed", ArgKind::Whole { least: 0, most: 99 });
+/// assert_eq!(spec, ArgSpec::whole("seed", 0, 99));
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum ArgKind {
@@ -57,6 +71,14 @@ pub enum ArgKind {
 }
 
 /// Whether an argument must be given.
+///
+/// ```
+/// use taceva_core::{ArgSpec, Args, Presence};
+/// let spec = ArgSpec::text("serial").optional();
+/// assert_eq!(spec.presence, Presence::Optional);
+/// assert_eq!(Args::parse(&[spec], "")?.get("serial"), None);
+/// # Ok::<(), taceva_core::ArgError>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub enum Presence {
     /// It must.
@@ -68,7 +90,8 @@ pub enum Presence {
 }
 
 impl ArgSpec {
-    fn new(key: &str, kind: ArgKind) -> ArgSpec {
+    /// A required argument of `kind`, without a unit.
+    pub fn new(key: &str, kind: ArgKind) -> ArgSpec {
         ArgSpec {
             key: key.to_owned(),
             kind,

@@ -39,7 +39,7 @@ pub enum Kernel {
     Exact(Isa),
 }
 
-/// What a kernel found; `None` where it found no number.
+/// What a kernel found; `None` where it found no number. A plain value, which gets no further fields.
 ///
 /// ```
 /// use taceva_metrics::{Paired, bench::Kernel};

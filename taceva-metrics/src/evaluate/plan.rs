@@ -273,10 +273,10 @@ mod tests {
         let plan = MetricPlan::new(&wanted, channels, FieldSet::PAIRS);
         assert_eq!(
             plan.skipped(),
-            [Skipped {
-                what: "metric:mae_euclid".into(),
-                reason: SkipReason::ChannelAbsent("Fy".into())
-            }]
+            [Skipped::new(
+                "metric:mae_euclid",
+                SkipReason::ChannelAbsent("Fy".into())
+            )]
         );
     }
 }

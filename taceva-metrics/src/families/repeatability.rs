@@ -32,15 +32,14 @@ pub(crate) enum RepeatMetric {
 pub(crate) const LIMIT_FACTOR: f64 = 2.8;
 
 /// What scores of repeats need.
-const NEEDS: Needs = Needs {
-    fields: FieldSet::EMPTY
+const NEEDS: Needs = Needs::new(
+    FieldSet::EMPTY
         .with(Field::Prediction)
         .with(Field::Point)
         .with(Field::DepthStep)
         .with(Field::Repeat),
-    channels: &[],
-    least_samples: 2,
-};
+)
+.with_least_samples(2);
 
 pub(crate) static REPEATABILITY: Metric = Metric {
     id: "repeatability",

@@ -31,11 +31,8 @@ pub(crate) static TOLERANCE: Metric = Metric {
     documentation: "Which share of predictions is within 0.05 mm or 0.05 N of the truth, 0.5 for degrees and N mm; `curve` has the \
                     share for tolerances from 0.01 to 2, or 0.1 to 20. Truth and prediction are rounded to a millionth of the \
                     unit first, so that 0.40 is within 0.05 of 0.35; an error as large as the tolerance is within it.",
-    needs: Needs {
-        fields: FieldSet::EMPTY.with(Field::Truth).with(Field::Prediction),
-        channels: &[],
-        least_samples: 1,
-    },
+    needs: Needs::new(FieldSet::EMPTY.with(Field::Truth).with(Field::Prediction))
+        .with_least_samples(1),
     facts: &[],
     constants: headline,
     formula: Formula::Tolerance,

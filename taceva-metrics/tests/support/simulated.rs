@@ -212,26 +212,22 @@ impl Press {
     fn force(&self) -> Sample {
         #[expect(clippy::cast_possible_truncation, reason = "a few millimetres")]
         let told = SPACING_NM + (self.error_n * SPACING_ERROR_NM).round() as i64;
-        Sample {
-            point_id: Some(self.point.clone()),
-            kind: Some(GratingKind::Line),
-            spacing: Some(Nanometre(SPACING_NM)),
-            predicted_spacing: Some(Nanometre(told)),
-            truth: Readings::from_values([self.force_n]),
-            prediction: Some(Readings::from_values([self.force_n - self.error_n])),
-            ..Sample::default()
-        }
+        Sample::default()
+            .with_point_id(self.point.clone())
+            .with_kind(GratingKind::Line)
+            .with_spacing(Nanometre(SPACING_NM))
+            .with_predicted_spacing(Nanometre(told))
+            .with_truth(Readings::from_values([self.force_n]))
+            .with_prediction(Readings::from_values([self.force_n - self.error_n]))
     }
 
     /// A place, and where it is told to be.
     fn place(&self) -> Sample {
         let error_mm = SHORT_BY * self.place_mm + PLACE_ERROR_MM_PER_N * self.error_n;
-        Sample {
-            point_id: Some(self.point.clone()),
-            truth: Readings::from_values([self.place_mm]),
-            prediction: Some(Readings::from_values([self.place_mm - error_mm])),
-            ..Sample::default()
-        }
+        Sample::default()
+            .with_point_id(self.point.clone())
+            .with_truth(Readings::from_values([self.place_mm]))
+            .with_prediction(Readings::from_values([self.place_mm - error_mm]))
     }
 
     /// Place, depth and force.
@@ -239,11 +235,9 @@ impl Press {
         let place = [self.cell % CELLS, self.cell / CELLS];
         let [x, y] = place.map(|at| f64::from(at) + 0.5 - f64::from(CELLS) / 2.0);
         let depth_mm = self.compliance_mm_per_n * self.force_n;
-        Sample {
-            point_id: Some(self.point.clone()),
-            truth: Readings::from_values([x, y, depth_mm, self.force_n]),
-            ..Sample::default()
-        }
+        Sample::default()
+            .with_point_id(self.point.clone())
+            .with_truth(Readings::from_values([x, y, depth_mm, self.force_n]))
     }
 }
 

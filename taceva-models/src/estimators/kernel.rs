@@ -93,14 +93,11 @@ impl Mapped {
     }
 
     fn training<'s>(&'s self, set: &TrainingSet<'s>) -> TrainingSet<'s> {
-        TrainingSet {
-            features: &self.training,
-            ..*set
-        }
+        TrainingSet::new(&self.training, set.targets).with_groups(set.groups)
     }
 
     fn validation<'s>(&'s self, set: Option<&TrainingSet<'s>>) -> Option<TrainingSet<'s>> {
         let features = self.validation.as_ref()?;
-        set.map(|set| TrainingSet { features, ..*set })
+        set.map(|set| TrainingSet::new(features, set.targets).with_groups(set.groups))
     }
 }

@@ -53,12 +53,9 @@ impl ModelEstimator for PluginEstimator {
     ) -> Result<ModelFit, ModelError> {
         let problem = Problem::new(*training)?;
         let validation = problem.validation(validation)?.and(validation);
-        let fitted = self.factory.fit(&FitRequest {
-            settings: &self.settings,
-            training,
-            validation,
-            progress,
-        })?;
+        let fitted = self.factory.fit(
+            &FitRequest::new(&self.settings, training, progress).with_validation(validation),
+        )?;
         let bytes = fitted.save()?;
         let kind = (training.targets.channels, training.features.shape());
         let card = PluginCard::of(&*self.factory)?;

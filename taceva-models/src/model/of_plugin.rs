@@ -39,10 +39,6 @@ pub(crate) fn plugin_from(
         id: plugin.id.clone(),
         key: plugin.key.clone(),
     })?;
-    let saved = Saved {
-        bytes: tensor.data(),
-        channels,
-        shape: card.features.shape(),
-    };
+    let saved = Saved::new(tensor.data(), channels, card.features.shape());
     Ok(PluginRegressor::load(&**factory, plugin, &saved)?)
 }

@@ -62,21 +62,11 @@ pub(crate) fn recording(samples: usize, width: usize, noise: f64, seed: u64) -> 
 
 impl Recording {
     pub(crate) fn set(&self) -> TrainingSet<'_> {
-        TrainingSet {
-            features: &self.features,
-            targets: Targets {
-                channels: &self.channels,
-                values: &self.labels,
-            },
-            groups: None,
-        }
+        TrainingSet::new(&self.features, Targets::new(&self.channels, &self.labels))
     }
 
     pub(crate) fn grouped(&self) -> TrainingSet<'_> {
-        TrainingSet {
-            groups: Some(&self.groups),
-            ..self.set()
-        }
+        self.set().with_groups(&self.groups[..])
     }
 
     pub(crate) fn select(&self, rows: &[usize]) -> Recording {

@@ -63,14 +63,7 @@ pub(crate) fn fit(name: &str, words: &[&str], spec: FeatureSpec) -> (Model, Feat
         .collect();
     let rows: Vec<usize> = (0..60).collect();
     let (training, validation) = (features.select(&rows[..40]), features.select(&rows[40..]));
-    let set = |features, values| TrainingSet {
-        features,
-        targets: Targets {
-            channels: &channels,
-            values,
-        },
-        groups: None,
-    };
+    let set = |features, values| TrainingSet::new(features, Targets::new(&channels, values));
     let settings = Settings::parse(words.iter().copied()).expect("well formed");
     let estimator = find(name)
         .expect("registered")

@@ -15,10 +15,9 @@ impl MetricPlan {
         self.fields = FieldSet::EMPTY;
         for metric in self.wanted.clone() {
             match self.obstacle(metric) {
-                Some(reason) => self.skipped.push(Skipped {
-                    what: format!("metric:{}", metric.id),
-                    reason,
-                }),
+                Some(reason) => self
+                    .skipped
+                    .push(Skipped::new(format!("metric:{}", metric.id), reason)),
                 None => {
                     self.kept.push(metric);
                     self.fields = self.fields | metric.needs.fields | self.optional(metric);

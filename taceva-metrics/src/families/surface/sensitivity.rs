@@ -22,11 +22,9 @@ pub(crate) static SENSITIVITY: Metric = Metric {
     documentation: "How far the gel yields a newton of normal force: the mean of indentation over force of all samples in \
                     contact, those with shear too. slope is the line through the origin, which does not explode as the force \
                     nears the gate; normal_only leaves out what has shear; map is the mean in each cell of the footprint.",
-    needs: Needs {
-        fields: FieldSet::EMPTY.with(Field::Truth),
-        channels: &["Pz", "Fz"],
-        least_samples: 1,
-    },
+    needs: Needs::new(FieldSet::EMPTY.with(Field::Truth))
+        .with_channels(&["Pz", "Fz"])
+        .with_least_samples(1),
     facts: &[],
     constants: crate::families::accuracy::no_constants,
     formula: Formula::Surface(SurfaceMetric::Sensitivity),

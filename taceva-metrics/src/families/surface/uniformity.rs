@@ -27,11 +27,9 @@ pub(crate) static UNIFORMITY: Metric = Metric {
                     footprint; 1 is the same everywhere. Few samples a cell look like a surface that is not uniform: debiased \
                     takes that part away, n_min_5 leaves out cells with fewer than five samples. normal_only leaves out what \
                     has shear; mean and deviation are μ and σ.",
-    needs: Needs {
-        fields: FieldSet::EMPTY.with(Field::Truth),
-        channels: &["Px", "Py", "Pz", "Fz"],
-        least_samples: 1,
-    },
+    needs: Needs::new(FieldSet::EMPTY.with(Field::Truth))
+        .with_channels(&["Px", "Py", "Pz", "Fz"])
+        .with_least_samples(1),
     facts: &[Fact::Footprint],
     constants: crate::families::accuracy::no_constants,
     formula: Formula::Surface(SurfaceMetric::Uniformity),
