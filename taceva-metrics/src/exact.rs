@@ -3,6 +3,7 @@
 mod block_sums;
 mod bounds;
 mod canonical;
+mod digits;
 mod grid;
 mod integer;
 mod kernel;

@@ -3,9 +3,11 @@
 mod assign;
 mod error;
 mod manifest;
+mod part;
 mod spec;
 
-pub use assign::{Part, Split, SplitInput};
+pub use assign::{Split, SplitInput};
 pub use error::SplitError;
 pub use manifest::{SplitCounts, SplitManifest};
+pub use part::Part;
 pub use spec::{ColumnSplit, Fractions, SplitKind, SplitSpec};

@@ -7,6 +7,7 @@ mod random;
 mod recordings;
 mod workspace;
 
+pub mod imports;
 pub mod power_cut;
 pub mod recorded;
 pub mod renew;

@@ -2,7 +2,6 @@
 
 use std::fmt;
 
-use super::Args;
 use super::error::ArgError;
 use super::nearest::nearest;
 use super::value::ArgValue;
@@ -166,14 +165,6 @@ impl ArgSpec {
     pub fn changes_facts(mut self) -> ArgSpec {
         self.changes_facts = true;
         self
-    }
-
-    /// Whether `args` say something else than nothing, or than its default.
-    pub fn is_set_by(&self, args: &Args) -> bool {
-        match &self.presence {
-            Presence::Default(value) => args.get(&self.key) != Some(value),
-            Presence::Required | Presence::Optional => args.get(&self.key).is_some(),
-        }
     }
 
     /// The value written as `text`.

@@ -9,9 +9,11 @@ use std::collections::BTreeMap;
 
 use taceva_core::Skipped;
 
+use crate::evaluate::entry::Entry;
+use crate::evaluate::standing;
 use crate::metric::Metric;
 use crate::score::Score;
-use crate::score::standing::{self, Standing};
+use crate::score::standing::Standing;
 
 /// Every score of an evaluation, in the order of reports, and what was left out.
 ///
@@ -28,14 +30,6 @@ use crate::score::standing::{self, Standing};
 pub struct Evaluation {
     entries: Vec<Entry>,
     skipped: Vec<Skipped>,
-}
-
-/// One score, with what it is of.
-#[derive(Clone, Debug)]
-pub(crate) struct Entry {
-    pub(crate) metric: &'static Metric,
-    pub(crate) channel: String,
-    pub(crate) score: Score,
 }
 
 impl Evaluation {

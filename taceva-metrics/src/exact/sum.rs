@@ -3,14 +3,12 @@
 use std::fmt;
 
 use super::canonical::Canonical;
+use super::digits::{DIGITS, UNIT_EXPONENT};
 use super::rational::Dyadic;
 
 /// Digits that are kept in place; a sum of one quantity rarely spans more.
 const WINDOW: usize = 8;
-/// Digits of the whole range: from below the square of the least denormal to above 2⁶⁴ squares of the greatest number.
-pub(super) const DIGITS: usize = 140;
-/// The weight of bit 0 of digit 0 is 2 to this power.
-pub(super) const UNIT_EXPONENT: i32 = -2176;
+
 /// The bit of weight one.
 const UNIT_POSITION: usize = 2176;
 /// A deposit changes a digit by less than 2⁵³, so that 1000 of them stay within an `i64`.

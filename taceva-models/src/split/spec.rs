@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 use std::fmt;
 use std::str::FromStr;
 
-use super::assign::Part;
 use super::error::SplitError;
+use super::part::Part;
 use crate::settings::Suggestion;
 
 /// How a recording is split into training, validation and test parts.

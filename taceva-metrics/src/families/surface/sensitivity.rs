@@ -2,8 +2,7 @@
 
 use taceva_core::{Field, FieldSet, Needs, Unit};
 
-use super::sums::{SurfaceSums, Total};
-use super::{NORMAL_ONLY, SurfaceMetric};
+use super::sums::{NORMAL_ONLY, SurfaceSums, Total, contact};
 use crate::exact::Dyadic;
 use crate::families::family::{Finished, Numbers};
 use crate::metric::{Formula, Metric, ScoreUnit};
@@ -27,7 +26,7 @@ pub(crate) static SENSITIVITY: Metric = Metric {
         .with_least_samples(1),
     facts: &[],
     constants: crate::families::accuracy::no_constants,
-    formula: Formula::Surface(SurfaceMetric::Sensitivity),
+    formula: Formula::Sensitivity,
 };
 
 /// S = RN(Σ s / n) with s = RN(Δz / F); slope = RN(Σ Δz F / Σ F²).
@@ -40,15 +39,6 @@ pub(super) fn sensitivity(sums: &SurfaceSums) -> Numbers {
     Numbers::of(contact(sums).and_then(|()| mean(&sums.compliance)))
         .with("slope", unit, Range::Any, slope)
         .with(NORMAL_ONLY, unit, Range::Any, mean(&sums.normal))
-}
-
-/// The reason for no value if nothing is in contact.
-pub(super) fn contact(sums: &SurfaceSums) -> Result<(), UndefinedReason> {
-    match (sums.compliance.n, sums.gated) {
-        (0, 0) => Err(UndefinedReason::Empty),
-        (0, _) => Err(UndefinedReason::BelowGate),
-        _ => Ok(()),
-    }
 }
 
 fn mean(total: &Total) -> Finished {

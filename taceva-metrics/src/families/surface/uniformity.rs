@@ -2,9 +2,7 @@
 
 use taceva_core::{Field, FieldSet, Needs, Unit};
 
-use super::sensitivity::contact;
-use super::sums::SurfaceSums;
-use super::{NORMAL_ONLY, SurfaceMetric};
+use super::sums::{NORMAL_ONLY, SurfaceSums, contact};
 use crate::evaluate::facts::Fact;
 use crate::evaluate::settings::Settings;
 use crate::exact::Dyadic;
@@ -32,7 +30,7 @@ pub(crate) static UNIFORMITY: Metric = Metric {
         .with_least_samples(1),
     facts: &[Fact::Footprint],
     constants: crate::families::accuracy::no_constants,
-    formula: Formula::Surface(SurfaceMetric::Uniformity),
+    formula: Formula::Uniformity,
 };
 
 /// Samples a cell from which on its mean is worth printing beside the paper's one.
