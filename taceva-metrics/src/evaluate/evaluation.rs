@@ -34,7 +34,7 @@ pub struct Evaluation {
 
 impl Evaluation {
     pub(crate) fn new(mut entries: Vec<Entry>, skipped: Vec<Skipped>) -> Evaluation {
-        standing::judge(&mut entries);
+        standing::set_standings(&mut entries);
         Evaluation { entries, skipped }
     }
 

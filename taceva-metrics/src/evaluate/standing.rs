@@ -35,7 +35,7 @@ impl Standing {
 }
 
 /// Gives each of `entries` the standing that the skill scores and the bounded shares among them determine.
-pub(crate) fn judge(entries: &mut [Entry]) {
+pub(crate) fn set_standings(entries: &mut [Entry]) {
     let skills: Vec<(String, Standing)> = entries
         .iter()
         .filter(|entry| matches!(entry.metric.formula, Formula::Skill))

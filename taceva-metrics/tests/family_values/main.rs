@@ -143,7 +143,7 @@ fn presses_below_the_gate_or_off_the_surface_are_counted_apart() {
 }
 
 #[test]
-fn shear_that_nobody_measures_leaves_no_normal_presses_to_tell() {
+fn shear_that_nobody_measures_leaves_no_normal_presses_to_select() {
     let wanted = catalogue::select(["sensitivity"]).expect("known names");
     let channels = Channels::new([Channel::PZ, Channel::FZ]).expect("two channels");
     let plan = MetricPlan::new(&wanted, channels, FieldSet::PAIRS);

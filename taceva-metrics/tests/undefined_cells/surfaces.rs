@@ -47,7 +47,7 @@ fn surfaces_without_shared_points_are_laid_onto_each_other_step_by_step() {
 }
 
 #[test]
-fn a_single_unit_or_a_line_of_points_has_no_gap_to_tell() {
+fn a_single_unit_or_a_line_of_points_has_no_gap_to_measure() {
     let channels = ["Px", "Py", "surface_z"];
     let one = evaluate("inter_sensor", &channels, &surface("a", true, dome));
     assert_eq!(
