@@ -1,12 +1,14 @@
 //! Arguments of a driver: declared as data, given as text, checked before anything is opened.
 
 mod error;
+mod kind;
 mod nearest;
 mod spec;
 mod value;
 
 pub use error::ArgError;
-pub use spec::{ArgKind, ArgSpec, Presence};
+pub use kind::{ArgKind, Presence};
+pub use spec::ArgSpec;
 pub use value::ArgValue;
 
 pub(crate) use nearest::nearest;

@@ -53,7 +53,7 @@ pub(crate) fn replaced(name: &str) -> &str {
 ///
 /// ```
 /// let ridge = taceva_models::find("ridge")?;
-/// let estimator = ridge.estimator(&taceva_models::Settings::parse(["strength=0.1"])?)?;
+/// let estimator = ridge.estimator(&taceva_models::ModelSettings::parse(["strength=0.1"])?)?;
 /// assert_eq!(estimator.name(), "ridge");
 /// let error = taceva_models::find("rigde").unwrap_err();
 /// assert_eq!(error.to_string(), "no model is called `rigde`, did you mean `ridge`?");

@@ -2,12 +2,14 @@
 
 mod assign;
 mod error;
+mod fractions;
 mod manifest;
 mod part;
 mod spec;
 
 pub use assign::{Split, SplitInput};
 pub use error::SplitError;
+pub use fractions::Fractions;
 pub use manifest::{SplitCounts, SplitManifest};
 pub use part::Part;
-pub use spec::{ColumnSplit, Fractions, SplitKind, SplitSpec};
+pub use spec::{ColumnSplit, SplitKind, SplitSpec};

@@ -22,7 +22,7 @@ pub use self::task::{LibraryPredictor, LibrarySizes, LibraryTask, LoadedPredicto
 pub use self::tensor::{LibraryTensor, LibraryTensors, Numbers};
 use crate::features::FeatureSpec;
 use crate::registry::ModelInfo;
-use crate::settings::{SettingError, SettingInfo, Settings};
+use crate::settings::{ModelSettings, SettingError, SettingInfo};
 use crate::training::fit::ModelEstimator;
 
 /// Libraries whose models a program may offer; each is a feature of the program, called as the library.
@@ -100,7 +100,7 @@ impl ModelInfo {
         name: &'static str,
         about: &'static str,
         settings: &'static [SettingInfo],
-        make: fn(&Settings) -> Result<Box<dyn ModelEstimator>, SettingError>,
+        make: fn(&ModelSettings) -> Result<Box<dyn ModelEstimator>, SettingError>,
     ) -> ModelInfo {
         ModelInfo {
             name,

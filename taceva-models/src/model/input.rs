@@ -4,7 +4,7 @@ use taceva_core::{FrameInfo, TrainingSet};
 
 use super::card::Provenance;
 use crate::features::FeatureSpec;
-use crate::settings::Settings;
+use crate::settings::ModelSettings;
 use crate::training::fit::ModelEstimator;
 
 /// All that a model is fitted from.
@@ -12,7 +12,7 @@ pub struct FitInput<'a> {
     /// The model, not fitted yet.
     pub estimator: &'a dyn ModelEstimator,
     /// The settings it was made with, as typed.
-    pub settings: &'a Settings,
+    pub settings: &'a ModelSettings,
     /// What it sees of a frame.
     pub features: FeatureSpec,
     /// The kind of frame that the features were taken from.

@@ -1,7 +1,7 @@
 //! A model before its settings are known.
 
 use crate::features::FeatureSpec;
-use crate::settings::{SettingError, SettingInfo, Settings};
+use crate::settings::{ModelSettings, SettingError, SettingInfo};
 use crate::training::fit::ModelEstimator;
 
 /// A model that people can choose: its name, what it is, and what can be set.
@@ -16,7 +16,7 @@ pub struct ModelInfo {
     /// What it sees of a frame where nothing else is asked for; `None` if its predictions do not depend on what is seen, so that no
     /// frame need be decoded for it.
     pub features: Option<FeatureSpec>,
-    pub(crate) make: fn(&Settings) -> Result<Box<dyn ModelEstimator>, SettingError>,
+    pub(crate) make: fn(&ModelSettings) -> Result<Box<dyn ModelEstimator>, SettingError>,
 }
 
 impl ModelInfo {
@@ -24,7 +24,10 @@ impl ModelInfo {
     ///
     /// # Errors
     /// [`SettingError`] for an unknown key or a value out of range.
-    pub fn estimator(&self, settings: &Settings) -> Result<Box<dyn ModelEstimator>, SettingError> {
+    pub fn estimator(
+        &self,
+        settings: &ModelSettings,
+    ) -> Result<Box<dyn ModelEstimator>, SettingError> {
         (self.make)(settings)
     }
 }

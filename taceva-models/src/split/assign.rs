@@ -3,8 +3,9 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::error::SplitError;
+use super::fractions::Fractions;
 use super::part::Part;
-use super::spec::{ColumnSplit, Fractions, SplitKind, SplitSpec};
+use super::spec::{ColumnSplit, SplitKind, SplitSpec};
 use crate::settings::Suggestion;
 use taceva_core::random::SplitMix64;
 
