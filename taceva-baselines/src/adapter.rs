@@ -3,7 +3,7 @@
 use taceva_core::{ModelError, TrainingSet};
 use taceva_models::{
     LibraryLearner, LibraryModel, LibraryPredictor, LibrarySettings, LibraryTask, LoadedPredictor,
-    ModelEstimator, SettingError, SettingInfo, Settings, library_estimator,
+    ModelEstimator, ModelSettings, SettingError, SettingInfo, library_estimator,
 };
 
 /// An estimator of a library.
@@ -54,7 +54,7 @@ impl Adapter {
     /// [`SettingError`] for an unknown key or a value out of range.
     pub(crate) fn estimator(
         &'static self,
-        settings: &Settings,
+        settings: &ModelSettings,
     ) -> Result<Box<dyn ModelEstimator>, SettingError> {
         settings.check_keys(self.model.info.settings)?;
         let common = LibrarySettings::from_settings(settings)?;
@@ -69,7 +69,7 @@ impl Adapter {
 
 impl Number {
     /// The value that `settings` give; `None` where it is chosen.
-    fn of(&self, settings: &Settings) -> Result<Option<f64>, SettingError> {
+    fn of(&self, settings: &ModelSettings) -> Result<Option<f64>, SettingError> {
         let [least, greatest] = self.range;
         let read = |text: &str| {
             let value: f64 = match self.is_whole {

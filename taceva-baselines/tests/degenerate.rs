@@ -5,7 +5,7 @@ use taceva_core::{
     Channel, Channels, ErrorKind, FeatureShape, Features, Regressor, SilentProgress, Targets,
     TrainingSet, Unit,
 };
-use taceva_models::{Models, Settings};
+use taceva_models::{ModelSettings, Models};
 
 const WIDTH: usize = 6;
 
@@ -42,14 +42,7 @@ fn fit_all(training: &Data, held: Option<&Data>) -> Vec<String> {
     };
     let (seen, held_seen) = (features(training), held.map(features));
     fn set<'a>(data: &'a Data, features: &'a Features) -> TrainingSet<'a> {
-        TrainingSet {
-            features,
-            targets: Targets {
-                channels: &data.channels,
-                values: &data.labels,
-            },
-            groups: None,
-        }
+        TrainingSet::new(features, Targets::new(&data.channels, &data.labels))
     }
     let held_set = held.zip(held_seen.as_ref());
     let held_set = held_set.map(|(data, features)| set(data, features));
@@ -58,7 +51,9 @@ fn fit_all(training: &Data, held: Option<&Data>) -> Vec<String> {
     for model in taceva_baselines::all() {
         let name = model.info.name;
         let estimator = models.find(name).expect("registered");
-        let estimator = estimator.estimator(&Settings::default()).expect("defaults");
+        let estimator = estimator
+            .estimator(&ModelSettings::default())
+            .expect("defaults");
         match estimator.fit_model(&set(training, &seen), held_set.as_ref(), &SilentProgress) {
             Ok(fit) => {
                 let mut found = vec![f64::NAN; training.labels.len()];

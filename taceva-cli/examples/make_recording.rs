@@ -153,18 +153,24 @@ fn record(path: &Path) -> Result<(), Box<dyn std::error::Error>> {
         for step in 0..DEPTHS {
             let press = Press::planned(point, step);
             let [fx, fy, fz] = press.forces_newton();
-            recorder.append(&Sample {
-                id: format!("{point:03}-{step}"),
-                point_id: Some(format!("{point:03}")),
-                depth_step: Some(step),
-                stamp: Some(Stamp {
-                    valid_s: 2.5 * f64::from(point * DEPTHS + step),
-                    received_s: None,
-                }),
-                frame: Some(press.draw(point, step)),
-                truth: Readings::from_values([press.x_mm, press.y_mm, press.depth_mm, fx, fy, fz]),
-                ..Sample::default()
-            })?;
+            recorder.append(
+                &Sample::new(format!("{point:03}-{step}"))
+                    .with_point_id(format!("{point:03}"))
+                    .with_depth_step(step)
+                    .with_stamp(Stamp {
+                        valid_s: 2.5 * f64::from(point * DEPTHS + step),
+                        received_s: None,
+                    })
+                    .with_frame(press.draw(point, step))
+                    .with_truth(Readings::from_values([
+                        press.x_mm,
+                        press.y_mm,
+                        press.depth_mm,
+                        fx,
+                        fy,
+                        fz,
+                    ])),
+            )?;
         }
     }
     recorder.close()?;

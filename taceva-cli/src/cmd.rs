@@ -30,7 +30,7 @@ pub(crate) mod score;
 use std::path::Path;
 
 use taceva_dataset::Dataset;
-use taceva_models::{Models, Settings};
+use taceva_models::{ModelSettings, Models};
 use taceva_study::{DataPart, FitRequest, StudyError};
 
 use crate::args::{Output, PartArg, ScoringArgs, SettingArgs, SplitArgs};
@@ -93,7 +93,7 @@ pub(crate) fn fit_request(
     let words = settings.set.iter().map(String::as_str);
     Ok(FitRequest {
         model: models.find(name).map_err(StudyError::from)?,
-        settings: Settings::parse(words).map_err(StudyError::from)?,
+        settings: ModelSettings::parse(words).map_err(StudyError::from)?,
         channels: settings.channels.clone(),
         split: split.split.clone(),
         seed: split.seed.value,

@@ -1,12 +1,14 @@
 //! Arguments of a driver: declared as data, given as text, checked before anything is opened.
 
 mod error;
+mod kind;
 mod nearest;
 mod spec;
 mod value;
 
 pub use error::ArgError;
-pub use spec::{ArgKind, ArgSpec, Presence};
+pub use kind::{ArgKind, Presence};
+pub use spec::ArgSpec;
 pub use value::ArgValue;
 
 pub(crate) use nearest::nearest;
@@ -64,7 +66,7 @@ impl Args {
             let spec = specs
                 .iter()
                 .find(|spec| spec.key == key)
-                .ok_or_else(|| ArgError::unknown(key, specs))?;
+                .ok_or_else(|| unknown(key, specs))?;
             let value = spec.parse(text)?;
             if values.insert(spec.key.clone(), value).is_some() {
                 return Err(ArgError::Twice {
@@ -77,7 +79,7 @@ impl Args {
                 continue;
             }
             match &spec.presence {
-                Presence::Required => return Err(ArgError::missing(spec)),
+                Presence::Required => return Err(missing(spec)),
                 Presence::Optional => {}
                 Presence::Default(value) => {
                     values.insert(spec.key.clone(), value.clone());
@@ -134,6 +136,35 @@ impl Args {
             Some(&ArgValue::Flag(value)) => value,
             other => undeclared(key, "flag", other),
         }
+    }
+}
+
+impl ArgSpec {
+    /// Whether `args` say something else than nothing, or than its default.
+    pub fn is_set_by(&self, args: &Args) -> bool {
+        match &self.presence {
+            Presence::Default(value) => args.get(&self.key) != Some(value),
+            Presence::Required | Presence::Optional => args.get(&self.key).is_some(),
+        }
+    }
+}
+
+/// That `key` is none of those declared.
+fn unknown(key: &str, specs: &[ArgSpec]) -> ArgError {
+    let known: Vec<String> = specs.iter().map(|spec| spec.key.clone()).collect();
+    ArgError::Unknown {
+        key: key.to_owned(),
+        nearest: nearest(key, known.iter().map(String::as_str)).map(str::to_owned),
+        known,
+    }
+}
+
+/// That an argument which is required is not given.
+fn missing(spec: &ArgSpec) -> ArgError {
+    ArgError::Missing {
+        key: spec.key.clone(),
+        expected: spec.expected(),
+        help: spec.help.clone(),
     }
 }
 

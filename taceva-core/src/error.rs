@@ -3,6 +3,11 @@
 use std::fmt;
 
 /// What kind of failure it was, whatever failed; numerically the status of the C boundary, negated.
+///
+/// ```
+/// use taceva_core::ErrorKind;
+/// assert_eq!((ErrorKind::Timeout as i32, ErrorKind::Timeout.to_string()), (4, "timeout".to_owned()));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[repr(i32)]
 pub enum ErrorKind {

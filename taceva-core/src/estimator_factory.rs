@@ -6,6 +6,77 @@ use crate::model::{ModelError, Saved, SavedRegressor, TrainingSet};
 use crate::progress::Progress;
 
 /// An estimator that is found by its key, with settings that it declares, and whose fitted models can be kept.
+///
+/// ```
+/// use taceva_core::{
+///     Args, Channel, Channels, DriverKey, ErrorKind, EstimatorFactory, FeatureShape, Features, FitRequest, ModelError, Regressor,
+///     Saved, SavedRegressor, SilentProgress, Targets, TrainingSet,
+/// };
+///
+/// /// Fits the force that one step of the first feature is worth.
+/// struct Proportional {
+///     key: DriverKey,
+/// }
+///
+/// struct Fitted {
+///     channels: Channels,
+///     factor: f64,
+/// }
+///
+/// impl EstimatorFactory for Proportional {
+///     fn key(&self) -> &DriverKey {
+///         &self.key
+///     }
+///     fn title(&self) -> &str {
+///         "a line through the origin"
+///     }
+///     fn fit(&self, request: &FitRequest<'_>) -> Result<Box<dyn SavedRegressor>, ModelError> {
+///         let TrainingSet { features, targets, .. } = request.training;
+///         let pairs = features.values().iter().zip(targets.values);
+///         let (products, squares) = pairs.fold((0.0, 0.0), |(products, squares), (&feature, target)| {
+///             let feature = f64::from(feature);
+///             (products + feature * target, squares + feature * feature)
+///         });
+///         let channels = targets.channels.clone();
+///         Ok(Box::new(Fitted { channels, factor: products / squares }))
+///     }
+///     fn load(&self, saved: &Saved<'_>) -> Result<Box<dyn SavedRegressor>, ModelError> {
+///         let bytes = saved.bytes.try_into();
+///         let bytes = bytes.map_err(|_| ModelError::new(ErrorKind::Protocol, "expected 8 bytes"))?;
+///         Ok(Box::new(Fitted { channels: saved.channels.clone(), factor: f64::from_le_bytes(bytes) }))
+///     }
+/// }
+/// # impl Regressor for Fitted {
+/// #     fn channels(&self) -> &Channels {
+/// #         &self.channels
+/// #     }
+/// #     fn shape(&self) -> FeatureShape {
+/// #         FeatureShape::flat(1)
+/// #     }
+/// #     fn predict(&self, features: &Features, into: &mut [f64]) -> Result<(), ModelError> {
+/// #         into.iter_mut().zip(features.values()).for_each(|(to, from)| *to = self.factor * f64::from(*from));
+/// #         Ok(())
+/// #     }
+/// # }
+/// # impl SavedRegressor for Fitted {
+/// #     fn save(&self) -> Result<Vec<u8>, ModelError> {
+/// #         Ok(self.factor.to_le_bytes().to_vec())
+/// #     }
+/// # }
+///
+/// let channels = Channels::new([Channel::FZ])?;
+/// let features = Features::new(FeatureShape::flat(1), vec![1.0, 2.0])?;
+/// let training = TrainingSet::new(&features, Targets::new(&channels, &[0.5, 1.0]));
+/// let factory = Proportional { key: "org.example/proportional".parse()? };
+/// let fitted = factory.fit(&FitRequest::new(&Args::default(), &training, &SilentProgress))?;
+/// let bytes = fitted.save()?;
+/// let loaded = factory.load(&Saved::new(&bytes, &channels, fitted.shape()))?;
+/// let mut forces = [0.0; 2];
+/// loaded.predict(&features, &mut forces)?;
+/// assert_eq!(forces, [0.5, 1.0]);
+/// assert!(factory.load(&Saved::new(b"damaged", &channels, fitted.shape())).is_err());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub trait EstimatorFactory: Send + Sync {
     /// The name by which people choose it: the id of the plugin, `/`, and a word.
     fn key(&self) -> &DriverKey;
@@ -49,6 +120,18 @@ pub trait EstimatorFactory: Send + Sync {
 }
 
 /// What a fit is made from.
+///
+/// ```
+/// use taceva_core::{Args, Channel, Channels, FeatureShape, Features, FitRequest, SilentProgress, Targets, TrainingSet};
+/// let channels = Channels::new([Channel::FZ])?;
+/// let features = Features::new(FeatureShape::flat(1), vec![1.0, 2.0])?;
+/// let training = TrainingSet::new(&features, Targets::new(&channels, &[0.5, 1.0]));
+/// let settings = Args::default();
+/// let request = FitRequest::new(&settings, &training, &SilentProgress).with_validation(&training);
+/// assert!(request.validation.is_some());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[non_exhaustive]
 pub struct FitRequest<'a> {
     /// What was set, checked against what the estimator declares.
     pub settings: &'a Args,
@@ -58,4 +141,32 @@ pub struct FitRequest<'a> {
     pub validation: Option<&'a TrainingSet<'a>>,
     /// Who listens, and may cancel.
     pub progress: &'a dyn Progress,
+}
+
+impl<'a> FitRequest<'a> {
+    /// A fit on `training` alone.
+    pub fn new(
+        settings: &'a Args,
+        training: &'a TrainingSet<'a>,
+        progress: &'a dyn Progress,
+    ) -> FitRequest<'a> {
+        FitRequest {
+            settings,
+            training,
+            validation: None,
+            progress,
+        }
+    }
+
+    /// The same fit with samples to choose settings by.
+    #[must_use]
+    pub fn with_validation(
+        self,
+        validation: impl Into<Option<&'a TrainingSet<'a>>>,
+    ) -> FitRequest<'a> {
+        FitRequest {
+            validation: validation.into(),
+            ..self
+        }
+    }
 }

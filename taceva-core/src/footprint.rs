@@ -20,6 +20,14 @@ pub struct Footprint {
 }
 
 /// The outline of a sensing surface.
+///
+/// ```
+/// use taceva_core::{Footprint, Nanometre, Outline};
+/// let gel = Footprint::rectangle(8.0, 6.0, None)?;
+/// let halves = Outline::Rectangle { half_x: Nanometre(8_000_000), half_y: Nanometre(6_000_000) };
+/// assert_eq!(gel.outline(), halves);
+/// # Ok::<(), taceva_core::FootprintError>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Outline {
@@ -120,6 +128,12 @@ fn length(name: &'static str, millimetres: f64) -> Result<Nanometre, FootprintEr
 }
 
 /// A length that no sensor has.
+///
+/// ```
+/// use taceva_core::Footprint;
+/// let error = Footprint::disc(-1.0, None).unwrap_err();
+/// assert_eq!(error.to_string(), "`radius_mm` is -1, expected a length above 0 and up to 10000 mm");
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FootprintError {
     name: &'static str,

@@ -85,6 +85,12 @@ impl fmt::Display for DriverKey {
 }
 
 /// Text that is no driver key.
+///
+/// ```
+/// use taceva_core::DriverKey;
+/// let error = "Sim/GelSight".parse::<DriverKey>().unwrap_err();
+/// assert!(error.to_string().starts_with("\"Sim/GelSight\" is no driver key"));
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct DriverKeyError {
     text: String,

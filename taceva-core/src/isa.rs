@@ -135,6 +135,11 @@ impl FromStr for Isa {
 }
 
 /// Why an instruction set cannot be used.
+///
+/// ```
+/// use taceva_core::{Isa, IsaError};
+/// assert_eq!(Isa::from_name("mmx"), Err(IsaError::Unknown { name: "mmx".to_owned() }));
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum IsaError {

@@ -112,6 +112,12 @@ impl fmt::Display for Nanometre {
 }
 
 /// Text that is no length in mm.
+///
+/// ```
+/// use taceva_core::Nanometre;
+/// let error = "1 mm".parse::<Nanometre>().unwrap_err();
+/// assert_eq!(error.to_string(), "`1 mm` is no length, expected millimetres such as 0.35");
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct NanometreError {
     text: String,

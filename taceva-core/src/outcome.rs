@@ -3,6 +3,11 @@
 use std::fmt;
 
 /// A limit of the gel that a press is kept within.
+///
+/// ```
+/// use taceva_core::Limit;
+/// assert_eq!((Limit::NormalForce.name(), Limit::from_name("depth")), ("normal-force", Some(Limit::Depth)));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
@@ -51,10 +56,10 @@ impl fmt::Display for Limit {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(into = "&'static str", try_from = "String"))]
 pub enum PressOutcome {
-    /// Every station was visited.
+    /// Every waypoint was visited.
     Complete,
-    /// A limit ended the way in. The station that was not reached has its sample where the tip rests within the limits; stations
-    /// beyond are left out, and those of the way out are visited. A limit that is met in the search for the gel leaves no sample.
+    /// A limit ended the way in. The waypoint that was not reached has its sample where the tip rests within the limits; waypoints
+    /// beyond it are left out, and those of the way out are visited. A limit that is met in the search for the gel leaves no sample.
     Limited(Limit),
     /// Nothing was touched as far down as the search goes.
     NoContact,

@@ -1,6 +1,33 @@
 //! How long work tells a person where it is, and learns that it should stop.
 
 /// Listens to long work; the work never knows whether a terminal, a log or nobody listens.
+///
+/// ```
+/// use std::sync::atomic::{AtomicU64, Ordering};
+/// use taceva_core::Progress;
+///
+/// /// Counts steps, and cancels after ten of them.
+/// #[derive(Default)]
+/// struct Ten(AtomicU64);
+///
+/// impl Progress for Ten {
+///     fn begin(&self, _stage: &str, _steps: Option<u64>) {}
+///     fn advance(&self, steps: u64) {
+///         self.0.fetch_add(steps, Ordering::Relaxed);
+///     }
+///     fn end(&self) {}
+///     fn is_cancelled(&self) -> bool {
+///         self.0.load(Ordering::Relaxed) >= 10
+///     }
+/// }
+///
+/// let progress = Ten::default();
+/// progress.begin("fit", None);
+/// while !progress.is_cancelled() {
+///     progress.advance(4);
+/// }
+/// assert_eq!(progress.0.into_inner(), 12);
+/// ```
 pub trait Progress: Send + Sync {
     /// A stage begins: what it does, and how many steps it has where that is known.
     fn begin(&self, stage: &str, steps: Option<u64>);
@@ -13,6 +40,12 @@ pub trait Progress: Send + Sync {
 }
 
 /// A progress that shows nothing and never cancels.
+///
+/// ```
+/// use taceva_core::{Progress, SilentProgress};
+/// SilentProgress.begin("fit", Some(3));
+/// assert!(!SilentProgress.is_cancelled());
+/// ```
 #[derive(Clone, Copy, Debug, Default)]
 pub struct SilentProgress;
 

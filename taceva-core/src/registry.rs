@@ -27,6 +27,13 @@ use crate::driver::Device;
 use crate::id::DriverKey;
 
 /// The drivers of one kind, by key and always in the order of their keys. A value that is handed down, never a global.
+///
+/// ```
+/// use taceva_core::{Registry, Sensor};
+/// let sensors = Registry::<dyn Sensor>::empty();
+/// let error = sensors.get("sim/digit").map(|_| ()).unwrap_err();
+/// assert_eq!(error.to_string(), "`sim/digit`: unknown sensor driver, and none is known");
+/// ```
 pub struct Registry<D: ?Sized> {
     factories: BTreeMap<DriverKey, Box<dyn Factory<D>>>,
 }

@@ -1,5 +1,7 @@
 //! One aligned observation. A live rig and a recording push the same samples.
 
+mod with;
+
 use crate::channel::Channels;
 use crate::frame::Frame;
 use crate::geometry::Pose;
@@ -14,15 +16,14 @@ use crate::wrench::Wrench;
 ///
 /// ```
 /// use taceva_core::{Readings, Sample};
-/// let sample = Sample {
-///     id: "press 1".into(),
-///     truth: Readings::from_values([1.0, 0.5]),
-///     prediction: Some(Readings::from_values([1.1, 0.48])),
-///     ..Sample::default()
-/// };
+/// let sample = Sample::new("press 1")
+///     .with_truth(Readings::from_values([1.0, 0.5]))
+///     .with_prediction(Readings::from_values([1.1, 0.48]))
+///     .with_repeat(2);
 /// assert_eq!(sample.truth.get(1), Some(0.5));
 /// ```
 #[derive(Clone, Debug, Default, PartialEq)]
+#[non_exhaustive]
 pub struct Sample {
     /// Its name within the recording.
     pub id: String,

@@ -10,7 +10,14 @@ const PER_METRE: f64 = 1e3;
 /// How far the length of a unit quaternion may be from 1: what single precision keeps.
 const LENGTH_TOLERANCE: f64 = 1e-6;
 
-/// A pose in metres and as a unit quaternion.
+/// A pose in metres and as a unit quaternion. A plain value, which gets no further fields.
+///
+/// ```
+/// use taceva_core::{Millimetre, Point, Pose, SiPose};
+/// let pose = Pose { position: Point { z: Millimetre(0.5), ..Point::default() }, ..Pose::default() };
+/// let si = SiPose::from(pose);
+/// assert_eq!((si.position_m, si.quaternion), ([0.0, 0.0, 0.0005], [1.0, 0.0, 0.0, 0.0]));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SiPose {
     /// x, y and z.

@@ -8,15 +8,26 @@ use crate::field::Field;
 ///
 /// ```
 /// use taceva_core::{SkipReason, Skipped};
-/// let skipped = Skipped { what: "metric:drift".to_owned(), reason: SkipReason::NotWanted };
+/// let skipped = Skipped::new("metric:drift", SkipReason::NotWanted);
 /// assert_eq!(skipped.reason, SkipReason::NotWanted);
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Skipped {
     /// What: `metric:repeatability`, `field:frame`, `stage:fit`.
     pub what: String,
     /// Why.
     pub reason: SkipReason,
+}
+
+impl Skipped {
+    /// `what` was left out because of `reason`.
+    pub fn new(what: impl Into<String>, reason: SkipReason) -> Skipped {
+        Skipped {
+            what: what.into(),
+            reason,
+        }
+    }
 }
 
 /// Why something was left out.

@@ -32,7 +32,7 @@ impl fmt::Display for Clock {
     }
 }
 
-/// The time of a sample, in seconds of the recording's [`Clock`].
+/// The time of a sample, in seconds of the recording's [`Clock`]. A plain value, which gets no further fields.
 ///
 /// ```
 /// use taceva_core::Stamp;

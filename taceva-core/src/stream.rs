@@ -4,9 +4,38 @@ use crate::field::{Field, FieldSet};
 use crate::sample::Sample;
 
 /// What a sink reports when it cannot take a sample.
+///
+/// ```
+/// use taceva_core::SinkError;
+/// let error: SinkError = "the disk is full".into();
+/// assert_eq!(error.to_string(), "the disk is full");
+/// ```
 pub type SinkError = Box<dyn std::error::Error + Send + Sync>;
 
 /// Takes samples as they come, from a live rig or from a recording; it cannot tell which.
+///
+/// ```
+/// use taceva_core::{FieldSet, Sample, SampleSink, SinkError};
+///
+/// /// Counts the samples that have a prediction.
+/// #[derive(Default)]
+/// struct Predicted(u64);
+///
+/// impl SampleSink for Predicted {
+///     fn fields(&self) -> FieldSet {
+///         FieldSet::PAIRS
+///     }
+///     fn accept(&mut self, sample: &Sample) -> Result<(), SinkError> {
+///         self.0 += u64::from(sample.prediction.is_some());
+///         Ok(())
+///     }
+/// }
+///
+/// let mut sink = Predicted::default();
+/// sink.accept(&Sample::new("press 1"))?;
+/// assert_eq!(sink.0, 0);
+/// # Ok::<(), SinkError>(())
+/// ```
 pub trait SampleSink {
     /// What it reads of a sample; a source need not fill the rest.
     fn fields(&self) -> FieldSet;
@@ -27,7 +56,27 @@ impl<S: SampleSink + ?Sized> SampleSink for &mut S {
     }
 }
 
-/// Two sinks fed by one stream: record and evaluate in one pass.
+/// Two sinks fed by one stream: record and evaluate in one pass. A plain pair: it gets no further fields.
+///
+/// ```
+/// # use taceva_core::{FieldSet, SampleSink, SinkError};
+/// # #[derive(Default)]
+/// # struct Count(u64);
+/// # impl SampleSink for Count {
+/// #     fn fields(&self) -> FieldSet {
+/// #         FieldSet::PAIRS
+/// #     }
+/// #     fn accept(&mut self, _: &Sample) -> Result<(), SinkError> {
+/// #         self.0 += 1;
+/// #         Ok(())
+/// #     }
+/// # }
+/// use taceva_core::{Sample, Tee};
+/// let mut tee = Tee { first: Count::default(), second: Count::default() };
+/// tee.accept(&Sample::new("press 1"))?;
+/// assert_eq!((tee.first.0, tee.second.0), (1, 1));
+/// # Ok::<(), SinkError>(())
+/// ```
 #[derive(Debug)]
 pub struct Tee<A, B> {
     /// Fed first.
@@ -47,6 +96,24 @@ impl<A: SampleSink, B: SampleSink> SampleSink for Tee<A, B> {
 }
 
 /// A sink that hides fields from the one behind it, so that the source does not fill them.
+///
+/// ```
+/// # use taceva_core::{FieldSet, SampleSink, SinkError};
+/// # #[derive(Default)]
+/// # struct Count(u64);
+/// # impl SampleSink for Count {
+/// #     fn fields(&self) -> FieldSet {
+/// #         FieldSet::PAIRS
+/// #     }
+/// #     fn accept(&mut self, _: &Sample) -> Result<(), SinkError> {
+/// #         self.0 += 1;
+/// #         Ok(())
+/// #     }
+/// # }
+/// use taceva_core::{Field, Sample, Select};
+/// let without_predictions = Select::new(Count::default(), FieldSet::EMPTY.with(Field::Truth));
+/// assert_eq!(without_predictions.fields(), FieldSet::EMPTY.with(Field::Truth));
+/// ```
 #[derive(Debug)]
 pub struct Select<S> {
     inner: S,

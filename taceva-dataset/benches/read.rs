@@ -60,11 +60,8 @@ fn recording() -> (tempfile::TempDir, PathBuf) {
             state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
             ((pixel % 640) / 8 + pixel / 640 / 8 + number + (state >> 30)).to_le_bytes()[0]
         });
-        let sample = Sample {
-            id: number.to_string(),
-            frame: Some(Frame::new(info, pixels.collect()).expect("of that size")),
-            ..Sample::default()
-        };
+        let sample = Sample::new(number.to_string())
+            .with_frame(Frame::new(info, pixels.collect()).expect("of that size"));
         recorder.append(&sample).expect("recorded");
     }
     recorder.close().expect("closed");

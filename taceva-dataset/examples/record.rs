@@ -64,15 +64,12 @@ fn sample(number: u16) -> Result<Sample, Box<dyn Error>> {
     };
     let pixels = (0..192_u16).map(|pixel| pixel.wrapping_mul(number).to_le_bytes()[0]);
     let depth = f64::from(number) / 100.0;
-    Ok(Sample {
-        id: format!("press {number}"),
-        point_id: Some(format!("point {}", number % 7)),
-        stamp: Some(Stamp {
+    Ok(Sample::new(format!("press {number}"))
+        .with_point_id(format!("point {}", number % 7))
+        .with_stamp(Stamp {
             valid_s: f64::from(number),
             received_s: None,
-        }),
-        frame: Some(Frame::new(info, pixels.collect())?),
-        truth: Readings::from_values([depth, 2.0 * depth]),
-        ..Sample::default()
-    })
+        })
+        .with_frame(Frame::new(info, pixels.collect())?)
+        .with_truth(Readings::from_values([depth, 2.0 * depth])))
 }

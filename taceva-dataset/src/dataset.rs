@@ -33,12 +33,8 @@ pub use pass::{Pass, StreamReport};
 /// # let mut recorder = Recorder::create(&path, &RecordingSpec::new(facts, Channels::new([Channel::FZ])?))?;
 /// # let info = FrameInfo { width: 2, height: 1, format: PixelFormat::Gray8 };
 /// # for number in 0..2_u8 {
-/// #     recorder.append(&Sample {
-/// #         id: number.to_string(),
-/// #         truth: Readings::from_values([0.5]),
-/// #         frame: Some(Frame::new(info, vec![number, 90])?),
-/// #         ..Sample::default()
-/// #     })?;
+/// #     let sample = Sample::new(number.to_string()).with_truth(Readings::from_values([0.5]));
+/// #     recorder.append(&sample.with_frame(Frame::new(info, vec![number, 90])?))?;
 /// # }
 /// use taceva_dataset::Dataset;
 ///

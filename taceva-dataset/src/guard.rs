@@ -50,11 +50,11 @@ mod tests {
 
     #[test]
     fn the_guard_of_one_thread_does_not_silence_another() {
-        let silent = guarded(|| {
+        let is_hidden = guarded(|| {
             std::thread::spawn(|| GUARDED.get())
                 .join()
                 .expect("no panic")
         });
-        assert_eq!(silent, Ok(false));
+        assert_eq!(is_hidden, Ok(false));
     }
 }

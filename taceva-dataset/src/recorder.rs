@@ -69,11 +69,7 @@ impl RecordingSpec {
 /// let facts = RecordingFacts::new(Source::Synthetic, Clock::Unknown, sensor);
 /// let spec = RecordingSpec::new(facts, Channels::new([Channel::FZ])?);
 /// let mut recorder = Recorder::create(&path, &spec)?;
-/// recorder.append(&Sample {
-///     id: "press 1".into(),
-///     truth: Readings::from_values([0.5]),
-///     ..Sample::default()
-/// })?;
+/// recorder.append(&Sample::new("press 1").with_truth(Readings::from_values([0.5])))?;
 /// recorder.close()?;
 /// assert_eq!(Dataset::open(&path)?.table().truth(0).get(0), Some(0.5));
 /// # Ok::<(), Box<dyn std::error::Error>>(())

@@ -254,34 +254,28 @@ impl Table {
         } else {
             Readings::default()
         };
-        Sample {
-            id: self.sample[row].clone(),
-            sensor_id: None,
-            unit_id: text(Field::UnitId, &self.unit_id),
-            scene_id: text(Field::Scene, &self.scene),
-            point_id: text(Field::Point, &self.point_id),
-            depth_step: self.depth_step[row].filter(|_| wanted(Field::DepthStep)),
-            repeat: self.repeat[row].filter(|_| wanted(Field::Repeat)),
-            phase: self.phase[row].filter(|_| wanted(Field::Phase)),
-            limited_by: self.limited_by[row],
-            stamp: self.t_s[row]
-                .filter(|_| wanted(Field::Stamp))
-                .map(|valid_s| Stamp {
-                    valid_s,
-                    received_s: None,
-                }),
-            kind: self.kind[row].filter(|_| wanted(Field::Kind)),
-            spacing: self.spacing[row].filter(|_| wanted(Field::Spacing)),
-            predicted_spacing: None,
-            intensity: self.intensity[row].filter(|_| wanted(Field::Intensity)),
-            frame_digest: self.frames[row]
-                .as_ref()
-                .filter(|_| wanted(Field::FrameDigest))
-                .map(|entry| entry.digest.to_string()),
-            frame,
-            truth,
-            prediction: None,
-        }
+        let stamp = self.t_s[row].filter(|_| wanted(Field::Stamp));
+        let entry = self.frames[row].as_ref();
+        let entry = entry.filter(|_| wanted(Field::FrameDigest));
+        let mut sample = Sample::new(self.sample[row].as_str());
+        sample.unit_id = text(Field::UnitId, &self.unit_id);
+        sample.scene_id = text(Field::Scene, &self.scene);
+        sample.point_id = text(Field::Point, &self.point_id);
+        sample.depth_step = self.depth_step[row].filter(|_| wanted(Field::DepthStep));
+        sample.repeat = self.repeat[row].filter(|_| wanted(Field::Repeat));
+        sample.phase = self.phase[row].filter(|_| wanted(Field::Phase));
+        sample.limited_by = self.limited_by[row];
+        sample.stamp = stamp.map(|valid_s| Stamp {
+            valid_s,
+            received_s: None,
+        });
+        sample.kind = self.kind[row].filter(|_| wanted(Field::Kind));
+        sample.spacing = self.spacing[row].filter(|_| wanted(Field::Spacing));
+        sample.intensity = self.intensity[row].filter(|_| wanted(Field::Intensity));
+        sample.frame_digest = entry.map(|entry| entry.digest.to_string());
+        sample.frame = frame;
+        sample.truth = truth;
+        sample
     }
 
     /// The digest of what the table says, however it is stored and wherever its frames lie.

@@ -30,12 +30,9 @@ fn sample(press: &str, number: u8, width: u32) -> Sample {
         format: PixelFormat::Gray8,
     };
     let pixels = (0..width).map(|_| number).collect();
-    Sample {
-        id: format!("{press}/{number}"),
-        truth: Readings::from_values([0.25, f64::from(number)]),
-        frame: Some(Frame::new(info, pixels).expect("its own length")),
-        ..Sample::default()
-    }
+    Sample::new(format!("{press}/{number}"))
+        .with_truth(Readings::from_values([0.25, f64::from(number)]))
+        .with_frame(Frame::new(info, pixels).expect("its own length"))
 }
 
 fn press(name: &str) -> Vec<Sample> {

@@ -11,13 +11,12 @@ fn main() -> Result<(), Box<dyn std::error::Error + Send + Sync>> {
     let mut evaluator = Evaluator::new(&plan);
     for press in 0..40 {
         let depth_mm = 0.025 * f64::from(press);
-        evaluator.accept(&Sample {
-            id: format!("press {press}"),
-            point_id: Some(format!("point {}", press / 4)),
-            truth: Readings::from_values([depth_mm, 1.5 * depth_mm]),
-            prediction: Some(Readings::from_values([depth_mm + 0.01, 1.4 * depth_mm])),
-            ..Sample::default()
-        })?;
+        evaluator.accept(
+            &Sample::new(format!("press {press}"))
+                .with_point_id(format!("point {}", press / 4))
+                .with_truth(Readings::from_values([depth_mm, 1.5 * depth_mm]))
+                .with_prediction(Readings::from_values([depth_mm + 0.01, 1.4 * depth_mm])),
+        )?;
     }
     println!("{}", evaluator.finish()?);
     Ok(())

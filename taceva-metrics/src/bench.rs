@@ -24,6 +24,7 @@ mod digits;
 mod kernel;
 mod numbers;
 mod shuffled;
+mod textbook;
 
 pub use bandwidth::stream_sum;
 pub use case::{Case, Kind, Order, nasty_inputs};

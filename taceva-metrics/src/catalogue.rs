@@ -1,6 +1,10 @@
 //! Every metric there is: the only source of names, units, directions, definitions and texts.
 
-use crate::error::UnknownMetric;
+mod better;
+mod unknown;
+
+pub use unknown::UnknownMetric;
+
 use crate::families::accuracy::{BIAS, MAE, MAE_EUCLID, R2, RMSE, SKILL, SMAPE, SMAPE_GATED};
 use crate::families::bias_level::BIAS_LEVEL;
 use crate::families::crosstalk::CROSSTALK;

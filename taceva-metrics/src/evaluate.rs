@@ -3,6 +3,7 @@
 pub(crate) mod accumulator;
 #[cfg(feature = "ndarray")]
 mod arrays;
+pub(crate) mod entry;
 pub(crate) mod evaluation;
 pub(crate) mod evaluator;
 pub(crate) mod facts;
@@ -13,6 +14,7 @@ mod parallel;
 pub(crate) mod plan;
 pub(crate) mod rows;
 pub(crate) mod settings;
+pub(crate) mod standing;
 pub(crate) mod state;
 
 pub use evaluation::Evaluation;

@@ -3,6 +3,8 @@
 mod block_sums;
 mod bounds;
 mod canonical;
+mod digits;
+mod divided;
 mod grid;
 mod integer;
 mod kernel;
@@ -11,6 +13,7 @@ mod machine;
 pub(crate) mod merge;
 pub(crate) mod moments;
 pub(crate) mod ordered;
+mod pending;
 mod rational;
 mod round;
 mod simd;

@@ -13,17 +13,17 @@ mod paired;
 mod score;
 mod stats;
 
-pub use error::{MetricError, UnknownMetric};
+pub use catalogue::UnknownMetric;
+pub use error::MetricError;
 pub use evaluate::{
     Evaluation, Evaluator, Fact, MetricPlan, Number, Record, Rows, SensorFacts, Settings, State,
 };
 pub use exact::{Canonical, CanonicalError, ExactSum};
-pub use families::accuracy::EPSILON;
 pub use families::accuracy::pair_sums::{PairSpec, PairSums};
 pub use families::accuracy::plane_sums::PlaneSums;
 pub use families::accuracy::streams::{Stream, Streams};
 pub use metric::{Metric, ScoreUnit};
-pub use paired::{GREATEST, Paired};
+pub use paired::{EPSILON, GREATEST, Paired};
 pub use score::better::Better;
 pub use score::curve::{Band, Curve};
 pub use score::flag::Flag;
@@ -32,11 +32,11 @@ pub use score::matrix::Matrix;
 pub use score::range::Range;
 pub use score::standing::{GREATEST_BOUNDED_SHARE, Standing};
 pub use score::value::{InapplicableReason, UndefinedReason, Value};
-pub use score::{ClusteredBy, Count, Interval, Parameter, Score, Variant};
+pub use score::{BootstrapEnds, ClusteredBy, Count, Interval, Parameter, Scale, Score, Variant};
 pub use stats::{
-    BootstrapEnds, ClusterSum, ClusterSums, Clusters, ComparisonError, Difference, DifferenceTest,
-    Estimate, HASHED_CLUSTERS, IntervalMethod, NAMED_CLUSTERS, PoissonBootstrap, Question, Repeats,
-    Scale, Side, Sides, SignFlip, Verdict, decide, holm, welch,
+    ClusterSum, ClusterSums, Clusters, ComparisonError, Difference, DifferenceTest, Estimate,
+    HASHED_CLUSTERS, IntervalMethod, NAMED_CLUSTERS, PoissonBootstrap, Question, Repeats, Side,
+    Sides, SignFlip, Verdict, decide, holm, welch,
 };
 // What signatures here name, so that a caller needs no other crate.
 pub use taceva_core::{

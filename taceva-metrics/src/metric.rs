@@ -1,13 +1,11 @@
 //! A metric as data: what it is called, what it needs, and how it is finished from what was kept.
 
-use taceva_core::{Needs, Unit};
+use taceva_core::{Field, Needs, Unit};
 
 use crate::evaluate::facts::Fact;
 use crate::families::accuracy::pair_sums::PairSums;
 use crate::families::accuracy::plane_sums::PlaneSums;
 use crate::families::accuracy::streams::Streams;
-use crate::families::repeatability::RepeatMetric;
-use crate::families::surface::SurfaceMetric;
 use crate::score::Parameter;
 use crate::score::better::Better;
 use crate::score::range::Range;
@@ -46,6 +44,19 @@ pub struct Metric {
     pub facts: &'static [Fact],
     pub(crate) constants: Constants,
     pub(crate) formula: Formula,
+}
+
+impl Metric {
+    /// Whether predictions of channels enter it.
+    pub fn reads_predictions(&self) -> bool {
+        self.needs.fields.contains(Field::Prediction)
+    }
+
+    /// Whether it reads predictions as the model gives them, and not brought back to the bounds of the model: robustness would be that of
+    /// the bounds otherwise.
+    pub fn reads_unbounded_predictions(&self) -> bool {
+        matches!(self.formula, Formula::Spatial | Formula::Lighting)
+    }
 }
 
 /// The unit of a metric's values.
@@ -101,16 +112,20 @@ pub(crate) enum Formula {
     Skill,
     /// From the distances in a plane of two channels.
     Plane(Finish<PlaneSums>),
-    /// From the compliance of the surface, by place.
-    Surface(SurfaceMetric),
+    /// From the compliance of the surface: how far it yields.
+    Sensitivity,
+    /// From the compliance of the surface, by place: how alike it yields everywhere.
+    Uniformity,
     /// From the errors of the spacing of gratings.
     Resolution,
     /// From errors by distance and depth.
     Spatial,
     /// From errors by scene.
     Lighting,
-    /// From predictions of the same press.
-    Repeats(RepeatMetric),
+    /// From predictions of the same press: the spread within cells.
+    Repeatability,
+    /// From predictions of the same press: the spread of the cells' means in relation to that within them.
+    SignalToRepeatability,
     /// From loading and unloading, by point.
     Hysteresis,
     /// From the surfaces of several units.

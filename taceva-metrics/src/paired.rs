@@ -3,10 +3,12 @@
 use taceva_core::Batch;
 
 use crate::error::MetricError;
-use crate::families::accuracy::EPSILON;
 
 /// Greatest magnitude of a value that is a sample: sums, differences and means of two such values stay finite.
 pub const GREATEST: f64 = taceva_core::MAGNITUDE_MAX;
+
+/// ε of sMAPE, the binary64 nearest to 10⁻⁸, in the unit of the channel: it makes 0/0 a 0.
+pub const EPSILON: f64 = 1e-8;
 
 /// An estimate and its reference: two values, or two columns. A plain pair, which gets no further fields.
 ///

@@ -1,16 +1,20 @@
 //! One number of a report with all that is needed to trust and repeat it.
 
 pub(crate) mod better;
+mod bootstrap_ends;
 pub(crate) mod curve;
 pub(crate) mod flag;
 mod interval;
 pub(crate) mod map;
 pub(crate) mod matrix;
 pub(crate) mod range;
+mod scale;
 pub(crate) mod standing;
 pub(crate) mod value;
 
+pub use bootstrap_ends::BootstrapEnds;
 pub use interval::{ClusteredBy, Interval};
+pub use scale::Scale;
 
 use std::borrow::Cow;
 

@@ -76,21 +76,19 @@ fn samples() -> impl Strategy<Value = Vec<Sample>> {
         let sample = sample.prop_map(|(truth, prediction, labels)| {
             let (point, named, step, unit, time, load) = labels;
             let phase = if load { Phase::Load } else { Phase::Unload };
-            Sample {
-                point_id: named.then(|| format!("point {point}")),
-                unit_id: (unit > 0).then(|| format!("unit {unit}")),
-                depth_step: Some(step),
-                repeat: Some(step),
-                phase: Some(phase),
-                stamp: (time > 0).then(|| Stamp {
+            Sample::default()
+                .with_point_id(named.then(|| format!("point {point}")))
+                .with_unit_id((unit > 0).then(|| format!("unit {unit}")))
+                .with_depth_step(step)
+                .with_repeat(step)
+                .with_phase(phase)
+                .with_stamp((time > 0).then(|| Stamp {
                     valid_s: f64::from(time) * 0.1,
                     received_s: None,
-                }),
-                frame_digest: load.then(|| format!("{step}")),
-                truth: Readings::new(truth),
-                prediction: Some(Readings::new(prediction)),
-                ..Sample::default()
-            }
+                }))
+                .with_frame_digest(load.then(|| format!("{step}")))
+                .with_truth(Readings::new(truth))
+                .with_prediction(Readings::new(prediction))
         });
         prop::collection::vec(sample, 0..60)
     })
@@ -137,19 +135,21 @@ proptest! {
 
 #[test]
 fn a_broken_state_is_refused_by_name_and_changes_nothing() {
-    let sample = |phase, depth: f64, time: f64| Sample {
-        point_id: Some("a".to_owned()),
-        unit_id: Some("u".to_owned()),
-        depth_step: Some(1),
-        repeat: Some(0),
-        phase: Some(phase),
-        stamp: Some(Stamp {
-            valid_s: time,
-            received_s: None,
-        }),
-        truth: Readings::from_values([0.0, 0.0, depth, 0.0, 0.0, depth, 0.25]),
-        prediction: Some(Readings::from_values([depth; 7])),
-        ..Sample::default()
+    let sample = |phase, depth: f64, time: f64| {
+        Sample::default()
+            .with_point_id("a".to_owned())
+            .with_unit_id("u".to_owned())
+            .with_depth_step(1)
+            .with_repeat(0)
+            .with_phase(phase)
+            .with_stamp(Stamp {
+                valid_s: time,
+                received_s: None,
+            })
+            .with_truth(Readings::from_values([
+                0.0, 0.0, depth, 0.0, 0.0, depth, 0.25,
+            ]))
+            .with_prediction(Readings::from_values([depth; 7]))
     };
     let samples = [
         sample(Phase::Load, 0.5, 1.0),

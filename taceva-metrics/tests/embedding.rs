@@ -32,12 +32,10 @@ fn a_running_score_is_that_of_the_samples_so_far_and_changes_nothing() {
     let (truth, prediction) = drawn();
     let mut asked = Evaluator::new(&plan);
     for row in 0..truth.len() {
-        let sample = Sample {
-            point_id: Some(format!("{}", row / 10)),
-            truth: Readings::from_values([truth[row]]),
-            prediction: Some(Readings::from_values([prediction[row]])),
-            ..Sample::default()
-        };
+        let sample = Sample::default()
+            .with_point_id(format!("{}", row / 10))
+            .with_truth(Readings::from_values([truth[row]]))
+            .with_prediction(Readings::from_values([prediction[row]]));
         asked.accept(&sample).expect("one channel");
         if row == 59 {
             let rows = Rows::new().pairs(Channel::FZ, &truth[..60], &prediction[..60]);

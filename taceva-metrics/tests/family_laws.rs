@@ -69,17 +69,15 @@ fn samples() -> impl Strategy<Value = Vec<Sample>> {
         let truth: Vec<Option<f64>> = place.into_iter().chain(force).collect();
         let predicted = truth.iter().zip(&errors);
         let predicted = predicted.map(|(truth, error)| Some((*truth)? + (*error)?));
-        Sample {
-            point_id: Some(format!("point {point}")),
-            scene_id: light.0.map(str::to_owned),
-            intensity: light.1,
-            kind: grating.0,
-            spacing: grating.1,
-            predicted_spacing: grating.2,
-            prediction: Some(Readings::new(predicted.collect())),
-            truth: Readings::new(truth),
-            ..Sample::default()
-        }
+        Sample::default()
+            .with_point_id(format!("point {point}"))
+            .with_scene_id(light.0.map(str::to_owned))
+            .with_intensity(light.1)
+            .with_kind(grating.0)
+            .with_spacing(grating.1)
+            .with_predicted_spacing(grating.2)
+            .with_prediction(Readings::new(predicted.collect()))
+            .with_truth(Readings::new(truth))
     });
     prop::collection::vec(sample, 0..60)
 }
@@ -115,12 +113,7 @@ proptest! {
     fn more_tolerance_never_recognises_less(levels in prop::collection::vec((5_i64..36, 5_i64..36), 1..80)) {
         let samples: Vec<Sample> = levels
             .iter()
-            .map(|&(truth, predicted)| Sample {
-                kind: Some(GratingKind::Dot),
-                spacing: Some(Nanometre(truth * 50_000)),
-                predicted_spacing: Some(Nanometre(predicted * 50_000)),
-                ..Sample::default()
-            })
+            .map(|&(truth, predicted)| Sample::default().with_kind(GratingKind::Dot).with_spacing(Nanometre(truth * 50_000)).with_predicted_spacing(Nanometre(predicted * 50_000)))
             .collect();
         let evaluation = evaluate(&["sr"], &samples);
         let score = evaluation.score("sr", "dot").expect("a score");

@@ -11,13 +11,11 @@ use taceva_metrics::{Evaluation, Value};
 const LEVELS: std::ops::RangeInclusive<i64> = 5..=35;
 const STEP_NM: i64 = 50_000;
 
-fn told(truth: i64, prediction: i64) -> Sample {
-    Sample {
-        kind: Some(GratingKind::Line),
-        spacing: Some(Nanometre(truth * STEP_NM)),
-        predicted_spacing: Some(Nanometre(prediction * STEP_NM)),
-        ..Sample::default()
-    }
+fn classified(truth: i64, prediction: i64) -> Sample {
+    Sample::default()
+        .with_kind(GratingKind::Line)
+        .with_spacing(Nanometre(truth * STEP_NM))
+        .with_predicted_spacing(Nanometre(prediction * STEP_NM))
 }
 
 fn success_rate(samples: &[Sample]) -> Value {
@@ -30,14 +28,14 @@ fn success_rate(samples: &[Sample]) -> Value {
 }
 
 #[test]
-fn a_perfect_classifier_tells_every_spacing() {
-    let samples: Vec<Sample> = LEVELS.map(|level| told(level, level)).collect();
+fn a_perfect_classifier_predicts_every_spacing() {
+    let samples: Vec<Sample> = LEVELS.map(|level| classified(level, level)).collect();
     assert_eq!(success_rate(&samples), Value::Scalar(1.0));
 }
 
 #[test]
 fn a_classifier_that_guesses_evenly_is_right_as_often_as_spacings_have_neighbours() {
-    let guesses = |truth: i64| LEVELS.map(move |guess| told(truth, guess));
+    let guesses = |truth: i64| LEVELS.map(move |guess| classified(truth, guess));
     let samples: Vec<Sample> = LEVELS.flat_map(guesses).collect();
     // Each of 31 spacings with itself, and each of 30 neighbours twice.
     assert_eq!(

@@ -90,33 +90,31 @@ impl Recording {
                     reason = "an error of a spacing, in whole nanometres"
                 )]
                 let off_nm = (error * 1e5) as i64;
-                Sample {
-                    point_id: Some(format!("p{point}")),
-                    unit_id: Some(format!("unit {}", at % 2)),
-                    scene_id: Some(if repeat == 0 { "normal" } else { "S1" }.to_owned()),
-                    depth_step: Some(narrow(at / self.points)),
-                    repeat: Some(repeat),
-                    phase: self.phases.then_some(if repeat == 0 {
+                Sample::default()
+                    .with_point_id(format!("p{point}"))
+                    .with_unit_id(format!("unit {}", at % 2))
+                    .with_scene_id(if repeat == 0 { "normal" } else { "S1" }.to_owned())
+                    .with_depth_step(narrow(at / self.points))
+                    .with_repeat(repeat)
+                    .with_phase(self.phases.then_some(if repeat == 0 {
                         Phase::Load
                     } else {
                         Phase::Unload
-                    }),
-                    stamp: Some(Stamp {
+                    }))
+                    .with_stamp(Stamp {
                         valid_s: f64::from(narrow(at)) + 0.5 * f64::from(repeat),
                         received_s: None,
-                    }),
-                    kind: Some(GratingKind::Line),
-                    spacing: Some(spacing),
-                    predicted_spacing: Some(Nanometre(spacing.0 + off_nm)),
-                    intensity: Some(100.0 + 20.0 * f64::from(repeat)),
-                    truth: Readings::from_values(if is_idle {
+                    })
+                    .with_kind(GratingKind::Line)
+                    .with_spacing(spacing)
+                    .with_predicted_spacing(Nanometre(spacing.0 + off_nm))
+                    .with_intensity(100.0 + 20.0 * f64::from(repeat))
+                    .with_truth(Readings::from_values(if is_idle {
                         [place[0], place[1], 0.0, 0.0, 0.0, 0.0]
                     } else {
                         truth
-                    }),
-                    prediction: Some(Readings::from_values(predicted)),
-                    ..Sample::default()
-                }
+                    }))
+                    .with_prediction(Readings::from_values(predicted))
             })
         });
         all.collect()

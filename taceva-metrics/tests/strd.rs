@@ -96,7 +96,7 @@ fn means_and_deviations_have_all_digits_on_every_instruction_set() {
 }
 
 #[test]
-fn the_sets_tell_ways_to_sum_apart() {
+fn the_sets_distinguish_ways_to_sum() {
     let hardest = datasets().into_iter().find(|set| set.name == "NumAcc4");
     let values = hardest.expect("it is one of them").values;
     // As errors of 1 % of the truth's spread: R² is then decided by the spread alone.

@@ -64,13 +64,13 @@ fn repeats(params: &Value) -> Vec<Sample> {
                 (0, 2) => values = vec![7.25; 4],
                 _ => {}
             }
-            samples.extend((0..).zip(values).map(|(repeat, value)| Sample {
-                point_id: Some(format!("point {point}")),
-                depth_step: Some(step),
-                repeat: Some(repeat),
-                truth: Readings::new(vec![None]),
-                prediction: Some(Readings::from_values([value])),
-                ..Sample::default()
+            samples.extend((0..).zip(values).map(|(repeat, value)| {
+                Sample::default()
+                    .with_point_id(format!("point {point}"))
+                    .with_depth_step(step)
+                    .with_repeat(repeat)
+                    .with_truth(Readings::new(vec![None]))
+                    .with_prediction(Readings::from_values([value]))
             }));
         }
     }
@@ -112,11 +112,14 @@ fn repeatability_is_that_of_the_golden_vectors_by_bits() {
 fn press(case: &Value) -> Vec<Sample> {
     let branch = |key: &str, phase| {
         let corners = case[key].as_array().expect("corners").iter();
-        let samples = corners.map(move |corner| Sample {
-            point_id: Some("only".to_owned()),
-            phase: Some(phase),
-            truth: Readings::from_values([number(&corner[0]), number(&corner[1])]),
-            ..Sample::default()
+        let samples = corners.map(move |corner| {
+            Sample::default()
+                .with_point_id("only".to_owned())
+                .with_phase(phase)
+                .with_truth(Readings::from_values([
+                    number(&corner[0]),
+                    number(&corner[1]),
+                ]))
         });
         samples.collect::<Vec<_>>()
     };

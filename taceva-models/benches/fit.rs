@@ -4,7 +4,7 @@ use divan::Bencher;
 use taceva_core::{
     Channel, Channels, FeatureShape, Features, Regressor, SilentProgress, Targets, TrainingSet,
 };
-use taceva_models::{LinearEstimator, Ridge, Settings, find};
+use taceva_models::{LinearEstimator, ModelSettings, Ridge, find};
 
 fn main() {
     divan::main();
@@ -70,14 +70,7 @@ fn recording((samples, width): (usize, usize)) -> Recording {
 
 impl Recording {
     fn set(&self) -> TrainingSet<'_> {
-        TrainingSet {
-            features: &self.features,
-            targets: Targets {
-                channels: &self.channels,
-                values: &self.labels,
-            },
-            groups: None,
-        }
+        TrainingSet::new(&self.features, Targets::new(&self.channels, &self.labels))
     }
 }
 
@@ -97,7 +90,7 @@ fn fit(bencher: Bencher, name: &str, shape: (usize, usize)) {
     let (training, validation) = (recording(shape), recording((shape.0 / 4, shape.1)));
     let estimator = find(name)
         .expect("registered")
-        .estimator(&Settings::default())
+        .estimator(&ModelSettings::default())
         .expect("valid");
     bencher.bench_local(|| {
         estimator
@@ -109,7 +102,7 @@ fn fit(bencher: Bencher, name: &str, shape: (usize, usize)) {
 #[divan::bench(args = [1024, 3072])]
 fn predict_one_sample(bencher: Bencher, width: usize) {
     let recording = recording((100, width));
-    let estimator = Ridge::from_settings(&Settings::default()).expect("defaults");
+    let estimator = Ridge::from_settings(&ModelSettings::default()).expect("defaults");
     let fit = estimator
         .fit_linear(&recording.set(), None, &SilentProgress)
         .expect("learnable");

@@ -60,11 +60,11 @@ pub trait EstimatorArrays {
     /// ```
     /// use ndarray::Array2;
     /// use taceva_core::{Channel, Channels, SilentProgress};
-    /// use taceva_models::{EstimatorArrays, RegressorArrays, Settings, find};
+    /// use taceva_models::{EstimatorArrays, RegressorArrays, ModelSettings, find};
     /// let features = Array2::from_shape_fn((40, 3), |(row, column)| ((row * (column + 2)) % 7) as f32);
     /// let forces = features.map(|value| f64::from(*value)).sum_axis(ndarray::Axis(1)).insert_axis(ndarray::Axis(1));
     /// let channels = Channels::new([Channel::FZ])?;
-    /// let settings = Settings::parse(["refit=false"])?;
+    /// let settings = ModelSettings::parse(["refit=false"])?;
     /// let fit = find("ridge")?.estimator(&settings)?.fit_arrays(features.view(), forces.view(), &channels, &SilentProgress)?;
     /// let predicted = fit.regressor.predict_array(features.view())?;
     /// assert_eq!(predicted.dim(), (40, 1));
@@ -101,14 +101,7 @@ impl<E: ModelEstimator + ?Sized> EstimatorArrays for E {
             Some(values) => Cow::Borrowed(values),
             None => Cow::Owned(targets.iter().copied().collect()),
         };
-        let training = TrainingSet {
-            features: &features,
-            targets: Targets {
-                channels,
-                values: &values,
-            },
-            groups: None,
-        };
+        let training = TrainingSet::new(&features, Targets::new(channels, &values));
         self.fit_model(&training, None, progress)
     }
 }
@@ -127,9 +120,9 @@ pub trait RegressorArrays {
     /// ```
     /// use ndarray::{Array2, array};
     /// use taceva_core::{Channel, Channels, SilentProgress};
-    /// use taceva_models::{EstimatorArrays, RegressorArrays, Settings, find};
+    /// use taceva_models::{EstimatorArrays, RegressorArrays, ModelSettings, find};
     /// let channels = Channels::new([Channel::FZ])?;
-    /// let estimator = find("baseline")?.estimator(&Settings::default())?;
+    /// let estimator = find("baseline")?.estimator(&ModelSettings::default())?;
     /// let features = Array2::<f32>::zeros((2, 1));
     /// let fit = estimator.fit_arrays(features.view(), array![[1.0], [3.0]].view(), &channels, &SilentProgress)?;
     /// assert_eq!(fit.regressor.predict_array(features.view())?, array![[2.0], [2.0]]);

@@ -1,6 +1,7 @@
 //! From frames to features.
 
 mod area;
+mod cell_features;
 pub(crate) mod choice;
 #[cfg(test)]
 mod drawn;
@@ -10,7 +11,6 @@ mod gradients;
 pub(crate) mod gratings;
 mod kinds;
 mod markers;
-mod part;
 mod pca;
 mod pixels;
 mod spec;

@@ -48,7 +48,7 @@ pub use model::{
 };
 pub use models::{ChosenModel, Models};
 pub use registry::{ALL, ModelInfo, UnknownModel, find};
-pub use settings::{SettingError, SettingInfo, Settings, Suggestion};
+pub use settings::{ModelSettings, SettingError, SettingInfo, Suggestion};
 pub use split::{
     ColumnSplit, Fractions, Part, Split, SplitCounts, SplitError, SplitInput, SplitKind,
     SplitManifest, SplitSpec,

@@ -2,6 +2,7 @@
 
 mod bounds;
 mod card;
+mod input;
 mod of_plugin;
 
 use taceva_core::{
@@ -10,30 +11,12 @@ use taceva_core::{
 };
 
 pub use self::card::{ChannelCard, Form, ModelCard, Provenance, SampleCounts, Source, SplitCard};
-pub(crate) use self::of_plugin::{plugin_from, plugin_tensor};
+pub use self::input::FitInput;
+pub(crate) use self::of_plugin::plugin_from;
 use crate::features::choice::FeatureChoice;
-use crate::features::{Extractor, FeatureError, FeatureSpec, Pca};
-use crate::settings::Settings;
-use crate::training::fit::{ModelEstimator, ModelRegressor};
+use crate::features::{Extractor, FeatureError, Pca};
+use crate::training::fit::ModelRegressor;
 use crate::training::problem::invalid;
-
-/// All that a model is fitted from.
-pub struct FitInput<'a> {
-    /// The model, not fitted yet.
-    pub estimator: &'a dyn ModelEstimator,
-    /// The settings it was made with, as typed.
-    pub settings: &'a Settings,
-    /// What it sees of a frame.
-    pub features: FeatureSpec,
-    /// The kind of frame that the features were taken from.
-    pub frame: FrameInfo,
-    /// What is learnt from. Its features are those of an [`Extractor`]; principal components are found here.
-    pub training: TrainingSet<'a>,
-    /// What settings are chosen by.
-    pub validation: Option<TrainingSet<'a>>,
-    /// Where the samples come from.
-    pub provenance: Provenance,
-}
 
 /// A fitted model: from pixels to the channels, in their units.
 ///
@@ -184,11 +167,9 @@ impl Model {
 }
 
 /// The same samples, seen as `features` where there are others.
-fn with_features<'s>(set: TrainingSet<'s>, features: Option<&'s Features>) -> TrainingSet<'s> {
-    TrainingSet {
-        features: features.unwrap_or(set.features),
-        ..set
-    }
+fn with_features<'s>(mut set: TrainingSet<'s>, features: Option<&'s Features>) -> TrainingSet<'s> {
+    set.features = features.unwrap_or(set.features);
+    set
 }
 
 /// The channels that a card lists.

@@ -11,15 +11,15 @@ use crate::estimators::library::LibraryModel;
 use crate::estimators::plugin::PluginEstimator;
 use crate::features::FeatureSpec;
 use crate::registry::{ALL, ModelInfo, UnknownModel, replaced};
-use crate::settings::{SettingError, Settings};
+use crate::settings::{ModelSettings, SettingError};
 use crate::training::fit::ModelEstimator;
 
 /// The models that people can choose, by name. A value, as the drivers of a program are: nothing of it is global.
 ///
 /// ```
-/// use taceva_models::{Models, Settings};
+/// use taceva_models::{Models, ModelSettings};
 /// let ridge = Models::builtin().find("ridge")?;
-/// let estimator = ridge.estimator(&Settings::parse(["strength=0.1"])?)?;
+/// let estimator = ridge.estimator(&ModelSettings::parse(["strength=0.1"])?)?;
 /// assert_eq!(estimator.name(), "ridge");
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
@@ -161,7 +161,10 @@ impl ChosenModel {
     ///
     /// # Errors
     /// [`SettingError`] for an unknown key or a value out of range.
-    pub fn estimator(&self, settings: &Settings) -> Result<Box<dyn ModelEstimator>, SettingError> {
+    pub fn estimator(
+        &self,
+        settings: &ModelSettings,
+    ) -> Result<Box<dyn ModelEstimator>, SettingError> {
         match self {
             ChosenModel::BuiltIn(info) => info.estimator(settings),
             ChosenModel::Library(model) => model.info.estimator(settings),

@@ -1,5 +1,9 @@
 //! The models by name.
 
+mod info;
+
+pub use info::ModelInfo;
+
 use std::fmt;
 
 use crate::estimators::auto::Auto;
@@ -13,34 +17,7 @@ use crate::estimators::network::NetworkEstimator;
 use crate::estimators::pls::Pls;
 use crate::estimators::ridge::Ridge;
 use crate::estimators::trees::{GradientBoosting, RandomForest};
-use crate::features::FeatureSpec;
-use crate::settings::{SettingError, SettingInfo, Settings, Suggestion};
-use crate::training::fit::ModelEstimator;
-
-/// A model that people can choose: its name, what it is, and what can be set.
-#[derive(Clone, Copy, Debug)]
-pub struct ModelInfo {
-    /// The word people type.
-    pub name: &'static str,
-    /// What it is, in one line.
-    pub about: &'static str,
-    /// What can be set.
-    pub settings: &'static [SettingInfo],
-    /// What it sees of a frame where nothing else is asked for; `None` if its predictions do not depend on what is seen, so that no
-    /// frame need be decoded for it.
-    pub features: Option<FeatureSpec>,
-    pub(crate) make: fn(&Settings) -> Result<Box<dyn ModelEstimator>, SettingError>,
-}
-
-impl ModelInfo {
-    /// The model as `settings` ask for, not fitted yet.
-    ///
-    /// # Errors
-    /// [`SettingError`] for an unknown key or a value out of range.
-    pub fn estimator(&self, settings: &Settings) -> Result<Box<dyn ModelEstimator>, SettingError> {
-        (self.make)(settings)
-    }
-}
+use crate::settings::Suggestion;
 
 /// Every model, the plainest first.
 pub const ALL: &[ModelInfo] = &[
@@ -76,7 +53,7 @@ pub(crate) fn replaced(name: &str) -> &str {
 ///
 /// ```
 /// let ridge = taceva_models::find("ridge")?;
-/// let estimator = ridge.estimator(&taceva_models::Settings::parse(["strength=0.1"])?)?;
+/// let estimator = ridge.estimator(&taceva_models::ModelSettings::parse(["strength=0.1"])?)?;
 /// assert_eq!(estimator.name(), "ridge");
 /// let error = taceva_models::find("rigde").unwrap_err();
 /// assert_eq!(error.to_string(), "no model is called `rigde`, did you mean `ridge`?");

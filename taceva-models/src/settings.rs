@@ -1,11 +1,13 @@
 //! Settings as people type them: `key=value` words, checked against what a consumer knows.
 
-use std::collections::BTreeMap;
-use std::fmt;
-use std::str::FromStr;
+mod error;
+mod suggestion;
 
-use taceva_core::ArgError;
-use taceva_gpu::{GpuError, GpuKind};
+pub use error::SettingError;
+pub use suggestion::Suggestion;
+
+use std::collections::BTreeMap;
+use std::str::FromStr;
 
 /// One thing that may be set: its key, what it means and what it accepts, for help texts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -32,23 +34,25 @@ impl SettingInfo {
 
 /// Keys with their values as typed, each key once.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Settings {
+pub struct ModelSettings {
     values: BTreeMap<String, String>,
 }
 
-impl Settings {
+impl ModelSettings {
     /// The settings written as `key=value` words.
     ///
     /// ```
-    /// use taceva_models::Settings;
-    /// let settings = Settings::parse(["size=32", "color=gray"])?;
+    /// use taceva_models::ModelSettings;
+    /// let settings = ModelSettings::parse(["size=32", "color=gray"])?;
     /// assert_eq!(settings.get("size"), Some("32"));
     /// # Ok::<(), taceva_models::SettingError>(())
     /// ```
     ///
     /// # Errors
     /// [`SettingError::Form`] without `=`, [`SettingError::Twice`] for a key given twice.
-    pub fn parse<'a>(words: impl IntoIterator<Item = &'a str>) -> Result<Settings, SettingError> {
+    pub fn parse<'a>(
+        words: impl IntoIterator<Item = &'a str>,
+    ) -> Result<ModelSettings, SettingError> {
         let mut values = BTreeMap::new();
         for word in words {
             let (key, value) = word
@@ -58,7 +62,7 @@ impl Settings {
                 return Err(SettingError::Twice { key: key.into() });
             }
         }
-        Ok(Settings { values })
+        Ok(ModelSettings { values })
     }
 
     /// The value of `key` as typed.
@@ -79,10 +83,13 @@ impl Settings {
     }
 
     /// The settings in two: those with one of the keys of `known`, and the others.
-    pub fn partition(self, known: &[SettingInfo]) -> (Settings, Settings) {
+    pub fn partition(self, known: &[SettingInfo]) -> (ModelSettings, ModelSettings) {
         let is_known = |key: &String| known.iter().any(|info| info.key == key);
         let (inside, outside) = self.values.into_iter().partition(|(key, _)| is_known(key));
-        (Settings { values: inside }, Settings { values: outside })
+        (
+            ModelSettings { values: inside },
+            ModelSettings { values: outside },
+        )
     }
 
     /// Refuses every key outside `known`.
@@ -97,7 +104,7 @@ impl Settings {
     /// Refuses every key outside `known`.
     ///
     /// # Errors
-    /// As [`check_keys`](Settings::check_keys).
+    /// As [`check_keys`](ModelSettings::check_keys).
     pub fn check_names(&self, known: &[&str]) -> Result<(), SettingError> {
         match self.values.keys().find(|key| !known.contains(&&key[..])) {
             None => Ok(()),
@@ -129,7 +136,7 @@ impl Settings {
     }
 }
 
-impl Settings {
+impl ModelSettings {
     /// What [`SettingInfo::REFIT`] is set to.
     pub(crate) fn refit(&self) -> Result<bool, SettingError> {
         self.value(&SettingInfo::REFIT, true, |text| text.parse().ok())
@@ -142,92 +149,6 @@ pub(crate) fn number<T: FromStr + PartialOrd>(
     range: impl std::ops::RangeBounds<T>,
 ) -> Option<T> {
     text.parse().ok().filter(|value| range.contains(value))
-}
-
-/// The nearest of some known words, where one is near; otherwise all of them.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Suggestion {
-    nearest: Option<String>,
-    known: Vec<String>,
-}
-
-impl Suggestion {
-    /// Least Jaro–Winkler similarity at which a typing mistake is more likely than another meaning.
-    const NEAR: f64 = 0.75;
-
-    /// What `word` may have been meant to be.
-    pub fn of<'a>(word: &str, known: impl IntoIterator<Item = &'a str>) -> Suggestion {
-        let known: Vec<String> = known.into_iter().map(str::to_owned).collect();
-        let similarity = |candidate: &&String| strsim::jaro_winkler(word, candidate);
-        let nearest = known
-            .iter()
-            .max_by(|a, b| similarity(a).total_cmp(&similarity(b)))
-            .filter(|best| similarity(best) >= Suggestion::NEAR)
-            .cloned();
-        Suggestion { nearest, known }
-    }
-
-    /// The nearest word, if one is near.
-    pub fn nearest(&self) -> Option<&str> {
-        self.nearest.as_deref()
-    }
-}
-
-impl fmt::Display for Suggestion {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match &self.nearest {
-            Some(nearest) => write!(f, "did you mean `{nearest}`?"),
-            None if self.known.is_empty() => f.write_str("none is accepted here"),
-            None => write!(f, "expected one of {}", self.known.join(", ")),
-        }
-    }
-}
-
-/// Why settings cannot be used.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[non_exhaustive]
-pub enum SettingError {
-    /// A word without `=`.
-    #[error("`{word}`: expected key=value", word = taceva_core::shown(word))]
-    Form {
-        /// The word as typed.
-        word: String,
-    },
-    /// A key given twice.
-    #[error("`{key}`: given twice", key = taceva_core::shown(key))]
-    Twice {
-        /// The key.
-        key: String,
-    },
-    /// A key that nobody reads.
-    #[error("`{key}`: unknown key, {suggestion}", key = taceva_core::shown(key))]
-    Unknown {
-        /// The key as typed.
-        key: String,
-        /// What it may have been meant to be.
-        suggestion: Suggestion,
-    },
-    /// A value outside what its key accepts.
-    #[error("`{key}={found}`: expected {accepts}", found = taceva_core::shown(found))]
-    Value {
-        /// The key.
-        key: &'static str,
-        /// The value as typed.
-        found: String,
-        /// What would be accepted.
-        accepts: &'static str,
-    },
-    /// A device that this program cannot reach.
-    #[error("`device={kind}`: {source}")]
-    Device {
-        /// How it would be reached.
-        kind: GpuKind,
-        /// Why it cannot be.
-        source: GpuError,
-    },
-    /// A setting that the estimator of a plugin does not take.
-    #[error(transparent)]
-    Argument(#[from] ArgError),
 }
 
 #[cfg(test)]
@@ -243,7 +164,7 @@ mod tests {
 
     #[test]
     fn an_unknown_key_names_the_nearest_one() {
-        let settings = Settings::parse(["sise=3"]).expect("well formed");
+        let settings = ModelSettings::parse(["sise=3"]).expect("well formed");
         let error = settings.check_keys(&[SIZE]).expect_err("unknown");
         assert_eq!(
             error.to_string(),
@@ -253,7 +174,7 @@ mod tests {
 
     #[test]
     fn a_key_near_to_nothing_lists_what_is_known() {
-        let settings = Settings::parse(["qqq=3"]).expect("well formed");
+        let settings = ModelSettings::parse(["qqq=3"]).expect("well formed");
         let error = settings.check_keys(&[SIZE]).expect_err("unknown");
         assert_eq!(
             error.to_string(),
@@ -263,7 +184,7 @@ mod tests {
 
     #[test]
     fn a_value_out_of_range_says_what_is_accepted() {
-        let settings = Settings::parse(["size=12"]).expect("well formed");
+        let settings = ModelSettings::parse(["size=12"]).expect("well formed");
         let error = settings
             .value(&SIZE, 3, |text| number(text, 1..=9))
             .expect_err("too large");
@@ -276,11 +197,11 @@ mod tests {
     #[test]
     fn a_word_without_a_value_and_a_key_given_twice_are_refused() {
         assert!(matches!(
-            Settings::parse(["size"]),
+            ModelSettings::parse(["size"]),
             Err(SettingError::Form { .. })
         ));
         assert!(matches!(
-            Settings::parse(["size=1", "size=2"]),
+            ModelSettings::parse(["size=1", "size=2"]),
             Err(SettingError::Twice { .. })
         ));
     }

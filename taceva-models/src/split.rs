@@ -2,10 +2,14 @@
 
 mod assign;
 mod error;
+mod fractions;
 mod manifest;
+mod part;
 mod spec;
 
-pub use assign::{Part, Split, SplitInput};
+pub use assign::{Split, SplitInput};
 pub use error::SplitError;
+pub use fractions::Fractions;
 pub use manifest::{SplitCounts, SplitManifest};
-pub use spec::{ColumnSplit, Fractions, SplitKind, SplitSpec};
+pub use part::Part;
+pub use spec::{ColumnSplit, SplitKind, SplitSpec};

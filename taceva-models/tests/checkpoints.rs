@@ -10,7 +10,7 @@ use taceva_core::{
     Channel, Channels, ErrorKind, FeatureShape, Features, ModelError, Progress, SilentProgress,
     Targets, TrainingSet,
 };
-use taceva_models::{CheckpointError, Checkpoints, Foreign, ModelFit, Settings, find};
+use taceva_models::{CheckpointError, Checkpoints, Foreign, ModelFit, ModelSettings, find};
 
 const SHAPE: FeatureShape = FeatureShape {
     height: 12,
@@ -45,14 +45,7 @@ fn recording(samples: usize, seed: u64) -> Recording {
 
 impl Recording {
     fn set(&self) -> TrainingSet<'_> {
-        TrainingSet {
-            features: &self.features,
-            targets: Targets {
-                channels: &self.channels,
-                values: &self.labels,
-            },
-            groups: None,
-        }
+        TrainingSet::new(&self.features, Targets::new(&self.channels, &self.labels))
     }
 }
 
@@ -114,7 +107,7 @@ fn fit_on(
     (training, validation): (&Recording, &Recording),
     (checkpoints, progress): (Option<Checkpoints>, &dyn Progress),
 ) -> Result<ModelFit, ModelError> {
-    let settings = Settings::parse(words.iter().copied()).expect("well formed");
+    let settings = ModelSettings::parse(words.iter().copied()).expect("well formed");
     let info = find(model).expect("registered");
     let mut estimator = info.estimator(&settings).expect("valid");
     if let Some(checkpoints) = checkpoints {

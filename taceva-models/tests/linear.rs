@@ -5,7 +5,6 @@ mod common;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use common::{Recording, both_shapes, distance, fit, model, predict, recording};
-use taceva_core::TrainingSet;
 use taceva_core::{
     ErrorKind, FeatureShape, Features, ModelError, Progress, Regressor, SilentProgress,
 };
@@ -156,10 +155,7 @@ fn parts_that_do_not_fit_each_other_are_refused() {
             refusal(result, estimator.name()),
             "validation samples of 5 features, training samples of 4"
         );
-        let short = TrainingSet {
-            groups: Some(&training.groups[1..]),
-            ..training.set()
-        };
+        let short = training.set().with_groups(&training.groups[1..]);
         let result = estimator.fit_linear(&short, None, &SilentProgress);
         assert_eq!(
             refusal(result, estimator.name()),

@@ -8,7 +8,8 @@ use taceva_core::{
     SilentProgress, Targets, TrainingSet,
 };
 use taceva_models::{
-    Color, FeatureSpec, FitInput, FormatError, Model, Models, Provenance, SettingError, Settings,
+    Color, FeatureSpec, FitInput, FormatError, Model, ModelSettings, Models, Provenance,
+    SettingError,
 };
 
 static KEY: DriverKey = DriverKey::fixed("org.example.first/first");
@@ -144,7 +145,7 @@ fn fit(way: Way, words: &[&str], features: FeatureSpec) -> Result<Model, ModelEr
     let values = (0..12_u8).map(f32::from).collect();
     let seen = Features::new(SPEC.shape(), values).expect("six samples");
     let labels = [3.0, 4.0, 5.0, 6.0, 7.0, 8.0];
-    let settings = Settings::parse(words.iter().copied()).expect("well formed");
+    let settings = ModelSettings::parse(words.iter().copied()).expect("well formed");
     let chosen = First::models(way).find(KEY.as_str()).expect("offered");
     let estimator = chosen.estimator(&settings).expect("valid");
     let input = FitInput {
@@ -156,14 +157,7 @@ fn fit(way: Way, words: &[&str], features: FeatureSpec) -> Result<Model, ModelEr
             height: 2,
             format: PixelFormat::Gray8,
         },
-        training: TrainingSet {
-            features: &seen,
-            targets: Targets {
-                channels: &channels,
-                values: &labels,
-            },
-            groups: None,
-        },
+        training: TrainingSet::new(&seen, Targets::new(&channels, &labels)),
         validation: None,
         provenance: Provenance::default(),
     };
@@ -266,7 +260,7 @@ fn a_model_of_other_outputs_or_of_components_is_refused() {
 fn settings_and_names_of_a_plugin_are_checked_with_what_would_be_accepted() {
     let models = First::models(Way::Right);
     let chosen = models.find(KEY.as_str()).expect("offered");
-    let settings = Settings::parse(["add=12"]).expect("well formed");
+    let settings = ModelSettings::parse(["add=12"]).expect("well formed");
     let error = chosen
         .estimator(&settings)
         .map(drop)

@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use taceva_core::{FeatureShape, Features, Nanometre, SilentProgress};
-use taceva_models::{NetworkEstimator, Settings, SpacingOutput};
+use taceva_models::{ModelSettings, NetworkEstimator, SpacingOutput};
 
 const SHAPE: FeatureShape = FeatureShape {
     height: 24,
@@ -46,7 +46,7 @@ fn gratings(boards: &[f64], presses: u32) -> (Features, Vec<Nanometre>) {
 }
 
 fn network(words: &[&str]) -> NetworkEstimator {
-    let settings = Settings::parse(words.iter().copied()).expect("well formed");
+    let settings = ModelSettings::parse(words.iter().copied()).expect("well formed");
     NetworkEstimator::cnn(&settings).expect("valid")
 }
 

@@ -112,34 +112,31 @@ fn samples(plan: &Plan, planned: &PlannedPress) -> Vec<Sample> {
             Specimen::Sphere { .. } => (None, None),
         };
         let moment = f64::from(number) + 0.1 * error(planned, number, 20);
-        Sample {
-            id: format!("{}/{number}", planned.id),
-            unit_id: Some(press.unit.clone()),
-            scene_id: press.light.clone(),
-            point_id: Some(press.point_id()),
-            depth_step: waypoint.map(|_| number),
-            repeat: press.repeat,
-            phase: waypoint.map(|waypoint| waypoint.phase),
-            stamp: Some(Stamp {
+        Sample::new(format!("{}/{number}", planned.id))
+            .with_unit_id(press.unit.clone())
+            .with_scene_id(press.light.clone())
+            .with_point_id(press.point_id())
+            .with_depth_step(waypoint.map(|_| number))
+            .with_repeat(press.repeat)
+            .with_phase(waypoint.map(|waypoint| waypoint.phase))
+            .with_stamp(Stamp {
                 valid_s: 0.04 * moment,
                 received_s: None,
-            }),
-            kind,
-            spacing,
-            predicted_spacing: spacing.map(|Nanometre(spacing)| {
+            })
+            .with_kind(kind)
+            .with_spacing(spacing)
+            .with_predicted_spacing(spacing.map(|Nanometre(spacing)| {
                 let off = 90_000.0 * error(planned, number, 21);
                 #[expect(
                     clippy::cast_possible_truncation,
                     reason = "below a tenth of a millimetre"
                 )]
                 Nanometre(spacing + off as i64)
-            }),
-            intensity: Some(120.0 + 30.0 * error(planned, number, 22)),
-            frame_digest: Some(format!("sha256:{}{number}", planned.id)),
-            prediction: Some(Readings::new(predicted.collect())),
-            truth: Readings::new(truth),
-            ..Sample::default()
-        }
+            }))
+            .with_intensity(120.0 + 30.0 * error(planned, number, 22))
+            .with_frame_digest(format!("sha256:{}{number}", planned.id))
+            .with_prediction(Readings::new(predicted.collect()))
+            .with_truth(Readings::new(truth))
     };
     (0..count).map(sample).collect()
 }

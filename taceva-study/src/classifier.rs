@@ -1,6 +1,8 @@
 //! The classifier of the spacings of gratings, configured from a scene.
 
-use taceva_models::{ChosenModel, FeatureSpec, Models, NetworkEstimator, Settings, SpacingOutput};
+use taceva_models::{
+    ChosenModel, FeatureSpec, ModelSettings, Models, NetworkEstimator, SpacingOutput,
+};
 use taceva_protocol::{GratingClassifier, Gratings};
 
 use crate::error::StudyError;
@@ -21,7 +23,7 @@ pub(crate) enum SpacingClassifier {
 #[derive(Debug)]
 pub(crate) struct ModelClassifier {
     pub(crate) model: ChosenModel,
-    pub(crate) settings: Settings,
+    pub(crate) settings: ModelSettings,
 }
 
 /// A network that classifies spacings of gratings, not fitted yet.

@@ -83,10 +83,8 @@ pub fn evaluate_plan(dataset: &Dataset, request: &EvaluateRequest) -> Result<Pla
             )
         }
         ModelChoice::Fitted(model) => {
-            plan.skipped.push(Skipped {
-                what: "stage:fit".to_owned(),
-                reason: SkipReason::AlreadyThere,
-            });
+            plan.skipped
+                .push(Skipped::new("stage:fit", SkipReason::AlreadyThere));
             (
                 Target::new(dataset, model, request.part)?,
                 model.channels().clone(),
@@ -101,10 +99,8 @@ pub fn evaluate_plan(dataset: &Dataset, request: &EvaluateRequest) -> Result<Pla
             format!("{count} frames of the part `{}`", target.part.name()),
         );
     } else {
-        plan.skipped.push(Skipped {
-            what: "field:frame".to_owned(),
-            reason: SkipReason::NothingReadsIt,
-        });
+        plan.skipped
+            .push(Skipped::new("field:frame", SkipReason::NothingReadsIt));
     }
     let metrics = metrics(dataset, &channels, request)?;
     let ids: Vec<&str> = metrics.kept().iter().map(|metric| metric.id).collect();

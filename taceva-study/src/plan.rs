@@ -43,7 +43,7 @@ impl fmt::Display for Plan {
             .map(|skipped| skipped.what.len())
             .max()
             .unwrap_or(0);
-        for Skipped { what, reason } in &self.skipped {
+        for Skipped { what, reason, .. } in &self.skipped {
             writeln!(f, "{:<8} {what:<width$}  {reason}", "skip")?;
         }
         Ok(())
@@ -59,10 +59,8 @@ mod tests {
     fn a_plan_reads_as_lines_of_verbs() {
         let mut plan = Plan::default();
         plan.step("read", "400 samples");
-        plan.skipped.push(Skipped {
-            what: "field:frame".into(),
-            reason: SkipReason::NothingReadsIt,
-        });
+        plan.skipped
+            .push(Skipped::new("field:frame", SkipReason::NothingReadsIt));
         assert_eq!(
             plan.to_string(),
             "read     400 samples\nskip     field:frame  nothing that was asked for reads it\n"

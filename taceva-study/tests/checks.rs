@@ -25,21 +25,18 @@ impl Recording {
     fn sound() -> Recording {
         let samples = (0..SAMPLES).map(|number| {
             let force = 0.1 + f64::from(number % 4) * 0.4;
-            Sample {
-                id: format!("s{number:02}"),
-                point_id: Some(format!("p{}", number / 4)),
-                stamp: Some(Stamp {
+            Sample::new(format!("s{number:02}"))
+                .with_point_id(format!("p{}", number / 4))
+                .with_stamp(Stamp {
                     valid_s: 0.031 * f64::from(number),
                     received_s: None,
-                }),
-                frame: Some(picture(number, force)),
-                truth: Readings::from_values([
+                })
+                .with_frame(picture(number, force))
+                .with_truth(Readings::from_values([
                     0.05 * f64::from(number),
                     0.05 * f64::from(number % 7) + 0.01,
                     force,
-                ]),
-                ..Sample::default()
-            }
+                ]))
         });
         Recording {
             facts: SensorFacts::new("drawn")

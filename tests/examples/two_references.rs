@@ -25,12 +25,11 @@ fn main() -> Result<(), Box<dyn Error>> {
     let mut recorder = Recorder::create(Path::new(&folder), &spec)?;
     recorder.append_reference(&reference(1))?;
     println!("ACK 1");
-    recorder.append(&Sample {
-        id: "press".into(),
-        frame: Some(reference(0)),
-        truth: Readings::from_values([1.0]),
-        ..Sample::default()
-    })?;
+    recorder.append(
+        &Sample::new("press")
+            .with_frame(reference(0))
+            .with_truth(Readings::from_values([1.0])),
+    )?;
     println!("ACK 2");
     recorder.append_reference(&reference(2))?;
     println!("ACK 3");

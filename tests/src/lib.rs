@@ -7,9 +7,11 @@ mod random;
 mod recordings;
 mod workspace;
 
+pub mod imports;
 pub mod power_cut;
 pub mod recorded;
 pub mod renew;
+pub mod source;
 pub mod toy;
 
 pub use binary::{example, library, taceva};

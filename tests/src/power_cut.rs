@@ -18,6 +18,6 @@ mod tree;
 
 pub use model::Disk;
 pub use operation::{Kind, ObjectId, Operation, ROOT};
-pub use states::{State, Tally};
+pub use states::{Counted, State};
 pub use trace::{Trace, TraceError};
 pub use tree::{Tree, read_tree, write_tree};

@@ -6,7 +6,7 @@ use std::process::Command;
 
 use taceva_dataset::{Digest, Recorder};
 use taceva_needs::{Need, skip};
-use taceva_tests::power_cut::{Disk, State, Tally, Trace, TraceError, write_tree};
+use taceva_tests::power_cut::{Counted, Disk, State, Trace, TraceError, write_tree};
 use taceva_tests::recorded::{Recorded, open_whole, reference};
 use taceva_tests::{Form, Lab, example, scratch, taceva};
 
@@ -25,10 +25,10 @@ fn traced(command: &Command, watched: &Path, initial: Disk) -> Option<Trace> {
 }
 
 #[expect(clippy::print_stderr, reason = "the counts are the result")]
-fn assert_kept(what: &str, tally: &Tally, at_least: usize) {
-    eprintln!("{what}: {tally}");
-    assert_eq!(tally.violations, 0, "{what}: {tally}");
-    assert!(tally.states >= at_least, "{what}: {tally}");
+fn assert_kept(what: &str, counted: &Counted, at_least: usize) {
+    eprintln!("{what}: {counted}");
+    assert_eq!(counted.violations, 0, "{what}: {counted}");
+    assert!(counted.states >= at_least, "{what}: {counted}");
 }
 
 fn import(lab: &Lab, target: &Path) -> Command {
@@ -76,7 +76,7 @@ fn an_import_leaves_the_whole_dataset_or_none() {
     };
     assert!(trace.status.success(), "{}", trace.complaint);
     let expected = open_whole(&target).expect("imported").digest();
-    let tally = trace.each_state(0..trace.operations.len() + 1, |state| {
+    let counted = trace.each_state(0..trace.operations.len() + 1, |state| {
         let restarted = scratch();
         let target = restarted.path().join("set");
         state
@@ -88,7 +88,7 @@ fn an_import_leaves_the_whole_dataset_or_none() {
         }
         whole_or_absent(&lab, &target, expected)
     });
-    assert_kept("import", &tally, 100);
+    assert_kept("import", &counted, 100);
 }
 
 #[test]
@@ -107,7 +107,7 @@ fn an_import_that_replaces_a_dataset_leaves_the_old_one_or_the_new_one_in_place(
     };
     assert!(trace.status.success(), "{}", trace.complaint);
     let expected = open_whole(&target).expect("imported").digest();
-    let tally = trace.each_state(0..trace.operations.len() + 1, |state| {
+    let counted = trace.each_state(0..trace.operations.len() + 1, |state| {
         let restarted = scratch();
         let target = restarted.path().join("set");
         state
@@ -125,7 +125,7 @@ fn an_import_that_replaces_a_dataset_leaves_the_old_one_or_the_new_one_in_place(
             _ => Err(format!("left after it was opened: {left:?}")),
         }
     });
-    assert_kept("import --force", &tally, 100);
+    assert_kept("import --force", &counted, 100);
 }
 
 /// A recording, traced, and the operation after which the last sample was acknowledged.
@@ -142,7 +142,7 @@ fn recording(recorded: &Recorded) -> Option<(Trace, usize)> {
     Some((trace, end))
 }
 
-fn try_all(recorded: &Recorded, trace: &Trace, cuts: Range<usize>) -> Tally {
+fn try_all(recorded: &Recorded, trace: &Trace, cuts: Range<usize>) -> Counted {
     trace.each_state(cuts, |state| recovers(recorded, state, 0))
 }
 
@@ -165,10 +165,10 @@ fn every_acknowledged_sample_survives_and_closing_loses_none() {
     let Some((trace, end)) = recording(&recorded) else {
         return;
     };
-    let tally = try_all(&recorded, &trace, 0..end);
-    assert_kept("recording", &tally, 100);
-    let tally = try_all(&recorded, &trace, end..trace.operations.len() + 1);
-    assert_kept("closing", &tally, 25);
+    let counted = try_all(&recorded, &trace, 0..end);
+    assert_kept("recording", &counted, 100);
+    let counted = try_all(&recorded, &trace, end..trace.operations.len() + 1);
+    assert_kept("closing", &counted, 25);
 }
 
 #[test]
@@ -177,7 +177,7 @@ fn a_recorder_that_was_killed_and_resumed_survives_a_power_cut() {
     let Some((first, _)) = recording(&recorded) else {
         return;
     };
-    let mut sum = Tally::default();
+    let mut sum = Counted::default();
     for killed_after in 0..first.operations.len() {
         // What the killed process did not make durable is still not durable when the next one starts.
         let left = first.after(killed_after);
@@ -192,8 +192,8 @@ fn a_recorder_that_was_killed_and_resumed_survives_a_power_cut() {
             "killed after {killed_after}: {}",
             second.complaint
         );
-        let tally = try_all(&recorded, &second, 0..second.operations.len() + 1);
-        sum = sum.and(tally);
+        let counted = try_all(&recorded, &second, 0..second.operations.len() + 1);
+        sum = sum.and(counted);
     }
     assert_kept("killed, resumed and cut", &sum, 3_000);
 }
@@ -209,7 +209,7 @@ fn a_power_cut_while_a_recording_is_resumed_loses_nothing() {
         left.push((state.tree.clone(), state.acknowledged()));
         Ok(())
     });
-    let mut sum = Tally::default();
+    let mut sum = Counted::default();
     for (tree, acknowledged) in left.iter().step_by(left.len().div_ceil(MOST_RESUMED)) {
         let folder = scratch();
         write_tree(tree, folder.path()).expect("room for a small folder");
@@ -219,10 +219,10 @@ fn a_power_cut_while_a_recording_is_resumed_loses_nothing() {
             return;
         };
         assert!(second.status.success(), "{}", second.complaint);
-        let tally = second.each_state(0..second.operations.len() + 1, |state| {
+        let counted = second.each_state(0..second.operations.len() + 1, |state| {
             recovers(&recorded, state, *acknowledged)
         });
-        sum = sum.and(tally);
+        sum = sum.and(counted);
     }
     assert_kept("cut, resumed and cut again", &sum, 2_500);
 }
@@ -238,7 +238,7 @@ fn a_reference_that_is_taken_anew_never_spoils_the_one_before() {
         return;
     };
     assert!(trace.status.success(), "{}", trace.complaint);
-    let tally = trace.each_state(0..trace.operations.len() + 1, |state| {
+    let counted = trace.each_state(0..trace.operations.len() + 1, |state| {
         let restarted = scratch();
         let target = restarted.path().join("set");
         state
@@ -259,5 +259,5 @@ fn a_reference_that_is_taken_anew_never_spoils_the_one_before() {
             Err(format!("{acknowledged} acknowledged, another reference"))
         }
     });
-    assert_kept("reference", &tally, 40);
+    assert_kept("reference", &counted, 40);
 }

@@ -3,7 +3,7 @@
 use std::process::Command;
 
 use taceva_needs::{Need, skip};
-use taceva_tests::power_cut::{Disk, State, Tally, Trace, TraceError};
+use taceva_tests::power_cut::{Counted, Disk, State, Trace, TraceError};
 use taceva_tests::toy::{HEADER, JOURNAL, Protocol, new_header, old_header, recovered};
 
 /// What the protocol promises: what was claimed is there and whole, and nothing was invented.
@@ -27,7 +27,7 @@ fn promise(protocol: Protocol, state: &State<'_>) -> Result<(), String> {
     }
 }
 
-fn hunt(protocol: Protocol) -> Result<Tally, TraceError> {
+fn hunt(protocol: Protocol) -> Result<Counted, TraceError> {
     let folder = tempfile::tempdir().expect("a folder");
     let watched = folder.path().canonicalize().expect("it is there");
     if !protocol.is_journal() {
@@ -47,19 +47,19 @@ fn hunt(protocol: Protocol) -> Result<Tally, TraceError> {
 #[expect(clippy::print_stderr, reason = "the counts are the result")]
 fn the_five_planted_faults_are_found_and_the_two_right_protocols_pass() {
     for protocol in Protocol::ALL {
-        let tally = match hunt(protocol) {
+        let counted = match hunt(protocol) {
             Err(TraceError::NoStrace(why)) => {
                 skip(Need::Strace, why);
                 return;
             }
-            tally => tally.expect("followed"),
+            counted => counted.expect("followed"),
         };
-        eprintln!("{protocol}: {tally}");
-        assert!(tally.states >= 16, "{protocol}: {tally}");
+        eprintln!("{protocol}: {counted}");
+        assert!(counted.states >= 16, "{protocol}: {counted}");
         assert_eq!(
-            tally.violations == 0,
+            counted.violations == 0,
             protocol.is_right(),
-            "{protocol}: {tally}"
+            "{protocol}: {counted}"
         );
     }
 }

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use taceva_core::SilentProgress;
 use taceva_dataset::{Dataset, ImportMap, ImportPlan, ImportReport};
-use taceva_models::Settings;
+use taceva_models::ModelSettings;
 use taceva_study::{EvaluateRequest, Evaluated, FitRequest, ModelChoice, Work, evaluate};
 use taceva_tests::{recording, root};
 use tempfile::TempDir;
@@ -39,7 +39,7 @@ fn evaluated(dataset: &Dataset, model: &str, split: &str, seed: u64) -> Evaluate
     let request = EvaluateRequest {
         model: ModelChoice::Fit(FitRequest {
             model: taceva_models::find(model).expect("a model").into(),
-            settings: Settings::default(),
+            settings: ModelSettings::default(),
             channels: Vec::new(),
             split: Some(split.to_owned()),
             seed,

@@ -4,7 +4,7 @@ use std::num::NonZeroUsize;
 
 use taceva_core::SilentProgress;
 use taceva_dataset::{Dataset, ImportMap, ImportPlan};
-use taceva_models::Settings;
+use taceva_models::ModelSettings;
 use taceva_report::catalogue::Sensor;
 use taceva_report::{
     CompareRequest, Need, Report, Samples, Study, choose, compare, figures, report,
@@ -35,7 +35,7 @@ fn study(name: &str, model: &str, split: &str) -> Option<Study> {
     let request = EvaluateRequest {
         model: ModelChoice::Fit(FitRequest {
             model: taceva_models::find(model).expect("a model").into(),
-            settings: Settings::default(),
+            settings: ModelSettings::default(),
             channels: Vec::new(),
             split: Some(split.to_owned()),
             seed: 0,

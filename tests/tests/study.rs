@@ -139,14 +139,14 @@ fn a_study_whose_power_is_cut_goes_on_to_the_same_bytes() {
         trace => trace.expect("every call can be followed"),
     };
     assert!(trace.status.success(), "{}", trace.complaint);
-    let tally = trace.each_state(0..trace.operations.len() + 1, |state| {
+    let counted = trace.each_state(0..trace.operations.len() + 1, |state| {
         let restarted = scratch();
         state
             .write_to(restarted.path())
             .expect("room for a small folder");
         same(&finished(restarted.path())?, &expected)
     });
-    eprintln!("power cut during a study: {tally}");
-    assert_eq!(tally.violations, 0, "{tally}");
-    assert!(tally.states > 300, "{tally}");
+    eprintln!("power cut during a study: {counted}");
+    assert_eq!(counted.violations, 0, "{counted}");
+    assert!(counted.states > 300, "{counted}");
 }

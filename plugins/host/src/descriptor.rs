@@ -42,10 +42,7 @@ pub(crate) fn arguments([manifest, library]: [&[ArgSpec]; 2]) -> Option<[String;
     differ("the number of arguments", number).or_else(|| {
         manifest.iter().zip(library).find_map(|(promised, said)| {
             let name = format!("argument `{}`", promised.key);
-            let said = ArgSpec {
-                help: promised.help.clone(),
-                ..said.clone()
-            };
+            let said = said.clone().help(&promised.help);
             differ(&name, [promised, &said])
         })
     })

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use taceva_core::{
-    Access, Args, Descriptor, DriverError, DriverKey, ErrorKind, ForceTransducer, Found, Lighting,
+    Args, Descriptor, DriverError, DriverKey, ErrorKind, ForceTransducer, Found, Lighting,
     ModelError, Robot, Sensor, SimulatedBench,
 };
 
@@ -98,11 +98,8 @@ impl Session for InProcess {
             crate::Provided::Driver { descriptor, .. } => descriptor.title(),
             crate::Provided::Estimator(estimator) => &estimator.title,
         };
-        let found = texts.into_iter().map(|arguments| Found {
-            driver: driver.clone(),
-            title: title.to_owned(),
-            arguments,
-            access: Access::Ready,
+        let found = texts.into_iter().map(|arguments| {
+            Found::new(driver.clone(), title.to_owned()).with_arguments(arguments)
         });
         Ok(found.collect())
     }

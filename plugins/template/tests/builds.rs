@@ -77,28 +77,12 @@ fn learns(host: &Arc<PluginHost>) {
     let channels = Channels::new([Channel::PX]).expect("one");
     let shape = FeatureShape::flat(1);
     let seen = Features::new(shape, vec![0.0, 1.0, 2.0, 10.0]).expect("four samples");
-    let training = TrainingSet {
-        features: &seen,
-        targets: Targets {
-            channels: &channels,
-            values: &[1.0, 2.0, 3.0, 50.0],
-        },
-        groups: None,
-    };
+    let training = TrainingSet::new(&seen, Targets::new(&channels, &[1.0, 2.0, 3.0, 50.0]));
     let settings = taceva_core::Args::parse(&info.settings, "").expect("defaults");
-    let request = FitRequest {
-        settings: &settings,
-        training: &training,
-        validation: None,
-        progress: &SilentProgress,
-    };
+    let request = FitRequest::new(&settings, &training, &SilentProgress);
     let fitted = session.fit(&key, &request).expect("it learns");
     let bytes = fitted.save().expect("it can be kept");
-    let saved = Saved {
-        bytes: &bytes,
-        channels: &channels,
-        shape,
-    };
+    let saved = Saved::new(&bytes, &channels, shape);
     let loaded = session.load(&key, &saved).expect("its own bytes");
     let asked = Features::new(shape, vec![0.9]).expect("one sample");
     for model in [fitted, loaded] {
@@ -107,10 +91,7 @@ fn learns(host: &Arc<PluginHost>) {
         assert!((into[0] - 2.0).abs() < 1e-12, "{into:?}");
     }
     for length in 0..bytes.len() {
-        let saved = Saved {
-            bytes: &bytes[..length],
-            ..saved
-        };
+        let saved = Saved::new(&bytes[..length], saved.channels, saved.shape);
         assert!(session.load(&key, &saved).is_err(), "{length}");
     }
 }

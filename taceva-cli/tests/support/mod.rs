@@ -145,13 +145,12 @@ impl Bench {
         for number in 0..SAMPLES {
             let (place, force) = label(number);
             recorder
-                .append(&Sample {
-                    id: format!("{name}-{number:02}"),
-                    point_id: Some(format!("p{}", number / 6)),
-                    frame: Some(draw(number, side)),
-                    truth: Readings::from_values([place, force]),
-                    ..Sample::default()
-                })
+                .append(
+                    &Sample::new(format!("{name}-{number:02}"))
+                        .with_point_id(format!("p{}", number / 6))
+                        .with_frame(draw(number, side))
+                        .with_truth(Readings::from_values([place, force])),
+                )
                 .expect("recorded");
         }
         recorder.close().expect("closed");

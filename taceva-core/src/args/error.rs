@@ -3,10 +3,15 @@
 use crate::shown::shown;
 use std::fmt;
 
-use super::nearest::nearest;
-use super::spec::ArgSpec;
-
 /// An argument that the driver does not take; every text is as the user wrote it.
+///
+/// ```
+/// use taceva_core::{ArgError, ArgSpec, Args};
+/// let specs = [ArgSpec::whole("seed", 0, 99)];
+/// let error = Args::parse(&specs, "seed=100").unwrap_err();
+/// assert!(matches!(&error, ArgError::Value { key, .. } if key == "seed"));
+/// assert_eq!(error.to_string(), "`seed`: `100`, expected a whole number from 0 to 99");
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum ArgError {
@@ -49,25 +54,6 @@ pub enum ArgError {
         /// The choice that is most like it, if one is.
         nearest: Option<String>,
     },
-}
-
-impl ArgError {
-    pub(super) fn unknown(key: &str, specs: &[ArgSpec]) -> ArgError {
-        let known: Vec<String> = specs.iter().map(|spec| spec.key.clone()).collect();
-        ArgError::Unknown {
-            key: key.to_owned(),
-            nearest: nearest(key, known.iter().map(String::as_str)).map(str::to_owned),
-            known,
-        }
-    }
-
-    pub(super) fn missing(spec: &ArgSpec) -> ArgError {
-        ArgError::Missing {
-            key: spec.key.clone(),
-            expected: spec.expected(),
-            help: spec.help.clone(),
-        }
-    }
 }
 
 impl fmt::Display for ArgError {

@@ -2,14 +2,22 @@
 
 use std::fmt;
 
-use super::Args;
 use super::error::ArgError;
+use super::kind::{ArgKind, Presence};
 use super::nearest::nearest;
 use super::value::ArgValue;
 use crate::unit::SourceUnit;
 
 /// The declaration of one argument of a driver.
+///
+/// ```
+/// use taceva_core::{ArgSpec, ArgValue};
+/// let rate = ArgSpec::number("rate", 1.0, 60.0).unit("Hz").default(ArgValue::Number(30.0)).help("frames a second");
+/// assert_eq!(rate.parse("25 Hz"), Ok(ArgValue::Number(25.0)));
+/// assert_eq!(rate.expected(), "a number from 1 to 60 Hz");
+/// ```
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct ArgSpec {
     /// Its key.
     pub key: String,
@@ -25,50 +33,9 @@ pub struct ArgSpec {
     pub changes_facts: bool,
 }
 
-/// What the value of an argument is.
-#[derive(Clone, Debug, PartialEq)]
-#[non_exhaustive]
-pub enum ArgKind {
-    /// Any text that is not empty.
-    Text,
-    /// A file or a folder.
-    Path,
-    /// A whole number.
-    Whole {
-        /// The least that is accepted.
-        least: i64,
-        /// The greatest that is accepted.
-        most: i64,
-    },
-    /// A finite number.
-    Number {
-        /// The least that is accepted; −∞ for any.
-        least: f64,
-        /// The greatest that is accepted; ∞ for any.
-        most: f64,
-    },
-    /// One of some words.
-    Choice {
-        /// The words.
-        of: Vec<String>,
-    },
-    /// `true` or `false`.
-    Flag,
-}
-
-/// Whether an argument must be given.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Presence {
-    /// It must.
-    Required,
-    /// It need not, and then the driver knows that it was not.
-    Optional,
-    /// It need not, and then it has this value.
-    Default(ArgValue),
-}
-
 impl ArgSpec {
-    fn new(key: &str, kind: ArgKind) -> ArgSpec {
+    /// A required argument of `kind`, without a unit.
+    pub fn new(key: &str, kind: ArgKind) -> ArgSpec {
         ArgSpec {
             key: key.to_owned(),
             kind,
@@ -143,14 +110,6 @@ impl ArgSpec {
     pub fn changes_facts(mut self) -> ArgSpec {
         self.changes_facts = true;
         self
-    }
-
-    /// Whether `args` say something else than nothing, or than its default.
-    pub fn is_set_by(&self, args: &Args) -> bool {
-        match &self.presence {
-            Presence::Default(value) => args.get(&self.key) != Some(value),
-            Presence::Required | Presence::Optional => args.get(&self.key).is_some(),
-        }
     }
 
     /// The value written as `text`.

@@ -3,6 +3,12 @@
 use std::fmt;
 
 /// A value that was checked against its declaration.
+///
+/// ```
+/// use taceva_core::ArgValue;
+/// assert_eq!(ArgValue::Whole(3).as_number(), Some(3.0));
+/// assert_eq!(ArgValue::Text("left".to_owned()).as_text(), Some("left"));
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub enum ArgValue {
     /// A text, a path or one of some choices.

@@ -13,7 +13,7 @@ use crate::sample::{Readings, Sample};
 /// ```
 /// use taceva_core::{BatchBuilder, Channel, Channels, FieldSet, Readings, Sample};
 /// let mut builder = BatchBuilder::new(Channels::new([Channel::FZ])?, FieldSet::PAIRS);
-/// builder.push(&Sample { truth: Readings::from_values([0.5]), ..Sample::default() });
+/// builder.push(&Sample::new("press 1").with_truth(Readings::from_values([0.5])));
 /// assert_eq!(builder.take().truth(0).get(0), Some(0.5));
 /// # Ok::<(), taceva_core::ChannelError>(())
 /// ```

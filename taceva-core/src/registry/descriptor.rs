@@ -1,5 +1,9 @@
 //! A driver described before it is opened.
 
+mod source;
+
+pub use source::DriverSource;
+
 use std::collections::BTreeSet;
 use std::fmt;
 
@@ -8,38 +12,19 @@ use crate::args::{ArgError, ArgSpec, Args};
 use crate::driver::DriverKind;
 use crate::id::DriverKey;
 
-/// Where the readings of a driver come from; every output that rests on them says so.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(rename_all = "lowercase"))]
-pub enum DriverSource {
-    /// A device.
-    Real,
-    /// A model of a device.
-    Simulated,
-    /// A device, at another time.
-    Recorded,
-}
-
-impl DriverSource {
-    /// How the source is written in reports.
-    pub const fn name(self) -> &'static str {
-        match self {
-            DriverSource::Real => "real",
-            DriverSource::Simulated => "simulated",
-            DriverSource::Recorded => "recorded",
-        }
-    }
-}
-
-impl fmt::Display for DriverSource {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(self.name())
-    }
-}
-
 /// A description to be checked.
+///
+/// ```
+/// use taceva_core::{ArgSpec, ArgValue, DescriptorSpec, DriverKey, DriverSource, Facts, SensorFacts};
+/// let facts = Facts::Sensor(Box::new(SensorFacts::default()));
+/// let spec = DescriptorSpec::new(DriverKey::fixed("org.example/digit"), "DIGIT", DriverSource::Real, facts);
+/// let spec = spec.arguments([ArgSpec::whole("exposure", 1, 33).unit("ms").default(ArgValue::Whole(8))]);
+/// let descriptor = spec.check()?;
+/// assert_eq!(descriptor.arguments().len(), 1);
+/// # Ok::<(), taceva_core::DescriptorError>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct DescriptorSpec {
     /// The name by which the driver is chosen.
     pub key: DriverKey,
@@ -195,6 +180,15 @@ fn positive(named: &[(&str, Option<f64>)]) -> Option<String> {
 }
 
 /// Everything about a driver that is known before it is opened; planning reads this and opens nothing.
+///
+/// ```
+/// use taceva_core::{DescriptorSpec, DriverKey, DriverSource, Facts, RobotFacts};
+/// let facts = Facts::Robot(RobotFacts::default());
+/// let spec = DescriptorSpec::new(DriverKey::fixed("org.example/arm"), "an arm", DriverSource::Real, facts);
+/// let descriptor = spec.check()?;
+/// assert!(descriptor.robot().is_some() && descriptor.sensor().is_none());
+/// # Ok::<(), taceva_core::DescriptorError>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Descriptor {
     spec: DescriptorSpec,
@@ -270,6 +264,14 @@ impl Descriptor {
 }
 
 /// A description that contradicts itself: a mistake of the driver.
+///
+/// ```
+/// use taceva_core::{DescriptorSpec, DriverKey, DriverSource, Facts, LightingFacts};
+/// let facts = Facts::Lighting(LightingFacts::default());
+/// let spec = DescriptorSpec::new(DriverKey::fixed("room/lamp"), "a lamp", DriverSource::Real, facts);
+/// let error = spec.check().unwrap_err();
+/// assert_eq!(error.to_string(), "the driver `room/lamp` contradicts itself: a lighting without scenes");
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct DescriptorError {
     key: DriverKey,

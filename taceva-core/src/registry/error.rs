@@ -8,6 +8,13 @@ use crate::driver::DriverKind;
 use crate::id::DriverKey;
 
 /// A driver that a registry cannot take, or does not have.
+///
+/// ```
+/// use taceva_core::{Registry, RegistryError, Robot};
+/// let robots = Registry::<dyn Robot>::empty();
+/// let error = robots.get("sim/arm").map(|_| ()).unwrap_err();
+/// assert!(matches!(&error, RegistryError::Unknown { key, .. } if key == "sim/arm"));
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum RegistryError {

@@ -5,6 +5,36 @@ use crate::args::Args;
 use crate::driver::DriverError;
 
 /// A driver that is not opened yet; `D` is what it opens, `dyn Sensor` for one.
+///
+/// ```
+/// use taceva_core::{
+///     Args, Descriptor, DescriptorSpec, DriverError, DriverKey, DriverSource, ErrorKind, Factory, Facts, Lighting, LightingFacts,
+///     Registry, Rig,
+/// };
+///
+/// /// A lamp whose cable nobody has found yet.
+/// struct Lamp(Descriptor);
+///
+/// impl Factory<dyn Lighting> for Lamp {
+///     fn descriptor(&self) -> &Descriptor {
+///         &self.0
+///     }
+///     fn open(&self, _: &Args, _: &mut Rig) -> Result<Box<dyn Lighting>, DriverError> {
+///         Err(DriverError::new(ErrorKind::NotFound, self.0.key(), "switch it on"))
+///     }
+/// }
+///
+/// let mut facts = LightingFacts::default();
+/// facts.scenes = vec!["normal".to_owned()];
+/// let key = DriverKey::fixed("room/lamp");
+/// let spec = DescriptorSpec::new(key, "a lamp", DriverSource::Real, Facts::Lighting(facts));
+/// let mut lamps = Registry::<dyn Lighting>::empty();
+/// lamps.add(Box::new(Lamp(spec.check()?)))?;
+/// let opened = lamps.get("room/lamp")?.open(&Args::default(), &mut Rig::new());
+/// let error = opened.map(|_| ()).unwrap_err();
+/// assert_eq!(error.to_string(), "room/lamp: cannot switch it on: not found");
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub trait Factory<D: ?Sized>: Send + Sync {
     /// What is known before anything is opened, whatever the arguments.
     fn descriptor(&self) -> &Descriptor;

@@ -5,7 +5,14 @@ use std::fmt;
 use crate::id::DriverKey;
 
 /// A device that a driver sees.
+///
+/// ```
+/// use taceva_core::{Access, DriverKey, Found};
+/// let found = Found::new(DriverKey::fixed("digit/usb"), "DIGIT D20042").with_arguments("serial=D20042");
+/// assert_eq!((found.arguments.as_str(), found.access), ("serial=D20042", Access::Ready));
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Found {
     /// The driver that would open it.
     pub driver: DriverKey,
@@ -17,7 +24,40 @@ pub struct Found {
     pub access: Access,
 }
 
+impl Found {
+    /// A device that `driver` could open now, and that needs no argument to be told from others.
+    pub fn new(driver: DriverKey, title: impl Into<String>) -> Found {
+        Found {
+            driver,
+            title: title.into(),
+            arguments: String::new(),
+            access: Access::Ready,
+        }
+    }
+
+    /// The same device with the arguments that choose it.
+    #[must_use]
+    pub fn with_arguments(self, arguments: impl Into<String>) -> Found {
+        Found {
+            arguments: arguments.into(),
+            ..self
+        }
+    }
+
+    /// The same device with whether it could be opened.
+    #[must_use]
+    pub fn with_access(self, access: Access) -> Found {
+        Found { access, ..self }
+    }
+}
+
 /// Whether a device that is seen could be opened.
+///
+/// ```
+/// use taceva_core::Access;
+/// let denied = Access::Denied { remedy: "add yourself to the group `video`".to_owned() };
+/// assert_eq!(denied.to_string(), "seen, but not permitted: add yourself to the group `video`");
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Access {

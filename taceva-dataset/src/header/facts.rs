@@ -159,12 +159,8 @@ impl SensorFacts {
 /// # let mut recorder = Recorder::create(&path, &RecordingSpec::new(facts, Channels::new([Channel::FZ])?))?;
 /// # let info = FrameInfo { width: 2, height: 1, format: PixelFormat::Gray8 };
 /// # for number in 0..2_u8 {
-/// #     recorder.append(&Sample {
-/// #         id: number.to_string(),
-/// #         truth: Readings::from_values([0.5]),
-/// #         frame: Some(Frame::new(info, vec![number, 90])?),
-/// #         ..Sample::default()
-/// #     })?;
+/// #     let sample = Sample::new(number.to_string()).with_truth(Readings::from_values([0.5]));
+/// #     recorder.append(&sample.with_frame(Frame::new(info, vec![number, 90])?))?;
 /// # }
 /// let frames = recorder.close()?.frames.ok_or("two frames were recorded")?;
 /// assert_eq!((frames.count, frames.info.width), (2, 2));
@@ -197,12 +193,8 @@ pub struct FramesInfo {
 /// # let mut recorder = Recorder::create(&path, &RecordingSpec::new(facts, Channels::new([Channel::FZ])?))?;
 /// # let info = FrameInfo { width: 2, height: 1, format: PixelFormat::Gray8 };
 /// # for number in 0..2_u8 {
-/// #     recorder.append(&Sample {
-/// #         id: number.to_string(),
-/// #         truth: Readings::from_values([0.5]),
-/// #         frame: Some(Frame::new(info, vec![number, 90])?),
-/// #         ..Sample::default()
-/// #     })?;
+/// #     let sample = Sample::new(number.to_string()).with_truth(Readings::from_values([0.5]));
+/// #     recorder.append(&sample.with_frame(Frame::new(info, vec![number, 90])?))?;
 /// # }
 /// recorder.append_reference(&Frame::new(info, vec![7, 7])?)?;
 /// let frames = recorder.close()?.frames.ok_or("frames were recorded")?;
@@ -230,12 +222,8 @@ pub struct ReferenceInfo {
 /// # let mut recorder = Recorder::create(&path, &RecordingSpec::new(facts, Channels::new([Channel::FZ])?))?;
 /// # let info = FrameInfo { width: 2, height: 1, format: PixelFormat::Gray8 };
 /// # for number in 0..2_u8 {
-/// #     recorder.append(&Sample {
-/// #         id: number.to_string(),
-/// #         truth: Readings::from_values([0.5]),
-/// #         frame: Some(Frame::new(info, vec![number, 90])?),
-/// #         ..Sample::default()
-/// #     })?;
+/// #     let sample = Sample::new(number.to_string()).with_truth(Readings::from_values([0.5]));
+/// #     recorder.append(&sample.with_frame(Frame::new(info, vec![number, 90])?))?;
 /// # }
 /// use taceva_dataset::Digest;
 ///

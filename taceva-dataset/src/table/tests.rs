@@ -18,7 +18,7 @@ fn row(name: &str, force: Option<f64>) -> Row {
 }
 
 #[test]
-fn the_digest_tells_absent_from_zero_and_one_order_from_another() {
+fn the_digest_distinguishes_absent_from_zero_and_one_order_from_another() {
     let digest = |rows: Vec<Row>| table(rows).digest();
     let some = digest(vec![row("a", Some(0.0)), row("b", None)]);
     assert_ne!(some, digest(vec![row("a", None), row("b", Some(0.0))]));

@@ -35,24 +35,21 @@ fn frame(seed: u8) -> Frame {
 }
 
 fn sample(number: u8) -> Sample {
-    Sample {
-        id: format!("s{number}"),
-        point_id: Some(format!("p{}", number % 2)),
-        unit_id: Some("1".into()),
-        scene_id: Some("dark".into()),
-        depth_step: Some(3),
-        repeat: Some(u32::from(number)),
-        phase: Some(Phase::Unload),
-        kind: Some(GratingKind::Line),
-        spacing: Some(Nanometre(350_000)),
-        stamp: Some(Stamp {
+    Sample::new(format!("s{number}"))
+        .with_point_id(format!("p{}", number % 2))
+        .with_unit_id("1".to_owned())
+        .with_scene_id("dark".to_owned())
+        .with_depth_step(3)
+        .with_repeat(u32::from(number))
+        .with_phase(Phase::Unload)
+        .with_kind(GratingKind::Line)
+        .with_spacing(Nanometre(350_000))
+        .with_stamp(Stamp {
             valid_s: f64::from(number) / 3.0,
             received_s: None,
-        }),
-        frame: Some(frame(number)),
-        truth: Readings::new(vec![Some(f64::from(number) / 7.0), None]),
-        ..Sample::default()
-    }
+        })
+        .with_frame(frame(number))
+        .with_truth(Readings::new(vec![Some(f64::from(number) / 7.0), None]))
 }
 
 #[test]
@@ -75,11 +72,9 @@ fn what_was_recorded_is_read_back_bit_for_bit() {
         let decoded = dataset.frame(row).expect("decodes");
         let fields = dataset.table().fields();
         let read = dataset.table().sample(row, fields, decoded);
-        let expected = Sample {
-            intensity: Some(frame(number).mean_luma()),
-            frame_digest: read.frame_digest.clone(),
-            ..sample(number)
-        };
+        let expected = sample(number)
+            .with_intensity(frame(number).mean_luma())
+            .with_frame_digest(read.frame_digest.clone());
         assert_eq!(read, expected);
         let digest = read.frame_digest.expect("a frame has a digest");
         assert!(digest.starts_with("sha256:"), "{digest}");

@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::Path;
 
-use taceva_core::{Frame, FrameInfo, PixelFormat, Sample};
+use taceva_core::{Frame, FrameInfo, PixelFormat};
 use taceva_dataset::{Dataset, DatasetError, Recorder};
 
 use super::lab::Random;
@@ -31,10 +31,7 @@ fn textured(number: u8, format: PixelFormat) -> Frame {
 fn recorded(path: &Path, numbers: std::ops::Range<u8>, format: PixelFormat) -> Recorder {
     let mut recorder = Recorder::open(path, &spec()).expect("opened");
     for number in numbers {
-        let sample = Sample {
-            frame: Some(textured(number, format)),
-            ..sample(number)
-        };
+        let sample = sample(number).with_frame(textured(number, format));
         recorder.append(&sample).expect("recorded");
     }
     recorder
@@ -74,11 +71,8 @@ fn a_frame_that_comes_again_has_the_digest_that_it_had() {
     let path = folder.path().join("set");
     let mut recorder = Recorder::create(&path, &spec()).expect("created");
     for (number, seen) in [3, 4, 3, 4].into_iter().enumerate() {
-        let sample = Sample {
-            id: number.to_string(),
-            frame: Some(textured(seen, PixelFormat::Gray8)),
-            ..sample(1)
-        };
+        let mut sample = sample(1).with_frame(textured(seen, PixelFormat::Gray8));
+        sample.id = number.to_string();
         recorder.append(&sample).expect("recorded");
     }
     recorder.close().expect("closed");

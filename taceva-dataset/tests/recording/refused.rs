@@ -1,6 +1,6 @@
 //! What a recorder refuses.
 
-use taceva_core::{Frame, FrameInfo, PixelFormat, Readings, Sample, Stamp};
+use taceva_core::{Frame, FrameInfo, PixelFormat, Readings, Stamp};
 use taceva_dataset::{DatasetError, Recorder};
 
 use super::{sample, spec};
@@ -59,41 +59,30 @@ fn samples_that_cannot_be_recorded_are_refused_and_lose_nothing() {
     for (spoiled, word) in [
         (sample(1), "empty or taken"),
         (
-            Sample {
-                id: String::new(),
-                ..sample(2)
+            {
+                let mut nameless = sample(2);
+                nameless.id = String::new();
+                nameless
             },
             "empty or taken",
         ),
         (
-            Sample {
-                truth: Readings::from_values([f64::NAN]),
-                ..sample(2)
-            },
+            sample(2).with_truth(Readings::from_values([f64::NAN])),
             "NaN is no finite number",
         ),
         (
-            Sample {
-                truth: Readings::from_values([0.0; 3]),
-                ..sample(2)
-            },
+            sample(2).with_truth(Readings::from_values([0.0; 3])),
             "3 values for 2 channels",
         ),
         (
-            Sample {
-                stamp: Some(Stamp {
-                    valid_s: f64::INFINITY,
-                    received_s: None,
-                }),
-                ..sample(2)
-            },
+            sample(2).with_stamp(Stamp {
+                valid_s: f64::INFINITY,
+                received_s: None,
+            }),
             "inf is no finite number",
         ),
         (
-            Sample {
-                frame: Some(Frame::new(small, vec![0]).expect("one byte")),
-                ..sample(2)
-            },
+            sample(2).with_frame(Frame::new(small, vec![0]).expect("one byte")),
             "expected 4×2 rgb8",
         ),
     ] {

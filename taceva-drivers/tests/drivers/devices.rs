@@ -44,11 +44,10 @@ impl Factory<dyn Sensor> for Cameras {
         if !self.can_look {
             return Err(self.error(ErrorKind::PermissionDenied, "look for cameras"));
         }
-        let found = |arguments: &str, access| Found {
-            driver: self.descriptor.key().clone(),
-            title: "a camera".to_owned(),
-            arguments: arguments.to_owned(),
-            access,
+        let found = |arguments: &str, access| {
+            Found::new(self.descriptor.key().clone(), "a camera")
+                .with_arguments(arguments.to_owned())
+                .with_access(access)
         };
         let remedy = "join the group `video`".to_owned();
         Ok(vec![

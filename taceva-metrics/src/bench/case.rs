@@ -3,7 +3,7 @@
 use super::numbers::Numbers;
 use crate::paired::Paired;
 
-/// How to make two columns.
+/// How to make two columns. A plain value, which gets no further fields.
 ///
 /// ```
 /// use taceva_metrics::bench::{Kind, Order, Case};

@@ -2,7 +2,8 @@
 
 use taceva_core::Isa;
 
-use super::compensated::{Kahan, Neumaier, Plain, RunningSum, Single, pairwise};
+use super::compensated::{Kahan, Neumaier, Plain, Single, pairwise};
+use super::textbook::{in_halves, length, mean_error, number, one_pass, two_pass, welford};
 use crate::exact::Machine;
 use crate::families::accuracy::pair_sums::{PairSpec, PairSums};
 use crate::families::accuracy::streams::{Stream, Streams};
@@ -39,7 +40,7 @@ pub enum Kernel {
     Exact(Isa),
 }
 
-/// What a kernel found; `None` where it found no number.
+/// What a kernel found; `None` where it found no number. A plain value, which gets no further fields.
 ///
 /// ```
 /// use taceva_metrics::{Paired, bench::Kernel};
@@ -174,106 +175,6 @@ fn score(metric: &Metric, sums: &PairSums) -> Option<f64> {
             .filter(|value| value.is_finite()),
         _ => None,
     }
-}
-
-/// Σ|d|, Σd², SST and Σt as a library rounds them, over n rows.
-fn finish(n: f64, absolute: f64, squared: f64, total: f64, symmetric: f64) -> Scores {
-    Scores {
-        mae: number(absolute / n),
-        r2: number(1.0 - squared / total),
-        smape: number(symmetric / n),
-    }
-}
-
-fn number(value: f64) -> Option<f64> {
-    value.is_finite().then_some(value)
-}
-
-fn one_pass<S: RunningSum>(pairs: Paired<&[f64]>) -> Scores {
-    let [
-        mut absolute,
-        mut squared,
-        mut truth,
-        mut truth_squared,
-        mut symmetric,
-    ] = [S::default(); 5];
-    for pair in pairs.iter() {
-        let residual = pair.residual();
-        absolute.add(residual.abs());
-        squared.add(residual * residual);
-        truth.add(pair.reference);
-        truth_squared.add(pair.reference * pair.reference);
-        symmetric.add(pair.symmetric_term());
-    }
-    let n = length(pairs);
-    let total = truth_squared.total() - truth.total() * truth.total() / n;
-    finish(
-        n,
-        absolute.total(),
-        squared.total(),
-        total,
-        symmetric.total(),
-    )
-}
-
-fn two_pass(pairs: Paired<&[f64]>) -> Scores {
-    let n = length(pairs);
-    let mean = pairs.reference.iter().sum::<f64>() / n;
-    let (mut absolute, mut squared, mut total, mut symmetric) = (0.0, 0.0, 0.0, 0.0);
-    for pair in pairs.iter() {
-        let (residual, deviation) = (pair.residual(), pair.reference - mean);
-        absolute += residual.abs();
-        squared += residual * residual;
-        total += deviation * deviation;
-        symmetric += pair.symmetric_term();
-    }
-    finish(n, absolute, squared, total, symmetric)
-}
-
-fn in_halves(pairs: Paired<&[f64]>) -> Scores {
-    let n = length(pairs);
-    let rows: Vec<Paired<f64>> = pairs.iter().collect();
-    let mean = pairwise(&rows, &|pair| pair.reference) / n;
-    let square = |value: f64| value * value;
-    finish(
-        n,
-        pairwise(&rows, &|pair| pair.residual().abs()),
-        pairwise(&rows, &|pair| square(pair.residual())),
-        pairwise(&rows, &|pair| square(pair.reference - mean)),
-        pairwise(&rows, &|pair| pair.symmetric_term()),
-    )
-}
-
-fn welford(pairs: Paired<&[f64]>) -> Scores {
-    let (mut absolute, mut squared, mut total, mut symmetric) = (0.0, 0.0, 0.0, 0.0);
-    let (mut n, mut mean) = (0.0, 0.0);
-    for pair in pairs.iter() {
-        let residual = pair.residual();
-        absolute += residual.abs();
-        squared += residual * residual;
-        symmetric += pair.symmetric_term();
-        n += 1.0;
-        let deviation = pair.reference - mean;
-        mean += deviation / n;
-        total += deviation * (pair.reference - mean);
-    }
-    finish(n, absolute, squared, total, symmetric)
-}
-
-fn mean_error<S: RunningSum>(pairs: Paired<&[f64]>) -> Option<f64> {
-    let mut absolute = S::default();
-    pairs
-        .iter()
-        .for_each(|pair| absolute.add(pair.residual().abs()));
-    number(absolute.total() / length(pairs))
-}
-
-#[expect(
-    clippy::cast_precision_loss,
-    reason = "no column has 2^53 rows, and those who round would round this too"
-)]
-fn length(pairs: Paired<&[f64]>) -> f64 {
-    pairs.estimate.len() as f64
 }
 
 #[cfg(test)]

@@ -9,9 +9,11 @@ use std::collections::BTreeMap;
 
 use taceva_core::Skipped;
 
+use crate::evaluate::entry::Entry;
+use crate::evaluate::standing;
 use crate::metric::Metric;
 use crate::score::Score;
-use crate::score::standing::{self, Standing};
+use crate::score::standing::Standing;
 
 /// Every score of an evaluation, in the order of reports, and what was left out.
 ///
@@ -30,17 +32,9 @@ pub struct Evaluation {
     skipped: Vec<Skipped>,
 }
 
-/// One score, with what it is of.
-#[derive(Clone, Debug)]
-pub(crate) struct Entry {
-    pub(crate) metric: &'static Metric,
-    pub(crate) channel: String,
-    pub(crate) score: Score,
-}
-
 impl Evaluation {
     pub(crate) fn new(mut entries: Vec<Entry>, skipped: Vec<Skipped>) -> Evaluation {
-        standing::judge(&mut entries);
+        standing::set_standings(&mut entries);
         Evaluation { entries, skipped }
     }
 

@@ -8,7 +8,8 @@ use taceva_core::{
 
 use crate::error::MetricError;
 use crate::evaluate::accumulator::Accumulator;
-use crate::evaluate::evaluation::{Entry, Evaluation};
+use crate::evaluate::entry::Entry;
+use crate::evaluate::evaluation::Evaluation;
 use crate::evaluate::number::Number;
 use crate::evaluate::plan::MetricPlan;
 use crate::evaluate::rows::Rows;

@@ -1,7 +1,7 @@
 //! Which metrics are computed, which are not and why, and what that takes.
 
 mod accumulators;
-mod needed;
+mod decide;
 
 use std::collections::BTreeMap;
 
@@ -41,45 +41,6 @@ pub struct MetricPlan {
 }
 
 impl MetricPlan {
-    /// Keeps of `wanted` what samples with these channels and fields allow, in the order of reports.
-    pub fn new(wanted: &[&'static Metric], channels: Channels, available: FieldSet) -> MetricPlan {
-        let in_order = crate::catalogue::ALL.into_iter();
-        let wanted = in_order.filter(|metric| wanted.iter().any(|wanted| wanted.id == metric.id));
-        let plan = MetricPlan {
-            wanted: wanted.collect(),
-            available,
-            channels,
-            facts: SensorFacts::default(),
-            settings: Settings::default(),
-            kept: Vec::new(),
-            skipped: Vec::new(),
-            fields: FieldSet::EMPTY,
-            seed: 0,
-            interval_method: IntervalMethod::default(),
-            constants: BTreeMap::new(),
-            independent: false,
-        };
-        plan.decided()
-    }
-
-    /// The same plan for a sensor of which `facts` are known: what they allow is kept too.
-    ///
-    /// ```
-    /// use taceva_core::{Channel, Channels, FieldSet, Footprint};
-    /// use taceva_metrics::{MetricPlan, SensorFacts, catalogue};
-    /// let channels = Channels::new([Channel::PX, Channel::PY, Channel::PZ, Channel::FZ])?;
-    /// let plan = MetricPlan::new(&catalogue::select(["uniformity"])?, channels, FieldSet::PAIRS);
-    /// assert_eq!(plan.skipped()[0].reason.to_string(), "the sensor's `footprint` is not declared");
-    /// let footprint = Some(Footprint::disc(12.5, Some(1.0))?);
-    /// let plan = plan.with_facts(SensorFacts::default().with_footprint(footprint));
-    /// assert_eq!((plan.kept().len(), plan.skipped().len()), (1, 0));
-    /// # Ok::<(), Box<dyn std::error::Error>>(())
-    /// ```
-    #[must_use]
-    pub fn with_facts(self, facts: SensorFacts) -> MetricPlan {
-        MetricPlan { facts, ..self }.decided()
-    }
-
     /// The same plan with other constants where a definition leaves one open.
     ///
     /// # Errors
@@ -224,59 +185,5 @@ impl MetricPlan {
     /// Whether samples may carry `field`.
     pub(crate) fn carries(&self, field: Field) -> bool {
         self.available.contains(field)
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use taceva_core::{Channel, SkipReason};
-
-    use super::*;
-    use crate::catalogue;
-
-    #[test]
-    fn without_predictions_nothing_is_kept_and_nothing_is_read() {
-        let channels = Channels::new([Channel::FZ]).expect("one channel");
-        let available = FieldSet::PAIRS.without(Field::Prediction);
-        let plan = MetricPlan::new(&catalogue::ALL, channels, available);
-        assert_eq!((plan.kept().len(), plan.fields()), (0, FieldSet::EMPTY));
-        assert_eq!(plan.skipped().len(), catalogue::ALL.len());
-        assert_eq!(
-            plan.skipped()[0].reason,
-            SkipReason::FieldAbsent(Field::Prediction)
-        );
-    }
-
-    #[test]
-    fn samples_without_locations_are_evaluated_all_the_same() {
-        let channels = Channels::new([Channel::FX, Channel::FY]).expect("two channels");
-        let available = FieldSet::PAIRS.without(Field::Point);
-        let wanted = catalogue::select(["accuracy", "mae_euclid"]).expect("known names");
-        let plan = MetricPlan::new(&wanted, channels, available);
-        assert_eq!((plan.skipped(), plan.fields()), (&[][..], available));
-        assert_eq!(plan.accumulators().len(), 2);
-    }
-
-    #[test]
-    fn metrics_of_the_truth_alone_need_no_predictions() {
-        let channels = Channels::new([Channel::PZ, Channel::FZ]).expect("two channels");
-        let truth = FieldSet::EMPTY.with(Field::Truth);
-        let plan = MetricPlan::new(&catalogue::ALL, channels, truth);
-        let kept: Vec<&str> = plan.kept().iter().map(|metric| metric.id).collect();
-        assert_eq!((kept, plan.fields()), (vec!["sensitivity"], truth));
-    }
-
-    #[test]
-    fn half_a_plane_names_the_axis_it_lacks() {
-        let channels = Channels::new([Channel::FX]).expect("one channel");
-        let wanted = catalogue::select(["mae", "mae_euclid"]).expect("known names");
-        let plan = MetricPlan::new(&wanted, channels, FieldSet::PAIRS);
-        assert_eq!(
-            plan.skipped(),
-            [Skipped {
-                what: "metric:mae_euclid".into(),
-                reason: SkipReason::ChannelAbsent("Fy".into())
-            }]
-        );
     }
 }

@@ -5,12 +5,11 @@
 //! that does not fit is taken out of its block and added on its own. Which pairs those are depends on what came before; the
 //! sums do not, because every way is exact.
 
-use std::ops::Range;
-
-use super::bounds::{Bounds, Grids, TERMS};
-use super::grid::{Grid, SquareUnits};
-use super::kernel::{BLOCK_ROWS, Block, ErrorUnits, ValueUnits};
+use super::bounds::{Grids, TERMS};
+use super::divided::Parts;
+use super::kernel::{BLOCK_ROWS, Block};
 use super::machine::Machine;
+use super::pending::{Pending, deposit};
 use super::sum::ExactSum;
 use crate::exact::merge::Merge;
 use crate::families::accuracy::streams::{Stream, Streams};
@@ -20,9 +19,6 @@ use crate::paired::Paired;
 const FEW_ROWS: usize = 4;
 /// Each row adds less than 2⁴⁴ units, so that this many stay within an `i64`.
 const MOST_ROWS: usize = 1 << 19;
-/// Grids move once more than one of so many rows did not fit, and a handful besides.
-const ROWS_PER_STRAY: usize = 16;
-const FREE_STRAYS: usize = 16;
 
 /// Exact sums of the wanted streams, and how many pairs they are of.
 #[derive(Clone, Debug)]
@@ -233,113 +229,6 @@ impl Sums {
             deposit(pending.values.gated, TERMS, &mut self.gated);
         }
     }
-}
-
-/// Units that no superaccumulator has yet.
-#[derive(Clone, Debug)]
-struct Pending {
-    grids: Grids,
-    bounds: Bounds,
-    errors: ErrorUnits,
-    values: ValueUnits,
-    /// Rows whose units are held.
-    rows: usize,
-    /// Rows that fitted since these grids were chosen, and rows that did not.
-    rows_on_grids: usize,
-    strays: usize,
-}
-
-impl Pending {
-    fn new(grids: Grids, streams: Streams) -> Pending {
-        Pending {
-            grids,
-            bounds: Bounds::new(grids, streams),
-            errors: ErrorUnits::default(),
-            values: ValueUnits::default(),
-            rows: 0,
-            rows_on_grids: 0,
-            strays: 0,
-        }
-    }
-
-    /// How many rows may be off these grids before others are chosen.
-    fn free_strays(&self) -> usize {
-        FREE_STRAYS + self.rows_on_grids / ROWS_PER_STRAY
-    }
-
-    fn clear(&mut self) {
-        self.errors = ErrorUnits::default();
-        self.values = ValueUnits::default();
-        self.rows = 0;
-    }
-
-    /// Adds the units of `stream` to `sum`.
-    fn deposit(&self, stream: Stream, sum: &mut ExactSum) {
-        let Grids { residual, truth } = self.grids;
-        match stream {
-            Stream::Absolute => deposit(self.errors.absolute, residual, sum),
-            Stream::Residual => deposit(self.errors.residual, residual, sum),
-            Stream::Squared => deposit_squares(self.errors.squared, residual, sum),
-            Stream::Truth => deposit(self.values.truth, truth, sum),
-            Stream::TruthSquared => deposit_squares(self.values.squared, truth, sum),
-            Stream::Symmetric => deposit(self.values.symmetric, TERMS, sum),
-        }
-    }
-}
-
-/// A block's rows, those that fit before those that stray.
-struct Parts {
-    estimate: [f64; BLOCK_ROWS],
-    reference: [f64; BLOCK_ROWS],
-    strays: usize,
-}
-
-impl Parts {
-    /// Copies `pairs` to one end or the other.
-    fn divide(&mut self, pairs: Paired<&[f64]>, bounds: &Bounds) {
-        let (mut fitting, mut strays) = (0, 0);
-        for pair in pairs.iter() {
-            let fits = bounds.hold(pair);
-            // Without a branch, which would be guessed wrong at each stray.
-            let place = if fits {
-                fitting
-            } else {
-                pairs.estimate.len() - 1 - strays
-            };
-            (self.estimate[place], self.reference[place]) = (pair.estimate, pair.reference);
-            fitting += usize::from(fits);
-            strays += usize::from(!fits);
-        }
-        self.strays = strays;
-    }
-
-    fn rows(&self, rows: Range<usize>) -> Paired<&[f64]> {
-        Paired {
-            estimate: &self.estimate[rows.clone()],
-            reference: &self.reference[rows],
-        }
-    }
-}
-
-impl Default for Parts {
-    fn default() -> Parts {
-        Parts {
-            estimate: [0.0; BLOCK_ROWS],
-            reference: [0.0; BLOCK_ROWS],
-            strays: 0,
-        }
-    }
-}
-
-fn deposit(units: [i64; 2], grid: Grid, sum: &mut ExactSum) {
-    for (units, unit) in units.into_iter().zip(grid.units()) {
-        sum.add_units(units, unit);
-    }
-}
-
-fn deposit_squares([rounded, lost]: SquareUnits, grid: Grid, sum: &mut ExactSum) {
-    deposit(rounded, grid.of_squares(), sum);
-    deposit(lost, grid.of_errors_of_squares(), sum);
 }
 
 fn count(rows: usize) -> u64 {

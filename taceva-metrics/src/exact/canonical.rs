@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use super::sum::DIGITS;
+use super::digits::DIGITS;
 
 /// Digits that a sum read from outside may reach: so far below the end that no number of merges overflows it.
 const READABLE_DIGITS: usize = DIGITS - 4;

@@ -8,9 +8,8 @@ use super::bounds::{Bounds, Grids, TERMS};
 use super::grid::{DEPTH, GridSum, SquareSum, SquareUnits};
 use super::machine::Machine;
 use super::vector::{Job, Vector};
-use crate::families::accuracy::EPSILON;
 use crate::families::accuracy::streams::{Stream, Streams};
-use crate::paired::Paired;
+use crate::paired::{EPSILON, Paired};
 
 /// Rows of the longest block.
 pub(super) const BLOCK_ROWS: usize = 512;

@@ -1,4 +1,7 @@
 //! The instructions that sums are formed with. All give the same bits; they differ in speed alone.
+//!
+//! `taceva-network` has a file like this one. It is not shared: what each instruction set can do is a type of this crate's `simd/`, whose making
+//! proves that the processor has it, and whose operations are those of sums.
 
 use taceva_core::Isa;
 

@@ -3,14 +3,14 @@
 use std::fmt;
 
 use super::canonical::Canonical;
+use super::digits::{
+    Binary, DIGITS, UNIT_EXPONENT, add_to, carry, high_digits, low_digit, split, visit_digits,
+};
 use super::rational::Dyadic;
 
 /// Digits that are kept in place; a sum of one quantity rarely spans more.
 const WINDOW: usize = 8;
-/// Digits of the whole range: from below the square of the least denormal to above 2⁶⁴ squares of the greatest number.
-pub(super) const DIGITS: usize = 140;
-/// The weight of bit 0 of digit 0 is 2 to this power.
-pub(super) const UNIT_EXPONENT: i32 = -2176;
+
 /// The bit of weight one.
 const UNIT_POSITION: usize = 2176;
 /// A deposit changes a digit by less than 2⁵³, so that 1000 of them stay within an `i64`.
@@ -295,87 +295,5 @@ impl serde::Serialize for ExactSum {
 impl<'de> serde::Deserialize<'de> for ExactSum {
     fn deserialize<D: serde::Deserializer<'de>>(deserializer: D) -> Result<ExactSum, D::Error> {
         Canonical::deserialize(deserializer).map(|canonical| ExactSum::from_canonical(&canonical))
-    }
-}
-
-/// A finite binary64 as `sign × mantissa × 2^(position − 1074)`.
-struct Binary {
-    sign: i64,
-    mantissa: u64,
-    position: usize,
-}
-
-impl Binary {
-    #[inline]
-    fn of(value: f64) -> Binary {
-        const FRACTION: u64 = (1 << 52) - 1;
-        let bits = value.to_bits();
-        let exponent = (bits >> 52) & 0x7ff;
-        let implicit = u64::from(exponent != 0) << 52;
-        Binary {
-            sign: 1 - 2 * i64::from(value.is_sign_negative()),
-            mantissa: (bits & FRACTION) | implicit,
-            position: exponent.saturating_sub(1) as usize,
-        }
-    }
-}
-
-/// The digits of `product × 2^(position mod 32)`; a product of two mantissas has at most 106 bits.
-#[inline]
-fn split(product: u128, position: usize) -> [i64; 4] {
-    let shift = position % 32;
-    let low = (product & u128::from(u64::MAX)) << shift;
-    let high = (product >> 64) << shift;
-    [
-        low_digit(low),
-        low_digit(low >> 32),
-        high_digits(low >> 32) + low_digit(high),
-        high_digits(high),
-    ]
-}
-
-/// The lowest 32 bits.
-#[inline]
-fn low_digit(value: u128) -> i64 {
-    (value & 0xffff_ffff) as i64
-}
-
-/// All above the lowest 32 bits, of a number below 2⁹⁵.
-#[inline]
-fn high_digits(value: u128) -> i64 {
-    #[expect(
-        clippy::cast_possible_truncation,
-        reason = "at most 63 bits are left, as the callers' numbers are below 2^95"
-    )]
-    let digits = (value >> 32) as i64;
-    digits
-}
-
-#[inline]
-fn add_to(digits: &mut [i64], parts: &[i64]) {
-    for (digit, part) in digits.iter_mut().zip(parts) {
-        *digit += part;
-    }
-}
-
-/// Brings every digit but the highest into −2³¹..2³¹; balanced, so that a small negative sum stays short.
-fn carry(digits: &mut [i64]) {
-    let Some((highest, others)) = digits.split_last_mut() else {
-        return;
-    };
-    let mut carried = 0;
-    for digit in others {
-        let value = *digit + carried;
-        *digit = value << 32 >> 32;
-        carried = (value - *digit) >> 32;
-    }
-    *highest += carried;
-}
-
-fn visit_digits(first: usize, digits: &[i64], mut visit: impl FnMut(usize, i64)) {
-    for (index, &digit) in (first..).zip(digits) {
-        if digit != 0 {
-            visit(index, digit);
-        }
     }
 }

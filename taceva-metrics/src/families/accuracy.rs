@@ -31,16 +31,11 @@ use crate::families::accuracy::pair_sums::PairSums;
 use crate::score::Parameter;
 use crate::score::value::UndefinedReason;
 
-/// ε of sMAPE, the binary64 nearest to 10⁻⁸, in the unit of the channel: it makes 0/0 a 0.
-pub const EPSILON: f64 = 1e-8;
-
 /// What every score of pairs needs.
 const fn needs(least_samples: u64, channels: &'static [&'static str]) -> Needs {
-    Needs {
-        fields: FieldSet::EMPTY.with(Field::Truth).with(Field::Prediction),
-        channels,
-        least_samples,
-    }
+    Needs::new(FieldSet::EMPTY.with(Field::Truth).with(Field::Prediction))
+        .with_channels(channels)
+        .with_least_samples(least_samples)
 }
 
 pub(crate) fn no_constants(_: Unit) -> Vec<Parameter> {

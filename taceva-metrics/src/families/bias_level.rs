@@ -31,11 +31,8 @@ pub(crate) static BIAS_LEVEL: Metric = Metric {
     documentation: "The greatest magnitude of mean error over the levels of the truth with five samples or more: what is left \
                     where over- and underestimation cancel in the bias of all samples. Levels are 0.1 mm, 0.1 N, 1 degree or \
                     1 N mm wide, from −∞ to +∞, each with its lower edge; `curve` has every level that was met. A greatest value has no interval.",
-    needs: Needs {
-        fields: FieldSet::EMPTY.with(Field::Truth).with(Field::Prediction),
-        channels: &[],
-        least_samples: LEAST_SAMPLES,
-    },
+    needs: Needs::new(FieldSet::EMPTY.with(Field::Truth).with(Field::Prediction))
+        .with_least_samples(LEAST_SAMPLES),
     facts: &[],
     constants: width_and_least,
     formula: Formula::BiasLevel,

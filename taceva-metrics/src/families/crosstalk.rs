@@ -35,11 +35,8 @@ pub(crate) static CROSSTALK: Metric = Metric {
                     being 1 for a sensor without gain error. Where truths are so alike that no joint fit separates them, each \
                     slope is that on its own truth alone, and the score is flagged. Of samples with all six channels, or all \
                     of them that there are. A greatest value has no interval.",
-    needs: Needs {
-        fields: FieldSet::EMPTY.with(Field::Truth).with(Field::Prediction),
-        channels: &[],
-        least_samples: 3,
-    },
+    needs: Needs::new(FieldSet::EMPTY.with(Field::Truth).with(Field::Prediction))
+        .with_least_samples(3),
     facts: &[],
     constants: no_constants,
     formula: Formula::Crosstalk,

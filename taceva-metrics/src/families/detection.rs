@@ -33,11 +33,9 @@ pub(crate) static MINIMUM_DETECTABLE_FORCE: Metric = Metric {
     documentation: "The least force that is distinguished from none, with 5 % of false alarms and 5 % of misses: 3.29 times the standard \
                     deviation (over n − 1) of predicted force over the samples without contact, |true Fz| < 0.02 N. Of forces \
                     only, and from ten such samples on. It says nothing of a constant offset: see bias.",
-    needs: Needs {
-        fields: FieldSet::EMPTY.with(Field::Truth).with(Field::Prediction),
-        channels: &["Fz"],
-        least_samples: LEAST_SAMPLES,
-    },
+    needs: Needs::new(FieldSet::EMPTY.with(Field::Truth).with(Field::Prediction))
+        .with_channels(&["Fz"])
+        .with_least_samples(LEAST_SAMPLES),
     facts: &[],
     constants: factor_and_gate,
     formula: Formula::Detection,

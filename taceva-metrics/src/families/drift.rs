@@ -28,14 +28,13 @@ pub(crate) static DRIFT: Metric = Metric {
     documentation: "By how much the mean error changes an hour: the slope of the line that fits truth − prediction over time best. \
                     Of positions and forces only. Where presses grow deeper as time goes by, an error that depends on depth \
                     looks like drift.",
-    needs: Needs {
-        fields: FieldSet::EMPTY
+    needs: Needs::new(
+        FieldSet::EMPTY
             .with(Field::Truth)
             .with(Field::Prediction)
             .with(Field::Stamp),
-        channels: &[],
-        least_samples: 2,
-    },
+    )
+    .with_least_samples(2),
     facts: &[],
     constants: no_constants,
     formula: Formula::Drift,

@@ -27,14 +27,14 @@ pub(crate) static HYSTERESIS: Metric = Metric {
                     `signed_area` lets stretches in which the gel pushes harder on the way out count negative; `ratio` is the \
                     area over the work of loading; `greatest_difference` the greatest distance of the branches as a share of \
                     full scale, the greatest force of loading; `map` the area by place.",
-    needs: Needs {
-        fields: FieldSet::EMPTY
+    needs: Needs::new(
+        FieldSet::EMPTY
             .with(Field::Truth)
             .with(Field::Phase)
             .with(Field::Point),
-        channels: &["Pz", "Fz"],
-        least_samples: 4,
-    },
+    )
+    .with_channels(&["Pz", "Fz"])
+    .with_least_samples(4),
     facts: &[],
     constants: no_constants,
     formula: Formula::Hysteresis,

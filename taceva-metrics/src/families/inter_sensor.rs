@@ -36,11 +36,9 @@ pub(crate) static INTER_SENSOR: Metric = Metric {
                     steps of iterative closest point otherwise; the gap is the mean of both directions' mean distance to the \
                     nearest point, over the points that lie in the hull of the other unit seen from above. `forward` is the \
                     direction from the unit whose name comes first, `backward` the other; `matrix` has the gap of each pair.",
-    needs: Needs {
-        fields: FieldSet::EMPTY.with(Field::Truth).with(Field::UnitId),
-        channels: &["Px", "Py", SURFACE_CHANNEL],
-        least_samples: 2,
-    },
+    needs: Needs::new(FieldSet::EMPTY.with(Field::Truth).with(Field::UnitId))
+        .with_channels(&["Px", "Py", SURFACE_CHANNEL])
+        .with_least_samples(2),
     facts: &[],
     constants: no_constants,
     formula: Formula::InterSensor,

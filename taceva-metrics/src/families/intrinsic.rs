@@ -34,11 +34,7 @@ pub(crate) static INTRINSIC: Metric = Metric {
                     `field_of_view`: area of the convex hull of the true places with |true Fz| ≥ 0.02 N, or with true Pz > 0 \
                     where no force is measured. `resolution`: pixels of a picture, as declared. They describe the recording: \
                     presses that were never made at the rim are no part of the field of view, and pauses are gaps.",
-    needs: Needs {
-        fields: FieldSet::EMPTY,
-        channels: &[],
-        least_samples: 0,
-    },
+    needs: Needs::new(FieldSet::EMPTY),
     facts: &[],
     constants: no_constants,
     formula: Formula::Intrinsic,

@@ -25,11 +25,8 @@ pub(crate) static LINEARITY: Metric = Metric {
                     full scale, the range of the truth. The line's own error is no part of it: `slope` and `offset` say what a \
                     recalibration would remove. It is set by single samples and grows with their number, so \
                     that it has no interval.",
-    needs: Needs {
-        fields: FieldSet::EMPTY.with(Field::Truth).with(Field::Prediction),
-        channels: &[],
-        least_samples: LEAST_SAMPLES,
-    },
+    needs: Needs::new(FieldSet::EMPTY.with(Field::Truth).with(Field::Prediction))
+        .with_least_samples(LEAST_SAMPLES),
     facts: &[],
     constants: no_constants,
     formula: Formula::Linearity,

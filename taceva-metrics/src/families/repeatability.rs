@@ -9,38 +9,26 @@ pub(crate) use signal::SIGNAL_TO_REPEATABILITY;
 
 use taceva_core::{Field, FieldSet, Needs, Unit};
 
-use crate::exact::{Dyadic, ExactSum};
 use crate::families::family::Numbers;
 use crate::metric::{Formula, Metric, ScoreUnit};
 use crate::score::Parameter;
 use crate::score::better::Better;
 use crate::score::range::Range;
-use crate::score::value::UndefinedReason;
 use spread::SpreadSums;
-
-/// Which score of the spread within cells.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum RepeatMetric {
-    /// The spread itself.
-    Repeatability,
-    /// The spread of the cells' means in relation to it.
-    SignalToRepeatability,
-}
 
 /// The factor between repeatability standard deviation and repeatability limit: f √2 with f = 1.96, rounded to one decimal as
 /// ISO 5725-6 (4.1.4) does.
 pub(crate) const LIMIT_FACTOR: f64 = 2.8;
 
 /// What scores of repeats need.
-const NEEDS: Needs = Needs {
-    fields: FieldSet::EMPTY
+const NEEDS: Needs = Needs::new(
+    FieldSet::EMPTY
         .with(Field::Prediction)
         .with(Field::Point)
         .with(Field::DepthStep)
         .with(Field::Repeat),
-    channels: &[],
-    least_samples: 2,
-};
+)
+.with_least_samples(2);
 
 pub(crate) static REPEATABILITY: Metric = Metric {
     id: "repeatability",
@@ -57,7 +45,7 @@ pub(crate) static REPEATABILITY: Metric = Metric {
     needs: NEEDS,
     facts: &[],
     constants: limit_factor,
-    formula: Formula::Repeats(RepeatMetric::Repeatability),
+    formula: Formula::Repeatability,
 };
 
 fn limit_factor(_: Unit) -> Vec<Parameter> {
@@ -84,12 +72,4 @@ fn repeatability(spreads: &SpreadSums, unit: Unit) -> Numbers {
             Range::Positive,
             pooled.map(|pooled| LIMIT_FACTOR * pooled),
         )
-}
-
-/// RN of the mean of exact values.
-fn mean(sum: &ExactSum, count: u64) -> Result<f64, UndefinedReason> {
-    if count == 0 {
-        return Err(UndefinedReason::NoRepeatedPress);
-    }
-    Ok(sum.to_dyadic().over(&Dyadic::from(count)))
 }

@@ -25,19 +25,7 @@ use crate::score::flag::Flag;
 use crate::score::map::Map;
 use crate::score::value::{InapplicableReason, Value};
 use crate::score::{Count, Parameter, Variant};
-use sums::{Place, Press, SurfaceSums};
-
-/// The scores that are finished from the sums of a surface.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum SurfaceMetric {
-    /// How far it yields.
-    Sensitivity,
-    /// How alike it yields everywhere.
-    Uniformity,
-}
-
-/// The variant that leaves out what has shear.
-const NORMAL_ONLY: &str = "normal_only";
+use sums::{NORMAL_ONLY, Place, Press, SurfaceSums};
 
 /// Sums of the compliance of the surface, by cell where there is a footprint.
 pub(crate) struct Surface {
@@ -52,7 +40,8 @@ pub(crate) struct Surface {
 impl Surface {
     /// What the kept metrics of `plan` need; `None` if they need nothing of the kind.
     pub(crate) fn for_plan(plan: &MetricPlan) -> Option<Surface> {
-        let wanted = |metric: &&Metric| matches!(metric.formula, Formula::Surface(_));
+        let wanted =
+            |metric: &&Metric| matches!(metric.formula, Formula::Sensitivity | Formula::Uniformity);
         plan.kept().iter().copied().find(wanted)?;
         let position = |name: &'static str| plan.channels().position(name).ok_or(name);
         let both = |[first, second]: [&'static str; 2]| Ok([position(first)?, position(second)?]);
@@ -163,8 +152,8 @@ impl Family for Surface {
 
     fn outputs(&self, metric: &Metric) -> Vec<Output> {
         let of: &[&str] = match metric.formula {
-            Formula::Surface(SurfaceMetric::Sensitivity) => &["Pz", "Fz"],
-            Formula::Surface(SurfaceMetric::Uniformity) => &["Px", "Py", "Pz", "Fz"],
+            Formula::Sensitivity => &["Pz", "Fz"],
+            Formula::Uniformity => &["Px", "Py", "Pz", "Fz"],
             _ => return Vec::new(),
         };
         vec![Output {
@@ -177,7 +166,7 @@ impl Family for Surface {
 
     fn count(&self, metric: &Metric, sums: &SurfaceSums) -> u64 {
         match metric.formula {
-            Formula::Surface(SurfaceMetric::Uniformity) => sums.binned(),
+            Formula::Uniformity => sums.binned(),
             _ => sums.compliance.n,
         }
     }
@@ -188,9 +177,7 @@ impl Family for Surface {
 
     fn numbers(&self, metric: &Metric, _output: &Output, sums: &SurfaceSums) -> Numbers {
         let mut numbers = match metric.formula {
-            Formula::Surface(SurfaceMetric::Uniformity) => {
-                uniformity::uniformity(sums, &self.settings)
-            }
+            Formula::Uniformity => uniformity::uniformity(sums, &self.settings),
             _ => sensitivity::sensitivity(sums),
         };
         if self.shear.is_err() {
@@ -237,7 +224,7 @@ impl Family for Surface {
             parameter("ddof", f64::from(self.settings.ddof)),
         ]);
         match metric.formula {
-            Formula::Surface(SurfaceMetric::Sensitivity) => {
+            Formula::Sensitivity => {
                 let map = Value::Map(self.map(grid, sums));
                 let map = Variant::plain("map", Unit::MillimetrePerNewton, map);
                 details.variants.push(map);

@@ -35,11 +35,8 @@ pub(crate) static TOLERANCE: Metric = Metric {
                     unit first, so that 0.40 is within 0.05 of 0.35; an error as large as the tolerance is within it. `of_constant` is the \
                     share that the constant of the skill score reaches, where the training part is known: a score whose interval \
                     does not lie above it takes part in no verdict.",
-    needs: Needs {
-        fields: FieldSet::EMPTY.with(Field::Truth).with(Field::Prediction),
-        channels: &[],
-        least_samples: 1,
-    },
+    needs: Needs::new(FieldSet::EMPTY.with(Field::Truth).with(Field::Prediction))
+        .with_least_samples(1),
     facts: &[],
     constants: headline,
     formula: Formula::Tolerance,

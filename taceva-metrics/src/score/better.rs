@@ -1,7 +1,5 @@
 //! Which values are good, and the sign that says so beside a name.
 
-use crate::catalogue;
-
 /// Which values of a metric are good.
 ///
 /// ```
@@ -23,33 +21,7 @@ pub enum Better {
     Described,
 }
 
-/// Variants that are read otherwise than their metric.
-const OF_VARIANTS: [(&str, Better); 8] = [
-    ("skill.constant", Better::Described),
-    ("sr.of_constant", Better::Described),
-    ("r_spatial.noise_floor", Better::Described),
-    ("linearity.slope", Better::Described),
-    ("linearity.offset", Better::NearZero),
-    ("uniformity.mean", Better::Described),
-    ("uniformity.deviation", Better::Lower),
-    ("hysteresis.signed_area", Better::NearZero),
-];
-
 impl Better {
-    /// That of the metric or variant called `name`: `mae`, `hysteresis.ratio`; none of names that are not in the catalogue.
-    ///
-    /// ```
-    /// use taceva_metrics::Better;
-    /// assert_eq!(Better::of("r2"), Some(Better::Higher));
-    /// assert_eq!(Better::of("linearity.offset"), Some(Better::NearZero));
-    /// assert_eq!(Better::of("beauty"), None);
-    /// ```
-    pub fn of(name: &str) -> Option<Better> {
-        let metric = name.split('.').next().and_then(catalogue::find)?;
-        let own = OF_VARIANTS.iter().find(|(variant, _)| *variant == name);
-        Some(own.map_or(metric.better, |(_, better)| *better))
-    }
-
     /// `name` as it stands in every table, with the sign of the direction behind it: `mae ↓`, `r2 ↑`, `bias →0`; nothing behind what only
     /// describes.
     ///
@@ -66,12 +38,6 @@ impl Better {
             Better::Described => "",
         };
         format!("{name}{sign}")
-    }
-
-    /// The name of a metric or variant with its sign; a name that is not in the catalogue as it is.
-    #[must_use]
-    pub fn named(name: &str) -> String {
-        Better::of(name).map_or_else(|| name.to_owned(), |better| better.beside(name))
     }
 
     /// The word for it in files: `lower`, `higher`, `near zero` or `none`.
@@ -101,23 +67,5 @@ mod tests {
         assert_eq!(all.map(|better| better.beside("")), [" ↓", " ↑", " →0", ""]);
         let words = ["lower", "higher", "near zero", "none"];
         assert_eq!(all.map(Better::name), words);
-    }
-
-    #[test]
-    fn every_metric_of_the_catalogue_is_named_with_its_own_sign() {
-        for metric in catalogue::ALL {
-            assert_eq!(Better::of(metric.id), Some(metric.better), "{}", metric.id);
-            let other = format!("{}.any", metric.id);
-            assert_eq!(Better::named(&other), metric.better.beside(&other));
-        }
-        for (name, better) in OF_VARIANTS {
-            let (metric, _) = name.split_once('.').expect("a variant");
-            assert_ne!(
-                catalogue::find(metric).map(|metric| metric.better),
-                Some(better),
-                "{name}"
-            );
-        }
-        assert_eq!(Better::named("beauty"), "beauty");
     }
 }

@@ -53,6 +53,12 @@ impl Curve {
 }
 
 /// Two curves around a third, a plain pair: it gets no further fields.
+///
+/// ```
+/// use taceva_metrics::Band;
+/// let band = Band { low: vec![Some(0.1), None], high: vec![Some(0.3), None] };
+/// assert_eq!(band.low.len(), band.high.len());
+/// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Band {
     /// The lower one.

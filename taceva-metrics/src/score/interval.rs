@@ -1,7 +1,8 @@
 //! How sure a score is: both ends of its interval, and how they were found.
 
+use crate::score::bootstrap_ends::BootstrapEnds;
+use crate::score::scale::Scale;
 use crate::score::value::UndefinedReason;
-use crate::stats::{BootstrapEnds, Scale};
 
 /// What the clusters of an interval are.
 ///

@@ -1,19 +1,6 @@
-//! Whether a score takes part in verdicts: the one rule that every output asks and none repeats.
-//!
-//! A verdict is a claim: a bold face, a rank, a place on a radar, an answer of a comparison, a choice or an acceptance. A model that
-//! answers the same whatever it sees repeats itself perfectly, follows a line without an error and is moved by no light: its scores
-//! are numbers, and claim nothing.
+//! Whether a score takes part in verdicts, and the reason if it does not.
 
 use std::fmt;
-
-use taceva_core::Field;
-
-use crate::evaluate::evaluation::Entry;
-use crate::families::resolution::OF_CONSTANT;
-use crate::metric::{Formula, Metric};
-use crate::score::flag::Flag;
-use crate::score::value::UndefinedReason;
-use crate::score::{Interval, Score};
 
 /// The share of predictions brought back to their bounds from which on a score is of the bounds rather than of the model.
 pub const GREATEST_BOUNDED_SHARE: f64 = 0.05;
@@ -121,25 +108,6 @@ impl Standing {
             false => Standing::Counts,
         }
     }
-
-    /// The standing of a score of `metric` that is made of `channels`, whose skill is what `skill_of` says of each.
-    ///
-    /// Metrics of the truth alone always count; a score of several channels has the worst of their standings.
-    pub fn of_channels<'a>(
-        metric: &Metric,
-        channels: impl IntoIterator<Item = &'a str>,
-        skill_of: impl Fn(&str) -> Standing,
-    ) -> Standing {
-        if metric.needs.fields.contains(Field::PredictedSpacing) {
-            // Whoever knows the share of the best constant answer says more.
-            return Standing::SkillUnknown;
-        }
-        if !metric.reads_predictions() {
-            return Standing::Counts;
-        }
-        let standings = channels.into_iter().map(skill_of);
-        standings.max().unwrap_or(Standing::SkillUnknown)
-    }
 }
 
 impl fmt::Display for Standing {
@@ -148,109 +116,9 @@ impl fmt::Display for Standing {
     }
 }
 
-impl Metric {
-    /// Whether predictions of channels enter it.
-    pub fn reads_predictions(&self) -> bool {
-        self.needs.fields.contains(Field::Prediction)
-    }
-
-    /// Whether it reads predictions as the model gives them, and not brought back to the bounds of the model: robustness would be that of
-    /// the bounds otherwise.
-    pub fn reads_unbounded_predictions(&self) -> bool {
-        matches!(self.formula, Formula::Spatial | Formula::Lighting)
-    }
-}
-
-/// Gives each of `entries` the standing that the skill scores and the bounded shares among them determine.
-pub(crate) fn judge(entries: &mut [Entry]) {
-    let skills: Vec<(String, Standing)> = entries
-        .iter()
-        .filter(|entry| matches!(entry.metric.formula, Formula::Skill))
-        .map(|entry| (entry.channel.clone(), of_skill_score(&entry.score)))
-        .collect();
-    for entry in entries {
-        let standing = of_score(entry.metric, &entry.channel, &entry.score, &skills);
-        entry.score.standing = standing;
-    }
-}
-
-fn of_skill_score(skill: &Score) -> Standing {
-    Standing::of_skill(low_end(skill))
-}
-
-/// Where the interval of a score begins.
-fn low_end(score: &Score) -> Option<f64> {
-    match score.interval {
-        // A model that errs nowhere leaves nothing that could vary.
-        Interval::Undefined(UndefinedReason::AtEnd) => score.value.scalar(),
-        interval => interval.ends().map(|[low, _]| low),
-    }
-}
-
-/// The channels that a score called `channel` is made of.
-pub(crate) fn channels(channel: &str, score: &Score) -> Vec<String> {
-    match score.of.is_empty() {
-        true => vec![channel.to_owned()],
-        false => score.of.clone(),
-    }
-}
-
-fn of_score(
-    metric: &Metric,
-    channel: &str,
-    score: &Score,
-    skills: &[(String, Standing)],
-) -> Standing {
-    if matches!(metric.formula, Formula::Resolution) {
-        return of_share(score);
-    }
-    let channels = channels(channel, score);
-    let of_channel = |name: &str| {
-        let mut skills = skills.iter().rev();
-        let found = skills.find(|(channel, _)| channel == name);
-        found.map(|(_, standing)| *standing)
-    };
-    let skill = Standing::of_channels(metric, channels.iter().map(String::as_str), |name| {
-        of_channel(name).unwrap_or(Standing::SkillUnknown)
-    });
-    let bounded = score
-        .bounded_share
-        .map_or(Standing::Counts, Standing::of_bounded_share);
-    let of_tolerance = match metric.formula {
-        Formula::Tolerance => match of_share(score) {
-            Standing::NoSkill => Standing::NotAboveConstant,
-            // Without a constant that is known, skill alone decides.
-            _ => Standing::Counts,
-        },
-        _ => Standing::Counts,
-    };
-    let is_low = score.flags.contains(&Flag::LowStimulus);
-    let light = if is_low {
-        Standing::LowStimulus
-    } else {
-        Standing::Counts
-    };
-    [skill, bounded, of_tolerance, light]
-        .into_iter()
-        .max()
-        .unwrap_or_default()
-}
-
-/// A share of right answers shows skill where its interval lies above what a constant answer would reach.
-fn of_share(score: &Score) -> Standing {
-    let of_constant = score
-        .variant(OF_CONSTANT)
-        .and_then(|variant| variant.value.scalar());
-    match of_constant {
-        None => Standing::SkillUnknown,
-        Some(constant) => Standing::of_skill(low_end(score).map(|low| low - constant)),
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::catalogue;
 
     #[test]
     fn the_words_of_a_standing_lead_back_to_it() {
@@ -279,47 +147,5 @@ mod tests {
     fn five_percent_are_not_yet_bounded() {
         assert_eq!(Standing::of_bounded_share(0.05), Standing::Counts);
         assert_eq!(Standing::of_bounded_share(0.0501), Standing::Bounded);
-    }
-
-    #[test]
-    fn a_score_of_several_channels_has_the_worst_of_their_standings() {
-        let skill_of = |name: &str| match name {
-            "Px" => Standing::Counts,
-            "Py" => Standing::NoSkill,
-            _ => Standing::SkillUnknown,
-        };
-        let mae = catalogue::find("mae").expect("known");
-        let of = |channels: &[&str]| Standing::of_channels(mae, channels.iter().copied(), skill_of);
-        assert_eq!(of(&["Px"]), Standing::Counts);
-        assert_eq!(of(&["Px", "Py"]), Standing::NoSkill);
-        assert_eq!(of(&["Px", "Fz"]), Standing::SkillUnknown);
-    }
-
-    #[test]
-    fn metrics_of_the_truth_alone_always_count() {
-        let of_truth: Vec<&str> = catalogue::ALL
-            .into_iter()
-            .filter(|metric| {
-                let standing = Standing::of_channels(metric, ["Pz"], |_| Standing::NoSkill);
-                standing == Standing::Counts
-            })
-            .map(|metric| metric.id)
-            .collect();
-        let expected = [
-            "sensitivity",
-            "uniformity",
-            "hysteresis",
-            "inter_sensor",
-            "intrinsic",
-        ];
-        assert_eq!(of_truth, expected);
-    }
-
-    #[test]
-    fn robustness_alone_reads_predictions_beyond_the_bounds() {
-        let unbounded = catalogue::ALL.into_iter();
-        let unbounded = unbounded.filter(|metric| metric.reads_unbounded_predictions());
-        let ids: Vec<&str> = unbounded.map(|metric| metric.id).collect();
-        assert_eq!(ids, ["r_spatial", "r_light"]);
     }
 }

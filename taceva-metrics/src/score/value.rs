@@ -215,11 +215,11 @@ impl fmt::Display for UndefinedReason {
             UndefinedReason::NoChange => f.write_str("neither light nor error changed"),
             UndefinedReason::Overflow => f.write_str("beyond the range of binary64"),
             UndefinedReason::TooFewClusters { have } => {
-                let least = crate::stats::jackknife::LEAST_CLUSTERS;
+                let least = crate::stats::least::LEAST_CLUSTERS;
                 write!(f, "{have} clusters, {least} are needed")
             }
             UndefinedReason::TooFewReplicates { defined, drawn } => {
-                let least = crate::stats::LEAST_REPLICATES;
+                let least = crate::stats::least::LEAST_REPLICATES;
                 write!(
                     f,
                     "{defined} of {drawn} replicates have a value, 95 % and at least {least} are needed"

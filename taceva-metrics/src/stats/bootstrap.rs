@@ -1,18 +1,14 @@
 //! How far a score would move with other contact locations: the Poisson bootstrap.
 
-use std::fmt;
-
-use super::ends::{Ends, Estimated, Moved, Scale};
-use super::jackknife::LEAST_CLUSTERS;
+use super::ends::{Ends, Estimated, Moved};
+use super::least::{LEAST_CLUSTERS, LEAST_REPLICATES};
 use super::poisson::weight;
 use super::random::bits;
 use crate::score::value::UndefinedReason;
-use crate::score::{ClusteredBy, Interval};
+use crate::score::{BootstrapEnds, ClusteredBy, Interval, Scale};
 
 /// Which share of the replicates may have no value.
 const UNDEFINED_IN: usize = 20;
-/// Replicates below which the ends of an interval of 95 % are not among them.
-pub(crate) const LEAST_REPLICATES: usize = 39;
 
 /// An interval from replicates, in each of which every cluster counts a random number of times.
 ///
@@ -73,29 +69,6 @@ impl PoissonBootstrap {
     #[must_use]
     pub const fn with_ends(self, ends: BootstrapEnds) -> PoissonBootstrap {
         PoissonBootstrap { ends, ..self }
-    }
-}
-
-/// How an interval is read off bootstrap replicates.
-///
-/// ```
-/// assert_eq!(taceva_metrics::BootstrapEnds::Percentile.to_string(), "percentile");
-/// ```
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-#[non_exhaustive]
-pub enum BootstrapEnds {
-    /// Of B replicates in their order the k-th and the (B + 1 − k)-th, k = ⌊(B + 1) / 40⌋: skewed where the score is.
-    Percentile,
-    /// The value ± t(G − 1) standard deviations of the replicates, on a scale without ends.
-    Normal,
-}
-
-impl fmt::Display for BootstrapEnds {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            BootstrapEnds::Percentile => "percentile",
-            BootstrapEnds::Normal => "normal",
-        })
     }
 }
 

@@ -3,13 +3,10 @@
 use std::fmt;
 
 use super::error::ComparisonError;
-use super::holm::{Step, steps};
+use super::holm::{LEVEL, Step, steps};
 use super::sides::Sides;
 use super::student::{quantile, two_sided, upper};
 use crate::score::value::UndefinedReason;
-
-/// How seldom chance may look like an answer.
-pub(super) const LEVEL: f64 = 0.05;
 
 /// The score of A less that of B.
 ///

@@ -1,34 +1,11 @@
 //! The ends of an interval, on a scale on which its quantity has no ends, and carried back.
 
-use std::fmt;
-
 use super::exponential::exponential;
 use super::logarithm::logarithm;
 use super::student::quantile;
-use crate::score::COVERAGE;
 use crate::score::range::Range;
 use crate::score::value::UndefinedReason;
-
-/// On which scale an interval is symmetric about its value.
-///
-/// ```
-/// use taceva_metrics::Scale;
-/// assert_eq!(Scale::Logarithm.to_string(), ", logarithmic");
-/// ```
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-#[non_exhaustive]
-pub enum Scale {
-    /// That of the quantity itself.
-    Own,
-    /// The logarithm of the distance from the one end of the range.
-    Logarithm,
-    /// The logarithm of the distances from both ends, one over the other.
-    Logit,
-    /// That of the quantity itself, and cut where its range ends.
-    Cut,
-    /// That of a test of each share: Wilson's, with as many samples as the clusters are worth.
-    Wilson,
-}
+use crate::score::{COVERAGE, Scale};
 
 /// What is known of an estimate before it has an interval.
 #[derive(Clone, Copy, Debug)]
@@ -188,19 +165,6 @@ fn as_f64(count: u64) -> f64 {
     )]
     let count = count as f64;
     count
-}
-
-impl fmt::Display for Scale {
-    /// What is said behind the way in which an interval was found; nothing of the quantity's own scale.
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Scale::Own => "",
-            Scale::Logarithm => ", logarithmic",
-            Scale::Logit => ", logit",
-            Scale::Cut => ", cut to the range",
-            Scale::Wilson => ", Wilson with effective samples",
-        })
-    }
 }
 
 #[cfg(test)]

@@ -3,7 +3,7 @@
 use std::error::Error;
 use std::fmt;
 
-use super::jackknife::LEAST_CLUSTERS;
+use super::least::LEAST_CLUSTERS;
 use super::sides::{Side, Sides};
 use crate::score::value::{InapplicableReason, UndefinedReason};
 

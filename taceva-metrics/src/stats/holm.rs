@@ -1,7 +1,9 @@
 //! Many tests at once.
 
-use super::difference::LEVEL;
 use super::error::ComparisonError;
+
+/// How seldom chance may look like an answer.
+pub(super) const LEVEL: f64 = 0.05;
 
 /// The p values of a family of tests, adjusted so that all of them together err as rarely as one alone would: in the order
 /// given.

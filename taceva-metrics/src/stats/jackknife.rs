@@ -1,12 +1,10 @@
 //! How far a score would move with other contact locations: the delete-one-cluster jackknife.
 
 use super::ends::{Ends, Estimated, Moved};
+use super::least::LEAST_CLUSTERS;
 use crate::score::range::Range;
 use crate::score::value::UndefinedReason;
 use crate::score::{ClusteredBy, Interval};
-
-/// Clusters below which there is no interval.
-pub(crate) const LEAST_CLUSTERS: usize = 5;
 
 /// Degrees of freedom below which the variance of a few clusters is not said to be known: with fewer the interval is several times as wide
 /// where one cluster makes all of the variance, and holds the truth no more often.

@@ -3,7 +3,8 @@
 use super::cluster_sums::{ClusterSum, ClusterSums};
 use super::difference::Spread;
 use super::error::ComparisonError;
-use super::jackknife::{self, LEAST_CLUSTERS, LeftOut};
+use super::jackknife::{self, LeftOut};
+use super::least::LEAST_CLUSTERS;
 use super::sides::{Side, Sides};
 use crate::exact::{Dyadic, ExactSum};
 use crate::score::value::UndefinedReason;

@@ -2,7 +2,7 @@
 
 use super::difference::{Difference, DifferenceTest, Inverse, Spread};
 use super::error::ComparisonError;
-use super::jackknife::LEAST_CLUSTERS;
+use super::least::LEAST_CLUSTERS;
 use super::sides::{Side, Sides};
 use crate::score::value::{InapplicableReason, UndefinedReason, Value};
 use crate::score::{Interval, Score};

@@ -35,11 +35,9 @@ fn variant_said(evaluation: &Evaluation, metric: &str, label: &str, name: &str) 
 }
 
 fn lit(point: usize, scene: &str, intensity: f64, error: f64) -> Sample {
-    Sample {
-        scene_id: Some(scene.to_owned()),
-        intensity: Some(intensity),
-        ..pressed(point, [0.0, 0.0, 0.5], 1.0, error)
-    }
+    pressed(point, [0.0, 0.0, 0.5], 1.0, error)
+        .with_scene_id(scene.to_owned())
+        .with_intensity(intensity)
 }
 
 #[test]
@@ -145,14 +143,11 @@ fn presses_below_the_gate_or_off_the_surface_are_counted_apart() {
 }
 
 #[test]
-fn shear_that_nobody_measures_leaves_no_normal_presses_to_tell() {
+fn shear_that_nobody_measures_leaves_no_normal_presses_to_select() {
     let wanted = catalogue::select(["sensitivity"]).expect("known names");
     let channels = Channels::new([Channel::PZ, Channel::FZ]).expect("two channels");
     let plan = MetricPlan::new(&wanted, channels, FieldSet::PAIRS);
-    let sample = Sample {
-        truth: Readings::from_values([0.5, 2.0]),
-        ..Sample::default()
-    };
+    let sample = Sample::default().with_truth(Readings::from_values([0.5, 2.0]));
     let evaluation = evaluator(&plan, [&sample])
         .finish()
         .expect("the plan's channels");
@@ -166,10 +161,8 @@ fn shear_that_nobody_measures_leaves_no_normal_presses_to_tell() {
             .map(|score| score.variant("map")),
         Some(None)
     );
-    let sheared = Sample {
-        truth: Readings::from_values([0.0, 0.0, 0.5, 0.1, 0.0, 2.0]),
-        ..Sample::default()
-    };
+    let sheared =
+        Sample::default().with_truth(Readings::from_values([0.0, 0.0, 0.5, 0.1, 0.0, 2.0]));
     let evaluation = evaluate(&["sensitivity"], &[sheared]);
     assert_eq!(
         variant_said(&evaluation, "sensitivity", "Fz", "normal_only"),
@@ -217,11 +210,11 @@ fn boards_without_a_name_are_clusters_by_what_is_on_them() {
         .with(Field::PredictedSpacing);
     let plan = MetricPlan::new(&wanted, Channels::default(), gratings);
     let samples: Vec<Sample> = (0..30)
-        .map(|row| Sample {
-            kind: Some(GratingKind::Line),
-            spacing: Some(Nanometre(250_000 + 50_000 * (row % 6))),
-            predicted_spacing: Some(Nanometre(300_000)),
-            ..Sample::default()
+        .map(|row| {
+            Sample::default()
+                .with_kind(GratingKind::Line)
+                .with_spacing(Nanometre(250_000 + 50_000 * (row % 6)))
+                .with_predicted_spacing(Nanometre(300_000))
         })
         .collect();
     let evaluation = evaluator(&plan, &samples)

@@ -30,12 +30,10 @@ fn states_of_another_surface_or_other_constants_are_refused() {
 
 #[test]
 fn a_state_with_impossible_content_is_refused_and_changes_nothing() {
-    let sample = Sample {
-        kind: Some(GratingKind::Line),
-        spacing: Some(Nanometre(350_000)),
-        predicted_spacing: Some(Nanometre(350_000)),
-        ..lit(0, "S1", 100.0, 0.5)
-    };
+    let sample = lit(0, "S1", 100.0, 0.5)
+        .with_kind(GratingKind::Line)
+        .with_spacing(Nanometre(350_000))
+        .with_predicted_spacing(Nanometre(350_000));
     let whole = evaluator(&plan(&METRICS), &[sample])
         .states()
         .expect("the plan's channels");

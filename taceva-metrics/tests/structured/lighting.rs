@@ -12,13 +12,13 @@ fn robustness_to_lighting_is_one_rational_of_four_numbers() {
             case,
             &["Ic", "Io", "MAEc", "MAEo", "dec", "status", "R", "R_plus"],
         );
-        let sample = |row: usize, scene: &str, intensity: &str, error: &str| Sample {
-            point_id: point(row),
-            scene_id: Some(scene.to_owned()),
-            intensity: Some(exact(&case[intensity])),
-            truth: Readings::from_values([0.0]),
-            prediction: Some(Readings::from_values([exact(&case[error])])),
-            ..Sample::default()
+        let sample = |row: usize, scene: &str, intensity: &str, error: &str| {
+            Sample::default()
+                .with_point_id(point(row))
+                .with_scene_id(scene.to_owned())
+                .with_intensity(exact(&case[intensity]))
+                .with_truth(Readings::from_values([0.0]))
+                .with_prediction(Readings::from_values([exact(&case[error])]))
         };
         let samples: Vec<Sample> = (0..6)
             .flat_map(|row| {

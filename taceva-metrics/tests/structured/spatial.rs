@@ -48,12 +48,10 @@ fn spatial_robustness_is_formed_in_whole_nanometres() {
             let error = (real(&params["scale"]) * random.bell()).abs();
             let place = [x, y, depth].map(|length| Some(millimetres(length)));
             let truth = place.into_iter().chain([Some(0.0)]).collect();
-            Sample {
-                point_id: point(row),
-                truth: Readings::new(truth),
-                prediction: Some(Readings::new(vec![None, None, None, Some(error)])),
-                ..Sample::default()
-            }
+            Sample::default()
+                .with_point_id(point(row))
+                .with_truth(Readings::new(truth))
+                .with_prediction(Readings::new(vec![None, None, None, Some(error)]))
         })
         .collect();
     let footprint = Footprint::disc(millimetres(reach), Some(millimetres(deepest)));

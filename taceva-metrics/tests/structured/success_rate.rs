@@ -3,13 +3,11 @@
 use super::*;
 
 fn spacing_sample(row: usize, truth: Nanometre, predicted: Nanometre) -> Sample {
-    Sample {
-        point_id: point(row),
-        kind: Some(GratingKind::Line),
-        spacing: Some(truth),
-        predicted_spacing: Some(predicted),
-        ..Sample::default()
-    }
+    Sample::default()
+        .with_point_id(point(row))
+        .with_kind(GratingKind::Line)
+        .with_spacing(truth)
+        .with_predicted_spacing(predicted)
 }
 
 /// The share of `samples` within `tolerance`, which must be the same in every way.

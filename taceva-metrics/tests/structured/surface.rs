@@ -39,11 +39,14 @@ fn sensitivity_and_uniformity_are_rationals_rounded_once() {
             if row % 501 == 0 {
                 force = 0.02;
             }
-            Sample {
-                point_id: point(row),
-                truth: Readings::from_values([millimetres(x), millimetres(y), z, force]),
-                ..Sample::default()
-            }
+            Sample::default()
+                .with_point_id(point(row))
+                .with_truth(Readings::from_values([
+                    millimetres(x),
+                    millimetres(y),
+                    z,
+                    force,
+                ]))
         })
         .collect();
     let side = millimetres(half);

@@ -27,12 +27,10 @@ pub(crate) fn plan(metrics: &[&str]) -> MetricPlan {
 pub(crate) fn press(point: usize, place: [f64; 3], force_n: f64, error: f64) -> Sample {
     let [x, y, z] = place;
     let truth = [x, y, z, 0.0, 0.0, force_n];
-    Sample {
-        point_id: Some(format!("point {point}")),
-        truth: Readings::from_values(truth),
-        prediction: Some(Readings::from_values(truth.map(|value| value + error))),
-        ..Sample::default()
-    }
+    Sample::default()
+        .with_point_id(format!("point {point}"))
+        .with_truth(Readings::from_values(truth))
+        .with_prediction(Readings::from_values(truth.map(|value| value + error)))
 }
 
 /// An evaluator that has taken in `samples` one by one.

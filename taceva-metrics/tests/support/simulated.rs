@@ -39,10 +39,10 @@ pub(crate) type Each<T> = [T; METRICS.len()];
 const DEVIATION_N: f64 = 0.1;
 /// Between which true forces lie.
 const FORCES_N: Range<f64> = 0.5..2.0;
-/// The spacing of the grating, and how wrong it is told where a force is wrong by a newton.
+/// The spacing of the grating, and how wrong its prediction is where a force is wrong by a newton.
 const SPACING_NM: i64 = 1_000_000;
 const SPACING_ERROR_NM: f64 = 350_000.0;
-/// How wrong a spacing may be told: 0.05 mm.
+/// How wrong the prediction of a spacing may be: 0.05 mm.
 const TOLERANCE_NM: f64 = 50_000.0;
 /// Between which compliances of locations lie.
 const COMPLIANCES_MM_PER_N: Range<f64> = 0.2..0.4;
@@ -208,30 +208,26 @@ struct Press {
 }
 
 impl Press {
-    /// Force, its prediction, and the spacing that is told of a grating.
+    /// Force, its prediction, and the spacing that is predicted of a grating.
     fn force(&self) -> Sample {
         #[expect(clippy::cast_possible_truncation, reason = "a few millimetres")]
-        let told = SPACING_NM + (self.error_n * SPACING_ERROR_NM).round() as i64;
-        Sample {
-            point_id: Some(self.point.clone()),
-            kind: Some(GratingKind::Line),
-            spacing: Some(Nanometre(SPACING_NM)),
-            predicted_spacing: Some(Nanometre(told)),
-            truth: Readings::from_values([self.force_n]),
-            prediction: Some(Readings::from_values([self.force_n - self.error_n])),
-            ..Sample::default()
-        }
+        let predicted = SPACING_NM + (self.error_n * SPACING_ERROR_NM).round() as i64;
+        Sample::default()
+            .with_point_id(self.point.clone())
+            .with_kind(GratingKind::Line)
+            .with_spacing(Nanometre(SPACING_NM))
+            .with_predicted_spacing(Nanometre(predicted))
+            .with_truth(Readings::from_values([self.force_n]))
+            .with_prediction(Readings::from_values([self.force_n - self.error_n]))
     }
 
-    /// A place, and where it is told to be.
+    /// A place, and where it is predicted to be.
     fn place(&self) -> Sample {
         let error_mm = SHORT_BY * self.place_mm + PLACE_ERROR_MM_PER_N * self.error_n;
-        Sample {
-            point_id: Some(self.point.clone()),
-            truth: Readings::from_values([self.place_mm]),
-            prediction: Some(Readings::from_values([self.place_mm - error_mm])),
-            ..Sample::default()
-        }
+        Sample::default()
+            .with_point_id(self.point.clone())
+            .with_truth(Readings::from_values([self.place_mm]))
+            .with_prediction(Readings::from_values([self.place_mm - error_mm]))
     }
 
     /// Place, depth and force.
@@ -239,11 +235,9 @@ impl Press {
         let place = [self.cell % CELLS, self.cell / CELLS];
         let [x, y] = place.map(|at| f64::from(at) + 0.5 - f64::from(CELLS) / 2.0);
         let depth_mm = self.compliance_mm_per_n * self.force_n;
-        Sample {
-            point_id: Some(self.point.clone()),
-            truth: Readings::from_values([x, y, depth_mm, self.force_n]),
-            ..Sample::default()
-        }
+        Sample::default()
+            .with_point_id(self.point.clone())
+            .with_truth(Readings::from_values([x, y, depth_mm, self.force_n]))
     }
 }
 

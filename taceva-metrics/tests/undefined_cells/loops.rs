@@ -3,9 +3,8 @@
 use super::*;
 
 fn loop_at(point: &str, corners: &[(Phase, f64, f64)]) -> Vec<Sample> {
-    let sample = |&(phase, depth, force): &(Phase, f64, f64)| Sample {
-        phase: Some(phase),
-        ..at(point, pair(&[1.0, 2.0, depth, force], &[0.0; 4]))
+    let sample = |&(phase, depth, force): &(Phase, f64, f64)| {
+        at(point, pair(&[1.0, 2.0, depth, force], &[0.0; 4])).with_phase(phase)
     };
     corners.iter().map(sample).collect()
 }

@@ -66,28 +66,20 @@ fn close(found: f64, expected: f64) {
 }
 
 fn pair(truth: &[f64], prediction: &[f64]) -> Sample {
-    Sample {
-        truth: Readings::from_values(truth.iter().copied()),
-        prediction: Some(Readings::from_values(prediction.iter().copied())),
-        ..Sample::default()
-    }
+    Sample::default()
+        .with_truth(Readings::from_values(truth.iter().copied()))
+        .with_prediction(Readings::from_values(prediction.iter().copied()))
 }
 
 fn at(point: &str, sample: Sample) -> Sample {
-    Sample {
-        point_id: Some(point.to_owned()),
-        ..sample
-    }
+    sample.with_point_id(point.to_owned())
 }
 
 fn timed(valid_s: f64, sample: Sample) -> Sample {
-    Sample {
-        stamp: Some(Stamp {
-            valid_s,
-            received_s: None,
-        }),
-        ..sample
-    }
+    sample.with_stamp(Stamp {
+        valid_s,
+        received_s: None,
+    })
 }
 
 #[test]
@@ -119,11 +111,11 @@ fn an_empty_stream_has_no_value_of_any_kind() {
 
 #[test]
 fn values_that_are_no_numbers_are_counted_and_give_none() {
-    let broken = |point: &str| Sample {
-        depth_step: Some(0),
-        repeat: Some(0),
-        phase: Some(Phase::Load),
-        ..timed(1.0, at(point, pair(&[f64::NAN; 6], &[f64::INFINITY; 6])))
+    let broken = |point: &str| {
+        timed(1.0, at(point, pair(&[f64::NAN; 6], &[f64::INFINITY; 6])))
+            .with_depth_step(0)
+            .with_repeat(0)
+            .with_phase(Phase::Load)
     };
     let channels = ["Px", "Py", "Pz", "Fx", "Fy", "Fz"];
     for metric in [

@@ -3,7 +3,7 @@
 use super::*;
 
 #[test]
-fn the_least_force_told_from_none_comes_from_samples_without_contact() {
+fn the_least_force_detected_comes_from_samples_without_contact() {
     // Ten predictions of ±0.01 N: variance 10⁻⁴ × 10 / 9.
     let idle = |count: u32| {
         let samples =
@@ -44,7 +44,7 @@ fn a_gain_and_an_offset_are_no_error_of_linearity() {
 }
 
 #[test]
-fn a_force_that_leaks_into_another_is_told_by_name() {
+fn a_force_that_leaks_into_another_is_named() {
     let sample = |row: u32| {
         let (x, z) = (f64::from(row % 5), f64::from(row / 5));
         at(&row.to_string(), pair(&[x, z], &[x + 0.1 * z, z]))

@@ -3,12 +3,9 @@
 use super::*;
 
 #[test]
-fn a_recording_tells_its_frame_rate_and_its_field_of_view() {
+fn a_recording_states_its_frame_rate_and_its_field_of_view() {
     let corner = |x: f64, y: f64, force: f64| pair(&[x, y, force], &[0.0; 3]);
-    let digest = |digest: &str, sample: Sample| Sample {
-        frame_digest: Some(digest.to_owned()),
-        ..sample
-    };
+    let digest = |digest: &str, sample: Sample| sample.with_frame_digest(digest.to_owned());
     let samples = [
         digest("p", timed(10.0, corner(-2.0, -1.0, 0.5))),
         digest("p", timed(10.5, corner(2.0, -1.0, 0.5))),

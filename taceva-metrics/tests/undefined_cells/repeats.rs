@@ -3,11 +3,9 @@
 use super::*;
 
 fn repeat(point: &str, step: u32, prediction: f64) -> Sample {
-    Sample {
-        depth_step: Some(step),
-        repeat: Some(0),
-        ..at(point, pair(&[0.0], &[prediction]))
-    }
+    at(point, pair(&[0.0], &[prediction]))
+        .with_depth_step(step)
+        .with_repeat(0)
 }
 
 #[test]

@@ -5,12 +5,10 @@ use super::*;
 fn surface(unit: &str, named: bool, place: impl Fn(f64, f64) -> [f64; 3]) -> Vec<Sample> {
     let sample = |number: u32| {
         let (x, y) = (f64::from(number % 7) - 3.0, f64::from(number / 7) - 3.0);
-        Sample {
-            unit_id: Some(unit.to_owned()),
-            point_id: named.then(|| number.to_string()),
-            truth: Readings::from_values(place(x, y)),
-            ..Sample::default()
-        }
+        Sample::default()
+            .with_unit_id(unit.to_owned())
+            .with_point_id(named.then(|| number.to_string()))
+            .with_truth(Readings::from_values(place(x, y)))
     };
     (0..49).map(sample).collect()
 }
@@ -49,7 +47,7 @@ fn surfaces_without_shared_points_are_laid_onto_each_other_step_by_step() {
 }
 
 #[test]
-fn a_single_unit_or_a_line_of_points_has_no_gap_to_tell() {
+fn a_single_unit_or_a_line_of_points_has_no_gap_to_measure() {
     let channels = ["Px", "Py", "surface_z"];
     let one = evaluate("inter_sensor", &channels, &surface("a", true, dome));
     assert_eq!(

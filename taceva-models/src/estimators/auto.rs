@@ -12,10 +12,10 @@ use self::validate::{FOLDS, Folds};
 use crate::estimators::library::{LibraryModel, LibrarySizes};
 use crate::features::FeatureSpec;
 use crate::registry::{ALL, ModelInfo};
-use crate::settings::{SettingError, SettingInfo, Settings, number};
+use crate::settings::{ModelSettings, SettingError, SettingInfo, number};
 use crate::training::fit::{Chosen, ModelEstimator, ModelFit, estimator};
 use crate::training::problem::{Problem, invalid};
-use crate::training::progress::{Stage, interrupted};
+use crate::training::progress::{ReportedStage, interrupted};
 
 /// Tries models, the cheapest first, as long as the budget lasts, and takes the one of least error.
 ///
@@ -54,7 +54,7 @@ impl Auto {
     ///
     /// # Errors
     /// [`SettingError`] for an unknown key or a value out of range.
-    pub fn from_settings(settings: &Settings) -> Result<Auto, SettingError> {
+    pub fn from_settings(settings: &ModelSettings) -> Result<Auto, SettingError> {
         settings.check_keys(Auto::INFO.settings)?;
         Ok(Auto {
             budget_s: settings.value(&BUDGET, 60.0, |text| number(text, 0.0..=1e6))?,
@@ -125,13 +125,13 @@ impl ModelEstimator for Auto {
         let candidates = self.candidates(sizes);
         let mut spent_s = 0.0;
         let (mut tried, mut untried) = (Vec::new(), Vec::new());
-        let stage = Stage::begin(progress, "models tried", candidates.len());
+        let stage = ReportedStage::begin(progress, "models tried", candidates.len());
         for (info, cost_s) in candidates {
             interrupted(progress)?;
             let affordable = spent_s + cost_s <= self.budget_s;
             if affordable || ALWAYS.contains(&info.name) {
                 let estimator = info
-                    .estimator(&Settings::default())
+                    .estimator(&ModelSettings::default())
                     .map_err(|error| invalid(error.to_string()).because(error))?;
                 match folds.error(training, &*estimator, progress)? {
                     Ok(error) => {
@@ -171,7 +171,7 @@ impl ModelEstimator for Auto {
             .find(|info| Some(info.name) == card.best().map(|trial| trial.model.as_str()))
             .ok_or_else(|| invalid("no model could be tried"))?;
         let estimator = info
-            .estimator(&Settings::default())
+            .estimator(&ModelSettings::default())
             .map_err(|error| invalid(error.to_string()).because(error))?;
         Ok(Some(Chosen { estimator, card }))
     }
@@ -202,7 +202,7 @@ mod tests {
             channels: 3.0,
             is_picture: true,
         };
-        let auto = Auto::from_settings(&Settings::default()).expect("no setting");
+        let auto = Auto::from_settings(&ModelSettings::default()).expect("no setting");
         let candidates = auto.candidates(sizes);
         assert_eq!(candidates[0].0.name, "baseline");
         assert_eq!(candidates.last().expect("some").0.name, "resnet34");

@@ -4,7 +4,7 @@ use taceva_core::{ModelError, Progress, TrainingSet};
 
 use crate::estimators::linear::{LinearEstimator, LinearFit, LinearRegressor};
 use crate::registry::ModelInfo;
-use crate::settings::{SettingError, Settings};
+use crate::settings::{ModelSettings, SettingError};
 use crate::training::choice::{Choice, rmse};
 use crate::training::fit::estimator;
 use crate::training::label_scaling::means;
@@ -28,7 +28,7 @@ impl Baseline {
     ///
     /// # Errors
     /// [`SettingError::Unknown`] for any setting.
-    pub fn from_settings(settings: &Settings) -> Result<Baseline, SettingError> {
+    pub fn from_settings(settings: &ModelSettings) -> Result<Baseline, SettingError> {
         settings.check_keys(Baseline::INFO.settings)?;
         Ok(Baseline)
     }

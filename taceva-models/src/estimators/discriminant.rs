@@ -2,6 +2,7 @@
 
 mod classes;
 mod regressor;
+mod scatter;
 
 use std::ops::Range;
 
@@ -14,11 +15,11 @@ use self::regressor::Planes;
 use crate::features::FeatureSpec;
 use crate::linalg::{Design, FeatureScale};
 use crate::registry::ModelInfo;
-use crate::settings::{SettingError, Settings};
+use crate::settings::{ModelSettings, SettingError};
 use crate::training::choice::{Choice, errors};
 use crate::training::fit::{ModelEstimator, ModelFit, ModelRegressor, estimator};
 use crate::training::problem::{Problem, invalid};
-use crate::training::progress::{Stage, interrupted};
+use crate::training::progress::{ReportedStage, interrupted};
 
 /// Linear discriminants: a channel is predicted as one of the values that it takes in the training part, that whose mean picture is
 /// nearest once the scatter within values is made round ([`Discriminant`]).
@@ -53,7 +54,7 @@ impl LinearDiscriminant {
     ///
     /// # Errors
     /// [`SettingError`] for an unknown key or a value out of range.
-    pub fn from_settings(settings: &Settings) -> Result<LinearDiscriminant, SettingError> {
+    pub fn from_settings(settings: &ModelSettings) -> Result<LinearDiscriminant, SettingError> {
         settings.check_keys(LinearDiscriminant::INFO.settings)?;
         Ok(LinearDiscriminant {
             scale: FeatureScale::from_settings(settings)?,
@@ -111,7 +112,7 @@ impl ModelEstimator for LinearDiscriminant {
         }
         let design = Design::new(training.features, self.scale);
         let blocks = |samples: Range<usize>| design.block(samples, 0..width);
-        let stage = Stage::begin(progress, "channels", problem.channels());
+        let stage = ReportedStage::begin(progress, "channels", problem.channels());
         // Of several channels that are refused it is always the first that is said, whichever thread was done before.
         let planes: Vec<Result<Planes, ModelError>> = (0..problem.channels())
             .into_par_iter()

@@ -13,7 +13,7 @@ use crate::estimators::linear::{LinearEstimator, LinearFit, LinearRegressor};
 use crate::features::FeatureSpec;
 use crate::linalg::{Design, FeatureScale};
 use crate::registry::ModelInfo;
-use crate::settings::{SettingError, SettingInfo, Settings, number};
+use crate::settings::{ModelSettings, SettingError, SettingInfo, number};
 use crate::training::fit::estimator;
 use crate::training::problem::{Problem, centred};
 use crate::training::progress::interrupted;
@@ -64,7 +64,7 @@ impl ElasticNet {
     ///
     /// # Errors
     /// [`SettingError`] for an unknown key or a value out of range.
-    pub fn from_settings(settings: &Settings) -> Result<ElasticNet, SettingError> {
+    pub fn from_settings(settings: &ModelSettings) -> Result<ElasticNet, SettingError> {
         settings.check_keys(ElasticNet::INFO.settings)?;
         Ok(ElasticNet {
             scale: FeatureScale::from_settings(settings)?,

@@ -6,6 +6,7 @@
 
 mod gaussian_process;
 mod landmarks;
+mod likelihood;
 mod nystrom;
 mod reach;
 mod regressor;
@@ -22,7 +23,7 @@ use taceva_core::{Features, ModelError, Progress, TrainingSet};
 use self::landmarks::Landmarks;
 use self::nystrom::Nystrom;
 use crate::linalg::FeatureScale;
-use crate::settings::{SettingError, SettingInfo, Settings, number};
+use crate::settings::{ModelSettings, SettingError, SettingInfo, number};
 
 const LENGTH: SettingInfo = SettingInfo {
     key: "length",
@@ -53,7 +54,7 @@ impl Kernel {
     const SETTINGS: &'static [SettingInfo] =
         &[FeatureScale::SETTING, LENGTH, LANDMARKS, SettingInfo::REFIT];
 
-    fn from_settings(settings: &Settings) -> Result<Kernel, SettingError> {
+    fn from_settings(settings: &ModelSettings) -> Result<Kernel, SettingError> {
         Ok(Kernel {
             scale: FeatureScale::from_settings(settings)?,
             length: settings.value(&LENGTH, None, |text| number(text, 0.01..=1000.0).map(Some))?,
@@ -93,14 +94,11 @@ impl Mapped {
     }
 
     fn training<'s>(&'s self, set: &TrainingSet<'s>) -> TrainingSet<'s> {
-        TrainingSet {
-            features: &self.training,
-            ..*set
-        }
+        TrainingSet::new(&self.training, set.targets).with_groups(set.groups)
     }
 
     fn validation<'s>(&'s self, set: Option<&TrainingSet<'s>>) -> Option<TrainingSet<'s>> {
         let features = self.validation.as_ref()?;
-        set.map(|set| TrainingSet { features, ..*set })
+        set.map(|set| TrainingSet::new(features, set.targets).with_groups(set.groups))
     }
 }

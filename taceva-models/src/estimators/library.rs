@@ -3,22 +3,26 @@
 //! An adapter implements [`LibraryLearner`] and [`LibraryPredictor`] and registers a [`LibraryModel`]; checks, scaling of features and
 //! labels, the choice of settings and the model file are the same as for every other model.
 
+mod card;
 mod estimator;
+mod fit;
 mod fitted;
 mod regressor;
 mod settings;
+mod task;
 mod tensor;
 
-use serde::{Deserialize, Serialize};
-use taceva_core::{ModelError, Progress, TrainingSet};
+use taceva_core::{ModelError, TrainingSet};
 
-pub(crate) use self::estimator::LibraryEstimator;
+pub use self::card::LibraryCard;
+pub use self::estimator::library_estimator;
 pub use self::regressor::LibraryRegressor;
 pub use self::settings::LibrarySettings;
+pub use self::task::{LibraryPredictor, LibrarySizes, LibraryTask, LoadedPredictor};
 pub use self::tensor::{LibraryTensor, LibraryTensors, Numbers};
 use crate::features::FeatureSpec;
 use crate::registry::ModelInfo;
-use crate::settings::{SettingError, SettingInfo, Settings};
+use crate::settings::{ModelSettings, SettingError, SettingInfo};
 use crate::training::fit::ModelEstimator;
 
 /// Libraries whose models a program may offer; each is a feature of the program, called as the library.
@@ -43,43 +47,6 @@ pub struct LibraryModel {
     ///
     /// Errors: [`ModelError`] if a tensor is missing or a number is out of range; files may be damaged.
     pub load: fn(&LibraryTensors, LibrarySizes) -> LoadedPredictor,
-}
-
-/// A predictor that is read back, or why tensors are none.
-pub type LoadedPredictor = Result<Box<dyn LibraryPredictor>, ModelError>;
-
-/// Sizes that a model of a library is fitted on, or was.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct LibrarySizes {
-    /// Training samples; 0 for a model that is read back.
-    pub samples: usize,
-    /// Features that vary over them.
-    pub features: usize,
-    /// Channels whose labels vary over them.
-    pub targets: usize,
-}
-
-/// What a library is handed: features that all vary, labels that all vary, every number finite.
-#[derive(Clone, Copy)]
-pub struct LibraryTask<'a> {
-    /// How many samples, features and targets.
-    pub sizes: LibrarySizes,
-    /// `[samples, features]`, centred and scaled; each is exactly a single-precision number.
-    pub rows: &'a [f64],
-    /// `[samples, targets]`: labels scaled to 0..1 by the training part and centred; as they are where they are classes.
-    pub labels: &'a [f64],
-    /// `[targets]`: the value of the setting that is chosen, for each target; empty where there is none.
-    pub values: &'a [f64],
-    /// Who listens, and may cancel between calls of the library.
-    pub progress: &'a dyn Progress,
-}
-
-impl LibraryTask<'_> {
-    /// The labels of one target, sample by sample.
-    pub fn target(&self, target: usize) -> Vec<f64> {
-        let labels = self.labels.iter().skip(target);
-        labels.step_by(self.sizes.targets.max(1)).copied().collect()
-    }
 }
 
 /// An estimator of a library with its settings, not fitted yet.
@@ -116,34 +83,12 @@ pub trait LibraryLearner: Send + Sync {
     fn fit(&self, task: &LibraryTask<'_>) -> Result<Box<dyn LibraryPredictor>, ModelError>;
 }
 
-/// Fitted parameters of a library's estimator, and how they predict.
-pub trait LibraryPredictor: Send + Sync {
-    /// What a file keeps of it; [`LibraryModel::load`] makes the same predictor of them, to the bit.
-    fn tensors(&self) -> Vec<LibraryTensor>;
-
-    /// Predicts one sample.
-    ///
-    /// # Shapes
-    /// `sample`: `[features]`, as the rows of [`LibraryTask`]; `into`: `[targets]`, in the labels of the task.
-    /// # Errors
-    /// [`ModelError`] if the library refuses or panics.
-    fn predict(&self, sample: &[f32], into: &mut [f64]) -> Result<(), ModelError>;
-}
-
-/// What a card says of the library that fitted a model.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub struct LibraryCard {
-    /// The release that fitted it, `linfa 0.8.1`.
-    pub release: String,
-    /// The feature that a program needs in order to read the model.
-    pub feature: String,
-}
-
-impl LibraryCard {
-    pub(crate) fn of(model: &LibraryModel) -> LibraryCard {
-        let (library, _) = model.info.name.split_once('/').unwrap_or_default();
+impl LibraryModel {
+    /// What a card says of a model that it fitted.
+    pub(crate) fn card(&self) -> LibraryCard {
+        let (library, _) = self.info.name.split_once('/').unwrap_or_default();
         LibraryCard {
-            release: model.release.to_owned(),
+            release: self.release.to_owned(),
             feature: library.to_owned(),
         }
     }
@@ -155,7 +100,7 @@ impl ModelInfo {
         name: &'static str,
         about: &'static str,
         settings: &'static [SettingInfo],
-        make: fn(&Settings) -> Result<Box<dyn ModelEstimator>, SettingError>,
+        make: fn(&ModelSettings) -> Result<Box<dyn ModelEstimator>, SettingError>,
     ) -> ModelInfo {
         ModelInfo {
             name,
@@ -165,9 +110,4 @@ impl ModelInfo {
             make,
         }
     }
-}
-
-/// The estimator of `learner`, as the registry makes it.
-pub fn library_estimator(learner: impl LibraryLearner + 'static) -> Box<dyn ModelEstimator> {
-    Box::new(LibraryEstimator::new(Box::new(learner)))
 }

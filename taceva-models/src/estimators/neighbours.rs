@@ -12,7 +12,7 @@ use crate::features::FeatureSpec;
 use crate::linalg::FeatureScale;
 use crate::linalg::standard::Standard;
 use crate::registry::ModelInfo;
-use crate::settings::{SettingError, SettingInfo, Settings, number};
+use crate::settings::{ModelSettings, SettingError, SettingInfo, number};
 use crate::training::choice::Errors;
 use crate::training::fit::{ModelEstimator, ModelFit, ModelRegressor, estimator};
 use crate::training::output::OutputScale;
@@ -59,7 +59,7 @@ impl Neighbours {
     ///
     /// # Errors
     /// [`SettingError`] for an unknown key or a value out of range.
-    pub fn from_settings(settings: &Settings) -> Result<Neighbours, SettingError> {
+    pub fn from_settings(settings: &ModelSettings) -> Result<Neighbours, SettingError> {
         settings.check_keys(Neighbours::INFO.settings)?;
         Ok(Neighbours {
             scale: FeatureScale::from_settings(settings)?,

@@ -10,7 +10,7 @@ use crate::estimators::linear::{LinearEstimator, LinearFit, LinearRegressor};
 use crate::features::FeatureSpec;
 use crate::linalg::{Design, FeatureScale};
 use crate::registry::ModelInfo;
-use crate::settings::{SettingError, SettingInfo, Settings, number};
+use crate::settings::{ModelSettings, SettingError, SettingInfo, number};
 use crate::training::choice::{ChannelChoice, Choice, ChosenBy, Errors, least, rmse};
 use crate::training::fit::estimator;
 use crate::training::problem::{Problem, Validation, centred, joined, stacked};
@@ -70,7 +70,7 @@ impl Pls {
     ///
     /// # Errors
     /// [`SettingError`] for an unknown key or a value out of range.
-    pub fn from_settings(settings: &Settings) -> Result<Pls, SettingError> {
+    pub fn from_settings(settings: &ModelSettings) -> Result<Pls, SettingError> {
         settings.check_keys(Pls::INFO.settings)?;
         let default = Pls::default();
         Ok(Pls {

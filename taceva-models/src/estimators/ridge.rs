@@ -12,11 +12,11 @@ use crate::estimators::linear::{LinearEstimator, LinearFit, LinearRegressor};
 use crate::features::FeatureSpec;
 use crate::linalg::{Design, FeatureScale, Spectrum};
 use crate::registry::ModelInfo;
-use crate::settings::{SettingError, SettingInfo, Settings, number};
+use crate::settings::{ModelSettings, SettingError, SettingInfo, number};
 use crate::training::choice::{ChannelChoice, Choice, ChosenBy, Errors, least, rmse};
 use crate::training::fit::estimator;
 use crate::training::problem::{Problem, Validation, centred, joined, stacked};
-use crate::training::progress::Stage;
+use crate::training::progress::ReportedStage;
 
 /// Ridge regression: minimises Σ (y − b − wᵀx)² + λ‖w‖² for each channel, the intercept b unpenalised.
 ///
@@ -66,7 +66,7 @@ impl Ridge {
     ///
     /// # Errors
     /// [`SettingError`] for an unknown key or a value out of range.
-    pub fn from_settings(settings: &Settings) -> Result<Ridge, SettingError> {
+    pub fn from_settings(settings: &ModelSettings) -> Result<Ridge, SettingError> {
         settings.check_keys(Ridge::INFO.settings)?;
         let default = Ridge::default();
         Ok(Ridge {
@@ -107,7 +107,7 @@ impl Ridge {
     ) -> Result<(ChosenBy, Option<Errors>), ModelError> {
         match (validation, self.strength) {
             (Some(part), strength) => {
-                let _stage = Stage::begin(progress, "error on validation", 1);
+                let _stage = ReportedStage::begin(progress, "error on validation", 1);
                 let by = strength.map_or(ChosenBy::Validation, |_| ChosenBy::Nobody);
                 return Ok((by, Some(path.errors_on(part))));
             }

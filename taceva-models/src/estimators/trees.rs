@@ -4,6 +4,7 @@ mod bins;
 mod boosting;
 mod forest;
 mod grow;
+mod histogram;
 mod regressor;
 
 pub use self::boosting::GradientBoosting;

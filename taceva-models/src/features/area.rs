@@ -14,13 +14,13 @@ struct Axis {
 #[derive(Clone, Debug, PartialEq, Eq)]
 struct Span {
     whole: std::ops::Range<usize>,
-    before: Option<Part>,
-    after: Option<Part>,
+    before: Option<PartialPixel>,
+    after: Option<PartialPixel>,
 }
 
 /// A pixel that reaches only `units` deep into the cell.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-struct Part {
+struct PartialPixel {
     pixel: usize,
     units: u32,
 }
@@ -30,7 +30,7 @@ impl Axis {
     fn new(source: u32, target: u32) -> Axis {
         let divisor = greatest_common_divisor(source, target);
         let (cell, pixel) = (source / divisor, target / divisor);
-        let part = |position: u64, units: u64| Part {
+        let part = |position: u64, units: u64| PartialPixel {
             pixel: usize::try_from(position).expect("a pixel of a frame in memory"),
             units: u32::try_from(units).expect("fewer units than a pixel has"),
         };
@@ -169,7 +169,7 @@ mod tests {
     fn five_pixels_over_two_cells_share_the_middle_one() {
         let axis = Axis::new(5, 2);
         assert_eq!((axis.cell, axis.pixel), (5, 2));
-        let middle = Part { pixel: 2, units: 1 };
+        let middle = PartialPixel { pixel: 2, units: 1 };
         assert_eq!(
             axis.spans,
             [

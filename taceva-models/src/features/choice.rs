@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use taceva_core::FrameInfo;
 
 use crate::features::{DIFFERENCE, FeatureSpec, SIZE};
-use crate::settings::Settings;
+use crate::settings::ModelSettings;
 
 /// What a person writes to have a setting chosen.
 const CHOSEN: &str = "auto";
@@ -21,7 +21,7 @@ pub struct OpenFeatures {
 
 impl OpenFeatures {
     /// What `settings` leave open, and the settings without it; `None` where they say everything.
-    pub fn of(settings: &Settings) -> Option<(OpenFeatures, Settings)> {
+    pub fn of(settings: &ModelSettings) -> Option<(OpenFeatures, ModelSettings)> {
         let is_open = |key: &str| settings.get(key) == Some(CHOSEN);
         let open = OpenFeatures {
             size: is_open(SIZE.key),
@@ -41,9 +41,9 @@ impl OpenFeatures {
     ///
     /// ```
     /// use taceva_core::{FrameInfo, PixelFormat};
-    /// use taceva_models::{FeatureSpec, OpenFeatures, Settings};
+    /// use taceva_models::{FeatureSpec, OpenFeatures, ModelSettings};
     /// let frame = FrameInfo { width: 160, height: 48, format: PixelFormat::Gray8 };
-    /// let (open, _) = OpenFeatures::of(&Settings::parse(["size=auto"])?).expect("the size is open");
+    /// let (open, _) = OpenFeatures::of(&ModelSettings::parse(["size=auto"])?).expect("the size is open");
     /// let tried = open.candidates(&FeatureSpec::DEFAULT, frame, true);
     /// let widths: Vec<u32> = tried.iter().map(|spec| spec.width).collect();
     /// assert_eq!(widths, [8, 16, 32]);
@@ -270,7 +270,7 @@ mod tests {
 
     #[test]
     fn differences_are_tried_where_there_is_something_to_differ_from() {
-        let parse = |words: &[&str]| Settings::parse(words.iter().copied()).expect("pairs");
+        let parse = |words: &[&str]| ModelSettings::parse(words.iter().copied()).expect("pairs");
         let settings = parse(&["difference=auto", "color=rgb"]);
         let (open, rest) = OpenFeatures::of(&settings).expect("open");
         assert_eq!(rest, parse(&["color=rgb"]));

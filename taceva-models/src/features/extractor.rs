@@ -5,11 +5,11 @@ use std::sync::Arc;
 use taceva_core::{FeatureShape, Features, Frame, FrameInfo};
 
 use super::area::AreaSums;
+use super::cell_features::CellFeatures;
 use super::error::FeatureError;
 use super::gradients::Gradients;
 use super::kinds::FeatureKind;
 use super::markers::MarkerField;
-use super::part::Part;
 use super::pixels::Pixels;
 use super::spec::{Color, FeatureSpec};
 use super::statistics::Statistics;
@@ -20,12 +20,12 @@ use super::statistics::Statistics;
 ///
 /// ```
 /// use taceva_core::{Frame, FrameInfo, PixelFormat};
-/// use taceva_models::{Extractor, FeatureSpec, Settings};
+/// use taceva_models::{Extractor, FeatureSpec, ModelSettings};
 ///
 /// // A gel that the red lamp, at 0°, lights by an eighth more than before.
 /// let info = FrameInfo { width: 16, height: 16, format: PixelFormat::Rgb8 };
 /// let even = |light: [u8; 3]| Frame::new(info, light.repeat(16 * 16));
-/// let settings = Settings::parse(["features=gradients+statistics", "size=1"])?;
+/// let settings = ModelSettings::parse(["features=gradients+statistics", "size=1"])?;
 /// let spec = FeatureSpec::from_settings(&settings)?;
 /// let extractor = Extractor::new(spec, info, Some(&even([80, 80, 80])?))?;
 /// let features = extractor.extract_all([&even([90, 80, 80])?])?;
@@ -41,7 +41,7 @@ pub struct Extractor {
     spec: FeatureSpec,
     info: FrameInfo,
     /// One for each kind that is asked for, in their order.
-    parts: Vec<Arc<dyn Part>>,
+    parts: Vec<Arc<dyn CellFeatures>>,
 }
 
 impl Extractor {
@@ -170,7 +170,7 @@ fn part(
     spec: &FeatureSpec,
     info: FrameInfo,
     reference: Option<&Frame>,
-) -> Result<Arc<dyn Part>, FeatureError> {
+) -> Result<Arc<dyn CellFeatures>, FeatureError> {
     const ASKED: &str = "a reference where one is asked for, checked by the caller";
     let subtracted = reference.filter(|_| spec.difference);
     Ok(match kind {

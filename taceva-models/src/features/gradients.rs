@@ -3,8 +3,8 @@
 use taceva_core::{Frame, FrameInfo, PixelFormat};
 
 use super::area::AreaSums;
+use super::cell_features::CellFeatures;
 use super::error::FeatureError;
-use super::part::Part;
 use super::pixels::{ratio, signed};
 use super::spec::FeatureSpec;
 
@@ -87,7 +87,7 @@ impl Gradients {
     }
 }
 
-impl Part for Gradients {
+impl CellFeatures for Gradients {
     fn depth(&self) -> usize {
         3
     }

@@ -3,7 +3,7 @@
 use taceva_core::{Frame, FrameInfo, PixelFormat};
 
 use super::area::AreaSums;
-use super::part::Part;
+use super::cell_features::CellFeatures;
 use super::spec::{Color, FeatureSpec};
 
 /// Weights of red, green and blue in gray, in thousandths (Rec. ITU-R BT.601).
@@ -62,7 +62,7 @@ impl Pixels {
     }
 }
 
-impl Part for Pixels {
+impl CellFeatures for Pixels {
     fn depth(&self) -> usize {
         self.color.depth()
     }

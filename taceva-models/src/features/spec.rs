@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use taceva_core::FeatureShape;
 
 use super::kinds::{FeatureKind, FeatureKinds};
-use crate::settings::{SettingError, SettingInfo, Settings, number};
+use crate::settings::{ModelSettings, SettingError, SettingInfo, number};
 
 /// Whether colour is kept.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
@@ -115,15 +115,15 @@ impl FeatureSpec {
     /// The features that `settings` ask for.
     ///
     /// ```
-    /// use taceva_models::{FeatureSpec, Settings};
-    /// let spec = FeatureSpec::from_settings(&Settings::parse(["size=24x18", "pca=60"])?)?;
+    /// use taceva_models::{FeatureSpec, ModelSettings};
+    /// let spec = FeatureSpec::from_settings(&ModelSettings::parse(["size=24x18", "pca=60"])?)?;
     /// assert_eq!((spec.width, spec.height, spec.pca), (24, 18, Some(60)));
     /// # Ok::<(), taceva_models::SettingError>(())
     /// ```
     ///
     /// # Errors
     /// [`SettingError`] for an unknown key or a value out of range.
-    pub fn from_settings(settings: &Settings) -> Result<FeatureSpec, SettingError> {
+    pub fn from_settings(settings: &ModelSettings) -> Result<FeatureSpec, SettingError> {
         FeatureSpec::DEFAULT.changed_by(settings)
     }
 
@@ -131,7 +131,7 @@ impl FeatureSpec {
     ///
     /// # Errors
     /// [`SettingError`] for an unknown key or a value out of range.
-    pub fn changed_by(self, settings: &Settings) -> Result<FeatureSpec, SettingError> {
+    pub fn changed_by(self, settings: &ModelSettings) -> Result<FeatureSpec, SettingError> {
         settings.check_keys(FeatureSpec::SETTINGS)?;
         let kinds = settings.value(&KINDS, self.kinds, FeatureKinds::parse)?;
         let default = self.with_kinds(kinds);
@@ -224,7 +224,7 @@ mod tests {
     use super::*;
 
     fn parse(words: &[&str]) -> Result<FeatureSpec, SettingError> {
-        FeatureSpec::from_settings(&Settings::parse(words.iter().copied())?)
+        FeatureSpec::from_settings(&ModelSettings::parse(words.iter().copied())?)
     }
 
     #[test]
@@ -282,7 +282,7 @@ mod tests {
     }
 
     #[test]
-    fn american_and_british_colours_are_told_apart_by_name() {
+    fn american_and_british_colours_are_distinguished_by_name() {
         let error = parse(&["colour=gray"]).expect_err("unknown");
         assert_eq!(
             error.to_string(),

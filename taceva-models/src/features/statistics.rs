@@ -4,8 +4,8 @@ use std::ops::Range;
 
 use taceva_core::{Frame, FrameInfo};
 
+use super::cell_features::CellFeatures;
 use super::kinds::FeatureKind;
-use super::part::Part;
 use super::pixels::{LUMA, LUMA_SUM, mixes};
 use super::spec::{Color, FeatureSpec};
 
@@ -93,7 +93,7 @@ impl Statistics {
     }
 }
 
-impl Part for Statistics {
+impl CellFeatures for Statistics {
     fn depth(&self) -> usize {
         FeatureKind::Statistics.depth(self.color)
     }

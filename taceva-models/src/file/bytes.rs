@@ -5,18 +5,10 @@ use std::collections::HashMap;
 use safetensors::tensor::TensorView;
 
 use super::error::FormatError;
+use super::limits::{CARD, FILE_MAX, HEADER_MAX};
 use super::seal::{digested, is_sealed, seal_over};
 use crate::model::Model;
 use crate::models::Models;
-
-/// The key of the card in the metadata.
-pub(super) const CARD: &str = "taceva.model";
-
-/// Longest header: a card is a few kilobytes.
-pub(super) const HEADER_MAX: u64 = 1 << 20;
-
-/// Largest file: 1000 × 1000 RGB weights of ten channels are 240 MB.
-pub(super) const FILE_MAX: u64 = 1 << 28;
 
 impl Model {
     /// The model as a file would hold it; equal models give equal bytes.

@@ -6,8 +6,8 @@ use std::path::{Path, PathBuf};
 
 use sha2::{Digest, Sha256};
 
-use super::bytes::FILE_MAX;
 use super::error::FormatError;
+use super::limits::FILE_MAX;
 use crate::model::Model;
 use crate::models::Models;
 

@@ -4,8 +4,7 @@ use taceva_core::ModelError;
 use taceva_network::NetworkError;
 use taceva_seal::SealError;
 
-use super::bytes::{CARD, FILE_MAX, HEADER_MAX};
-use crate::model::ModelCard;
+use super::limits::{CARD, FILE_MAX, FORMAT, HEADER_MAX};
 
 /// Why bytes are no model.
 #[derive(Debug, thiserror::Error)]
@@ -44,10 +43,7 @@ pub enum FormatError {
     #[error("the model: {0}")]
     Seal(#[from] SealError),
     /// A version this TacEva cannot read.
-    #[error(
-        "format {found}: this TacEva reads {}, a newer one may read both",
-        ModelCard::FORMAT
-    )]
+    #[error("format {found}: this TacEva reads {FORMAT}, a newer one may read both")]
     Version {
         /// The version of the file.
         found: String,

@@ -5,8 +5,9 @@ use serde::Deserialize;
 use taceva_core::{Channels, FeatureShape};
 use taceva_network::{NamedTensor, Network, Picture};
 
-use super::bytes::{CARD, FILE_MAX, check_sizes};
+use super::bytes::check_sizes;
 use super::error::FormatError;
+use super::limits::{CARD, FILE_MAX};
 use super::seal::check_seal;
 use super::tensors::Tensors;
 use crate::estimators::discriminant::ClassRegressor;
@@ -123,7 +124,7 @@ fn formed(
                     feature: library.feature.clone(),
                 })?;
             let kind = (channels, seen);
-            let fitted = LibraryRegressor::from_tensors(tensors, kind, (model, library))?;
+            let fitted = LibraryRegressor::from_tensors(tensors, kind, (model.load, library))?;
             ModelRegressor::Library(Box::new(fitted))
         }
     };

@@ -6,7 +6,7 @@ use faer::{Mat, MatRef};
 use rayon::prelude::*;
 use taceva_core::Features;
 
-use crate::settings::{SettingError, SettingInfo, Settings};
+use crate::settings::{ModelSettings, SettingError, SettingInfo};
 
 use super::gram::{add_product, slabs};
 
@@ -33,7 +33,7 @@ impl FeatureScale {
     };
 
     /// The scale that `settings` ask for.
-    pub(crate) fn from_settings(settings: &Settings) -> Result<FeatureScale, SettingError> {
+    pub(crate) fn from_settings(settings: &ModelSettings) -> Result<FeatureScale, SettingError> {
         settings.value(
             &FeatureScale::SETTING,
             FeatureScale::default(),

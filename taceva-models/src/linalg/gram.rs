@@ -8,7 +8,7 @@ use rayon::prelude::*;
 use taceva_core::{ModelError, Progress};
 
 use super::design::Design;
-use crate::training::progress::{Stage, interrupted};
+use crate::training::progress::{ReportedStage, interrupted};
 
 /// Rows and columns of a tile.
 const TILE: usize = 256;
@@ -55,7 +55,7 @@ pub(super) fn gram(
         Side::Features => (design.width(), design.samples()),
     };
     let mut tiles = lower_tiles(size);
-    let stage = Stage::begin(progress, "products of features", depth.div_ceil(SLAB));
+    let stage = ReportedStage::begin(progress, "products of features", depth.div_ceil(SLAB));
     for slab in slabs(depth) {
         match side {
             Side::Samples => {

@@ -8,7 +8,7 @@ use taceva_core::{ErrorKind, ModelError, Progress};
 
 use super::design::Design;
 use super::gram::{Side, gram, multiply};
-use crate::training::progress::{Stage, interrupted};
+use crate::training::progress::{ReportedStage, interrupted};
 
 /// Eigenvalues in ascending order and their vectors, of a symmetric matrix whose lower triangle is `matrix`.
 ///
@@ -62,7 +62,7 @@ impl<'d, 'a> Spectrum<'d, 'a> {
             Side::Features
         };
         let gram = gram(design, side, progress)?;
-        let _stage = Stage::begin(progress, "spectrum of features", 1);
+        let _stage = ReportedStage::begin(progress, "spectrum of features", 1);
         let (mut eigenvalues, vectors) = symmetric_eigen(gram.as_ref())?;
         interrupted(progress)?;
         // Rounding may carry a zero below zero.

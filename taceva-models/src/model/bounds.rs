@@ -2,9 +2,6 @@
 
 use super::Model;
 
-/// How far beyond the labels of the training part predictions may go, as a share of their range.
-pub(super) const MARGIN: f64 = 0.25;
-
 impl Model {
     /// The least and the greatest prediction of the channel at `position`, in its unit; `None` for a model file written before bounds were stored.
     ///

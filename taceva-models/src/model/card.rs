@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 use taceva_core::{FrameInfo, Unit};
 
-use super::FitInput;
+use super::input::FitInput;
 use crate::estimators::auto::AutoCard;
 use crate::estimators::library::LibraryCard;
 use crate::estimators::network::NetworkCard;
@@ -13,6 +13,9 @@ use crate::features::choice::FeatureChoice;
 use crate::training::choice::Choice;
 use crate::training::fit::{ModelFit, ModelRegressor};
 use crate::training::label_scaling::means;
+
+/// How far beyond the labels of the training part predictions may go, as a share of their range.
+const MARGIN: f64 = 0.25;
 
 /// The description kept in a model file.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -188,7 +191,7 @@ pub struct SplitCard {
 
 impl ModelCard {
     /// The version of the format that this crate writes.
-    pub const FORMAT: &'static str = "1.1";
+    pub const FORMAT: &'static str = crate::file::FORMAT;
 
     pub(super) fn new(
         input: &FitInput<'_>,
@@ -208,7 +211,7 @@ impl ModelCard {
             features: input.features,
             pca_variance,
             frame: input.frame,
-            margin: Some(super::bounds::MARGIN),
+            margin: Some(MARGIN),
             channels: channels
                 .map(|(position, channel)| ChannelCard {
                     name: channel.name().into(),

@@ -4,23 +4,10 @@ use safetensors::tensor::Dtype;
 use taceva_core::{Channels, Saved};
 
 use super::card::ModelCard;
-use crate::estimators::plugin::{PluginCard, PluginRegressor};
+use crate::estimators::plugin::{PluginCard, PluginRegressor, TENSOR};
 use crate::file::FormatError;
-use crate::file::tensors::{Raw, Tensors};
+use crate::file::tensors::Tensors;
 use crate::models::Models;
-
-/// The tensor of the bytes.
-const PLUGIN: &str = "plugin";
-
-/// The tensor of the model of a plugin.
-pub(crate) fn plugin_tensor(plugin: &PluginRegressor) -> Raw {
-    Raw {
-        name: PLUGIN.to_owned(),
-        kind: Dtype::U8,
-        shape: vec![plugin.bytes().len()],
-        bytes: plugin.bytes().to_vec(),
-    }
-}
 
 /// The model that the tensor holds, loaded by its plugin.
 pub(crate) fn plugin_from(
@@ -28,9 +15,9 @@ pub(crate) fn plugin_from(
     tensors: &Tensors<'_>,
     (channels, card, plugin): (&Channels, &ModelCard, &PluginCard),
 ) -> Result<PluginRegressor, FormatError> {
-    tensors.only(&[PLUGIN])?;
-    let tensor = tensors.0.tensor(PLUGIN);
-    let tensor = tensor.map_err(|_| FormatError::Missing { name: PLUGIN })?;
+    tensors.only(&[TENSOR])?;
+    let tensor = tensors.0.tensor(TENSOR);
+    let tensor = tensor.map_err(|_| FormatError::Missing { name: TENSOR })?;
     if tensor.dtype() != Dtype::U8 || card.features.pca.is_some() || card.model != plugin.key {
         return Err(FormatError::Card);
     }
@@ -39,10 +26,6 @@ pub(crate) fn plugin_from(
         id: plugin.id.clone(),
         key: plugin.key.clone(),
     })?;
-    let saved = Saved {
-        bytes: tensor.data(),
-        channels,
-        shape: card.features.shape(),
-    };
+    let saved = Saved::new(tensor.data(), channels, card.features.shape());
     Ok(PluginRegressor::load(&**factory, plugin, &saved)?)
 }

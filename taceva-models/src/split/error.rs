@@ -1,6 +1,6 @@
 //! Why a split cannot be.
 
-use super::assign::Part;
+use super::part::Part;
 use crate::settings::Suggestion;
 
 /// Why a recording cannot be split as asked.

@@ -2,8 +2,9 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::assign::{Part, Split};
+use super::assign::Split;
 use super::error::SplitError;
+use super::part::Part;
 use super::spec::SplitSpec;
 
 /// Which samples went where, by their ids.

@@ -4,8 +4,9 @@ use std::collections::BTreeMap;
 use std::fmt;
 use std::str::FromStr;
 
-use super::assign::Part;
 use super::error::SplitError;
+use super::fractions::Fractions;
+use super::part::Part;
 use crate::settings::Suggestion;
 
 /// How a recording is split into training, validation and test parts.
@@ -42,76 +43,6 @@ pub struct ColumnSplit {
     pub column: String,
     /// The part of each value; empty: chance, value by value.
     pub parts: BTreeMap<String, Part>,
-}
-
-/// The shares of the three parts.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Fractions {
-    shares: [f64; 3],
-}
-
-impl Default for Fractions {
-    /// 70 % training, 20 % validation, 10 % test.
-    fn default() -> Fractions {
-        Fractions {
-            shares: [0.7, 0.2, 0.1],
-        }
-    }
-}
-
-impl Fractions {
-    /// The shares of `train`, `validation` and `test`; any unit, they are divided by their sum.
-    ///
-    /// # Errors
-    /// [`SplitError::Fractions`] unless all are finite, none is negative, and training has a share.
-    pub fn new(train: f64, validation: f64, test: f64) -> Result<Fractions, SplitError> {
-        let given = [train, validation, test];
-        let sum: f64 = given.iter().sum();
-        if train > 0.0 && given.iter().all(|share| *share >= 0.0) && sum.is_finite() {
-            Ok(Fractions {
-                shares: given.map(|share| share / sum),
-            })
-        } else {
-            Err(SplitError::Fractions { given })
-        }
-    }
-
-    /// The shares in the order of [`Part::ALL`]; they sum to 1.
-    pub fn shares(&self) -> [f64; 3] {
-        self.shares
-    }
-
-    /// Whole numbers of `total` things by the largest remainder; of equal remainders the earlier part gets more.
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "a share of a count is neither negative nor above the count"
-    )]
-    pub(super) fn counts(&self, total: usize) -> [usize; 3] {
-        let exact = self.shares.map(|share| share * total as f64);
-        // 0.7 × 10 is 7.000…: what is a whole number but for rounding counts as one.
-        let whole = exact.map(|exact| (exact + 1e-9).floor());
-        let mut counts = whole.map(|whole| whole as usize);
-        let mut order = [0, 1, 2];
-        order.sort_by(|&a, &b| (exact[b] - whole[b]).total_cmp(&(exact[a] - whole[a])));
-        let left = total.saturating_sub(counts.iter().sum());
-        for part in order
-            .into_iter()
-            .filter(|&part| self.shares[part] > 0.0)
-            .cycle()
-            .take(left)
-        {
-            counts[part] += 1;
-        }
-        counts
-    }
-}
-
-impl fmt::Display for Fractions {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let [train, validation, test] = self.shares.map(|share| (share * 1e6).round() / 1e4);
-        write!(f, "{train}/{validation}/{test}")
-    }
 }
 
 const KINDS: [&str; 6] = [
@@ -241,7 +172,7 @@ mod tests {
 
     #[test]
     fn every_form_reads_and_prints() {
-        for (text, printed) in [
+        for (text, formatted) in [
             ("random", "random 70/20/10"),
             ("chronological", "chronological 70/20/10"),
             ("by-point", "by-point 70/20/10"),
@@ -258,8 +189,8 @@ mod tests {
             ("all", "all"),
         ] {
             let spec: SplitSpec = text.parse().expect(text);
-            assert_eq!(spec.to_string(), printed);
-            assert_eq!(printed.parse(), Ok(spec));
+            assert_eq!(spec.to_string(), formatted);
+            assert_eq!(formatted.parse(), Ok(spec));
         }
         let other: SplitSpec = "random 80/10/10".parse().expect("shares");
         assert_eq!(other.to_string(), "random 80/10/10");

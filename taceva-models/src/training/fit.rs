@@ -16,7 +16,6 @@ use crate::estimators::projected::ProjectedRegressor;
 use crate::estimators::trees::TreeRegressor;
 use crate::features::Pca;
 use crate::file::tensors::Raw;
-use crate::model::plugin_tensor;
 use crate::training::choice::Choice;
 use crate::training::label_scaling::LabelScaling;
 use crate::training::problem::invalid;
@@ -216,7 +215,7 @@ impl ModelRegressor {
                     .collect()
             }
             ModelRegressor::Library(library) => library.tensors(),
-            ModelRegressor::Plugin(plugin) => vec![plugin_tensor(plugin)],
+            ModelRegressor::Plugin(plugin) => vec![plugin.tensor()],
             ModelRegressor::Projected(projected) => projected.tensors(),
         }
     }

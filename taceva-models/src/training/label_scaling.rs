@@ -87,10 +87,7 @@ mod tests {
     #[test]
     fn labels_map_to_zero_to_one_and_constant_ones_to_zero() {
         let channels = Channels::new([Channel::FX, Channel::FZ]).expect("distinct");
-        let targets = Targets {
-            channels: &channels,
-            values: &[-1.0, 5.0, 3.0, 5.0, 0.0, 5.0],
-        };
+        let targets = Targets::new(&channels, &[-1.0, 5.0, 3.0, 5.0, 0.0, 5.0]);
         let scaling = LabelScaling::of(targets);
         assert_eq!(scaling.span(), [4.0, 1.0]);
         assert!(!scaling.is_constant(0) && scaling.is_constant(1));

@@ -3,14 +3,14 @@
 use taceva_core::{ErrorKind, ModelError, Progress};
 
 /// A stage of long work; it ends when dropped, on every way out.
-pub(crate) struct Stage<'a> {
+pub(crate) struct ReportedStage<'a> {
     progress: &'a dyn Progress,
 }
 
-impl<'a> Stage<'a> {
-    pub(crate) fn begin(progress: &'a dyn Progress, name: &str, steps: usize) -> Stage<'a> {
+impl<'a> ReportedStage<'a> {
+    pub(crate) fn begin(progress: &'a dyn Progress, name: &str, steps: usize) -> ReportedStage<'a> {
         progress.begin(name, u64::try_from(steps).ok());
-        Stage { progress }
+        ReportedStage { progress }
     }
 
     pub(crate) fn advance(&self) {
@@ -22,7 +22,7 @@ impl<'a> Stage<'a> {
     }
 }
 
-impl Drop for Stage<'_> {
+impl Drop for ReportedStage<'_> {
     fn drop(&mut self) {
         self.progress.end();
     }

@@ -7,7 +7,7 @@ use taceva_core::{Features, ModelError, Progress};
 
 use crate::training::choice::{ChannelChoice, Choice, ChosenBy, Errors, least, rmse};
 use crate::training::problem::{Problem, Validation, joined, stacked};
-use crate::training::progress::{Stage, interrupted};
+use crate::training::progress::{ReportedStage, interrupted};
 
 /// Fits that choosing without a validation part costs at most.
 pub(crate) const FOLDS: usize = 10;
@@ -102,7 +102,7 @@ impl<'a> Trials<'a> {
         progress: &dyn Progress,
         mut squares: impl FnMut(&Round) -> Result<Errors, ModelError>,
     ) -> Result<Option<Errors>, ModelError> {
-        let stage = Stage::begin(progress, "settings tried", self.rounds.len());
+        let stage = ReportedStage::begin(progress, "settings tried", self.rounds.len());
         let mut total: Option<Errors> = None;
         for round in self.rounds.iter().filter(|round| !round.learnt.is_empty()) {
             interrupted(progress)?;

@@ -64,14 +64,7 @@ impl Blob {
 
 impl Recording {
     pub(crate) fn set(&self) -> TrainingSet<'_> {
-        TrainingSet {
-            features: &self.features,
-            targets: Targets {
-                channels: &self.channels,
-                values: &self.labels,
-            },
-            groups: None,
-        }
+        TrainingSet::new(&self.features, Targets::new(&self.channels, &self.labels))
     }
 
     pub(crate) fn select(&self, rows: &[usize]) -> Recording {

@@ -3,7 +3,7 @@
 use taceva_core::{
     Channel, Channels, FeatureShape, Features, Regressor, SilentProgress, Targets, TrainingSet,
 };
-use taceva_models::{Baseline, LinearEstimator, LinearFit, Pls, Ridge, Settings};
+use taceva_models::{Baseline, LinearEstimator, LinearFit, ModelSettings, Pls, Ridge};
 
 /// Reproducible numbers for tests: a linear congruential generator (Knuth's MMIX constants).
 struct Numbers(u64);
@@ -62,21 +62,11 @@ pub(crate) fn recording(samples: usize, width: usize, noise: f64, seed: u64) -> 
 
 impl Recording {
     pub(crate) fn set(&self) -> TrainingSet<'_> {
-        TrainingSet {
-            features: &self.features,
-            targets: Targets {
-                channels: &self.channels,
-                values: &self.labels,
-            },
-            groups: None,
-        }
+        TrainingSet::new(&self.features, Targets::new(&self.channels, &self.labels))
     }
 
     pub(crate) fn grouped(&self) -> TrainingSet<'_> {
-        TrainingSet {
-            groups: Some(&self.groups),
-            ..self.set()
-        }
+        self.set().with_groups(&self.groups[..])
     }
 
     pub(crate) fn select(&self, rows: &[usize]) -> Recording {
@@ -94,7 +84,7 @@ impl Recording {
 
 /// The linear model called `name`, with settings.
 pub(crate) fn model(name: &str, words: &[&str]) -> Box<dyn LinearEstimator> {
-    let settings = Settings::parse(words.iter().copied()).expect("well formed");
+    let settings = ModelSettings::parse(words.iter().copied()).expect("well formed");
     let valid = "valid settings";
     match name {
         "baseline" => Box::new(Baseline::from_settings(&settings).expect(valid)),

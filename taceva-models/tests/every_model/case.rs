@@ -1,7 +1,9 @@
 //! The models as the suite fits them.
 
 use taceva_core::{Features, ModelError, Regressor, SilentProgress};
-use taceva_models::{FeatureSpec, FitInput, Model, ModelEstimator, ModelFit, Provenance, Settings};
+use taceva_models::{
+    FeatureSpec, FitInput, Model, ModelEstimator, ModelFit, ModelSettings, Provenance,
+};
 
 use crate::blobs::{FRAME, Recording, SHAPE};
 
@@ -44,7 +46,7 @@ pub(crate) fn case_of(name: &str) -> &'static Case {
 
 impl Case {
     pub(crate) fn estimator(&self) -> Box<dyn ModelEstimator> {
-        let settings = Settings::parse(self.words.iter().copied()).expect("well formed");
+        let settings = ModelSettings::parse(self.words.iter().copied()).expect("well formed");
         let model = crate::models().find(self.name).expect("registered");
         model.estimator(&settings).expect("valid settings")
     }
@@ -81,7 +83,7 @@ impl Case {
         training: &Recording,
         pca: Option<u32>,
     ) -> Result<Model, ModelError> {
-        let settings = Settings::parse(self.words.iter().copied()).expect("well formed");
+        let settings = ModelSettings::parse(self.words.iter().copied()).expect("well formed");
         let estimator = self.estimator();
         let features = FeatureSpec {
             width: u32::try_from(SHAPE.width).expect("small"),

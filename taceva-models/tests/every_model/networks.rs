@@ -1,7 +1,7 @@
 //! What networks promise beyond what all models do.
 
 use taceva_core::{ErrorKind, Frame, SilentProgress};
-use taceva_models::{Model, ModelEstimator, ModelRegressor, Settings, find};
+use taceva_models::{Model, ModelEstimator, ModelRegressor, ModelSettings, find};
 use taceva_needs::{Need, skip};
 
 use crate::blobs::{FRAME, numbers, recording};
@@ -10,7 +10,7 @@ use crate::case::{case_of, predict, rms};
 const NETWORKS: [&str; 4] = ["cnn", "resnet10", "resnet18", "resnet34"];
 
 fn estimator(name: &str, words: &[&str]) -> Box<dyn ModelEstimator> {
-    let settings = Settings::parse(words.iter().copied()).expect("well formed");
+    let settings = ModelSettings::parse(words.iter().copied()).expect("well formed");
     find(name)
         .expect("registered")
         .estimator(&settings)
@@ -80,7 +80,7 @@ fn fewer_samples_than_a_batch_are_refused() {
 
 #[test]
 fn a_setting_that_no_network_has_is_refused_with_the_nearest() {
-    let settings = Settings::parse(["epoch=3"]).expect("well formed");
+    let settings = ModelSettings::parse(["epoch=3"]).expect("well formed");
     let error = find("cnn").expect("registered").estimator(&settings).err();
     assert_eq!(
         error.expect("refused").to_string(),
@@ -91,7 +91,7 @@ fn a_setting_that_no_network_has_is_refused_with_the_nearest() {
 #[test]
 fn a_device_that_this_program_cannot_reach_is_refused_by_the_feature_it_needs() {
     let refused = |word: &str| {
-        let settings = Settings::parse([word]).expect("well formed");
+        let settings = ModelSettings::parse([word]).expect("well formed");
         let made = find("cnn").expect("registered").estimator(&settings);
         made.err().map(|error| error.to_string())
     };
@@ -118,7 +118,7 @@ fn a_network_of_a_gpu_says_which_and_finds_the_blob_here() {
     for device in ["cuda", "wgpu"] {
         let words = ["epochs=30", "batch=20", "jitter=0", "local_mean=0"];
         let device_word = format!("device={device}");
-        let settings = Settings::parse(words.into_iter().chain([&*device_word]));
+        let settings = ModelSettings::parse(words.into_iter().chain([&*device_word]));
         let made = find("cnn")
             .expect("registered")
             .estimator(&settings.expect("well formed"));

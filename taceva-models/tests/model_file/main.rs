@@ -8,7 +8,7 @@ use taceva_core::{
     TrainingSet, Unit,
 };
 use taceva_models::{
-    Color, FeatureSpec, FitInput, Model, Provenance, Settings, Source, SplitCard, find,
+    Color, FeatureSpec, FitInput, Model, ModelSettings, Provenance, Source, SplitCard, find,
 };
 
 pub(crate) const FRAME: FrameInfo = FrameInfo {
@@ -63,15 +63,8 @@ pub(crate) fn fit(name: &str, words: &[&str], spec: FeatureSpec) -> (Model, Feat
         .collect();
     let rows: Vec<usize> = (0..60).collect();
     let (training, validation) = (features.select(&rows[..40]), features.select(&rows[40..]));
-    let set = |features, values| TrainingSet {
-        features,
-        targets: Targets {
-            channels: &channels,
-            values,
-        },
-        groups: None,
-    };
-    let settings = Settings::parse(words.iter().copied()).expect("well formed");
+    let set = |features, values| TrainingSet::new(features, Targets::new(&channels, values));
+    let settings = ModelSettings::parse(words.iter().copied()).expect("well formed");
     let estimator = find(name)
         .expect("registered")
         .estimator(&settings)

@@ -167,7 +167,7 @@ mod tests {
     }
 
     #[test]
-    fn stations_cost_their_ways_down_sideways_and_up_and_the_way_back() {
+    fn waypoints_cost_their_ways_down_sideways_and_up_and_the_way_back() {
         let waypoint = |depth, sideways, phase| Waypoint {
             depth: Nanometre(depth),
             shear: [Nanometre(sideways), Nanometre(0)],

@@ -63,25 +63,24 @@ pub(super) fn sample(
     let waypoint = usize::try_from(spot.number)
         .ok()
         .and_then(|number| press.waypoints().get(number));
-    Sample {
-        id: format!("{}/{}", planned.id, spot.number),
-        unit_id: Some(press.unit.clone()),
-        scene_id: press.light.clone(),
-        point_id: Some(press.point_id()),
+    Sample::new(format!("{}/{}", planned.id, spot.number))
+        .with_unit_id(press.unit.clone())
+        .with_scene_id(press.light.clone())
+        .with_point_id(press.point_id())
         // A depth at which a limit stopped the tip is no level that repeats share.
-        depth_step: waypoint
-            .filter(|_| spot.limited_by.is_none())
-            .map(|_| spot.number),
-        repeat: press.repeat,
-        phase: waypoint.map(|waypoint| waypoint.phase),
-        limited_by: spot.limited_by,
-        stamp: Some(observed.stamp),
-        kind,
-        spacing,
-        frame: observed.frame,
-        truth: Readings::new(truth.collect()),
-        ..Sample::default()
-    }
+        .with_depth_step(
+            waypoint
+                .filter(|_| spot.limited_by.is_none())
+                .map(|_| spot.number),
+        )
+        .with_repeat(press.repeat)
+        .with_phase(waypoint.map(|waypoint| waypoint.phase))
+        .with_limited_by(spot.limited_by)
+        .with_stamp(observed.stamp)
+        .with_kind(kind)
+        .with_spacing(spacing)
+        .with_frame(observed.frame)
+        .with_truth(Readings::new(truth.collect()))
 }
 
 #[cfg(test)]

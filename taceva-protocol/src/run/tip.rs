@@ -375,7 +375,7 @@ mod tests {
     }
 
     #[test]
-    fn a_station_is_beside_its_place_by_its_shear_and_below_the_contact_by_its_depth() {
+    fn a_waypoint_is_beside_its_place_by_its_shear_and_below_the_contact_by_its_depth() {
         let [place, shear] = [[4_000_000, -3_000_000], [500_000, 250_000]];
         let [place, shear] = [place, shear].map(|pair| pair.map(Nanometre));
         let waypoint = Tip::waypoint(place, shear, 0.25, Nanometre(750_000));

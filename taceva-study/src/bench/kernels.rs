@@ -115,7 +115,7 @@ pub struct InputDigits {
 /// One candidate of the race.
 #[derive(Clone, Copy)]
 struct Candidate {
-    contender: Kernel,
+    kernel: Kernel,
     mae_only: bool,
 }
 
@@ -123,11 +123,11 @@ impl Candidate {
     fn run(self, pairs: Paired<&[f64]>) -> Scores {
         if self.mae_only {
             Scores {
-                mae: self.contender.run_mae(pairs),
+                mae: self.kernel.run_mae(pairs),
                 ..Scores::default()
             }
         } else {
-            self.contender.run(pairs)
+            self.kernel.run(pairs)
         }
     }
 
@@ -180,8 +180,8 @@ pub fn kernels(
         let time = finished(watch.wall(position + 1))?.times(per_pair);
         let digits = on_every_input(*candidate);
         rows.push(KernelRow {
-            name: candidate.contender.name(),
-            isa: isa(candidate.contender),
+            name: candidate.kernel.name(),
+            isa: isa(candidate.kernel),
             scores: if candidate.mae_only {
                 "mae"
             } else {
@@ -221,12 +221,12 @@ pub fn kernels(
 
 fn candidates() -> Vec<Candidate> {
     let all = Kernel::available();
-    let full = all.iter().map(|contender| Candidate {
-        contender: *contender,
+    let full = all.iter().map(|kernel| Candidate {
+        kernel: *kernel,
         mae_only: false,
     });
-    let mae = all.iter().map(|contender| Candidate {
-        contender: *contender,
+    let mae = all.iter().map(|kernel| Candidate {
+        kernel: *kernel,
         mae_only: true,
     });
     full.chain(mae).collect()
@@ -236,13 +236,13 @@ fn candidates() -> Vec<Candidate> {
 fn columns(request: &KernelRequest) -> Vec<Paired<Vec<f64>>> {
     (0..CHANNELS as u64)
         .map(|channel| {
-            let recipe = Case {
+            let case = Case {
                 kind: LAB,
                 rows: request.rows,
                 seed: request.seed.wrapping_add(channel),
                 order: Order::AsMade,
             };
-            recipe.columns()
+            case.columns()
         })
         .collect()
 }
@@ -288,8 +288,8 @@ fn finished(time: Option<Spread>) -> Result<Spread, StudyError> {
 
 fn on_every_input(candidate: Candidate) -> Vec<InputDigits> {
     nasty_inputs()
-        .map(|(input, recipe)| {
-            let columns = recipe.columns();
+        .map(|(input, case)| {
+            let columns = case.columns();
             let truth = Kernel::truth(as_slices(&columns));
             InputDigits {
                 input,
@@ -300,8 +300,8 @@ fn on_every_input(candidate: Candidate) -> Vec<InputDigits> {
 }
 
 fn survives_shuffling(candidate: Candidate, seed: u64) -> bool {
-    nasty_inputs().all(|(_, recipe)| {
-        let columns = recipe.columns();
+    nasty_inputs().all(|(_, case)| {
+        let columns = case.columns();
         let first = candidate.run(as_slices(&columns));
         (0..SHUFFLES).all(|shuffle| {
             let other = shuffled(&columns, seed.wrapping_add(shuffle));
@@ -310,9 +310,9 @@ fn survives_shuffling(candidate: Candidate, seed: u64) -> bool {
     })
 }
 
-/// The instruction set that a contender was made for.
-fn isa(contender: Kernel) -> Option<String> {
-    match contender {
+/// The instruction set that a kernel was made for.
+fn isa(kernel: Kernel) -> Option<String> {
+    match kernel {
         Kernel::Exact(isa) => Some(isa.name().to_owned()),
         _ => None,
     }

@@ -81,10 +81,10 @@ pub fn check(
             wanted.retain(|check| {
                 let reads_split = check.code == leakage::CHECK.code;
                 if reads_split {
-                    skipped.push(Skipped {
-                        what: format!("check:{}", check.code),
-                        reason: SkipReason::NoSplit(error.to_string()),
-                    });
+                    skipped.push(Skipped::new(
+                        format!("check:{}", check.code),
+                        SkipReason::NoSplit(error.to_string()),
+                    ));
                 }
                 !reads_split
             });
@@ -152,12 +152,8 @@ fn wanted(dataset: &Dataset, only: &[String]) -> Result<Wanted, StudyError> {
     }
     let has_frames = dataset.table().fields().contains(Field::Frame);
     let mut skipped = Vec::new();
-    let mut skip = |check: &Check, reason| {
-        skipped.push(Skipped {
-            what: format!("check:{}", check.code),
-            reason,
-        })
-    };
+    let mut skip =
+        |check: &Check, reason| skipped.push(Skipped::new(format!("check:{}", check.code), reason));
     let mut kept = Vec::new();
     for check in ALL {
         if !only.is_empty() && !only.iter().any(|word| is_called(check, word)) {

@@ -81,13 +81,8 @@ impl FitPlan<'_> {
         drop(seen);
         let (train_labels, held_labels) = (self.labels(&train), self.labels(&self.validation));
         let groups = groups(self.dataset, &train);
-        let set = |features, values, groups| TrainingSet {
-            features,
-            targets: Targets {
-                channels: &self.channels,
-                values,
-            },
-            groups,
+        let set = |features, values, groups| {
+            TrainingSet::new(features, Targets::new(&self.channels, values)).with_groups(groups)
         };
         let input = FitInput {
             estimator,

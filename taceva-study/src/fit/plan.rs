@@ -3,7 +3,7 @@
 use taceva_core::Channels;
 use taceva_dataset::Dataset;
 use taceva_models::{
-    Checkpoints, ChosenModel, FeatureSpec, ModelEstimator, OpenFeatures, Settings,
+    Checkpoints, ChosenModel, FeatureSpec, ModelEstimator, ModelSettings, OpenFeatures,
 };
 
 use super::{FitRequest, Recipe};
@@ -19,9 +19,9 @@ pub(crate) struct FitPlan<'a> {
     pub(super) model: ChosenModel,
     pub(super) estimator: Box<dyn ModelEstimator>,
     /// As typed.
-    pub(super) settings: Settings,
+    pub(super) settings: ModelSettings,
     /// Those of them that are the model's own.
-    pub(super) of_model: Settings,
+    pub(super) of_model: ModelSettings,
     pub(super) features: FeatureSpec,
     pub(super) open: Option<OpenFeatures>,
     pub(crate) channels: Channels,

@@ -1,6 +1,6 @@
 //! What is to be fitted, before any data is looked at.
 
-use taceva_models::{ChosenModel, FeatureSpec, ModelEstimator, OpenFeatures, Settings};
+use taceva_models::{ChosenModel, FeatureSpec, ModelEstimator, ModelSettings, OpenFeatures};
 
 use crate::error::StudyError;
 
@@ -10,7 +10,7 @@ pub struct FitRequest {
     /// The model.
     pub model: ChosenModel,
     /// Settings of its features and of itself.
-    pub settings: Settings,
+    pub settings: ModelSettings,
     /// Channels by name; empty for all.
     pub channels: Vec<String>,
     /// The split as people write it; by point where points have repeats, else random, if `None`.
@@ -41,7 +41,7 @@ impl FitRequest {
         let others = others.filter(|word| !word.starts_with("seed="));
         let words: Vec<String> = others.chain([format!("{SEED}={seed}")]).collect();
         Ok(FitRequest {
-            settings: Settings::parse(words.iter().map(String::as_str))?,
+            settings: ModelSettings::parse(words.iter().map(String::as_str))?,
             ..self
         })
     }
@@ -51,7 +51,7 @@ impl FitRequest {
 pub(crate) struct Recipe {
     pub(super) model: ChosenModel,
     pub(super) estimator: Box<dyn ModelEstimator>,
-    pub(super) of_model: Settings,
+    pub(super) of_model: ModelSettings,
     pub(super) features: FeatureSpec,
     /// What of the features is to be chosen.
     pub(super) open: Option<OpenFeatures>,

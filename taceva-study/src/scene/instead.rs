@@ -1,6 +1,6 @@
 //! What may be said of a scene otherwise than it is written, without editing it.
 
-use taceva_models::Settings;
+use taceva_models::ModelSettings;
 use taceva_protocol::{ModelSpec, Setting};
 
 use crate::error::StudyError;
@@ -12,7 +12,7 @@ pub struct Instead {
     pub seed: Option<u64>,
     /// The model of every study, without the settings that the scene has for another.
     pub model: Option<String>,
-    /// Settings of the model, as `key=value`, beside those that stay.
+    /// ModelSettings of the model, as `key=value`, beside those that stay.
     pub set: Vec<String>,
     /// The seeds that models are fitted with: presses, division and what is scored stay as they are.
     pub seeds: Vec<u64>,
@@ -40,7 +40,7 @@ impl Instead {
             return Err(StudyError::Request(format!("study `{study}`: {needed}")));
         };
         // Refused as they are in every other command.
-        let set = Settings::parse(self.set.iter().map(String::as_str))?;
+        let set = ModelSettings::parse(self.set.iter().map(String::as_str))?;
         for word in set.words() {
             if let Some((key, value)) = word.split_once('=') {
                 let value = toml::Value::String(value.to_owned());

@@ -2,13 +2,15 @@
 
 use std::collections::BTreeMap;
 
-use taceva_models::{SettingError, Settings};
+use taceva_models::{ModelSettings, SettingError};
 
 /// Settings as a scene writes them, by name.
 ///
 /// # Errors
 /// [`SettingError`] for a name that is none.
-pub(crate) fn settings_of(set: &BTreeMap<String, toml::Value>) -> Result<Settings, SettingError> {
+pub(crate) fn settings_of(
+    set: &BTreeMap<String, toml::Value>,
+) -> Result<ModelSettings, SettingError> {
     let words: Vec<String> = set
         .iter()
         .map(|(key, value)| match value {
@@ -16,5 +18,5 @@ pub(crate) fn settings_of(set: &BTreeMap<String, toml::Value>) -> Result<Setting
             other => format!("{key}={other}"),
         })
         .collect();
-    Settings::parse(words.iter().map(String::as_str))
+    ModelSettings::parse(words.iter().map(String::as_str))
 }

@@ -267,10 +267,7 @@ fn left_out(study: &PlannedStudy) -> (Vec<Skipped>, Vec<String>) {
         let what = skip.subject.key();
         match &skip.reason {
             PlanReason::Skip(SkipReason::NotWanted) => {}
-            PlanReason::Skip(reason) => skipped.push(Skipped {
-                what,
-                reason: reason.clone(),
-            }),
+            PlanReason::Skip(reason) => skipped.push(Skipped::new(what, reason.clone())),
             reason => notes.push(format!("{what}: {reason}")),
         }
     }

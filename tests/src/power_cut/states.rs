@@ -45,7 +45,7 @@ impl State<'_> {
 
 /// What came of trying all states.
 #[derive(Debug, Default)]
-pub struct Tally {
+pub struct Counted {
     /// Moments at which power was cut.
     pub cuts: usize,
     /// Different states, those that two cuts share counted once.
@@ -58,11 +58,11 @@ pub struct Tally {
     pub first: Option<String>,
 }
 
-impl Tally {
+impl Counted {
     /// Both together.
     #[must_use]
-    pub fn and(self, other: Tally) -> Tally {
-        Tally {
+    pub fn and(self, other: Counted) -> Counted {
+        Counted {
             cuts: self.cuts + other.cuts,
             states: self.states + other.states,
             capped: self.capped + other.capped,
@@ -72,9 +72,9 @@ impl Tally {
     }
 }
 
-impl std::fmt::Display for Tally {
+impl std::fmt::Display for Counted {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let Tally {
+        let Counted {
             cuts,
             states,
             capped,
@@ -98,27 +98,27 @@ impl Trace {
         &self,
         cuts: Range<usize>,
         mut check: impl FnMut(&State<'_>) -> Result<(), String>,
-    ) -> Tally {
+    ) -> Counted {
         let mut disk = self.after(cuts.start);
         let mut seen = Seen::default();
-        let mut tally = Tally::default();
+        let mut counted = Counted::default();
         for cut in cuts {
-            tally.cuts += 1;
+            counted.cuts += 1;
             let choices = Choices::of(&disk, cut);
-            tally.capped += usize::from(choices.is_capped());
+            counted.capped += usize::from(choices.is_capped());
             choices.each(|picked| {
                 let Some(tree) = seen.new_tree(&disk, picked) else {
                     return;
                 };
-                tally.states += 1;
+                counted.states += 1;
                 let state = State {
                     cut,
                     printed: disk.printed(),
                     tree: &tree,
                 };
                 if let Err(problem) = check(&state) {
-                    tally.violations += 1;
-                    tally.first.get_or_insert_with(|| {
+                    counted.violations += 1;
+                    counted.first.get_or_insert_with(|| {
                         let last = cut.checked_sub(1).map(|last| short(&self.operations[last]));
                         format!(
                             "after operation {cut} ({}): {problem}",
@@ -131,7 +131,7 @@ impl Trace {
                 disk.apply(operation);
             }
         }
-        tally
+        counted
     }
 }
 

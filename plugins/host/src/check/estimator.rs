@@ -73,23 +73,14 @@ fn fit(
             "it needs settings that are not given",
         )
     })?;
-    let training = TrainingSet {
-        features: &samples.features,
-        targets: Targets {
-            channels: &samples.channels,
-            values: &samples.values,
-        },
-        groups: None,
-    };
+    let training = TrainingSet::new(
+        &samples.features,
+        Targets::new(&samples.channels, &samples.values),
+    );
     let key = subject
         .key()
         .map_err(|_| ModelError::new(ErrorKind::Internal, "no estimator"))?;
-    let request = FitRequest {
-        settings: &settings,
-        training: &training,
-        validation: None,
-        progress,
-    };
+    let request = FitRequest::new(&settings, &training, progress);
     subject.session.fit(key, &request)
 }
 
@@ -122,11 +113,7 @@ fn load(
     let key = subject
         .key()
         .map_err(|_| ModelError::new(ErrorKind::Internal, "no estimator"))?;
-    let saved = Saved {
-        bytes,
-        channels: &samples.channels,
-        shape: samples.features.shape(),
-    };
+    let saved = Saved::new(bytes, &samples.channels, samples.features.shape());
     subject.session.load(key, &saved)
 }
 

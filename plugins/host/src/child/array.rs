@@ -117,14 +117,11 @@ impl OwnedSet {
 
     /// The set as estimators take it.
     pub(crate) fn set(&self) -> TrainingSet<'_> {
-        TrainingSet {
-            features: &self.features,
-            targets: Targets {
-                channels: &self.shape.channels,
-                values: &self.targets,
-            },
-            groups: self.groups.as_deref(),
-        }
+        TrainingSet::new(
+            &self.features,
+            Targets::new(&self.shape.channels, &self.targets),
+        )
+        .with_groups(self.groups.as_deref())
     }
 }
 
@@ -138,14 +135,11 @@ mod tests {
         let channels = Channels::new([Channel::PZ, Channel::FZ]).expect("each once");
         let values = vec![0.1, f32::MIN_POSITIVE, -0.0, 4.0, 5.0, 6.0];
         let features = Features::new(FeatureShape::flat(2), values).expect("three samples");
-        let set = TrainingSet {
-            features: &features,
-            targets: Targets {
-                channels: &channels,
-                values: &[1.0, 2.0, 3.0, 0.1 + 0.2, 5.0, 6.0],
-            },
-            groups: Some(&[7, 7, 9]),
-        };
+        let set = TrainingSet::new(
+            &features,
+            Targets::new(&channels, &[1.0, 2.0, 3.0, 0.1 + 0.2, 5.0, 6.0]),
+        )
+        .with_groups(&[7, 7, 9][..]);
         let (shape, mut memory) = share(&set).expect("memory");
         let owned = OwnedSet::take(shape.clone(), &mut memory).expect("whole");
         let there = owned.set();

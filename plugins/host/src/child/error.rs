@@ -144,17 +144,14 @@ impl Failure {
 
 /// What a plugin says of the devices it sees, with control characters escaped.
 pub(crate) fn plain_found(found: Found) -> Found {
-    Found {
-        title: plain(&cut(&found.title)),
-        arguments: plain(&cut(&found.arguments)),
-        access: match found.access {
+    Found::new(found.driver, plain(&cut(&found.title)))
+        .with_arguments(plain(&cut(&found.arguments)))
+        .with_access(match found.access {
             Access::Denied { remedy } => Access::Denied {
                 remedy: plain(&cut(&remedy)),
             },
             access => access,
-        },
-        driver: found.driver,
-    }
+        })
 }
 
 fn cut(text: &str) -> String {

@@ -3,8 +3,8 @@
 use std::sync::Arc;
 
 use taceva_core::{
-    Access, ArgValue, Args, Descriptor, DescriptorError, DriverError, DriverKey, ErrorKind,
-    Factory, ForceTransducer, Found, Lighting, Rig, Robot, Sensor,
+    ArgValue, Args, Descriptor, DescriptorError, DriverError, DriverKey, ErrorKind, Factory,
+    ForceTransducer, Found, Lighting, Rig, Robot, Sensor,
 };
 
 use super::PluginHost;
@@ -95,11 +95,11 @@ impl PluginDriver {
         let ours = devices
             .into_iter()
             .filter(|device| self.usb.contains(&device.id));
-        let found = ours.map(|device| Found {
-            driver: self.descriptor.key().clone(),
-            title: (device.product).unwrap_or_else(|| self.descriptor.title().to_owned()),
-            arguments: String::new(),
-            access: Access::Ready,
+        let found = ours.map(|device| {
+            Found::new(
+                self.descriptor.key().clone(),
+                (device.product).unwrap_or_else(|| self.descriptor.title().to_owned()),
+            )
         });
         found.collect()
     }

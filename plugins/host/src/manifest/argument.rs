@@ -72,14 +72,11 @@ impl WrittenArgument {
                 return Err(Refused::at(default, problem));
             }
         };
-        let spec = ArgSpec {
-            key: key.to_owned(),
-            kind,
-            unit: self.unit,
-            presence,
-            help: self.help,
-            changes_facts: self.changes_facts,
-        };
+        let mut spec = ArgSpec::new(key, kind);
+        spec.unit = self.unit;
+        spec.presence = presence;
+        spec.help = self.help;
+        spec.changes_facts = self.changes_facts;
         match spec.fault() {
             Some(fault) => Err(Refused::at(&self.key, fault)),
             None => Ok(spec),

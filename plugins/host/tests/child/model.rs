@@ -163,14 +163,8 @@ fn lesson() -> Lesson {
 
 impl Lesson {
     fn set(&self) -> TrainingSet<'_> {
-        TrainingSet {
-            features: &self.features,
-            targets: Targets {
-                channels: &self.channels,
-                values: &self.targets,
-            },
-            groups: Some(&self.groups),
-        }
+        TrainingSet::new(&self.features, Targets::new(&self.channels, &self.targets))
+            .with_groups(&self.groups[..])
     }
 }
 
@@ -180,12 +174,8 @@ fn fitted(
     progress: &dyn Progress,
 ) -> Result<Box<dyn SavedRegressor>, ModelError> {
     let lesson = lesson();
-    let request = FitRequest {
-        settings: &Args::default(),
-        training: &lesson.set(),
-        validation: Some(&lesson.set()),
-        progress,
-    };
+    let (settings, training) = (Args::default(), lesson.set());
+    let request = FitRequest::new(&settings, &training, progress).with_validation(&training);
     session.fit(estimator, &request)
 }
 
@@ -207,18 +197,11 @@ fn a_model_says_the_same_through_a_child() {
     let bytes = there.save().expect("kept");
     assert_eq!(bytes, here.save().expect("kept"));
 
-    let saved = Saved {
-        bytes: &bytes,
-        channels: here.channels(),
-        shape: here.shape(),
-    };
+    let saved = Saved::new(&bytes, here.channels(), here.shape());
     drop(there);
     let loaded = with.load(&SUMS, &saved).expect("loaded");
     assert_eq!(predicted(&*loaded).expect("predicted"), expected);
-    let cut = Saved {
-        bytes: &bytes[1..],
-        ..saved
-    };
+    let cut = Saved::new(&bytes[1..], saved.channels, saved.shape);
     let error = with.load(&SUMS, &cut).map(drop).expect_err("no model");
     assert_eq!(error.kind(), ErrorKind::Protocol);
     assert_eq!(error.to_string(), "odd/sums: no model");

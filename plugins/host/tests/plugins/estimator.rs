@@ -28,20 +28,12 @@ fn fit(
     samples: &Samples,
     progress: &dyn Progress,
 ) -> Result<Box<dyn SavedRegressor>, ModelError> {
-    let training = TrainingSet {
-        features: &samples.features,
-        targets: Targets {
-            channels: &samples.channels,
-            values: &samples.values,
-        },
-        groups: None,
-    };
-    let request = FitRequest {
-        settings: &Args::default(),
-        training: &training,
-        validation: None,
-        progress,
-    };
+    let training = TrainingSet::new(
+        &samples.features,
+        Targets::new(&samples.channels, &samples.values),
+    );
+    let settings = Args::default();
+    let request = FitRequest::new(&settings, &training, progress);
     session.fit(&MEAN, &request)
 }
 
@@ -59,11 +51,7 @@ fn a_model_that_was_kept_predicts_what_it_did_before() {
     assert_eq!(predicted, [2.0, 20.0, 2.0, 20.0]);
     let bytes = model.save().expect("saves");
     drop(model);
-    let saved = Saved {
-        bytes: &bytes,
-        channels: &samples.channels,
-        shape: samples.features.shape(),
-    };
+    let saved = Saved::new(&bytes, &samples.channels, samples.features.shape());
     let again = session.load(&MEAN, &saved).expect("loads");
     let mut repeated = vec![0.0; 4];
     again
@@ -74,10 +62,7 @@ fn a_model_that_was_kept_predicts_what_it_did_before() {
         .predict(&samples.features, &mut [0.0; 3])
         .expect_err("3");
     assert_eq!(error.kind(), ErrorKind::InvalidArgument);
-    let damaged = Saved {
-        bytes: &bytes[1..],
-        ..saved
-    };
+    let damaged = Saved::new(&bytes[1..], saved.channels, saved.shape);
     let error = session.load(&MEAN, &damaged).map(|_| ()).expect_err("cut");
     assert_eq!(error.kind(), ErrorKind::Protocol);
 }

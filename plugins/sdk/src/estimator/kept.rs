@@ -67,11 +67,7 @@ pub(super) fn read<R>(
     if !is_countable {
         return Err(foreign());
     }
-    load(&Saved {
-        bytes: rest.0,
-        channels: &channels,
-        shape,
-    })
+    load(&Saved::new(rest.0, &channels, shape))
 }
 
 /// The channel of that name: what its unit is, only those that are known everywhere say.

@@ -100,12 +100,14 @@ unsafe extern "C" fn fit(
             // SAFETY: as above.
             false => Some(unsafe { Set::read(validation) }?),
         };
-        let fitted = estimator.fit(&FitRequest {
-            settings: &settings,
-            training: &training.borrowed(),
-            validation: validation.as_ref().map(Set::borrowed).as_ref(),
-            progress: &ReportedProgress::new(report, context),
-        })?;
+        let fitted = estimator.fit(
+            &FitRequest::new(
+                &settings,
+                &training.borrowed(),
+                &ReportedProgress::new(report, context),
+            )
+            .with_validation(validation.as_ref().map(Set::borrowed).as_ref()),
+        )?;
         *place = opened(fitted);
         Ok(())
     };
@@ -274,14 +276,8 @@ impl Set {
     }
 
     fn borrowed(&self) -> TrainingSet<'_> {
-        TrainingSet {
-            features: &self.features,
-            targets: Targets {
-                channels: &self.channels,
-                values: &self.targets,
-            },
-            groups: self.groups.as_deref(),
-        }
+        TrainingSet::new(&self.features, Targets::new(&self.channels, &self.targets))
+            .with_groups(self.groups.as_deref())
     }
 }
 

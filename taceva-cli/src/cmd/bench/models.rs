@@ -4,7 +4,7 @@ use std::path::Path;
 
 use taceva_dataset::Dataset;
 use taceva_metrics::Isa;
-use taceva_models::{Models, Settings};
+use taceva_models::{ModelSettings, Models};
 use taceva_report::{
     BenchMachine, BenchRecording, ChannelError, ModelBench, ModelRow, model_bench,
 };
@@ -93,7 +93,7 @@ pub(super) fn request(word: &str, split: &SplitArgs, known: &Models) -> anyhow::
     let settings = settings.split(',').filter(|setting| !setting.is_empty());
     Ok(FitRequest {
         model: known.find(name).map_err(StudyError::from)?,
-        settings: Settings::parse(settings).map_err(StudyError::from)?,
+        settings: ModelSettings::parse(settings).map_err(StudyError::from)?,
         channels: Vec::new(),
         split: split.split.clone(),
         seed: split.seed.value,

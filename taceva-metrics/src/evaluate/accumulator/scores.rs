@@ -3,7 +3,7 @@
 use super::Accumulator;
 use super::erased_sums::ErasedSums;
 use super::resampling::{Cell, Resampling, each_left_out};
-use crate::evaluate::evaluation::Entry;
+use crate::evaluate::entry::Entry;
 use crate::families::family::{Details, Numbers, Output};
 use crate::metric::Metric;
 use crate::score::standing::Standing;

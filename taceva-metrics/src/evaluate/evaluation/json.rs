@@ -3,7 +3,8 @@
 use serde::ser::{Serialize, SerializeMap, SerializeStruct, Serializer};
 use taceva_core::{Skipped, Unit};
 
-use super::{Entry, Evaluation};
+use super::Evaluation;
+use crate::evaluate::entry::Entry;
 use crate::score::value::Value;
 use crate::score::{Interval, Score, Variant};
 

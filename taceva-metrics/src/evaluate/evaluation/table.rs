@@ -4,7 +4,8 @@ use std::fmt;
 
 use taceva_core::Unit;
 
-use super::{Entry, Evaluation};
+use super::Evaluation;
+use crate::evaluate::entry::Entry;
 use crate::score::Interval;
 use crate::score::better::Better;
 use crate::score::value::Value;

@@ -2,11 +2,12 @@
 
 use taceva_core::Unit;
 
-use super::{EPSILON, gate, needs, not_empty};
+use super::{gate, needs, not_empty};
 use crate::exact::Dyadic;
 use crate::families::accuracy::pair_sums::PairSums;
 use crate::families::accuracy::streams::{Stream, Streams};
 use crate::metric::{Finish, Formula, Metric, ScoreUnit};
+use crate::paired::EPSILON;
 use crate::score::Parameter;
 use crate::score::better::Better;
 use crate::score::range::Range;

@@ -33,7 +33,7 @@ struct PlaceSums {
 }
 
 impl Branches {
-    /// Adds a sample: depth in mm and force in N, both usable numbers.
+    /// Adds a sample: depth in mm and force in N, both finite and of a magnitude up to 2¹⁰²¹.
     pub(super) fn add(&mut self, phase: Phase, depth_mm: f64, force_n: f64) {
         self.press = OnceLock::new();
         let branch = match phase {

@@ -53,7 +53,7 @@ impl Loops {
         })
     }
 
-    /// Where the sample at `row` lies, if it says so in usable numbers.
+    /// Where the sample at `row` lies, in mm; `None` if a coordinate is missing or no number of a magnitude up to 2¹⁰²¹.
     fn place_mm(&self, batch: &Batch, row: usize) -> Option<[f64; 2]> {
         let [x, y] = self.place?;
         let place = [batch.truth(x).get(row)?, batch.truth(y).get(row)?];

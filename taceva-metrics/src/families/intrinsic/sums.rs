@@ -74,7 +74,7 @@ impl IntrinsicSums {
         self.contacts
     }
 
-    /// Values that are no usable numbers.
+    /// Samples left out because a value was no number of a magnitude up to 2¹⁰²¹.
     pub(super) fn n_invalid(&self) -> u64 {
         self.n_invalid
     }

@@ -27,15 +27,14 @@ pub(crate) static R_LIGHT: Metric = Metric {
                     and error together, each relative to the reference scene; the mean over the scenes that determine it. An \
                     error that shrinks counts like one that grows: plus counts growth only. scenes holds the ratios of each \
                     scene; a scene whose light hardly changed says little.",
-    needs: Needs {
-        fields: FieldSet::EMPTY
+    needs: Needs::new(
+        FieldSet::EMPTY
             .with(Field::Truth)
             .with(Field::Prediction)
             .with(Field::Scene)
             .with(Field::Intensity),
-        channels: &[],
-        least_samples: 1,
-    },
+    )
+    .with_least_samples(1),
     facts: &[Fact::NotOpaque],
     constants: crate::families::accuracy::no_constants,
     formula: Formula::Lighting,

@@ -4,9 +4,9 @@ use std::collections::BTreeMap;
 
 use taceva_core::{Batch, Field, Unit};
 
+use super::repeatability;
 use super::signal::signal_to_repeatability;
-use super::spread::{Cell, SpreadSums};
-use super::{RepeatMetric, mean, repeatability};
+use super::spread::{Cell, SpreadSums, mean};
 use crate::evaluate::state::Record;
 use crate::exact::ExactSum;
 use crate::exact::merge::Merge;
@@ -48,7 +48,10 @@ impl Channelwise for Repeats {
     const SCHEMA: &'static str = "taceva.repeats/1";
 
     fn finishes(&self, metric: &Metric) -> bool {
-        matches!(metric.formula, Formula::Repeats(_))
+        matches!(
+            metric.formula,
+            Formula::Repeatability | Formula::SignalToRepeatability
+        )
     }
 
     fn deposit(&self, sums: &mut RepeatSums, batch: &Batch, position: usize, rows: Option<&[u32]>) {
@@ -109,10 +112,8 @@ impl Channelwise for Repeats {
     fn numbers(&self, metric: &Metric, output: &Output, sums: &RepeatSums) -> Numbers {
         let spreads = SpreadSums::of(&sums.cells);
         match metric.formula {
-            Formula::Repeats(RepeatMetric::Repeatability) => repeatability(&spreads, output.unit),
-            Formula::Repeats(RepeatMetric::SignalToRepeatability) => {
-                signal_to_repeatability(&spreads)
-            }
+            Formula::Repeatability => repeatability(&spreads, output.unit),
+            Formula::SignalToRepeatability => signal_to_repeatability(&spreads),
             _ => Numbers::of(Err(UndefinedReason::Empty)),
         }
     }
@@ -130,7 +131,7 @@ impl Channelwise for Repeats {
             }),
         ];
         let variants = match metric.formula {
-            Formula::Repeats(RepeatMetric::Repeatability) => {
+            Formula::Repeatability => {
                 vec![Variant::plain("curve", output.unit, depth_curve(parts))]
             }
             _ => Vec::new(),

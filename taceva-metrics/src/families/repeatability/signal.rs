@@ -1,7 +1,7 @@
 //! How much larger the differences between presses are than those between repeats.
 
+use super::NEEDS;
 use super::spread::SpreadSums;
-use super::{NEEDS, RepeatMetric};
 use crate::families::family::{Finished, Numbers};
 use crate::metric::{Formula, Metric, ScoreUnit};
 use crate::score::Parameter;
@@ -24,7 +24,7 @@ pub(crate) static SIGNAL_TO_REPEATABILITY: Metric = Metric {
     needs: NEEDS,
     facts: &[],
     constants: no_constants,
-    formula: Formula::Repeats(RepeatMetric::SignalToRepeatability),
+    formula: Formula::SignalToRepeatability,
 };
 
 fn no_constants(_: Unit) -> Vec<Parameter> {

@@ -2,10 +2,9 @@
 
 use std::sync::OnceLock;
 
-use super::mean;
-use crate::exact::ExactSum;
 use crate::exact::merge::Merge;
 use crate::exact::moments::Moments;
+use crate::exact::{Dyadic, ExactSum};
 use crate::families::cells::Cells;
 use crate::families::family::Finished;
 use crate::score::value::UndefinedReason;
@@ -159,4 +158,12 @@ fn whole(count: u64) -> f64 {
     )]
     let count = count as f64;
     count
+}
+
+/// RN of the mean of exact values.
+pub(super) fn mean(sum: &ExactSum, count: u64) -> Result<f64, UndefinedReason> {
+    if count == 0 {
+        return Err(UndefinedReason::NoRepeatedPress);
+    }
+    Ok(sum.to_dyadic().over(&Dyadic::from(count)))
 }

@@ -26,14 +26,13 @@ pub(crate) static SR: Metric = Metric {
                     independent samples would be, which presses of one board are not. Where samples name no point_id, kind and spacing of their board \
                     stand for it. of_constant is what the best constant answer would reach: a classifier whose interval does \
                     not lie above it takes part in no verdict.",
-    needs: Needs {
-        fields: FieldSet::EMPTY
+    needs: Needs::new(
+        FieldSet::EMPTY
             .with(Field::Kind)
             .with(Field::Spacing)
             .with(Field::PredictedSpacing),
-        channels: &[],
-        least_samples: 1,
-    },
+    )
+    .with_least_samples(1),
     facts: &[],
     constants: crate::families::accuracy::no_constants,
     formula: Formula::Resolution,

@@ -26,11 +26,9 @@ pub(crate) static R_SPATIAL: Metric = Metric {
                     noise_floor says how much, excess is what remains, n_min_5 leaves out bins with fewer than five. smooth \
                     is finished from the rolling mean that plots show; within is the other reading of the paper, the mean \
                     of the deviations within the bins.",
-    needs: Needs {
-        fields: FieldSet::EMPTY.with(Field::Truth).with(Field::Prediction),
-        channels: &["Px", "Py", "Pz"],
-        least_samples: 1,
-    },
+    needs: Needs::new(FieldSet::EMPTY.with(Field::Truth).with(Field::Prediction))
+        .with_channels(&["Px", "Py", "Pz"])
+        .with_least_samples(1),
     facts: &[Fact::Footprint, Fact::DepthMax],
     constants: crate::families::accuracy::no_constants,
     formula: Formula::Spatial,

@@ -2,8 +2,7 @@
 
 use taceva_core::{Field, FieldSet, Needs, Unit};
 
-use super::sums::{SurfaceSums, Total};
-use super::{NORMAL_ONLY, SurfaceMetric};
+use super::sums::{NORMAL_ONLY, SurfaceSums, Total, contact};
 use crate::exact::Dyadic;
 use crate::families::family::{Finished, Numbers};
 use crate::metric::{Formula, Metric, ScoreUnit};
@@ -22,14 +21,12 @@ pub(crate) static SENSITIVITY: Metric = Metric {
     documentation: "How far the gel yields a newton of normal force: the mean of indentation over force of all samples in \
                     contact, those with shear too. slope is the line through the origin, which does not explode as the force \
                     nears the gate; normal_only leaves out what has shear; map is the mean in each cell of the footprint.",
-    needs: Needs {
-        fields: FieldSet::EMPTY.with(Field::Truth),
-        channels: &["Pz", "Fz"],
-        least_samples: 1,
-    },
+    needs: Needs::new(FieldSet::EMPTY.with(Field::Truth))
+        .with_channels(&["Pz", "Fz"])
+        .with_least_samples(1),
     facts: &[],
     constants: crate::families::accuracy::no_constants,
-    formula: Formula::Surface(SurfaceMetric::Sensitivity),
+    formula: Formula::Sensitivity,
 };
 
 /// S = RN(Σ s / n) with s = RN(Δz / F); slope = RN(Σ Δz F / Σ F²).
@@ -42,15 +39,6 @@ pub(super) fn sensitivity(sums: &SurfaceSums) -> Numbers {
     Numbers::of(contact(sums).and_then(|()| mean(&sums.compliance)))
         .with("slope", unit, Range::Any, slope)
         .with(NORMAL_ONLY, unit, Range::Any, mean(&sums.normal))
-}
-
-/// The reason for no value if nothing is in contact.
-pub(super) fn contact(sums: &SurfaceSums) -> Result<(), UndefinedReason> {
-    match (sums.compliance.n, sums.gated) {
-        (0, 0) => Err(UndefinedReason::Empty),
-        (0, _) => Err(UndefinedReason::BelowGate),
-        _ => Ok(()),
-    }
 }
 
 fn mean(total: &Total) -> Finished {

@@ -8,6 +8,10 @@ use crate::exact::ExactSum;
 use crate::exact::merge::{Merge, keyed, merge_cells};
 use crate::exact::moments::Moments;
 use crate::paired::is_valid;
+use crate::score::value::UndefinedReason;
+
+/// The variant that leaves out what has shear.
+pub(super) const NORMAL_ONLY: &str = "normal_only";
 
 /// A press as the reference instruments saw it: how deep, and how hard.
 #[derive(Clone, Copy, Debug)]
@@ -186,5 +190,14 @@ impl Merge for SurfaceSums {
         self.work.merge(&other.work);
         self.force_squares.merge(&other.force_squares);
         merge_cells(&mut self.cells, &other.cells);
+    }
+}
+
+/// The reason for no value if nothing is in contact.
+pub(super) fn contact(sums: &SurfaceSums) -> Result<(), UndefinedReason> {
+    match (sums.compliance.n, sums.gated) {
+        (0, 0) => Err(UndefinedReason::Empty),
+        (0, _) => Err(UndefinedReason::BelowGate),
+        _ => Ok(()),
     }
 }

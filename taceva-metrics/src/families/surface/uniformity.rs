@@ -2,9 +2,7 @@
 
 use taceva_core::{Field, FieldSet, Needs, Unit};
 
-use super::sensitivity::contact;
-use super::sums::SurfaceSums;
-use super::{NORMAL_ONLY, SurfaceMetric};
+use super::sums::{NORMAL_ONLY, SurfaceSums, contact};
 use crate::evaluate::facts::Fact;
 use crate::evaluate::settings::Settings;
 use crate::exact::Dyadic;
@@ -27,14 +25,12 @@ pub(crate) static UNIFORMITY: Metric = Metric {
                     footprint; 1 is the same everywhere. Few samples a cell look like a surface that is not uniform: debiased \
                     takes that part away, n_min_5 leaves out cells with fewer than five samples. normal_only leaves out what \
                     has shear; mean and deviation are μ and σ.",
-    needs: Needs {
-        fields: FieldSet::EMPTY.with(Field::Truth),
-        channels: &["Px", "Py", "Pz", "Fz"],
-        least_samples: 1,
-    },
+    needs: Needs::new(FieldSet::EMPTY.with(Field::Truth))
+        .with_channels(&["Px", "Py", "Pz", "Fz"])
+        .with_least_samples(1),
     facts: &[Fact::Footprint],
     constants: crate::families::accuracy::no_constants,
-    formula: Formula::Surface(SurfaceMetric::Uniformity),
+    formula: Formula::Uniformity,
 };
 
 /// Samples a cell from which on its mean is worth printing beside the paper's one.

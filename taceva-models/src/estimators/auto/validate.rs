@@ -123,13 +123,10 @@ impl Rows {
     }
 
     fn set<'s>(&'s self, training: &TrainingSet<'s>) -> TrainingSet<'s> {
-        TrainingSet {
-            features: &self.features,
-            targets: Targets {
-                channels: training.targets.channels,
-                values: &self.labels,
-            },
-            groups: self.groups.as_deref(),
-        }
+        TrainingSet::new(
+            &self.features,
+            Targets::new(training.targets.channels, &self.labels),
+        )
+        .with_groups(self.groups.as_deref())
     }
 }

@@ -5,6 +5,7 @@ use std::borrow::Cow;
 use faer::Mat;
 use taceva_core::{Features, ModelError, Progress, Regressor, TrainingSet};
 
+use super::likelihood::{likeliest, ratios};
 use super::reach::reach;
 use super::regressor::KernelRegressor;
 use super::uncertainty::Uncertainty;
@@ -13,7 +14,7 @@ use crate::estimators::linear::LinearRegressor;
 use crate::features::FeatureSpec;
 use crate::linalg::{Design, FeatureScale, Spectrum};
 use crate::registry::ModelInfo;
-use crate::settings::{SettingError, Settings};
+use crate::settings::{ModelSettings, SettingError};
 use crate::training::choice::{ChannelChoice, Choice, ChosenBy, rmse};
 use crate::training::fit::{ModelEstimator, ModelFit, ModelRegressor, estimator};
 use crate::training::problem::{Problem, Validation, centred, joined, stacked};
@@ -48,73 +49,13 @@ impl GaussianProcess {
     ///
     /// # Errors
     /// [`SettingError`] for an unknown key or a value out of range.
-    pub fn from_settings(settings: &Settings) -> Result<GaussianProcess, SettingError> {
+    pub fn from_settings(settings: &ModelSettings) -> Result<GaussianProcess, SettingError> {
         settings.check_keys(GaussianProcess::INFO.settings)?;
         Ok(GaussianProcess {
             kernel: Kernel::from_settings(settings)?,
             refit: settings.refit()?,
         })
     }
-}
-
-/// The ratios that are tried.
-fn ratios() -> Vec<f64> {
-    (0..=40)
-        .map(|step| 10_f64.powf(-8.0 + 0.25 * f64::from(step)))
-        .collect()
-}
-
-/// What one channel is likeliest to be.
-#[derive(Clone, Copy, Debug)]
-struct Likeliest {
-    /// −2 log of the likelihood, up to what no setting changes.
-    cost: f64,
-    /// λ.
-    ratio: f64,
-    /// s² of scaled labels.
-    signal: f64,
-}
-
-/// Of each column of centred `labels`, given the spectrum of the centred features.
-fn likeliest(spectrum: &Spectrum<'_, '_>, rotated: &Mat<f64>, labels: &Mat<f64>) -> Vec<Likeliest> {
-    let eigenvalues = spectrum.eigenvalues();
-    let samples = labels.nrows() as f64;
-    let unseen = samples - eigenvalues.len() as f64;
-    let of = |channel: usize| {
-        let column = labels.col_as_slice(channel);
-        let total: f64 = column.iter().map(|label| label * label).sum();
-        // The squares of the labels along the eigenvectors of the samples.
-        let along: Vec<f64> = eigenvalues
-            .iter()
-            .zip(rotated.col_as_slice(channel))
-            .map(|(&eigenvalue, rotated)| match spectrum.spans_samples() {
-                true => rotated * rotated,
-                false if eigenvalue > spectrum.noise() => rotated * rotated / eigenvalue,
-                false => 0.0,
-            })
-            .collect();
-        let rest = (total - along.iter().sum::<f64>()).max(0.0);
-        let candidates = ratios().into_iter().map(|ratio| {
-            let seen = along.iter().zip(eigenvalues);
-            let inside: f64 = seen.map(|(along, value)| along / (value + ratio)).sum();
-            let signal = (inside + rest / ratio) / samples;
-            let volume: f64 = eigenvalues.iter().map(|value| (value + ratio).ln()).sum();
-            let cost = if signal > 0.0 {
-                samples * signal.ln() + volume + unseen * ratio.ln()
-            } else {
-                // Every label is the same: nothing is likelier than anything else.
-                0.0
-            };
-            Likeliest {
-                cost,
-                ratio,
-                signal,
-            }
-        });
-        let best = candidates.reduce(|best, next| if next.cost <= best.cost { next } else { best });
-        best.expect("there are ratios to try")
-    };
-    (0..labels.ncols()).map(of).collect()
 }
 
 /// A Gaussian process of one length.
@@ -127,7 +68,7 @@ struct Fit {
 
 impl Fit {
     /// The error of each channel on a part that was not learnt from, and by how much its deviations must grow to hold 95 % there.
-    fn judged(
+    fn validated(
         &self,
         problem: &Problem<'_>,
         part: &Validation<'_>,
@@ -240,7 +181,7 @@ impl ModelEstimator for GaussianProcess {
         let first = learn(None, &self.kernel.lengths())?;
         let ratios = first.uncertainty.ratio.clone();
         let (errors, reaches) = match &held {
-            Some(part) => first.judged(&problem, part)?,
+            Some(part) => first.validated(&problem, part)?,
             None => (
                 vec![None; problem.channels()],
                 vec![1.0; problem.channels()],

@@ -6,7 +6,7 @@ use taceva_core::{Features, ModelError, Progress};
 use crate::linalg::distance::from_all;
 use crate::linalg::standard::Standard;
 use crate::linalg::{FeatureScale, dot};
-use crate::training::progress::{Stage, interrupted};
+use crate::training::progress::{ReportedStage, interrupted};
 
 /// The length of the kernel by which landmarks are chosen.
 const LENGTH: f64 = 1.0;
@@ -63,7 +63,7 @@ impl Landmarks {
         let mut distances = vec![0.0; samples * most];
         let mut column = vec![0.0; samples];
         let mut chosen: Vec<usize> = Vec::new();
-        let stage = Stage::begin(progress, "landmarks", most);
+        let stage = ReportedStage::begin(progress, "landmarks", most);
         let mut next = extreme(&squares, |value, best| value < best);
         while chosen.len() < most && left[next] > EXPLAINED {
             interrupted(progress)?;

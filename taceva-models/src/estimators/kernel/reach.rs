@@ -33,7 +33,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn nineteen_of_twenty_lie_within_what_is_told() {
+    fn nineteen_of_twenty_lie_within_the_stated_reach() {
         let misses: Vec<f64> = (1..=100).map(|number| -0.1 * f64::from(number)).collect();
         let factor = reach(misses.clone());
         let inside = |miss: &&f64| miss.abs() <= factor * NORMAL_95;

@@ -7,7 +7,7 @@ use crate::estimators::linear::{LinearEstimator, LinearFit};
 use crate::estimators::ridge::Ridge;
 use crate::features::FeatureSpec;
 use crate::registry::ModelInfo;
-use crate::settings::{SettingError, Settings};
+use crate::settings::{ModelSettings, SettingError};
 use crate::training::fit::{ModelEstimator, ModelFit, ModelRegressor, estimator};
 use crate::training::problem::Problem;
 use crate::training::progress::interrupted;
@@ -41,7 +41,7 @@ impl KernelRidge {
     ///
     /// # Errors
     /// [`SettingError`] for an unknown key or a value out of range.
-    pub fn from_settings(settings: &Settings) -> Result<KernelRidge, SettingError> {
+    pub fn from_settings(settings: &ModelSettings) -> Result<KernelRidge, SettingError> {
         settings.check_keys(KernelRidge::INFO.settings)?;
         Ok(KernelRidge {
             kernel: Kernel::from_settings(settings)?,

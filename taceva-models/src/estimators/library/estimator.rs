@@ -4,7 +4,7 @@ use faer::Mat;
 use rayon::prelude::*;
 use taceva_core::{ErrorKind, ModelError, Progress, Regressor, TrainingSet};
 
-use super::fitted::Fitted;
+use super::fit::fit;
 use super::{LibraryLearner, LibraryRegressor};
 use crate::training::choice::Errors;
 use crate::training::fit::{ModelEstimator, ModelFit, ModelRegressor, estimator};
@@ -18,10 +18,6 @@ pub(crate) struct LibraryEstimator {
 }
 
 impl LibraryEstimator {
-    pub(super) fn new(learner: Box<dyn LibraryLearner>) -> LibraryEstimator {
-        LibraryEstimator { learner }
-    }
-
     /// The summed squared error of each channel at each of `tried` values of the setting; infinite where the library fails.
     fn squares(
         &self,
@@ -35,7 +31,7 @@ impl LibraryEstimator {
         let held = trials.features.select(&round.held);
         let truth = rows_of(&trials.labels, &round.held);
         let one = |values: &Vec<f64>| {
-            let found = Fitted::new(&*self.learner, &features, &labels, values, progress)
+            let found = fit(&*self.learner, &features, &labels, values, progress)
                 .and_then(|fitted| fitted.predict(&held));
             match found {
                 Ok(found) => Ok(summed(&found, &truth)),
@@ -94,7 +90,7 @@ impl ModelEstimator for LibraryEstimator {
             (false, _) => rows_of(&trials.labels, &rows),
             (true, held) => rows_of(&as_given(training, held), &rows),
         };
-        let fitted = Fitted::new(&*self.learner, &features, &labels, &values, progress)?;
+        let fitted = fit(&*self.learner, &features, &labels, &values, progress)?;
         let scale = match self.learner.is_classifier() {
             true => OutputScale {
                 offset: vec![0.0; channels],
@@ -103,7 +99,7 @@ impl ModelEstimator for LibraryEstimator {
             false => OutputScale::of(&problem),
         };
         let kind = (training.targets.channels.clone(), training.features.shape());
-        let regressor = LibraryRegressor::new(self.learner.model(), kind, scale, fitted);
+        let regressor = LibraryRegressor::new(self.learner.model().card(), kind, scale, fitted);
         // What cannot answer for what it learnt from is no model.
         let mut known = vec![0.0; features.samples() * channels];
         regressor.predict(&features, &mut known)?;
@@ -128,3 +124,10 @@ fn as_given(training: &TrainingSet<'_>, held: Option<&TrainingSet<'_>>) -> Mat<f
 }
 
 estimator!(LibraryEstimator, |own| own.learner.model().info.name);
+
+/// The estimator of `learner`, as the registry makes it.
+pub fn library_estimator(learner: impl LibraryLearner + 'static) -> Box<dyn ModelEstimator> {
+    Box::new(LibraryEstimator {
+        learner: Box::new(learner),
+    })
+}

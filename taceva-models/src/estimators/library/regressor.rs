@@ -6,8 +6,10 @@ use std::sync::Arc;
 use rayon::prelude::*;
 use taceva_core::{Channels, FeatureShape, Features, ModelError, Regressor};
 
+use super::card::LibraryCard;
 use super::fitted::Fitted;
-use super::{LibraryCard, LibraryModel, LibraryPredictor, LibrarySizes, LibraryTensors};
+use super::task::{LibraryPredictor, LibrarySizes, LoadedPredictor};
+use super::tensor::LibraryTensors;
 use crate::file::FormatError;
 use crate::file::tensors::{Raw, Tensors};
 use crate::linalg::standard::Standard;
@@ -35,14 +37,14 @@ const SPAN: &str = "library.span";
 
 impl LibraryRegressor {
     pub(super) fn new(
-        model: &LibraryModel,
+        card: LibraryCard,
         (channels, shape): (Channels, FeatureShape),
         scale: OutputScale,
         fitted: Fitted,
     ) -> LibraryRegressor {
         let own = scale.offset.iter().zip(&scale.span).zip(&fitted.base);
         LibraryRegressor {
-            card: LibraryCard::of(model),
+            card,
             channels,
             shape,
             scale: OutputScale {
@@ -91,11 +93,14 @@ impl LibraryRegressor {
             .collect()
     }
 
-    /// The model that a file holds, which `model` reads.
+    /// The model that a file holds, whose parameters `load` reads.
     pub(crate) fn from_tensors(
         tensors: &Tensors<'_>,
         (channels, shape): (Channels, FeatureShape),
-        (model, card): (&LibraryModel, &LibraryCard),
+        (load, card): (
+            fn(&LibraryTensors, LibrarySizes) -> LoadedPredictor,
+            &LibraryCard,
+        ),
     ) -> Result<LibraryRegressor, FormatError> {
         let (width, count) = (shape.len(), channels.len());
         let places = |name, below: usize| -> Result<Vec<usize>, FormatError> {
@@ -123,7 +128,7 @@ impl LibraryRegressor {
         };
         let predictor = match kept.is_empty() {
             true => None,
-            false => Some((model.load)(&LibraryTensors::read(tensors), sizes)?.into()),
+            false => Some(load(&LibraryTensors::read(tensors), sizes)?.into()),
         };
         Ok(LibraryRegressor {
             card: card.clone(),

@@ -1,7 +1,7 @@
 //! Settings that every model of a library has.
 
 use crate::linalg::FeatureScale;
-use crate::settings::{SettingError, SettingInfo, Settings};
+use crate::settings::{ModelSettings, SettingError, SettingInfo};
 
 /// How features are scaled before the library sees them, and what is learnt from once the settings are chosen.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -20,7 +20,7 @@ impl LibrarySettings {
     ///
     /// # Errors
     /// [`SettingError`] for a value out of range.
-    pub fn from_settings(settings: &Settings) -> Result<LibrarySettings, SettingError> {
+    pub fn from_settings(settings: &ModelSettings) -> Result<LibrarySettings, SettingError> {
         Ok(LibrarySettings {
             scale: FeatureScale::from_settings(settings)?,
             refit: settings.refit()?,

@@ -8,7 +8,7 @@ use super::regressor::picture;
 use super::{Checkpoints, Preprocessing};
 use crate::features::{Color, FeatureKinds, FeatureSpec};
 use crate::registry::ModelInfo;
-use crate::settings::{SettingError, SettingInfo, Settings, number};
+use crate::settings::{ModelSettings, SettingError, SettingInfo, number};
 
 /// A network to be fitted: AdamW, one cycle of the rate, Huber's loss on standardised labels, the epoch that does best on the
 /// validation part.
@@ -160,11 +160,14 @@ impl NetworkEstimator {
     ///
     /// # Errors
     /// [`SettingError`] for an unknown key or a value out of range.
-    pub fn cnn(settings: &Settings) -> Result<NetworkEstimator, SettingError> {
+    pub fn cnn(settings: &ModelSettings) -> Result<NetworkEstimator, SettingError> {
         NetworkEstimator::from_settings(Kind::FiveLayers, settings)
     }
 
-    fn from_settings(kind: Kind, settings: &Settings) -> Result<NetworkEstimator, SettingError> {
+    fn from_settings(
+        kind: Kind,
+        settings: &ModelSettings,
+    ) -> Result<NetworkEstimator, SettingError> {
         settings.check_keys(SETTINGS)?;
         let (epochs, rate) = match kind {
             Kind::FiveLayers => (200, 3e-3),

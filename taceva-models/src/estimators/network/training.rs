@@ -7,7 +7,7 @@ use taceva_network::{Architecture, NetworkError, Recipe, Samples, Trained, Train
 
 use super::Checkpoints;
 use super::checkpoint::{Identity, Shelf};
-use crate::training::progress::{Stage, interrupted};
+use crate::training::progress::{ReportedStage, interrupted};
 
 /// What a training is made of.
 pub(super) struct Training<'a> {
@@ -27,7 +27,7 @@ impl<'a> Training<'a> {
         let mut shelf = self.shelf();
         let (name, mut trainer) = self.begin(shelf.as_ref())?;
         let steps = usize::try_from(trainer.steps()).unwrap_or(usize::MAX);
-        let stage = Stage::begin(progress, name, steps);
+        let stage = ReportedStage::begin(progress, name, steps);
         stage.advance_by(trainer.state().step);
         loop {
             if let Err(stopped) = interrupted(progress) {

@@ -4,7 +4,7 @@ use faer::{Mat, MatRef};
 use taceva_core::{ModelError, Progress};
 
 use crate::linalg::{Design, multiply, symmetric_eigen};
-use crate::training::progress::{Stage, interrupted};
+use crate::training::progress::{ReportedStage, interrupted};
 
 /// A part of the features' norm below which a direction is rounding, not data.
 const NOISE: f64 = 1e-10;
@@ -27,7 +27,7 @@ impl Directions {
         progress: &dyn Progress,
     ) -> Result<Directions, ModelError> {
         let most = count.min(design.width()).min(design.samples() - 1);
-        let stage = Stage::begin(progress, "directions", most);
+        let stage = ReportedStage::begin(progress, "directions", most);
         let mut covariance = design.transpose_times(targets.as_ref());
         let start = covariance.norm_l2();
         let mut weights: Vec<Mat<f64>> = Vec::new();

@@ -92,7 +92,7 @@ mod tests {
     }
 
     #[test]
-    fn numbers_next_to_each_other_are_told_apart() {
+    fn numbers_next_to_each_other_are_distinguished() {
         let next = f32::from_bits(1.0_f32.to_bits() + 1);
         let features = Features::new(FeatureShape::flat(1), vec![1.0, next]).expect("two samples");
         let binned = Binned::new(&features);

@@ -10,11 +10,11 @@ use super::grow::{Growth, Samples, Tree};
 use super::regressor::{Member, TreeRegressor};
 use crate::features::FeatureSpec;
 use crate::registry::ModelInfo;
-use crate::settings::{SettingError, SettingInfo, Settings, number};
+use crate::settings::{ModelSettings, SettingError, SettingInfo, number};
 use crate::training::fit::{ModelEstimator, ModelFit, ModelRegressor, estimator};
 use crate::training::output::OutputScale;
 use crate::training::problem::{Problem, centred};
-use crate::training::progress::{Stage, interrupted};
+use crate::training::progress::{ReportedStage, interrupted};
 use crate::training::trials::{Trials, rows_of};
 
 /// Gradient boosting of squared errors: each tree is fitted to what those before it left, and a share of it is added.
@@ -108,7 +108,7 @@ impl GradientBoosting {
     ///
     /// # Errors
     /// [`SettingError`] for an unknown key or a value out of range.
-    pub fn from_settings(settings: &Settings) -> Result<GradientBoosting, SettingError> {
+    pub fn from_settings(settings: &ModelSettings) -> Result<GradientBoosting, SettingError> {
         settings.check_keys(GradientBoosting::INFO.settings)?;
         Ok(GradientBoosting {
             most: settings.value(&MOST, 300, |text| number(text, 1..=10_000))?,
@@ -221,7 +221,7 @@ impl ModelEstimator for GradientBoosting {
         let binned = Binned::new(&features);
         let (shift, labels) = centred(rows_of(&trials.labels, &rows));
         let mut members = Vec::new();
-        let stage = Stage::begin(progress, "trees", channels);
+        let stage = ReportedStage::begin(progress, "trees", channels);
         for (channel, &candidate) in chosen.iter().enumerate() {
             let column = labels.col_as_slice(channel);
             let trees = counts[candidate];

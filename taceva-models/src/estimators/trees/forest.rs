@@ -10,12 +10,12 @@ use super::grow::{Growth, Samples};
 use super::regressor::{Member, TreeRegressor};
 use crate::features::FeatureSpec;
 use crate::registry::ModelInfo;
-use crate::settings::{SettingError, SettingInfo, Settings, number};
+use crate::settings::{ModelSettings, SettingError, SettingInfo, number};
 use crate::training::choice::Choice;
 use crate::training::fit::{ModelEstimator, ModelFit, ModelRegressor, estimator};
 use crate::training::output::OutputScale;
 use crate::training::problem::{Problem, centred};
-use crate::training::progress::{Stage, interrupted};
+use crate::training::progress::{ReportedStage, interrupted};
 use crate::training::trials::{Trials, rows_of};
 
 /// A random forest a channel: the mean of trees that each saw its own draw of the samples, and at each split its own draw of the features.
@@ -80,7 +80,7 @@ impl RandomForest {
     ///
     /// # Errors
     /// [`SettingError`] for an unknown key or a value out of range.
-    pub fn from_settings(settings: &Settings) -> Result<RandomForest, SettingError> {
+    pub fn from_settings(settings: &ModelSettings) -> Result<RandomForest, SettingError> {
         settings.check_keys(RandomForest::INFO.settings)?;
         Ok(RandomForest {
             trees: settings.value(&TREES, 100, |text| number(text, 1..=10_000))?,
@@ -109,7 +109,7 @@ impl RandomForest {
             .map(|channel| Mat::from_fn(labels.nrows(), 1, |row, _| labels[(row, channel)]))
             .collect();
         let count = columns.len() * self.trees;
-        let stage = Stage::begin(progress, "trees", count);
+        let stage = ReportedStage::begin(progress, "trees", count);
         let trees = (0..count).into_par_iter().map(|place| {
             interrupted(progress)?;
             let (channel, number) = (place / self.trees, place % self.trees);

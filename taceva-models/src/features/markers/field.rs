@@ -7,7 +7,7 @@ use super::local::{Moved, displacement};
 use super::spots::distance;
 use super::tracker::MarkerTracker;
 use crate::features::FeatureError;
-use crate::features::part::Part;
+use crate::features::cell_features::CellFeatures;
 use crate::features::spec::FeatureSpec;
 
 /// Markers that speak for a cell.
@@ -69,7 +69,7 @@ impl MarkerField {
     }
 }
 
-impl Part for MarkerField {
+impl CellFeatures for MarkerField {
     fn depth(&self) -> usize {
         3
     }

@@ -147,7 +147,7 @@ mod tests {
     }
 
     #[test]
-    fn noise_is_told_from_its_standard_deviation() {
+    fn noise_is_recognised_by_its_standard_deviation() {
         // Bytes that are all as likely have a standard deviation of 256 / √12 levels.
         let found = Plane::of(&noise(200, 200, PixelFormat::Gray8, 1)).noise();
         let truth = 256.0 / 12.0_f32.sqrt() / 255.0;

@@ -20,14 +20,7 @@ pub(super) fn predict(
     let channel = Channel::named("spacing", Unit::Millimetre).expect("a word");
     let channels = Channels::new([channel]).expect("one channel");
     let features = features(known)?;
-    let training = TrainingSet {
-        features: &features,
-        targets: Targets {
-            channels: &channels,
-            values: &labels,
-        },
-        groups: None,
-    };
+    let training = TrainingSet::new(&features, Targets::new(&channels, &labels));
     let fit = estimator.fit_model(&training, None, work.progress)?;
     let mut found = vec![0.0; asked.len()];
     fit.regressor.predict(&self::features(asked)?, &mut found)?;

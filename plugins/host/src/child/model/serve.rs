@@ -61,13 +61,10 @@ fn make(
                 Some(shape) => Some(OwnedSet::take(shape, &mut next()?)?),
                 None => None,
             };
+            let training = training.set();
             let validation = validation.as_ref().map(OwnedSet::set);
-            let request = FitRequest {
-                settings: &settings,
-                training: &training.set(),
-                validation: validation.as_ref(),
-                progress,
-            };
+            let request = FitRequest::new(&settings, &training, progress)
+                .with_validation(validation.as_ref());
             session
                 .fit(&estimator, &request)
                 .map_err(|error| failed("fit", &error))
@@ -81,11 +78,11 @@ fn make(
             let mut memory = next()?;
             let length = usize::try_from(length).map_err(|_| broken("too many bytes"))?;
             let bytes = memory.bytes_mut().get(..length);
-            let saved = Saved {
-                bytes: bytes.ok_or_else(|| broken("fewer bytes than it is said to be"))?,
-                channels: &channels,
+            let saved = Saved::new(
+                bytes.ok_or_else(|| broken("fewer bytes than it is said to be"))?,
+                &channels,
                 shape,
-            };
+            );
             session
                 .load(&estimator, &saved)
                 .map_err(|error| failed("load", &error))

@@ -39,14 +39,27 @@ fields!(SensorFacts {
     gel_thickness,
     field_of_view_mm2
 });
-fields!(ArgSpec {
-    key,
-    kind,
-    unit,
-    presence,
-    help,
-    changes_facts
-});
+
+impl Wire for ArgSpec {
+    fn write(&self, into: &mut Vec<u8>) {
+        self.key.write(into);
+        self.kind.write(into);
+        self.unit.write(into);
+        self.presence.write(into);
+        self.help.write(into);
+        self.changes_facts.write(into);
+    }
+
+    fn read(from: &mut Reader<'_>) -> Result<ArgSpec, Malformed> {
+        let key = String::read(from)?;
+        let mut spec = ArgSpec::new(&key, Wire::read(from)?);
+        spec.unit = Wire::read(from)?;
+        spec.presence = Wire::read(from)?;
+        spec.help = Wire::read(from)?;
+        spec.changes_facts = Wire::read(from)?;
+        Ok(spec)
+    }
+}
 
 impl Wire for [u32; 2] {
     fn write(&self, into: &mut Vec<u8>) {
@@ -187,14 +200,11 @@ impl Wire for Descriptor {
     }
 
     fn read(from: &mut Reader<'_>) -> Result<Descriptor, Malformed> {
-        let spec = DescriptorSpec {
-            key: Wire::read(from)?,
-            title: Wire::read(from)?,
-            source: Wire::read(from)?,
-            facts: Wire::read(from)?,
-            arguments: Wire::read(from)?,
-        };
-        spec.check()
+        let key = Wire::read(from)?;
+        let title = String::read(from)?;
+        let spec = DescriptorSpec::new(key, title, Wire::read(from)?, Wire::read(from)?);
+        spec.arguments(Vec::<ArgSpec>::read(from)?)
+            .check()
             .map_err(|_| from.malformed("a description that does not contradict itself"))
     }
 }

@@ -94,19 +94,16 @@ impl Wire for Found {
     }
 
     fn read(from: &mut Reader<'_>) -> Result<Found, Malformed> {
-        Ok(Found {
-            driver: Wire::read(from)?,
-            title: Wire::read(from)?,
-            arguments: Wire::read(from)?,
-            access: match u8::read(from)? {
+        Ok(Found::new(Wire::read(from)?, String::read(from)?)
+            .with_arguments(String::read(from)?)
+            .with_access(match u8::read(from)? {
                 0 => Access::Ready,
                 1 => Access::Denied {
                     remedy: Wire::read(from)?,
                 },
                 2 => Access::Busy,
                 _ => return Err(from.malformed("whether a device could be opened")),
-            },
-        })
+            }))
     }
 }
 

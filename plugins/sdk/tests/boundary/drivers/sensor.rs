@@ -3,8 +3,8 @@
 use std::sync::Arc;
 
 use taceva_core::{
-    Access, Args, Deadline, Descriptor, DescriptorError, DriverError, ErrorKind, Factory, Facts,
-    Found, FrameInfo, FrameMut, Interrupt, Lighting, Rig, Sensor, SensorFacts, Stamp,
+    Args, Deadline, Descriptor, DescriptorError, DriverError, ErrorKind, Factory, Facts, Found,
+    FrameInfo, FrameMut, Interrupt, Lighting, Rig, Sensor, SensorFacts, Stamp,
 };
 use taceva_plugin::Interruption;
 
@@ -42,12 +42,7 @@ impl Factory<dyn Sensor> for SensorMaker {
     }
     fn discover(&self) -> Result<Vec<Found>, DriverError> {
         let arguments = "way=well".to_owned();
-        Ok(vec![Found {
-            driver: KEY,
-            title: "palm".to_owned(),
-            arguments,
-            access: Access::Ready,
-        }])
+        Ok(vec![Found::new(KEY, "palm").with_arguments(arguments)])
     }
 }
 

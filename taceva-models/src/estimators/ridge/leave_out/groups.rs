@@ -10,7 +10,7 @@ use taceva_core::{ModelError, Progress};
 use super::{LeaveOut, rows};
 use crate::linalg::multiply;
 use crate::training::choice::Errors;
-use crate::training::progress::{Stage, interrupted};
+use crate::training::progress::{ReportedStage, interrupted};
 
 /// What the rows of one group know, whatever the penalty.
 struct Group {
@@ -31,7 +31,7 @@ impl LeaveOut<'_> {
         progress: &dyn Progress,
     ) -> Result<Errors, ModelError> {
         let groups: Vec<Group> = groups.iter().map(|group| self.group(group)).collect();
-        let stage = Stage::begin(progress, "leaving groups out", penalties.len());
+        let stage = ReportedStage::begin(progress, "leaving groups out", penalties.len());
         penalties
             .par_iter()
             .map(|&penalty| {

@@ -7,7 +7,7 @@ use taceva_core::{ModelError, Progress};
 use super::{LeaveOut, rows};
 use crate::linalg::multiply;
 use crate::training::choice::Errors;
-use crate::training::progress::{Stage, interrupted};
+use crate::training::progress::{ReportedStage, interrupted};
 
 /// Samples a block.
 const BLOCK: usize = 256;
@@ -37,7 +37,7 @@ impl LeaveOut<'_> {
             coefficients,
         };
         let rows: Vec<usize> = (0..samples).collect();
-        let stage = Stage::begin(progress, "leaving samples out", samples.div_ceil(BLOCK));
+        let stage = ReportedStage::begin(progress, "leaving samples out", samples.div_ceil(BLOCK));
         let blocks: Result<Vec<Vec<f64>>, ModelError> = rows
             .par_chunks(BLOCK)
             .map(|block| {

@@ -152,7 +152,7 @@ fn a_shear_that_grows_from_nothing_is_followed_past_the_next_marker() {
 }
 
 #[test]
-fn missing_and_merged_markers_are_told_and_filled_from_their_neighbours() {
+fn missing_and_merged_markers_are_reported_and_filled_from_their_neighbours() {
     let places = grid(false);
     let tracker = MarkerTracker::new(&CLEAN.frame(&places)).expect("markers");
     let moved = |[x, y]: [f64; 2]| [x + 2.4 + 0.02 * y, y - 1.2];

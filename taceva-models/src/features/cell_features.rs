@@ -5,7 +5,7 @@ use std::fmt;
 use taceva_core::Frame;
 
 /// One kind of features of frames of one size and format.
-pub(super) trait Part: fmt::Debug + Send + Sync {
+pub(super) trait CellFeatures: fmt::Debug + Send + Sync {
     /// Numbers a cell.
     fn depth(&self) -> usize;
 

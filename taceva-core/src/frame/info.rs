@@ -1,0 +1,96 @@
+//! The size of a frame, and how its pixels are stored.
+
+use std::fmt;
+
+/// How one pixel is stored. 16-bit samples are little-endian, whatever the machine.
+///
+/// ```
+/// use taceva_core::PixelFormat;
+/// assert_eq!((PixelFormat::Rgb16.samples(), PixelFormat::Rgb16.bytes_per_sample()), (3, 2));
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "lowercase"))]
+#[non_exhaustive]
+pub enum PixelFormat {
+    /// One byte: gray.
+    Gray8,
+    /// Two bytes: gray.
+    Gray16,
+    /// Three bytes: red, green, blue.
+    Rgb8,
+    /// Six bytes: red, green, blue.
+    Rgb16,
+}
+
+impl PixelFormat {
+    /// Numbers a pixel: 1 for gray, 3 for RGB.
+    pub const fn samples(self) -> usize {
+        match self {
+            PixelFormat::Gray8 | PixelFormat::Gray16 => 1,
+            PixelFormat::Rgb8 | PixelFormat::Rgb16 => 3,
+        }
+    }
+
+    /// Bytes a number: 1 or 2.
+    pub const fn bytes_per_sample(self) -> usize {
+        match self {
+            PixelFormat::Gray8 | PixelFormat::Rgb8 => 1,
+            PixelFormat::Gray16 | PixelFormat::Rgb16 => 2,
+        }
+    }
+
+    /// The largest number a pixel can hold: 255 or 65535.
+    pub const fn full_scale(self) -> u16 {
+        match self.bytes_per_sample() {
+            1 => 255,
+            _ => 65_535,
+        }
+    }
+
+    /// How the format is written in files.
+    pub const fn name(self) -> &'static str {
+        match self {
+            PixelFormat::Gray8 => "gray8",
+            PixelFormat::Gray16 => "gray16",
+            PixelFormat::Rgb8 => "rgb8",
+            PixelFormat::Rgb16 => "rgb16",
+        }
+    }
+}
+
+/// The size and the pixel format of a frame. A plain value, which gets no further fields.
+///
+/// ```
+/// use taceva_core::{FrameInfo, PixelFormat};
+/// let info = FrameInfo { width: 640, height: 480, format: PixelFormat::Gray8 };
+/// assert_eq!(info.byte_len(), Some(307_200));
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct FrameInfo {
+    /// Pixels a row.
+    pub width: u32,
+    /// Rows.
+    pub height: u32,
+    /// How one pixel is stored.
+    pub format: PixelFormat,
+}
+
+impl FrameInfo {
+    /// Bytes of a whole frame, without padding; `None` beyond the address space.
+    pub fn byte_len(&self) -> Option<usize> {
+        let pixels = usize::try_from(self.width)
+            .ok()?
+            .checked_mul(usize::try_from(self.height).ok()?)?;
+        pixels
+            .checked_mul(self.format.samples())?
+            .checked_mul(self.format.bytes_per_sample())
+    }
+}
+
+impl fmt::Display for FrameInfo {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}×{} {}", self.width, self.height, self.format.name())
+    }
+}

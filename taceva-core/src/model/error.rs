@@ -1,0 +1,57 @@
+//! Why a model could not be fitted or used.
+
+use std::error::Error;
+use std::fmt;
+
+use crate::error::ErrorKind;
+
+/// Why a model could not be fitted or used.
+///
+/// ```
+/// use taceva_core::{ErrorKind, ModelError};
+/// let error = ModelError::new(ErrorKind::InvalidArgument, "cannot fit `ridge`: 1 sample, expected at least 2");
+/// assert_eq!(error.kind(), ErrorKind::InvalidArgument);
+/// ```
+#[derive(Debug)]
+pub struct ModelError {
+    kind: ErrorKind,
+    message: String,
+    source: Option<Box<dyn Error + Send + Sync>>,
+}
+
+impl ModelError {
+    /// An error of `kind` that says what was being done and on what.
+    pub fn new(kind: ErrorKind, message: impl Into<String>) -> ModelError {
+        ModelError {
+            kind,
+            message: message.into(),
+            source: None,
+        }
+    }
+
+    /// The same error with what caused it.
+    #[must_use]
+    pub fn because(mut self, source: impl Into<Box<dyn Error + Send + Sync>>) -> ModelError {
+        self.source = Some(source.into());
+        self
+    }
+
+    /// What kind of failure it was.
+    pub fn kind(&self) -> ErrorKind {
+        self.kind
+    }
+}
+
+impl fmt::Display for ModelError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.message)
+    }
+}
+
+impl Error for ModelError {
+    fn source(&self) -> Option<&(dyn Error + 'static)> {
+        self.source
+            .as_deref()
+            .map(|source| source as &(dyn Error + 'static))
+    }
+}

@@ -1,0 +1,74 @@
+//! What a model learns from.
+
+use super::Features;
+use crate::channel::Channels;
+
+/// What should be predicted, sample by sample.
+///
+/// # Shapes
+/// `values`: `[samples, channels]`.
+///
+/// ```
+/// use taceva_core::{Channel, Channels, Targets};
+/// let channels = Channels::new([Channel::PZ, Channel::FZ])?;
+/// let targets = Targets::new(&channels, &[0.5, 1.0, 0.7, 1.6]);
+/// assert_eq!(targets.values.len(), 2 * channels.len());
+/// # Ok::<(), taceva_core::ChannelError>(())
+/// ```
+#[derive(Clone, Copy, Debug)]
+#[non_exhaustive]
+pub struct Targets<'a> {
+    /// What each column means.
+    pub channels: &'a Channels,
+    /// Every value is finite.
+    pub values: &'a [f64],
+}
+
+impl<'a> Targets<'a> {
+    /// A value of each of `channels`, sample by sample; an estimator refuses `values` of another length than its features have samples.
+    pub const fn new(channels: &'a Channels, values: &'a [f64]) -> Targets<'a> {
+        Targets { channels, values }
+    }
+}
+
+/// Samples to learn from, or to choose settings by.
+///
+/// ```
+/// use taceva_core::{Channel, Channels, FeatureShape, Features, Targets, TrainingSet};
+/// let channels = Channels::new([Channel::FZ])?;
+/// let features = Features::new(FeatureShape::flat(2), vec![0.1, 0.2, 0.3, 0.4])?;
+/// let targets = Targets::new(&channels, &[1.0, 1.6]);
+/// let training = TrainingSet::new(&features, targets).with_groups(&[0, 1][..]);
+/// assert_eq!(training.groups, Some(&[0, 1][..]));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Copy, Debug)]
+#[non_exhaustive]
+pub struct TrainingSet<'a> {
+    /// What is seen.
+    pub features: &'a Features,
+    /// What is true.
+    pub targets: Targets<'a>,
+    /// Which samples belong together, a number a sample; for settings chosen by leaving one group out.
+    pub groups: Option<&'a [u32]>,
+}
+
+impl<'a> TrainingSet<'a> {
+    /// Samples of which nobody says which belong together.
+    pub const fn new(features: &'a Features, targets: Targets<'a>) -> TrainingSet<'a> {
+        TrainingSet {
+            features,
+            targets,
+            groups: None,
+        }
+    }
+
+    /// The same samples with the group of each.
+    #[must_use]
+    pub fn with_groups(self, groups: impl Into<Option<&'a [u32]>>) -> TrainingSet<'a> {
+        TrainingSet {
+            groups: groups.into(),
+            ..self
+        }
+    }
+}

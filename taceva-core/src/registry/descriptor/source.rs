@@ -1,0 +1,38 @@
+//! Where the readings of a driver come from.
+
+use std::fmt;
+
+/// Where the readings of a driver come from; every output that rests on them says so.
+///
+/// ```
+/// use taceva_core::DriverSource;
+/// assert_eq!(DriverSource::Simulated.name(), "simulated");
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "lowercase"))]
+pub enum DriverSource {
+    /// A device.
+    Real,
+    /// A model of a device.
+    Simulated,
+    /// A device, at another time.
+    Recorded,
+}
+
+impl DriverSource {
+    /// How the source is written in reports.
+    pub const fn name(self) -> &'static str {
+        match self {
+            DriverSource::Real => "real",
+            DriverSource::Simulated => "simulated",
+            DriverSource::Recorded => "recorded",
+        }
+    }
+}
+
+impl fmt::Display for DriverSource {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}

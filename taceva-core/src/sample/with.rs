@@ -1,0 +1,141 @@
+//! A sample made field by field: whoever makes one need not know of fields that are added later.
+
+use super::{Readings, Sample};
+use crate::frame::Frame;
+use crate::grating::GratingKind;
+use crate::nanometre::Nanometre;
+use crate::outcome::Limit;
+use crate::phase::Phase;
+use crate::stamp::Stamp;
+
+impl Sample {
+    /// A sample called `id` of which nothing else is known.
+    pub fn new(id: impl Into<String>) -> Sample {
+        Sample {
+            id: id.into(),
+            ..Sample::default()
+        }
+    }
+
+    /// The same sample with the sensor model.
+    #[must_use]
+    pub fn with_sensor_id(mut self, sensor_id: impl Into<Option<String>>) -> Sample {
+        self.sensor_id = sensor_id.into();
+        self
+    }
+
+    /// The same sample with the unit of that model.
+    #[must_use]
+    pub fn with_unit_id(mut self, unit_id: impl Into<Option<String>>) -> Sample {
+        self.unit_id = unit_id.into();
+        self
+    }
+
+    /// The same sample with the lighting scene.
+    #[must_use]
+    pub fn with_scene_id(mut self, scene_id: impl Into<Option<String>>) -> Sample {
+        self.scene_id = scene_id.into();
+        self
+    }
+
+    /// The same sample with the contact location.
+    #[must_use]
+    pub fn with_point_id(mut self, point_id: impl Into<Option<String>>) -> Sample {
+        self.point_id = point_id.into();
+        self
+    }
+
+    /// The same sample with the depth level within the point.
+    #[must_use]
+    pub fn with_depth_step(mut self, depth_step: impl Into<Option<u32>>) -> Sample {
+        self.depth_step = depth_step.into();
+        self
+    }
+
+    /// The same sample with the number of the repeat.
+    #[must_use]
+    pub fn with_repeat(mut self, repeat: impl Into<Option<u32>>) -> Sample {
+        self.repeat = repeat.into();
+        self
+    }
+
+    /// The same sample with the branch of the press.
+    #[must_use]
+    pub fn with_phase(mut self, phase: impl Into<Option<Phase>>) -> Sample {
+        self.phase = phase.into();
+        self
+    }
+
+    /// The same sample with the limit that kept the tip from where it was sent.
+    #[must_use]
+    pub fn with_limited_by(mut self, limited_by: impl Into<Option<Limit>>) -> Sample {
+        self.limited_by = limited_by.into();
+        self
+    }
+
+    /// The same sample with when it was taken.
+    #[must_use]
+    pub fn with_stamp(mut self, stamp: impl Into<Option<Stamp>>) -> Sample {
+        self.stamp = stamp.into();
+        self
+    }
+
+    /// The same sample with the relief of the grating.
+    #[must_use]
+    pub fn with_kind(mut self, kind: impl Into<Option<GratingKind>>) -> Sample {
+        self.kind = kind.into();
+        self
+    }
+
+    /// The same sample with the spacing of the grating.
+    #[must_use]
+    pub fn with_spacing(mut self, spacing: impl Into<Option<Nanometre>>) -> Sample {
+        self.spacing = spacing.into();
+        self
+    }
+
+    /// The same sample with what a model says the spacing is.
+    #[must_use]
+    pub fn with_predicted_spacing(
+        mut self,
+        predicted_spacing: impl Into<Option<Nanometre>>,
+    ) -> Sample {
+        self.predicted_spacing = predicted_spacing.into();
+        self
+    }
+
+    /// The same sample with the mean luma of its picture, from 0 to 255.
+    #[must_use]
+    pub fn with_intensity(mut self, intensity: impl Into<Option<f64>>) -> Sample {
+        self.intensity = intensity.into();
+        self
+    }
+
+    /// The same sample with the digest of its picture.
+    #[must_use]
+    pub fn with_frame_digest(mut self, frame_digest: impl Into<Option<String>>) -> Sample {
+        self.frame_digest = frame_digest.into();
+        self
+    }
+
+    /// The same sample with its picture.
+    #[must_use]
+    pub fn with_frame(mut self, frame: impl Into<Option<Frame>>) -> Sample {
+        self.frame = frame.into();
+        self
+    }
+
+    /// The same sample with what the reference instruments say.
+    #[must_use]
+    pub fn with_truth(mut self, truth: Readings) -> Sample {
+        self.truth = truth;
+        self
+    }
+
+    /// The same sample with what a model says.
+    #[must_use]
+    pub fn with_prediction(mut self, prediction: impl Into<Option<Readings>>) -> Sample {
+        self.prediction = prediction.into();
+        self
+    }
+}

@@ -1,0 +1,205 @@
+//! A unit that labels may arrive in, and its way to the unit they are kept in.
+
+use std::fmt;
+
+use super::Unit;
+
+/// A unit that labels may arrive in, with its way to the unit they are kept in.
+///
+/// # Units
+/// [`convert`](SourceUnit::convert) rounds once, so `m → mm` multiplies and `um → mm` divides.
+///
+/// ```
+/// use taceva_core::{SourceUnit, Unit};
+/// let metres = SourceUnit::parse("m")?;
+/// assert_eq!(metres.unit(), Unit::Millimetre);
+/// assert_eq!(metres.convert(0.0025), 2.5);
+/// # Ok::<(), taceva_core::UnitError>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SourceUnit {
+    symbol: &'static str,
+    unit: Unit,
+    scale: Scale,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Scale {
+    Times(f64),
+    Over(f64),
+}
+
+/// Standard gravity, m/s²: exact by definition (3rd CGPM, 1901).
+const STANDARD_GRAVITY: f64 = 9.806_65;
+
+const SOURCE_UNITS: &[(&str, Unit, Scale)] = &[
+    ("mm", Unit::Millimetre, Scale::Times(1.0)),
+    ("m", Unit::Millimetre, Scale::Times(1e3)),
+    ("cm", Unit::Millimetre, Scale::Times(10.0)),
+    ("um", Unit::Millimetre, Scale::Over(1e3)),
+    ("µm", Unit::Millimetre, Scale::Over(1e3)),
+    // The micro sign and the Greek letter look the same.
+    ("\u{3bc}m", Unit::Millimetre, Scale::Over(1e3)),
+    ("nm", Unit::Millimetre, Scale::Over(1e6)),
+    ("N", Unit::Newton, Scale::Times(1.0)),
+    ("mN", Unit::Newton, Scale::Over(1e3)),
+    ("kN", Unit::Newton, Scale::Times(1e3)),
+    ("gf", Unit::Newton, Scale::Times(STANDARD_GRAVITY / 1e3)),
+    ("kgf", Unit::Newton, Scale::Times(STANDARD_GRAVITY)),
+    ("N·mm", Unit::NewtonMillimetre, Scale::Times(1.0)),
+    ("Nmm", Unit::NewtonMillimetre, Scale::Times(1.0)),
+    ("N·m", Unit::NewtonMillimetre, Scale::Times(1e3)),
+    ("Nm", Unit::NewtonMillimetre, Scale::Times(1e3)),
+    ("mNm", Unit::NewtonMillimetre, Scale::Times(1.0)),
+    ("deg", Unit::Degree, Scale::Times(1.0)),
+    (
+        "rad",
+        Unit::Degree,
+        Scale::Times(180.0 / std::f64::consts::PI),
+    ),
+    ("s", Unit::Second, Scale::Times(1.0)),
+    ("ms", Unit::Second, Scale::Over(1e3)),
+    ("us", Unit::Second, Scale::Over(1e6)),
+    ("µs", Unit::Second, Scale::Over(1e6)),
+    ("\u{3bc}s", Unit::Second, Scale::Over(1e6)),
+    ("ns", Unit::Second, Scale::Over(1e9)),
+    ("Hz", Unit::Hertz, Scale::Times(1.0)),
+    ("lx", Unit::Lux, Scale::Times(1.0)),
+    ("px", Unit::Pixel, Scale::Times(1.0)),
+    ("mm/N", Unit::MillimetrePerNewton, Scale::Times(1.0)),
+    ("mm²", Unit::SquareMillimetre, Scale::Times(1.0)),
+    ("mm/h", Unit::MillimetrePerHour, Scale::Times(1.0)),
+    ("N/h", Unit::NewtonPerHour, Scale::Times(1.0)),
+    ("1", Unit::One, Scale::Times(1.0)),
+    ("%", Unit::One, Scale::Over(100.0)),
+];
+
+impl SourceUnit {
+    /// The unit written as `symbol`; case matters, because `mN` is not `MN`.
+    ///
+    /// # Errors
+    /// [`UnitError`], listing what would be accepted.
+    pub fn parse(symbol: &str) -> Result<SourceUnit, UnitError> {
+        SOURCE_UNITS
+            .iter()
+            .find(|(known, _, _)| *known == symbol)
+            .map(|&(symbol, unit, scale)| SourceUnit {
+                symbol,
+                unit,
+                scale,
+            })
+            .ok_or_else(|| UnitError {
+                symbol: symbol.to_owned(),
+            })
+    }
+
+    /// Every symbol that [`parse`](SourceUnit::parse) accepts.
+    pub fn symbols() -> impl Iterator<Item = &'static str> {
+        SOURCE_UNITS.iter().map(|(symbol, _, _)| *symbol)
+    }
+
+    /// The symbol it was written with.
+    pub const fn symbol(&self) -> &'static str {
+        self.symbol
+    }
+
+    /// The unit that values are kept in after conversion.
+    pub const fn unit(&self) -> Unit {
+        self.unit
+    }
+
+    /// By how many places the decimal point moves on the way to the unit that values are kept in; `None` where the way is no
+    /// power of ten. A text whose point was moved before it was read is rounded once, a value that was read and then
+    /// converted twice.
+    pub fn decimal_shift(&self) -> Option<i32> {
+        let find = |factor: f64| {
+            let powers: [(f64, i32); 6] =
+                [(1e0, 0), (1e1, 1), (1e2, 2), (1e3, 3), (1e6, 6), (1e9, 9)];
+            let is_it = |power: f64| power.to_bits() == factor.to_bits();
+            let found = powers.into_iter().find(|(power, _)| is_it(*power));
+            found.map(|(_, shift)| shift)
+        };
+        match self.scale {
+            Scale::Times(factor) => find(factor),
+            Scale::Over(divisor) => find(divisor).map(|shift| -shift),
+        }
+    }
+
+    /// `value` in the unit it is kept in, rounded once.
+    pub fn convert(&self, value: f64) -> f64 {
+        match self.scale {
+            Scale::Times(factor) => value * factor,
+            Scale::Over(divisor) => value / divisor,
+        }
+    }
+}
+
+/// A unit that nobody declared.
+///
+/// ```
+/// use taceva_core::SourceUnit;
+/// let error = SourceUnit::parse("furlong").unwrap_err();
+/// assert!(error.to_string().starts_with("unknown unit `furlong`, expected one of mm, "));
+/// ```
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct UnitError {
+    symbol: String,
+}
+
+impl fmt::Display for UnitError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(
+            f,
+            "unknown unit `{}`, expected one of ",
+            crate::shown(&self.symbol)
+        )?;
+        for (position, symbol) in SourceUnit::symbols().enumerate() {
+            let separator = if position == 0 { "" } else { ", " };
+            write!(f, "{separator}{symbol}")?;
+        }
+        Ok(())
+    }
+}
+
+impl std::error::Error for UnitError {}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_kept_unit_is_a_source_unit_that_changes_nothing() {
+        for unit in Unit::ALL {
+            let source = SourceUnit::parse(unit.symbol()).expect("kept units are accepted");
+            assert_eq!(source.unit(), unit);
+            assert_eq!(source.convert(0.1).to_bits(), 0.1_f64.to_bits());
+        }
+    }
+
+    #[test]
+    fn micrometres_divide_so_that_the_result_is_the_nearest_binary64() {
+        let micrometres = SourceUnit::parse("um").expect("known");
+        assert_eq!(micrometres.convert(2_343.0).to_bits(), 2.343_f64.to_bits());
+    }
+
+    #[test]
+    fn a_shift_is_there_for_powers_of_ten_alone() {
+        let shift = |symbol| SourceUnit::parse(symbol).expect("known").decimal_shift();
+        assert_eq!(
+            ["mm", "m", "cm", "um", "ns", "%"].map(shift),
+            [0, 3, 1, -3, -9, -2].map(Some)
+        );
+        assert_eq!(["rad", "kgf", "gf"].map(shift), [None; 3]);
+    }
+
+    #[test]
+    fn an_unknown_unit_lists_what_is_accepted() {
+        let message = SourceUnit::parse("newton")
+            .expect_err("unknown")
+            .to_string();
+        assert!(
+            message.starts_with("unknown unit `newton`, expected one of mm, m, "),
+            "{message}"
+        );
+    }
+}

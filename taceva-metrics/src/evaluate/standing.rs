@@ -1,0 +1,168 @@
+//! Whether a score takes part in verdicts: the one rule that every output asks and none repeats.
+//!
+//! A verdict is a claim: a bold face, a rank, a place on a radar, an answer of a comparison, a choice or an acceptance. A model that
+//! answers the same whatever it sees repeats itself perfectly, follows a line without an error and is moved by no light: its scores
+//! are numbers, and claim nothing.
+
+use taceva_core::Field;
+
+use crate::evaluate::entry::Entry;
+use crate::families::resolution::OF_CONSTANT;
+use crate::metric::{Formula, Metric};
+use crate::score::flag::Flag;
+use crate::score::standing::Standing;
+use crate::score::value::UndefinedReason;
+use crate::score::{Interval, Score};
+
+impl Standing {
+    /// The standing of a score of `metric` that is made of `channels`, whose skill is what `skill_of` says of each.
+    ///
+    /// Metrics of the truth alone always count; a score of several channels has the worst of their standings.
+    pub fn of_channels<'a>(
+        metric: &Metric,
+        channels: impl IntoIterator<Item = &'a str>,
+        skill_of: impl Fn(&str) -> Standing,
+    ) -> Standing {
+        if metric.needs.fields.contains(Field::PredictedSpacing) {
+            // Whoever knows the share of the best constant answer says more.
+            return Standing::SkillUnknown;
+        }
+        if !metric.reads_predictions() {
+            return Standing::Counts;
+        }
+        let standings = channels.into_iter().map(skill_of);
+        standings.max().unwrap_or(Standing::SkillUnknown)
+    }
+}
+
+/// Gives each of `entries` the standing that the skill scores and the bounded shares among them determine.
+pub(crate) fn set_standings(entries: &mut [Entry]) {
+    let skills: Vec<(String, Standing)> = entries
+        .iter()
+        .filter(|entry| matches!(entry.metric.formula, Formula::Skill))
+        .map(|entry| (entry.channel.clone(), of_skill_score(&entry.score)))
+        .collect();
+    for entry in entries {
+        let standing = of_score(entry.metric, &entry.channel, &entry.score, &skills);
+        entry.score.standing = standing;
+    }
+}
+
+fn of_skill_score(skill: &Score) -> Standing {
+    Standing::of_skill(low_end(skill))
+}
+
+/// Where the interval of a score begins.
+fn low_end(score: &Score) -> Option<f64> {
+    match score.interval {
+        // A model that errs nowhere leaves nothing that could vary.
+        Interval::Undefined(UndefinedReason::AtEnd) => score.value.scalar(),
+        interval => interval.ends().map(|[low, _]| low),
+    }
+}
+
+/// The channels that a score called `channel` is made of.
+pub(crate) fn channels(channel: &str, score: &Score) -> Vec<String> {
+    match score.of.is_empty() {
+        true => vec![channel.to_owned()],
+        false => score.of.clone(),
+    }
+}
+
+fn of_score(
+    metric: &Metric,
+    channel: &str,
+    score: &Score,
+    skills: &[(String, Standing)],
+) -> Standing {
+    if matches!(metric.formula, Formula::Resolution) {
+        return of_share(score);
+    }
+    let channels = channels(channel, score);
+    let of_channel = |name: &str| {
+        let mut skills = skills.iter().rev();
+        let found = skills.find(|(channel, _)| channel == name);
+        found.map(|(_, standing)| *standing)
+    };
+    let skill = Standing::of_channels(metric, channels.iter().map(String::as_str), |name| {
+        of_channel(name).unwrap_or(Standing::SkillUnknown)
+    });
+    let bounded = score
+        .bounded_share
+        .map_or(Standing::Counts, Standing::of_bounded_share);
+    let stimulus = match score.flags.contains(&Flag::LowStimulus) {
+        true => Standing::LowStimulus,
+        false => Standing::Counts,
+    };
+    skill
+        .max(bounded)
+        .max(stimulus)
+        .max(beside_constant(metric, score))
+}
+
+/// A share within a tolerance claims nothing where the constant of the skill reaches as much; where that is not known, skill alone decides.
+fn beside_constant(metric: &Metric, score: &Score) -> Standing {
+    match (&metric.formula, of_share(score)) {
+        (Formula::Tolerance, Standing::NoSkill) => Standing::NotAboveConstant,
+        _ => Standing::Counts,
+    }
+}
+
+/// A share of right answers shows skill where its interval lies above what a constant answer would reach.
+fn of_share(score: &Score) -> Standing {
+    let of_constant = score
+        .variant(OF_CONSTANT)
+        .and_then(|variant| variant.value.scalar());
+    match of_constant {
+        None => Standing::SkillUnknown,
+        Some(constant) => Standing::of_skill(low_end(score).map(|low| low - constant)),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::catalogue;
+
+    #[test]
+    fn a_score_of_several_channels_has_the_worst_of_their_standings() {
+        let skill_of = |name: &str| match name {
+            "Px" => Standing::Counts,
+            "Py" => Standing::NoSkill,
+            _ => Standing::SkillUnknown,
+        };
+        let mae = catalogue::find("mae").expect("known");
+        let of = |channels: &[&str]| Standing::of_channels(mae, channels.iter().copied(), skill_of);
+        assert_eq!(of(&["Px"]), Standing::Counts);
+        assert_eq!(of(&["Px", "Py"]), Standing::NoSkill);
+        assert_eq!(of(&["Px", "Fz"]), Standing::SkillUnknown);
+    }
+
+    #[test]
+    fn metrics_of_the_truth_alone_always_count() {
+        let of_truth: Vec<&str> = catalogue::ALL
+            .into_iter()
+            .filter(|metric| {
+                let standing = Standing::of_channels(metric, ["Pz"], |_| Standing::NoSkill);
+                standing == Standing::Counts
+            })
+            .map(|metric| metric.id)
+            .collect();
+        let expected = [
+            "sensitivity",
+            "uniformity",
+            "hysteresis",
+            "inter_sensor",
+            "intrinsic",
+        ];
+        assert_eq!(of_truth, expected);
+    }
+
+    #[test]
+    fn robustness_alone_reads_predictions_beyond_the_bounds() {
+        let unbounded = catalogue::ALL.into_iter();
+        let unbounded = unbounded.filter(|metric| metric.reads_unbounded_predictions());
+        let ids: Vec<&str> = unbounded.map(|metric| metric.id).collect();
+        assert_eq!(ids, ["r_spatial", "r_light"]);
+    }
+}

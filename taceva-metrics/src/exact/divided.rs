@@ -1,0 +1,51 @@
+//! A block divided into the rows that fit its grids and those that stray.
+
+use std::ops::Range;
+
+use super::bounds::Bounds;
+use super::kernel::BLOCK_ROWS;
+use crate::paired::Paired;
+
+/// A block's rows, those that fit before those that stray.
+pub(super) struct Parts {
+    estimate: [f64; BLOCK_ROWS],
+    reference: [f64; BLOCK_ROWS],
+    pub(super) strays: usize,
+}
+
+impl Parts {
+    /// Copies `pairs` to one end or the other.
+    pub(super) fn divide(&mut self, pairs: Paired<&[f64]>, bounds: &Bounds) {
+        let (mut fitting, mut strays) = (0, 0);
+        for pair in pairs.iter() {
+            let fits = bounds.hold(pair);
+            // Without a branch, which would be guessed wrong at each stray.
+            let place = if fits {
+                fitting
+            } else {
+                pairs.estimate.len() - 1 - strays
+            };
+            (self.estimate[place], self.reference[place]) = (pair.estimate, pair.reference);
+            fitting += usize::from(fits);
+            strays += usize::from(!fits);
+        }
+        self.strays = strays;
+    }
+
+    pub(super) fn rows(&self, rows: Range<usize>) -> Paired<&[f64]> {
+        Paired {
+            estimate: &self.estimate[rows.clone()],
+            reference: &self.reference[rows],
+        }
+    }
+}
+
+impl Default for Parts {
+    fn default() -> Parts {
+        Parts {
+            estimate: [0.0; BLOCK_ROWS],
+            reference: [0.0; BLOCK_ROWS],
+            strays: 0,
+        }
+    }
+}

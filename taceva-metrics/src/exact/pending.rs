@@ -1,0 +1,75 @@
+//! Sums in whole units of grids, before a superaccumulator has them.
+
+use super::bounds::{Bounds, Grids, TERMS};
+use super::grid::{Grid, SquareUnits};
+use super::kernel::{ErrorUnits, ValueUnits};
+use super::sum::ExactSum;
+use crate::families::accuracy::streams::{Stream, Streams};
+
+/// Grids move once more than one of so many rows did not fit, and a handful besides.
+const ROWS_PER_STRAY: usize = 16;
+
+const FREE_STRAYS: usize = 16;
+
+/// Units that no superaccumulator has yet.
+#[derive(Clone, Debug)]
+pub(super) struct Pending {
+    pub(super) grids: Grids,
+    pub(super) bounds: Bounds,
+    pub(super) errors: ErrorUnits,
+    pub(super) values: ValueUnits,
+    /// Rows whose units are held.
+    pub(super) rows: usize,
+    /// Rows that fitted since these grids were chosen, and rows that did not.
+    pub(super) rows_on_grids: usize,
+    pub(super) strays: usize,
+}
+
+impl Pending {
+    pub(super) fn new(grids: Grids, streams: Streams) -> Pending {
+        Pending {
+            grids,
+            bounds: Bounds::new(grids, streams),
+            errors: ErrorUnits::default(),
+            values: ValueUnits::default(),
+            rows: 0,
+            rows_on_grids: 0,
+            strays: 0,
+        }
+    }
+
+    /// How many rows may be off these grids before others are chosen.
+    pub(super) fn free_strays(&self) -> usize {
+        FREE_STRAYS + self.rows_on_grids / ROWS_PER_STRAY
+    }
+
+    pub(super) fn clear(&mut self) {
+        self.errors = ErrorUnits::default();
+        self.values = ValueUnits::default();
+        self.rows = 0;
+    }
+
+    /// Adds the units of `stream` to `sum`.
+    pub(super) fn deposit(&self, stream: Stream, sum: &mut ExactSum) {
+        let Grids { residual, truth } = self.grids;
+        match stream {
+            Stream::Absolute => deposit(self.errors.absolute, residual, sum),
+            Stream::Residual => deposit(self.errors.residual, residual, sum),
+            Stream::Squared => deposit_squares(self.errors.squared, residual, sum),
+            Stream::Truth => deposit(self.values.truth, truth, sum),
+            Stream::TruthSquared => deposit_squares(self.values.squared, truth, sum),
+            Stream::Symmetric => deposit(self.values.symmetric, TERMS, sum),
+        }
+    }
+}
+
+pub(super) fn deposit(units: [i64; 2], grid: Grid, sum: &mut ExactSum) {
+    for (units, unit) in units.into_iter().zip(grid.units()) {
+        sum.add_units(units, unit);
+    }
+}
+
+fn deposit_squares([rounded, lost]: SquareUnits, grid: Grid, sum: &mut ExactSum) {
+    deposit(rounded, grid.of_squares(), sum);
+    deposit(lost, grid.of_errors_of_squares(), sum);
+}

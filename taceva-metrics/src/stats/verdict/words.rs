@@ -1,0 +1,179 @@
+//! What a comparison says, in words, with as many digits as its interval is wide.
+
+use std::fmt;
+
+use taceva_core::Unit;
+
+use super::Verdict;
+use crate::stats::sides::{Side, Sides};
+
+impl Verdict {
+    /// What it says of two that have names: `GelSight better by 0.012 N (95 % 0.004…0.020, p = 0.003)`.
+    ///
+    /// The p value is the adjusted one, and the interval that of the same decision.
+    pub fn words(&self, names: Sides<&str>) -> String {
+        match self {
+            Verdict::Differs {
+                difference,
+                unit,
+                better,
+            } => {
+                let p = p_value(difference.adjusted_p);
+                let level = percent(difference.confidence);
+                let [low, high] = difference.interval;
+                let decimals = decimals(&[low, high], difference.value);
+                let said = |value: f64| number(value, decimals);
+                let unit = suffix(*unit);
+                let Some(better) = better else {
+                    let (value, low, high) = (
+                        said(difference.value),
+                        end(low, decimals),
+                        end(high, decimals),
+                    );
+                    let Sides { a, b } = names;
+                    return format!(
+                        "{a} and {b} differ by {value}{unit} ({level} {low}…{high}, {p})"
+                    );
+                };
+                let size = said(difference.value.abs());
+                let [low, high] = if difference.value < 0.0 {
+                    [-high, -low]
+                } else {
+                    [low, high]
+                };
+                let (low, high) = (end(low, decimals), end(high, decimals));
+                let word = match better {
+                    Side::A => "better",
+                    Side::B => "worse",
+                };
+                format!(
+                    "{} {word} by {size}{unit} ({level} {low}…{high}, {p})",
+                    names.a
+                )
+            }
+            Verdict::NoDifferenceShown { difference, unit } => {
+                let [low, high] = difference.interval;
+                let decimals = decimals(&[low, high], difference.value);
+                let value = number(difference.value, decimals);
+                let [low, high] = [low, high].map(|of| end(of, decimals));
+                let unit = suffix(*unit);
+                let level = percent(difference.confidence);
+                format!("no difference shown (difference {value}{unit}, {level} {low}…{high})")
+            }
+            Verdict::Equivalent { unit, margin, .. } => {
+                format!("equivalent within {margin}{}", suffix(*unit))
+            }
+            Verdict::Undefined(error) => format!("no answer: {error}"),
+        }
+    }
+}
+
+impl fmt::Display for Verdict {
+    /// `A better by 0.012 N (95 % 0.004…0.020, p = 0.003)`
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.words(Sides { a: "A", b: "B" }))
+    }
+}
+
+/// `95 %`, `99.72 %`: with as many digits as tell the rest of 100 to a twentieth of it.
+fn percent(share: f64) -> String {
+    let rest = 100.0 * (1.0 - share);
+    let mut places = 1.0;
+    for decimals in 0..6 {
+        let rounded = (rest * places).round() / places;
+        if (rounded - rest).abs() <= rest / 20.0 {
+            return format!("{:.decimals$} %", 100.0 * share);
+        }
+        places *= 10.0;
+    }
+    format!("{:.6} %", 100.0 * share)
+}
+
+/// ` N`, or nothing for a ratio.
+fn suffix(unit: Unit) -> String {
+    match unit {
+        Unit::One => String::new(),
+        unit => format!(" {unit}"),
+    }
+}
+
+/// The fewest decimals, up to 12, whose last is at most a tenth of the width of an interval; of one without ends, of the value. Up to three
+/// more where an end that is not 0 would print as 0: the interval would contradict what is shown.
+fn decimals(ends: &[f64; 2], value: f64) -> usize {
+    let fewest = decimals_of_width(ends, value);
+    let hides_an_end = |decimals: usize| {
+        let mut ends = ends.iter();
+        ends.any(|end| end.abs() > 1e-12 && is_zero(&number(*end, decimals)))
+    };
+    let found = (fewest..=fewest + 3).find(|decimals| !hides_an_end(*decimals));
+    found.unwrap_or(fewest)
+}
+
+fn decimals_of_width([low, high]: &[f64; 2], value: f64) -> usize {
+    let width = if (high - low).is_finite() {
+        high - low
+    } else {
+        value.abs()
+    };
+    let mut place = 1.0;
+    for decimals in 0..12 {
+        if place <= width / 10.0 {
+            return decimals;
+        }
+        place /= 10.0;
+    }
+    12
+}
+
+/// With a true minus sign, and none before a zero.
+fn number(value: f64, decimals: usize) -> String {
+    if value.is_infinite() {
+        return if value < 0.0 { "−∞" } else { "∞" }.to_owned();
+    }
+    let size = format!("{:.decimals$}", value.abs());
+    let sign = if value < 0.0 && !is_zero(&size) {
+        "−"
+    } else {
+        ""
+    };
+    format!("{sign}{size}")
+}
+
+/// Whether it shows no digit but zeros.
+fn is_zero(text: &str) -> bool {
+    text.bytes().all(|byte| matches!(byte, b'0' | b'.'))
+}
+
+/// An end of an interval: what not even `decimals` show has a power of ten.
+fn end(value: f64, decimals: usize) -> String {
+    match number(value, decimals) {
+        text if value.abs() > 1e-12 && is_zero(&text) => format!("{value:.0e}").replace('-', "−"),
+        text => text,
+    }
+}
+
+fn p_value(p: f64) -> String {
+    if p < 0.001 {
+        "p < 0.001".to_owned()
+    } else {
+        format!("p = {p:.3}")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_end_of_an_interval_that_is_not_zero_never_prints_as_zero() {
+        let ends = |interval: [f64; 2], value: f64| {
+            let decimals = decimals(&interval, value);
+            interval.map(|of| end(of, decimals))
+        };
+        assert_eq!(ends([0.02, 1.5], 0.8), ["0.02", "1.50"]);
+        assert_eq!(ends([-1.5, -0.004], -0.8), ["−1.500", "−0.004"]);
+        assert_eq!(ends([-1e-7, 1.5], 0.8), ["−1e−7", "1.5"]);
+        assert_eq!(ends([0.0, 1.5], 0.8), ["0.0", "1.5"]);
+        assert_eq!(ends([0.02, f64::INFINITY], 0.8), ["0.02", "∞"]);
+    }
+}

@@ -1,0 +1,49 @@
+//! The estimator of a plugin among ours.
+
+use std::sync::Arc;
+
+use taceva_core::{Args, EstimatorFactory, FitRequest, ModelError, Progress, TrainingSet};
+
+use super::card::PluginCard;
+use super::regressor::PluginRegressor;
+use crate::training::choice::{Choice, errors};
+use crate::training::fit::{ModelEstimator, ModelFit, ModelRegressor, estimator};
+use crate::training::problem::Problem;
+
+/// An estimator of a plugin with its settings, not fitted yet.
+pub(crate) struct PluginEstimator {
+    pub(crate) factory: Arc<dyn EstimatorFactory>,
+    pub(crate) settings: Args,
+}
+
+estimator!(PluginEstimator, |own| own.factory.key().as_str());
+
+impl ModelEstimator for PluginEstimator {
+    fn fit_model(
+        &self,
+        training: &TrainingSet<'_>,
+        validation: Option<&TrainingSet<'_>>,
+        progress: &dyn Progress,
+    ) -> Result<ModelFit, ModelError> {
+        let problem = Problem::new(*training)?;
+        let validation = problem.validation(validation)?.and(validation);
+        let fitted = self.factory.fit(
+            &FitRequest::new(&self.settings, training, progress).with_validation(validation),
+        )?;
+        let bytes = fitted.save()?;
+        let kind = (training.targets.channels, training.features.shape());
+        let card = PluginCard::of(&*self.factory)?;
+        let regressor = PluginRegressor::new(card, fitted, (bytes, kind))?;
+        let errors = match validation {
+            Some(set) => errors(&regressor, set)?,
+            None => vec![None; training.targets.channels.len()],
+        };
+        Ok(ModelFit {
+            // What a plugin makes of the validation part, it does not say.
+            choice: Choice::nobodys(errors),
+            regressor: ModelRegressor::Plugin(regressor),
+            scaling: problem.scaling,
+            refitted: false,
+        })
+    }
+}

@@ -1,0 +1,26 @@
+//! All that a model is fitted from.
+
+use taceva_core::{FrameInfo, TrainingSet};
+
+use super::card::Provenance;
+use crate::features::FeatureSpec;
+use crate::settings::ModelSettings;
+use crate::training::fit::ModelEstimator;
+
+/// All that a model is fitted from.
+pub struct FitInput<'a> {
+    /// The model, not fitted yet.
+    pub estimator: &'a dyn ModelEstimator,
+    /// The settings it was made with, as typed.
+    pub settings: &'a ModelSettings,
+    /// What it sees of a frame.
+    pub features: FeatureSpec,
+    /// The kind of frame that the features were taken from.
+    pub frame: FrameInfo,
+    /// What is learnt from. Its features are those of an [`Extractor`](crate::Extractor); principal components are found here.
+    pub training: TrainingSet<'a>,
+    /// What settings are chosen by.
+    pub validation: Option<TrainingSet<'a>>,
+    /// Where the samples come from.
+    pub provenance: Provenance,
+}
