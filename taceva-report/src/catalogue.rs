@@ -17,6 +17,7 @@ pub use list::{details, list};
 pub use published::{Missing, Published, Roughly, Source};
 pub use read::CatalogueError;
 pub use site::{SitePage, site};
+pub(crate) use study::PUBLISHED;
 
 /// The sensors and studies that come with the program, by name.
 ///

@@ -31,6 +31,8 @@ pub struct Choice {
     pub unknown: Vec<String>,
     /// The differences between those that are ranked that tests show; none where nothing was tested, as of published numbers.
     pub evidence: Option<Vec<Evidence>>,
+    /// Which of the errors that rank are of labels of different spread, in a sentence.
+    pub spread: Option<String>,
 }
 
 /// A sensor that meets every hard need, as far as is known.
@@ -61,6 +63,8 @@ pub struct Step {
     pub share: Option<f64>,
     /// Whether the need is a hard one, which does not rank.
     pub is_bound: bool,
+    /// Whether the interval of the number reaches beyond the bound of a hard need, which the number itself meets.
+    pub is_unsure: bool,
 }
 
 /// A sensor of which a hard need asks what is not known.
@@ -102,6 +106,7 @@ pub fn choose(sensors: &[Sensor], needs: &[Need]) -> Choice {
         barred: Vec::new(),
         unknown: Vec::new(),
         evidence: None,
+        spread: None,
     };
     let mut remaining: Vec<&Sensor> = Vec::new();
     for sensor in sensors.iter().filter(|entry| entry.kind == Kind::Sensor) {
@@ -193,6 +198,10 @@ fn candidate(sensor: &Sensor, remaining: &[&Sensor], needs: &[Need]) -> Candidat
                 standing: bound.property.standing(sensor),
                 share: None,
                 is_bound: true,
+                is_unsure: bound
+                    .property
+                    .interval(sensor)
+                    .is_some_and(|ends| !ends.into_iter().all(|end| bound.holds(end))),
             });
         }
         let mut of_need = Vec::new();
@@ -208,6 +217,7 @@ fn candidate(sensor: &Sensor, remaining: &[&Sensor], needs: &[Need]) -> Candidat
                 standing: property.standing(sensor),
                 share,
                 is_bound: false,
+                is_unsure: false,
             });
         }
         shares.extend(mean(&of_need));

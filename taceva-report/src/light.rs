@@ -61,7 +61,7 @@ impl Light {
         };
         let times = range(low, high);
         Some(format!(
-            "errors become {times} times as large in the lit {scenes}"
+            "errors of unbounded predictions become {times} times as large in the lit {scenes}"
         ))
     }
 
@@ -133,10 +133,11 @@ mod tests {
     #[test]
     fn what_light_does_is_said_from_the_least_to_the_greatest_ratio() {
         let grown = study(&[[1.4, 66.4], [2.8, 325.0]], "");
-        let expected = "x: errors become 66.4 to 325 times as large in the lit scenes.";
+        let expected = "x: errors of unbounded predictions become 66.4 to 325 times as large in the lit scenes.";
         assert_eq!(said(grown), expected);
         let one = study(&[[1.4, 0.5]], "");
-        let expected = "x: errors become 0.5 times as large in the lit scene.";
+        let expected =
+            "x: errors of unbounded predictions become 0.5 times as large in the lit scene.";
         assert_eq!(said(one), expected);
     }
 
@@ -146,7 +147,7 @@ mod tests {
             &[[0.99991, 1.25], [1.1, 20.0]],
             r#", "flags": ["low stimulus"]"#,
         );
-        let expected = "x: errors become 1.25 to 20 times as large in the lit scenes; light changed by 0.009 % to 10 %: low stimulus.";
+        let expected = "x: errors of unbounded predictions become 1.25 to 20 times as large in the lit scenes; light changed by 0.009 % to 10 %: low stimulus.";
         assert_eq!(said(dim), expected);
     }
 

@@ -221,7 +221,7 @@ fn spread(studies: &[Study], rows: &[ScoreRow]) -> Option<String> {
         .iter()
         .filter(|row| row.metric == "mae" && row.is_headline);
     let channels: Vec<&str> = errors.map(|row| row.channel.as_str()).collect();
-    crate::spread::note(studies, &channels)
+    crate::spread::note(studies, &crate::figures::names(studies), &channels)
 }
 
 /// Marks the cell of each row that is shown to be better than all others that take part.

@@ -6,59 +6,95 @@ use crate::number::{numeral, spaced};
 use crate::results::Study;
 
 /// Metrics whose values follow the spread of the labels.
-const OF_ERRORS: [&str; 4] = ["mae", "mae_euclid", "rmse", "r_spatial"];
+const OF_LABELS: [&str; 8] = [
+    "mae",
+    "mae_euclid",
+    "rmse",
+    "smape",
+    "tolerance",
+    "r_spatial",
+    "repeatability",
+    "minimum_detectable_force",
+];
 /// Spreads that differ by a greater factor are reported.
 const ALIKE: f64 = 2.0;
 
-/// ` (their labels differ in spread: 0.047 N to 0.174 N)`, where errors of those studies that are at `which` are compared and the labels of
-/// one spread more than twice as far as those of another; else nothing.
-pub(crate) fn words(studies: &[Study], which: &[usize], metric: &str, channel: &str) -> String {
-    let compared = which.iter().filter_map(|at| studies.get(*at));
-    let units: Vec<Unit> = compared
-        .clone()
-        .filter_map(|study| Some(study.score(metric, channel)?.unit))
-        .collect();
-    let Some(unit) = units.first().filter(|unit| **unit != Unit::One) else {
-        return String::new();
-    };
-    let spreads = compared.filter_map(|study| spread(study, channel));
-    match crate::figure::extent(spreads) {
-        Some([low, high]) if OF_ERRORS.contains(&metric) && high > ALIKE * low => {
-            let [low, high] = [low, high].map(|of| format!("{}{}", numeral(of), spaced(*unit)));
-            format!(" (their labels differ in spread: {low} to {high})")
-        }
-        _ => String::new(),
+/// ` (their labels differ in spread: ViTacTip 0.047 N to GelSightWM 0.174 N)`, where scores of those studies that are at `which` are compared
+/// and the labels of one spread more than twice as far as those of another; else nothing.
+pub(crate) fn words(
+    (studies, names): (&[Study], &[String]),
+    which: &[usize],
+    metric: &str,
+    channel: &str,
+) -> String {
+    match range((studies, names), which, channel).filter(|_| OF_LABELS.contains(&metric)) {
+        Some(range) => format!(" (their labels differ in spread: {range})"),
+        None => String::new(),
     }
 }
 
-/// The channels and planes of `channels` whose labels spread differently, in a sentence for below a table: `Labels differ in spread between
-/// the sensors (Fxy 0.047 N to 0.174 N): …`; none where all are alike.
-pub(crate) fn note(studies: &[Study], channels: &[&str]) -> Option<String> {
+/// The channels and planes of `channels` whose labels spread differently, in a sentence for below a table; none where all are alike.
+pub(crate) fn note(studies: &[Study], names: &[String], channels: &[&str]) -> Option<String> {
     let all: Vec<usize> = (0..studies.len()).collect();
     let differing = channels.iter().filter_map(|channel| {
-        let words = words(studies, &all, "mae", channel);
-        let range = words.rsplit_once(": ")?.1.strip_suffix(')')?;
-        Some(format!("{channel} {range}"))
+        let range = range((studies, names), &all, channel)?;
+        Some(format!("{channel}: {range}"))
     });
     let differing: Vec<String> = differing.collect();
     (!differing.is_empty()).then(|| {
         format!(
-            "Labels differ in spread between the sensors ({}): errors in units, repeatability, spatial robustness and shares within a tolerance follow it.",
+            "Labels differ in spread between the sensors ({}): errors in units, sMAPE, repeatability, spatial robustness and shares within a tolerance follow it; R² and skill do not.",
             differing.join("; ")
         )
     })
 }
 
-/// How far the labels of a channel or plane lie about the constant that skill is measured by: the root mean square error over √(1 − skill).
-/// Without them, about their mean, from the samples.
-fn spread(study: &Study, channel: &str) -> Option<f64> {
-    let number = |metric: &str| study.score(metric, channel)?.value.number();
-    let skill = number("skill").or_else(|| number("r2"));
-    let said = number("rmse").zip(skill).and_then(|(rmse, skill)| {
-        let spread = rmse / (1.0 - skill).sqrt();
-        (spread.is_finite() && spread > 0.0).then_some(spread)
+/// `ViTacTip 0.047 N to GelSightWM 0.174 N`, where the labels of one spread more than twice as far as those of another.
+fn range(
+    (studies, names): (&[Study], &[String]),
+    which: &[usize],
+    channel: &str,
+) -> Option<String> {
+    let spreads = which.iter().filter_map(|at| {
+        let study = studies.get(*at)?;
+        Some((
+            names.get(*at)?,
+            spread(study, channel)?,
+            study.score("mae", channel)?.unit,
+        ))
     });
-    said.or_else(|| of_samples(study, channel))
+    let spreads: Vec<(&String, f64, Unit)> = spreads.collect();
+    let least = spreads
+        .iter()
+        .min_by(|one, other| one.1.total_cmp(&other.1))?;
+    let most = spreads
+        .iter()
+        .max_by(|one, other| one.1.total_cmp(&other.1))?;
+    let said = |(name, of, unit): &(&String, f64, Unit)| {
+        format!("{name} {}{}", numeral(*of), spaced(*unit))
+    };
+    (most.1 > ALIKE * least.1).then(|| format!("{} to {}", said(least), said(most)))
+}
+
+/// How far the labels of a channel lie about their mean, of a plane the mean of both axes: from the samples, and without them the root mean
+/// square error over √(1 − R²), which planes do not have.
+fn spread(study: &Study, channel: &str) -> Option<f64> {
+    let axes = match channel {
+        "Pxy" => ["Px", "Py"],
+        "Fxy" => ["Fx", "Fy"],
+        _ => return of_channel(study, channel),
+    };
+    let [x, y] = axes.map(|axis| of_channel(study, axis));
+    Some(f64::midpoint(x?, y?))
+}
+
+fn of_channel(study: &Study, channel: &str) -> Option<f64> {
+    let number = |metric: &str| study.score(metric, channel)?.value.number();
+    let of_scores = || {
+        let spread = number("rmse")? / (1.0 - number("r2")?).sqrt();
+        (spread.is_finite() && spread > 0.0).then_some(spread)
+    };
+    of_samples(study, channel).or_else(of_scores)
 }
 
 /// The standard deviation of the labels of a channel over the calibration.
@@ -81,23 +117,39 @@ fn of_samples(study: &Study, channel: &str) -> Option<f64> {
 mod tests {
     use super::*;
 
-    /// A study with a root mean square error and a skill of shear.
-    fn study(rmse: f64, skill: f64) -> Study {
+    /// A study with root mean square errors and R² of shear, and a constant that is far from its labels.
+    fn study(rmse: f64, r2: f64) -> Study {
+        let of_channel = |metric: &str, value: f64, unit: &str| {
+            let channels = ["Fx", "Fy", "Fxy"]
+                .map(|channel| format!(r#""{channel}": {{"value": {value}, "unit": "{unit}"}}"#));
+            format!(r#""{metric}": {{{}}}"#, channels.join(", "))
+        };
+        let metrics = [
+            of_channel("mae", 0.01, "N"),
+            of_channel("rmse", rmse, "N"),
+            of_channel("r2", r2, "1"),
+            of_channel("skill", 0.99, "1"),
+            of_channel("sr", 0.5, "1"),
+        ];
         let text = format!(
-            r#"{{"schema": "taceva.evaluation/1.1", "subject": {{"sensor": "x"}}, "metrics": {{
-                "mae": {{"Fxy": {{"value": 0.01, "unit": "N"}}}}, "rmse": {{"Fxy": {{"value": {rmse}, "unit": "N"}}}},
-                "skill": {{"Fxy": {{"value": {skill}, "unit": "1"}}}}, "sr": {{"Fxy": {{"value": 0.5, "unit": "1"}}}}}}}}"#
+            r#"{{"schema": "taceva.evaluation/1.1", "subject": {{"sensor": "x"}}, "metrics": {{{}}}}}"#,
+            metrics.join(", ")
         );
         Study::read(&text).expect("a result").remove(0)
     }
 
     #[test]
-    fn labels_that_spread_more_than_twofold_are_said_beside_errors_alone() {
-        // 0.012 / √(1 − 0.91) = 0.04; 0.136 / √(1 − 0.36) = 0.17; 0.02 / √(1 − 0.84) = 0.05.
+    fn labels_that_spread_more_than_twofold_about_their_mean_are_said_with_whose_they_are() {
+        // 0.012 / √(1 − 0.91) = 0.04; 0.136 / √(1 − 0.36) = 0.17; 0.02 / √(1 − 0.84) = 0.05. Skill, about another constant, plays no part.
         let studies = [study(0.012, 0.91), study(0.136, 0.36), study(0.02, 0.84)];
-        let expected = " (their labels differ in spread: 0.04 N to 0.17 N)";
-        assert_eq!(words(&studies, &[0, 1, 2], "mae", "Fxy"), expected);
-        assert_eq!(words(&studies, &[0, 2], "mae", "Fxy"), "");
-        assert_eq!(words(&studies, &[0, 1], "sr", "Fxy"), "");
+        let names = ["a", "b", "c"].map(str::to_owned);
+        let said = |which: &[usize], metric: &str| words((&studies, &names), which, metric, "Fxy");
+        let expected = " (their labels differ in spread: a 0.04 N to b 0.17 N)";
+        assert_eq!(said(&[0, 1, 2], "mae"), expected);
+        assert_eq!(said(&[0, 1, 2], "repeatability"), expected);
+        assert_eq!(said(&[0, 2], "mae"), "");
+        assert_eq!(said(&[0, 1], "sr"), "");
+        let note = note(&studies, &names, &["Fxy"]).expect("a note");
+        assert!(note.contains("(Fxy: a 0.04 N to b 0.17 N)"), "{note}");
     }
 }

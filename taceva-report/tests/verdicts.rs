@@ -78,7 +78,7 @@ fn a_score_in_too_little_light_is_never_called_the_best() {
     });
     let page = summary(&studies);
     for words in [
-        "dim: errors become 1.25 to 22 times as large in the lit scenes; light changed by 0.009 % to 10 %: low stimulus.",
+        "dim: errors of unbounded predictions become 1.25 to 22 times as large in the lit scenes; light changed by 0.009 % to 10 %: low stimulus.",
         "lit is shown to be better than every other sensor that takes part",
         "No part in verdicts: dim (low stimulus).",
     ] {
@@ -112,7 +112,8 @@ fn what_light_does_is_said_of_a_score_that_is_barred_as_bounded() {
         }
     }
     let page = summary(&studies);
-    let words = "lit: errors become 66 to 325 times as large in the lit scenes.";
+    let words =
+        "lit: errors of unbounded predictions become 66 to 325 times as large in the lit scenes.";
     assert!(page.contains(words), "{page}");
     assert!(page.contains("lit (bounded)"), "{page}");
 }
@@ -140,9 +141,12 @@ fn errors_of_labels_that_spread_differently_are_said_to_be() {
     let studies = studies(&["one", "two", "three"], |at, metrics| {
         let (rmse, skill) = [(0.012, 0.91), (0.02, 0.84), (0.136, 0.36)][at];
         metrics["rmse"]["Fxy"] = json!({"value": rmse, "unit": "N"});
-        metrics["skill"]["Fxy"] = json!({"value": skill, "unit": "1"});
+        for axis in ["Fx", "Fy"] {
+            metrics["rmse"][axis] = json!({"value": rmse, "unit": "N"});
+            metrics["r2"][axis] = json!({"value": skill, "unit": "1"});
+        }
     });
-    let words = "(their labels differ in spread: 0.04 N to 0.17 N)";
+    let words = "(their labels differ in spread: one 0.04 N to three 0.17 N)";
     let page = summary(&studies);
     assert_eq!(page.matches(words).count(), 1, "{page}");
     assert!(
@@ -184,10 +188,13 @@ fn tables_name_the_channels_whose_labels_differ_in_spread() {
     let studies = studies(&["one", "two"], |at, metrics| {
         let (rmse, skill) = [(0.012, 0.91), (0.136, 0.36)][at];
         metrics["rmse"]["Fxy"] = json!({"value": rmse, "unit": "N"});
-        metrics["skill"]["Fxy"] = json!({"value": skill, "unit": "1"});
+        for axis in ["Fx", "Fy"] {
+            metrics["rmse"][axis] = json!({"value": rmse, "unit": "N"});
+            metrics["r2"][axis] = json!({"value": skill, "unit": "1"});
+        }
     });
     let table = ScoreTable::of(&studies);
-    let words = "Labels differ in spread between the sensors (Fxy 0.04 N to 0.17 N)";
+    let words = "Fxy: one 0.04 N to two 0.17 N";
     for table in [
         table.for_pages(),
         table.for_papers("drawn"),
@@ -249,7 +256,7 @@ fn a_choice_by_values_alone_says_that_no_test_shows_the_difference() {
     assert!(
         far.table()
             .text()
-            .contains("Tests: one is shown to be better than two in sensitivity (p = ")
+            .contains("Tests: one is shown to be better than two in sensitivity (p by Holm ")
     );
     assert!(far.json().contains("\"p_holm\""));
 }

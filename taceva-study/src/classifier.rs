@@ -74,15 +74,15 @@ impl SpacingClassifier {
         match self {
             SpacingClassifier::Spectrum => {
                 "sr: spacings are predicted from the radial spectrum of what a picture shows beyond the mean picture, by linear \
-                 discriminants, lines and dots apart, fitted on the other two thirds of the presses of every board"
+                 discriminants, lines and dots apart, fitted on the other two thirds of the presses of every board; each answer is one of the spacings of these boards"
             }
             SpacingClassifier::Model(_) => {
                 "sr: spacings are predicted from the radial spectrum of what a picture shows beyond the mean picture, by multinomial \
-                 logistic regression of linfa, lines and dots apart, fitted on the other two thirds of the presses of every board"
+                 logistic regression of linfa, lines and dots apart, fitted on the other two thirds of the presses of every board; each answer is one of the spacings of these boards"
             }
             SpacingClassifier::Network(_) => {
                 "sr: spacings are predicted by a convolutional network, lines and dots apart, fitted on the other two thirds of the \
-                 presses of every board"
+                 presses of every board; each answer is one of the spacings of these boards"
             }
         }
     }

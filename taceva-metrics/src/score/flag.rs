@@ -13,7 +13,8 @@ use std::fmt;
 pub enum Flag {
     /// All samples lie in one bin, so that nothing can vary.
     OneBin,
-    /// In some scene the light changed by less than 5 %: too little to learn from.
+    /// What the score is formed from hardly changed: the light by less than 5 % in some scene, or labels from press to press less than predictions
+    /// of one press.
     LowStimulus,
     /// In some scene the error is smaller than in the reference scene, which the score counts like a larger one.
     ImprovedError,

@@ -25,7 +25,7 @@ pub enum Standing {
     SkillUnknown,
     /// It takes no part: more than [`GREATEST_BOUNDED_SHARE`] of its predictions lie beyond the bounds of the model.
     Bounded,
-    /// It takes no part: in some scene the light hardly changed, so that its robustness to light says little.
+    /// It takes no part: what it is formed from hardly changed, the light of some scene or the labels of repeated presses.
     LowStimulus,
     /// It takes no part: a share of good answers whose interval does not lie above the share that the constant of the skill score reaches,
     /// though the model may be nearer in the mean square.
@@ -81,7 +81,9 @@ impl Standing {
             Standing::Bounded => {
                 Some("bounded: more than 5 % of its predictions lie beyond the bounds of the model")
             }
-            Standing::LowStimulus => Some("low stimulus: in some scene the light hardly changed"),
+            Standing::LowStimulus => Some(
+                "low stimulus: what it is formed from, the light of some scene or the labels of repeated presses, hardly changed",
+            ),
             Standing::NotAboveConstant => Some(
                 "not above the constant: its interval does not lie above the share that a constant answer reaches",
             ),

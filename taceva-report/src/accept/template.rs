@@ -36,7 +36,7 @@ pub fn limits_template(study: &Study) -> String {
         .into_iter()
         .partition(|score| score.standing.takes_part());
     let limits: String = kept.into_iter().filter_map(limit).collect();
-    let name = toml::Value::String(format!("limits of {}", study.sensor));
+    let name = toml::Value::String(format!("limits made from a result of {}", study.sensor));
     let mut out = format!(
         "# Limits made from a result of {}, serial {}, samples {}.\n\
          # Each is {:.0} % worse than what was measured, or the worse end of its interval where that is further: change what you need, leave out the rest,\n\

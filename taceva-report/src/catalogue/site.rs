@@ -78,7 +78,9 @@ fn radars(studies: &[Study]) -> String {
     let radars = drawn.iter().filter(|drawn| drawn.id.starts_with("radar"));
     let radars: String = radars.map(figure).collect();
     match radars.is_empty() {
-        true => "<p>Fewer than two sensors have numbers.</p>".to_owned(),
+        true => {
+            "<p>Fewer than two sensors have numbers that can stand side by side.</p>".to_owned()
+        }
         false => format!("<div class=\"radars\">\n{radars}</div>"),
     }
 }

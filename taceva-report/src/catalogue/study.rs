@@ -10,6 +10,9 @@ use super::entry::{Kind, Sensor};
 use super::published::Published;
 use crate::results::{Interval, Made, Score, Study, Value, by_published_r2};
 
+/// The definition of numbers that were published without one.
+pub(crate) const PUBLISHED: &str = "published";
+
 impl Sensor {
     /// Results as a sensor that can be chosen: its numbers, and whether light is kept out as far as the results say. What a sensor stands is no
     /// result; it is taken from the sensor of that name in the catalogue, if there is one.
@@ -61,7 +64,7 @@ impl Sensor {
             n: 0,
             n_invalid: 0,
             interval: Some(Interval::Absent("published without one".to_owned())),
-            definition: "published".to_owned(),
+            definition: PUBLISHED.to_owned(),
             parameters: Vec::new(),
             counts: Vec::new(),
             flags: Vec::new(),

@@ -8,6 +8,7 @@ use crate::compare::{Answer, CompareRequest, compare};
 use crate::figures::{listed, names};
 use crate::number::significant;
 use crate::results::Study;
+use crate::spread;
 
 /// A difference that is shown between two that are ranked, in a number that they were ranked by.
 #[derive(Clone, Debug, PartialEq)]
@@ -43,6 +44,7 @@ pub fn choose_results(studies: &[Study], needs: &[Need]) -> Choice {
     let sensors: Vec<Sensor> = sensors.collect();
     let mut choice = choose(&sensors, needs);
     choice.evidence = Some(evidence(studies, needs, &choice));
+    choice.spread = spread(studies, &names, &choice);
     choice
 }
 
@@ -80,64 +82,94 @@ fn evidence(studies: &[Study], needs: &[Need], choice: &Choice) -> Vec<Evidence>
     comparison.answers.iter().filter_map(of_answer).collect()
 }
 
+/// Which channels of the errors that rank have labels of different spread among those that are ranked.
+fn spread(studies: &[Study], names: &[String], choice: &Choice) -> Option<String> {
+    let steps = choice.ranked.first()?.steps.iter();
+    let channels = steps.filter_map(|step| match step.property {
+        Property::Error(channel)
+        | Property::Repeatability(channel)
+        | Property::Spatial(channel) => Some(channel),
+        _ => None,
+    });
+    let channels: BTreeSet<&str> = channels.collect();
+    let channels: Vec<&str> = channels.into_iter().collect();
+    spread::note(studies, names, &channels)
+}
+
 impl Choice {
-    /// What tests say of the best against each other one, a sentence each; nothing where nothing was tested, as of published numbers.
+    /// What tests say of the best against each other one, and of all others between whom a difference is shown, a sentence each; nothing where
+    /// nothing was tested, as of published numbers.
     pub(super) fn tested(&self) -> Vec<String> {
-        let (Some(evidence), Some(best)) = (&self.evidence, self.ranked.first()) else {
+        let Some(best) = self.ranked.first().filter(|_| self.evidence.is_some()) else {
             return Vec::new();
         };
-        let is_ranked = best.steps.iter().any(|step| !step.is_bound);
-        let others = self.ranked.iter().skip(1).filter(|_| is_ranked);
-        let sentence = |other: &str| {
-            let said = |better: &str, than: &str| {
-                let shown = evidence.iter();
-                let shown = shown.filter(|of| of.better == better && of.than == than);
-                let shown: Vec<String> = shown
-                    .map(|of| format!("{} (p = {})", of.property, significant(of.p)))
-                    .collect();
-                (!shown.is_empty()).then(|| {
-                    format!(
-                        "{better} is shown to be better than {than} in {}",
-                        listed(&shown)
-                    )
-                })
-            };
-            let both = [said(&best.name, other), said(other, &best.name)];
-            let both: Vec<String> = both.into_iter().flatten().collect();
-            match both.is_empty() {
-                true => format!(
-                    "{} is not shown to be better than {other} in any of these numbers",
-                    best.name
-                ),
-                false => both.join("; "),
+        if best.steps.iter().all(|step| step.is_bound) {
+            return Vec::new();
+        }
+        let names: Vec<&str> = self.ranked.iter().map(|of| of.name.as_str()).collect();
+        let mut sentences = Vec::new();
+        for (at, one) in names.iter().enumerate() {
+            for other in &names[at + 1..] {
+                let shown = [self.shown(one, other), self.shown(other, one)];
+                let shown: Vec<String> = shown.into_iter().flatten().collect();
+                match shown.is_empty() {
+                    true if at == 0 => sentences.push(format!(
+                        "{one} is not shown to be better than {other} in any of these numbers"
+                    )),
+                    true => {}
+                    false => sentences.push(shown.join("; ")),
+                }
             }
-        };
-        others.map(|other| sentence(&other.name)).collect()
+        }
+        sentences
     }
 
-    /// What to add to the sentence that names first and second: whether a test shows the difference.
+    /// `a is shown to be better than b in MAE of Fz (p = 0.001)`
+    fn shown(&self, better: &str, than: &str) -> Option<String> {
+        let of_both = self.evidence.iter().flatten();
+        let of_both = of_both.filter(|of| of.better == better && of.than == than);
+        let numbers: Vec<String> = of_both
+            .map(|of| format!("{} (p by Holm {})", of.property, significant(of.p)))
+            .collect();
+        (!numbers.is_empty()).then(|| {
+            format!(
+                "{better} is shown to be better than {than} in {}",
+                listed(&numbers)
+            )
+        })
+    }
+
+    /// What to add to the sentence that names first and second: whether tests show the difference, or speak against a place.
     pub(super) fn caveat(&self) -> String {
-        let (Some(evidence), [first, second, ..]) = (&self.evidence, self.ranked.as_slice()) else {
+        let [first, second, ..] = self.ranked.as_slice() else {
             return String::new();
         };
-        let is_shown = |better: &str, than: &str| {
-            evidence
-                .iter()
-                .any(|of| of.better == better && of.than == than)
+        let Some(evidence) = &self.evidence else {
+            return ", by published values, whose differences nobody tested".to_owned();
         };
-        match (
-            is_shown(&first.name, &second.name),
-            is_shown(&second.name, &first.name),
-        ) {
-            (true, false) => String::new(),
-            (false, false) => format!(
+        let is_shown = |better: &str, than: &str| {
+            let mut evidence = evidence.iter();
+            evidence.any(|of| of.better == better && of.than == than)
+        };
+        let mut against: Vec<String> = Vec::new();
+        for (at, higher) in self.ranked.iter().enumerate() {
+            for lower in &self.ranked[at + 1..] {
+                let [higher, lower] = [&higher.name, &lower.name];
+                if is_shown(lower, higher) && !is_shown(higher, lower) {
+                    against.push(format!("{lower} is shown to be better than {higher}"));
+                }
+            }
+        }
+        let alone = match self.is_tied(0) || is_shown(&first.name, &second.name) {
+            true => String::new(),
+            false => format!(
                 ", by values alone: no test shows {} to be better than {}",
                 first.name, second.name
             ),
-            (_, true) => format!(
-                ", by the mean share: {} is shown to be better than {} in some of the numbers",
-                second.name, first.name
-            ),
+        };
+        match against.is_empty() {
+            true => alone,
+            false => format!("{alone}; against these places, {}", listed(&against)),
         }
     }
 }

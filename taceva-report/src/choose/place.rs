@@ -82,6 +82,7 @@ mod tests {
                 standing: Standing::Counts,
                 share: (!is_bound).then_some(*share),
                 is_bound,
+                is_unsure: false,
             }],
         };
         Choice {
@@ -90,7 +91,8 @@ mod tests {
             dropped: Vec::new(),
             barred: Vec::new(),
             unknown: Vec::new(),
-            evidence: None,
+            evidence: Some(Vec::new()),
+            spread: None,
         }
     }
 
@@ -103,9 +105,11 @@ mod tests {
         assert_eq!(tied.table().rows[1].plain()[0], "1 (tie)");
         assert!(tied.json().contains("\"tied\": true"));
         let behind = choice(&[("a", 1.0), ("b", 0.5), ("c", 0.5)], false);
-        assert_eq!(behind.headline(), "a first, b and c tie for second");
+        let alone = ", by values alone: no test shows a to be better than b";
+        let expected = format!("a first, b and c tie for second{alone}");
+        assert_eq!(behind.headline(), expected);
         let apart = choice(&[("a", 1.0), ("b", 0.5)], false);
-        assert_eq!(apart.headline(), "a first, b second");
+        assert_eq!(apart.headline(), format!("a first, b second{alone}"));
     }
 
     #[test]

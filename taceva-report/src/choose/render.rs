@@ -50,8 +50,20 @@ impl Choice {
                 table.push_directed(Some(step.property.better()), cells);
             }
         }
+        for candidate in &self.ranked {
+            let unsure = candidate.steps.iter().filter(|step| step.is_unsure);
+            for step in unsure {
+                table.note(format!(
+                    "Met by the value alone: `{}` by {}: the interval of its {} reaches beyond.",
+                    step.need, candidate.name, step.property
+                ));
+            }
+        }
         for sentence in self.tested() {
             table.note(format!("Tests: {sentence}."));
+        }
+        if let Some(spread) = &self.spread {
+            table.note(spread.clone());
         }
         for open in &self.open {
             table.note(format!("Open: {}: {}.", open.name, open.reason));
@@ -101,6 +113,7 @@ impl Choice {
                 "unit": step.property.unit(),
                 "ci95": step.interval,
                 "standing": step.standing.words(),
+                "met_by_value_alone": step.is_unsure,
                 "share": step.share,
             })
         };

@@ -13,11 +13,19 @@ pub(super) fn barred(scores: Sides<&Score>, names: Sides<&str>) -> Option<String
     let reasons: Vec<String> = sides
         .into_iter()
         .filter_map(|(score, name)| {
-            let reason = score.standing.reason()?;
+            let reason = score.standing.reason().or_else(|| of_one_pair(score))?;
             Some(format!("{name}: {reason}"))
         })
         .collect();
     (!reasons.is_empty()).then(|| reasons.join("; "))
+}
+
+/// Why a difference between units gives no verdict: that of one pair says nothing of other units, however many points it was taken at.
+fn of_one_pair(score: &Score) -> Option<&'static str> {
+    let pairs = score.counts.iter().find(|(name, _)| name == "pairs_valid");
+    pairs
+        .filter(|(_, pairs)| *pairs < 2)
+        .map(|_| "one pair of units alone was compared")
 }
 
 /// What a reader must know where the skill of the studies was shown on different samples.

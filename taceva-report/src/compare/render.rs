@@ -6,7 +6,7 @@ use taceva_metrics::Difference;
 use super::overview::OVERVIEW_WIDTH;
 use super::{Answer, Comparison, Decision};
 use crate::escape::terminal;
-use crate::number::{numeral, significant, spaced};
+use crate::number::{fixed, numeral, significant, spaced};
 use crate::table::{Column, Table};
 
 /// The schema of a comparison as JSON.
@@ -27,6 +27,12 @@ const HEAD: [&str; 12] = [
     "unit",
     "answer",
 ];
+
+/// A level as a share, with as many digits as set it apart from 1: `0.9983`.
+fn level(confidence: f64) -> String {
+    let beside = significant(1.0 - confidence).len().saturating_sub(2).max(2);
+    fixed(confidence, beside)
+}
 
 impl Comparison {
     /// A row an answer.
@@ -77,7 +83,7 @@ impl Comparison {
                 let [low, high] = difference.interval.map(end);
                 format!("{low} … {high}")
             }),
-            of_difference(&|difference| significant(difference.confidence)),
+            of_difference(&|difference| level(difference.confidence)),
             of_difference(&|difference| significant(difference.p)),
             of_difference(&|difference| significant(difference.adjusted_p)),
             answer.unit.to_string(),

@@ -4,6 +4,7 @@ use std::f64::consts::TAU;
 
 use taceva_metrics::Better;
 
+use crate::catalogue::PUBLISHED;
 use crate::figure::{Anchor, Canvas, Figure, Ink, Label, Points, SERIES, Stroke, short};
 use crate::number::numeral;
 use crate::results::{Score, Study};
@@ -126,7 +127,7 @@ fn one(studies: &[Study], axes: &[Axis], (id, title): (&str, &str)) -> Option<Fi
     let barred = match barred.is_empty() {
         true => String::new(),
         false => format!(
-            " Not drawn, since a place is a verdict: {}.",
+            " Not drawn, since they support no claim: {}.",
             barred.join("; ")
         ),
     };
@@ -134,7 +135,7 @@ fn one(studies: &[Study], axes: &[Axis], (id, title): (&str, &str)) -> Option<Fi
         id: id.to_owned(),
         title: title.to_owned(),
         caption: format!(
-            "Each axis shows the share of the best sensor shown: value over best where more is better (↑), best over value where less is (↓). The rim is the best.{gaps}{barred}"
+            "Each axis shows the share of the best sensor shown: value over best where more is better (↑), best over value where less is (↓). The rim is the best value, which no test need have shown to be better.{gaps}{barred}"
         ),
         description: format!(
             "A radar of {} for {}.",
@@ -166,7 +167,9 @@ impl Axis {
             "" => score.interval.as_ref(),
             variant => score.variant(variant)?.interval.as_ref(),
         };
-        let is_unsure = || interval.is_some_and(|interval| interval.ends().is_none());
+        let is_published = score.definition == PUBLISHED;
+        let is_unsure =
+            || !is_published && interval.is_some_and(|interval| interval.ends().is_none());
         let barred = score
             .standing
             .words()

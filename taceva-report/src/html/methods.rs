@@ -62,7 +62,7 @@ fn paragraph(studies: &[Study], table: &ScoreTable) -> String {
     out += &model(studies);
     out += &gratings(studies);
     out += &statistics::statistics(studies, table);
-    out
+    out + &scope(studies)
 }
 
 /// Where samples come from.
@@ -95,10 +95,16 @@ fn pressed(studies: &[Study]) -> String {
     let points = span(studies, points);
     match (presses, points) {
         (Some(presses), Some(points)) => {
-            format!(" Each sensor was pressed {presses} times, at {points} contact points.")
+            format!(
+                " Each recording holds {presses} presses, at {points} places, gratings and a look at the untouched gel included."
+            )
         }
-        (Some(presses), None) => format!(" Each sensor was pressed {presses} times."),
-        (None, Some(points)) => format!(" Each sensor was pressed at {points} contact points."),
+        (Some(presses), None) => format!(
+            " Each recording holds {presses} presses, a look at the untouched gel included."
+        ),
+        (None, Some(points)) => format!(
+            " Each recording holds presses at {points} places, gratings and a look at the untouched gel included."
+        ),
         (None, None) => String::new(),
     }
 }
@@ -116,7 +122,9 @@ fn divided(studies: &[Study]) -> String {
         out += &format!(" (seed {})", listed(&seeds));
     }
     let mut names: Vec<&str> = Vec::new();
-    for (name, _) in studies.iter().flat_map(|study| &study.made.samples) {
+    let all = studies.iter().flat_map(|study| &study.made.samples);
+    // Samples of other parts of the protocol, which other metrics are formed from.
+    for (name, _) in all.filter(|(name, _)| name != "left_out") {
         if !names.contains(&name.as_str()) {
             names.push(name);
         }
@@ -183,6 +191,15 @@ fn model(studies: &[Study]) -> String {
             sentences
                 + " Every score that is formed from predictions is of samples that the model had not seen; scores of the gel alone, such as sensitivity, uniformity and hysteresis, are of all samples of their part of the protocol."
         }
+    }
+}
+
+/// What intervals and p values do not contain.
+fn scope(studies: &[Study]) -> String {
+    let is_own = |study: &Study| study.source != "published" && !study.scores.is_empty();
+    match studies.iter().any(is_own) {
+        true => " Intervals and p values hold for other contact points on the same units, read by the same trained models: they do not contain how units and trainings differ.".to_owned(),
+        false => String::new(),
     }
 }
 

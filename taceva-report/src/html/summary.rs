@@ -124,7 +124,12 @@ fn verdict(studies: &[Study], table: &ScoreTable, row: &ScoreRow) -> Option<Stri
         return Some(format!("no verdict.{barred}"));
     }
     let which: Vec<usize> = known.iter().map(|known| known.at).collect();
-    let spread = spread::words(studies, &which, &row.metric, &row.channel);
+    let spread = html(&spread::words(
+        (studies, &table.names),
+        &which,
+        &row.metric,
+        &row.channel,
+    ));
     if let Some(tie) = tie(studies, &table.names, &row.metric, &row.channel) {
         let answers = table.answers.iter();
         let answers = answers.filter(|of| of.metric == row.metric && of.channel == row.channel);

@@ -17,6 +17,7 @@ use crate::families::family::{Details, Numbers, Output, each_row};
 use crate::metric::{Formula, Metric};
 use crate::paired::is_valid;
 use crate::score::curve::Curve;
+use crate::score::flag::Flag;
 use crate::score::value::{UndefinedReason, Value};
 use crate::score::{Count, Variant};
 
@@ -29,6 +30,19 @@ pub(crate) struct RepeatSums {
     n: u64,
     n_invalid: u64,
     cells: Cells<Cell>,
+    /// The labels of the same repeats, where they carry any: what there was to tell apart.
+    truth: Moments,
+}
+
+impl RepeatSums {
+    /// Whether labels differ less from press to press than predictions of one press do: then what predictions differ by is no signal.
+    fn is_low_stimulus(&self) -> bool {
+        let stimulus = self.truth.deviation(1);
+        let spread = SpreadSums::of(&self.cells).pooled().ok();
+        stimulus
+            .zip(spread)
+            .is_some_and(|(stimulus, spread)| stimulus < spread)
+    }
 }
 
 impl Merge for RepeatSums {
@@ -40,6 +54,7 @@ impl Merge for RepeatSums {
         add_times(&mut self.n, other.n, times);
         add_times(&mut self.n_invalid, other.n_invalid, times);
         self.cells.merge_times(&other.cells, times);
+        self.truth.merge_times(&other.truth, times);
     }
 }
 
@@ -56,6 +71,7 @@ impl Channelwise for Repeats {
 
     fn deposit(&self, sums: &mut RepeatSums, batch: &Batch, position: usize, rows: Option<&[u32]>) {
         let (predictions, points) = (batch.prediction(position), batch.points());
+        let truths = batch.truth(position);
         if points.is_none() && batch.rows() > 0 {
             sums.cells.forget_names();
         }
@@ -77,6 +93,9 @@ impl Channelwise for Repeats {
             if is_valid(prediction) {
                 cell.add(prediction);
                 sums.n += 1;
+                if let Some(truth) = truths.get(row).filter(|truth| is_valid(*truth)) {
+                    sums.truth.add(truth);
+                }
             } else {
                 sums.n_invalid += 1;
             }
@@ -85,19 +104,41 @@ impl Channelwise for Repeats {
 
     fn to_record(&self, sums: &RepeatSums) -> Record {
         Record {
-            counts: vec![sums.n, sums.n_invalid, u64::from(sums.cells.are_named())],
+            counts: vec![
+                sums.n,
+                sums.n_invalid,
+                u64::from(sums.cells.are_named()),
+                sums.truth.n,
+            ],
+            sums: vec![sums.truth.sum.clone(), sums.truth.squares.clone()],
             cells: sums.cells.to_records(|cell| cell.moments().to_record()),
             ..Record::default()
         }
     }
 
     fn read_record(&self, record: &Record) -> Result<RepeatSums, String> {
-        let (&[n, n_invalid, named], []) = record.with_cells()?;
+        // States of before labels were looked at have counts alone.
+        let ((n, n_invalid, named), truth) = match record.counts.len() {
+            3 => {
+                let (&[n, n_invalid, named], []) = record.with_cells()?;
+                ((n, n_invalid, named), Moments::default())
+            }
+            _ => {
+                let (&[n, n_invalid, named, labels], [sum, squares]) = record.with_cells()?;
+                let truth = Moments {
+                    n: labels,
+                    sum: sum.clone(),
+                    squares: squares.clone(),
+                };
+                ((n, n_invalid, named), truth)
+            }
+        };
         let read = |record: &Record| Moments::read_record(record).map(Cell::new);
         Ok(RepeatSums {
             n,
             n_invalid,
             cells: Cells::from_record(record, named == 1, read)?,
+            truth,
         })
     }
 
@@ -136,9 +177,12 @@ impl Channelwise for Repeats {
             }
             _ => Vec::new(),
         };
+        let is_low = matches!(metric.formula, Formula::SignalToRepeatability)
+            && parts.iter().any(|part| part.is_low_stimulus());
         Details {
             variants,
             counts,
+            flags: is_low.then_some(Flag::LowStimulus).into_iter().collect(),
             ..Details::default()
         }
     }

@@ -20,7 +20,8 @@ pub(crate) static SIGNAL_TO_REPEATABILITY: Metric = Metric {
     reference: "standard deviation of the cells' means over the pooled repeatability standard deviation s_r of ISO 5725",
     documentation: "How many times larger the differences between presses are than those between repeats of one press. A \
                     sensor that always says the same repeats perfectly and has no signal: its value is 0. Undefined where \
-                    repeats do not differ at all although presses do.",
+                    repeats do not differ at all although presses do. Where labels differ less from press to press than predictions of one press \
+                    do, the score is flagged `low stimulus` and takes part in no verdict: what predictions differ by is no signal.",
     needs: NEEDS,
     facts: &[],
     constants: no_constants,

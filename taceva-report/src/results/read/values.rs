@@ -86,7 +86,7 @@ pub(super) fn score(metric: &str, channel: &str, place: &Place<'_>) -> Result<Sc
             .iter()
             .map(|(name, at)| Ok(((*name).to_owned(), at.count()?)))
             .collect::<Result<_, ResultsError>>()?,
-        standing: said.max(of_light(metric, &flags)),
+        standing: said.max(of_flags(&flags)),
         flags,
         bounded_share: place
             .optional("bounded_share")
@@ -98,9 +98,8 @@ pub(super) fn score(metric: &str, channel: &str, place: &Place<'_>) -> Result<Sc
 }
 
 /// The standing that flags say: results of before `low stimulus` was one have the flag alone.
-fn of_light(metric: &str, flags: &[String]) -> Standing {
-    let is_low = flags.contains(&Flag::LowStimulus.to_string());
-    match metric == "r_light" && is_low {
+fn of_flags(flags: &[String]) -> Standing {
+    match flags.contains(&Flag::LowStimulus.to_string()) {
         true => Standing::LowStimulus,
         false => Standing::Counts,
     }
