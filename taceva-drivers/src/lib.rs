@@ -6,6 +6,8 @@ pub mod doctor;
 mod drivers;
 pub mod fault;
 mod guard;
+#[cfg(feature = "xarm")]
+mod link;
 mod name_order;
 mod on_bench;
 mod pace;
@@ -14,6 +16,8 @@ mod selector;
 mod sensor;
 mod source;
 mod text;
+#[cfg(feature = "xarm")]
+mod ufactory;
 
 pub use devices::{Devices, ListedArgument, ListedDevice, ListedDriver, devices};
 pub use drivers::{Drivers, OpenError, open};
@@ -22,3 +26,5 @@ pub use pace::{Pace, RealPace, VirtualPace};
 pub use selector::{Selector, SelectorError};
 pub use sensor::replay::{Replay, ReplayFactory, ReplayOptions};
 pub use source::{FolderSource, FrameSource, SourceError, Timing};
+#[cfg(feature = "xarm")]
+pub use ufactory::XarmFactory;
