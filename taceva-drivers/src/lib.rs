@@ -6,7 +6,7 @@ pub mod doctor;
 mod drivers;
 pub mod fault;
 mod guard;
-#[cfg(feature = "xarm")]
+#[cfg(any(feature = "sri", feature = "xarm"))]
 mod link;
 mod name_order;
 mod on_bench;
@@ -15,6 +15,8 @@ mod random;
 mod selector;
 mod sensor;
 mod source;
+#[cfg(feature = "sri")]
+mod sri;
 mod text;
 #[cfg(feature = "xarm")]
 mod ufactory;
@@ -26,5 +28,7 @@ pub use pace::{Pace, RealPace, VirtualPace};
 pub use selector::{Selector, SelectorError};
 pub use sensor::replay::{Replay, ReplayFactory, ReplayOptions};
 pub use source::{FolderSource, FrameSource, SourceError, Timing};
+#[cfg(feature = "sri")]
+pub use sri::M8128Factory;
 #[cfg(feature = "xarm")]
 pub use ufactory::XarmFactory;

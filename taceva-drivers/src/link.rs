@@ -2,10 +2,12 @@
 
 mod connect;
 mod error;
+mod mailbox;
 mod monotonic;
 
 pub(crate) use connect::connect;
 pub(crate) use error::LinkError;
+pub(crate) use mailbox::{Ending, Mailbox, NoNews, Seen};
 pub(crate) use monotonic::monotonic;
 
 /// The bytes that `text` writes in hexadecimal, white space between them.

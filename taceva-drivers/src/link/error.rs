@@ -5,6 +5,7 @@ use std::net::SocketAddr;
 
 use taceva_core::ErrorKind;
 
+use super::mailbox::Ending;
 use crate::text::shown;
 
 /// A link that failed.
@@ -41,6 +42,15 @@ impl LinkError {
                 _ => ErrorKind::NotFound,
             },
             LinkError::Broken { .. } | LinkError::Closed { .. } => ErrorKind::Disconnected,
+        }
+    }
+}
+
+impl From<LinkError> for Ending {
+    fn from(error: LinkError) -> Ending {
+        Ending {
+            kind: error.kind(),
+            why: error.to_string(),
         }
     }
 }

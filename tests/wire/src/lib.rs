@@ -22,6 +22,7 @@ mod fault;
 mod options;
 mod server;
 
+pub mod sri;
 pub mod xarm;
 
 pub use base::Base;

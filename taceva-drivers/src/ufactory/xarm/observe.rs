@@ -10,8 +10,8 @@ use super::exchange::{Exchange, ExchangeError};
 use super::fault::XarmFault;
 use super::frame::Reply;
 use super::report::{ReportKind, State, pose_of};
-use super::watch::{Watch, WatchError};
-use crate::link::{LinkError, monotonic};
+use super::watch::Watch;
+use crate::link::{LinkError, NoNews, monotonic};
 
 /// Where the arm is and what it does, at one moment.
 #[derive(Clone, Copy, Debug)]
@@ -98,17 +98,17 @@ impl Observer {
         let seen = poses.next(after, patience.min(STALE)).map_err(|error| {
             let doing = "look where the arm is";
             match error {
-                WatchError::Ended(why) => failed(ErrorKind::Disconnected, doing, why),
-                WatchError::Silent => {
+                NoNews::Ended(ending) => failed(ending.kind, doing, ending.why),
+                NoNews::Silent | NoNews::Interrupted => {
                     let why = format!("no report within {:?}", patience.min(STALE));
                     failed(ErrorKind::Timeout, doing, why)
                 }
             }
         })?;
         Ok(Observation {
-            state: seen.report.state,
-            queued: seen.report.queued,
-            pose: seen.report.pose,
+            state: seen.what.state,
+            queued: seen.what.queued,
+            pose: seen.what.pose,
             at: seen.at,
             number: seen.number,
         })
@@ -151,7 +151,7 @@ impl Observer {
         exchange: &mut Exchange,
     ) -> Result<Option<XarmFault>, ExchangeError> {
         if let Some(status) = self.statuses.as_ref().and_then(Watch::newest) {
-            let code = status.report.status.map_or(0, |status| status.error);
+            let code = status.what.status.map_or(0, |status| status.error);
             return Ok(fault(code));
         }
         let now = monotonic();
@@ -164,7 +164,7 @@ impl Observer {
 
     /// Whether the motors of the arm are on, where the controller reports it; the seventh joint is not there on most.
     pub(super) fn is_enabled(&self) -> Option<bool> {
-        let status = self.statuses.as_ref()?.newest()?.report.status?;
+        let status = self.statuses.as_ref()?.newest()?.what.status?;
         Some(status.enabled & FIRST_JOINTS == FIRST_JOINTS)
     }
 
@@ -172,7 +172,7 @@ impl Observer {
     pub(super) fn mode(&self) -> Option<u8> {
         let watches = [&self.poses, &self.statuses];
         let newest = watches.into_iter().flatten().find_map(Watch::newest)?;
-        Some(newest.report.mode)
+        Some(newest.what.mode)
     }
 }
 
