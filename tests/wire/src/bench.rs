@@ -4,7 +4,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError, Weak};
 use std::time::{Duration, Instant};
 
 use taceva_core::{FrameInfo, FrameMut, Pose, Rig, Speed};
-use taceva_sim::optics::{AmbientLight, Camera, OpticsSpec};
+use taceva_sim::optics::{AmbientLight, Bits, Camera, OpticsSpec};
 use taceva_sim::{Bench, MountError, Mounted, SimulatedRig};
 
 use crate::error::WireError;
@@ -60,7 +60,8 @@ impl WallBench {
         let parameters = options.parameters()?;
         let spec = OpticsSpec::new(&parameters);
         let size = spec.native.map(|side| (side / options.reduction).max(1));
-        let mut camera = Camera::new(&spec, size, UNIT, options.seed)?;
+        // What cameras send has 8 bits.
+        let mut camera = Camera::new(&spec, size, UNIT, options.seed)?.with_bits(Bits::Eight);
         camera.prepare();
         let rig = SimulatedRig::of(&mut Rig::new(), "wire");
         rig.lay(Bench::new(parameters, UNIT, options.seed));

@@ -20,8 +20,11 @@ mod bench;
 mod error;
 mod fault;
 mod options;
+mod rig_file;
 mod server;
 
+pub mod control;
+pub mod mjpeg;
 pub mod sri;
 pub mod xarm;
 
@@ -30,3 +33,4 @@ pub use bench::{Truth, WallBench};
 pub use error::WireError;
 pub use fault::{Device, Fault, FaultKind};
 pub use options::BenchOptions;
+pub use rig_file::RigFile;
