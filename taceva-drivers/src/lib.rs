@@ -1,12 +1,14 @@
 #![doc = include_str!("../README.md")]
 
+#[cfg(feature = "mjpeg")]
+mod camera;
 pub mod conformance;
 mod devices;
 pub mod doctor;
 mod drivers;
 pub mod fault;
 mod guard;
-#[cfg(any(feature = "sri", feature = "xarm"))]
+#[cfg(any(feature = "mjpeg", feature = "sri", feature = "xarm"))]
 mod link;
 mod name_order;
 mod on_bench;
@@ -21,6 +23,8 @@ mod text;
 #[cfg(feature = "xarm")]
 mod ufactory;
 
+#[cfg(feature = "mjpeg")]
+pub use camera::MjpegFactory;
 pub use devices::{Devices, ListedArgument, ListedDevice, ListedDriver, devices};
 pub use drivers::{Drivers, OpenError, open};
 pub use on_bench::OnBench;

@@ -80,6 +80,19 @@ impl<T: Clone> Mailbox<T> {
         self.changed.notify_all();
     }
 
+    /// Whether nothing comes any more.
+    #[cfg(feature = "mjpeg")]
+    pub(crate) fn has_ended(&self) -> bool {
+        self.inside().ended.is_some()
+    }
+
+    /// Takes things again, from a link that was made anew; what came before is not given any more.
+    #[cfg(feature = "mjpeg")]
+    pub(crate) fn begin_again(&self) {
+        let mut inside = self.inside();
+        (inside.ended, inside.newest) = (None, None);
+    }
+
     /// The newest, if something has come and more still may.
     pub(crate) fn newest(&self) -> Option<Seen<T>> {
         let inside = self.inside();
@@ -87,6 +100,7 @@ impl<T: Clone> Mailbox<T> {
     }
 
     /// How many came so far.
+    #[cfg(any(feature = "mjpeg", feature = "sri"))]
     pub(crate) fn posted(&self) -> u64 {
         self.inside().posted
     }
