@@ -66,8 +66,13 @@ impl<T> Default for Mailbox<T> {
 impl<T: Clone> Mailbox<T> {
     /// Leaves something that came `at`.
     pub(crate) fn post(&self, what: T, at: Duration) {
+        self.post_last(1, what, at);
+    }
+
+    /// Leaves the last of `count` things that came at once, `at`: the others are old already, and two of one time are no order.
+    pub(crate) fn post_last(&self, count: u64, what: T, at: Duration) {
         let mut inside = self.inside();
-        inside.posted += 1;
+        inside.posted += count;
         let number = inside.posted;
         inside.newest = Some(Seen { what, number, at });
         drop(inside);

@@ -22,8 +22,9 @@ submit_builtin!(dyn Sensor, || Ok(Box::new(MjpegFactory::new()?)));
 /// - Only plain HTTP without a password is spoken, and no redirection is followed.
 ///
 /// # What confirmed it
-/// Streams as `ustreamer`, `mjpg-streamer` and `ffmpeg -f mpjpeg` write them (boundary in the header or in the body, with and without
-/// lengths, in chunks) are tests; an emulated camera on which the driver passes its suite serves each of them.
+/// ffmpeg as a server (`-f mpjpeg -listen 1`) is a test, and so are streams as `ustreamer` and `mjpg-streamer` write them (boundary in the header
+/// or in the body, with and without lengths, in chunks); on an emulated camera that writes each of them the driver passes its suite. **Not
+/// verified without the device**: its latency, and what it sets by itself.
 ///
 /// ```
 /// use taceva_core::Factory;

@@ -132,6 +132,7 @@ fn read(
     let mut body = Body::new(head.is_chunked);
     let mut parts = Parts::new(head.boundary.as_deref());
     let mut began = None;
+    let mut last_began = Duration::ZERO;
     let mut bytes = vec![0; 64 << 10];
     let foreign = |why: String| Ending {
         kind: ErrorKind::Protocol,
@@ -144,16 +145,12 @@ fn read(
             let _ = stream.shutdown(Shutdown::Both);
             return foreign(error.to_string());
         }
+        let (mut count, mut newest) = (0, None);
         loop {
-            let next = parts.next();
-            match next {
+            match parts.next() {
                 Ok(Some(bytes)) => {
-                    let picture = Picture {
-                        bytes: bytes.into(),
-                        began: began.take().unwrap_or(at),
-                        broken: parts.broken(),
-                    };
-                    posting.post(picture, at);
+                    count += 1;
+                    newest = Some((bytes, began.take().unwrap_or(at)));
                 }
                 Ok(None) => break,
                 Err(error) => {
@@ -161,6 +158,16 @@ fn read(
                     return foreign(error.to_string());
                 }
             }
+        }
+        if let Some((bytes, first)) = newest {
+            // One that began where another ended has its time from its own end.
+            last_began = if first > last_began { first } else { at };
+            let picture = Picture {
+                bytes: bytes.into(),
+                began: last_began,
+                broken: parts.broken(),
+            };
+            posting.post_last(count, picture, at);
         }
         if parts.is_within_part() {
             began.get_or_insert(at);

@@ -161,6 +161,7 @@ fn read(
             Err(source) => return LinkError::Broken { address, source },
         }
         let at = monotonic();
+        let (mut count, mut newest) = (0, None);
         while let Some(message) = messages.next() {
             match message {
                 Message::Line(line) => {
@@ -175,14 +176,17 @@ fn read(
                         missing += u64::from(reading.number.wrapping_sub(last).wrapping_sub(1));
                     }
                     last = Some(reading.number);
-                    let counted = Counted {
+                    newest = Some(Counted {
                         reading,
                         missing,
                         lost_bytes: messages.lost(),
-                    };
-                    posting.post(counted, at);
+                    });
+                    count += 1;
                 }
             }
+        }
+        if let Some(newest) = newest {
+            posting.post_last(count, newest, at);
         }
     }
 }
