@@ -1,5 +1,7 @@
 #![doc = include_str!("../README.md")]
 
+#[cfg(feature = "netft")]
+mod ati;
 #[cfg(feature = "mjpeg")]
 mod camera;
 pub mod conformance;
@@ -8,7 +10,12 @@ pub mod doctor;
 mod drivers;
 pub mod fault;
 mod guard;
-#[cfg(any(feature = "mjpeg", feature = "sri", feature = "xarm"))]
+#[cfg(any(
+    feature = "mjpeg",
+    feature = "netft",
+    feature = "sri",
+    feature = "xarm"
+))]
 mod link;
 mod name_order;
 mod on_bench;
@@ -22,7 +29,11 @@ mod sri;
 mod text;
 #[cfg(feature = "xarm")]
 mod ufactory;
+#[cfg(any(feature = "netft", feature = "sri"))]
+mod zero;
 
+#[cfg(feature = "netft")]
+pub use ati::NetftFactory;
 #[cfg(feature = "mjpeg")]
 pub use camera::MjpegFactory;
 pub use devices::{Devices, ListedArgument, ListedDevice, ListedDriver, devices};

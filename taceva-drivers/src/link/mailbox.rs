@@ -86,13 +86,13 @@ impl<T: Clone> Mailbox<T> {
     }
 
     /// Whether nothing comes any more.
-    #[cfg(feature = "mjpeg")]
+    #[cfg(any(feature = "mjpeg", feature = "netft"))]
     pub(crate) fn has_ended(&self) -> bool {
         self.inside().ended.is_some()
     }
 
     /// Takes things again, from a link that was made anew; what came before is not given any more.
-    #[cfg(feature = "mjpeg")]
+    #[cfg(any(feature = "mjpeg", feature = "netft"))]
     pub(crate) fn begin_again(&self) {
         let mut inside = self.inside();
         (inside.ended, inside.newest) = (None, None);
@@ -105,7 +105,7 @@ impl<T: Clone> Mailbox<T> {
     }
 
     /// How many came so far.
-    #[cfg(any(feature = "mjpeg", feature = "sri"))]
+    #[cfg(any(feature = "mjpeg", feature = "netft", feature = "sri"))]
     pub(crate) fn posted(&self) -> u64 {
         self.inside().posted
     }

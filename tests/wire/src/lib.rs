@@ -25,6 +25,7 @@ mod server;
 
 pub mod control;
 pub mod mjpeg;
+pub mod netft;
 pub mod sri;
 pub mod xarm;
 

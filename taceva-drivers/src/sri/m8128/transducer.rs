@@ -12,7 +12,8 @@ use super::KEY;
 use super::box_link::{BoxLink, CommandError, Counted};
 use super::command::Command;
 use super::frame::Reading;
-use crate::link::{NoNews, Seen, monotonic};
+use crate::link::{NoNews, Seen};
+use crate::zero::HostZero;
 
 /// How a box is read.
 #[derive(Clone, Debug, PartialEq)]
@@ -42,7 +43,7 @@ pub(super) struct Transducer {
     link: BoxLink,
     options: M8128Options,
     /// What is taken off every reading.
-    zero: Wrench,
+    zero: HostZero,
     is_running: bool,
     /// The number of the last reading that was given.
     last: u64,
@@ -55,10 +56,6 @@ const ANSWER: Duration = Duration::from_millis(800);
 const STOPPED: Duration = Duration::from_millis(150);
 /// How long the box may take to find its zero.
 const ZEROED: Duration = Duration::from_secs(4);
-/// The time whose mean becomes zero.
-const MEAN_OVER: Duration = Duration::from_millis(250);
-/// The greatest part of the range that may be called zero: what is left must hold what comes.
-const ZERO_MAX: f64 = 0.5;
 
 fn failed(
     kind: ErrorKind,
@@ -75,8 +72,8 @@ impl Transducer {
             .map_err(|error| failed(error.kind(), "connect to the box", error))?;
         Ok(Transducer {
             link,
+            zero: HostZero::new(options.force_max_n),
             options,
-            zero: Wrench::default(),
             is_running: false,
             last: 0,
         })
@@ -154,17 +151,8 @@ impl Transducer {
     }
 
     fn check_range(&self, wrench: &Wrench) -> Result<(), DriverError> {
-        let Some(most) = self.options.force_max_n else {
-            return Ok(());
-        };
-        match wrench.force.iter().find(|force| force.0.abs() >= most) {
-            Some(beyond) => {
-                let why =
-                    format!("{beyond}, expected less than {most} N: a clipped force is no force");
-                Err(failed(ErrorKind::OutOfRange, READ, why))
-            }
-            None => Ok(()),
-        }
+        let checked = self.zero.check(wrench);
+        checked.map_err(|why| failed(ErrorKind::OutOfRange, READ, why))
     }
 }
 
@@ -183,7 +171,7 @@ impl ForceTransducer for Transducer {
 
     fn read(&mut self, deadline: Deadline) -> Result<(Wrench, Stamp), DriverError> {
         let seen = self.next(deadline.remaining())?;
-        let wrench = minus(&self.wrench(&seen.what.reading)?, &self.zero);
+        let wrench = self.zero.taken_off(&self.wrench(&seen.what.reading)?);
         self.check_range(&wrench)?;
         Ok((wrench, Stamp::at(seen.at)))
     }
@@ -216,40 +204,15 @@ impl Tare for Transducer {
 
 impl Transducer {
     fn zero_here(&mut self, deadline: Deadline) -> Result<(), DriverError> {
-        let doing = "call the load zero";
-        let began = monotonic();
-        let mut sum = Wrench::default();
-        let mut count = 0.0;
-        loop {
-            let spent = monotonic().saturating_sub(began);
-            if spent >= MEAN_OVER && count > 0.0 {
-                break;
-            }
-            let left = deadline.less(spent).remaining();
-            if left.is_zero() {
-                let why = format!("expected {MEAN_OVER:?} of readings within {deadline}");
-                return Err(failed(ErrorKind::Timeout, doing, why));
-            }
-            let seen = self.next(left)?;
-            let wrench = self.wrench(&seen.what.reading)?;
-            sum = minus(&sum, &times(&wrench, -1.0));
-            count += 1.0;
-        }
-        let mean = times(&sum, 1.0 / count);
-        if let Some(most) = self.options.force_max_n {
-            let beyond = mean
-                .force
-                .iter()
-                .find(|force| force.0.abs() > ZERO_MAX * most);
-            if let Some(beyond) = beyond {
-                let why = format!(
-                    "{beyond}, expected at most {} N: half of what it measures",
-                    ZERO_MAX * most
-                );
-                return Err(failed(ErrorKind::OutOfRange, doing, why));
-            }
-        }
-        self.zero = mean;
+        let mut zero = self.zero;
+        let next = |patience| {
+            let seen = self.next(patience)?;
+            self.wrench(&seen.what.reading)
+        };
+        zero.take(deadline, next, |kind, why| {
+            failed(kind, "call the load zero", why)
+        })?;
+        self.zero = zero;
         Ok(())
     }
 
@@ -265,25 +228,7 @@ impl Transducer {
             self.begin().map_err(refused)?;
         }
         zeroed.map_err(refused)?;
-        self.zero = Wrench::default();
+        self.zero.forget();
         Ok(())
-    }
-}
-
-fn minus(wrench: &Wrench, zero: &Wrench) -> Wrench {
-    Wrench {
-        force: std::array::from_fn(|axis| Newton(wrench.force[axis].0 - zero.force[axis].0)),
-        torque: std::array::from_fn(|axis| {
-            NewtonMillimetre(wrench.torque[axis].0 - zero.torque[axis].0)
-        }),
-    }
-}
-
-fn times(wrench: &Wrench, factor: f64) -> Wrench {
-    Wrench {
-        force: wrench.force.map(|force| Newton(force.0 * factor)),
-        torque: wrench
-            .torque
-            .map(|torque| NewtonMillimetre(torque.0 * factor)),
     }
 }

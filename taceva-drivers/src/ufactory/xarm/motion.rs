@@ -123,10 +123,10 @@ impl Arm {
                 let why = "it did not arrive within the deadline";
                 return Err(failed(ErrorKind::Timeout, DOING, why).into());
             }
-            // One look more than there is time for, so that it is the deadline that is named.
+            // Not the time that is left: an arm that is not seen is stopped long before that.
             last = self
                 .observer
-                .observe(&mut self.exchange, Some(&last), left.max(STALE))?;
+                .observe(&mut self.exchange, Some(&last), STALE)?;
             let fault = self.observer.error(&mut self.exchange);
             if let Some(fault) = fault.map_err(unanswered(DOING))? {
                 return Err(failed(ErrorKind::DeviceFault, DOING, fault).into());

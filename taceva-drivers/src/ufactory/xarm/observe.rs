@@ -95,12 +95,12 @@ impl Observer {
             (None, Some(fresh)) => fresh.number - 1,
             (None, None) => poses.newest().map_or(0, |seen| seen.number),
         };
-        let seen = poses.next(after, patience.min(STALE)).map_err(|error| {
+        let seen = poses.next(after, patience).map_err(|error| {
             let doing = "look where the arm is";
             match error {
                 NoNews::Ended(ending) => failed(ending.kind, doing, ending.why),
                 NoNews::Silent | NoNews::Interrupted => {
-                    let why = format!("no report within {:?}", patience.min(STALE));
+                    let why = format!("no report within {patience:?}");
                     failed(ErrorKind::Timeout, doing, why)
                 }
             }

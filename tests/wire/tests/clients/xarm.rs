@@ -1,18 +1,10 @@
 //! `xarm-python-sdk`, UFACTORY's own client, on the emulated arm.
 
-use std::net::Ipv4Addr;
-
 use taceva_needs::{Need, skip};
 use taceva_wire::xarm::{Emulator, Ports};
 use taceva_wire::{BenchOptions, WallBench, WireError};
 
-use crate::python;
-
-/// An address of loopback that no other test uses at the same time: the client knows one port, 502.
-fn address(last: u8) -> Ipv4Addr {
-    let [.., high, low] = std::process::id().to_be_bytes();
-    Ipv4Addr::new(127, high.max(1), low, last)
-}
+use crate::{address, python};
 
 fn moves_and_stops(last: u8, firmware: [u32; 3], report: &str) {
     let Some(python) = python::with("xarm") else {
