@@ -14,6 +14,7 @@ mod guard;
     feature = "mjpeg",
     feature = "netft",
     feature = "sri",
+    feature = "ur",
     feature = "xarm"
 ))]
 mod link;
@@ -29,6 +30,8 @@ mod sri;
 mod text;
 #[cfg(feature = "xarm")]
 mod ufactory;
+#[cfg(feature = "ur")]
+mod ur;
 #[cfg(any(feature = "netft", feature = "sri"))]
 mod zero;
 
@@ -47,3 +50,5 @@ pub use source::{FolderSource, FrameSource, SourceError, Timing};
 pub use sri::M8128Factory;
 #[cfg(feature = "xarm")]
 pub use ufactory::XarmFactory;
+#[cfg(feature = "ur")]
+pub use ur::UrFactory;

@@ -27,6 +27,7 @@ pub mod control;
 pub mod mjpeg;
 pub mod netft;
 pub mod sri;
+pub mod ur;
 pub mod xarm;
 
 pub use base::Base;

@@ -3,6 +3,7 @@
 mod ffmpeg;
 mod netft;
 mod python;
+mod ur;
 mod xarm;
 
 use std::net::Ipv4Addr;
