@@ -25,9 +25,8 @@ use taceva_sim::optics::AmbientLight;
 
 use crate::bench::WallBench;
 use crate::error::WireError;
-use crate::fault::{Device, Fault, FaultKind};
+use crate::fault::{Arm, ArmFault, Device, Fault, FaultKind};
 use crate::server::{End, Server};
-use crate::xarm::{self, ArmFault};
 
 /// What is asked for.
 #[derive(Clone, Debug, Deserialize, PartialEq)]
@@ -84,7 +83,7 @@ impl Control {
     /// [`WireError`] if the port cannot be listened on.
     pub fn start(
         bench: &WallBench,
-        arm: Option<Arc<xarm::Emulator>>,
+        arm: Option<Arc<dyn Arm>>,
         host: Ipv4Addr,
         port: u16,
     ) -> Result<Control, WireError> {
@@ -106,7 +105,7 @@ impl Control {
 fn serve(
     mut stream: TcpStream,
     bench: &WallBench,
-    arm: Option<&xarm::Emulator>,
+    arm: Option<&dyn Arm>,
     end: &End,
 ) -> io::Result<()> {
     let mut lines = BufReader::new(stream.try_clone()?);
@@ -138,11 +137,7 @@ fn serve(
 }
 
 /// What a request is answered, once it is done.
-fn answer(
-    line: &[u8],
-    bench: &WallBench,
-    arm: Option<&xarm::Emulator>,
-) -> Result<Value, WireError> {
+fn answer(line: &[u8], bench: &WallBench, arm: Option<&dyn Arm>) -> Result<Value, WireError> {
     let refused = |why: String| WireError::Request(why);
     let request: Request =
         serde_json::from_slice(line).map_err(|error| refused(error.to_string()))?;
@@ -212,7 +207,7 @@ fn mounted(specimen: &Specimen) -> Result<Mounted, WireError> {
 fn inject(
     injection: &Injection,
     bench: &WallBench,
-    arm: Option<&xarm::Emulator>,
+    arm: Option<&dyn Arm>,
 ) -> Result<(), WireError> {
     let refused = WireError::Request;
     let of_arm = match injection.fault.as_str() {

@@ -31,6 +31,24 @@ pub enum FaultKind {
     NotANumber,
 }
 
+/// What can happen to an arm.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ArmFault {
+    /// Somebody presses the emergency stop: the motors are off.
+    EmergencyStop,
+    /// It feels that it touches something.
+    Collision,
+}
+
+/// An emulated arm, for whoever does things to it.
+pub trait Arm: Send + Sync {
+    /// Does to the arm what its surroundings can.
+    fn suffer(&self, fault: ArmFault);
+
+    /// The driver that reaches it, with its arguments.
+    fn selector(&self) -> String;
+}
+
 /// A fault to be put on a link.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Fault {

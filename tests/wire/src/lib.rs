@@ -33,6 +33,6 @@ pub mod xarm;
 pub use base::Base;
 pub use bench::{Truth, WallBench};
 pub use error::WireError;
-pub use fault::{Device, Fault, FaultKind};
+pub use fault::{Arm, ArmFault, Device, Fault, FaultKind};
 pub use options::BenchOptions;
 pub use rig_file::RigFile;

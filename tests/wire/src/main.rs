@@ -9,7 +9,7 @@ use std::sync::Arc;
 use clap::{Parser, ValueEnum};
 use taceva_sim::Model;
 use taceva_wire::control::Control;
-use taceva_wire::{BenchOptions, RigFile, WallBench, WireError, mjpeg, sri, xarm};
+use taceva_wire::{Arm, BenchOptions, RigFile, WallBench, WireError, mjpeg, netft, sri, ur, xarm};
 
 /// Serves a simulated gel behind the sockets of devices that exist. Nothing is real; everything listens on loopback alone.
 #[derive(Debug, Parser)]
@@ -55,16 +55,23 @@ struct Arguments {
 
 #[derive(Clone, Copy, Debug, ValueEnum)]
 enum RobotKind {
+    /// An arm of UFACTORY.
     Xarm,
+    /// An arm of Universal Robots.
+    Ur,
 }
 
 #[derive(Clone, Copy, Debug, ValueEnum)]
 enum ForceKind {
+    /// A box of SRI.
     Sri,
+    /// A Net F/T box of ATI.
+    Netft,
 }
 
 #[derive(Clone, Copy, Debug, ValueEnum)]
 enum CameraKind {
+    /// A camera that streams over HTTP.
     Mjpeg,
 }
 
@@ -114,16 +121,25 @@ fn serve(arguments: &Arguments) -> Result<(), WireError> {
             xarm::Ports::ANY
         }
     };
-    let robot = match arguments.robot {
+    let robot: Option<Arc<dyn Arm>> = match arguments.robot {
         Some(RobotKind::Xarm) => Some(Arc::new(xarm::Emulator::start(&bench, ports)?)),
-        None => None,
-    };
-    let force = match arguments.force {
-        Some(ForceKind::Sri) => {
-            let port = if usual { sri::USUAL_PORT } else { 0 };
-            Some(sri::Emulator::start(&bench, host, port)?)
+        Some(RobotKind::Ur) => {
+            let ports = if usual { ur::USUAL_PORTS } else { [0, 0] };
+            Some(Arc::new(ur::Emulator::start(&bench, host, ports)?))
         }
         None => None,
+    };
+    // Kept until the end: a device that is dropped is unplugged.
+    let (sri, netft) = match arguments.force {
+        Some(ForceKind::Sri) => {
+            let port = if usual { sri::USUAL_PORT } else { 0 };
+            (Some(sri::Emulator::start(&bench, host, port)?), None)
+        }
+        Some(ForceKind::Netft) => {
+            let port = if usual { netft::USUAL_PORT } else { 0 };
+            (None, Some(netft::Emulator::start(&bench, host, port, 0)?))
+        }
+        None => (None, None),
     };
     let camera = match arguments.camera {
         Some(CameraKind::Mjpeg) => {
@@ -133,12 +149,20 @@ fn serve(arguments: &Arguments) -> Result<(), WireError> {
         None => None,
     };
     let control = Control::start(&bench, robot.clone(), host, 0)?;
+    let url = |camera: &mjpeg::Emulator| match arguments.png {
+        true => camera.png_url(),
+        false => camera.url(),
+    };
     let rig = RigFile {
         bench: &bench,
-        robot: robot.as_deref(),
-        force: force.as_ref(),
-        camera: camera.as_ref(),
-        is_png: arguments.png,
+        robot: robot.as_ref().map(|arm| arm.selector()),
+        force: sri
+            .as_ref()
+            .map(sri::Emulator::selector)
+            .or(netft.as_ref().map(netft::Emulator::selector)),
+        sensor: camera
+            .as_ref()
+            .map(|camera| format!("camera/mjpeg:url={}", url(camera))),
         control: &control,
     };
     print!("{}", rig.text());

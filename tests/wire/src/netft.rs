@@ -65,6 +65,17 @@ impl Emulator {
         })
     }
 
+    /// The driver that reaches it, with its arguments.
+    pub fn selector(&self) -> String {
+        let [records, page] = [self.address(), self.page_address()];
+        format!(
+            "ati/netft:host={};port={};page_port={}",
+            records.ip(),
+            records.port(),
+            page.port()
+        )
+    }
+
     /// Where its records are asked for.
     pub fn address(&self) -> SocketAddr {
         self.records

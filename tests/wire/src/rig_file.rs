@@ -5,24 +5,22 @@ use std::path::Path;
 
 use crate::base::Base;
 use crate::bench::WallBench;
+use crate::control::Control;
 use crate::error::WireError;
-use crate::{control, mjpeg, sri, xarm};
 
-/// What is to be written.
-#[derive(Clone, Copy, Debug)]
+/// What is to be written: the drivers with their arguments.
+#[derive(Clone, Debug)]
 pub struct RigFile<'a> {
     /// The gel.
     pub bench: &'a WallBench,
-    /// The arm over it, if there is one.
-    pub robot: Option<&'a xarm::Emulator>,
-    /// The transducer, if there is one.
-    pub force: Option<&'a sri::Emulator>,
-    /// The camera, if there is one.
-    pub camera: Option<&'a mjpeg::Emulator>,
-    /// Whether the camera streams PNG.
-    pub is_png: bool,
+    /// That of the arm over it, if there is one.
+    pub robot: Option<String>,
+    /// That of the transducer, if there is one.
+    pub force: Option<String>,
+    /// That of the camera, if there is one.
+    pub sensor: Option<String>,
     /// Where faults are injected.
-    pub control: &'a control::Control,
+    pub control: &'a Control,
 }
 
 impl RigFile<'_> {
@@ -38,51 +36,28 @@ impl RigFile<'_> {
         let mut section = |name: &str, lines: &[String]| {
             let _ = write!(text, "\n[{name}]\n{}\n", lines.join("\n"));
         };
-        if let Some(arm) = self.robot {
-            let port = |port| arm.address(port).port();
-            let driver = format!(
-                "ufactory/xarm:host={};port={};pose_port={};status_port={}",
-                arm.address(xarm::Port::Command).ip(),
-                port(xarm::Port::Command),
-                port(xarm::Port::Pose),
-                port(xarm::Port::Status),
-            );
+        let driver = |selector: &str| format!("driver = {}", toml::Value::from(selector));
+        let latency = || "latency_ms = 0.0".to_owned();
+        if let Some(selector) = &self.robot {
             let origin = toml::Value::from(Base::ORIGIN_MM.to_vec());
             section(
                 "robot",
                 &[
-                    format!("driver = {}", toml::Value::from(driver)),
+                    driver(selector),
                     "carries = \"indenter\"".to_owned(),
                     format!("origin_mm = {origin}"),
                     format!("axes = {axes}"),
                 ],
             );
         }
-        if let Some(force) = self.force {
-            let address = force.address();
-            let driver = format!("sri/m8128:host={};port={}", address.ip(), address.port());
+        if let Some(selector) = &self.force {
             section(
                 "force",
-                &[
-                    format!("driver = {}", toml::Value::from(driver)),
-                    format!("axes = {axes}"),
-                    "latency_ms = 0.0".to_owned(),
-                ],
+                &[driver(selector), format!("axes = {axes}"), latency()],
             );
         }
-        if let Some(camera) = self.camera {
-            let url = match self.is_png {
-                true => camera.png_url(),
-                false => camera.url(),
-            };
-            let driver = format!("camera/mjpeg:url={url}");
-            section(
-                "sensor",
-                &[
-                    format!("driver = {}", toml::Value::from(driver)),
-                    "latency_ms = 0.0".to_owned(),
-                ],
-            );
+        if let Some(selector) = &self.sensor {
+            section("sensor", &[driver(selector), latency()]);
         }
         section("limits", &["speed_max_mm_s = 20.0".to_owned()]);
         text
@@ -110,27 +85,21 @@ mod tests {
     #[test]
     fn the_file_is_toml_that_names_every_device_and_says_that_it_is_simulated() {
         let bench = WallBench::start(&BenchOptions::quiet(7)).expect("a bench");
-        let arm = xarm::Emulator::start(&bench, xarm::Ports::ANY).expect("an arm");
-        let force = sri::Emulator::start(&bench, Ipv4Addr::LOCALHOST, 0).expect("a box");
-        let camera = mjpeg::Emulator::start(&bench, Ipv4Addr::LOCALHOST, 0, mjpeg::Style::Usual)
-            .expect("a camera");
-        let control =
-            control::Control::start(&bench, None, Ipv4Addr::LOCALHOST, 0).expect("a port");
+        let control = Control::start(&bench, None, Ipv4Addr::LOCALHOST, 0).expect("a port");
         let text = RigFile {
             bench: &bench,
-            robot: Some(&arm),
-            force: Some(&force),
-            camera: Some(&camera),
-            is_png: true,
+            robot: Some("ufactory/xarm:host=127.0.0.1;port=502".to_owned()),
+            force: Some("sri/m8128:host=127.0.0.1".to_owned()),
+            sensor: Some("camera/mjpeg:url=http://127.0.0.1:80/\"x\"".to_owned()),
             control: &control,
         }
         .text();
         assert!(text.starts_with("# Everything here is simulated: TACEVA-SIM0007."));
         let table: toml::Table = text.parse().expect("TOML");
         let driver = |section: &str| table[section]["driver"].as_str().expect("a selector");
-        assert!(driver("robot").starts_with("ufactory/xarm:host=127.0.0.1;port="));
-        assert!(driver("force").starts_with("sri/m8128:host=127.0.0.1;port="));
-        assert!(driver("sensor").ends_with("/stream.png"));
+        assert_eq!(driver("robot"), "ufactory/xarm:host=127.0.0.1;port=502");
+        assert_eq!(driver("force"), "sri/m8128:host=127.0.0.1");
+        assert!(driver("sensor").ends_with("/\"x\""));
         assert_eq!(table["robot"]["axes"][1].as_str(), Some("-y"));
         assert_eq!(table["robot"]["origin_mm"][2].as_float(), Some(251.3));
     }

@@ -34,6 +34,12 @@ impl Emulator {
         Ok(Emulator { server })
     }
 
+    /// The driver that reaches it, with its arguments.
+    pub fn selector(&self) -> String {
+        let address = self.address();
+        format!("sri/m8128:host={};port={}", address.ip(), address.port())
+    }
+
     /// Where it listens.
     pub fn address(&self) -> SocketAddr {
         self.server.address()

@@ -15,6 +15,7 @@ use self::program::Program;
 use crate::base::Base;
 use crate::bench::WallBench;
 use crate::error::WireError;
+use crate::fault::{Arm, ArmFault};
 use crate::server::{End, Server, read};
 
 /// An emulated arm that listens until this is dropped.
@@ -41,7 +42,8 @@ pub(crate) struct Controller {
 
 #[derive(Debug)]
 struct Inside {
-    is_emergency_stopped: bool,
+    /// What happened to it, which only a person ends.
+    fault: Option<ArmFault>,
     /// The rotation vector of the tool, which the gel does not know.
     turned: [f64; 3],
 }
@@ -63,14 +65,14 @@ impl Controller {
         self.bench.is_moving()
     }
 
-    fn is_emergency_stopped(&self) -> bool {
-        self.inside().is_emergency_stopped
+    fn fault(&self) -> Option<ArmFault> {
+        self.inside().fault
     }
 
     /// Runs a program in the place of the one that runs.
     fn run(&self, program: &Program) {
         let mut inside = self.inside();
-        if inside.is_emergency_stopped {
+        if inside.fault.is_some() {
             return;
         }
         self.bench.stand();
@@ -102,7 +104,7 @@ impl Emulator {
         let controller = Arc::new(Controller {
             bench: bench.clone(),
             inside: Mutex::new(Inside {
-                is_emergency_stopped: false,
+                fault: None,
                 turned: DOWN,
             }),
         });
@@ -146,10 +148,21 @@ impl Emulator {
     pub fn script_address(&self) -> SocketAddr {
         self.script.address()
     }
+}
 
-    /// Somebody presses the emergency stop.
-    pub fn stop_in_emergency(&self) {
-        self.controller.inside().is_emergency_stopped = true;
+impl Arm for Emulator {
+    fn suffer(&self, fault: ArmFault) {
+        self.controller.inside().fault = Some(fault);
         self.controller.bench.stand();
+    }
+
+    fn selector(&self) -> String {
+        let [states, script] = [&self.states, &self.script].map(Server::address);
+        format!(
+            "ur/rtde:host={};port={};script_port={}",
+            states.ip(),
+            states.port(),
+            script.port()
+        )
     }
 }

@@ -14,11 +14,11 @@ use std::net::{Ipv4Addr, SocketAddr};
 use std::sync::Arc;
 use std::time::Duration;
 
-pub use self::controller::ArmFault;
 use self::controller::Controller;
 use self::report::ReportPort;
 use crate::bench::WallBench;
 use crate::error::WireError;
+use crate::fault::{Arm, ArmFault};
 use crate::server::{End, Server};
 
 /// An emulated arm that listens until this is dropped.
@@ -136,9 +136,21 @@ impl Emulator {
         let found = self.reports.iter().find(|(kind, _)| *kind == port);
         found.map_or(self.command.address(), |(_, server)| server.address())
     }
+}
 
-    /// Does to the arm what its surroundings can.
-    pub fn suffer(&self, fault: ArmFault) {
+impl Arm for Emulator {
+    fn suffer(&self, fault: ArmFault) {
         self.controller.suffer(fault);
+    }
+
+    fn selector(&self) -> String {
+        let port = |port| self.address(port).port();
+        format!(
+            "ufactory/xarm:host={};port={};pose_port={};status_port={}",
+            self.command.address().ip(),
+            port(Port::Command),
+            port(Port::Pose),
+            port(Port::Status),
+        )
     }
 }

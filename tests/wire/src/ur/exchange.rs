@@ -5,7 +5,7 @@ use std::net::TcpStream;
 use std::time::Duration;
 
 use super::Controller;
-use crate::fault::{Device, FaultKind};
+use crate::fault::{ArmFault, Device, FaultKind};
 use crate::server::{End, read};
 
 /// The outputs that public clients ask for, with their types; others do not exist here.
@@ -140,13 +140,18 @@ impl Wanted {
         const STOPPED: u32 = 1;
         const PLAYING: u32 = 2;
         const NORMAL: u32 = 1;
+        const PROTECTIVE_STOPPED: u32 = 1 << 2;
         const EMERGENCY_STOPPED: u32 = 1 << 7 | 1 << 6;
         let mut says = vec![1];
         for name in &self.names {
             let word = match name.as_str() {
                 "robot_mode" => RUNNING,
-                "safety_status_bits" if controller.is_emergency_stopped() => EMERGENCY_STOPPED,
-                "safety_status_bits" | "safety_mode" => NORMAL,
+                "safety_status_bits" => match controller.fault() {
+                    None => NORMAL,
+                    Some(ArmFault::EmergencyStop) => EMERGENCY_STOPPED,
+                    Some(ArmFault::Collision) => PROTECTIVE_STOPPED,
+                },
+                "safety_mode" => NORMAL,
                 "runtime_state" if controller.is_moving() => PLAYING,
                 "runtime_state" => STOPPED,
                 _ => 0,

@@ -9,15 +9,7 @@ use super::line::Line;
 use super::session::Push;
 use crate::base::Base;
 use crate::bench::WallBench;
-
-/// What can happen to an arm.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum ArmFault {
-    /// Somebody presses the emergency stop: the motors are off.
-    EmergencyStop,
-    /// It feels that it touches something.
-    Collision,
-}
+use crate::fault::ArmFault;
 
 /// The control box.
 #[derive(Debug)]

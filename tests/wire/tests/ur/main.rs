@@ -7,7 +7,7 @@ use taceva_core::{Deadline, DriverError, ErrorKind, Factory, Millimetre, Pose, R
 use taceva_drivers::UrFactory;
 use taceva_drivers::conformance::{self, Trial};
 use taceva_wire::ur::Emulator;
-use taceva_wire::{BenchOptions, Device, Fault, FaultKind, WallBench};
+use taceva_wire::{Arm, ArmFault, BenchOptions, Device, Fault, FaultKind, WallBench};
 
 const PATIENCE: Deadline = Deadline::after(Duration::from_secs(10));
 
@@ -24,9 +24,9 @@ fn setup() -> Setup {
 
 impl Setup {
     fn arguments(&self) -> String {
-        let [states, script] =
-            [self.arm.states_address(), self.arm.script_address()].map(|address| address.port());
-        format!("host=127.0.0.1;port={states};script_port={script}")
+        let selector = self.arm.selector();
+        let (_, arguments) = selector.split_once(':').expect("a driver and arguments");
+        arguments.to_owned()
     }
 
     fn open(&self) -> Box<dyn Robot> {
@@ -116,7 +116,7 @@ fn a_halt_stops_the_arm_at_once_and_no_program_begins_after_it() {
 #[test]
 fn an_emergency_stop_is_a_fault_that_nobody_but_a_person_ends() {
     let setup = setup();
-    let (error, took) = setup.moved(|| setup.arm.stop_in_emergency());
+    let (error, took) = setup.moved(|| setup.arm.suffer(ArmFault::EmergencyStop));
     assert_eq!(error.kind(), ErrorKind::DeviceFault);
     assert!(
         error.to_string().contains("the emergency stop was pressed"),
@@ -130,6 +130,14 @@ fn an_emergency_stop_is_a_fault_that_nobody_but_a_person_ends() {
     let cleared = arm.clear_halt(PATIENCE);
     assert_eq!(cleared.expect_err("a fault").kind(), ErrorKind::DeviceFault);
     assert!(!setup.bench.truth().is_moving);
+}
+
+#[test]
+fn a_collision_is_a_protective_stop() {
+    let setup = setup();
+    let (error, _) = setup.moved(|| setup.arm.suffer(ArmFault::Collision));
+    assert_eq!(error.kind(), ErrorKind::DeviceFault);
+    assert!(error.to_string().contains("a protective stop"), "{error}");
 }
 
 #[test]

@@ -6,8 +6,8 @@ use std::time::{Duration, Instant};
 
 use taceva_core::{DriverError, ErrorKind, Factory, Pose, Rig};
 use taceva_drivers::XarmFactory;
-use taceva_wire::xarm::{ArmFault, Ports};
-use taceva_wire::{Device, Fault, FaultKind};
+use taceva_wire::xarm::Ports;
+use taceva_wire::{Arm, ArmFault, Device, Fault, FaultKind};
 
 use crate::support::{PATIENCE, Setup, lower, setup, speed};
 
