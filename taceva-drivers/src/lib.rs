@@ -1,11 +1,23 @@
 #![doc = include_str!("../README.md")]
 
+#[cfg(feature = "netft")]
+mod ati;
+#[cfg(feature = "mjpeg")]
+mod camera;
 pub mod conformance;
 mod devices;
 pub mod doctor;
 mod drivers;
 pub mod fault;
 mod guard;
+#[cfg(any(
+    feature = "mjpeg",
+    feature = "netft",
+    feature = "sri",
+    feature = "ur",
+    feature = "xarm"
+))]
+mod link;
 mod name_order;
 mod on_bench;
 mod pace;
@@ -13,8 +25,20 @@ mod random;
 mod selector;
 mod sensor;
 mod source;
+#[cfg(feature = "sri")]
+mod sri;
 mod text;
+#[cfg(feature = "xarm")]
+mod ufactory;
+#[cfg(feature = "ur")]
+mod ur;
+#[cfg(any(feature = "netft", feature = "sri"))]
+mod zero;
 
+#[cfg(feature = "netft")]
+pub use ati::NetftFactory;
+#[cfg(feature = "mjpeg")]
+pub use camera::MjpegFactory;
 pub use devices::{Devices, ListedArgument, ListedDevice, ListedDriver, devices};
 pub use drivers::{Drivers, OpenError, open};
 pub use on_bench::OnBench;
@@ -22,3 +46,9 @@ pub use pace::{Pace, RealPace, VirtualPace};
 pub use selector::{Selector, SelectorError};
 pub use sensor::replay::{Replay, ReplayFactory, ReplayOptions};
 pub use source::{FolderSource, FrameSource, SourceError, Timing};
+#[cfg(feature = "sri")]
+pub use sri::M8128Factory;
+#[cfg(feature = "xarm")]
+pub use ufactory::XarmFactory;
+#[cfg(feature = "ur")]
+pub use ur::UrFactory;

@@ -6,6 +6,8 @@ mod folder;
 mod limits;
 mod times;
 
+#[cfg(feature = "mjpeg")]
+pub(crate) use decode::{Mismatch, decode, info as frame_info};
 pub use error::SourceError;
 pub use folder::{FolderSource, Timing};
 

@@ -19,6 +19,7 @@ mod state;
 mod ticks;
 mod touch;
 mod visit;
+mod wall;
 
 pub use force::ForceTransducerFactory;
 pub use lighting::LightingFactory;

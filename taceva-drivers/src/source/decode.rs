@@ -11,13 +11,13 @@ use super::limits;
 use crate::guard::contained;
 
 /// Size and format of the image in `bytes`; nothing is decoded.
-pub(super) fn info(bytes: &[u8]) -> Result<FrameInfo, String> {
+pub(crate) fn info(bytes: &[u8]) -> Result<FrameInfo, String> {
     let decoder = opened(bytes)?;
     frame_info(decoder.as_ref())
 }
 
 /// Writes the pixels of the image into `into`, if it has that size and format.
-pub(super) fn decode(bytes: &[u8], into: &mut FrameMut<'_>) -> Result<(), Mismatch> {
+pub(crate) fn decode(bytes: &[u8], into: &mut FrameMut<'_>) -> Result<(), Mismatch> {
     let decoder = opened(bytes).map_err(Mismatch::Damaged)?;
     let found = frame_info(decoder.as_ref()).map_err(Mismatch::Damaged)?;
     if found != into.info() {
@@ -36,7 +36,7 @@ pub(super) fn decode(bytes: &[u8], into: &mut FrameMut<'_>) -> Result<(), Mismat
 
 /// Why an image was not written into a frame.
 #[derive(Debug)]
-pub(super) enum Mismatch {
+pub(crate) enum Mismatch {
     /// It is of another size or format.
     Size(FrameInfo),
     /// It cannot be decoded.

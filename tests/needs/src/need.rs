@@ -34,6 +34,10 @@ pub enum Need {
     Recordings,
     /// A GPU that the features which were built in can reach.
     Gpu,
+    /// Python with the public clients of devices, and ports that they expect: what proves that emulated devices speak as real ones.
+    PublicClients,
+    /// `ffmpeg`, which serves a stream of pictures.
+    Ffmpeg,
     /// An example that is built where a whole package is tested, and not by a single test of it.
     Example,
 }
@@ -47,7 +51,7 @@ pub struct UnknownNeed(
 
 impl Need {
     /// Every need.
-    pub const ALL: [Need; 14] = [
+    pub const ALL: [Need; 16] = [
         Need::Browser,
         Need::Axe,
         Need::Latex,
@@ -61,6 +65,8 @@ impl Need {
         Need::Poppler,
         Need::Recordings,
         Need::Gpu,
+        Need::PublicClients,
+        Need::Ffmpeg,
         Need::Example,
     ];
 
@@ -80,6 +86,8 @@ impl Need {
             Need::Poppler => "poppler",
             Need::Recordings => "recordings",
             Need::Gpu => "gpu",
+            Need::PublicClients => "public-clients",
+            Need::Ffmpeg => "ffmpeg",
             Need::Example => "example",
         }
     }

@@ -186,7 +186,7 @@ impl Drop for SimulatedSensor {
 }
 
 /// What the camera sees now.
-fn view(state: &mut State, is_transparent: bool) -> View {
+pub(super) fn view(state: &mut State, is_transparent: bool) -> View {
     let stimulus = match state.mounted {
         Mounted::Ball(_) => match state.contact() {
             Some(contact) if contact.touches() => Stimulus::Ball(contact),

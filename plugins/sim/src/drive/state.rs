@@ -1,7 +1,9 @@
 //! What goes on in a simulated rig: a tip that moves, a gel that remembers, a clock that both turn.
 
+mod course;
 mod travel;
 
+use self::course::Course;
 pub(super) use self::travel::{Ended, Motion};
 
 use std::time::Duration;
@@ -32,6 +34,8 @@ pub(super) struct State {
     sent: Pose,
     /// Where the tip is: its lowest point, z into the gel.
     tip_mm: [f64; 3],
+    /// The motion that goes on as time passes, if one does.
+    course: Option<Course>,
     robot: Robot,
     transducer: Transducer,
     errors: TransducerModel,
@@ -65,6 +69,7 @@ impl State {
             light: AmbientLight::Normal,
             sent: pose(HOME_MM),
             tip_mm: HOME_MM,
+            course: None,
             robot: parameters.robot,
             transducer: parameters.transducer,
             errors: TransducerModel::new(parameters.transducer, random),

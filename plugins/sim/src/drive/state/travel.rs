@@ -30,11 +30,12 @@ pub(in crate::drive) struct Motion<'a> {
 }
 
 /// The way of a tip is followed in steps of this length.
-const STEP_MM: f64 = 0.05;
+pub(super) const STEP_MM: f64 = 0.05;
 
 impl State {
     /// Moves the tip along a straight line.
     pub(in crate::drive) fn travel(&mut self, motion: &Motion<'_>) -> Ended {
+        self.stand();
         let (from, sent) = (self.tip_mm, coordinates(&self.sent));
         let target = coordinates(&motion.target);
         let error = self.visit.errors.position_mm;
@@ -86,11 +87,11 @@ impl State {
     }
 }
 
-fn mix(from: [f64; 3], to: [f64; 3], share: f64) -> [f64; 3] {
+pub(super) fn mix(from: [f64; 3], to: [f64; 3], share: f64) -> [f64; 3] {
     std::array::from_fn(|axis| from[axis] + (to[axis] - from[axis]) * share)
 }
 
-fn distance(from: [f64; 3], to: [f64; 3]) -> f64 {
+pub(super) fn distance(from: [f64; 3], to: [f64; 3]) -> f64 {
     size(std::array::from_fn(|axis| to[axis] - from[axis]))
 }
 

@@ -1,0 +1,5 @@
+//! Force transducers of ATI Industrial Automation.
+
+mod netft;
+
+pub use netft::NetftFactory;

@@ -1,0 +1,107 @@
+//! The built-in driver `ati/netft`.
+
+use taceva_core::{
+    ArgSpec, ArgValue, Args, Axes, Descriptor, DescriptorError, DescriptorSpec, DriverError,
+    DriverSource, Factory, Facts, ForceFacts, ForceTransducer, Hertz, Newton, Rig, submit_builtin,
+};
+
+use super::KEY;
+use super::transducer::{NetftOptions, Transducer};
+
+submit_builtin!(dyn ForceTransducer, || Ok(Box::new(NetftFactory::new()?)));
+
+/// Opens ATI's Net F/T boxes, and others that send their records (RDT): `ati/netft:host=192.168.1.1`.
+///
+/// # The physical contract
+/// - Forces and torques are those of the transducer's own axes, in N and N·mm. What a count is worth is asked for when it is opened, by the
+///   page `/netftapi2.xml` of the box.
+/// - A reading is the newest that came. Datagrams of other senders are not taken; one that is torn, comes twice or was overtaken is no reading.
+/// - A gage at the end of its range is `OutOfRange`, every other error of the box `DeviceFault`.
+/// - Zero is the mean of 0.25 s, taken off on this side; the bias of the box is left as it is.
+///
+/// # What confirmed it
+/// An emulated box on which the driver passes its suite; the public client `NetFT` 2.0.1 reads it too. **Not verified without the device**: the
+/// bits of the status, of which two are read, and devices of other makers that send the same records.
+///
+/// ```
+/// use taceva_core::Factory;
+/// use taceva_drivers::NetftFactory;
+/// let factory = NetftFactory::new()?;
+/// assert!(factory.descriptor().args("host=192.168.1.1;force_max_n=65").is_ok());
+/// # Ok::<(), taceva_core::DescriptorError>(())
+/// ```
+#[derive(Debug)]
+pub struct NetftFactory {
+    descriptor: Descriptor,
+}
+
+impl NetftFactory {
+    /// The driver.
+    ///
+    /// # Errors
+    /// [`DescriptorError`] if it contradicted itself, which its tests rule out.
+    pub fn new() -> Result<NetftFactory, DescriptorError> {
+        let port = |key: &str, number: i64, help: &str| {
+            ArgSpec::whole(key, 1, 65_535)
+                .default(ArgValue::Whole(number))
+                .help(help)
+        };
+        let arguments = [
+            ArgSpec::text("host").help("name or address of the box"),
+            port("port", 49_152, "the port of its records, UDP"),
+            port("page_port", 80, "the port of its pages, TCP"),
+            ArgSpec::number("rate", 0.1, 20_000.0)
+                .unit("Hz")
+                .optional()
+                .help("readings a second that the box is set to, where it is known")
+                .changes_facts(),
+            ArgSpec::number("force_max_n", 0.001, 100_000.0)
+                .optional()
+                .help("the least of the ranges of its forces, in N, from its certificate")
+                .changes_facts(),
+        ];
+        let facts = Facts::Force(ForceFacts {
+            axes: Axes::SIX,
+            tare: true,
+            ..ForceFacts::default()
+        });
+        let title = "a force transducer behind a Net F/T box of ATI";
+        let spec = DescriptorSpec::new(KEY, title, DriverSource::Real, facts);
+        Ok(NetftFactory {
+            descriptor: spec.arguments(arguments).check()?,
+        })
+    }
+}
+
+impl Factory<dyn ForceTransducer> for NetftFactory {
+    fn descriptor(&self) -> &Descriptor {
+        &self.descriptor
+    }
+
+    fn describe(&self, args: &Args) -> Result<Descriptor, DescriptorError> {
+        let mut spec = self.descriptor.to_spec();
+        if let Facts::Force(facts) = &mut spec.facts {
+            facts.rate = number(args, "rate").map(Hertz);
+            facts.force_max = number(args, "force_max_n").map(Newton);
+        }
+        spec.check()
+    }
+
+    fn open(&self, args: &Args, _: &mut Rig) -> Result<Box<dyn ForceTransducer>, DriverError> {
+        let port = |key: &str| u16::try_from(args.whole(key)).unwrap_or(0);
+        let options = NetftOptions {
+            host: args.text("host").to_owned(),
+            port: port("port"),
+            page_port: port("page_port"),
+            force_max_n: number(args, "force_max_n"),
+        };
+        Ok(Box::new(Transducer::open(options)?))
+    }
+}
+
+fn number(args: &Args, key: &str) -> Option<f64> {
+    match args.get(key) {
+        Some(&ArgValue::Number(number)) => Some(number),
+        _ => None,
+    }
+}

@@ -1,0 +1,126 @@
+//! Requests and records of the raw data transfer, in network order. Nothing here reads a socket.
+
+/// What the box can be told.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Request {
+    /// To send no more.
+    Stop,
+    /// To send until it is told to stop.
+    Start,
+}
+
+impl Request {
+    /// The request as it is sent.
+    pub(super) fn bytes(self) -> [u8; 8] {
+        let command = match self {
+            Request::Stop => 0,
+            Request::Start => 2,
+        };
+        let endless = [0; 4];
+        let [c0, c1, c2, c3] = endless;
+        [0x12, 0x34, 0x00, command, c0, c1, c2, c3]
+    }
+}
+
+/// One reading, as it came.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Record {
+    /// Counts up by one a record sent.
+    pub(super) number: u32,
+    pub(super) status: Status,
+    /// Fx, Fy, Fz, Tx, Ty, Tz.
+    pub(super) counts: [i32; 6],
+}
+
+/// What the box says of a reading; 0 is well.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Status(pub(super) u32);
+
+impl Status {
+    /// Whether a gage is at the end of its range, so that the force is clipped.
+    pub(super) fn is_saturated(self) -> bool {
+        self.0 & 0x0002_0000 != 0
+    }
+
+    /// Whether there is any error, by the bit that says so of all of them.
+    pub(super) fn has_error(self) -> bool {
+        self.0 & 0x8000_0000 != 0
+    }
+}
+
+/// Bytes of a record.
+pub(super) const RECORD: usize = 36;
+
+impl Record {
+    /// The records in a datagram: one, or several behind each other; none if it has another length.
+    pub(super) fn all(datagram: &[u8]) -> Vec<Record> {
+        let records = datagram.chunks_exact(RECORD);
+        if !records.remainder().is_empty() {
+            return Vec::new();
+        }
+        records.map(Record::read).collect()
+    }
+
+    fn read(bytes: &[u8]) -> Record {
+        let word = |index: usize| {
+            let at = 4 * index;
+            u32::from_be_bytes([bytes[at], bytes[at + 1], bytes[at + 2], bytes[at + 3]])
+        };
+        Record {
+            number: word(0),
+            status: Status(word(2)),
+            counts: std::array::from_fn(|axis| word(3 + axis).cast_signed()),
+        }
+    }
+}
+
+/// How much later one record is than another: negative for one that came out of order.
+pub(super) fn later_by(record: u32, than: u32) -> i32 {
+    record.wrapping_sub(than).cast_signed()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::link::hexadecimal;
+
+    #[test]
+    fn requests_are_those_of_the_public_client() {
+        assert_eq!(
+            Request::Start.bytes().to_vec(),
+            hexadecimal("1234 0002 00000000")
+        );
+        assert_eq!(
+            Request::Stop.bytes().to_vec(),
+            hexadecimal("1234 0000 00000000")
+        );
+    }
+
+    #[test]
+    fn a_record_is_read_in_network_order_and_a_torn_one_is_none() {
+        let record = hexadecimal(
+            "00000007 00000070 80020000 0016e360 ffddaaf0 ff676980 00000001 ffffffff 7fffffff",
+        );
+        let [found] = Record::all(&record)[..] else {
+            panic!("one record")
+        };
+        assert_eq!(found.number, 7);
+        assert_eq!(
+            found.counts,
+            [1_500_000, -2_250_000, -10_000_000, 1, -1, i32::MAX]
+        );
+        assert!(found.status.is_saturated() && found.status.has_error());
+        assert_eq!(Record::all(&[&record[..], &record[..]].concat()).len(), 2);
+        for length in [0, 1, 35, 37, 71] {
+            let torn: Vec<u8> = record.iter().cycle().take(length).copied().collect();
+            assert!(Record::all(&torn).is_empty(), "{length} bytes");
+        }
+    }
+
+    #[test]
+    fn numbers_of_records_go_round() {
+        assert_eq!(later_by(5, 3), 2);
+        assert_eq!(later_by(3, 5), -2);
+        assert_eq!(later_by(1, u32::MAX), 2);
+    }
+}

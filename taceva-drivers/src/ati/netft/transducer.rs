@@ -1,0 +1,182 @@
+//! The box as a force transducer.
+
+use std::sync::Arc;
+use std::time::Duration;
+
+use taceva_core::{
+    Axes, Deadline, DriverError, ErrorKind, ForceTransducer, Interrupt, Newton, NewtonMillimetre,
+    Stamp, Tare, Wrench,
+};
+
+use super::KEY;
+use super::calibration::Calibration;
+use super::record::{Record, Request, Status};
+use super::stream::{Counted, RecordStream};
+use crate::link::{LinkError, Mailbox, NoNews, Seen};
+use crate::zero::HostZero;
+
+/// How a box is reached.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct NetftOptions {
+    pub(super) host: String,
+    pub(super) port: u16,
+    pub(super) page_port: u16,
+    /// What it measures is clipped at this force, in N.
+    pub(super) force_max_n: Option<f64>,
+}
+
+/// A transducer that is connected.
+#[derive(Debug)]
+pub(super) struct Transducer {
+    options: NetftOptions,
+    calibration: Calibration,
+    records: Arc<Mailbox<Counted>>,
+    stream: RecordStream,
+    zero: HostZero,
+    is_running: bool,
+    /// The number of the last record that was given.
+    last: u64,
+}
+
+const READ: &str = "read the force";
+
+fn failed(
+    kind: ErrorKind,
+    doing: &'static str,
+    why: impl Into<Box<dyn std::error::Error + Send + Sync>>,
+) -> DriverError {
+    DriverError::new(kind, &KEY, doing).because(why)
+}
+
+impl Transducer {
+    /// Asks a box what its counts are worth; nothing is sent to its stream yet.
+    pub(super) fn open(options: NetftOptions) -> Result<Transducer, DriverError> {
+        let doing = "connect to the box";
+        let calibration = Calibration::ask(&options.host, options.page_port)
+            .map_err(|error| failed(error.kind(), doing, error))?;
+        let records = Arc::new(Mailbox::default());
+        let stream = RecordStream::open(&options.host, options.port, &records)
+            .map_err(|error| failed(error.kind(), doing, error))?;
+        Ok(Transducer {
+            zero: HostZero::new(options.force_max_n),
+            options,
+            calibration,
+            records,
+            stream,
+            is_running: false,
+            last: 0,
+        })
+    }
+
+    fn begin(&mut self) -> Result<(), LinkError> {
+        if self.records.has_ended() {
+            self.records.begin_again();
+            let NetftOptions { host, port, .. } = &self.options;
+            self.stream = RecordStream::open(host, *port, &self.records)?;
+        }
+        self.last = self.records.posted();
+        self.stream.send(Request::Start)?;
+        self.is_running = true;
+        Ok(())
+    }
+
+    fn next(&mut self, patience: Duration) -> Result<Seen<Counted>, DriverError> {
+        if !self.is_running {
+            let why = "it is not started";
+            return Err(failed(ErrorKind::InvalidArgument, READ, why));
+        }
+        let found = self.records.next(self.last, patience);
+        let seen = found.map_err(|none| match none {
+            NoNews::Silent => {
+                let missing = self.records.newest().map_or(0, |seen| seen.what.missing);
+                let why = format!("no reading within {patience:?}; {missing} were missing before");
+                failed(ErrorKind::Timeout, READ, why)
+            }
+            NoNews::Interrupted => failed(ErrorKind::Interrupted, READ, "it was interrupted"),
+            NoNews::Ended(ending) => failed(ending.kind, READ, ending.why),
+        })?;
+        self.last = seen.number;
+        Ok(seen)
+    }
+
+    /// What a record says in our units, the zero of the box in it.
+    fn wrench(&self, record: &Record) -> Result<Wrench, DriverError> {
+        let Status(bits) = record.status;
+        if record.status.is_saturated() {
+            let why = format!("a gage is at the end of its range (status {bits:#010x})");
+            return Err(failed(ErrorKind::OutOfRange, READ, why));
+        }
+        if record.status.has_error() {
+            let why = format!("the box reports an error (status {bits:#010x}), see its manual");
+            return Err(failed(ErrorKind::DeviceFault, READ, why));
+        }
+        let Calibration {
+            force_n,
+            torque_nmm,
+        } = self.calibration;
+        let [fx, fy, fz, tx, ty, tz] = record.counts.map(f64::from);
+        let wrench = Wrench {
+            force: [fx, fy, fz].map(|counts| Newton(counts * force_n)),
+            torque: [tx, ty, tz].map(|counts| NewtonMillimetre(counts * torque_nmm)),
+        };
+        self.check_range(&wrench)?;
+        Ok(wrench)
+    }
+
+    fn check_range(&self, wrench: &Wrench) -> Result<(), DriverError> {
+        let checked = self.zero.check(wrench);
+        checked.map_err(|why| failed(ErrorKind::OutOfRange, READ, why))
+    }
+}
+
+impl ForceTransducer for Transducer {
+    fn axes(&self) -> Axes {
+        Axes::SIX
+    }
+
+    fn start(&mut self, _: Deadline) -> Result<(), DriverError> {
+        if self.is_running {
+            return Ok(());
+        }
+        let begun = self.begin();
+        begun.map_err(|error| failed(error.kind(), "start the readings", error))
+    }
+
+    fn read(&mut self, deadline: Deadline) -> Result<(Wrench, Stamp), DriverError> {
+        let seen = self.next(deadline.remaining())?;
+        let wrench = self.zero.taken_off(&self.wrench(&seen.what.record)?);
+        self.check_range(&wrench)?;
+        Ok((wrench, Stamp::at(seen.at)))
+    }
+
+    fn stop(&mut self) -> Result<(), DriverError> {
+        if !std::mem::take(&mut self.is_running) {
+            return Ok(());
+        }
+        let sent = self.stream.send(Request::Stop);
+        sent.map_err(|error| failed(error.kind(), "end the readings", error))
+    }
+
+    fn interrupt_handle(&self) -> Option<Arc<dyn Interrupt>> {
+        Some(Arc::clone(&self.records) as Arc<dyn Interrupt>)
+    }
+
+    fn tare(&mut self) -> Option<&mut dyn Tare> {
+        Some(self)
+    }
+}
+
+impl Tare for Transducer {
+    fn zero(&mut self, deadline: Deadline) -> Result<(), DriverError> {
+        let mut zero = self.zero;
+        let next = |patience| {
+            let seen = self.next(patience)?;
+            self.wrench(&seen.what.record)
+        };
+        zero.take(deadline, next, |kind, why| {
+            failed(kind, "call the load zero", why)
+        })?;
+        self.zero = zero;
+        Ok(())
+    }
+}

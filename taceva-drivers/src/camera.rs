@@ -1,0 +1,5 @@
+//! Cameras by the standards that they speak.
+
+mod mjpeg;
+
+pub use mjpeg::MjpegFactory;

@@ -1,0 +1,15 @@
+//! `camera/mjpeg`: cameras that stream pictures over HTTP, one after the other in one answer (`multipart/x-mixed-replace`).
+
+mod body;
+mod camera;
+mod factory;
+mod head;
+mod parts;
+mod stream;
+mod url;
+
+pub use factory::MjpegFactory;
+
+use taceva_core::DriverKey;
+
+const KEY: DriverKey = DriverKey::fixed("camera/mjpeg");

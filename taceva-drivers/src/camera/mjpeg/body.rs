@@ -1,0 +1,149 @@
+//! The body of an answer, taken out of its chunks where it comes in some. Nothing here reads a socket.
+
+use thiserror::Error;
+
+/// Takes the bytes of a body from those of the connection.
+#[derive(Debug)]
+pub(super) enum Body {
+    /// As they come.
+    Plain,
+    /// In chunks, each behind its length.
+    Chunked(Chunks),
+}
+
+/// Where in the chunks it stands.
+#[derive(Debug, Default)]
+pub(super) struct Chunks {
+    /// A line that is not whole yet.
+    line: Vec<u8>,
+    /// Bytes of the chunk that are to come.
+    left: usize,
+    /// Whether the empty line behind a chunk is to come.
+    is_behind: bool,
+    has_ended: bool,
+}
+
+/// Chunks that are none.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+#[error("its answer is said to come in chunks, and does not")]
+pub(super) struct ChunkError;
+
+/// The length of a chunk is written in fewer letters.
+const LINE_MAX: usize = 256;
+
+impl Body {
+    pub(super) fn new(is_chunked: bool) -> Body {
+        if is_chunked {
+            Body::Chunked(Chunks::default())
+        } else {
+            Body::Plain
+        }
+    }
+
+    /// Hands the bytes of the body in `bytes` to `take`; what comes behind the last chunk is none.
+    ///
+    /// # Errors
+    /// [`ChunkError`] where a length should stand and none does.
+    pub(super) fn push(
+        &mut self,
+        bytes: &[u8],
+        mut take: impl FnMut(&[u8]),
+    ) -> Result<(), ChunkError> {
+        match self {
+            Body::Plain => {
+                take(bytes);
+                Ok(())
+            }
+            Body::Chunked(chunks) => chunks.push(bytes, take),
+        }
+    }
+
+    /// Whether the last chunk has come.
+    pub(super) fn has_ended(&self) -> bool {
+        matches!(self, Body::Chunked(chunks) if chunks.has_ended)
+    }
+}
+
+impl Chunks {
+    fn push(&mut self, mut bytes: &[u8], mut take: impl FnMut(&[u8])) -> Result<(), ChunkError> {
+        while !bytes.is_empty() && !self.has_ended {
+            if self.left > 0 {
+                let (of_chunk, rest) = bytes.split_at(bytes.len().min(self.left));
+                take(of_chunk);
+                self.left -= of_chunk.len();
+                self.is_behind = self.left == 0;
+                bytes = rest;
+                continue;
+            }
+            let end = bytes.iter().position(|byte| *byte == b'\n');
+            let (of_line, rest) = bytes.split_at(end.map_or(bytes.len(), |at| at + 1));
+            self.line.extend_from_slice(of_line);
+            bytes = rest;
+            if self.line.len() > LINE_MAX {
+                return Err(ChunkError);
+            }
+            if end.is_some() {
+                self.end_line()?;
+            }
+        }
+        Ok(())
+    }
+
+    fn end_line(&mut self) -> Result<(), ChunkError> {
+        let line = String::from_utf8_lossy(&self.line).trim().to_owned();
+        self.line.clear();
+        if std::mem::take(&mut self.is_behind) {
+            return if line.is_empty() {
+                Ok(())
+            } else {
+                Err(ChunkError)
+            };
+        }
+        let length = line.split(';').next().unwrap_or_default().trim();
+        // `from_str_radix` takes a sign, which no length has.
+        if !length.chars().all(|digit| digit.is_ascii_hexdigit()) {
+            return Err(ChunkError);
+        }
+        self.left = usize::from_str_radix(length, 16).map_err(|_| ChunkError)?;
+        self.has_ended = self.left == 0;
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn whole(stream: &[u8], piece: usize) -> Result<Vec<u8>, ChunkError> {
+        let mut body = Body::new(true);
+        let mut found = Vec::new();
+        for part in stream.chunks(piece) {
+            body.push(part, |bytes| found.extend_from_slice(bytes))?;
+        }
+        Ok(found)
+    }
+
+    #[test]
+    fn chunks_are_joined_however_they_are_split() {
+        let stream = b"5;x=1\r\nhello\r\n3\r\n\r\n!\r\nA\r\n0123456789\r\n0\r\n\r\nbehind";
+        for piece in 1..stream.len() {
+            let found = whole(stream, piece).expect("good chunks");
+            assert_eq!(found, b"hello\r\n!0123456789", "in pieces of {piece}");
+        }
+    }
+
+    #[test]
+    fn what_is_no_length_is_an_error() {
+        for stream in [
+            &b"xyz\r\n"[..],
+            b"-1\r\n",
+            b"+5\r\nhello",
+            b"\r\n",
+            b"5\r\nhelloworld\r\n",
+            b"ffffffffffffffffff\r\n",
+            &[b'1'; 300],
+        ] {
+            assert_eq!(whole(stream, 7), Err(ChunkError));
+        }
+    }
+}

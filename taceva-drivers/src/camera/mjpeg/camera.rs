@@ -1,0 +1,159 @@
+//! The stream as a sensor.
+
+use std::sync::Arc;
+use std::time::Duration;
+
+use taceva_core::{
+    Deadline, DriverError, ErrorKind, FrameInfo, FrameMut, Interrupt, Sensor, Stamp,
+};
+
+use super::KEY;
+use super::stream::{Picture, Stream};
+use super::url::Url;
+use crate::link::{Ending, Mailbox, NoNews, Seen};
+use crate::source::{Mismatch, decode, frame_info};
+
+/// A camera that streams.
+#[derive(Debug)]
+pub(super) struct Camera {
+    url: Url,
+    /// What comes, whichever connection it comes over.
+    pictures: Arc<Mailbox<Picture>>,
+    /// Ends with the sensor.
+    stream: Stream,
+    info: FrameInfo,
+    is_running: bool,
+    /// The number of the last picture that was given.
+    last: u64,
+    /// Pictures that came while nobody asked, or too late.
+    missed: u64,
+}
+
+const CAPTURE: &str = "capture a frame";
+/// How long a camera may take to send its first picture, by which its size is known.
+const FIRST: Duration = Duration::from_secs(3);
+
+fn failed(
+    kind: ErrorKind,
+    doing: &'static str,
+    why: impl Into<Box<dyn std::error::Error + Send + Sync>>,
+) -> DriverError {
+    DriverError::new(kind, &KEY, doing).because(why)
+}
+
+fn connected(url: &Url, pictures: &Arc<Mailbox<Picture>>) -> Result<Stream, DriverError> {
+    Stream::open(url, pictures)
+        .map_err(|error| failed(error.kind(), "connect to the camera", error))
+}
+
+impl Camera {
+    /// Connects to a camera and looks at its first picture.
+    pub(super) fn open(url: Url) -> Result<Camera, DriverError> {
+        let pictures = Arc::new(Mailbox::default());
+        let stream = connected(&url, &pictures)?;
+        let first = next(&pictures, 0, FIRST)?;
+        let info = frame_info(whole(&first.what.bytes))
+            .map_err(|why| failed(ErrorKind::Protocol, "look at its first picture", why))?;
+        Ok(Camera {
+            url,
+            pictures,
+            stream,
+            info,
+            is_running: false,
+            last: first.number,
+            missed: 0,
+        })
+    }
+}
+
+/// The next picture, or why there is none.
+fn next(
+    pictures: &Mailbox<Picture>,
+    after: u64,
+    patience: Duration,
+) -> Result<Seen<Picture>, DriverError> {
+    let found = pictures.next(after, patience);
+    found.map_err(|none| match none {
+        NoNews::Silent => {
+            let why = format!("no frame within {patience:?}");
+            failed(ErrorKind::Timeout, CAPTURE, why)
+        }
+        NoNews::Interrupted => failed(ErrorKind::Interrupted, CAPTURE, "it was interrupted"),
+        NoNews::Ended(ending) => failed(ending.kind, CAPTURE, ending.why),
+    })
+}
+
+/// A picture without what some cameras put behind its end: zeros, and ends of lines.
+fn whole(picture: &[u8]) -> &[u8] {
+    let padding = |byte: &&u8| matches!(**byte, 0 | b'\r' | b'\n');
+    let behind = picture.iter().rev().take_while(padding).count();
+    &picture[..picture.len() - behind]
+}
+
+impl Sensor for Camera {
+    fn frame_info(&self) -> FrameInfo {
+        self.info
+    }
+
+    fn start(&mut self, _: Deadline) -> Result<(), DriverError> {
+        if self.is_running {
+            return Ok(());
+        }
+        if self.pictures.has_ended() {
+            // The camera was gone, and may be back.
+            self.pictures.begin_again();
+            match connected(&self.url, &self.pictures) {
+                Ok(stream) => self.stream = stream,
+                Err(error) => {
+                    self.pictures.end(Ending {
+                        kind: error.kind(),
+                        why: error.to_string(),
+                    });
+                    return Err(error);
+                }
+            }
+        }
+        self.last = self.pictures.posted();
+        self.missed = 0;
+        self.is_running = true;
+        Ok(())
+    }
+
+    fn capture(&mut self, into: FrameMut<'_>, deadline: Deadline) -> Result<Stamp, DriverError> {
+        if into.info() != self.info {
+            let why = format!("a buffer for {}, expected {}", into.info(), self.info);
+            return Err(failed(ErrorKind::InvalidArgument, CAPTURE, why));
+        }
+        if !self.is_running {
+            let why = "it is not started";
+            return Err(failed(ErrorKind::InvalidArgument, CAPTURE, why));
+        }
+        let seen = next(&self.pictures, self.last, deadline.remaining())?;
+        self.missed += seen.number - self.last - 1;
+        self.last = seen.number;
+        let mut into = into;
+        decode(whole(&seen.what.bytes), &mut into).map_err(|mismatch| {
+            let (missed, broken) = (self.missed, seen.what.broken);
+            let why = match mismatch {
+                Mismatch::Size(found) => format!(
+                    "the camera changed to frames of {found}, it was opened with {}",
+                    self.info
+                ),
+                Mismatch::Damaged(why) => {
+                    format!("{why}; before, {missed} frames were missed and {broken} were broken")
+                }
+            };
+            failed(ErrorKind::Protocol, CAPTURE, why)
+        })?;
+        Ok(Stamp::new(seen.what.began, Some(seen.at)))
+    }
+
+    fn stop(&mut self) -> Result<(), DriverError> {
+        self.is_running = false;
+        Ok(())
+    }
+
+    fn interrupt_handle(&self) -> Option<Arc<dyn Interrupt>> {
+        Some(Arc::clone(&self.pictures) as Arc<dyn Interrupt>)
+    }
+}

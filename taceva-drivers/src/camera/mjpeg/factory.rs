@@ -1,0 +1,86 @@
+//! The built-in driver `camera/mjpeg`.
+
+use taceva_core::{
+    ArgSpec, ArgValue, Args, Descriptor, DescriptorError, DescriptorSpec, DriverError,
+    DriverSource, ErrorKind, Factory, Facts, Hertz, Rig, Sensor, submit_builtin,
+};
+
+use super::KEY;
+use super::camera::Camera;
+use super::url::Url;
+
+submit_builtin!(dyn Sensor, || Ok(Box::new(MjpegFactory::new()?)));
+
+/// Opens cameras that stream JPEG (or PNG) over HTTP: `camera/mjpeg:url=http://192.168.1.20:8080/?action=stream`.
+///
+/// # The physical contract
+/// - Opening connects and waits for a first picture, which decides size and format of every frame; one of another size is an error of that
+///   frame. The connection lasts until the sensor is dropped; `start` makes it anew where the camera was gone.
+/// - A frame is the newest that came; pictures that nobody asked for in time are missed. It is stamped with the time at which its first bytes
+///   came, on the monotonic clock: exposure and compression in the camera lie before that, and are no part of it.
+/// - Nothing of the camera is set: exposure, gain, white balance and focus must be fixed where it is served.
+/// - Only plain HTTP without a password is spoken, and no redirection is followed.
+///
+/// # What confirmed it
+/// ffmpeg as a server (`-f mpjpeg -listen 1`) is a test, and so are streams as `ustreamer` and `mjpg-streamer` write them (boundary in the header
+/// or in the body, with and without lengths, in chunks); on an emulated camera that writes each of them the driver passes its suite. **Not
+/// verified without the device**: its latency, and what it sets by itself.
+///
+/// ```
+/// use taceva_core::Factory;
+/// use taceva_drivers::MjpegFactory;
+/// let factory = MjpegFactory::new()?;
+/// assert!(factory.descriptor().args("url=http://127.0.0.1:8080/?action=stream").is_ok());
+/// # Ok::<(), taceva_core::DescriptorError>(())
+/// ```
+#[derive(Debug)]
+pub struct MjpegFactory {
+    descriptor: Descriptor,
+}
+
+impl MjpegFactory {
+    /// The driver.
+    ///
+    /// # Errors
+    /// [`DescriptorError`] if it contradicted itself, which its tests rule out.
+    pub fn new() -> Result<MjpegFactory, DescriptorError> {
+        let arguments = [
+            ArgSpec::text("url").help("where the stream is: http://host:port/path"),
+            ArgSpec::number("rate", 0.1, 10_000.0)
+                .unit("Hz")
+                .optional()
+                .help("frames a second that the camera sends, where it is known")
+                .changes_facts(),
+        ];
+        let facts = Facts::Sensor(Box::default());
+        let title = "a camera that streams over HTTP";
+        let spec = DescriptorSpec::new(KEY, title, DriverSource::Real, facts);
+        Ok(MjpegFactory {
+            descriptor: spec.arguments(arguments).check()?,
+        })
+    }
+}
+
+impl Factory<dyn Sensor> for MjpegFactory {
+    fn descriptor(&self) -> &Descriptor {
+        &self.descriptor
+    }
+
+    fn describe(&self, args: &Args) -> Result<Descriptor, DescriptorError> {
+        let mut spec = self.descriptor.to_spec();
+        if let (Facts::Sensor(facts), Some(&ArgValue::Number(rate_hz))) =
+            (&mut spec.facts, args.get("rate"))
+        {
+            facts.rate = Some(Hertz(rate_hz));
+        }
+        spec.check()
+    }
+
+    fn open(&self, args: &Args, _: &mut Rig) -> Result<Box<dyn Sensor>, DriverError> {
+        let url: Url = args.text("url").parse().map_err(|error| {
+            DriverError::new(ErrorKind::InvalidArgument, &KEY, "connect to the camera")
+                .because(error)
+        })?;
+        Ok(Box::new(Camera::open(url)?))
+    }
+}

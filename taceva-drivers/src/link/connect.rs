@@ -1,0 +1,64 @@
+//! Connecting within a deadline.
+
+use std::io;
+use std::net::{SocketAddr, TcpStream, ToSocketAddrs};
+use std::time::Duration;
+
+use super::LinkError;
+
+/// How long a connection may take to be made: devices of a laboratory answer in milliseconds.
+const PATIENCE: Duration = Duration::from_secs(2);
+
+/// A connection to `port` of `host`, without the delay by which small messages wait for more.
+///
+/// # Errors
+/// [`LinkError`]: no such host, nobody listens, or no answer within 2 s an address.
+pub(crate) fn connect(host: &str, port: u16) -> Result<(TcpStream, SocketAddr), LinkError> {
+    let unresolved = |source| LinkError::Resolve {
+        host: host.to_owned(),
+        source,
+    };
+    let addresses = (host, port).to_socket_addrs().map_err(unresolved)?;
+    let mut refused = None;
+    for address in addresses {
+        match open(address) {
+            Ok(stream) => return Ok((stream, address)),
+            Err(source) => refused = Some(LinkError::Connect { address, source }),
+        }
+    }
+    Err(refused.unwrap_or_else(|| unresolved(io::Error::other("it names none"))))
+}
+
+fn open(address: SocketAddr) -> io::Result<TcpStream> {
+    let stream = TcpStream::connect_timeout(&address, PATIENCE)?;
+    stream.set_nodelay(true)?;
+    Ok(stream)
+}
+
+#[cfg(test)]
+mod tests {
+    use std::net::TcpListener;
+
+    use taceva_core::ErrorKind;
+
+    use super::*;
+
+    #[test]
+    fn a_port_where_nobody_listens_is_not_found_and_named() {
+        let listener = TcpListener::bind("127.0.0.1:0").expect("a port");
+        let port = listener.local_addr().expect("bound").port();
+        assert!(connect("127.0.0.1", port).is_ok());
+        drop(listener);
+        let error = connect("127.0.0.1", port).expect_err("nobody listens");
+        assert_eq!(error.kind(), ErrorKind::NotFound);
+        assert!(error.to_string().contains(&format!("127.0.0.1:{port}")));
+    }
+
+    #[test]
+    fn a_name_that_is_none_is_said_with_its_control_characters_written_out() {
+        let error = connect("no\u{1b} name", 1).expect_err("no such name");
+        assert_eq!(error.kind(), ErrorKind::NotFound);
+        let message = error.to_string();
+        assert!(message.contains("no\\u{1b} name"), "{message}");
+    }
+}

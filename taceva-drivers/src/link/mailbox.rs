@@ -1,0 +1,206 @@
+//! Where a thread that reads from a device leaves the newest thing it read, for whoever waits for the next.
+
+use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
+use std::time::{Duration, Instant};
+
+use taceva_core::{ErrorKind, Interrupt};
+
+/// The newest of what came, and why nothing comes any more. Older things are not kept: who comes late gets what is true now.
+#[derive(Debug)]
+pub(crate) struct Mailbox<T> {
+    inside: Mutex<Inside<T>>,
+    changed: Condvar,
+}
+
+#[derive(Debug)]
+struct Inside<T> {
+    newest: Option<Seen<T>>,
+    posted: u64,
+    ended: Option<Ending>,
+    /// Whether somebody waits, and whether he is to stop that.
+    is_waiting: bool,
+    is_interrupted: bool,
+}
+
+/// Something that came, its number since the link was made, and when it came on the monotonic clock.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Seen<T> {
+    pub(crate) what: T,
+    pub(crate) number: u64,
+    pub(crate) at: Duration,
+}
+
+/// Why nothing comes any more.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct Ending {
+    pub(crate) kind: ErrorKind,
+    pub(crate) why: String,
+}
+
+/// Why there is nothing newer.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) enum NoNews {
+    /// Nothing came in time.
+    Silent,
+    /// Somebody said not to wait.
+    Interrupted,
+    /// Nothing will come.
+    Ended(Ending),
+}
+
+impl<T> Default for Mailbox<T> {
+    fn default() -> Mailbox<T> {
+        Mailbox {
+            inside: Mutex::new(Inside {
+                newest: None,
+                posted: 0,
+                ended: None,
+                is_waiting: false,
+                is_interrupted: false,
+            }),
+            changed: Condvar::new(),
+        }
+    }
+}
+
+impl<T: Clone> Mailbox<T> {
+    /// Leaves something that came `at`.
+    pub(crate) fn post(&self, what: T, at: Duration) {
+        self.post_last(1, what, at);
+    }
+
+    /// Leaves the last of `count` things that came at once, `at`: the others are old already, and two of one time are no order.
+    pub(crate) fn post_last(&self, count: u64, what: T, at: Duration) {
+        let mut inside = self.inside();
+        inside.posted += count;
+        let number = inside.posted;
+        inside.newest = Some(Seen { what, number, at });
+        drop(inside);
+        self.changed.notify_all();
+    }
+
+    /// Says that nothing comes any more; the first reason stays.
+    pub(crate) fn end(&self, ending: Ending) {
+        self.inside().ended.get_or_insert(ending);
+        self.changed.notify_all();
+    }
+
+    /// Whether nothing comes any more.
+    #[cfg(any(feature = "mjpeg", feature = "netft"))]
+    pub(crate) fn has_ended(&self) -> bool {
+        self.inside().ended.is_some()
+    }
+
+    /// Takes things again, from a link that was made anew; what came before is not given any more.
+    #[cfg(any(feature = "mjpeg", feature = "netft"))]
+    pub(crate) fn begin_again(&self) {
+        let mut inside = self.inside();
+        (inside.ended, inside.newest) = (None, None);
+    }
+
+    /// The newest, if something has come and more still may.
+    pub(crate) fn newest(&self) -> Option<Seen<T>> {
+        let inside = self.inside();
+        inside.newest.clone().filter(|_| inside.ended.is_none())
+    }
+
+    /// How many came so far.
+    #[cfg(any(feature = "mjpeg", feature = "netft", feature = "sri"))]
+    pub(crate) fn posted(&self) -> u64 {
+        self.inside().posted
+    }
+
+    /// The newest behind the one numbered `after`, waited for as long as `patience`.
+    ///
+    /// # Errors
+    /// [`NoNews`]: none came, or none will.
+    pub(crate) fn next(&self, after: u64, patience: Duration) -> Result<Seen<T>, NoNews> {
+        let began = Instant::now();
+        let mut inside = self.inside();
+        inside.is_waiting = true;
+        let found = loop {
+            if let Some(ending) = &inside.ended {
+                break Err(NoNews::Ended(ending.clone()));
+            }
+            if std::mem::take(&mut inside.is_interrupted) {
+                break Err(NoNews::Interrupted);
+            }
+            if let Some(seen) = inside.newest.as_ref().filter(|seen| seen.number > after) {
+                break Ok(seen.clone());
+            }
+            let left = patience.saturating_sub(began.elapsed());
+            if left.is_zero() {
+                break Err(NoNews::Silent);
+            }
+            let waited = self.changed.wait_timeout(inside, left);
+            inside = waited.unwrap_or_else(PoisonError::into_inner).0;
+        };
+        (inside.is_waiting, inside.is_interrupted) = (false, false);
+        found
+    }
+
+    fn inside(&self) -> MutexGuard<'_, Inside<T>> {
+        self.inside.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+impl<T: Clone + Send> Interrupt for Mailbox<T> {
+    fn interrupt(&self) {
+        let mut inside = self.inside();
+        inside.is_interrupted = inside.is_waiting;
+        drop(inside);
+        self.changed.notify_all();
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use super::*;
+
+    const SHORT: Duration = Duration::from_millis(5);
+    const LONG: Duration = Duration::from_secs(20);
+
+    #[test]
+    fn who_comes_late_gets_the_newest_and_nothing_twice() {
+        let mailbox = Mailbox::default();
+        for what in [3, 4, 5] {
+            mailbox.post(what, Duration::ZERO);
+        }
+        let seen = mailbox.next(0, SHORT).expect("it came");
+        assert_eq!((seen.what, seen.number), (5, 3));
+        assert!(matches!(mailbox.next(3, SHORT), Err(NoNews::Silent)));
+    }
+
+    #[test]
+    fn an_interrupt_ends_one_call_that_waits_and_no_later_one() {
+        let mailbox = Arc::new(Mailbox::<u8>::default());
+        mailbox.interrupt();
+        assert!(matches!(mailbox.next(0, SHORT), Err(NoNews::Silent)));
+        let waiting = Arc::clone(&mailbox);
+        let call = std::thread::spawn(move || waiting.next(0, LONG));
+        while !call.is_finished() {
+            mailbox.interrupt();
+            std::thread::yield_now();
+        }
+        assert!(matches!(call.join(), Ok(Err(NoNews::Interrupted))));
+        assert!(matches!(mailbox.next(0, SHORT), Err(NoNews::Silent)));
+    }
+
+    #[test]
+    fn once_it_is_over_nothing_old_is_taken_for_new() {
+        let mailbox = Mailbox::default();
+        mailbox.post(1, Duration::ZERO);
+        let ending = Ending {
+            kind: ErrorKind::Disconnected,
+            why: "unplugged".to_owned(),
+        };
+        mailbox.end(ending.clone());
+        assert_eq!(
+            mailbox.next(0, LONG).expect_err("over"),
+            NoNews::Ended(ending)
+        );
+        assert!(mailbox.newest().is_none());
+    }
+}

@@ -1,0 +1,13 @@
+//! `sri/m8128`: transducers of six axes behind an interface box M8128 or a sibling of it, over TCP.
+
+mod box_link;
+mod command;
+mod factory;
+mod frame;
+mod transducer;
+
+pub use factory::M8128Factory;
+
+use taceva_core::DriverKey;
+
+const KEY: DriverKey = DriverKey::fixed("sri/m8128");

@@ -1,0 +1,192 @@
+//! The connection to a box: commands out, answers and readings in, with a thread of its own that reads.
+
+use std::io::{self, Read, Write};
+use std::net::{Shutdown, SocketAddr, TcpStream};
+use std::sync::Arc;
+use std::sync::mpsc::{self, Receiver, Sender};
+use std::thread::JoinHandle;
+use std::time::{Duration, Instant};
+
+use taceva_core::ErrorKind;
+use thiserror::Error;
+
+use super::command::Command;
+use super::frame::{Message, Messages, Reading};
+use crate::link::{LinkError, Mailbox, connect, monotonic};
+use crate::text::shown;
+
+/// Why a command had no effect.
+#[derive(Debug, Error)]
+pub(super) enum CommandError {
+    #[error(transparent)]
+    Link(#[from] LinkError),
+    #[error("no answer to `{}` within {patience:?}", .command.trim_end())]
+    Silent { command: String, patience: Duration },
+    #[error("`{}` was answered by `{}`, expected `$OK` at the end", .command.trim_end(), shown(.answer))]
+    Refused { command: String, answer: String },
+}
+
+impl CommandError {
+    /// What kind of failure it is.
+    pub(super) fn kind(&self) -> ErrorKind {
+        match self {
+            CommandError::Link(error) => error.kind(),
+            CommandError::Silent { .. } => ErrorKind::Timeout,
+            CommandError::Refused { .. } => ErrorKind::Unsupported,
+        }
+    }
+}
+
+/// A box that is connected.
+#[derive(Debug)]
+pub(super) struct BoxLink {
+    stream: TcpStream,
+    address: SocketAddr,
+    readings: Arc<Mailbox<Counted>>,
+    lines: Receiver<String>,
+    reader: Option<JoinHandle<()>>,
+}
+
+/// A reading with what went wrong on the way until it came.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Counted {
+    pub(super) reading: Reading,
+    /// Frames that are missing so far, by the numbers of those that came.
+    pub(super) missing: u64,
+    /// Bytes so far that were no message.
+    pub(super) lost_bytes: u64,
+}
+
+/// What the writing of a command may take before the box counts as gone.
+const WRITING: Duration = Duration::from_millis(500);
+
+impl BoxLink {
+    /// Connects to `port` of `host`.
+    pub(super) fn open(host: &str, port: u16) -> Result<BoxLink, LinkError> {
+        let (stream, address) = connect(host, port)?;
+        let broken = |source: io::Error| LinkError::Broken { address, source };
+        stream.set_write_timeout(Some(WRITING)).map_err(broken)?;
+        let reading = stream.try_clone().map_err(broken)?;
+        let readings = Arc::new(Mailbox::default());
+        let posting = Arc::clone(&readings);
+        let (sender, lines) = mpsc::channel();
+        let reader = std::thread::Builder::new()
+            .name("sri readings".to_owned())
+            .spawn(move || {
+                let ending = read(reading, address, &posting, &sender);
+                posting.end(ending.into());
+            })
+            .map_err(broken)?;
+        Ok(BoxLink {
+            stream,
+            address,
+            readings,
+            lines,
+            reader: Some(reader),
+        })
+    }
+
+    /// The readings that come.
+    pub(super) fn readings(&self) -> &Arc<Mailbox<Counted>> {
+        &self.readings
+    }
+
+    /// Sends `command`, and waits for nothing.
+    pub(super) fn send(&mut self, command: Command) -> Result<(), LinkError> {
+        let address = self.address;
+        self.stream
+            .write_all(command.line().as_bytes())
+            .map_err(|source| LinkError::Broken { address, source })
+    }
+
+    /// Sends `command` and waits until the box has said yes.
+    pub(super) fn command(
+        &mut self,
+        command: Command,
+        patience: Duration,
+    ) -> Result<(), CommandError> {
+        let began = Instant::now();
+        // Answers to earlier commands say nothing of this one.
+        while self.lines.try_recv().is_ok() {}
+        self.send(command)?;
+        loop {
+            let left = patience.saturating_sub(began.elapsed());
+            let Ok(line) = self.lines.recv_timeout(left) else {
+                return Err(CommandError::Silent {
+                    command: command.line(),
+                    patience,
+                });
+            };
+            match command.answered_by(&line) {
+                Some(true) => return Ok(()),
+                Some(false) => {
+                    return Err(CommandError::Refused {
+                        command: command.line(),
+                        answer: line,
+                    });
+                }
+                None => {}
+            }
+        }
+    }
+}
+
+impl Drop for BoxLink {
+    fn drop(&mut self) {
+        let _ = self.send(Command::Stop);
+        // The thread that reads ends with the stream.
+        let _ = self.stream.shutdown(Shutdown::Both);
+        if let Some(reader) = self.reader.take() {
+            let _ = reader.join();
+        }
+    }
+}
+
+/// Hands over what comes until nothing can come any more, and says why.
+fn read(
+    mut stream: TcpStream,
+    address: SocketAddr,
+    posting: &Mailbox<Counted>,
+    lines: &Sender<String>,
+) -> LinkError {
+    let mut messages = Messages::default();
+    let mut last: Option<u16> = None;
+    let mut missing = 0;
+    let mut bytes = [0; 4096];
+    loop {
+        match stream.read(&mut bytes) {
+            Ok(0) => return LinkError::Closed { address },
+            Ok(count) => messages.push(&bytes[..count]),
+            Err(error) if error.kind() == io::ErrorKind::Interrupted => continue,
+            Err(source) => return LinkError::Broken { address, source },
+        }
+        let at = monotonic();
+        let (mut count, mut newest) = (0, None);
+        while let Some(message) = messages.next() {
+            match message {
+                Message::Line(line) => {
+                    // A stream that begins anew counts from where it likes.
+                    last = None;
+                    let _ = lines.send(line);
+                }
+                // A frame that comes twice is no new reading.
+                Message::Reading(reading) if last == Some(reading.number) => {}
+                Message::Reading(reading) => {
+                    if let Some(last) = last {
+                        missing += u64::from(reading.number.wrapping_sub(last).wrapping_sub(1));
+                    }
+                    last = Some(reading.number);
+                    newest = Some(Counted {
+                        reading,
+                        missing,
+                        lost_bytes: messages.lost(),
+                    });
+                    count += 1;
+                }
+            }
+        }
+        if let Some(newest) = newest {
+            posting.post_last(count, newest, at);
+        }
+    }
+}

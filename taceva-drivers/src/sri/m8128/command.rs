@@ -1,0 +1,75 @@
+//! Commands of the box: text with `AT+` before it. Nothing here reads or writes a socket.
+
+/// What the box can be told.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Command {
+    /// To send so many readings a second.
+    Rate(u16),
+    /// The same for boxes of before.
+    OldRate(u16),
+    /// To check frames by the sum of their bytes.
+    Sum,
+    /// To send the six channels in engineering units, one reading a frame, not smoothed.
+    Units,
+    /// To begin to send.
+    Start,
+    /// To end that.
+    Stop,
+    /// To call the present load zero.
+    Zero,
+}
+
+impl Command {
+    /// The command as it is sent.
+    pub(super) fn line(self) -> String {
+        let text = match self {
+            Command::Rate(hz) => format!("SMPF={hz}"),
+            Command::OldRate(hz) => format!("SMPR={hz}"),
+            Command::Sum => "DCKMD=SUM".to_owned(),
+            Command::Units => "SGDM=(A01,A02,A03,A04,A05,A06);E;1;(WMA:1)".to_owned(),
+            Command::Start => "GSD".to_owned(),
+            Command::Stop => "GSD=STOP".to_owned(),
+            Command::Zero => "ADJZF=1;1;1;1;1;1".to_owned(),
+        };
+        format!("AT+{text}\r\n")
+    }
+
+    /// The word that its answer repeats.
+    fn word(self) -> &'static str {
+        match self {
+            Command::Rate(_) => "SMPF",
+            Command::OldRate(_) => "SMPR",
+            Command::Sum => "DCKMD",
+            Command::Units => "SGDM",
+            Command::Start | Command::Stop => "GSD",
+            Command::Zero => "ADJZF",
+        }
+    }
+
+    /// Whether `line` answers it, and if so, whether with yes.
+    pub(super) fn answered_by(self, line: &str) -> Option<bool> {
+        let answer = line.strip_prefix("ACK+")?.strip_prefix(self.word())?;
+        let is_whole_word = answer
+            .chars()
+            .next()
+            .is_none_or(|letter| !letter.is_ascii_alphanumeric());
+        is_whole_word.then(|| answer.trim_end().ends_with("$OK"))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn answers_are_told_apart() {
+        let rate = Command::Rate(200);
+        assert_eq!(rate.line(), "AT+SMPF=200\r\n");
+        assert_eq!(rate.answered_by("ACK+SMPF=200$OK"), Some(true));
+        assert_eq!(rate.answered_by("ACK+SMPF=200$ERROR"), Some(false));
+        assert_eq!(rate.answered_by("ACK+SMPFX=200$OK"), None);
+        assert_eq!(rate.answered_by("ACK+DCKMD=SUM$OK"), None);
+        assert_eq!(rate.answered_by("SMPF=200$OK"), None);
+        assert_eq!(Command::Stop.answered_by("ACK+GSD=STOP$OK"), Some(true));
+    }
+}

@@ -1,0 +1,135 @@
+//! The built-in driver `sri/m8128`.
+
+use taceva_core::{
+    ArgSpec, ArgValue, Args, Axes, Descriptor, DescriptorError, DescriptorSpec, DriverError,
+    DriverSource, Factory, Facts, ForceFacts, ForceTransducer, Hertz, Newton, Rig, submit_builtin,
+};
+
+use super::KEY;
+use super::transducer::{M8128Options, Transducer, Zero};
+
+submit_builtin!(dyn ForceTransducer, || Ok(Box::new(M8128Factory::new()?)));
+
+/// Opens interface boxes M8128 (and siblings with the same commands) of SRI: `sri/m8128:host=192.168.0.108`.
+///
+/// # The physical contract
+/// - Forces and torques are those of the transducer's own axes, in N and N·mm, as its certificate has them; which of them presses into the
+///   gel is a matter of how it is mounted, and of the rig.
+/// - Opening changes nothing in the box; starting sets rate, check and units, and lets it send.
+/// - A reading is the newest that came. Frames are checked by their sum and their number: a damaged or repeated one is no reading; where the
+///   place is lost, two frames with numbers in order are needed to find it. A number that is none is a `DeviceFault` of that reading.
+/// - Zero is the mean of 0.25 s, taken off on this side; `zero=box` lets the box do it, which takes seconds.
+/// - `force_max_n` from the certificate makes a clipped force an error; without it none is known.
+///
+/// # What confirmed it
+/// Two published frames, whose numbers and sums are a test here, and an emulated box on which the driver passes its suite; there is no public
+/// client. **Not verified without the device**: the answer to a stop, zero in the box, the unit of torque (N·m unless `torque=N mm`), and
+/// frames with CRC32, which are not asked for.
+///
+/// ```
+/// use taceva_core::Factory;
+/// use taceva_drivers::M8128Factory;
+/// let factory = M8128Factory::new()?;
+/// let args = factory.descriptor().args("host=192.168.0.108;rate=500 Hz").expect("good");
+/// let described = factory.describe(&args)?;
+/// assert_eq!(described.force().and_then(|facts| facts.rate), Some(taceva_core::Hertz(500.0)));
+/// # Ok::<(), taceva_core::DescriptorError>(())
+/// ```
+#[derive(Debug)]
+pub struct M8128Factory {
+    descriptor: Descriptor,
+}
+
+/// The unit of torque of the box, as the argument names it, and N·mm of it.
+const TORQUES: [(&str, f64); 2] = [("N m", 1000.0), ("N mm", 1.0)];
+
+impl M8128Factory {
+    /// The driver.
+    ///
+    /// # Errors
+    /// [`DescriptorError`] if it contradicted itself, which its tests rule out.
+    pub fn new() -> Result<M8128Factory, DescriptorError> {
+        let arguments = [
+            ArgSpec::text("host").help("name or address of the box"),
+            ArgSpec::whole("port", 1, 65_535)
+                .default(ArgValue::Whole(4008))
+                .help("its port"),
+            ArgSpec::number("rate", 1.0, 2_000.0)
+                .unit("Hz")
+                .default(ArgValue::Number(200.0))
+                .help("readings a second, a whole number")
+                .changes_facts(),
+            ArgSpec::number("force_max_n", 0.001, 100_000.0)
+                .optional()
+                .help("the least of the ranges of its forces, in N, from its certificate")
+                .changes_facts(),
+            ArgSpec::choice("torque", TORQUES.map(|(name, _)| name))
+                .default(ArgValue::Text("N m".to_owned()))
+                .help("the unit of its torques, from its certificate"),
+            ArgSpec::choice("zero", ["host", "box"])
+                .default(ArgValue::Text("host".to_owned()))
+                .help("who calls a load zero: this program, or the box, which takes seconds"),
+        ];
+        let facts = Facts::Force(ForceFacts {
+            axes: Axes::SIX,
+            tare: true,
+            ..ForceFacts::default()
+        });
+        let title = "a force transducer behind a box of SRI";
+        let spec = DescriptorSpec::new(KEY, title, DriverSource::Real, facts);
+        Ok(M8128Factory {
+            descriptor: spec.arguments(arguments).check()?,
+        })
+    }
+}
+
+impl Factory<dyn ForceTransducer> for M8128Factory {
+    fn descriptor(&self) -> &Descriptor {
+        &self.descriptor
+    }
+
+    fn describe(&self, args: &Args) -> Result<Descriptor, DescriptorError> {
+        let options = options(args);
+        let mut spec = self.descriptor.to_spec();
+        if let Facts::Force(facts) = &mut spec.facts {
+            facts.rate = Some(Hertz(f64::from(options.rate_hz)));
+            facts.force_max = options.force_max_n.map(Newton);
+        }
+        spec.check()
+    }
+
+    fn open(&self, args: &Args, _: &mut Rig) -> Result<Box<dyn ForceTransducer>, DriverError> {
+        Ok(Box::new(Transducer::open(options(args))?))
+    }
+}
+
+fn options(args: &Args) -> M8128Options {
+    let number = |key: &str| match args.get(key) {
+        Some(&ArgValue::Number(number)) => Some(number),
+        _ => None,
+    };
+    let torque = args.text("torque");
+    let unit = TORQUES.into_iter().find(|(name, _)| *name == torque);
+    M8128Options {
+        host: args.text("host").to_owned(),
+        port: u16::try_from(args.whole("port")).unwrap_or(0),
+        rate_hz: whole(number("rate").unwrap_or(1.0)),
+        force_max_n: number("force_max_n"),
+        torque_unit_nmm: unit.map_or(1000.0, |(_, unit)| unit),
+        zero: match args.text("zero") {
+            "box" => Zero::Box,
+            _ => Zero::Host,
+        },
+    }
+}
+
+/// The nearest whole number of Hz.
+fn whole(rate_hz: f64) -> u16 {
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "the declaration keeps it between 1 and 2,000"
+    )]
+    let rate = rate_hz.round() as u16;
+    rate
+}

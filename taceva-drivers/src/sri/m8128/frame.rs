@@ -1,0 +1,295 @@
+//! What the box sends: numbered frames of six numbers, and lines that answer commands, in one stream. Nothing here reads a socket.
+
+/// One message of the box.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum Message {
+    /// A reading.
+    Reading(Reading),
+    /// The answer to a command, without the end of the line.
+    Line(String),
+}
+
+/// Six numbers, as they came.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Reading {
+    /// Counts up by one a frame, and begins again behind 65535.
+    pub(super) number: u16,
+    /// Fx, Fy, Fz, then Mx, My, Mz, in the units of the box; not checked to be numbers.
+    pub(super) values: [f32; 6],
+}
+
+/// Cuts what comes, in pieces of any size, into messages, and finds its place again where bytes were lost.
+#[derive(Debug, Default)]
+pub(super) struct Messages {
+    waiting: Vec<u8>,
+    /// Whether the last message was whole, so that the next begins where it ended.
+    is_in_place: bool,
+    /// Bytes that were passed over because they were no message.
+    lost: u64,
+}
+
+const MARK: [u8; 2] = [0xaa, 0x55];
+/// What the length says of a frame with one reading and a check of one byte: the number of the frame, six numbers, the check.
+const LENGTH: usize = 2 + DATA + 1;
+const DATA: usize = 24;
+/// Mark and length stand before what the length counts.
+const FRAME: usize = 4 + LENGTH;
+/// How answers to commands begin.
+const ANSWER: &[u8] = b"ACK+";
+/// A longer line is none.
+const LINE_MAX: usize = 512;
+
+/// What stands at the beginning of some bytes.
+enum Start {
+    /// A message, and how long it is.
+    Whole(Message, usize),
+    /// The beginning of one.
+    Unfinished,
+    /// Something else.
+    Foreign,
+}
+
+impl Messages {
+    /// Takes bytes that came.
+    pub(super) fn push(&mut self, bytes: &[u8]) {
+        self.waiting.extend_from_slice(bytes);
+    }
+
+    /// How many bytes were no message, so far.
+    pub(super) fn lost(&self) -> u64 {
+        self.lost
+    }
+
+    /// The next whole message, if it has come.
+    pub(super) fn next(&mut self) -> Option<Message> {
+        let mut at = 0;
+        let found = loop {
+            match start_of(&self.waiting[at..]) {
+                Start::Whole(message, length) if self.is_trusted(&message, at + length) => {
+                    at += length;
+                    self.is_in_place = true;
+                    break Some(message);
+                }
+                // Two frames are needed, and the second has not come.
+                Start::Whole(_, length) if self.waiting.len() < at + length + FRAME => break None,
+                Start::Unfinished => break None,
+                Start::Whole(..) | Start::Foreign => {
+                    self.is_in_place = false;
+                    self.lost += 1;
+                    at += 1;
+                }
+            }
+        };
+        self.waiting.drain(..at);
+        found
+    }
+
+    /// Whether `message`, which ends at `end`, is one: where the place was lost, a frame that the next one continues, since its mark and even
+    /// its check may stand by chance within the numbers of another.
+    fn is_trusted(&self, message: &Message, end: usize) -> bool {
+        let Message::Reading(reading) = message else {
+            return true;
+        };
+        if self.is_in_place {
+            return true;
+        }
+        match start_of(&self.waiting[end..]) {
+            Start::Whole(Message::Reading(next), _) => {
+                next.number == reading.number.wrapping_add(1)
+            }
+            Start::Whole(Message::Line(_), _) => true,
+            Start::Unfinished | Start::Foreign => false,
+        }
+    }
+}
+
+fn start_of(bytes: &[u8]) -> Start {
+    if bytes.is_empty() {
+        return Start::Unfinished;
+    }
+    if begins(bytes, ANSWER) {
+        return match bytes
+            .windows(2)
+            .take(LINE_MAX)
+            .position(|end| end == b"\r\n")
+        {
+            Some(length) => {
+                let text = String::from_utf8_lossy(&bytes[..length]).into_owned();
+                Start::Whole(Message::Line(text), length + 2)
+            }
+            None if bytes.len() < LINE_MAX => Start::Unfinished,
+            None => Start::Foreign,
+        };
+    }
+    let [length_high, length_low] =
+        [LENGTH >> 8, LENGTH & 0xff].map(|byte| u8::try_from(byte).expect("a length of two bytes"));
+    let head = [MARK[0], MARK[1], length_high, length_low];
+    if !begins(bytes, &head) {
+        return Start::Foreign;
+    }
+    let Some(frame) = bytes.first_chunk::<FRAME>() else {
+        return Start::Unfinished;
+    };
+    let data = &frame[6..6 + DATA];
+    let sum = data.iter().fold(0_u8, |sum, byte| sum.wrapping_add(*byte));
+    if sum != frame[6 + DATA] {
+        return Start::Foreign;
+    }
+    let values = std::array::from_fn(|index| {
+        let at = 4 * index;
+        f32::from_le_bytes([data[at], data[at + 1], data[at + 2], data[at + 3]])
+    });
+    let number = u16::from_be_bytes([frame[4], frame[5]]);
+    Start::Whole(Message::Reading(Reading { number, values }), FRAME)
+}
+
+/// Whether `bytes` begin as `head` does, as far as they go.
+fn begins(bytes: &[u8], head: &[u8]) -> bool {
+    let length = bytes.len().min(head.len());
+    bytes[..length] == head[..length]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::link::hexadecimal;
+
+    /// The frame in the manual's own example.
+    const GOLDEN: &str = "AA55 001B C4C7 016AF4C0 EF7D33C0 4962C9C0 A25CC6BD A6198FBD AFDA693E 6E";
+
+    fn frame(number: u16, values: [f32; 6]) -> Vec<u8> {
+        let data: Vec<u8> = values.into_iter().flat_map(f32::to_le_bytes).collect();
+        let sum = data.iter().fold(0_u8, |sum, byte| sum.wrapping_add(*byte));
+        let head = [0xaa, 0x55, 0x00, 0x1b];
+        [&head[..], &number.to_be_bytes()[..], &data[..], &[sum][..]].concat()
+    }
+
+    fn all(messages: &mut Messages) -> Vec<Message> {
+        std::iter::from_fn(|| messages.next()).collect()
+    }
+
+    fn numbers(found: &[Message]) -> Vec<u16> {
+        found
+            .iter()
+            .filter_map(|message| match message {
+                Message::Reading(reading) => Some(reading.number),
+                Message::Line(_) => None,
+            })
+            .collect()
+    }
+
+    #[test]
+    fn the_frame_of_the_manual_is_read_as_the_manual_reads_it() {
+        let mut messages = Messages::default();
+        messages.push(&hexadecimal(GOLDEN));
+        assert_eq!(messages.next(), None, "one frame alone is not trusted yet");
+        messages.push(&frame(0xc4c8, [0.0; 6]));
+        let Some(Message::Reading(reading)) = messages.next() else {
+            panic!("a reading")
+        };
+        assert_eq!(reading.number, 50_375);
+        let expected = [
+            -7.637_94, -2.804_561, -6.293_248, -0.096_856, -0.069_873, 0.228_373,
+        ];
+        for (found, expected) in reading.values.into_iter().zip(expected) {
+            assert!((found - expected).abs() < 1e-6, "{found}, {expected}");
+        }
+    }
+
+    #[test]
+    fn frames_and_answers_are_the_same_however_they_are_split_and_merged() {
+        let stream = [
+            frame(1, [1.0; 6]),
+            frame(2, [2.0; 6]),
+            b"ACK+SMPF=200$OK\r\n".to_vec(),
+            frame(3, [3.0; 6]),
+            frame(65_535, [4.0; 6]),
+            frame(0, [5.0; 6]),
+        ]
+        .concat();
+        for piece in 1..=stream.len() {
+            let mut messages = Messages::default();
+            let mut found = Vec::new();
+            for part in stream.chunks(piece) {
+                messages.push(part);
+                found.extend(all(&mut messages));
+            }
+            assert_eq!(
+                numbers(&found),
+                [1, 2, 3, 65_535, 0],
+                "in pieces of {piece}"
+            );
+            assert_eq!(found[2], Message::Line("ACK+SMPF=200$OK".to_owned()));
+            assert_eq!(messages.lost(), 0);
+        }
+    }
+
+    /// Numbers whose bytes hold a whole head of a frame.
+    fn treacherous() -> [f32; 6] {
+        let head = f32::from_le_bytes([0xaa, 0x55, 0x00, 0x1b]);
+        [head, 0.5, head, -0.5, head, 0.25]
+    }
+
+    #[test]
+    fn a_mark_within_the_numbers_moves_nothing() {
+        let stream: Vec<u8> = (10..20)
+            .flat_map(|number| frame(number, treacherous()))
+            .collect();
+        for cut in 0..31 {
+            let mut messages = Messages::default();
+            messages.push(&stream[cut..]);
+            let found = numbers(&all(&mut messages));
+            let first = if cut == 0 { 10 } else { 11 };
+            assert_eq!(found, (first..20).collect::<Vec<u16>>(), "from byte {cut}");
+        }
+    }
+
+    #[test]
+    fn a_damaged_frame_is_lost_alone_and_the_place_is_found_again() {
+        let mut stream: Vec<u8> = (0..6)
+            .flat_map(|number| frame(number, treacherous()))
+            .collect();
+        stream[2 * FRAME + 9] ^= 0x10;
+        let mut messages = Messages::default();
+        messages.push(&stream);
+        assert_eq!(numbers(&all(&mut messages)), [0, 1, 3, 4, 5]);
+        assert_eq!(messages.lost(), 31);
+        // Bytes between two frames, and a frame that is cut off.
+        let torn = [
+            frame(6, [0.0; 6]),
+            b"noise".to_vec(),
+            frame(7, [0.0; 6])[..20].to_vec(),
+            frame(8, [0.0; 6]),
+            frame(9, [0.0; 6]),
+        ]
+        .concat();
+        messages.push(&torn);
+        assert_eq!(numbers(&all(&mut messages)), [6, 8, 9]);
+    }
+
+    #[test]
+    fn absurd_lengths_endless_lines_and_noise_keep_nothing_waiting() {
+        let mut messages = Messages::default();
+        messages.push(&hexadecimal("AA55 FFFF 0001"));
+        messages.push(&hexadecimal("AA55 0000 0001"));
+        messages.push(&[0xaa; 100]);
+        messages.push(b"ACK+");
+        messages.push(&[b'x'; 2 * LINE_MAX]);
+        messages.push(&[0x55; 100]);
+        assert_eq!(messages.next(), None);
+        assert!(messages.waiting.len() < FRAME, "{}", messages.waiting.len());
+        messages.push(&[frame(4, [1.0; 6]), frame(5, [1.0; 6])].concat());
+        assert_eq!(numbers(&all(&mut messages)), [4, 5]);
+    }
+
+    #[test]
+    fn numbers_that_are_none_are_handed_on_for_the_driver_to_refuse() {
+        let mut messages = Messages::default();
+        let spoilt = [f32::NAN, f32::INFINITY, 0.0, 0.0, 0.0, 0.0];
+        messages.push(&[frame(0, spoilt), frame(1, spoilt)].concat());
+        let Some(Message::Reading(reading)) = messages.next() else {
+            panic!("a reading")
+        };
+        assert!(reading.values[0].is_nan() && reading.values[1].is_infinite());
+    }
+}

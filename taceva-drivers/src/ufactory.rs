@@ -1,0 +1,5 @@
+//! Robots of UFACTORY.
+
+mod xarm;
+
+pub use xarm::XarmFactory;

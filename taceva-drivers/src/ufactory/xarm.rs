@@ -1,0 +1,21 @@
+//! `ufactory/xarm`: arms of the xArm family (xArm 5, 6 and 7, 850, Lite 6) by the private protocol of their control box.
+
+mod arm;
+mod command;
+mod exchange;
+mod factory;
+mod fault;
+mod firmware;
+mod frame;
+mod motion;
+mod observe;
+mod options;
+mod report;
+mod stop;
+mod watch;
+
+pub use factory::XarmFactory;
+
+use taceva_core::DriverKey;
+
+const KEY: DriverKey = DriverKey::fixed("ufactory/xarm");

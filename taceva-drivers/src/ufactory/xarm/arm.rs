@@ -1,0 +1,166 @@
+//! The arm as a robot.
+
+use std::sync::Arc;
+
+use taceva_core::{Deadline, DriverError, ErrorKind, Halt, Pose, Robot, Speed, Stamp, check_pose};
+
+use super::KEY;
+use super::command::{Command, TargetState};
+use super::exchange::{Exchange, ExchangeError};
+use super::firmware::Firmware;
+use super::frame::Reply;
+use super::observe::{ANSWER, Observer, error_now};
+use super::options::XarmOptions;
+use super::stop::{Keeper, Place, Stop};
+use crate::link::monotonic;
+
+/// An arm that is connected.
+#[derive(Debug)]
+pub(super) struct Arm {
+    /// Ends before the connections that it uses.
+    keeper: Keeper,
+    pub(super) exchange: Exchange,
+    pub(super) observer: Observer,
+    pub(super) options: XarmOptions,
+}
+
+/// An error of the arm with its reason.
+pub(super) fn failed(
+    kind: ErrorKind,
+    doing: &'static str,
+    why: impl Into<Box<dyn std::error::Error + Send + Sync>>,
+) -> DriverError {
+    DriverError::new(kind, &KEY, doing).because(why)
+}
+
+/// What an exchange that failed was for.
+pub(super) fn unanswered(doing: &'static str) -> impl Fn(ExchangeError) -> DriverError {
+    move |error| failed(error.kind(), doing, error)
+}
+
+/// Commands of firmware that is not known yet: only those that never changed are sent.
+const UNKNOWN: Firmware = Firmware::new(0, 0, 0);
+
+impl Arm {
+    /// Connects to an arm; nothing moves, and nothing of its state changes.
+    pub(super) fn open(options: XarmOptions) -> Result<Arm, DriverError> {
+        let doing = "connect to the arm";
+        let XarmOptions { host, port, .. } = &options;
+        let mut exchange = Exchange::open(host, *port, UNKNOWN).map_err(unanswered(doing))?;
+        let version = exchange
+            .ask(Command::GetVersion, ANSWER)
+            .map_err(unanswered(doing))?;
+        let firmware = Firmware::parse(&version.text())
+            .map_err(|error| failed(ErrorKind::Protocol, doing, error))?;
+        exchange.set_firmware(firmware);
+        let mut line = Exchange::open(host, *port, firmware).map_err(unanswered(doing))?;
+        line.ask(Command::GetState, ANSWER)
+            .map_err(unanswered(doing))?;
+        let place = Place {
+            host: host.clone(),
+            port: *port,
+            firmware,
+        };
+        let keeper = Keeper::start(line, exchange.writer(), place)
+            .map_err(|error| failed(ErrorKind::Internal, doing, error))?;
+        let observer = Observer::open(host, options.pose_port, options.status_port)
+            .map_err(|error| failed(error.kind(), doing, error))?;
+        Ok(Arm {
+            keeper,
+            exchange,
+            observer,
+            options,
+        })
+    }
+
+    pub(super) fn stopping(&self) -> &Stop {
+        self.keeper.stop()
+    }
+
+    /// Makes a controller that was stopped by this driver stand by again, unless a person must see to it first.
+    pub(super) fn stand_by(&mut self, doing: &'static str) -> Result<(), DriverError> {
+        if let Some(fault) = error_now(&mut self.exchange).map_err(unanswered(doing))? {
+            return Err(failed(ErrorKind::DeviceFault, doing, fault));
+        }
+        let ready = [
+            Command::SetPositionMode,
+            Command::SetState(TargetState::Ready),
+        ];
+        for command in ready {
+            self.exchange
+                .ask(command, ANSWER)
+                .map_err(unanswered(doing))?;
+        }
+        let state = self
+            .exchange
+            .ask_for(Command::GetState, ANSWER, Reply::state)
+            .map_err(unanswered(doing))?;
+        if state > LAST_GOOD_STATE {
+            let why = format!("the controller does not become ready, it stays in state {state}");
+            return Err(failed(ErrorKind::DeviceFault, doing, why));
+        }
+        self.see_ready()
+    }
+
+    /// Waits for a report that says so too: those of before say that it is stopped.
+    fn see_ready(&mut self) -> Result<(), DriverError> {
+        let until = monotonic() + ANSWER;
+        let mut last = self.observer.observe(&mut self.exchange, None, ANSWER)?;
+        while !last.state.is_ready() && monotonic() < until {
+            last = self
+                .observer
+                .observe(&mut self.exchange, Some(&last), ANSWER)?;
+        }
+        Ok(())
+    }
+}
+
+/// Ready, moving and paused are 0 to 3; what is above wants to be made ready.
+const LAST_GOOD_STATE: u8 = 3;
+
+impl Robot for Arm {
+    fn pose(&mut self, deadline: Deadline) -> Result<(Pose, Stamp), DriverError> {
+        let seen = self
+            .observer
+            .observe(&mut self.exchange, None, deadline.remaining())?;
+        let pose = seen
+            .pose()
+            .map_err(|error| failed(ErrorKind::DeviceFault, "look where the arm is", error))?;
+        Ok((pose, Stamp::at(seen.at)))
+    }
+
+    fn move_to(
+        &mut self,
+        target: Pose,
+        speed: Speed,
+        deadline: Deadline,
+    ) -> Result<Stamp, DriverError> {
+        let doing = "move the arm";
+        check_pose(&target).map_err(|error| failed(ErrorKind::InvalidArgument, doing, error))?;
+        if let Some(workspace) = self.options.workspace
+            && !workspace.contains(&target.position)
+        {
+            let why = format!(
+                "{:?} lies outside the workspace from {:?} to {:?}",
+                target.position, workspace.least, workspace.greatest
+            );
+            return Err(failed(ErrorKind::OutOfRange, doing, why));
+        }
+        let most = self.options.speed_max;
+        if speed > most {
+            let why = format!("{speed}, expected at most {most}");
+            return Err(failed(ErrorKind::OutOfRange, doing, why));
+        }
+        self.go(target, speed, deadline)
+    }
+
+    fn halt_handle(&self) -> Arc<dyn Halt> {
+        Arc::clone(self.keeper.stop()) as Arc<dyn Halt>
+    }
+
+    fn clear_halt(&mut self, _: Deadline) -> Result<(), DriverError> {
+        // First, so that a halt which comes meanwhile stays.
+        self.stopping().release();
+        self.stand_by("end the halt")
+    }
+}

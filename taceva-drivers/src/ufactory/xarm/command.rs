@@ -1,0 +1,233 @@
+//! The requests that are used, and what their answers say. Nothing here reads or writes a socket.
+
+use super::firmware::Firmware;
+use super::frame::{Reply, Request};
+
+/// What the controller can be told to do, or to say.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Command {
+    /// Which controller it is.
+    GetVersion,
+    /// To stand by: to become ready, or to stop.
+    SetState(TargetState),
+    /// What it does.
+    GetState,
+    /// How many motions wait.
+    GetQueued,
+    /// Which error and warning it has.
+    GetError,
+    /// To take positions, one after the other.
+    SetPositionMode,
+    /// Where the tip is.
+    GetPose,
+    /// To move in a straight line.
+    MoveLine(MoveLine),
+}
+
+/// The states that it can be told to take.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum TargetState {
+    /// Ready for motions.
+    Ready = 0,
+    /// Stopped, with nothing waiting.
+    Stopped = 4,
+}
+
+/// A straight motion of the tip in the base frame.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct MoveLine {
+    /// x, y, z in mm, roll, pitch, yaw in rad: all six, since a number that is left out stands for one that only the controller knows.
+    pub(super) pose: [f32; 6],
+    pub(super) speed_mm_s: f32,
+    pub(super) acceleration_mm_s2: f32,
+}
+
+const GET_VERSION: u8 = 1;
+const SET_STATE: u8 = 12;
+const GET_STATE: u8 = 13;
+const GET_QUEUED: u8 = 14;
+const GET_ERROR: u8 = 15;
+const SET_MODE: u8 = 19;
+const MOVE_LINE: u8 = 21;
+const GET_POSE: u8 = 41;
+
+/// The mode in which positions are taken one after the other.
+const POSITION_MODE: u8 = 0;
+/// No radius by which one line would be blended into the next.
+const NO_BLENDING: f32 = -1.0;
+
+impl Command {
+    /// The request that a controller of `firmware` understands.
+    pub(super) fn request(self, firmware: Firmware) -> Request {
+        let (register, parameters) = match self {
+            Command::GetVersion => (GET_VERSION, Vec::new()),
+            Command::SetState(state) => (SET_STATE, vec![state as u8]),
+            Command::GetState => (GET_STATE, Vec::new()),
+            Command::GetQueued => (GET_QUEUED, Vec::new()),
+            Command::GetError => (GET_ERROR, Vec::new()),
+            Command::SetPositionMode if firmware.takes_collision_detection() => {
+                (SET_MODE, vec![POSITION_MODE, 0])
+            }
+            Command::SetPositionMode => (SET_MODE, vec![POSITION_MODE]),
+            Command::GetPose => (GET_POSE, Vec::new()),
+            Command::MoveLine(line) => (MOVE_LINE, line.parameters(firmware)),
+        };
+        Request {
+            register,
+            parameters,
+        }
+    }
+
+    /// How it is called in messages.
+    pub(super) fn name(self) -> &'static str {
+        match self {
+            Command::GetVersion => "the question for its version",
+            Command::SetState(TargetState::Ready) => "the command to be ready",
+            Command::SetState(TargetState::Stopped) => "the command to stop",
+            Command::GetState => "the question for its state",
+            Command::GetQueued => "the question for waiting motions",
+            Command::GetError => "the question for errors",
+            Command::SetPositionMode => "the command to take positions",
+            Command::GetPose => "the question for its pose",
+            Command::MoveLine(_) => "the command to move",
+        }
+    }
+}
+
+impl MoveLine {
+    fn parameters(self, firmware: Firmware) -> Vec<u8> {
+        let time_s = 0.0;
+        let [x, y, z, roll, pitch, yaw] = self.pose;
+        let numbers = [
+            x,
+            y,
+            z,
+            roll,
+            pitch,
+            yaw,
+            self.speed_mm_s,
+            self.acceleration_mm_s2,
+            time_s,
+        ];
+        let mut bytes: Vec<u8> = numbers.into_iter().flat_map(f32::to_le_bytes).collect();
+        if firmware.takes_long_lines() {
+            bytes.extend(NO_BLENDING.to_le_bytes());
+            // In the base frame, with roll, pitch and yaw, to be moved and not only checked.
+            bytes.extend([0, 0, 0]);
+        }
+        bytes
+    }
+}
+
+/// What an answer says.
+impl Reply {
+    /// The byte of state.
+    pub(super) fn state(&self) -> Option<u8> {
+        self.parameters.first().copied()
+    }
+
+    /// How many motions wait.
+    pub(super) fn queued(&self) -> Option<u16> {
+        self.parameters
+            .first_chunk()
+            .copied()
+            .map(u16::from_be_bytes)
+    }
+
+    /// Error and warning.
+    pub(super) fn codes(&self) -> Option<[u8; 2]> {
+        self.parameters.first_chunk().copied()
+    }
+
+    /// Six numbers of a pose: mm and rad.
+    pub(super) fn pose(&self) -> Option<[f32; 6]> {
+        floats(&self.parameters)
+    }
+
+    /// Text without the zeros behind it.
+    pub(super) fn text(&self) -> String {
+        let text = String::from_utf8_lossy(&self.parameters);
+        text.trim_end_matches('\0').to_owned()
+    }
+}
+
+/// The first six numbers of `bytes`, little end first.
+pub(super) fn floats(bytes: &[u8]) -> Option<[f32; 6]> {
+    let bytes: &[u8; 24] = bytes.first_chunk()?;
+    Some(std::array::from_fn(|index| {
+        let at = 4 * index;
+        f32::from_le_bytes([bytes[at], bytes[at + 1], bytes[at + 2], bytes[at + 3]])
+    }))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::frame::Status;
+    use super::*;
+    use crate::link::hexadecimal;
+
+    const OLD: Firmware = Firmware::new(1, 10, 0);
+    const NEW: Firmware = Firmware::new(2, 7, 0);
+
+    fn sent(command: Command, firmware: Firmware) -> Vec<u8> {
+        let request = command.request(firmware);
+        [vec![request.register], request.parameters].concat()
+    }
+
+    fn line() -> Command {
+        Command::MoveLine(MoveLine {
+            pose: [300.0, 0.0, 200.0, std::f32::consts::PI, 0.0, 0.0],
+            speed_mm_s: 100.0,
+            acceleration_mm_s2: 2000.0,
+        })
+    }
+
+    /// What xarm-python-sdk 1.18.4 sends for the same calls, without the header.
+    #[test]
+    fn commands_are_those_of_the_public_client_for_both_layouts() {
+        let recorded = [
+            (Command::GetVersion, NEW, "01"),
+            (Command::SetPositionMode, NEW, "13 00 00"),
+            (Command::SetState(TargetState::Ready), NEW, "0c 00"),
+            (Command::SetState(TargetState::Stopped), NEW, "0c 04"),
+            (Command::GetState, NEW, "0d"),
+            (Command::GetQueued, NEW, "0e"),
+            (Command::GetError, NEW, "0f"),
+            (Command::GetPose, NEW, "29"),
+            (
+                line(),
+                NEW,
+                "15 00009643 00000000 00004843 db0f4940 00000000 00000000 0000c842 0000fa44 00000000 000080bf 00 00 00",
+            ),
+            (
+                line(),
+                OLD,
+                "15 00009643 00000000 00004843 db0f4940 00000000 00000000 0000c842 0000fa44 00000000",
+            ),
+        ];
+        for (command, firmware, expected) in recorded {
+            assert_eq!(
+                sent(command, firmware),
+                hexadecimal(expected),
+                "{command:?}"
+            );
+        }
+    }
+
+    #[test]
+    fn an_answer_that_is_too_short_says_nothing() {
+        let reply = |parameters: &str| Reply {
+            transaction: 1,
+            register: 41,
+            status: Status(0),
+            parameters: hexadecimal(parameters),
+        };
+        assert_eq!(reply("").state(), None);
+        assert_eq!(reply("01").queued(), None);
+        assert_eq!(reply("01").codes(), None);
+        assert_eq!(reply("00009643").pose(), None);
+        assert_eq!(reply("0102").queued(), Some(0x0102));
+        assert_eq!(reply("1f00").codes(), Some([31, 0]));
+        assert_eq!(reply("76322e 0000").text(), "v2.");
+    }
+}

@@ -1,0 +1,102 @@
+//! The built-in driver `ufactory/xarm`.
+
+use taceva_core::{
+    ArgSpec, ArgValue, Args, Descriptor, DescriptorError, DescriptorSpec, DriverError,
+    DriverSource, ErrorKind, Factory, Facts, Rig, Robot, RobotFacts, submit_builtin,
+};
+
+use super::KEY;
+use super::arm::Arm;
+use super::options::XarmOptions;
+
+submit_builtin!(dyn Robot, || Ok(Box::new(XarmFactory::new()?)));
+
+/// Opens arms of UFACTORY's xArm family: `ufactory/xarm:host=192.168.1.200`.
+///
+/// # The physical contract
+/// - Poses are those of the tool in the **base frame** of the arm, in mm and degrees (roll, pitch, yaw), as UFACTORY Studio shows them.
+/// - Opening connects, and changes nothing. The arm must be enabled, in position mode and without an error: a person does that in UFACTORY
+///   Studio. This driver never enables motors and never clears an error.
+/// - A move is one straight line with all six numbers of the pose. It ends once the controller stands by, has nothing waiting and reports a
+///   pose within 0.05 mm of the target.
+/// - A halt goes over a connection of its own, which is tried twice a second; without it no move begins. It is confirmed by the controller
+///   or, after 40 ms of silence, sent over the other connection too. `clear_halt` makes the controller ready again unless it has an error.
+/// - The emergency stop, a collision, the safety boundary and every other error of the controller end a move with `DeviceFault`.
+///
+/// # What confirmed it
+/// Frames are those that the public client `xarm-python-sdk` 1.18.4 sends, for both layouts of a straight line (before and since firmware
+/// 1.11.100). An emulated controller on which the driver passes its suite serves that client too. **Not verified without the device**: how
+/// fast an arm stops, whether the pose of port 30003 is measured or commanded, how long a controller keeps an idle connection.
+///
+/// ```
+/// use taceva_drivers::XarmFactory;
+/// use taceva_core::Factory;
+/// let factory = XarmFactory::new()?;
+/// assert!(factory.descriptor().args("host=192.168.1.200;speed_max_mm_s=20").is_ok());
+/// # Ok::<(), taceva_core::DescriptorError>(())
+/// ```
+#[derive(Debug)]
+pub struct XarmFactory {
+    descriptor: Descriptor,
+}
+
+/// The greatest port.
+const PORT_MAX: i64 = 65_535;
+
+impl XarmFactory {
+    /// The driver.
+    ///
+    /// # Errors
+    /// [`DescriptorError`] if it contradicted itself, which its tests rule out.
+    pub fn new() -> Result<XarmFactory, DescriptorError> {
+        let port = |key: &str, number: i64, help: &str| {
+            ArgSpec::whole(key, 1, PORT_MAX)
+                .default(ArgValue::Whole(number))
+                .help(help)
+        };
+        let arguments = [
+            ArgSpec::text("host").help("name or address of the control box"),
+            port("port", 502, "the port of commands"),
+            port("pose_port", 30_003, "the port of 100 reports a second; polled where nobody listens there"),
+            port("status_port", 30_001, "the port of reports with errors; polled where nobody listens there"),
+            ArgSpec::number("speed_max_mm_s", 0.1, 250.0)
+                .default(ArgValue::Number(100.0))
+                .help("the greatest speed of the tip, in mm/s")
+                .changes_facts(),
+            ArgSpec::number("acceleration_mm_s2", 10.0, 5_000.0)
+                .default(ArgValue::Number(500.0))
+                .help("how fast the tip gains and loses speed, in mm/s²"),
+            ArgSpec::text("workspace")
+                .optional()
+                .help("the box in which the tip may be, in mm in the base frame: the least x,y,z and the greatest, six numbers with commas")
+                .changes_facts(),
+        ];
+        let facts = Facts::Robot(RobotFacts::default());
+        let spec = DescriptorSpec::new(KEY, "an arm of UFACTORY", DriverSource::Real, facts);
+        Ok(XarmFactory {
+            descriptor: spec.arguments(arguments).check()?,
+        })
+    }
+}
+
+impl Factory<dyn Robot> for XarmFactory {
+    fn descriptor(&self) -> &Descriptor {
+        &self.descriptor
+    }
+
+    fn describe(&self, args: &Args) -> Result<Descriptor, DescriptorError> {
+        let mut spec = self.descriptor.to_spec();
+        // Arguments that make no sense are refused when the arm is opened, in their own words.
+        if let Ok(options) = XarmOptions::read(args) {
+            spec.facts = Facts::Robot(options.facts());
+        }
+        spec.check()
+    }
+
+    fn open(&self, args: &Args, _: &mut Rig) -> Result<Box<dyn Robot>, DriverError> {
+        let options = XarmOptions::read(args).map_err(|error| {
+            DriverError::new(ErrorKind::InvalidArgument, &KEY, "open the arm").because(error)
+        })?;
+        Ok(Box::new(Arm::open(options)?))
+    }
+}

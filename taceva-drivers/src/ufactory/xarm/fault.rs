@@ -1,0 +1,44 @@
+//! What the numbers of the controller's errors mean, and which of them nobody but a person may answer.
+
+use std::fmt;
+
+/// An error that the controller reports.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct XarmFault {
+    /// Its number, as the vendor's documents count them.
+    pub(super) code: u8,
+}
+
+impl XarmFault {
+    /// What it means.
+    fn meaning(self) -> &'static str {
+        match self.code {
+            1..=3 => "the emergency stop was pressed",
+            10..=17 => "a servo reports a fault",
+            18 | 50..=53 => "the force transducer of the arm reports a fault",
+            19 | 28 => "the tool does not answer",
+            21 | 40 => "the pose cannot be reached",
+            22 => "the arm would touch itself",
+            23 | 38 => "a joint is at its limit",
+            24 | 30 | 60 => "a speed is above its limit",
+            25 => "the way cannot be planned",
+            31 => "a collision was felt",
+            35 => "the safety boundary was left",
+            110 | 111 => "the controller does not reach the arm",
+            _ => "see the list of errors of the vendor",
+        }
+    }
+}
+
+impl fmt::Display for XarmFault {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(
+            f,
+            "the controller reports error {}: {}; look at the arm, then clear the error in UFACTORY Studio, which this program never does",
+            self.code,
+            self.meaning()
+        )
+    }
+}
+
+impl std::error::Error for XarmFault {}

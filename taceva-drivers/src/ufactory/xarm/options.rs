@@ -1,0 +1,108 @@
+//! How an arm is opened, from the arguments.
+
+use taceva_core::{ArgValue, Args, Millimetre, Point, RobotFacts, Speed, Workspace};
+use thiserror::Error;
+
+use crate::text::shown;
+
+/// Where the controller is, and within which limits the arm moves.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct XarmOptions {
+    pub(super) host: String,
+    pub(super) port: u16,
+    pub(super) pose_port: u16,
+    pub(super) status_port: u16,
+    pub(super) speed_max: Speed,
+    pub(super) acceleration_mm_s2: f64,
+    pub(super) workspace: Option<Workspace>,
+}
+
+/// Arguments that are each what they should be, and make no sense.
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+pub(super) enum OptionsError {
+    #[error("`workspace`: `{}`, expected six numbers in mm with commas between them, the least x, y, z and then the greatest: `200,-100,150,400,100,350`", shown(.text))]
+    Workspace { text: String },
+    #[error("`speed_max_mm_s`: expected a speed above 0 mm/s")]
+    Speed,
+}
+
+impl XarmOptions {
+    /// The options in `args`, which the declaration of the driver has checked.
+    pub(super) fn read(args: &Args) -> Result<XarmOptions, OptionsError> {
+        let port = |key: &str| u16::try_from(args.whole(key)).unwrap_or(0);
+        let workspace = match args.get("workspace").and_then(ArgValue::as_text) {
+            None => None,
+            Some(text) => Some(workspace(text).ok_or_else(|| OptionsError::Workspace {
+                text: text.to_owned(),
+            })?),
+        };
+        Ok(XarmOptions {
+            host: args.text("host").to_owned(),
+            port: port("port"),
+            pose_port: port("pose_port"),
+            status_port: port("status_port"),
+            speed_max: Speed::try_new(args.number("speed_max_mm_s"))
+                .map_err(|_| OptionsError::Speed)?,
+            acceleration_mm_s2: args.number("acceleration_mm_s2"),
+            workspace,
+        })
+    }
+
+    /// What is known of the arm before it is opened.
+    pub(super) fn facts(&self) -> RobotFacts {
+        RobotFacts {
+            workspace: self.workspace,
+            speed_max: Some(self.speed_max),
+            ..RobotFacts::default()
+        }
+    }
+}
+
+/// The box between two corners.
+fn workspace(text: &str) -> Option<Workspace> {
+    let numbers: Option<Vec<f64>> = text
+        .split(',')
+        .map(|number| {
+            number
+                .trim()
+                .parse()
+                .ok()
+                .filter(|number: &f64| number.is_finite())
+        })
+        .collect();
+    let &[x0, y0, z0, x1, y1, z1] = &numbers?[..] else {
+        return None;
+    };
+    let corner = |[x, y, z]: [f64; 3]| Point {
+        x: Millimetre(x),
+        y: Millimetre(y),
+        z: Millimetre(z),
+    };
+    (x0 < x1 && y0 < y1 && z0 < z1).then(|| Workspace {
+        least: corner([x0, y0, z0]),
+        greatest: corner([x1, y1, z1]),
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_workspace_is_six_numbers_in_order() {
+        let found = workspace("200, -100,150,400,100,350").expect("a box");
+        assert_eq!(found.least.y, Millimetre(-100.0));
+        assert_eq!(found.greatest.z, Millimetre(350.0));
+        for text in [
+            "",
+            "1,2,3",
+            "1,2,3,4,5,6,7",
+            "4,5,6,1,2,3",
+            "0,0,0,1,1,NaN",
+            "0,0,0,1,1,inf",
+            "a,b,c,d,e,f",
+        ] {
+            assert!(workspace(text).is_none(), "{text}");
+        }
+    }
+}

@@ -1,0 +1,293 @@
+//! Reports, which the controller sends without being asked: how they are cut from a stream, and what they say. Nothing here reads a socket.
+
+use taceva_core::{Degree, Millimetre, Point, Pose, Rotation};
+use thiserror::Error;
+
+use super::command::floats;
+
+/// Which of its ports a report comes from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum ReportKind {
+    /// 100 a second: state and pose.
+    Pose,
+    /// Some a second: errors and joints too.
+    Status,
+}
+
+/// What a report says.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Report {
+    pub(super) state: State,
+    /// How motions are taken; 0 for positions one after the other.
+    pub(super) mode: u8,
+    /// Motions that wait or go on.
+    pub(super) queued: u16,
+    /// x, y, z in mm, roll, pitch, yaw in rad, in the base frame; not checked to be numbers.
+    pub(super) pose: [f32; 6],
+    /// Only in those of [`ReportKind::Status`].
+    pub(super) status: Option<ArmStatus>,
+}
+
+/// What only the slower reports say.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct ArmStatus {
+    /// A bit a joint whose motor is on.
+    pub(super) enabled: u8,
+    pub(super) error: u8,
+}
+
+/// What the arm does.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct State(pub(super) u8);
+
+impl State {
+    pub(super) const MOVING: State = State(1);
+    pub(super) const SLOWING_DOWN: State = State(6);
+
+    /// Whether it stands by for the next motion.
+    pub(super) fn is_ready(self) -> bool {
+        matches!(self.0, 0 | 2)
+    }
+
+    /// How the state is called in messages.
+    pub(super) fn name(self) -> &'static str {
+        match self.0 {
+            0 | 2 => "ready",
+            1 => "moving",
+            3 => "paused",
+            4 => "stopped",
+            5 => "waiting to be made ready",
+            6 => "slowing down",
+            _ => "unknown",
+        }
+    }
+}
+
+/// Bytes that are no report: the stream has lost its place.
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+pub(super) enum ReportError {
+    #[error("a report of {found} bytes, expected {least} to {LENGTH_MAX}")]
+    Length { found: usize, least: usize },
+    #[error("a report of state {state} and mode {mode}, expected at most 9 and 11")]
+    State { state: u8, mode: u8 },
+}
+
+/// Later firmware puts more behind what is known; none comes near this.
+const LENGTH_MAX: usize = 4096;
+/// Where things stand in a report.
+const STATE: usize = 4;
+const QUEUED: usize = 5;
+const POSE: usize = 35;
+const ENABLED: usize = 88;
+const ERROR: usize = 89;
+
+impl ReportKind {
+    /// Bytes up to the last number that is read.
+    fn least(self) -> usize {
+        match self {
+            ReportKind::Pose => POSE + 24,
+            ReportKind::Status => ERROR + 1,
+        }
+    }
+}
+
+/// Cuts what comes, in pieces of any size, into reports.
+#[derive(Debug)]
+pub(super) struct Reports {
+    kind: ReportKind,
+    waiting: Vec<u8>,
+}
+
+impl Reports {
+    pub(super) fn new(kind: ReportKind) -> Reports {
+        Reports {
+            kind,
+            waiting: Vec::new(),
+        }
+    }
+
+    /// Takes bytes that came.
+    pub(super) fn push(&mut self, bytes: &[u8]) {
+        self.waiting.extend_from_slice(bytes);
+    }
+
+    /// The next whole report, if it has come.
+    ///
+    /// # Errors
+    /// [`ReportError`], from then on for ever: the link must be closed.
+    pub(super) fn next(&mut self) -> Result<Option<Report>, ReportError> {
+        let Some(head) = self.waiting.first_chunk() else {
+            return Ok(None);
+        };
+        let length = usize::try_from(u32::from_be_bytes(*head)).unwrap_or(usize::MAX);
+        let least = self.kind.least();
+        if !(least..=LENGTH_MAX).contains(&length) {
+            return Err(ReportError::Length {
+                found: length,
+                least,
+            });
+        }
+        if self.waiting.len() < length {
+            return Ok(None);
+        }
+        let report = self.read(&self.waiting[..length])?;
+        self.waiting.drain(..length);
+        Ok(Some(report))
+    }
+
+    fn read(&self, report: &[u8]) -> Result<Report, ReportError> {
+        let (state, mode) = (report[STATE] & 0x0f, report[STATE] >> 4);
+        if state > 9 || mode > 11 {
+            return Err(ReportError::State { state, mode });
+        }
+        Ok(Report {
+            state: State(state),
+            mode,
+            queued: u16::from_be_bytes([report[QUEUED], report[QUEUED + 1]]),
+            pose: floats(&report[POSE..])
+                .expect("the length was checked against the place of the pose"),
+            status: (self.kind == ReportKind::Status).then(|| ArmStatus {
+                enabled: report[ENABLED],
+                error: report[ERROR],
+            }),
+        })
+    }
+}
+
+/// The pose of six numbers of the controller, in mm and rad, on the grid of all poses.
+pub(super) fn pose_of(numbers: [f32; 6]) -> Pose {
+    let [x, y, z, roll, pitch, yaw] = numbers.map(f64::from);
+    let pose = Pose {
+        position: Point {
+            x: Millimetre(x),
+            y: Millimetre(y),
+            z: Millimetre(z),
+        },
+        rotation: Rotation {
+            x: Degree(roll.to_degrees()),
+            y: Degree(pitch.to_degrees()),
+            z: Degree(yaw.to_degrees()),
+        },
+    };
+    pose.on_grid()
+}
+
+/// The six numbers of a pose, in mm and rad, as exact as the controller takes them: 0.03 µm at 300 mm.
+pub(super) fn numbers_of(pose: &Pose) -> [f32; 6] {
+    let Pose { position, rotation } = pose;
+    let numbers = [
+        position.x.0,
+        position.y.0,
+        position.z.0,
+        rotation.x.0.to_radians(),
+        rotation.y.0.to_radians(),
+        rotation.z.0.to_radians(),
+    ];
+    #[expect(
+        clippy::cast_possible_truncation,
+        reason = "the controller takes no finer numbers; a cast rounds to the nearest"
+    )]
+    let numbers = numbers.map(|number| number as f32);
+    numbers
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A report of `length` bytes with a pose of (300, 0, 300, π, 0, 0), laid out as the public client reads it.
+    fn report(length: usize, state_and_mode: u8) -> Vec<u8> {
+        let mut bytes = vec![0; length];
+        bytes[..4].copy_from_slice(&u32::try_from(length).expect("small").to_be_bytes());
+        bytes[STATE] = state_and_mode;
+        bytes[QUEUED + 1] = 3;
+        let pose =
+            crate::link::hexadecimal("00009643 00000000 00009643 db0f4940 00000000 00000000");
+        bytes[POSE..POSE + 24].copy_from_slice(&pose);
+        if length > ERROR {
+            bytes[ENABLED] = 0x3f;
+            bytes[ERROR] = 31;
+        }
+        bytes
+    }
+
+    fn all(reports: &mut Reports) -> Vec<Report> {
+        std::iter::from_fn(|| reports.next().expect("good reports")).collect()
+    }
+
+    #[test]
+    fn reports_of_every_firmware_are_read_up_to_what_is_known() {
+        for length in [135, 133, 245, 494, 587] {
+            let mut reports = Reports::new(ReportKind::Pose);
+            reports.push(&report(length, 0x04));
+            let [found] = all(&mut reports)[..] else {
+                panic!("one report of {length} bytes")
+            };
+            assert_eq!((found.state, found.mode, found.queued), (State(4), 0, 3));
+            assert_eq!(found.pose[..3], [300.0, 0.0, 300.0]);
+            assert_eq!(found.status, None);
+        }
+        let mut reports = Reports::new(ReportKind::Status);
+        reports.push(&report(145, 0x12));
+        let [found] = all(&mut reports)[..] else {
+            panic!("one report")
+        };
+        assert_eq!((found.state, found.mode), (State(2), 1));
+        let expected = ArmStatus {
+            enabled: 0x3f,
+            error: 31,
+        };
+        assert_eq!(found.status, Some(expected));
+    }
+
+    #[test]
+    fn reports_are_the_same_however_they_are_split_and_merged() {
+        let stream = [report(135, 1), report(135, 2), report(587, 2)].concat();
+        for piece in [1, 3, 134, 135, 136, 400, stream.len()] {
+            let mut reports = Reports::new(ReportKind::Pose);
+            let mut found = Vec::new();
+            for part in stream.chunks(piece) {
+                reports.push(part);
+                found.extend(all(&mut reports));
+            }
+            let states: Vec<u8> = found.iter().map(|report| report.state.0).collect();
+            assert_eq!(states, [1, 2, 2], "in pieces of {piece}");
+        }
+    }
+
+    #[test]
+    fn an_absurd_length_and_an_unknown_state_end_the_stream() {
+        let ends = |bytes: &[u8]| {
+            let mut reports = Reports::new(ReportKind::Status);
+            reports.push(bytes);
+            reports.next().expect_err("no report")
+        };
+        for length in [0_u32, 4, 89, 4097, u32::MAX] {
+            assert!(matches!(
+                ends(&length.to_be_bytes()),
+                ReportError::Length { .. }
+            ));
+        }
+        assert!(matches!(
+            ends(&report(145, 0x0a)),
+            ReportError::State { state: 10, mode: 0 }
+        ));
+        assert!(matches!(
+            ends(&report(145, 0xc1)),
+            ReportError::State { state: 1, mode: 12 }
+        ));
+    }
+
+    #[test]
+    fn a_pose_is_read_back_as_it_was_written() {
+        let mut pose = Pose::default();
+        pose.position.x = Millimetre(300.125);
+        pose.position.z = Millimetre(-0.5);
+        pose.rotation.x = Degree(180.0);
+        pose.rotation.z = Degree(-90.0);
+        let back = pose_of(numbers_of(&pose));
+        assert_eq!(back.position, pose.position);
+        assert!((back.rotation.x.0 - 180.0).abs() < 1e-4);
+        assert!((back.rotation.z.0 + 90.0).abs() < 1e-4);
+    }
+}

@@ -1,0 +1,99 @@
+//! A connection to a port of reports: a thread that reads, and the newest report for whoever asks.
+
+use std::io::{self, Read};
+use std::net::{Shutdown, SocketAddr, TcpStream};
+use std::sync::Arc;
+use std::thread::JoinHandle;
+use std::time::Duration;
+
+use taceva_core::ErrorKind;
+
+use super::report::{Report, ReportKind, Reports};
+use crate::link::{Ending, LinkError, Mailbox, NoNews, Seen, connect, monotonic};
+
+/// The reports of one port.
+#[derive(Debug)]
+pub(super) struct Watch {
+    reports: Arc<Mailbox<Report>>,
+    stream: TcpStream,
+    reader: Option<JoinHandle<()>>,
+}
+
+impl Watch {
+    /// Connects to `port` of `host`.
+    pub(super) fn open(host: &str, port: u16, kind: ReportKind) -> Result<Watch, LinkError> {
+        let (stream, address) = connect(host, port)?;
+        let broken = |source: io::Error| LinkError::Broken { address, source };
+        let reading = stream.try_clone().map_err(broken)?;
+        let reports = Arc::new(Mailbox::default());
+        let posting = Arc::clone(&reports);
+        let reader = std::thread::Builder::new()
+            .name("xarm reports".to_owned())
+            .spawn(move || {
+                let ending = read(reading, address, kind, &posting);
+                posting.end(ending);
+            })
+            .map_err(broken)?;
+        Ok(Watch {
+            reports,
+            stream,
+            reader: Some(reader),
+        })
+    }
+
+    /// The newest report, if one has come and others still may.
+    pub(super) fn newest(&self) -> Option<Seen<Report>> {
+        self.reports.newest()
+    }
+
+    /// The newest report behind the one numbered `after`, waited for as long as `patience`.
+    ///
+    /// # Errors
+    /// [`NoNews`]: none came, or none will.
+    pub(super) fn next(&self, after: u64, patience: Duration) -> Result<Seen<Report>, NoNews> {
+        self.reports.next(after, patience)
+    }
+}
+
+impl Drop for Watch {
+    fn drop(&mut self) {
+        // The thread that reads ends with the stream.
+        let _ = self.stream.shutdown(Shutdown::Both);
+        if let Some(reader) = self.reader.take() {
+            let _ = reader.join();
+        }
+    }
+}
+
+/// Posts every report until none can come any more, and says why.
+fn read(
+    mut stream: TcpStream,
+    address: SocketAddr,
+    kind: ReportKind,
+    posting: &Mailbox<Report>,
+) -> Ending {
+    let mut reports = Reports::new(kind);
+    let mut bytes = [0; 4096];
+    loop {
+        match stream.read(&mut bytes) {
+            Ok(0) => return LinkError::Closed { address }.into(),
+            Ok(count) => reports.push(&bytes[..count]),
+            Err(error) if error.kind() == io::ErrorKind::Interrupted => continue,
+            Err(source) => return LinkError::Broken { address, source }.into(),
+        }
+        let at = monotonic();
+        loop {
+            match reports.next() {
+                Ok(None) => break,
+                Ok(Some(report)) => posting.post(report, at),
+                Err(error) => {
+                    let _ = stream.shutdown(Shutdown::Both);
+                    return Ending {
+                        kind: ErrorKind::Protocol,
+                        why: format!("{address} sends what is no report of an xArm: {error}"),
+                    };
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,5 @@
+//! Robots of Universal Robots.
+
+mod rtde;
+
+pub use rtde::UrFactory;

@@ -1,0 +1,16 @@
+//! `ur/rtde`: arms of Universal Robots, seen by their real-time data exchange and moved by lines of script.
+
+mod arm;
+mod factory;
+mod message;
+mod motion;
+mod rotation;
+mod safety;
+mod script;
+mod states;
+
+pub use factory::UrFactory;
+
+use taceva_core::DriverKey;
+
+const KEY: DriverKey = DriverKey::fixed("ur/rtde");

@@ -1,0 +1,206 @@
+//! The arm as a robot.
+
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::time::Duration;
+
+use taceva_core::{Deadline, DriverError, ErrorKind, Halt, Pose, Robot, Speed, Stamp, check_pose};
+
+use super::KEY;
+use super::message::ArmState;
+use super::rotation::pose_of;
+use super::safety::ArmFault;
+use super::script::{ScriptLine, stop};
+use super::states::States;
+use crate::link::{LinkError, NoNews, Seen, monotonic};
+
+/// How an arm is reached, and within which limits it moves.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct UrOptions {
+    pub(super) host: String,
+    pub(super) port: u16,
+    pub(super) script_port: u16,
+    pub(super) rate_hz: f64,
+    pub(super) speed_max: Speed,
+    pub(super) acceleration_mm_s2: f64,
+    pub(super) deceleration_mm_s2: f64,
+}
+
+/// An arm that is connected.
+#[derive(Debug)]
+pub(super) struct Arm {
+    pub(super) options: UrOptions,
+    pub(super) states: States,
+    pub(super) motions: ScriptLine,
+    pub(super) stop: Arc<Stop>,
+}
+
+/// The means to stop the arm from any thread: a latch on this side, and a connection of its own.
+#[derive(Debug)]
+pub(super) struct Stop {
+    is_halted: AtomicBool,
+    /// Set once the robot is dropped: there is nothing left to stop.
+    is_gone: AtomicBool,
+    line: ScriptLine,
+    program: String,
+    /// When a stop was last sent, on the monotonic clock.
+    sent: Mutex<Duration>,
+}
+
+/// A stop that nothing confirms has had its effect after this time: a motion that is sent on another connection before might be stopped by it.
+const EFFECT: Duration = Duration::from_millis(150);
+
+impl Stop {
+    pub(super) fn is_halted(&self) -> bool {
+        self.is_halted.load(Ordering::Acquire)
+    }
+
+    pub(super) fn is_alive(&self) -> bool {
+        self.line.is_alive()
+    }
+
+    /// The program that brakes.
+    pub(super) fn program(&self) -> &str {
+        &self.program
+    }
+
+    /// Sends it.
+    pub(super) fn send(&self) -> Result<(), LinkError> {
+        *self.sent() = monotonic();
+        self.line.send(&self.program)
+    }
+
+    /// How long it is until the last stop has had its effect.
+    pub(super) fn lasts(&self) -> Duration {
+        (*self.sent() + EFFECT).saturating_sub(monotonic())
+    }
+
+    fn sent(&self) -> MutexGuard<'_, Duration> {
+        self.sent.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+impl Halt for Stop {
+    fn halt(&self) -> Result<(), DriverError> {
+        self.is_halted.store(true, Ordering::Release);
+        if self.is_gone.load(Ordering::Acquire) {
+            return Ok(());
+        }
+        let sent = self.send();
+        sent.map_err(|error| failed(ErrorKind::Disconnected, "stop the arm", error))
+    }
+}
+
+/// An error of the arm with its reason.
+pub(super) fn failed(
+    kind: ErrorKind,
+    doing: &'static str,
+    why: impl Into<Box<dyn std::error::Error + Send + Sync>>,
+) -> DriverError {
+    DriverError::new(kind, &KEY, doing).because(why)
+}
+
+/// A state that is older than this says nothing of where the arm is.
+const FRESH: Duration = Duration::from_millis(50);
+const M_A_MM: f64 = 1e-3;
+
+impl Arm {
+    /// Connects to an arm; nothing moves, and nothing of its state changes.
+    pub(super) fn open(options: UrOptions) -> Result<Arm, DriverError> {
+        let doing = "connect to the arm";
+        let UrOptions {
+            host, script_port, ..
+        } = &options;
+        let states = States::open(host, options.port, options.rate_hz)
+            .map_err(|error| failed(error.kind(), doing, error))?;
+        let line = || {
+            ScriptLine::open(host, *script_port).map_err(|error| failed(error.kind(), doing, error))
+        };
+        let (motions, stopping) = (line()?, line()?);
+        Ok(Arm {
+            states,
+            motions,
+            stop: Arc::new(Stop {
+                is_halted: AtomicBool::new(false),
+                is_gone: AtomicBool::new(false),
+                line: stopping,
+                program: stop(options.deceleration_mm_s2 * M_A_MM),
+                sent: Mutex::default(),
+            }),
+            options,
+        })
+    }
+
+    /// The newest state behind the one numbered `after`; a fresh one that is there, if that is not said.
+    pub(super) fn look(
+        &self,
+        after: Option<u64>,
+        patience: Duration,
+    ) -> Result<Seen<ArmState>, DriverError> {
+        let doing = "look where the arm is";
+        let mailbox = self.states.mailbox();
+        let after = after.unwrap_or_else(|| {
+            let newest = mailbox.newest();
+            let now = monotonic();
+            newest.map_or(0, |seen| match now.saturating_sub(seen.at) < FRESH {
+                true => seen.number - 1,
+                false => seen.number,
+            })
+        });
+        mailbox.next(after, patience).map_err(|none| match none {
+            NoNews::Ended(ending) => failed(ending.kind, doing, ending.why),
+            NoNews::Silent | NoNews::Interrupted => failed(
+                ErrorKind::Timeout,
+                doing,
+                format!("no state within {patience:?}"),
+            ),
+        })
+    }
+}
+
+impl Robot for Arm {
+    fn pose(&mut self, deadline: Deadline) -> Result<(Pose, Stamp), DriverError> {
+        let seen = self.look(None, deadline.remaining())?;
+        let pose = pose_of(seen.what.pose).ok_or_else(|| {
+            let why = format!("{:?} is no pose, expected numbers", seen.what.pose);
+            failed(ErrorKind::DeviceFault, "look where the arm is", why)
+        })?;
+        Ok((pose, Stamp::at(seen.at)))
+    }
+
+    fn move_to(
+        &mut self,
+        target: Pose,
+        speed: Speed,
+        deadline: Deadline,
+    ) -> Result<Stamp, DriverError> {
+        let doing = "move the arm";
+        check_pose(&target).map_err(|error| failed(ErrorKind::InvalidArgument, doing, error))?;
+        let most = self.options.speed_max;
+        if speed > most {
+            let why = format!("{speed}, expected at most {most}");
+            return Err(failed(ErrorKind::OutOfRange, doing, why));
+        }
+        self.go(target, speed, deadline)
+    }
+
+    fn halt_handle(&self) -> Arc<dyn Halt> {
+        Arc::clone(&self.stop) as Arc<dyn Halt>
+    }
+
+    fn clear_halt(&mut self, deadline: Deadline) -> Result<(), DriverError> {
+        // First, so that a halt which comes meanwhile stays.
+        self.stop.is_halted.store(false, Ordering::Release);
+        let seen = self.look(None, deadline.remaining())?;
+        match ArmFault::of(&seen.what) {
+            None => Ok(()),
+            Some(fault) => Err(failed(ErrorKind::DeviceFault, "end the halt", fault)),
+        }
+    }
+}
+
+impl Drop for Arm {
+    fn drop(&mut self) {
+        self.stop.is_gone.store(true, Ordering::Release);
+    }
+}

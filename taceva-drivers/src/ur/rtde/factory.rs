@@ -1,0 +1,120 @@
+//! The built-in driver `ur/rtde`.
+
+use taceva_core::{
+    ArgSpec, ArgValue, Args, Descriptor, DescriptorError, DescriptorSpec, DriverError,
+    DriverSource, ErrorKind, Factory, Facts, Rig, Robot, RobotFacts, Speed, submit_builtin,
+};
+
+use super::KEY;
+use super::arm::{Arm, UrOptions, failed};
+
+submit_builtin!(dyn Robot, || Ok(Box::new(UrFactory::new()?)));
+
+/// Opens arms of Universal Robots (CB3 and e-Series): `ur/rtde:host=192.168.56.101`.
+///
+/// # The physical contract
+/// - Poses are those of the tool in the **base frame** of the arm, in mm and degrees (about x, y and z in turn).
+/// - Opening connects, and changes nothing. The arm must be switched on, its brakes open, in remote control and without a stop of its safety: a
+///   person does that at the teach pendant. This driver never does.
+/// - A move is a program of one `movel`. It ends once no program runs and the reported pose is within 0.05 mm of the target.
+/// - A halt sends a program of one `stopl` over a connection of its own, which takes the place of the one that runs; the controller confirms
+///   none. Without that connection no move begins.
+/// - Emergency, protective and safeguard stops end a move with `DeviceFault`.
+///
+/// # What confirmed it
+/// An emulated controller on which the driver passes its suite; the public client `ur-rtde` 1.6.5 reads its poses too. **Not verified without
+/// the device**: how soon a program begins and `stopl` ends one, and bits of the safety status, which are from the documents.
+///
+/// ```
+/// use taceva_core::Factory;
+/// use taceva_drivers::UrFactory;
+/// let factory = UrFactory::new()?;
+/// assert!(factory.descriptor().args("host=192.168.56.101;speed_max_mm_s=20").is_ok());
+/// # Ok::<(), taceva_core::DescriptorError>(())
+/// ```
+#[derive(Debug)]
+pub struct UrFactory {
+    descriptor: Descriptor,
+}
+
+impl UrFactory {
+    /// The driver.
+    ///
+    /// # Errors
+    /// [`DescriptorError`] if it contradicted itself, which its tests rule out.
+    pub fn new() -> Result<UrFactory, DescriptorError> {
+        let number = |key: &str, [least, most, usual]: [f64; 3], help: &str| {
+            ArgSpec::number(key, least, most)
+                .default(ArgValue::Number(usual))
+                .help(help)
+        };
+        let port = |key: &str, number: i64, help: &str| {
+            ArgSpec::whole(key, 1, 65_535)
+                .default(ArgValue::Whole(number))
+                .help(help)
+        };
+        let arguments = [
+            ArgSpec::text("host").help("name or address of the controller"),
+            port("port", 30_004, "the port of the real-time data exchange"),
+            port("script_port", 30_002, "the port that takes script"),
+            number(
+                "rate",
+                [10.0, 500.0, 125.0],
+                "states a second; a CB3 sends at most 125",
+            )
+            .unit("Hz"),
+            number(
+                "speed_max_mm_s",
+                [0.1, 250.0, 100.0],
+                "the greatest speed of the tip, in mm/s",
+            )
+            .changes_facts(),
+            number(
+                "acceleration_mm_s2",
+                [10.0, 5_000.0, 500.0],
+                "how fast the tip gains and loses speed, in mm/s²",
+            ),
+            number(
+                "deceleration_mm_s2",
+                [100.0, 10_000.0, 2_000.0],
+                "how fast the tip brakes at a halt, in mm/s²",
+            ),
+        ];
+        let facts = Facts::Robot(RobotFacts::default());
+        let spec =
+            DescriptorSpec::new(KEY, "an arm of Universal Robots", DriverSource::Real, facts);
+        Ok(UrFactory {
+            descriptor: spec.arguments(arguments).check()?,
+        })
+    }
+}
+
+impl Factory<dyn Robot> for UrFactory {
+    fn descriptor(&self) -> &Descriptor {
+        &self.descriptor
+    }
+
+    fn describe(&self, args: &Args) -> Result<Descriptor, DescriptorError> {
+        let mut spec = self.descriptor.to_spec();
+        if let Facts::Robot(facts) = &mut spec.facts {
+            facts.speed_max = Speed::try_new(args.number("speed_max_mm_s")).ok();
+        }
+        spec.check()
+    }
+
+    fn open(&self, args: &Args, _: &mut Rig) -> Result<Box<dyn Robot>, DriverError> {
+        let port = |key: &str| u16::try_from(args.whole(key)).unwrap_or(0);
+        let speed_max = Speed::try_new(args.number("speed_max_mm_s"))
+            .map_err(|error| failed(ErrorKind::InvalidArgument, "open the arm", error))?;
+        let options = UrOptions {
+            host: args.text("host").to_owned(),
+            port: port("port"),
+            script_port: port("script_port"),
+            rate_hz: args.number("rate"),
+            speed_max,
+            acceleration_mm_s2: args.number("acceleration_mm_s2"),
+            deceleration_mm_s2: args.number("deceleration_mm_s2"),
+        };
+        Ok(Box::new(Arm::open(options)?))
+    }
+}

@@ -1,0 +1,242 @@
+//! Messages of the real-time data exchange, in network order. Nothing here reads or writes a socket.
+
+use thiserror::Error;
+
+use crate::text::shown;
+
+/// The kinds of message, by their letter.
+pub(super) const VERSION: u8 = b'V';
+pub(super) const OUTPUTS: u8 = b'O';
+pub(super) const START: u8 = b'S';
+const DATA: u8 = b'U';
+const TEXT: u8 = b'M';
+
+/// The version of the protocol that is spoken.
+const PROTOCOL: u16 = 2;
+/// What is asked for, in this order, and the types that the controller must give it.
+const NAMES: &str = "timestamp,actual_TCP_pose,robot_mode,safety_status_bits,runtime_state";
+const TYPES: &str = "DOUBLE,VECTOR6D,INT32,UINT32,UINT32";
+/// Bytes of a message of data: the number of the recipe, and what was asked for.
+const DATA_LENGTH: usize = 1 + 8 + 48 + 4 + 4 + 4;
+/// No answer is longer.
+const LENGTH_MAX: usize = 4096;
+/// Length and kind stand before what a message says.
+const HEADER: usize = 3;
+
+/// What an arm does at one moment.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct ArmState {
+    /// x, y, z in m and a rotation vector in rad, in the base frame; not checked to be numbers.
+    pub(super) pose: [f64; 6],
+    pub(super) robot_mode: i32,
+    pub(super) safety: u32,
+    pub(super) runtime: u32,
+}
+
+/// A message of the controller.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum Message {
+    /// Whether it accepts what was asked for by a message of the same kind.
+    Accepted(u8, bool),
+    /// The types of what was asked for.
+    Types(String),
+    State(ArmState),
+    /// Something it tells people.
+    Text,
+}
+
+/// Bytes that are no message: the stream has lost its place.
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+pub(super) enum MessageError {
+    #[error("a message of {found} bytes, expected {HEADER} to {LENGTH_MAX}")]
+    Length { found: usize },
+    #[error("a message of kind {kind:#04x} and {length} bytes, which is none of those asked for")]
+    Kind { kind: u8, length: usize },
+    #[error("outputs of types `{}`, expected `{TYPES}`", shown(.found))]
+    Types { found: String },
+}
+
+/// The message that asks for the version of the protocol.
+pub(super) fn ask_version() -> Vec<u8> {
+    message(VERSION, &PROTOCOL.to_be_bytes())
+}
+
+/// The message that asks for states, so many a second.
+pub(super) fn ask_outputs(rate_hz: f64) -> Vec<u8> {
+    message(
+        OUTPUTS,
+        &[&rate_hz.to_be_bytes()[..], NAMES.as_bytes()].concat(),
+    )
+}
+
+/// The message that lets them come.
+pub(super) fn ask_start() -> Vec<u8> {
+    message(START, &[])
+}
+
+fn message(kind: u8, says: &[u8]) -> Vec<u8> {
+    let length = u16::try_from(HEADER + says.len()).unwrap_or(u16::MAX);
+    [&length.to_be_bytes()[..], &[kind], says].concat()
+}
+
+/// Refuses outputs of other types than were asked for: a controller says `NOT_FOUND` for what it does not know.
+pub(super) fn check_types(found: &str) -> Result<(), MessageError> {
+    if found == TYPES {
+        return Ok(());
+    }
+    Err(MessageError::Types {
+        found: found.to_owned(),
+    })
+}
+
+/// Cuts what comes, in pieces of any size, into messages.
+#[derive(Debug, Default)]
+pub(super) struct Messages {
+    waiting: Vec<u8>,
+}
+
+impl Messages {
+    /// Takes bytes that came.
+    pub(super) fn push(&mut self, bytes: &[u8]) {
+        self.waiting.extend_from_slice(bytes);
+    }
+
+    /// The next whole message, if it has come.
+    ///
+    /// # Errors
+    /// [`MessageError`], from then on for ever: the link must be closed.
+    pub(super) fn next(&mut self) -> Result<Option<Message>, MessageError> {
+        let Some(&[high, low, kind]) = self.waiting.first_chunk::<HEADER>() else {
+            return Ok(None);
+        };
+        let length = usize::from(u16::from_be_bytes([high, low]));
+        if !(HEADER..=LENGTH_MAX).contains(&length) {
+            return Err(MessageError::Length { found: length });
+        }
+        if self.waiting.len() < length {
+            return Ok(None);
+        }
+        let says = &self.waiting[HEADER..length];
+        let message = match (kind, says) {
+            (VERSION | START, [accepted]) => Message::Accepted(kind, *accepted == 1),
+            // The number of the recipe, then the types.
+            (OUTPUTS, [_, types @ ..]) => {
+                Message::Types(String::from_utf8_lossy(types).into_owned())
+            }
+            (DATA, says) if says.len() == DATA_LENGTH => Message::State(state(&says[1..])),
+            (TEXT, _) => Message::Text,
+            _ => return Err(MessageError::Kind { kind, length }),
+        };
+        self.waiting.drain(..length);
+        Ok(Some(message))
+    }
+}
+
+fn state(says: &[u8]) -> ArmState {
+    let double = |at: usize| {
+        let bytes: [u8; 8] = std::array::from_fn(|byte| says[at + byte]);
+        f64::from_be_bytes(bytes)
+    };
+    let word = |at: usize| u32::from_be_bytes(std::array::from_fn(|byte| says[at + byte]));
+    ArmState {
+        // Behind 8 bytes of the time since the controller was switched on.
+        pose: std::array::from_fn(|side| double(8 + 8 * side)),
+        robot_mode: word(56).cast_signed(),
+        safety: word(60),
+        runtime: word(64),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::link::hexadecimal;
+
+    /// A state of an arm at (0.3, 0, 0.25) m.
+    fn data() -> Vec<u8> {
+        let mut says = vec![1];
+        for number in [12.5, 0.3, 0.0, 0.25, 0.0, 3.125, 0.0] {
+            says.extend_from_slice(&f64::to_be_bytes(number));
+        }
+        says.extend_from_slice(&hexadecimal("00000007 00000001 00000002"));
+        message(DATA, &says)
+    }
+
+    #[test]
+    fn requests_are_in_network_order() {
+        assert_eq!(ask_version(), hexadecimal("0005 56 0002"));
+        assert_eq!(ask_start(), hexadecimal("0003 53"));
+        let outputs = ask_outputs(125.0);
+        assert_eq!(outputs[..11], hexadecimal("0050 4f 405f400000000000"));
+        assert_eq!(outputs.len(), 0x50);
+    }
+
+    #[test]
+    fn messages_are_the_same_however_they_are_split_and_merged() {
+        let types = message(OUTPUTS, &[&[1], TYPES.as_bytes()].concat());
+        let stream = [
+            hexadecimal("0004 56 01"),
+            types,
+            hexadecimal("0005 4d 6869"),
+            hexadecimal("0004 53 01"),
+            data(),
+            data(),
+        ]
+        .concat();
+        for piece in 1..stream.len() {
+            let mut messages = Messages::default();
+            let mut found = Vec::new();
+            for part in stream.chunks(piece) {
+                messages.push(part);
+                while let Some(message) = messages.next().expect("good messages") {
+                    found.push(message);
+                }
+            }
+            assert_eq!(found.len(), 6, "in pieces of {piece}");
+            assert_eq!(found[0], Message::Accepted(VERSION, true));
+            assert_eq!(found[1], Message::Types(TYPES.to_owned()));
+            let Message::State(state) = found[5] else {
+                panic!("a state")
+            };
+            assert_eq!(
+                state.pose.map(f64::to_bits),
+                [0.3, 0.0, 0.25, 0.0, 3.125, 0.0].map(f64::to_bits)
+            );
+            assert_eq!((state.robot_mode, state.safety, state.runtime), (7, 1, 2));
+        }
+    }
+
+    #[test]
+    fn foreign_bytes_end_the_stream() {
+        for (bytes, expected) in [
+            ("0000 55", MessageError::Length { found: 0 }),
+            ("ffff 55", MessageError::Length { found: 0xffff }),
+            (
+                "0004 55 01",
+                MessageError::Kind {
+                    kind: 0x55,
+                    length: 4,
+                },
+            ),
+            (
+                "0003 56",
+                MessageError::Kind {
+                    kind: 0x56,
+                    length: 3,
+                },
+            ),
+            (
+                "0004 7a 00",
+                MessageError::Kind {
+                    kind: 0x7a,
+                    length: 4,
+                },
+            ),
+        ] {
+            let mut messages = Messages::default();
+            messages.push(&hexadecimal(bytes));
+            assert_eq!(messages.next(), Err(expected));
+        }
+        assert!(check_types("DOUBLE,NOT_FOUND").is_err());
+    }
+}

@@ -1,0 +1,148 @@
+//! One straight motion, from the look before it to the rest after it.
+
+use std::time::Duration;
+
+use taceva_core::{Deadline, DriverError, ErrorKind, Pose, Speed, Stamp};
+
+use super::arm::{Arm, failed};
+use super::message::ArmState;
+use super::rotation::{numbers_of, pose_of};
+use super::safety::ArmFault;
+use super::script::move_line;
+use crate::link::{Seen, monotonic};
+
+const DOING: &str = "move the arm";
+/// How near the target a motion ends.
+const NEAR_MM: f64 = 0.05;
+/// An arm of which nothing is heard for so long is stopped.
+const STALE: Duration = Duration::from_millis(250);
+/// After this time a program that does not run at the target has not still to begin.
+const BEGUN: Duration = Duration::from_millis(100);
+/// After this time a program that does not run elsewhere will not begin any more.
+const NEVER_BEGUN: Duration = Duration::from_millis(1_000);
+/// How long after its program an arm may still creep to its target.
+const SETTLED: Duration = Duration::from_millis(200);
+/// How long an arm that was told to stop is looked at until it stands.
+const STOPPING: Duration = Duration::from_millis(400);
+const M_A_MM: f64 = 1e-3;
+/// The state of a controller that runs no program.
+const STOPPED: u32 = 1;
+
+impl Arm {
+    /// Moves the tip to `target` and returns once it rests there, or stands elsewhere and why.
+    pub(super) fn go(
+        &mut self,
+        target: Pose,
+        speed: Speed,
+        deadline: Deadline,
+    ) -> Result<Stamp, DriverError> {
+        let until = monotonic().saturating_add(deadline.remaining());
+        if self.stop.is_halted() {
+            return Err(halted());
+        }
+        if !self.stop.is_alive() {
+            let why = "the connection by which it would be stopped is gone";
+            return Err(failed(ErrorKind::Disconnected, DOING, why));
+        }
+        if deadline.has_passed() {
+            return Err(failed(ErrorKind::Timeout, DOING, "no time to move at all"));
+        }
+        std::thread::sleep(self.stop.lasts().min(deadline.remaining()));
+        let left = until.saturating_sub(monotonic());
+        let first = self.look(None, left)?;
+        if let Some(fault) = ArmFault::of(&first.what) {
+            return Err(failed(ErrorKind::DeviceFault, DOING, fault));
+        }
+        if first.what.runtime != STOPPED {
+            let why = "the controller runs another program, expected none";
+            return Err(failed(ErrorKind::DeviceFault, DOING, why));
+        }
+        let ended = self.follow(target, speed, until, first);
+        if ended.is_err() {
+            // Behind the motion on its own way, which a stop on the other may have overtaken; one that could not be sent says so by a link
+            // that is gone.
+            let _ = self.motions.send(self.stop.program());
+            let _ = self.stop.send();
+            self.settle();
+        }
+        ended
+    }
+
+    fn follow(
+        &mut self,
+        target: Pose,
+        speed: Speed,
+        until: Duration,
+        first: Seen<ArmState>,
+    ) -> Result<Stamp, DriverError> {
+        let program = move_line(
+            numbers_of(target),
+            speed.mm_per_s() * M_A_MM,
+            self.options.acceleration_mm_s2 * M_A_MM,
+        );
+        self.motions
+            .send(&program)
+            .map_err(|error| failed(error.kind(), DOING, error))?;
+        let sent = monotonic();
+        let mut has_run = false;
+        // Since when no program runs.
+        let mut rested = None;
+        let mut last = first;
+        loop {
+            if self.stop.is_halted() {
+                return Err(halted());
+            }
+            if monotonic() >= until {
+                let why = "it did not arrive within the deadline";
+                return Err(failed(ErrorKind::Timeout, DOING, why));
+            }
+            last = self.look(Some(last.number), STALE)?;
+            if let Some(fault) = ArmFault::of(&last.what) {
+                return Err(failed(ErrorKind::DeviceFault, DOING, fault));
+            }
+            let since = last.at.saturating_sub(sent);
+            if last.what.runtime != STOPPED {
+                (has_run, rested) = (true, None);
+                continue;
+            }
+            let rests = last.at.saturating_sub(*rested.get_or_insert(last.at));
+            let short_mm = distance_mm(&last.what, &target);
+            if short_mm <= NEAR_MM && (has_run || since >= BEGUN) {
+                return Ok(Stamp::at(last.at));
+            }
+            if has_run && rests >= SETTLED || since >= NEVER_BEGUN {
+                let why = format!(
+                    "it came to rest {short_mm:.3} mm from its target, expected at most {NEAR_MM} mm"
+                );
+                return Err(failed(ErrorKind::DeviceFault, DOING, why));
+            }
+        }
+    }
+
+    /// Waits until an arm that was stopped runs no program, or cannot be seen.
+    fn settle(&self) {
+        let until = monotonic() + STOPPING;
+        let mut last = None;
+        while monotonic() < until {
+            match self.look(last, STALE) {
+                Ok(seen) if seen.what.runtime != STOPPED => last = Some(seen.number),
+                Ok(seen) if last.is_none() => last = Some(seen.number),
+                _ => return,
+            }
+        }
+    }
+}
+
+fn halted() -> DriverError {
+    failed(ErrorKind::Interrupted, DOING, "it was halted")
+}
+
+/// How far the tip is from `target`; infinite where the state has no numbers.
+fn distance_mm(state: &ArmState, target: &Pose) -> f64 {
+    let Some(pose) = pose_of(state.pose) else {
+        return f64::INFINITY;
+    };
+    let [at, to] = [pose.position, target.position];
+    let sides = [at.x.0 - to.x.0, at.y.0 - to.y.0, at.z.0 - to.z.0];
+    sides.iter().map(|side| side * side).sum::<f64>().sqrt()
+}

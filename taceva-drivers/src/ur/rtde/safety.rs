@@ -1,0 +1,99 @@
+//! What keeps an arm from moving.
+
+use std::fmt;
+
+use super::message::ArmState;
+
+/// Why an arm does not move.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum ArmFault {
+    EmergencyStop,
+    /// It felt a collision, or left a limit of its safety configuration.
+    ProtectiveStop,
+    /// Somebody is where nobody should be.
+    SafeguardStop,
+    Violation,
+    Fault,
+    /// It is not switched on, or its brakes are closed.
+    NotRunning {
+        mode: i32,
+    },
+}
+
+/// Bits of the safety status.
+const PROTECTIVE_STOPPED: u32 = 1 << 2;
+const SAFEGUARD_STOPPED: u32 = 1 << 4;
+const SYSTEM_EMERGENCY_STOPPED: u32 = 1 << 5;
+const ROBOT_EMERGENCY_STOPPED: u32 = 1 << 6;
+const EMERGENCY_STOPPED: u32 = 1 << 7;
+const VIOLATION: u32 = 1 << 8;
+const FAULT: u32 = 1 << 9;
+/// The mode of an arm with power and open brakes.
+const RUNNING: i32 = 7;
+
+impl ArmFault {
+    /// The gravest reason in `state`; `None` if it may move.
+    pub(super) fn of(state: &ArmState) -> Option<ArmFault> {
+        let any = |bits: u32| state.safety & bits != 0;
+        if any(EMERGENCY_STOPPED | ROBOT_EMERGENCY_STOPPED | SYSTEM_EMERGENCY_STOPPED) {
+            Some(ArmFault::EmergencyStop)
+        } else if any(FAULT) {
+            Some(ArmFault::Fault)
+        } else if any(VIOLATION) {
+            Some(ArmFault::Violation)
+        } else if any(PROTECTIVE_STOPPED) {
+            Some(ArmFault::ProtectiveStop)
+        } else if any(SAFEGUARD_STOPPED) {
+            Some(ArmFault::SafeguardStop)
+        } else if state.robot_mode != RUNNING {
+            let mode = state.robot_mode;
+            Some(ArmFault::NotRunning { mode })
+        } else {
+            None
+        }
+    }
+}
+
+impl fmt::Display for ArmFault {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            ArmFault::EmergencyStop => f.write_str("the emergency stop was pressed"),
+            ArmFault::ProtectiveStop => {
+                f.write_str("a protective stop: a collision was felt, or a limit was left")
+            }
+            ArmFault::SafeguardStop => f.write_str("a safeguard stop: somebody is at the arm"),
+            ArmFault::Violation => f.write_str("a limit of its safety was violated"),
+            ArmFault::Fault => f.write_str("its safety reports a fault"),
+            ArmFault::NotRunning { mode } => {
+                write!(f, "it is in mode {mode}, expected 7: power on, brakes open")
+            }
+        }?;
+        f.write_str(
+            "; look at the arm, then clear it at the teach pendant, which this program never does",
+        )
+    }
+}
+
+impl std::error::Error for ArmFault {}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_gravest_reason_is_named() {
+        let fault = |safety, robot_mode| {
+            ArmFault::of(&ArmState {
+                pose: [0.0; 6],
+                robot_mode,
+                safety,
+                runtime: 1,
+            })
+        };
+        assert_eq!(fault(1, 7), None);
+        assert_eq!(fault(1, 5), Some(ArmFault::NotRunning { mode: 5 }));
+        assert_eq!(fault(0b100, 7), Some(ArmFault::ProtectiveStop));
+        assert_eq!(fault(0b1_0000, 7), Some(ArmFault::SafeguardStop));
+        assert_eq!(fault(0b1100_0100, 3), Some(ArmFault::EmergencyStop));
+    }
+}

@@ -1,0 +1,108 @@
+//! Lines of script, and the connection that takes them: the controller sends much there that nobody reads.
+
+use std::io::{self, Read, Write};
+use std::net::{Shutdown, SocketAddr, TcpStream};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Mutex, PoisonError};
+use std::thread::JoinHandle;
+use std::time::Duration;
+
+use crate::link::{LinkError, connect};
+
+/// The program that moves in a straight line: to a pose in m and rad, at m/s and m/s².
+pub(super) fn move_line(pose: [f64; 6], speed_m_s: f64, acceleration_m_s2: f64) -> String {
+    let [x, y, z, rx, ry, rz] = pose;
+    format!(
+        "def taceva_move():\n  movel(p[{x:.9}, {y:.9}, {z:.9}, {rx:.9}, {ry:.9}, {rz:.9}], a={acceleration_m_s2:.6}, v={speed_m_s:.9})\nend\n"
+    )
+}
+
+/// The program that takes the place of the one that runs, and brakes.
+pub(super) fn stop(deceleration_m_s2: f64) -> String {
+    format!("def taceva_stop():\n  stopl({deceleration_m_s2:.6})\nend\n")
+}
+
+/// A connection that takes script.
+#[derive(Debug)]
+pub(super) struct ScriptLine {
+    stream: Mutex<TcpStream>,
+    address: SocketAddr,
+    is_over: Arc<AtomicBool>,
+    reader: Option<JoinHandle<()>>,
+}
+
+/// What the writing of a program may take before the other side counts as gone.
+const WRITING: Duration = Duration::from_millis(40);
+
+impl ScriptLine {
+    /// Connects to `port` of `host`.
+    pub(super) fn open(host: &str, port: u16) -> Result<ScriptLine, LinkError> {
+        let (stream, address) = connect(host, port)?;
+        let broken = |source: io::Error| LinkError::Broken { address, source };
+        stream.set_write_timeout(Some(WRITING)).map_err(broken)?;
+        let mut reading = stream.try_clone().map_err(broken)?;
+        let is_over = Arc::new(AtomicBool::new(false));
+        let over = Arc::clone(&is_over);
+        let reader = std::thread::Builder::new()
+            .name("ur script".to_owned())
+            .spawn(move || {
+                // What is not read would one day fill the way.
+                let mut bytes = [0; 4096];
+                while !matches!(reading.read(&mut bytes), Ok(0) | Err(_)) {}
+                over.store(true, Ordering::Release);
+            })
+            .map_err(broken)?;
+        Ok(ScriptLine {
+            stream: Mutex::new(stream),
+            address,
+            is_over,
+            reader: Some(reader),
+        })
+    }
+
+    /// Whether it is still there, as far as this side knows.
+    pub(super) fn is_alive(&self) -> bool {
+        !self.is_over.load(Ordering::Acquire)
+    }
+
+    /// Sends a program, which nothing confirms.
+    pub(super) fn send(&self, program: &str) -> Result<(), LinkError> {
+        let address = self.address;
+        if !self.is_alive() {
+            return Err(LinkError::Closed { address });
+        }
+        let mut stream = self.stream.lock().unwrap_or_else(PoisonError::into_inner);
+        stream
+            .write_all(program.as_bytes())
+            .map_err(|source| LinkError::Broken { address, source })
+    }
+}
+
+impl Drop for ScriptLine {
+    fn drop(&mut self) {
+        let stream = self
+            .stream
+            .get_mut()
+            .unwrap_or_else(PoisonError::into_inner);
+        let _ = stream.shutdown(Shutdown::Both);
+        if let Some(reader) = self.reader.take() {
+            let _ = reader.join();
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn programs_hold_every_number_as_fine_as_a_nanometre() {
+        let program = move_line([0.3, -0.000_000_001, 0.25, 3.125, 0.0, 0.0], 0.005, 0.5);
+        assert_eq!(
+            program,
+            "def taceva_move():\n  movel(p[0.300000000, -0.000000001, 0.250000000, 3.125000000, 0.000000000, 0.000000000], a=0.500000, v=0.005000000)\nend\n"
+        );
+        assert_eq!(stop(2.0), "def taceva_stop():\n  stopl(2.000000)\nend\n");
+    }
+}

@@ -1,0 +1,179 @@
+//! The connection of the real-time data exchange: a thread that reads, and the newest state for whoever asks.
+
+use std::io::{self, Read, Write};
+use std::net::{Shutdown, SocketAddr, TcpStream};
+use std::sync::Arc;
+use std::thread::JoinHandle;
+use std::time::Duration;
+
+use taceva_core::ErrorKind;
+use thiserror::Error;
+
+use super::message::{
+    ArmState, Message, MessageError, Messages, OUTPUTS, START, VERSION, ask_outputs, ask_start,
+    ask_version, check_types,
+};
+use crate::link::{Ending, LinkError, Mailbox, connect, monotonic};
+
+/// The states of one arm.
+#[derive(Debug)]
+pub(super) struct States {
+    states: Arc<Mailbox<ArmState>>,
+    stream: TcpStream,
+    reader: Option<JoinHandle<()>>,
+}
+
+/// Why no states come.
+#[derive(Debug, Error)]
+pub(super) enum StatesError {
+    #[error(transparent)]
+    Link(#[from] LinkError),
+    #[error("{address} sends what is no data exchange: {source}")]
+    Foreign {
+        address: SocketAddr,
+        source: MessageError,
+    },
+    #[error("{address} does not answer within {ANSWER:?}")]
+    Silent { address: SocketAddr },
+    #[error("{address} does not accept version 2 of the exchange, or to start it")]
+    Refused { address: SocketAddr },
+}
+
+impl StatesError {
+    /// What kind of failure it is.
+    pub(super) fn kind(&self) -> ErrorKind {
+        match self {
+            StatesError::Link(error) => error.kind(),
+            StatesError::Foreign { .. } => ErrorKind::Protocol,
+            StatesError::Silent { .. } => ErrorKind::Timeout,
+            StatesError::Refused { .. } => ErrorKind::Unsupported,
+        }
+    }
+}
+
+const ANSWER: Duration = Duration::from_secs(2);
+
+impl States {
+    /// Asks the controller at `port` of `host` for so many states a second.
+    pub(super) fn open(host: &str, port: u16, rate_hz: f64) -> Result<States, StatesError> {
+        let (mut stream, address) = connect(host, port)?;
+        let broken = |source: io::Error| LinkError::Broken { address, source };
+        stream.set_read_timeout(Some(ANSWER)).map_err(broken)?;
+        let mut messages = Messages::default();
+        let questions = [
+            (VERSION, ask_version()),
+            (OUTPUTS, ask_outputs(rate_hz)),
+            (START, ask_start()),
+        ];
+        for (kind, question) in questions {
+            stream.write_all(&question).map_err(broken)?;
+            await_answer(&mut stream, address, &mut messages, kind)?;
+        }
+        stream.set_read_timeout(None).map_err(broken)?;
+        let reading = stream.try_clone().map_err(broken)?;
+        let states = Arc::new(Mailbox::default());
+        let posting = Arc::clone(&states);
+        let reader = std::thread::Builder::new()
+            .name("ur states".to_owned())
+            .spawn(move || {
+                let ending = read(reading, address, messages, &posting);
+                posting.end(ending);
+            })
+            .map_err(broken)?;
+        Ok(States {
+            states,
+            stream,
+            reader: Some(reader),
+        })
+    }
+
+    /// The states that come.
+    pub(super) fn mailbox(&self) -> &Mailbox<ArmState> {
+        &self.states
+    }
+}
+
+impl Drop for States {
+    fn drop(&mut self) {
+        // The thread that reads ends with the stream.
+        let _ = self.stream.shutdown(Shutdown::Both);
+        if let Some(reader) = self.reader.take() {
+            let _ = reader.join();
+        }
+    }
+}
+
+/// Waits until the controller accepts what was asked for by a message of `kind`.
+fn await_answer(
+    stream: &mut TcpStream,
+    address: SocketAddr,
+    messages: &mut Messages,
+    kind: u8,
+) -> Result<(), StatesError> {
+    let foreign = |source| StatesError::Foreign { address, source };
+    let mut bytes = [0; 1024];
+    loop {
+        match messages.next().map_err(foreign)? {
+            Some(Message::Accepted(of, true)) if of == kind => return Ok(()),
+            Some(Message::Accepted(of, false)) if of == kind => {
+                return Err(StatesError::Refused { address });
+            }
+            Some(Message::Types(types)) if kind == OUTPUTS => {
+                return check_types(&types).map_err(foreign);
+            }
+            Some(_) => continue,
+            None => {}
+        }
+        match stream.read(&mut bytes) {
+            Ok(0) => return Err(LinkError::Closed { address }.into()),
+            Ok(count) => messages.push(&bytes[..count]),
+            Err(source) => match source.kind() {
+                io::ErrorKind::Interrupted => {}
+                io::ErrorKind::WouldBlock | io::ErrorKind::TimedOut => {
+                    return Err(StatesError::Silent { address });
+                }
+                _ => return Err(LinkError::Broken { address, source }.into()),
+            },
+        }
+    }
+}
+
+/// Posts every state until none can come any more, and says why.
+fn read(
+    mut stream: TcpStream,
+    address: SocketAddr,
+    mut messages: Messages,
+    posting: &Mailbox<ArmState>,
+) -> Ending {
+    let mut bytes = [0; 4096];
+    loop {
+        let at = monotonic();
+        let (mut count, mut newest) = (0, None);
+        loop {
+            match messages.next() {
+                Ok(None) => break,
+                Ok(Some(Message::State(state))) => {
+                    count += 1;
+                    newest = Some(state);
+                }
+                Ok(Some(_)) => {}
+                Err(error) => {
+                    let _ = stream.shutdown(Shutdown::Both);
+                    return Ending {
+                        kind: ErrorKind::Protocol,
+                        why: format!("{address} sends what is no data exchange: {error}"),
+                    };
+                }
+            }
+        }
+        if let Some(state) = newest {
+            posting.post_last(count, state, at);
+        }
+        match stream.read(&mut bytes) {
+            Ok(0) => return LinkError::Closed { address }.into(),
+            Ok(count) => messages.push(&bytes[..count]),
+            Err(error) if error.kind() == io::ErrorKind::Interrupted => {}
+            Err(source) => return LinkError::Broken { address, source }.into(),
+        }
+    }
+}

@@ -1,0 +1,159 @@
+//! What a load was called zero, and what is beyond a transducer's range: for transducers whose zero is taken off on this side.
+
+use std::time::Duration;
+
+use taceva_core::{Deadline, DriverError, ErrorKind, Newton, NewtonMillimetre, Wrench};
+
+use crate::link::monotonic;
+
+/// The zero and the range of one transducer.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct HostZero {
+    zero: Wrench,
+    /// What it measures is clipped at this force, in N.
+    force_max_n: Option<f64>,
+}
+
+/// The time whose mean becomes zero.
+const MEAN_OVER: Duration = Duration::from_millis(250);
+/// The greatest part of the range that may be called zero: what is left must hold what comes.
+const ZERO_MAX: f64 = 0.5;
+
+impl HostZero {
+    /// No load is called zero yet.
+    pub(crate) fn new(force_max_n: Option<f64>) -> HostZero {
+        HostZero {
+            zero: Wrench::default(),
+            force_max_n,
+        }
+    }
+
+    /// Refuses a force that is beyond the range.
+    ///
+    /// # Errors
+    /// A sentence that names the force and the range.
+    pub(crate) fn check(&self, wrench: &Wrench) -> Result<(), String> {
+        let Some(most) = self.force_max_n else {
+            return Ok(());
+        };
+        match wrench.force.iter().find(|force| force.0.abs() >= most) {
+            Some(beyond) => Err(format!(
+                "{beyond}, expected less than {most} N: a clipped force is no force"
+            )),
+            None => Ok(()),
+        }
+    }
+
+    /// `wrench` without what is called zero.
+    pub(crate) fn taken_off(&self, wrench: &Wrench) -> Wrench {
+        sum(wrench, &times(&self.zero, -1.0))
+    }
+
+    /// Forgets what is called zero.
+    pub(crate) fn forget(&mut self) {
+        self.zero = Wrench::default();
+    }
+
+    /// Calls the mean of 0.25 s zero; `next` gives the readings, and `failed` makes an error of a kind and a sentence.
+    ///
+    /// # Errors
+    /// Those of `next`, `Timeout` if the deadline is too near, `OutOfRange` for a load of more than half the range.
+    pub(crate) fn take(
+        &mut self,
+        deadline: Deadline,
+        mut next: impl FnMut(Duration) -> Result<Wrench, DriverError>,
+        failed: impl Fn(ErrorKind, String) -> DriverError,
+    ) -> Result<(), DriverError> {
+        let began = monotonic();
+        let (mut total, mut count) = (Wrench::default(), 0.0);
+        loop {
+            let spent = monotonic().saturating_sub(began);
+            if spent >= MEAN_OVER && count > 0.0 {
+                break;
+            }
+            let left = deadline.less(spent).remaining();
+            if left.is_zero() {
+                let why = format!("expected {MEAN_OVER:?} of readings within {deadline}");
+                return Err(failed(ErrorKind::Timeout, why));
+            }
+            total = sum(&total, &next(left)?);
+            count += 1.0;
+        }
+        let mean = times(&total, 1.0 / count);
+        if let Some(most) = self.force_max_n.map(|most| ZERO_MAX * most)
+            && let Some(beyond) = mean.force.iter().find(|force| force.0.abs() > most)
+        {
+            let why = format!("{beyond}, expected at most {most} N: half of what it measures");
+            return Err(failed(ErrorKind::OutOfRange, why));
+        }
+        self.zero = mean;
+        Ok(())
+    }
+}
+
+fn sum(one: &Wrench, other: &Wrench) -> Wrench {
+    Wrench {
+        force: std::array::from_fn(|axis| Newton(one.force[axis].0 + other.force[axis].0)),
+        torque: std::array::from_fn(|axis| {
+            NewtonMillimetre(one.torque[axis].0 + other.torque[axis].0)
+        }),
+    }
+}
+
+fn times(wrench: &Wrench, factor: f64) -> Wrench {
+    Wrench {
+        force: wrench.force.map(|force| Newton(force.0 * factor)),
+        torque: wrench
+            .torque
+            .map(|torque| NewtonMillimetre(torque.0 * factor)),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use taceva_core::DriverKey;
+
+    use super::*;
+
+    const KEY: DriverKey = DriverKey::fixed("test/force");
+
+    fn load(fz: f64) -> Wrench {
+        let mut wrench = Wrench::default();
+        wrench.force[2] = Newton(fz);
+        wrench
+    }
+
+    fn taken(zero: &mut HostZero, fz: f64, deadline: Deadline) -> Result<(), DriverError> {
+        let next = |_| {
+            std::thread::sleep(Duration::from_millis(5));
+            Ok(load(fz))
+        };
+        let failed = |kind, why: String| DriverError::new(kind, &KEY, "zero").because(why);
+        zero.take(deadline, next, failed)
+    }
+
+    #[test]
+    fn a_load_that_is_called_zero_is_taken_off_and_a_great_one_is_not() {
+        let mut zero = HostZero::new(Some(10.0));
+        let patience = Deadline::after(Duration::from_secs(20));
+        taken(&mut zero, 2.0, patience).expect("a small load");
+        assert!((zero.taken_off(&load(5.0)).force[2].0 - 3.0).abs() < 1e-9);
+        let refused = taken(&mut zero, 5.1, patience).expect_err("more than half");
+        assert_eq!(refused.kind(), ErrorKind::OutOfRange);
+        let hasty = taken(&mut zero, 0.0, Deadline::PASSED).expect_err("no time");
+        assert_eq!(hasty.kind(), ErrorKind::Timeout);
+        assert!((zero.taken_off(&load(5.0)).force[2].0 - 3.0).abs() < 1e-9);
+        zero.forget();
+        assert!((zero.taken_off(&load(5.0)).force[2].0 - 5.0).abs() < 1e-9);
+    }
+
+    #[test]
+    fn a_force_at_the_end_of_the_range_is_none() {
+        let zero = HostZero::new(Some(10.0));
+        assert!(zero.check(&load(9.99)).is_ok());
+        for beyond in [10.0, -10.0, 11.0] {
+            assert!(zero.check(&load(beyond)).is_err());
+        }
+        assert!(HostZero::new(None).check(&load(1e9)).is_ok());
+    }
+}

@@ -1,0 +1,285 @@
+//! The gel, at the time of the wall.
+
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError, Weak};
+use std::time::{Duration, Instant};
+
+use taceva_core::{FrameInfo, FrameMut, Pose, Rig, Speed};
+use taceva_sim::optics::{AmbientLight, Bits, Camera, OpticsSpec};
+use taceva_sim::{Bench, MountError, Mounted, SimulatedRig};
+
+use crate::error::WireError;
+use crate::fault::{Device, Fault, FaultKind, Faults};
+use crate::options::BenchOptions;
+
+/// A simulated gel whose time passes by itself, shared by all emulated devices over it.
+#[derive(Clone, Debug)]
+pub struct WallBench {
+    inner: Arc<Inner>,
+}
+
+#[derive(Debug)]
+struct Inner {
+    rig: SimulatedRig,
+    began: Instant,
+    camera: Mutex<Camera>,
+    truth: Mutex<Truth>,
+    faults: Faults,
+    options: BenchOptions,
+}
+
+/// What is true, whatever the links say.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Truth {
+    /// Where the tip is, in the sensor's frame, in mm.
+    pub tip_mm: [f64; 3],
+    /// What presses on the gel, in the sensor's frame, in N; 0 under a board.
+    pub force_n: [f64; 3],
+    /// Whether the tip moves.
+    pub is_moving: bool,
+    /// The greatest z of the tip since it was last forgotten, in mm.
+    pub deepest_mm: f64,
+    /// The normal force that is watched, in N.
+    pub limit_n: Option<f64>,
+    /// When that force was first passed, since the start of the bench.
+    pub passed: Option<Duration>,
+    /// When the tip first stood after that.
+    pub stopped: Option<Duration>,
+}
+
+/// How often the gel is looked at.
+const TICK: Duration = Duration::from_millis(1);
+/// How many readings a box that calls the load zero takes the mean of.
+const TARE_READINGS: u32 = 16;
+
+impl WallBench {
+    /// A bench whose time begins now.
+    ///
+    /// # Errors
+    /// [`WireError`] if the gel or its camera cannot be made, or no thread starts.
+    pub fn start(options: &BenchOptions) -> Result<WallBench, WireError> {
+        let parameters = options.parameters()?;
+        let spec = OpticsSpec::new(&parameters);
+        let size = spec.native.map(|side| (side / options.reduction).max(1));
+        // What cameras send has 8 bits.
+        let mut camera = Camera::new(&spec, size, UNIT, options.seed)?.with_bits(Bits::Eight);
+        camera.prepare();
+        let rig = SimulatedRig::of(&mut Rig::new(), "wire");
+        rig.lay(Bench::new(parameters, UNIT, options.seed));
+        let truth = Truth {
+            tip_mm: rig.tip_mm(),
+            deepest_mm: f64::NEG_INFINITY,
+            ..Truth::default()
+        };
+        let bench = WallBench {
+            inner: Arc::new(Inner {
+                rig,
+                began: Instant::now(),
+                camera: Mutex::new(camera),
+                truth: Mutex::new(truth),
+                faults: Faults::default(),
+                options: options.clone(),
+            }),
+        };
+        let watched = Arc::downgrade(&bench.inner);
+        std::thread::Builder::new()
+            .name("gel".to_owned())
+            .spawn(move || watch(&watched))
+            .map_err(WireError::Thread)?;
+        Ok(bench)
+    }
+
+    /// What kind of bench it is.
+    pub fn options(&self) -> &BenchOptions {
+        &self.inner.options
+    }
+
+    /// The name of every emulated device: a host that reads it knows that nothing is real.
+    pub fn serial(&self) -> String {
+        format!("TACEVA-SIM{:04}", self.inner.options.seed % 10_000)
+    }
+
+    /// The time since the start, to which the gel has gone on.
+    pub fn now(&self) -> Duration {
+        let now = self.inner.began.elapsed();
+        self.inner.rig.advance(now);
+        now
+    }
+
+    /// Begins to move the tip, from where it is.
+    pub(crate) fn set_out(&self, target: Pose, speed: Speed) {
+        self.now();
+        self.inner.rig.set_out(target, speed);
+    }
+
+    /// Ends the motion that is under way, where the tip is now.
+    pub(crate) fn stand(&self) {
+        self.now();
+        self.inner.rig.stand();
+    }
+
+    pub(crate) fn is_moving(&self) -> bool {
+        self.now();
+        self.inner.rig.is_moving()
+    }
+
+    /// Where the robot believes that the tip is.
+    pub(crate) fn pose(&self) -> Pose {
+        self.now();
+        self.inner.rig.pose_now()
+    }
+
+    /// What the transducer reads now, in the sensor's frame, in N.
+    pub(crate) fn reading_n(&self) -> [f64; 3] {
+        self.now();
+        self.inner.rig.read_now()
+    }
+
+    /// Calls the load zero in the transducer itself.
+    pub(crate) fn tare(&self) {
+        self.now();
+        self.inner.rig.tare_now(TARE_READINGS);
+    }
+
+    /// The size and the format of the camera's frames.
+    pub fn frame_info(&self) -> FrameInfo {
+        self.camera().frame_info()
+    }
+
+    /// Frames a second.
+    pub fn frame_rate_hz(&self) -> f64 {
+        self.inner.options.model.parameters().camera.rate_hz
+    }
+
+    /// What the camera sees now.
+    pub(crate) fn picture(&self) -> Result<Vec<u8>, WireError> {
+        self.now();
+        let mut camera = self.camera();
+        let info = camera.frame_info();
+        let mut pixels = vec![0; info.byte_len().unwrap_or_default()];
+        let into = FrameMut::new(info, &mut pixels)
+            .map_err(|error| WireError::Request(error.to_string()))?;
+        self.inner.rig.render_now(&mut camera, into)?;
+        Ok(pixels)
+    }
+
+    /// Exchanges what the robot carries.
+    ///
+    /// # Errors
+    /// [`MountError::InContact`] while the tip is in the gel.
+    pub fn mount(&self, specimen: Mounted) -> Result<(), MountError> {
+        self.now();
+        self.inner.rig.mount(specimen)
+    }
+
+    /// Sets the light around the sensor.
+    pub fn light(&self, light: AmbientLight) {
+        self.inner.rig.light_now(light);
+    }
+
+    /// Puts a fault on a link.
+    pub fn inject(&self, fault: Fault) {
+        self.inner.faults.put(fault);
+    }
+
+    pub(crate) fn is_faulty(&self, device: Device, kind: FaultKind) -> bool {
+        self.inner.faults.is_on(device, kind)
+    }
+
+    pub(crate) fn withholds(&self, device: Device) -> bool {
+        self.inner.faults.withholds(device)
+    }
+
+    pub(crate) fn delay(&self, device: Device) -> Duration {
+        self.inner.faults.delay(device)
+    }
+
+    /// What is true now.
+    pub fn truth(&self) -> Truth {
+        self.inner.look();
+        *self.inner.truth()
+    }
+
+    /// Forgets what was deepest and when a limit was passed, and watches for `limit_n` from now on.
+    pub fn watch(&self, limit_n: Option<f64>) {
+        let mut truth = self.inner.truth();
+        truth.deepest_mm = f64::NEG_INFINITY;
+        truth.limit_n = limit_n;
+        (truth.passed, truth.stopped) = (None, None);
+    }
+
+    fn camera(&self) -> MutexGuard<'_, Camera> {
+        self.inner
+            .camera
+            .lock()
+            .unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+/// The specimen of the sensor: the nominal one.
+const UNIT: u32 = 0;
+
+impl Inner {
+    fn truth(&self) -> MutexGuard<'_, Truth> {
+        self.truth.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Lets the gel go on to now, and notes what is true.
+    fn look(&self) {
+        let now = self.began.elapsed();
+        let mut truth = self.truth();
+        self.rig.advance(now);
+        truth.tip_mm = self.rig.tip_mm();
+        truth.is_moving = self.rig.is_moving();
+        truth.force_n = self.rig.truth().map_or([0.0; 3], |contact| contact.force_n);
+        truth.deepest_mm = truth.deepest_mm.max(truth.tip_mm[2]);
+        let is_beyond = truth.limit_n.is_some_and(|limit| truth.force_n[2] > limit);
+        if is_beyond && truth.passed.is_none() {
+            truth.passed = Some(now);
+        }
+        if truth.passed.is_some() && truth.stopped.is_none() && !truth.is_moving {
+            truth.stopped = Some(now);
+        }
+    }
+}
+
+/// Looks at the gel every millisecond, until nobody has the bench any more.
+fn watch(bench: &Weak<Inner>) {
+    while let Some(inner) = bench.upgrade() {
+        inner.look();
+        drop(inner);
+        std::thread::sleep(TICK);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use taceva_core::Millimetre;
+
+    use super::*;
+
+    fn at_mm(z: f64) -> Pose {
+        let mut pose = Pose::default();
+        pose.position.z = Millimetre(z);
+        pose
+    }
+
+    #[test]
+    fn the_truth_says_when_a_limit_was_passed_and_when_the_tip_stood() {
+        let bench = WallBench::start(&BenchOptions::quiet(3)).expect("a bench");
+        bench.watch(Some(0.2));
+        let speed = Speed::try_new(200.0).expect("above 0");
+        bench.set_out(at_mm(0.5), speed);
+        while bench.truth().passed.is_none() {
+            std::thread::sleep(TICK);
+        }
+        bench.stand();
+        let truth = bench.truth();
+        assert!(!truth.is_moving && truth.stopped >= truth.passed);
+        assert!(
+            truth.force_n[2] > 0.2 && truth.deepest_mm > 0.0,
+            "{truth:?}"
+        );
+        bench.watch(None);
+        assert_eq!(bench.truth().passed, None);
+    }
+}

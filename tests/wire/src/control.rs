@@ -1,0 +1,297 @@
+//! The port by which whoever tests mounts specimens, sets the light, puts faults on links and asks for the truth: a JSON value a line.
+//!
+//! ```text
+//! {"mount": {"ball_mm": 4}}
+//! {"mount": {"grating": "line", "spacing_mm": 1.5}}
+//! {"light": "S1"}
+//! {"inject": {"device": "force", "fault": "silent", "seconds": 0.5}}
+//! {"inject": {"fault": "emergency-stop"}}
+//! {"watch": {"Fz_N": 0.8}}
+//! "truth"
+//! ```
+//!
+//! Each is answered by one line: `{"ok": true, …}` or `{"ok": false, "error": "…"}`.
+
+use std::io::{self, BufRead, BufReader, Write};
+use std::net::{Ipv4Addr, SocketAddr, TcpStream};
+use std::sync::Arc;
+use std::time::Duration;
+
+use serde::Deserialize;
+use serde_json::{Value, json};
+use taceva_core::{GratingKind, Nanometre};
+use taceva_sim::Mounted;
+use taceva_sim::optics::AmbientLight;
+
+use crate::bench::WallBench;
+use crate::error::WireError;
+use crate::fault::{Arm, ArmFault, Device, Fault, FaultKind};
+use crate::server::{End, Server};
+
+/// What is asked for.
+#[derive(Clone, Debug, Deserialize, PartialEq)]
+#[serde(rename_all = "lowercase", deny_unknown_fields)]
+enum Request {
+    Mount(Specimen),
+    Light(String),
+    Inject(Injection),
+    Watch(Limit),
+    Truth,
+}
+
+#[derive(Clone, Debug, Deserialize, PartialEq)]
+#[serde(deny_unknown_fields)]
+struct Specimen {
+    /// The radius of a ball.
+    ball_mm: Option<f64>,
+    grating: Option<String>,
+    spacing_mm: Option<f64>,
+}
+
+#[derive(Clone, Debug, Deserialize, PartialEq)]
+#[serde(deny_unknown_fields)]
+struct Injection {
+    device: Option<String>,
+    fault: String,
+    seconds: Option<f64>,
+}
+
+#[derive(Clone, Debug, Deserialize, PartialEq)]
+#[serde(deny_unknown_fields)]
+struct Limit {
+    #[serde(rename = "Fz_N")]
+    fz_n: Option<f64>,
+}
+
+/// The control port of a bench; it listens until this is dropped.
+#[derive(Debug)]
+pub struct Control {
+    server: Server,
+}
+
+/// A longer request is none.
+const LINE_MAX: u64 = 4096;
+/// How long a fault lasts if nothing is said.
+const USUAL_SECONDS: f64 = 1.0;
+/// No fault lasts longer.
+const SECONDS_MAX: f64 = 3600.0;
+
+impl Control {
+    /// Listens for requests about `bench` and, where there is one, its arm; 0 for any free port.
+    ///
+    /// # Errors
+    /// [`WireError`] if the port cannot be listened on.
+    pub fn start(
+        bench: &WallBench,
+        arm: Option<Arc<dyn Arm>>,
+        host: Ipv4Addr,
+        port: u16,
+    ) -> Result<Control, WireError> {
+        let end = End::default();
+        let serving = (bench.clone(), end.clone());
+        let server = Server::start(host, port, &end, move |stream| {
+            // A client that goes ends its connection.
+            let _ = serve(stream, &serving.0, arm.as_deref(), &serving.1);
+        })?;
+        Ok(Control { server })
+    }
+
+    /// Where it listens.
+    pub fn address(&self) -> SocketAddr {
+        self.server.address()
+    }
+}
+
+fn serve(
+    mut stream: TcpStream,
+    bench: &WallBench,
+    arm: Option<&dyn Arm>,
+    end: &End,
+) -> io::Result<()> {
+    let mut lines = BufReader::new(stream.try_clone()?);
+    let mut line = Vec::new();
+    while !end.has_come() {
+        let left = LINE_MAX.saturating_sub(line.len() as u64);
+        match io::Read::take(&mut lines, left).read_until(b'\n', &mut line) {
+            Ok(0) => return Ok(()),
+            Ok(_) => {}
+            Err(error)
+                if [io::ErrorKind::WouldBlock, io::ErrorKind::TimedOut].contains(&error.kind()) =>
+            {
+                continue;
+            }
+            Err(error) => return Err(error),
+        }
+        let answer = answer(&line, bench, arm);
+        line.clear();
+        let answer = match answer {
+            Ok(mut value) => {
+                value["ok"] = true.into();
+                value
+            }
+            Err(error) => json!({"ok": false, "error": error.to_string()}),
+        };
+        stream.write_all(format!("{answer}\n").as_bytes())?;
+    }
+    Ok(())
+}
+
+/// What a request is answered, once it is done.
+fn answer(line: &[u8], bench: &WallBench, arm: Option<&dyn Arm>) -> Result<Value, WireError> {
+    let refused = |why: String| WireError::Request(why);
+    let request: Request =
+        serde_json::from_slice(line).map_err(|error| refused(error.to_string()))?;
+    match request {
+        Request::Mount(specimen) => {
+            let mounted = mounted(&specimen)?;
+            bench
+                .mount(mounted)
+                .map_err(|error| refused(error.to_string()))?;
+        }
+        Request::Light(scene) => {
+            let light = AmbientLight::from_name(&scene).ok_or_else(|| {
+                let known = AmbientLight::ALL.map(AmbientLight::name).join("`, `");
+                refused(format!("light {scene:?}: expected one of `{known}`"))
+            })?;
+            bench.light(light);
+        }
+        Request::Inject(injection) => inject(&injection, bench, arm)?,
+        Request::Watch(Limit { fz_n }) => bench.watch(fz_n),
+        Request::Truth => {
+            let truth = bench.truth();
+            let seconds = |time: Option<Duration>| time.map(|time| time.as_secs_f64());
+            return Ok(json!({
+                "simulated": true,
+                "serial": bench.serial(),
+                "now_s": bench.now().as_secs_f64(),
+                "tip_mm": truth.tip_mm,
+                "force_N": truth.force_n,
+                "moving": truth.is_moving,
+                "deepest_mm": truth.deepest_mm,
+                "passed_s": seconds(truth.passed),
+                "stopped_s": seconds(truth.stopped),
+            }));
+        }
+    }
+    Ok(json!({}))
+}
+
+fn mounted(specimen: &Specimen) -> Result<Mounted, WireError> {
+    let refused = WireError::Request;
+    let length = |mm: f64| {
+        Nanometre::from_millimetres(mm).ok_or_else(|| refused(format!("{mm} mm is no length")))
+    };
+    match specimen {
+        Specimen {
+            ball_mm: Some(radius_mm),
+            grating: None,
+            spacing_mm: None,
+        } => Mounted::ball(length(*radius_mm)?),
+        Specimen {
+            ball_mm: None,
+            grating: Some(kind),
+            spacing_mm: Some(spacing_mm),
+        } => {
+            let kind = GratingKind::from_name(kind)
+                .ok_or_else(|| refused(format!("grating {kind:?}: expected `line` or `dot`")))?;
+            Mounted::board(kind, length(*spacing_mm)?)
+        }
+        _ => {
+            let expected = "a specimen is `ball_mm`, or `grating` and `spacing_mm`";
+            return Err(refused(expected.to_owned()));
+        }
+    }
+    .map_err(|error| refused(error.to_string()))
+}
+
+fn inject(
+    injection: &Injection,
+    bench: &WallBench,
+    arm: Option<&dyn Arm>,
+) -> Result<(), WireError> {
+    let refused = WireError::Request;
+    let of_arm = match injection.fault.as_str() {
+        "emergency-stop" => Some(ArmFault::EmergencyStop),
+        "collision" => Some(ArmFault::Collision),
+        _ => None,
+    };
+    if let Some(fault) = of_arm {
+        let arm = arm.ok_or_else(|| refused("this bench has no arm".to_owned()))?;
+        arm.suffer(fault);
+        return Ok(());
+    }
+    let name = injection.device.as_deref().unwrap_or_default();
+    let device = Device::ALL.into_iter().find(|device| device.name() == name);
+    let device = device.ok_or_else(|| {
+        let known = Device::ALL.map(Device::name).join("`, `");
+        refused(format!("device {name:?}: expected one of `{known}`"))
+    })?;
+    let kind = FaultKind::ALL
+        .into_iter()
+        .find(|kind| kind.name() == injection.fault)
+        .ok_or_else(|| {
+            let known = FaultKind::ALL.map(FaultKind::name).join("`, `");
+            refused(format!(
+                "fault {:?}: expected one of `{known}`, `emergency-stop`, `collision`",
+                injection.fault
+            ))
+        })?;
+    let seconds = injection.seconds.unwrap_or(USUAL_SECONDS);
+    if !(0.0..=SECONDS_MAX).contains(&seconds) {
+        return Err(refused(format!("{seconds} s: expected 0 to {SECONDS_MAX}")));
+    }
+    bench.inject(Fault {
+        device,
+        kind,
+        lasts: Duration::from_secs_f64(seconds),
+    });
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::options::BenchOptions;
+
+    #[test]
+    fn requests_are_done_or_refused_by_what_would_be_accepted() {
+        let bench = WallBench::start(&BenchOptions::quiet(1)).expect("a bench");
+        let ask = |line: &str| answer(line.as_bytes(), &bench, None);
+        for line in [
+            r#"{"mount": {"ball_mm": 4}}"#,
+            r#"{"mount": {"grating": "line", "spacing_mm": 1.5}}"#,
+            r#"{"light": "S1"}"#,
+            r#"{"inject": {"device": "force", "fault": "silent", "seconds": 0.5}}"#,
+            r#"{"watch": {"Fz_N": 0.8}}"#,
+        ] {
+            ask(line).unwrap_or_else(|error| panic!("{line}: {error}"));
+        }
+        let truth = ask("\"truth\"").expect("the truth");
+        assert_eq!(truth["serial"], "TACEVA-SIM0001");
+        assert_eq!(truth["simulated"], true);
+        for (line, words) in [
+            ("", "EOF"),
+            ("{}", "expected"),
+            (r#"{"mount": {"ball_mm": 5}}"#, "expected 2, 4 or 10 mm"),
+            (r#"{"mount": {}}"#, "a specimen is"),
+            (r#"{"light": "sun"}"#, "expected one of `normal`"),
+            (
+                r#"{"inject": {"fault": "silent"}}"#,
+                "`robot`, `force`, `camera`",
+            ),
+            (
+                r#"{"inject": {"device": "force", "fault": "gone"}}"#,
+                "`drop`, `late`",
+            ),
+            (r#"{"inject": {"fault": "collision"}}"#, "no arm"),
+            (
+                r#"{"inject": {"device": "force", "fault": "drop", "seconds": -1}}"#,
+                "0 to 3600",
+            ),
+            (r#"{"tare": {}}"#, "unknown variant"),
+        ] {
+            let error = ask(line).expect_err(line).to_string();
+            assert!(error.contains(words), "{line}: {error}");
+        }
+    }
+}

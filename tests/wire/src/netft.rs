@@ -1,0 +1,177 @@
+//! An emulated Net F/T box of ATI: records over UDP, and the page that says what a count is worth.
+//!
+//! What it does: start, stop, bias, one client at a time (the last one that asked). What it does not: counted and buffered transfers, other
+//! pages, the port of commands over TCP.
+
+use std::io::{self, Read as _, Write as _};
+use std::net::{Ipv4Addr, SocketAddr, TcpStream, UdpSocket};
+use std::time::Duration;
+
+use crate::base::Base;
+use crate::bench::WallBench;
+use crate::error::WireError;
+use crate::fault::{Device, FaultKind};
+use crate::server::{End, Server};
+
+/// An emulated box that listens until this is dropped.
+#[derive(Debug)]
+pub struct Emulator {
+    records: SocketAddr,
+    pages: Server,
+    records_thread: Option<std::thread::JoinHandle<()>>,
+    end: End,
+}
+
+/// The port of records that clients expect.
+pub const USUAL_PORT: u16 = 49_152;
+/// Readings a second.
+const RATE_HZ: u32 = 500;
+/// Counts a N, and a N·m.
+const COUNTS: f64 = 1_000_000.0;
+
+impl Emulator {
+    /// Starts a box whose transducer measures what presses on the gel of `bench`; 0 for any free port.
+    ///
+    /// # Errors
+    /// [`WireError`] if a port cannot be listened on.
+    pub fn start(
+        bench: &WallBench,
+        host: Ipv4Addr,
+        port: u16,
+        page_port: u16,
+    ) -> Result<Emulator, WireError> {
+        let end = End::default();
+        let pages = Server::start(host, page_port, &end, |stream| {
+            // A client that goes is not answered.
+            let _ = serve_page(stream);
+        })?;
+        let refused = |source| WireError::Listen {
+            address: format!("{host}:{port}"),
+            source,
+        };
+        let socket = UdpSocket::bind((host, port)).map_err(refused)?;
+        socket.set_nonblocking(true).map_err(refused)?;
+        let records = socket.local_addr().map_err(refused)?;
+        let sending = (bench.clone(), end.clone());
+        let thread = std::thread::Builder::new()
+            .name("netft".to_owned())
+            .spawn(move || stream_records(&socket, &sending.0, &sending.1))
+            .map_err(WireError::Thread)?;
+        Ok(Emulator {
+            records,
+            pages,
+            records_thread: Some(thread),
+            end,
+        })
+    }
+
+    /// The driver that reaches it, with its arguments.
+    pub fn selector(&self) -> String {
+        let [records, page] = [self.address(), self.page_address()];
+        format!(
+            "ati/netft:host={};port={};page_port={}",
+            records.ip(),
+            records.port(),
+            page.port()
+        )
+    }
+
+    /// Where its records are asked for.
+    pub fn address(&self) -> SocketAddr {
+        self.records
+    }
+
+    /// Where its page is.
+    pub fn page_address(&self) -> SocketAddr {
+        self.pages.address()
+    }
+}
+
+impl Drop for Emulator {
+    fn drop(&mut self) {
+        self.end.come();
+        if let Some(thread) = self.records_thread.take() {
+            let _ = thread.join();
+        }
+    }
+}
+
+fn serve_page(mut stream: TcpStream) -> io::Result<()> {
+    let mut request = [0; 1024];
+    let count = stream.read(&mut request)?;
+    let answer = if request[..count].starts_with(b"GET /netftapi2.xml ") {
+        let page = format!(
+            "<?xml version=\"1.0\"?><netft><prodname>TACEVA-SIM</prodname><scfgfu>N</scfgfu><scfgtu>Nm</scfgtu><cfgcpf>{COUNTS}</cfgcpf><cfgcpt>{COUNTS}</cfgcpt></netft>"
+        );
+        let length = page.len();
+        format!(
+            "HTTP/1.0 200 OK\r\nContent-Type: text/xml\r\nContent-Length: {length}\r\n\r\n{page}"
+        )
+    } else {
+        "HTTP/1.0 404 Not Found\r\nContent-Length: 0\r\n\r\n".to_owned()
+    };
+    stream.write_all(answer.as_bytes())
+}
+
+/// Answers requests with records at even times.
+fn stream_records(socket: &UdpSocket, bench: &WallBench, end: &End) {
+    /// How often it is looked for requests while nobody wants records.
+    const LOOK: Duration = Duration::from_millis(1);
+    let mut client: Option<SocketAddr> = None;
+    let mut number: u32 = 0;
+    let mut due = bench.now();
+    let mut shown = [0.0; 3];
+    let mut request = [0; 64];
+    while !end.has_come() {
+        if let Ok((8, from)) = socket.recv_from(&mut request)
+            && request.starts_with(&[0x12, 0x34, 0x00])
+        {
+            match request[3] {
+                0 => client = None,
+                2 | 3 => {
+                    client = Some(from);
+                    due = bench.now();
+                }
+                0x42 => bench.tare(),
+                _ => {}
+            }
+        }
+        let now = bench.now();
+        let Some(to) = client else {
+            std::thread::sleep(LOOK);
+            continue;
+        };
+        if due > now {
+            std::thread::sleep((due - now).min(LOOK));
+            continue;
+        }
+        due += Duration::from_secs(1) / RATE_HZ;
+        number = number.wrapping_add(1);
+        if !bench.is_faulty(Device::Force, FaultKind::Frozen) {
+            shown = Base::turn(bench.reading_n());
+        }
+        std::thread::sleep(bench.delay(Device::Force));
+        if bench.withholds(Device::Force) {
+            continue;
+        }
+        // Whole numbers cannot be none: a broken gage is an error in the status.
+        let status = match bench.is_faulty(Device::Force, FaultKind::NotANumber) {
+            true => 0x8000_0000,
+            false => 0,
+        };
+        let _ = socket.send_to(&record(number, status, shown), to);
+    }
+}
+
+fn record(number: u32, status: u32, force_n: [f64; 3]) -> Vec<u8> {
+    #[expect(
+        clippy::cast_possible_truncation,
+        reason = "a cast saturates, and forces are some newtons"
+    )]
+    let counts = force_n.map(|force| (force * COUNTS).round() as i32);
+    let heads = [number, number, status]
+        .into_iter()
+        .flat_map(u32::to_be_bytes);
+    let forces = counts.into_iter().chain([0; 3]).flat_map(i32::to_be_bytes);
+    heads.chain(forces).collect()
+}

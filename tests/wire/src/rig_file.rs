@@ -1,0 +1,106 @@
+//! The rig file of a bench: which driver reaches which device, and how they stand to each other.
+
+use std::fmt::Write as _;
+use std::path::Path;
+
+use crate::base::Base;
+use crate::bench::WallBench;
+use crate::control::Control;
+use crate::error::WireError;
+
+/// What is to be written: the drivers with their arguments.
+#[derive(Clone, Debug)]
+pub struct RigFile<'a> {
+    /// The gel.
+    pub bench: &'a WallBench,
+    /// That of the arm over it, if there is one.
+    pub robot: Option<String>,
+    /// That of the transducer, if there is one.
+    pub force: Option<String>,
+    /// That of the camera, if there is one.
+    pub sensor: Option<String>,
+    /// Where faults are injected.
+    pub control: &'a Control,
+}
+
+impl RigFile<'_> {
+    /// The text of the file.
+    pub fn text(&self) -> String {
+        let mut text = format!(
+            "# Everything here is simulated: {}. Faults and truth: JSON lines on {}.\nrig_version = 1\n",
+            self.bench.serial(),
+            self.control.address()
+        );
+        let axes = toml::Value::from(Base::AXES.to_vec());
+        // A string takes whatever is written, so writing to it does not fail.
+        let mut section = |name: &str, lines: &[String]| {
+            let _ = write!(text, "\n[{name}]\n{}\n", lines.join("\n"));
+        };
+        let driver = |selector: &str| format!("driver = {}", toml::Value::from(selector));
+        let latency = || "latency_ms = 0.0".to_owned();
+        if let Some(selector) = &self.robot {
+            let origin = toml::Value::from(Base::ORIGIN_MM.to_vec());
+            section(
+                "robot",
+                &[
+                    driver(selector),
+                    "carries = \"indenter\"".to_owned(),
+                    format!("origin_mm = {origin}"),
+                    format!("axes = {axes}"),
+                ],
+            );
+        }
+        if let Some(selector) = &self.force {
+            section(
+                "force",
+                &[driver(selector), format!("axes = {axes}"), latency()],
+            );
+        }
+        if let Some(selector) = &self.sensor {
+            section("sensor", &[driver(selector), latency()]);
+        }
+        section("limits", &["speed_max_mm_s = 20.0".to_owned()]);
+        text
+    }
+
+    /// Writes the file.
+    ///
+    /// # Errors
+    /// [`WireError::Write`].
+    pub fn write(&self, path: &Path) -> Result<(), WireError> {
+        std::fs::write(path, self.text()).map_err(|source| WireError::Write {
+            path: path.to_owned(),
+            source,
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::net::Ipv4Addr;
+
+    use super::*;
+    use crate::options::BenchOptions;
+
+    #[test]
+    fn the_file_is_toml_that_names_every_device_and_says_that_it_is_simulated() {
+        let bench = WallBench::start(&BenchOptions::quiet(7)).expect("a bench");
+        let control = Control::start(&bench, None, Ipv4Addr::LOCALHOST, 0).expect("a port");
+        let text = RigFile {
+            bench: &bench,
+            robot: Some("ufactory/xarm:host=127.0.0.1;port=502".to_owned()),
+            force: Some("sri/m8128:host=127.0.0.1".to_owned()),
+            sensor: Some("camera/mjpeg:url=http://127.0.0.1:80/\"x\"".to_owned()),
+            control: &control,
+        }
+        .text();
+        assert!(text.starts_with("# Everything here is simulated: TACEVA-SIM0007."));
+        let table: toml::Table = text.parse().expect("TOML");
+        let driver = |section: &str| table[section]["driver"].as_str().expect("a selector");
+        assert_eq!(driver("robot"), "ufactory/xarm:host=127.0.0.1;port=502");
+        assert_eq!(driver("force"), "sri/m8128:host=127.0.0.1");
+        assert!(driver("sensor").ends_with("/\"x\""));
+        assert_eq!(table["robot"]["axes"][1].as_str(), Some("-y"));
+        assert_eq!(table["robot"]["origin_mm"][2].as_float(), Some(251.3));
+    }
+}

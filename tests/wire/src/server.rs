@@ -1,0 +1,123 @@
+//! Listening: a thread a port, a thread a client, and an end to both.
+
+use std::io;
+use std::net::{Ipv4Addr, SocketAddr, SocketAddrV4, TcpListener, TcpStream};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::thread::JoinHandle;
+use std::time::Duration;
+
+use crate::error::WireError;
+
+/// A port on loopback that is listened on until this is dropped.
+#[derive(Debug)]
+pub(crate) struct Server {
+    address: SocketAddr,
+    end: End,
+    listener: Option<JoinHandle<()>>,
+}
+
+/// Whether it is over.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct End(Arc<AtomicBool>);
+
+impl End {
+    pub(crate) fn has_come(&self) -> bool {
+        self.0.load(Ordering::Acquire)
+    }
+
+    pub(crate) fn come(&self) {
+        self.0.store(true, Ordering::Release);
+    }
+}
+
+/// How often a thread that waits for a client looks whether it is over.
+const LOOK: Duration = Duration::from_millis(5);
+/// How long a client that takes nothing may hold its thread.
+const WRITING: Duration = Duration::from_secs(2);
+
+impl Server {
+    /// Listens on `port` of `host`, which is an address of loopback; 0 for any port. `serve` is called on a thread of its own for each client.
+    pub(crate) fn start(
+        host: Ipv4Addr,
+        port: u16,
+        end: &End,
+        serve: impl Fn(TcpStream) + Clone + Send + 'static,
+    ) -> Result<Server, WireError> {
+        let wanted = SocketAddrV4::new(host, port);
+        let refused = |source| WireError::Listen {
+            address: wanted.to_string(),
+            source,
+        };
+        if !host.is_loopback() {
+            return Err(refused(io::Error::other(
+                "expected an address of loopback, 127.0.0.1 for one",
+            )));
+        }
+        let listener = TcpListener::bind(wanted).map_err(refused)?;
+        let address = listener.local_addr().map_err(refused)?;
+        listener.set_nonblocking(true).map_err(refused)?;
+        let over = end.clone();
+        let thread = std::thread::Builder::new()
+            .name(format!("port {}", address.port()))
+            .spawn(move || {
+                while !over.has_come() {
+                    let Ok((stream, _)) = listener.accept() else {
+                        std::thread::sleep(LOOK);
+                        continue;
+                    };
+                    let serve = serve.clone();
+                    // A client that cannot be served is one that is not there.
+                    let prepared = prepare(&stream);
+                    if prepared.is_ok() {
+                        let _ = std::thread::Builder::new().spawn(move || serve(stream));
+                    }
+                }
+            })
+            .map_err(WireError::Thread)?;
+        Ok(Server {
+            address,
+            end: end.clone(),
+            listener: Some(thread),
+        })
+    }
+
+    pub(crate) fn address(&self) -> SocketAddr {
+        self.address
+    }
+}
+
+fn prepare(stream: &TcpStream) -> io::Result<()> {
+    stream.set_nonblocking(false)?;
+    stream.set_nodelay(true)?;
+    stream.set_write_timeout(Some(WRITING))?;
+    stream.set_read_timeout(Some(READING))
+}
+
+/// How long a thread waits for its client before it looks whether it is over.
+const READING: Duration = Duration::from_millis(50);
+
+/// Reads once: `None` if nothing came and the client is still there, 0 bytes once it is gone or it is over.
+pub(crate) fn read(stream: &mut impl io::Read, bytes: &mut [u8], end: &End) -> Option<usize> {
+    if end.has_come() {
+        return Some(0);
+    }
+    match stream.read(bytes) {
+        Ok(count) => Some(count),
+        Err(error) => match error.kind() {
+            io::ErrorKind::WouldBlock | io::ErrorKind::TimedOut | io::ErrorKind::Interrupted => {
+                None
+            }
+            _ => Some(0),
+        },
+    }
+}
+
+impl Drop for Server {
+    fn drop(&mut self) {
+        self.end.come();
+        if let Some(listener) = self.listener.take() {
+            let _ = listener.join();
+        }
+    }
+}

@@ -1,0 +1,47 @@
+//! An emulated interface box of SRI: commands and a stream of frames on one port.
+//!
+//! What it does: rate, check by sum, engineering units, start, stop, zero (which it does not answer while it streams, as public drivers
+//! report). What it does not: CRC32, counts, several readings a frame, settings that last.
+
+mod session;
+
+use std::net::{Ipv4Addr, SocketAddr};
+
+use crate::bench::WallBench;
+use crate::error::WireError;
+use crate::server::{End, Server};
+
+/// An emulated box that listens until this is dropped.
+#[derive(Debug)]
+pub struct Emulator {
+    server: Server,
+}
+
+/// The port that clients expect.
+pub const USUAL_PORT: u16 = 4008;
+
+impl Emulator {
+    /// Starts a box whose transducer measures what presses on the gel of `bench`; 0 for any free port.
+    ///
+    /// # Errors
+    /// [`WireError`] if the port cannot be listened on.
+    pub fn start(bench: &WallBench, host: Ipv4Addr, port: u16) -> Result<Emulator, WireError> {
+        let end = End::default();
+        let serving = (bench.clone(), end.clone());
+        let server = Server::start(host, port, &end, move |stream| {
+            session::serve(stream, &serving.0, &serving.1);
+        })?;
+        Ok(Emulator { server })
+    }
+
+    /// The driver that reaches it, with its arguments.
+    pub fn selector(&self) -> String {
+        let address = self.address();
+        format!("sri/m8128:host={};port={}", address.ip(), address.port())
+    }
+
+    /// Where it listens.
+    pub fn address(&self) -> SocketAddr {
+        self.server.address()
+    }
+}

@@ -1,0 +1,178 @@
+//! A client of the box.
+
+use std::io::Write;
+use std::net::TcpStream;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::time::Duration;
+
+use crate::base::Base;
+use crate::bench::WallBench;
+use crate::fault::{Device, FaultKind};
+use crate::server::{End, read};
+
+/// What one client has set.
+#[derive(Debug)]
+struct Settings {
+    rate_hz: u32,
+    is_streaming: bool,
+}
+
+/// The stream of one client, and what it wants of it.
+#[derive(Debug)]
+struct Session {
+    settings: Mutex<Settings>,
+    stream: Mutex<TcpStream>,
+}
+
+impl Session {
+    fn settings(&self) -> MutexGuard<'_, Settings> {
+        self.settings.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    fn send(&self, bytes: &[u8]) -> bool {
+        let mut stream = self.stream.lock().unwrap_or_else(PoisonError::into_inner);
+        stream.write_all(bytes).is_ok()
+    }
+}
+
+/// Rates that the box takes, in Hz.
+const RATES_HZ: std::ops::RangeInclusive<u32> = 1..=2_000;
+/// How long it takes to find its zero.
+const ZEROING: Duration = Duration::from_millis(100);
+
+/// Answers commands until the client goes; readings have a thread of their own.
+pub(super) fn serve(mut stream: TcpStream, bench: &WallBench, end: &End) {
+    let Ok(writing) = stream.try_clone() else {
+        return;
+    };
+    let session = Arc::new(Session {
+        settings: Mutex::new(Settings {
+            rate_hz: 200,
+            is_streaming: false,
+        }),
+        stream: Mutex::new(writing),
+    });
+    let over = End::default();
+    let sending = (Arc::clone(&session), bench.clone(), over.clone());
+    let sender = std::thread::spawn(move || stream_readings(&sending.0, &sending.1, &sending.2));
+    let mut waiting = String::new();
+    let mut bytes = [0; 1024];
+    loop {
+        match read(&mut stream, &mut bytes, end) {
+            None => continue,
+            Some(0) => break,
+            Some(count) => waiting.push_str(&String::from_utf8_lossy(&bytes[..count])),
+        }
+        while let Some((line, rest)) = waiting.split_once("\r\n") {
+            let answer = line
+                .strip_prefix("AT+")
+                .and_then(|command| answer(command, &session, bench));
+            waiting = rest.to_owned();
+            if let Some(answer) = answer {
+                session.send(format!("ACK+{answer}\r\n").as_bytes());
+            }
+        }
+    }
+    over.come();
+    let _ = sender.join();
+}
+
+/// What a command is answered; `None` for one that gets no answer.
+fn answer(command: &str, session: &Session, bench: &WallBench) -> Option<String> {
+    let (word, value) = command.split_once('=').unwrap_or((command, ""));
+    let accepted = match word {
+        "SMPF" => match value.parse() {
+            Ok(rate) if RATES_HZ.contains(&rate) => {
+                session.settings().rate_hz = rate;
+                true
+            }
+            _ => false,
+        },
+        "DCKMD" => value == "SUM",
+        "SGDM" => value == "(A01,A02,A03,A04,A05,A06);E;1;(WMA:1)",
+        "GSD" if value == "STOP" => {
+            session.settings().is_streaming = false;
+            true
+        }
+        "GSD" => {
+            session.settings().is_streaming = true;
+            return None;
+        }
+        "ADJZF" if session.settings().is_streaming => return None,
+        "ADJZF" => {
+            bench.tare();
+            std::thread::sleep(ZEROING);
+            value == "1;1;1;1;1;1"
+        }
+        _ => false,
+    };
+    let outcome = if accepted { "OK" } else { "ERROR" };
+    Some(format!("{command}${outcome}"))
+}
+
+/// Sends readings at even times, as long as the client wants any.
+fn stream_readings(session: &Session, bench: &WallBench, over: &End) {
+    /// How often it is looked whether the client wants readings.
+    const LOOK: Duration = Duration::from_millis(2);
+    let mut number: u16 = 0;
+    let mut due = bench.now();
+    let mut shown = [0.0; 3];
+    let mut held = Vec::new();
+    while !over.has_come() {
+        let Settings {
+            rate_hz,
+            is_streaming,
+        } = *session.settings();
+        let now = bench.now();
+        if !is_streaming {
+            due = now;
+            held.clear();
+            std::thread::sleep(LOOK);
+            continue;
+        }
+        if due > now {
+            std::thread::sleep(due - now);
+            continue;
+        }
+        due += Duration::from_secs(1) / rate_hz;
+        number = number.wrapping_add(1);
+        if !bench.is_faulty(Device::Force, FaultKind::Frozen) {
+            shown = Base::turn(bench.reading_n());
+        }
+        if bench.withholds(Device::Force) {
+            continue;
+        }
+        let mut values = [shown[0], shown[1], shown[2], 0.0, 0.0, 0.0];
+        if bench.is_faulty(Device::Force, FaultKind::NotANumber) {
+            values[2] = f64::NAN;
+        }
+        held.extend(frame(number, values));
+        if bench.delay(Device::Force).is_zero() {
+            let frames = std::mem::take(&mut held);
+            if !session.send(&frames) {
+                return;
+            }
+        }
+    }
+}
+
+/// A frame with six numbers, checked by the sum of their bytes.
+fn frame(number: u16, values: [f64; 6]) -> Vec<u8> {
+    #[expect(
+        clippy::cast_possible_truncation,
+        reason = "the frame has no finer numbers; a cast rounds to the nearest"
+    )]
+    let single = |value: f64| value as f32;
+    let data: Vec<u8> = values
+        .into_iter()
+        .flat_map(|value| single(value).to_le_bytes())
+        .collect();
+    let sum = data.iter().fold(0_u8, |sum, byte| sum.wrapping_add(*byte));
+    let length: u16 = 27;
+    let mut frame = vec![0xaa, 0x55];
+    frame.extend(length.to_be_bytes());
+    frame.extend(number.to_be_bytes());
+    frame.extend(data);
+    frame.push(sum);
+    frame
+}

@@ -1,0 +1,168 @@
+//! An emulated controller of Universal Robots: the real-time data exchange (port 30004) and script (port 30002).
+//!
+//! What it does: any outputs by name (zeros for those that it does not know the meaning of), `movel` to a pose, `stopl`, a stop of its safety.
+//! What it does not: inputs, other script, acceleration, joints.
+
+mod exchange;
+mod program;
+
+use std::net::{Ipv4Addr, SocketAddr};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+
+use taceva_core::Speed;
+
+use self::program::Program;
+use crate::base::Base;
+use crate::bench::WallBench;
+use crate::error::WireError;
+use crate::fault::{Arm, ArmFault};
+use crate::server::{End, Server, read};
+
+/// An emulated arm that listens until this is dropped.
+#[derive(Debug)]
+pub struct Emulator {
+    controller: Arc<Controller>,
+    states: Server,
+    script: Server,
+}
+
+/// The ports that clients expect: of the data exchange, and of script.
+pub const USUAL_PORTS: [u16; 2] = [30_004, 30_002];
+/// A tool that points down.
+const DOWN: [f64; 3] = [std::f64::consts::PI, 0.0, 0.0];
+/// A program is shorter.
+const PROGRAM_MAX: usize = 4096;
+
+/// The controller.
+#[derive(Debug)]
+pub(crate) struct Controller {
+    bench: WallBench,
+    inside: Mutex<Inside>,
+}
+
+#[derive(Debug)]
+struct Inside {
+    /// What happened to it, which only a person ends.
+    fault: Option<ArmFault>,
+    /// The rotation vector of the tool, which the gel does not know.
+    turned: [f64; 3],
+}
+
+impl Controller {
+    fn inside(&self) -> MutexGuard<'_, Inside> {
+        self.inside.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// The pose in m and as a rotation vector in rad, in the base frame.
+    fn pose(&self) -> [f64; 6] {
+        let position = self.bench.pose().position;
+        let [x, y, z] = Base::to_base([position.x.0, position.y.0, position.z.0]);
+        let [rx, ry, rz] = self.inside().turned;
+        [x / 1e3, y / 1e3, z / 1e3, rx, ry, rz]
+    }
+
+    fn is_moving(&self) -> bool {
+        self.bench.is_moving()
+    }
+
+    fn fault(&self) -> Option<ArmFault> {
+        self.inside().fault
+    }
+
+    /// Runs a program in the place of the one that runs.
+    fn run(&self, program: &Program) {
+        let mut inside = self.inside();
+        if inside.fault.is_some() {
+            return;
+        }
+        self.bench.stand();
+        if let Program::MoveLine {
+            pose: [x, y, z, rx, ry, rz],
+            speed_m_s,
+        } = *program
+            && let Ok(speed) = Speed::try_new(speed_m_s * 1e3)
+        {
+            inside.turned = [rx, ry, rz];
+            let yaw_rad = 0.0;
+            let place = [x, y, z].map(|metres| metres * 1e3);
+            self.bench.set_out(Base::pose(place, yaw_rad), speed);
+        }
+    }
+}
+
+impl Emulator {
+    /// Starts an arm over the gel of `bench`: switched on, 20 mm above it; 0 for any free port.
+    ///
+    /// # Errors
+    /// [`WireError`] if a port cannot be listened on.
+    pub fn start(
+        bench: &WallBench,
+        host: Ipv4Addr,
+        [states, script]: [u16; 2],
+    ) -> Result<Emulator, WireError> {
+        let end = End::default();
+        let controller = Arc::new(Controller {
+            bench: bench.clone(),
+            inside: Mutex::new(Inside {
+                fault: None,
+                turned: DOWN,
+            }),
+        });
+        let serving = (Arc::clone(&controller), end.clone());
+        let states = Server::start(host, states, &end, move |stream| {
+            // A client that goes ends its exchange.
+            let _ = exchange::serve(stream, &serving.0, &serving.1);
+        })?;
+        let serving = (Arc::clone(&controller), end.clone());
+        let script = Server::start(host, script, &end, move |mut stream| {
+            let mut waiting = String::new();
+            let mut bytes = [0; 1024];
+            loop {
+                match read(&mut stream, &mut bytes, &serving.1) {
+                    None => continue,
+                    Some(0) => return,
+                    Some(count) => waiting.push_str(&String::from_utf8_lossy(&bytes[..count])),
+                }
+                while let Some((program, rest)) = Program::take(&waiting) {
+                    waiting = rest;
+                    serving.0.run(&program);
+                }
+                if waiting.len() > PROGRAM_MAX {
+                    return;
+                }
+            }
+        })?;
+        Ok(Emulator {
+            controller,
+            states,
+            script,
+        })
+    }
+
+    /// Where the data exchange is.
+    pub fn states_address(&self) -> SocketAddr {
+        self.states.address()
+    }
+
+    /// Where script is taken.
+    pub fn script_address(&self) -> SocketAddr {
+        self.script.address()
+    }
+}
+
+impl Arm for Emulator {
+    fn suffer(&self, fault: ArmFault) {
+        self.controller.inside().fault = Some(fault);
+        self.controller.bench.stand();
+    }
+
+    fn selector(&self) -> String {
+        let [states, script] = [&self.states, &self.script].map(Server::address);
+        format!(
+            "ur/rtde:host={};port={};script_port={}",
+            states.ip(),
+            states.port(),
+            script.port()
+        )
+    }
+}

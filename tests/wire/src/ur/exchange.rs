@@ -1,0 +1,174 @@
+//! A client of the real-time data exchange.
+
+use std::io::{self, Write};
+use std::net::TcpStream;
+use std::time::Duration;
+
+use super::Controller;
+use crate::fault::{ArmFault, Device, FaultKind};
+use crate::server::{End, read};
+
+/// The outputs that public clients ask for, with their types; others do not exist here.
+const TYPES: [(&str, &str); 6] = [
+    ("actual_digital_input_bits", "UINT64"),
+    ("actual_digital_output_bits", "UINT64"),
+    ("timestamp", "DOUBLE"),
+    ("robot_mode", "INT32"),
+    ("safety_mode", "INT32"),
+    ("tool_mode", "UINT32"),
+];
+/// Words in names of outputs, and the type of every output with them.
+const KINDS: [(&str, &str); 12] = [
+    ("_TCP_", "VECTOR6D"),
+    ("_q", "VECTOR6D"),
+    ("joint_mode", "VECTOR6INT32"),
+    ("joint", "VECTOR6D"),
+    ("actual_current", "VECTOR6D"),
+    ("target_current", "VECTOR6D"),
+    ("target_moment", "VECTOR6D"),
+    ("accelerometer", "VECTOR3D"),
+    ("output_int", "INT32"),
+    ("_bits", "UINT32"),
+    ("state", "UINT32"),
+    ("digital", "UINT64"),
+];
+/// States a second that a client may ask for.
+const RATES_HZ: std::ops::RangeInclusive<f64> = 1.0..=500.0;
+
+/// What one client asked for.
+#[derive(Debug)]
+struct Wanted {
+    names: Vec<String>,
+    rate_hz: f64,
+    is_started: bool,
+}
+
+fn type_of(name: &str) -> &'static str {
+    let exact = TYPES.iter().find(|(known, _)| *known == name);
+    let alike = KINDS.iter().find(|(word, _)| name.contains(word));
+    exact.or(alike).map_or("DOUBLE", |(_, kind)| kind)
+}
+
+/// Answers and sends states until the client goes.
+pub(super) fn serve(mut stream: TcpStream, controller: &Controller, end: &End) -> io::Result<()> {
+    stream.set_read_timeout(Some(Duration::from_millis(1)))?;
+    let bench = &controller.bench;
+    let mut wanted = Wanted {
+        names: Vec::new(),
+        rate_hz: 125.0,
+        is_started: false,
+    };
+    let mut waiting: Vec<u8> = Vec::new();
+    let mut bytes = [0; 4096];
+    let mut due = bench.now();
+    let mut shown = controller.pose();
+    loop {
+        match read(&mut stream, &mut bytes, end) {
+            None => {}
+            Some(0) => return Ok(()),
+            Some(count) => waiting.extend_from_slice(&bytes[..count]),
+        }
+        while let Some(&[high, low, kind]) = waiting.first_chunk() {
+            let length = usize::from(u16::from_be_bytes([high, low])).max(3);
+            if waiting.len() < length {
+                break;
+            }
+            let frame: Vec<u8> = waiting.drain(..length).collect();
+            let answer = wanted.answer(kind, &frame[3..]);
+            stream.write_all(&answer)?;
+            due = bench.now();
+        }
+        let now = bench.now();
+        if !wanted.is_started || due > now {
+            continue;
+        }
+        due = (due + Duration::from_secs_f64(1.0 / wanted.rate_hz)).max(now);
+        if !bench.is_faulty(Device::Robot, FaultKind::Frozen) {
+            shown = controller.pose();
+        }
+        let mut pose = shown;
+        if bench.is_faulty(Device::Robot, FaultKind::NotANumber) {
+            pose[2] = f64::NAN;
+        }
+        let state = wanted.state(controller, pose);
+        std::thread::sleep(bench.delay(Device::Robot));
+        if !bench.withholds(Device::Robot) {
+            stream.write_all(&state)?;
+        }
+    }
+}
+
+fn message(kind: u8, says: &[u8]) -> Vec<u8> {
+    let length = u16::try_from(3 + says.len()).unwrap_or(u16::MAX);
+    [&length.to_be_bytes()[..], &[kind], says].concat()
+}
+
+impl Wanted {
+    fn answer(&mut self, kind: u8, says: &[u8]) -> Vec<u8> {
+        match (kind, says) {
+            (b'V', [0, version]) => message(b'V', &[u8::from((1..=2).contains(version))]),
+            // The version of the controller: 5.11.0 and a build.
+            (b'v', _) => {
+                let numbers = [5_u32, 11, 0, 108_249];
+                let says: Vec<u8> = numbers.into_iter().flat_map(u32::to_be_bytes).collect();
+                message(b'v', &says)
+            }
+            (b'O', says) if says.len() >= 8 => {
+                let (rate, names) = says.split_at(8);
+                let rate_hz = rate.try_into().map_or(125.0, f64::from_be_bytes);
+                self.rate_hz = rate_hz.clamp(*RATES_HZ.start(), *RATES_HZ.end());
+                let names = String::from_utf8_lossy(names);
+                self.names = names.split(',').map(str::to_owned).collect();
+                let types: Vec<&str> = self.names.iter().map(|name| type_of(name)).collect();
+                message(b'O', &[&[1], types.join(",").as_bytes()].concat())
+            }
+            (b'S', _) => {
+                self.is_started = true;
+                message(b'S', &[1])
+            }
+            (b'P', _) => {
+                self.is_started = false;
+                message(b'P', &[1])
+            }
+            // Inputs and messages are not taken.
+            (kind, _) => message(kind, &[0]),
+        }
+    }
+
+    fn state(&self, controller: &Controller, pose: [f64; 6]) -> Vec<u8> {
+        const RUNNING: u32 = 7;
+        const STOPPED: u32 = 1;
+        const PLAYING: u32 = 2;
+        const NORMAL: u32 = 1;
+        const PROTECTIVE_STOPPED: u32 = 1 << 2;
+        const EMERGENCY_STOPPED: u32 = 1 << 7 | 1 << 6;
+        let mut says = vec![1];
+        for name in &self.names {
+            let word = match name.as_str() {
+                "robot_mode" => RUNNING,
+                "safety_status_bits" => match controller.fault() {
+                    None => NORMAL,
+                    Some(ArmFault::EmergencyStop) => EMERGENCY_STOPPED,
+                    Some(ArmFault::Collision) => PROTECTIVE_STOPPED,
+                },
+                "safety_mode" => NORMAL,
+                "runtime_state" if controller.is_moving() => PLAYING,
+                "runtime_state" => STOPPED,
+                _ => 0,
+            };
+            match (name.as_str(), type_of(name)) {
+                ("timestamp", _) => {
+                    says.extend(controller.bench.now().as_secs_f64().to_be_bytes());
+                }
+                ("actual_TCP_pose" | "target_TCP_pose", _) => {
+                    says.extend(pose.into_iter().flat_map(f64::to_be_bytes));
+                }
+                (_, "VECTOR6D") => says.extend([0; 48]),
+                (_, "VECTOR3D" | "VECTOR6INT32") => says.extend([0; 24]),
+                (_, "INT32" | "UINT32") => says.extend(word.to_be_bytes()),
+                _ => says.extend([0; 8]),
+            }
+        }
+        message(b'U', &says)
+    }
+}

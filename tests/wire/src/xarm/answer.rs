@@ -1,0 +1,139 @@
+//! What each register answers.
+
+use super::controller::{Controller, Snapshot};
+use super::line::Line;
+use super::session::{Client, Push};
+
+/// What one client has set for itself.
+#[derive(Debug, Default)]
+pub(super) struct Session {
+    /// Whether it is told of the end of the motions that it begins from now on.
+    wants_push: bool,
+}
+
+const HAS_ERROR: u8 = 0x40;
+const HAS_WARNING: u8 = 0x20;
+const NOT_READY: u8 = 0x10;
+const INVALID: u8 = 0x08;
+/// Length of the answer to the question for the version.
+const VERSION_BYTES: usize = 40;
+
+impl Session {
+    /// The frames that answer a command; `head` is its transaction and protocol.
+    pub(super) fn answer(
+        &mut self,
+        controller: &Controller,
+        client: &Client,
+        head: [u8; 4],
+        register: u8,
+        parameters: &[u8],
+    ) -> Vec<Vec<u8>> {
+        let first = parameters.first().copied();
+        let mut refused = 0;
+        let mut pushed = None;
+        let data = match (register, first) {
+            (1, _) => version(controller),
+            (11, Some(_)) => {
+                controller.enable(parameters.get(1) == Some(&1));
+                Vec::new()
+            }
+            (12, Some(state)) => {
+                controller.set_state(state);
+                Vec::new()
+            }
+            (13, _) => vec![controller.snapshot().state],
+            (14, _) => controller.snapshot().queued.to_be_bytes().to_vec(),
+            (15, _) => {
+                let Snapshot { error, warning, .. } = controller.snapshot();
+                vec![error, warning]
+            }
+            (16, _) => {
+                controller.clear_error();
+                Vec::new()
+            }
+            (17, _) => {
+                controller.clear_warning();
+                Vec::new()
+            }
+            (19, Some(mode)) => {
+                controller.set_mode(mode);
+                Vec::new()
+            }
+            (21 | 83, _) => {
+                let line = match register {
+                    21 => Line::absolute(parameters, controller.takes_long_lines()),
+                    _ => Line::relative(parameters),
+                };
+                let push = self.wants_push.then(|| Push {
+                    client: client.clone(),
+                    head,
+                });
+                match line {
+                    Some(line) if controller.take(&line, push) => {}
+                    Some(_) => refused = NOT_READY,
+                    None => refused = INVALID,
+                }
+                controller.snapshot().queued.to_be_bytes().to_vec()
+            }
+            (41, _) => controller
+                .snapshot()
+                .pose
+                .into_iter()
+                .flat_map(f32::to_le_bytes)
+                .collect(),
+            (42, _) => [0.0_f32; 7]
+                .into_iter()
+                .flat_map(f32::to_le_bytes)
+                .collect(),
+            (254, Some(kind)) => {
+                self.wants_push = kind & 2 != 0;
+                Vec::new()
+            }
+            (253, _) => {
+                pushed = Some(Push {
+                    client: client.clone(),
+                    head,
+                });
+                Vec::new()
+            }
+            _ => {
+                refused = INVALID;
+                Vec::new()
+            }
+        };
+        let status = refused | status(&controller.snapshot());
+        let length = u16::try_from(2 + data.len()).unwrap_or(u16::MAX);
+        let mut frame = head.to_vec();
+        frame.extend(length.to_be_bytes());
+        frame.extend([register, status]);
+        frame.extend(data);
+        if let Some(push) = pushed {
+            push.send(Push::SUCCEEDED);
+        }
+        vec![frame]
+    }
+}
+
+fn status(snapshot: &Snapshot) -> u8 {
+    let mut status = 0;
+    if snapshot.error != 0 {
+        status |= HAS_ERROR;
+    }
+    if snapshot.warning != 0 {
+        status |= HAS_WARNING;
+    }
+    if snapshot.state > 3 {
+        status |= NOT_READY;
+    }
+    status
+}
+
+/// What the controller calls itself: six axes, type 12, and serial numbers that say that it is simulated.
+fn version(controller: &Controller) -> Vec<u8> {
+    let [major, minor, revision] = controller.firmware;
+    let serial = controller.bench.serial();
+    let text = format!("6,12,{serial},AC0000,v{major}.{minor}.{revision}");
+    let mut bytes = text.into_bytes();
+    bytes.resize(VERSION_BYTES, 0);
+    bytes
+}

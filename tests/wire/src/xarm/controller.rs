@@ -1,0 +1,272 @@
+//! What the control box remembers, and what it does with commands.
+
+use std::collections::VecDeque;
+use std::sync::{Mutex, MutexGuard, PoisonError};
+
+use taceva_core::Speed;
+
+use super::line::Line;
+use super::session::Push;
+use crate::base::Base;
+use crate::bench::WallBench;
+use crate::fault::ArmFault;
+
+/// The control box.
+#[derive(Debug)]
+pub(super) struct Controller {
+    pub(super) bench: WallBench,
+    pub(super) firmware: [u32; 3],
+    box_state: Mutex<BoxState>,
+}
+
+#[derive(Debug)]
+struct BoxState {
+    state: u8,
+    mode: u8,
+    error: u8,
+    warning: u8,
+    enabled: u8,
+    /// roll, pitch, yaw in rad, which the gel does not know.
+    turned: [f32; 3],
+    waiting: VecDeque<Order>,
+    /// The motion that goes on.
+    current: Option<Order>,
+}
+
+/// A motion to be made, and who is to be told of its end.
+#[derive(Debug)]
+struct Order {
+    pose: [f32; 6],
+    speed: Speed,
+    push: Option<Push>,
+}
+
+/// What a status byte and a report say.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Snapshot {
+    pub(super) state: u8,
+    pub(super) mode: u8,
+    pub(super) error: u8,
+    pub(super) warning: u8,
+    pub(super) enabled: u8,
+    pub(super) queued: u16,
+    pub(super) pose: [f32; 6],
+}
+
+pub(super) const READY: u8 = 2;
+const MOVING: u8 = 1;
+const PAUSED: u8 = 3;
+const STOPPED: u8 = 4;
+/// It wants to be made ready.
+const UNREADY: u8 = 5;
+/// Six joints.
+const ALL_JOINTS: u8 = 0b11_1111;
+const EMERGENCY_STOP: u8 = 2;
+const COLLISION: u8 = 31;
+const BOUNDARY: u8 = 35;
+const BAD_PARAMETER: u8 = 12;
+/// How far from the middle of the gel the tip may be, in mm, before the boundary stops it.
+const BOUNDARY_MM: [[f64; 2]; 3] = [[-60.0, 60.0], [-60.0, 60.0], [-100.0, 30.0]];
+
+impl Controller {
+    pub(super) fn new(bench: WallBench, firmware: [u32; 3]) -> Controller {
+        Controller {
+            bench,
+            firmware,
+            box_state: Mutex::new(BoxState {
+                state: READY,
+                mode: 0,
+                error: 0,
+                warning: 0,
+                enabled: ALL_JOINTS,
+                turned: [std::f32::consts::PI, 0.0, 0.0],
+                waiting: VecDeque::new(),
+                current: None,
+            }),
+        }
+    }
+
+    /// Whether straight motions have the longer layout.
+    pub(super) fn takes_long_lines(&self) -> bool {
+        self.firmware >= [1, 11, 100]
+    }
+
+    pub(super) fn snapshot(&self) -> Snapshot {
+        self.turn();
+        let inside = self.inside();
+        Snapshot {
+            state: inside.state,
+            mode: inside.mode,
+            error: inside.error,
+            warning: inside.warning,
+            enabled: inside.enabled,
+            queued: u16::try_from(inside.waiting.len() + usize::from(inside.current.is_some()))
+                .unwrap_or(u16::MAX),
+            pose: self.pose(&inside),
+        }
+    }
+
+    fn pose(&self, inside: &BoxState) -> [f32; 6] {
+        let position = self.bench.pose().position;
+        let [x, y, z] = Base::to_base([position.x.0, position.y.0, position.z.0]).map(single);
+        let [roll, pitch, yaw] = inside.turned;
+        [x, y, z, roll, pitch, yaw]
+    }
+
+    /// Goes on: ends the motion whose end was reached, and begins the next.
+    pub(super) fn turn(&self) {
+        let mut inside = self.inside();
+        if inside.state != MOVING || self.bench.is_moving() {
+            return;
+        }
+        if let Some(done) = inside.current.take() {
+            inside.turned = [done.pose[3], done.pose[4], done.pose[5]];
+            if let Some(push) = done.push {
+                push.send(Push::SUCCEEDED);
+            }
+        }
+        match inside.waiting.pop_front() {
+            Some(next) => self.begin(&mut inside, next),
+            None => inside.state = READY,
+        }
+    }
+
+    /// Takes a motion; `false` if the arm is in no state to move.
+    pub(super) fn take(&self, line: &Line, push: Option<Push>) -> bool {
+        let mut inside = self.inside();
+        let can_move = inside.error == 0
+            && inside.mode == 0
+            && inside.enabled == ALL_JOINTS
+            && inside.state < STOPPED;
+        if !can_move {
+            return false;
+        }
+        let last = inside.waiting.back().or(inside.current.as_ref());
+        let from = last.map_or_else(|| self.pose(&inside), |order| order.pose);
+        let pose = line.end(from);
+        let speed = Speed::try_new(f64::from(line.speed_mm_s));
+        let (true, Ok(speed)) = (pose.iter().all(|side| side.is_finite()), speed) else {
+            inside.warning = BAD_PARAMETER;
+            return true;
+        };
+        if line.is_only_checked {
+            return true;
+        }
+        let place = Base::to_sensor([pose[0], pose[1], pose[2]].map(f64::from));
+        let is_inside = place
+            .iter()
+            .zip(BOUNDARY_MM)
+            .all(|(side, [least, most])| (least..=most).contains(side));
+        if !is_inside {
+            self.fail(&mut inside, BOUNDARY);
+            return true;
+        }
+        let order = Order { pose, speed, push };
+        if inside.current.is_some() || inside.state == PAUSED {
+            inside.waiting.push_back(order);
+        } else {
+            self.begin(&mut inside, order);
+        }
+        true
+    }
+
+    fn begin(&self, inside: &mut BoxState, order: Order) {
+        let [x, y, z, .., yaw] = order.pose.map(f64::from);
+        self.bench.set_out(Base::pose([x, y, z], yaw), order.speed);
+        inside.state = MOVING;
+        inside.current = Some(order);
+    }
+
+    /// Stops and forgets every motion.
+    fn forget(&self, inside: &mut BoxState) {
+        self.bench.stand();
+        let given_up = inside.current.take().into_iter();
+        for order in given_up.chain(inside.waiting.drain(..)) {
+            if let Some(push) = order.push {
+                push.send(Push::DISCARDED);
+            }
+        }
+    }
+
+    fn fail(&self, inside: &mut BoxState, error: u8) {
+        self.forget(inside);
+        inside.error = error;
+        inside.state = STOPPED;
+    }
+
+    pub(super) fn set_state(&self, wanted: u8) {
+        let mut inside = self.inside();
+        match wanted {
+            0 if inside.error == 0 && inside.enabled == ALL_JOINTS => {
+                if inside.state == PAUSED
+                    && let Some(order) = inside.current.take()
+                {
+                    self.begin(&mut inside, order);
+                } else if inside.state != MOVING {
+                    inside.state = READY;
+                }
+            }
+            3 if inside.state == MOVING => {
+                self.bench.stand();
+                inside.state = PAUSED;
+            }
+            4 | 6 => {
+                self.forget(&mut inside);
+                inside.state = STOPPED;
+            }
+            _ => {}
+        }
+    }
+
+    pub(super) fn set_mode(&self, mode: u8) {
+        let mut inside = self.inside();
+        self.forget(&mut inside);
+        inside.mode = mode;
+        inside.state = UNREADY;
+    }
+
+    pub(super) fn enable(&self, is_on: bool) {
+        let mut inside = self.inside();
+        self.forget(&mut inside);
+        inside.enabled = if is_on { ALL_JOINTS } else { 0 };
+        inside.state = UNREADY;
+    }
+
+    pub(super) fn clear_error(&self) {
+        let mut inside = self.inside();
+        self.forget(&mut inside);
+        inside.error = 0;
+        inside.state = UNREADY;
+    }
+
+    pub(super) fn clear_warning(&self) {
+        self.inside().warning = 0;
+    }
+
+    pub(super) fn suffer(&self, fault: ArmFault) {
+        let mut inside = self.inside();
+        match fault {
+            ArmFault::EmergencyStop => {
+                self.fail(&mut inside, EMERGENCY_STOP);
+                inside.enabled = 0;
+            }
+            ArmFault::Collision => self.fail(&mut inside, COLLISION),
+        }
+    }
+
+    fn inside(&self) -> MutexGuard<'_, BoxState> {
+        self.box_state
+            .lock()
+            .unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+/// A number as the controller writes it.
+fn single(number: f64) -> f32 {
+    #[expect(
+        clippy::cast_possible_truncation,
+        reason = "the protocol has no finer numbers; a cast rounds to the nearest"
+    )]
+    let number = number as f32;
+    number
+}

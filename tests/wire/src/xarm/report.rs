@@ -1,0 +1,88 @@
+//! What the control box says without being asked.
+
+use std::io::Write;
+use std::net::TcpStream;
+use std::time::Duration;
+
+use super::controller::{Controller, Snapshot};
+use crate::fault::{Device, FaultKind};
+use crate::server::End;
+
+/// Which report.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum ReportPort {
+    Pose,
+    Status,
+    Rich,
+}
+
+impl ReportPort {
+    fn length(self) -> usize {
+        match self {
+            ReportPort::Pose => 135,
+            ReportPort::Status => 145,
+            ReportPort::Rich => 587,
+        }
+    }
+
+    fn period(self) -> Duration {
+        match self {
+            ReportPort::Pose => Duration::from_millis(10),
+            ReportPort::Status | ReportPort::Rich => Duration::from_millis(200),
+        }
+    }
+}
+
+/// Reports until the client goes.
+pub(super) fn serve(mut stream: TcpStream, port: ReportPort, controller: &Controller, end: &End) {
+    let bench = &controller.bench;
+    let mut shown = controller.snapshot();
+    let mut due = bench.now();
+    while !end.has_come() {
+        if !bench.is_faulty(Device::Robot, FaultKind::Frozen) {
+            shown = controller.snapshot();
+        }
+        if bench.is_faulty(Device::Robot, FaultKind::NotANumber) {
+            shown.pose[2] = f32::NAN;
+        }
+        let report = write(port, &shown, controller.firmware);
+        std::thread::sleep(bench.delay(Device::Robot));
+        if !bench.withholds(Device::Robot) && stream.write_all(&report).is_err() {
+            return;
+        }
+        // Reports are made at even times, however long it takes to send one.
+        due = (due + port.period()).max(bench.now());
+        std::thread::sleep(due.saturating_sub(bench.now()));
+    }
+}
+
+fn write(port: ReportPort, shown: &Snapshot, [major, minor, revision]: [u32; 3]) -> Vec<u8> {
+    let length = port.length();
+    let mut bytes = vec![0; length];
+    let mut put = |at: usize, part: &[u8]| bytes[at..at + part.len()].copy_from_slice(part);
+    put(0, &u32::try_from(length).unwrap_or(0).to_be_bytes());
+    put(4, &[shown.state | shown.mode << 4]);
+    put(5, &shown.queued.to_be_bytes());
+    let pose: Vec<u8> = shown.pose.into_iter().flat_map(f32::to_le_bytes).collect();
+    put(35, &pose);
+    if port != ReportPort::Pose {
+        // Brakes are open where motors are on.
+        put(
+            87,
+            &[shown.enabled, shown.enabled, shown.error, shown.warning],
+        );
+        let gravity: Vec<u8> = [0.0_f32, 0.0, -1.0]
+            .into_iter()
+            .flat_map(f32::to_le_bytes)
+            .collect();
+        // Sensitivities of collision and of teaching by hand.
+        put(131, &[3, 3]);
+        put(133, &gravity);
+    }
+    if port == ReportPort::Rich {
+        // Type and axes, then the version.
+        put(145, &[12, 6]);
+        put(151, format!("v{major}.{minor}.{revision}").as_bytes());
+    }
+    bytes
+}

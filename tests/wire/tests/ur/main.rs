@@ -1,0 +1,188 @@
+//! `ur/rtde` against the emulated controller, through sockets.
+
+use std::net::Ipv4Addr;
+use std::time::{Duration, Instant};
+
+use taceva_core::{Deadline, DriverError, ErrorKind, Factory, Millimetre, Pose, Rig, Robot, Speed};
+use taceva_drivers::UrFactory;
+use taceva_drivers::conformance::{self, Trial};
+use taceva_wire::ur::Emulator;
+use taceva_wire::{Arm, ArmFault, BenchOptions, Device, Fault, FaultKind, WallBench};
+
+const PATIENCE: Deadline = Deadline::after(Duration::from_secs(10));
+
+struct Setup {
+    bench: WallBench,
+    arm: Emulator,
+}
+
+fn setup() -> Setup {
+    let bench = WallBench::start(&BenchOptions::quiet(7)).expect("a bench");
+    let arm = Emulator::start(&bench, Ipv4Addr::LOCALHOST, [0, 0]).expect("an arm");
+    Setup { bench, arm }
+}
+
+impl Setup {
+    fn arguments(&self) -> String {
+        let selector = self.arm.selector();
+        let (_, arguments) = selector.split_once(':').expect("a driver and arguments");
+        arguments.to_owned()
+    }
+
+    fn open(&self) -> Box<dyn Robot> {
+        let factory = UrFactory::new().expect("a factory");
+        let args = factory.descriptor().args(&self.arguments()).expect("good");
+        factory.open(&args, &mut Rig::new()).expect("an arm")
+    }
+
+    /// What a motion of 15 mm at 10 mm/s gives if `happens` once it goes on, and how long after that it gave it.
+    fn moved(&self, happens: impl FnOnce() + Send) -> (DriverError, Duration) {
+        let mut arm = self.open();
+        let (home, _) = arm.pose(PATIENCE).expect("a pose");
+        std::thread::scope(|scope| {
+            let bench = self.bench.clone();
+            let happening = scope.spawn(move || {
+                while !bench.truth().is_moving {
+                    std::thread::yield_now();
+                }
+                happens();
+                Instant::now()
+            });
+            let moved = arm.move_to(lower(home, 15.0), speed(10.0), PATIENCE);
+            let returned = Instant::now();
+            let happened = happening.join().expect("it happened");
+            let took = returned.saturating_duration_since(happened);
+            (moved.expect_err("broken off"), took)
+        })
+    }
+}
+
+fn speed(mm_per_s: f64) -> Speed {
+    Speed::try_new(mm_per_s).expect("above 0")
+}
+
+fn lower(pose: Pose, mm: f64) -> Pose {
+    let mut lower = pose;
+    lower.position.z = Millimetre(pose.position.z.0 - mm);
+    lower
+}
+
+#[test]
+fn the_suite_passes() {
+    let setup = setup();
+    let factory = UrFactory::new().expect("a factory");
+    let trial = Trial::with_arguments(setup.arguments());
+    let report = conformance::robot(&factory, &trial);
+    assert!(report.passed(), "{report}");
+}
+
+#[test]
+fn a_press_reaches_the_gel_where_the_driver_sent_it() {
+    let setup = setup();
+    let mut arm = setup.open();
+    let (home, _) = arm.pose(PATIENCE).expect("a pose");
+    assert!((home.position.z.0 - 271.3).abs() < 1e-6, "{home:?}");
+    assert!((home.rotation.x.0.abs() - 180.0).abs() < 1e-6, "{home:?}");
+    arm.move_to(lower(home, 20.6), speed(60.0), PATIENCE)
+        .expect("it arrives");
+    let truth = setup.bench.truth();
+    assert!((truth.tip_mm[2] - 0.6).abs() < 2e-6, "{truth:?}");
+    assert!(truth.force_n[2] > 0.1, "{truth:?}");
+}
+
+#[test]
+fn a_halt_stops_the_arm_at_once_and_no_program_begins_after_it() {
+    let setup = setup();
+    let mut arm = setup.open();
+    let (home, _) = arm.pose(PATIENCE).expect("a pose");
+    for _ in 0..20 {
+        let handle = arm.halt_handle();
+        let halting = std::thread::spawn(move || handle.halt());
+        let moved = arm.move_to(lower(home, 1.0), speed(5.0), PATIENCE);
+        halting.join().expect("halted").expect("it is sent");
+        let moved = match moved {
+            Ok(_) => arm.move_to(home, speed(5.0), PATIENCE),
+            halted => halted,
+        };
+        assert_eq!(moved.expect_err("halted").kind(), ErrorKind::Interrupted);
+        std::thread::sleep(Duration::from_millis(30));
+        assert!(!setup.bench.truth().is_moving);
+        arm.clear_halt(PATIENCE).expect("nothing else is wrong");
+        arm.move_to(home, speed(50.0), PATIENCE)
+            .expect("it arrives");
+    }
+}
+
+#[test]
+fn an_emergency_stop_is_a_fault_that_nobody_but_a_person_ends() {
+    let setup = setup();
+    let (error, took) = setup.moved(|| setup.arm.suffer(ArmFault::EmergencyStop));
+    assert_eq!(error.kind(), ErrorKind::DeviceFault);
+    assert!(
+        error.to_string().contains("the emergency stop was pressed"),
+        "{error}"
+    );
+    assert!(took < Duration::from_millis(700), "{took:?}");
+    let mut arm = setup.open();
+    let (at, _) = arm.pose(PATIENCE).expect("a pose");
+    let moved = arm.move_to(lower(at, 1.0), speed(5.0), PATIENCE);
+    assert_eq!(moved.expect_err("a fault").kind(), ErrorKind::DeviceFault);
+    let cleared = arm.clear_halt(PATIENCE);
+    assert_eq!(cleared.expect_err("a fault").kind(), ErrorKind::DeviceFault);
+    assert!(!setup.bench.truth().is_moving);
+}
+
+#[test]
+fn a_collision_is_a_protective_stop() {
+    let setup = setup();
+    let (error, _) = setup.moved(|| setup.arm.suffer(ArmFault::Collision));
+    assert_eq!(error.kind(), ErrorKind::DeviceFault);
+    assert!(error.to_string().contains("a protective stop"), "{error}");
+}
+
+#[test]
+fn states_that_stop_stop_the_arm() {
+    let setup = setup();
+    let silence = Fault {
+        device: Device::Robot,
+        kind: FaultKind::Silent,
+        lasts: Duration::from_secs(1),
+    };
+    let (error, _) = setup.moved(|| setup.bench.inject(silence));
+    assert_eq!(error.kind(), ErrorKind::Timeout, "{error}");
+    assert!(!setup.bench.truth().is_moving);
+}
+
+#[test]
+fn a_pose_that_is_no_number_is_a_fault() {
+    let setup = setup();
+    let mut arm = setup.open();
+    setup.bench.inject(Fault {
+        device: Device::Robot,
+        kind: FaultKind::NotANumber,
+        lasts: Duration::from_secs(2),
+    });
+    let fault = (0..100).find_map(|_| {
+        std::thread::sleep(Duration::from_millis(10));
+        arm.pose(PATIENCE).err()
+    });
+    assert_eq!(fault.expect("no number").kind(), ErrorKind::DeviceFault);
+}
+
+#[test]
+fn an_arm_that_goes_away_is_disconnected() {
+    let setup = setup();
+    let mut arm = setup.open();
+    drop(setup);
+    let posed = (0..100).find_map(|_| {
+        std::thread::sleep(Duration::from_millis(20));
+        arm.pose(PATIENCE).err()
+    });
+    assert_eq!(posed.expect("gone").kind(), ErrorKind::Disconnected);
+    let handle = arm.halt_handle();
+    let halted = (0..100).find_map(|_| {
+        std::thread::sleep(Duration::from_millis(20));
+        handle.halt().err()
+    });
+    assert_eq!(halted.expect("gone").kind(), ErrorKind::Disconnected);
+}

@@ -1,0 +1,5 @@
+//! `ufactory/xarm` against the emulated control box, through sockets.
+
+mod contract;
+mod faults;
+mod support;
