@@ -21,6 +21,7 @@
 mod bench;
 mod deadline;
 mod error;
+mod fault;
 mod finite;
 mod force;
 mod guarded_motion;
@@ -35,6 +36,7 @@ mod speed;
 pub use bench::SimulatedBench;
 pub use deadline::Deadline;
 pub use error::DriverError;
+pub use fault::Fault;
 pub use finite::{NotFinite, check_pose, check_wrench};
 pub use force::{Axes, Axis, ForceTransducer, Tare};
 pub use guarded_motion::{Guard, GuardedMotion, GuardedStop};

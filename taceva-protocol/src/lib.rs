@@ -14,7 +14,7 @@ mod source;
 mod specimen;
 
 pub use content_id::ContentId;
-pub use limits::{FROZEN_READINGS, Overshoot, RigLimits};
+pub use limits::{FROZEN_READINGS, Overshoot, RigLimits, Signals};
 pub use phase::PhaseKind;
 pub use plan::{
     Cause, Cost, Fit, Plan, PlanReason, PlanSkip, PlannedMetric, PlannedPress, Subject, plan,

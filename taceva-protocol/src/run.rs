@@ -1,8 +1,9 @@
 //! Runs a plan on borrowed devices: safely, resumably, and without a clock or a file of its own.
 //!
 //! A press is an approach, a search for contact, its waypoints and a retreat. In contact the tip moves in segments of 15 ms; after each,
-//! force and pose are read and shown to the [`Supervisor`]. A limit of the gel ends the way in and the run goes on; anything else stops it,
-//! the tip leaves the gel if its signals can be trusted, and the same call resumes the run.
+//! force and pose are read and shown to the [`Supervisor`]. A limit of the gel ends the way in and the run goes on. Signals that are silent
+//! break a press off, which is made again. Anything else stops the run: the tip leaves the gel if its signals can be trusted and the robot
+//! reports no fault of its own, and the same call resumes the run.
 
 mod align;
 mod bounds;
@@ -25,6 +26,8 @@ mod tests;
 mod time;
 mod tip;
 mod trip;
+mod way;
+mod zero;
 
 pub use devices::{Devices, SpecimenChanger};
 pub use error::{Left, RunError, StopCause};
@@ -33,9 +36,6 @@ pub use log::{PressLog, PressRecord};
 pub use supervisor::{MotionStage, Observation, Supervisor};
 pub use time::{Cancel, Timekeeper};
 pub use trip::Trip;
-
-#[cfg(feature = "simulation")]
-pub(crate) use supervisor::STALE_S;
 
 use taceva_core::Millimetre;
 
@@ -82,9 +82,11 @@ pub struct RunReport {
     pub resumed: usize,
     /// Presses that were made and are durable; in a rehearsal, places visited.
     pub made: usize,
-    /// Of those, ended by a limit of the gel.
+    /// Times that a press was broken off because signals were silent, and made again.
+    pub redone: u32,
+    /// Of those made, ended by a limit of the gel.
     pub limited: usize,
-    /// Of those, without contact.
+    /// Of those made, without contact.
     pub without_contact: usize,
     /// Samples that were recorded.
     pub samples: usize,

@@ -34,7 +34,7 @@ pub trait Robot: Send {
     /// - `OutOfRange` for a target outside the workspace or a speed above the greatest; nothing moves,
     /// - `Timeout` if it did not arrive within `deadline`,
     /// - `Interrupted` if it was halted, before or during the motion,
-    /// - `DeviceFault` if it reports a fault: collision, emergency stop, joint limit.
+    /// - `DeviceFault` if it reports a fault; with its [`Fault`](super::Fault) where it is one of those.
     fn move_to(
         &mut self,
         target: Pose,
@@ -54,6 +54,9 @@ pub trait Robot: Send {
     }
 
     /// Ends a halt, so that moves are accepted again; without one it does nothing. Nothing moves.
+    ///
+    /// It ends the halt of [`halt`](Robot::halt) alone. A [`Fault`](super::Fault) of the device is never cleared: a person looks, and
+    /// acknowledges it at the device.
     ///
     /// # Errors
     /// [`DriverError`] of kind `DeviceFault` if the device itself still reports a fault that a person must acknowledge.

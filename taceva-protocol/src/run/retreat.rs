@@ -14,7 +14,7 @@ const RECOVERY_TRIES: u32 = 10;
 const RECOVERY_REST: Duration = Duration::from_millis(20);
 
 impl Tip<'_> {
-    /// Leaves the gel along the way it came, under watch, up to the height of travel.
+    /// Leaves the gel along the way it came, under watch, up to the height of travel, over the place where it was sent.
     pub(super) fn retreat(&mut self) -> Step<()> {
         self.turn_back()?;
         let Point { x, y, z } = self.target.position;
@@ -40,7 +40,7 @@ impl Tip<'_> {
     pub(super) fn draw_back(&mut self, height_mm: f64) -> Step<()> {
         self.turn_back()?;
         loop {
-            let Point { x, y, z } = self.at.position;
+            let Point { x, y, z } = self.here().position;
             let up = (z.0 - self.pace.segment_mm).max(height_mm);
             self.approach([x.0, y.0, up])?;
             let wrench = self.look()?.wrench;
@@ -117,7 +117,7 @@ impl Tip<'_> {
             return false;
         }
         match (self.look(), self.look()) {
-            (Ok(one), Ok(other)) => one.wrench != other.wrench,
+            (Ok(one), Ok(other)) => self.supervisor.is_live(&one, &other),
             _ => false,
         }
     }

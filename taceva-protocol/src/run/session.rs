@@ -7,7 +7,7 @@ use super::camera::Camera;
 use super::devices::{Devices, SpecimenChanger};
 use super::error::{Left, RunError, StopCause};
 use super::event::Event;
-use super::log::PressLog;
+use super::log::{PressLog, PressRecord};
 use super::supervisor::Supervisor;
 use super::tip::{DEADLINE, Pace, Step, Tip};
 use super::{Controls, Mode, RunReport, RunSpec};
@@ -24,7 +24,14 @@ pub(super) struct Run<'a> {
     pub(super) plan: &'a Plan,
     pub(super) mounted: Option<Specimen>,
     pub(super) lit: Option<String>,
+    /// Presses that silence broke off.
+    silences: u32,
 }
+
+/// A press that silence breaks off so many times ends the run.
+const SILENCES_OF_A_PRESS: u32 = 3;
+/// As do so many of a run.
+const SILENCES_OF_A_RUN: u32 = 20;
 
 impl<'a> Run<'a> {
     pub(super) fn new(
@@ -73,6 +80,7 @@ impl<'a> Run<'a> {
             plan,
             mounted: None,
             lit: None,
+            silences: 0,
         })
     }
 
@@ -124,9 +132,7 @@ impl<'a> Run<'a> {
                         number: position + 1,
                     });
                     let is_first = first_seen == Some(planned.id);
-                    let record = self
-                        .acquire(planned, is_first.then_some(&mut *log))
-                        .map_err(|cause| self.abandoned(Some(planned.id), cause))?;
+                    let record = self.acquire_patiently(planned, is_first, log)?;
                     log.append(&record).map_err(|error| RunError {
                         press: Some(planned.id),
                         cause: StopCause::Log(error),
@@ -144,7 +150,36 @@ impl<'a> Run<'a> {
                 }
             }
         }
+        report.redone = self.silences;
         Ok(report)
+    }
+
+    /// One press, again from its start where silence broke it off and the tip could be brought above the gel.
+    fn acquire_patiently(
+        &mut self,
+        planned: &PlannedPress,
+        is_first: bool,
+        log: &mut dyn PressLog,
+    ) -> Result<PressRecord, RunError> {
+        let mut times = 0;
+        loop {
+            let cause = match self.acquire(planned, is_first.then_some(&mut *log)) {
+                Ok(record) => return Ok(record),
+                Err(cause) => cause,
+            };
+            let is_silence = cause.is_silence();
+            let error = self.abandoned(Some(planned.id), cause);
+            if !is_silence || error.left == Left::InPlace {
+                return Err(error);
+            }
+            times += 1;
+            self.silences += 1;
+            if times == SILENCES_OF_A_PRESS || self.silences == SILENCES_OF_A_RUN {
+                return Err(error);
+            }
+            let press = planned.id;
+            (self.events)(&Event::Redone { press, times });
+        }
     }
 
     /// The error that ends the run, after the tip was brought to where it can be left.

@@ -4,15 +4,16 @@ use std::time::Duration;
 
 use taceva_core::{
     Deadline, Degree, ErrorKind, ForceTransducer, Millimetre, Nanometre, Point, Pose, Robot,
-    Rotation, Speed,
+    Rotation, Speed, Stamp, Wrench,
 };
 
 use super::align::Look;
 use super::bounds::Bounds;
 use super::error::StopCause;
-use super::supervisor::{MotionStage, Observation, Supervisor, distance};
+use super::supervisor::{MotionStage, Observation, Supervisor};
 use super::time::{Cancel, Timekeeper};
 use super::trip::Trip;
+use super::way::{distance, is_straight_up, part_way, settled};
 use crate::limits::FROZEN_READINGS;
 use crate::plan::Plan;
 
@@ -49,6 +50,8 @@ pub(super) struct Tip<'a> {
     pub(super) robot_failed: bool,
     /// Whether cancellation is ignored, because the tip is retracting already.
     pub(super) ignores_cancel: bool,
+    /// Whether the transducer was told its own zero, which is done once where the host finds the zero by itself.
+    pub(super) is_box_zeroed: bool,
 }
 
 /// How fast, how far, how hard.
@@ -60,8 +63,11 @@ pub(super) struct Pace {
     step_mm: f64,
     search_mm: f64,
     settle: Duration,
-    threshold_n: f64,
+    pub(super) threshold_n: f64,
     pub(super) clearance_mm: f64,
+    /// A pose within this of where the tip was sent is there, along each axis.
+    pub(super) slack_mm: f64,
+    pub(super) host_zero: bool,
 }
 
 impl Pace {
@@ -78,6 +84,8 @@ impl Pace {
             settle: Duration::from_secs_f64(contact.settle_s.value),
             threshold_n: contact.threshold_n.value,
             clearance_mm: contact.clearance_mm.value,
+            slack_mm: limits.signals.slack_mm(),
+            host_zero: limits.signals.host_zero,
         })
     }
 }
@@ -102,7 +110,13 @@ impl<'a> Tip<'a> {
             contact_mm: None,
             robot_failed: false,
             ignores_cancel: false,
+            is_box_zeroed: false,
         }
+    }
+
+    /// Where it is taken to be: where it was sent, if nothing but noise tells that from where it was seen.
+    pub(super) fn here(&self) -> Pose {
+        settled(&self.at, &self.target, self.pace.slack_mm)
     }
 
     /// Learns where it stands, and goes straight up to the height of travel if it stands below.
@@ -132,9 +146,7 @@ impl<'a> Tip<'a> {
         // The tip stands at this height or above it, so the way there is in the air.
         self.watch_travel(f64::INFINITY);
         self.go(over, self.pace.travel)?;
-        if let Some(tare) = self.force.tare() {
-            tare.zero(DEADLINE)?;
-        }
+        self.call_zero()?;
         self.watch_travel(self.pace.threshold_n);
         self.look().map(drop)
     }
@@ -175,17 +187,18 @@ impl<'a> Tip<'a> {
             ..self.target
         };
         let segment_mm = self.pace.segment_mm;
-        let mut patience = SPARE_SEGMENTS + 2.0 * distance(&self.at, &goal) / segment_mm;
+        let mut patience = SPARE_SEGMENTS + 2.0 * distance(&self.here(), &goal) / segment_mm;
         loop {
-            let way_mm = distance(&self.at, &goal);
+            let here = self.here();
+            let way_mm = distance(&here, &goal);
             if way_mm <= segment_mm {
                 return self.go(goal, self.pace.contact);
             }
-            let next = part_way(&self.at, &goal, segment_mm / way_mm);
+            let next = part_way(&here, &goal, segment_mm / way_mm);
             self.go(next, self.pace.contact)?;
             patience -= 1.0;
             if patience < 0.0 {
-                let distance_mm = distance(&self.at, &goal);
+                let distance_mm = distance(&self.here(), &goal);
                 let trip = self.supervisor.trip(Trip::Diverged { distance_mm });
                 return Err(StopCause::Tripped(trip));
             }
@@ -206,7 +219,7 @@ impl<'a> Tip<'a> {
         Err(StopCause::Tripped(trip))
     }
 
-    fn watch_travel(&mut self, threshold_n: f64) {
+    pub(super) fn watch_travel(&mut self, threshold_n: f64) {
         let now_s = self.clock.now_s();
         self.supervisor
             .watch(MotionStage::Travel { threshold_n }, now_s);
@@ -219,21 +232,24 @@ impl<'a> Tip<'a> {
         })
     }
 
-    /// Learns where the tip is; it is where it should be.
+    /// Learns where the tip is; it is where it should be. What noise alone makes of where it was sent is not believed.
     pub(super) fn find_pose(&mut self) -> Step<()> {
         let (pose, _) = match self.robot.pose(DEADLINE) {
             Ok(read) => read,
             Err(error) => return Err(self.failed(error)),
         };
-        (self.at, self.target) = (pose, pose);
+        self.at = pose;
+        self.target = self.here();
         Ok(())
     }
 
     /// A robot that fails is halted, whatever it says.
+    ///
+    /// After a [`Fault`](taceva_core::Fault) it is not moved again, nor is the fault cleared.
     fn failed(&mut self, error: taceva_core::DriverError) -> StopCause {
         let _ = self.robot.halt();
         let is_grave = [ErrorKind::DeviceFault, ErrorKind::Disconnected].contains(&error.kind());
-        self.robot_failed |= is_grave;
+        self.robot_failed |= is_grave || error.fault().is_some();
         StopCause::Device(error)
     }
 
@@ -242,11 +258,13 @@ impl<'a> Tip<'a> {
         if self.cancel.is_cancelled() && !self.ignores_cancel {
             return Err(StopCause::Cancelled);
         }
-        if !is_straight_up(&self.at, &target) {
+        let here = self.here();
+        if !is_straight_up(&here, &target) {
             self.bounds.admit(&target)?;
         }
-        let seconds = 1.0 + 2.0 * distance(&self.at, &target) / speed.mm_per_s();
+        let seconds = 1.0 + 2.0 * distance(&here, &target) / speed.mm_per_s();
         let deadline = Deadline::after(Duration::from_secs_f64(seconds));
+        self.supervisor.sent(here, target);
         self.target = target;
         if let Err(error) = self.robot.move_to(target, speed, deadline) {
             return Err(self.failed(error));
@@ -256,7 +274,7 @@ impl<'a> Tip<'a> {
 
     /// Reads force and pose and shows both to the supervisor.
     pub(super) fn look(&mut self) -> Step<Look> {
-        let (wrench, wrench_s) = self.read_force()?;
+        let reading = self.read_force()?;
         let (pose, stamp) = match self.robot.pose(DEADLINE) {
             Ok(read) => read,
             Err(error) => return Err(self.failed(error)),
@@ -269,8 +287,9 @@ impl<'a> Tip<'a> {
         };
         self.show(&observation)?;
         Ok(Look {
-            wrench,
-            wrench_s,
+            wrench: self.supervisor.zeroed(&reading.said),
+            wrench_s: reading.valid_s,
+            number: reading.number,
             pose,
             pose_s: stamp.valid_s,
         })
@@ -280,14 +299,20 @@ impl<'a> Tip<'a> {
     ///
     /// The tip rests meanwhile, so that links and filters that deliver late cost time and no way: what they still hold of before the end
     /// of the last motion is shown to the supervisor, and the next reading awaited.
-    fn read_force(&mut self) -> Step<(taceva_core::Wrench, f64)> {
+    pub(super) fn read_force(&mut self) -> Step<Reading> {
         let asked_s = self.clock.now_s();
         for _ in 0..READ_TRIES {
             match self.force.read(Deadline::after(READ_DEADLINE)) {
-                Ok((wrench, stamp)) => {
-                    self.show(&Observation::Force(wrench, stamp))?;
-                    if stamp.valid_s >= asked_s {
-                        return Ok((wrench, stamp.valid_s));
+                Ok((said, stamp)) => {
+                    let number = self.force.sequence();
+                    self.show(&observation(said, stamp, number))?;
+                    let valid_s = stamp.valid_s;
+                    if valid_s >= asked_s {
+                        return Ok(Reading {
+                            said,
+                            valid_s,
+                            number,
+                        });
                     }
                     self.clock.rest(LATE_REST);
                 }
@@ -329,23 +354,22 @@ impl<'a> Tip<'a> {
     }
 }
 
-/// Whether a motion only leaves the gel: that is allowed from wherever the tip was found.
-fn is_straight_up(from: &Pose, to: &Pose) -> bool {
-    let (start, end) = (&from.position, &to.position);
-    start.x == end.x && start.y == end.y && end.z <= start.z
+/// What the transducer said.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Reading {
+    /// With its own zero.
+    pub(super) said: Wrench,
+    /// When that was true.
+    pub(super) valid_s: f64,
+    /// The number that it gave the reading.
+    number: Option<u64>,
 }
 
-/// A pose between two that are turned alike.
-fn part_way(from: &Pose, to: &Pose, part: f64) -> Pose {
-    let mix = |from: Millimetre, to: Millimetre| Millimetre(from.0 + (to.0 - from.0) * part);
-    let (start, end) = (&from.position, &to.position);
-    Pose {
-        position: Point {
-            x: mix(start.x, end.x),
-            y: mix(start.y, end.y),
-            z: mix(start.z, end.z),
-        },
-        ..*to
+/// A reading of force, with its number if it has one.
+fn observation(said: Wrench, stamp: Stamp, number: Option<u64>) -> Observation {
+    match number {
+        Some(number) => Observation::Numbered(said, stamp, number),
+        None => Observation::Force(said, stamp),
     }
 }
 

@@ -142,6 +142,32 @@ pub enum SceneProblem {
         /// What there is.
         catalogue: &'static str,
     },
+    /// A speed at which the tip goes too far in contact while its force grows stale.
+    #[error(
+        "`speed_mm_s` is {found}, but {who} may be silent for {stale_ms:.0} ms before it counts as gone: expected at most {greatest:.3}"
+    )]
+    Blind {
+        /// As written, in mm/s.
+        found: f64,
+        /// Whose readings.
+        who: String,
+        /// Their greatest age, in ms.
+        stale_ms: f64,
+        /// The most that is allowed, in mm/s.
+        greatest: f64,
+    },
+    /// A force transducer of which nobody could say that its signal froze.
+    #[error(
+        "{who} reads in steps of {resolution_n} N, its noise is {noise_n} N and it numbers no readings: a signal that is frozen could not be told from one that rests; expected numbered readings, or steps below the noise"
+    )]
+    FrozenUnseen {
+        /// Which.
+        who: String,
+        /// Its step, in N.
+        resolution_n: f64,
+        /// Its noise, in N.
+        noise_n: f64,
+    },
     /// Two statements that exclude each other.
     #[error("{0}")]
     Contradiction(String),

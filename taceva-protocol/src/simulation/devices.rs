@@ -3,9 +3,9 @@
 use std::sync::Arc;
 
 use taceva_core::{
-    Axes, Deadline, DriverError, DriverKey, ErrorKind, ForceTransducer, FrameInfo, FrameMut, Halt,
-    Millimetre, Newton, PixelFormat, Point, Pose, Robot, Rotation, Sensor, Speed, Stamp, Tare,
-    Wrench,
+    Axes, Deadline, DriverError, DriverKey, ErrorKind, Fault, ForceTransducer, FrameInfo, FrameMut,
+    Halt, Millimetre, Newton, PixelFormat, Point, Pose, Robot, Rotation, Sensor, Speed, Stamp,
+    Tare, Wrench,
 };
 
 use super::world::{Sabotage, Shared};
@@ -46,7 +46,7 @@ impl Robot for SimulatedRobot {
         self.0.survive();
         let mut world = self.0.world();
         world.link();
-        let (tip, valid_s) = (world.tip, world.now_s);
+        let (tip, valid_s) = (world.reported(), world.now_s);
         world.link();
         let received_s = Some(world.now_s);
         let [x, y, z] = tip.map(Millimetre);
@@ -67,6 +67,9 @@ impl Robot for SimulatedRobot {
         self.0.survive();
         let mut world = self.0.world();
         world.link();
+        world
+            .obey("a motion")
+            .map_err(|fault| faulty("move", fault))?;
         if world.halted {
             return Err(DriverError::new(ErrorKind::Interrupted, &ROBOT, "move"));
         }
@@ -89,9 +92,15 @@ impl Robot for SimulatedRobot {
     fn clear_halt(&mut self, _: Deadline) -> Result<(), DriverError> {
         let mut world = self.0.world();
         world.link();
+        let obeyed = world.obey("the end of a halt");
+        obeyed.map_err(|fault| faulty("end the halt", fault))?;
         world.release();
         Ok(())
     }
+}
+
+fn faulty(doing: &'static str, fault: Fault) -> DriverError {
+    DriverError::new(ErrorKind::DeviceFault, &ROBOT, doing).with_fault(fault)
 }
 
 /// Measures the force.

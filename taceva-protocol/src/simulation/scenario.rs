@@ -4,7 +4,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 
 use taceva_core::{
     Axes, Descriptor, DescriptorSpec, DriverKey, DriverSource, Facts, Field, FieldSet, Footprint,
-    ForceFacts, Hertz, Newton, RobotFacts, SensorFacts,
+    ForceFacts, Hertz, Millimetre, Newton, RobotFacts, SensorFacts,
 };
 
 use super::devices::{FRAME, SimulatedForce, SimulatedRobot, SimulatedSensor};
@@ -16,7 +16,7 @@ use super::record::{judge_log, missing};
 use super::world::{Gel, Killed, Sabotage, Shared};
 use crate::draw::Draws;
 use crate::plan::{MetricNeeds, Plan, plan_study};
-use crate::run::{Cancel, Controls, Devices, Left, Mode, RunError, RunSpec, run};
+use crate::run::{Cancel, Controls, Devices, Event, Left, Mode, RunError, RunSpec, run};
 use crate::scene::{Scene, SceneError};
 use crate::source::{RigInfo, SourceInfo};
 
@@ -62,6 +62,8 @@ pub(super) fn simulate_with(seed: u64, sabotage: Sabotage) -> SimulationReport {
         noise_n: 0.002 + 0.004 * part(101),
         saturation_n: 20.0,
         normal_max_n: 0.6 + 1.5 * part(102),
+        // Every other robot reports where it sent the tip, the others up to 0.05 mm beside it.
+        pose_noise_mm: 0.1 * (part(103) - 0.5).max(0.0),
     };
     let plan = match scenario_plan(seed, &gel) {
         Ok(plan) => plan,
@@ -77,7 +79,8 @@ pub(super) fn simulate_with(seed: u64, sabotage: Sabotage) -> SimulationReport {
         gel.noise_n,
         step_mm,
         threshold_n,
-    );
+    )
+    .at_speed(plan.contact.speed_mm_s.value, limits.overshoot.segment_mm);
     let plan = match sabotage {
         Sabotage::LooseLimits => loosened(&plan),
         _ => plan.clone(),
@@ -95,9 +98,10 @@ pub(super) fn simulate_with(seed: u64, sabotage: Sabotage) -> SimulationReport {
     let mut processes = 0;
     let mut finished = false;
     let mut lost = Vec::new();
+    let mut redone = 0;
     while !finished && processes < MOST_PROCESSES {
         processes += 1;
-        finished = match process(&plan, &shared, &mut disk, &mut acknowledged) {
+        finished = match process(&plan, &shared, (&mut disk, &mut acknowledged), &mut redone) {
             Ended::Done => true,
             Ended::Stopped(error) => {
                 repair(&shared, error.left);
@@ -123,6 +127,7 @@ pub(super) fn simulate_with(seed: u64, sabotage: Sabotage) -> SimulationReport {
     violations.append(&mut found.violations);
     let mut checks = world.oracle.checks;
     checks.samples = found.samples;
+    checks.redone = redone;
     SimulationReport {
         seed,
         violations,
@@ -152,8 +157,8 @@ enum Ended {
 fn process(
     plan: &Plan,
     shared: &Shared,
-    disk: &mut Disk,
-    acknowledged: &mut Vec<crate::ContentId>,
+    (disk, acknowledged): (&mut Disk, &mut Vec<crate::ContentId>),
+    redone: &mut u64,
 ) -> Ended {
     let cancel = Cancel::new();
     shared.world().cancel = cancel.clone();
@@ -178,7 +183,7 @@ fn process(
         let controls = Controls {
             clock: &mut clock,
             cancel: &cancel,
-            events: &mut |_| {},
+            events: &mut |event| *redone += u64::from(matches!(event, Event::Redone { .. })),
         };
         run(&spec, devices, &mut log, controls)
     }));
@@ -196,13 +201,19 @@ fn repair(shared: &Shared, left: Left) {
     world.oracle.killed();
     world.pass(REPAIR_S);
     world.halted = false;
+    world.acknowledge();
     if left == Left::InPlace {
         world.lift();
     }
 }
 
 pub(super) fn scenario_plan(seed: u64, gel: &Gel) -> Result<Plan, SceneError> {
-    let scene = Scene::parse("faults", SCENE)?;
+    planned_scene(SCENE, seed, gel)
+}
+
+/// The plan of a scene that is written as `text`.
+pub(super) fn planned_scene(text: &str, seed: u64, gel: &Gel) -> Result<Plan, SceneError> {
+    let scene = Scene::parse("faults", text)?;
     let scene = Scene { seed, ..scene };
     let truth = FieldSet::EMPTY.with(Field::Truth);
     let needs = [
@@ -223,7 +234,10 @@ pub(super) fn scenario_plan(seed: u64, gel: &Gel) -> Result<Plan, SceneError> {
             force_max: Some(Newton(gel.normal_max_n)),
             ..SensorFacts::default()
         }))),
-        robot: described(Facts::Robot(RobotFacts::default())),
+        robot: described(Facts::Robot(RobotFacts {
+            pose_noise: Some(Millimetre(gel.pose_deviation_mm())),
+            ..RobotFacts::default()
+        })),
         force: described(Facts::Force(ForceFacts {
             axes: Axes::FORCE,
             force_max: Some(Newton(gel.saturation_n)),

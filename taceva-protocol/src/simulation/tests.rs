@@ -1,6 +1,7 @@
 //! Runs on the simulated rig, one property each.
 
 mod bench;
+mod conduct;
 mod seeds;
 
 use std::collections::BTreeSet;

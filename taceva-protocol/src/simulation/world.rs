@@ -2,6 +2,8 @@
 
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
+use taceva_core::Fault;
+
 use super::fault::{FaultKind, Faults, fraction};
 use super::oracle::{Ended, Oracle, SILENCE, TOO_HARD};
 use crate::draw::Draws;
@@ -16,6 +18,15 @@ pub(super) struct Gel {
     /// The force at which the transducer is at the end of its range.
     pub(super) saturation_n: f64,
     pub(super) normal_max_n: f64,
+    /// Half the span of the noise of a reported pose along each axis, in mm.
+    pub(super) pose_noise_mm: f64,
+}
+
+impl Gel {
+    /// The standard deviation of a reported pose along an axis: that of an even spread.
+    pub(super) fn pose_deviation_mm(&self) -> f64 {
+        self.pose_noise_mm / 3.0_f64.sqrt()
+    }
 }
 
 /// How a call to a device travels, in s each way.
@@ -27,6 +38,8 @@ const LAG_S: f64 = 0.015;
 const READING_S: f64 = 0.005;
 /// From one frame to the next, in s.
 const FRAME_S: f64 = 0.02;
+/// What the noise of poses is drawn under, beside that of forces.
+const POSE_NOISE: u64 = 8;
 /// How old readings are while their stamps are stale, in s.
 const STALE_S: f64 = 0.12;
 
@@ -58,12 +71,17 @@ pub(super) struct World {
     /// Where the gel was touched, while it is: the surface is uneven, and depth counts from there.
     touched: Option<[f64; 2]>,
     pub(super) halted: bool,
+    /// Whether somebody pressed the emergency stop, which a person must acknowledge.
+    pub(super) stopped: bool,
+    /// Whether whoever conducts the run was told.
+    told_of_stop: bool,
     pub(super) gel: Gel,
     pub(super) oracle: Oracle,
     pub(super) faults: Faults,
     pub(super) cancel: Cancel,
     draws: Draws,
     readings: u64,
+    poses: u64,
     zero_n: f64,
     last_force: Option<[f64; 3]>,
     /// Since when the transducer shows an old force.
@@ -112,12 +130,15 @@ impl Shared {
             },
             touched: None,
             halted: false,
+            stopped: false,
+            told_of_stop: false,
             gel,
             oracle,
             faults,
             cancel: Cancel::new(),
             draws,
             readings: 0,
+            poses: 0,
             zero_n: 0.0,
             last_force: None,
             frozen: false,
@@ -170,6 +191,36 @@ impl World {
     pub(super) fn release(&mut self) {
         self.halted = false;
         self.listening_s = None;
+    }
+
+    /// Refuses what moves or releases the robot while the emergency stop holds. Who asks again after being told defies it.
+    pub(super) fn obey(&mut self, asked: &'static str) -> Result<(), Fault> {
+        self.stopped |= self
+            .faults
+            .strike_once(FaultKind::EmergencyStop, self.now_s);
+        if !self.stopped {
+            return Ok(());
+        }
+        if std::mem::replace(&mut self.told_of_stop, true) {
+            self.oracle.defied(asked);
+        }
+        Err(Fault::EmergencyStop)
+    }
+
+    /// A person acknowledges an emergency stop at the robot.
+    pub(super) fn acknowledge(&mut self) {
+        (self.stopped, self.told_of_stop) = (false, false);
+    }
+
+    /// Where the robot says that the tip is.
+    pub(super) fn reported(&mut self) -> [f64; 3] {
+        self.poses += 1;
+        let noise = |axis: u64| {
+            let part = fraction(self.draws, [self.poses, POSE_NOISE + axis]);
+            self.gel.pose_noise_mm * (2.0 * part - 1.0)
+        };
+        let noise = [noise(0), noise(1), noise(2)];
+        [0, 1, 2].map(|axis| self.tip[axis] + noise[axis])
     }
 
     /// A person brings the tip above the gel.
@@ -328,4 +379,4 @@ impl World {
 }
 
 /// A silence of this length is one.
-const STALE_AFTER_S: f64 = crate::run::STALE_S;
+const STALE_AFTER_S: f64 = crate::limits::STALE_S;
