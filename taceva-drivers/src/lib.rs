@@ -1,5 +1,6 @@
 #![doc = include_str!("../README.md")]
 
+mod clock;
 pub mod conformance;
 mod devices;
 pub mod doctor;
@@ -15,6 +16,7 @@ mod sensor;
 mod source;
 mod text;
 
+pub use clock::MonotonicClock;
 pub use devices::{Devices, ListedArgument, ListedDevice, ListedDriver, devices};
 pub use drivers::{Drivers, OpenError, open};
 pub use on_bench::OnBench;

@@ -152,7 +152,7 @@ pub(crate) fn limits(scene: &Scene, study: &Study, rig: &RigInfo) -> Result<RigL
     {
         return Err(tighten.beyond("travel_mm_s", travel_mm_s, "speed_max_mm_s", speed_max));
     }
-    let signals = Signals::of(scene, rig)?;
+    let signals = Signals::of(scene, study, rig)?;
     let arm = robot.and_then(|descriptor| descriptor.robot().copied());
     let devices = [&rig.sensor, &rig.robot, &rig.force, &rig.lighting];
     let simulated = devices

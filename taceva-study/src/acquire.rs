@@ -2,6 +2,7 @@
 
 mod devices;
 mod key;
+mod latency;
 mod log;
 pub(crate) mod retried;
 mod schedule;

@@ -2,7 +2,7 @@
 
 use taceva_core::{Descriptor, DriverSource, ForceFacts};
 
-use crate::scene::{Scene, SceneError, SceneProblem};
+use crate::scene::{Scene, SceneError, SceneProblem, Study};
 use crate::source::RigInfo;
 
 /// Allowance that the conduct of a run makes for the signals of its rig; [`Default`] is that for signals without noise.
@@ -49,7 +49,7 @@ impl Signals {
     }
 
     /// What is known of the signals of `rig`.
-    pub(super) fn of(scene: &Scene, rig: &RigInfo) -> Result<Signals, SceneError> {
+    pub(super) fn of(scene: &Scene, study: &Study, rig: &RigInfo) -> Result<Signals, SceneError> {
         let force = rig
             .force
             .as_ref()
@@ -58,6 +58,8 @@ impl Signals {
             pose_noise_mm: rig.robot.as_ref().map_or(0.0, pose_noise_mm),
             ..Signals::default()
         };
+        let at = study.force.as_ref().and_then(|force| force.driver.at());
+        one_clock(scene, study, rig)?;
         if let Some((descriptor, facts)) = force {
             signals.stale_s = stale_s(facts);
             signals.equality_is_frozen = !facts.numbered && tells_equal(facts);
@@ -71,7 +73,7 @@ impl Signals {
                     resolution_n: step.0,
                     noise_n: facts.noise.map_or(0.0, |noise| noise.0),
                 };
-                return Err(scene.text.error(None, problem));
+                return Err(scene.text.error(at, problem));
             }
             let speed = &scene.protocol.contact.speed_mm_s;
             if speed.value * signals.stale_s > BLIND_MM {
@@ -86,6 +88,33 @@ impl Signals {
         }
         Ok(signals)
     }
+}
+
+/// Refuses a rig whose devices are stamped by two clocks: that of a simulated bench and that of the machine.
+///
+/// A sensor that is not of the bench is no part of this: its frames are stamped anew when they come.
+fn one_clock(scene: &Scene, study: &Study, rig: &RigInfo) -> Result<(), SceneError> {
+    let is_simulated = |device: &Descriptor| device.source() == DriverSource::Simulated;
+    let Some(robot) = &rig.robot else {
+        return Ok(());
+    };
+    let force = rig.force.as_ref();
+    let force = force.filter(|force| is_simulated(force) != is_simulated(robot));
+    let sensor = rig.sensor.as_ref();
+    let sensor = sensor.filter(|sensor| is_simulated(sensor) && !is_simulated(robot));
+    let Some(other) = force.or(sensor) else {
+        return Ok(());
+    };
+    let (simulated, real) = match is_simulated(robot) {
+        true => (robot, other),
+        false => (other, robot),
+    };
+    let problem = SceneProblem::MixedClocks {
+        simulated: simulated.key().to_string(),
+        real: real.key().to_string(),
+    };
+    let at = study.robot.as_ref().and_then(|robot| robot.driver.at());
+    Err(scene.text.error(at, problem))
 }
 
 /// As stated; else a real arm reports as well as it comes back, and a simulated one where it was sent.
@@ -137,6 +166,7 @@ mod tests {
         RigInfo {
             robot: device(source, Facts::Robot(robot)),
             force: device(source, Facts::Force(force)),
+            sensor: device(source, Facts::Sensor(Box::new(sensor()))),
             ..rig_of(sensor(), Axes::FORCE)
         }
     }
@@ -144,7 +174,7 @@ mod tests {
     fn signals(rig: &RigInfo, speed_mm_s: f64) -> Result<Signals, String> {
         let mut scene = Scene::parse("small", SMALL).expect("a scene");
         scene.protocol.contact.speed_mm_s.value = speed_mm_s;
-        Signals::of(&scene, rig).map_err(|error| error.to_string())
+        Signals::of(&scene, &scene.studies[0], rig).map_err(|error| error.to_string())
     }
 
     #[test]
@@ -169,6 +199,32 @@ mod tests {
             assert_eq!(signals.host_zero, source == DriverSource::Real);
             assert_eq!(signals.is_default(), expected_mm <= 0.0);
         }
+    }
+
+    #[test]
+    fn a_simulated_robot_and_a_real_transducer_have_two_clocks_and_are_refused_either_way() {
+        let (real, simulated) = (DriverSource::Real, DriverSource::Simulated);
+        let with = |robot, force, sensor| {
+            let mut mixed = rig(robot, RobotFacts::default(), ForceFacts::default());
+            let other = rig(force, RobotFacts::default(), ForceFacts::default());
+            mixed.force = other.force;
+            mixed.sensor = device(
+                sensor,
+                Facts::Sensor(Box::new(crate::plan::tests::bench::sensor())),
+            );
+            signals(&mixed, 1.0)
+        };
+        for (robot, force, sensor) in [
+            (simulated, real, simulated),
+            (real, simulated, real),
+            (real, real, simulated),
+        ] {
+            let refused = with(robot, force, sensor).expect_err("two clocks");
+            assert!(refused.contains("one rig has one clock"), "{refused}");
+        }
+        // A sensor that is not of the bench is stamped by it.
+        assert!(with(simulated, simulated, real).is_ok());
+        assert!(with(real, real, real).is_ok());
     }
 
     #[test]

@@ -142,6 +142,16 @@ pub enum SceneProblem {
         /// What there is.
         catalogue: &'static str,
     },
+    /// Devices that are stamped by different clocks.
+    #[error(
+        "`{simulated}` runs in the time of its simulated bench and `{real}` in that of the machine: one rig has one clock; choose both simulated or both real"
+    )]
+    MixedClocks {
+        /// The simulated device.
+        simulated: String,
+        /// The real one.
+        real: String,
+    },
     /// A speed at which the tip goes too far in contact while its force grows stale.
     #[error(
         "`speed_mm_s` is {found}, but {who} may be silent for {stale_ms:.0} ms before it counts as gone: expected at most {greatest:.3}"

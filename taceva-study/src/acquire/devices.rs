@@ -3,12 +3,13 @@
 use std::sync::Arc;
 
 use taceva_core::{
-    Device, DriverError, DriverKey, DriverSource, ErrorKind, ForceTransducer, Lighting, Registry,
-    Rig, Robot, Sensor,
+    Descriptor, Device, DriverError, DriverKey, DriverSource, ErrorKind, ForceTransducer, Lighting,
+    Registry, Rig, Robot, Sensor,
 };
 use taceva_drivers::{Drivers, OnBench, OpenError, Selector, open};
 use taceva_protocol::{Devices, Setting, StopCause, Timekeeper};
 
+use super::latency::{IntoDevice, Late};
 use super::workshop::{Surroundings, Workshop};
 use crate::error::StudyError;
 use crate::scene::{PlannedStudy, RigSpec};
@@ -50,26 +51,30 @@ impl OpenRig {
         let force = force.map_err(failed)?;
         let lighting = opener.open(lightings, rig.lighting.as_ref(), &mut shared);
         let lighting = lighting.map_err(failed)?;
-        let (Some((robot, selector)), Some((force, _))) = (robot, force) else {
+        let (Some(robot), Some(force)) = (robot, force) else {
             let needed = "a robot and a force transducer: what it measures is pressed";
             return Err(StudyError::Request(format!(
                 "study `{}` needs {needed}",
                 study.plan.name
             )));
         };
-        let surroundings = (workshop.surroundings)(&selector, &mut shared)
-            .ok_or_else(|| failed(OpenError::Device(without_clock(&selector))))?;
-        let sensor = sensor.map(|(sensor, own)| match &surroundings.bench {
-            Some(bench) if own.bench() != selector.bench() => {
-                Box::new(OnBench::new(sensor, Arc::clone(bench)))
+        let selector = &robot.selector;
+        let surroundings = match robot.descriptor.source() {
+            DriverSource::Real => Surroundings::real(),
+            _ => (workshop.surroundings)(selector, &mut shared)
+                .ok_or_else(|| failed(OpenError::Device(without_clock(selector))))?,
+        };
+        let sensor = sensor.map(|sensor| match &surroundings.bench {
+            Some(bench) if sensor.selector.bench() != selector.bench() => {
+                Box::new(OnBench::new(sensor.device, Arc::clone(bench)))
             }
-            _ => sensor,
+            _ => sensor.timely(|facts| facts.sensor()?.latency_ms),
         });
         Ok(OpenRig {
             sensor,
-            robot,
-            force,
-            lighting: lighting.map(|(lighting, _)| lighting),
+            robot: robot.timely(|facts| facts.robot()?.latency_ms),
+            force: force.timely(|facts| facts.force()?.latency_ms),
+            lighting: lighting.map(|lighting| lighting.device),
             surroundings,
         })
     }
@@ -108,7 +113,7 @@ impl Opener<'_> {
         registry: &Registry<D>,
         device: Option<&Setting<String>>,
         shared: &mut Rig,
-    ) -> Result<Option<(Box<D>, Selector)>, OpenError> {
+    ) -> Result<Option<Opened<D>>, OpenError> {
         let Some(device) = device else {
             return Ok(None);
         };
@@ -116,8 +121,39 @@ impl Opener<'_> {
             .rig
             .selector(registry, device, self.unit)
             .expect("the selector was read when the scene was planned");
-        let opened = open(registry, &selector, shared)?;
-        Ok(Some((opened, selector)))
+        let device = open(registry, &selector, shared)?;
+        let factory = registry
+            .get(selector.driver())
+            .expect("it was opened by this key");
+        let arguments = factory.descriptor().args(selector.arguments());
+        let described = arguments
+            .ok()
+            .and_then(|arguments| factory.describe(&arguments).ok());
+        Ok(Some(Opened {
+            device,
+            descriptor: described.unwrap_or_else(|| factory.descriptor().clone()),
+            selector,
+        }))
+    }
+}
+
+/// A device that is open, with what is known about it.
+struct Opened<D: ?Sized> {
+    device: Box<D>,
+    descriptor: Descriptor,
+    selector: Selector,
+}
+
+impl<D: ?Sized + 'static> Opened<D>
+where
+    Late<D>: IntoDevice<D>,
+{
+    /// The device with stamps of when observations were true, where `latency_ms` of its facts says that they come later.
+    fn timely(self, latency_ms: impl Fn(&Descriptor) -> Option<f64>) -> Box<D> {
+        match latency_ms(&self.descriptor) {
+            Some(latency_ms) if latency_ms > 0.0 => Late::new(self.device, latency_ms).boxed(),
+            _ => self.device,
+        }
     }
 }
 
@@ -129,7 +165,7 @@ impl RigSpec {
     }
 
     /// Whether every device of it is simulated: then it may be opened just to be asked for facts.
-    pub(super) fn is_only_simulated(&self, drivers: &Drivers) -> bool {
+    pub(crate) fn is_only_simulated(&self, drivers: &Drivers) -> bool {
         self.sources(drivers)
             .all(|source| source == DriverSource::Simulated)
     }
