@@ -38,7 +38,7 @@ pub use batch::{Batch, BatchBuilder, Column, Labels};
 pub use channel::{Channel, ChannelError, Channels};
 pub use driver::{
     Axes, Axis, Deadline, Device, DriverError, DriverKind, Fault, ForceTransducer, Guard,
-    GuardedMotion, GuardedStop, Halt, Interrupt, Lighting, NotFinite, Robot, Sensor,
+    GuardedMotion, GuardedStop, Halt, Interrupt, Lighting, NotFinite, Robot, RobotWatch, Sensor,
     SimulatedBench, Speed, SpeedError, Tare, check_pose, check_wrench,
 };
 pub use error::ErrorKind;

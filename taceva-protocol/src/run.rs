@@ -33,7 +33,7 @@ pub use devices::{Devices, SpecimenChanger};
 pub use error::{Left, RunError, StopCause};
 pub use event::Event;
 pub use log::{PressLog, PressRecord};
-pub use supervisor::{MotionStage, Observation, Supervisor};
+pub use supervisor::{MotionStage, Observation, SharedSupervisor, Supervisor};
 pub use time::{Cancel, Timekeeper};
 pub use trip::Trip;
 
@@ -104,12 +104,35 @@ pub fn run<'a>(
     log: &mut dyn PressLog,
     controls: Controls<'a>,
 ) -> Result<RunReport, RunError> {
+    run_under(spec, devices, log, (controls, None))
+}
+
+/// The same under a guard: `supervisor` is shown every reading of force by whoever reads them in a thread of its own, and poses under way by
+/// whoever looks on. It is over the robot of `devices`, and `devices.force` only passes on what that thread has read.
+///
+/// # Errors
+/// As [`run`].
+pub fn run_guarded<'a>(
+    spec: &RunSpec<'a>,
+    devices: Devices<'a>,
+    log: &mut dyn PressLog,
+    (controls, supervisor): (Controls<'a>, SharedSupervisor),
+) -> Result<RunReport, RunError> {
+    run_under(spec, devices, log, (controls, Some(supervisor)))
+}
+
+fn run_under<'a>(
+    spec: &RunSpec<'a>,
+    devices: Devices<'a>,
+    log: &mut dyn PressLog,
+    (controls, guard): (Controls<'a>, Option<SharedSupervisor>),
+) -> Result<RunReport, RunError> {
     let stopped = |cause| RunError {
         press: None,
         cause,
         left: Left::Clear,
     };
-    let mut run = Run::new(spec, devices, controls).map_err(stopped)?;
+    let mut run = Run::new(spec, devices, controls, guard).map_err(stopped)?;
     let done = run.all(spec, log);
     let stopping = run.stop();
     match done {

@@ -1,6 +1,7 @@
 //! From a plan to a recording: every press that is not in it yet, unit after unit, each durable before the next begins.
 
 mod devices;
+mod guardian;
 mod key;
 mod latency;
 mod log;
@@ -15,7 +16,7 @@ use taceva_dataset::{
     Dataset, DatasetError, Footprint, Known, Recorder, RecordingFacts, RecordingSpec, SensorFacts,
     Source,
 };
-use taceva_protocol::{Cancel, Controls, Event, Mode, Plan, RunSpec, run};
+use taceva_protocol::{Cancel, Event, Mode, Plan, RunSpec};
 
 use crate::error::StudyError;
 use crate::scene::{PlannedStudy, RigSpec};
@@ -107,17 +108,12 @@ fn acquire_unit(
         unit,
         mode: Mode::Acquire,
     };
-    let (devices, clock) = open.lend();
-    let controls = Controls {
-        clock,
-        cancel,
-        events: &mut events,
-    };
     let failed = |source| StudyError::Acquisition {
         study: plan.name.clone(),
         source: Box::new(source),
     };
-    let done = run(&spec, devices, log, controls).map(drop).map_err(failed);
+    let done = open.conduct(&spec, log, (cancel, progress), &mut events);
+    let done = done.map(drop).map_err(failed);
     // A count that cannot be written is no reason to lose a recording.
     drop(retried::add(path, retried));
     done

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::{Deadline, DriverError, GuardedMotion, Halt, Speed};
+use super::{Deadline, DriverError, GuardedMotion, Halt, RobotWatch, Speed};
 use crate::geometry::Pose;
 use crate::stamp::Stamp;
 
@@ -44,6 +44,11 @@ pub trait Robot: Send {
 
     /// A handle that stops this robot from any thread, while any other call is under way.
     fn halt_handle(&self) -> Arc<dyn Halt>;
+
+    /// A handle that looks at this robot from any thread while it moves, where it has a second connection for that.
+    fn watch_handle(&self) -> Option<Arc<dyn RobotWatch>> {
+        None
+    }
 
     /// Stops the robot; legal in every state, and stopping it twice is stopping it once.
     ///

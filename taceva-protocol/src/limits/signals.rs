@@ -10,6 +10,8 @@ use crate::source::RigInfo;
 pub struct Signals {
     /// How far a reported pose scatters about where the tip was sent: one standard deviation an axis, in mm.
     pub pose_noise_mm: f64,
+    /// How far readings of a load that rests scatter: one standard deviation, in N; 0 where it is not stated.
+    pub force_noise_n: f64,
     /// The greatest age of a reading that still says something of now, in s.
     pub stale_s: f64,
     /// Whether readings that are equal to the last bit although the tip moved betray a signal that froze. They do not where the transducer
@@ -30,6 +32,7 @@ impl Default for Signals {
     fn default() -> Signals {
         Signals {
             pose_noise_mm: 0.0,
+            force_noise_n: 0.0,
             stale_s: STALE_S,
             equality_is_frozen: true,
             host_zero: false,
@@ -48,6 +51,11 @@ impl Signals {
         3.0 * self.pose_noise_mm
     }
 
+    /// A force in the air that noise does not make, in N.
+    pub(crate) fn air_n(&self) -> f64 {
+        5.0 * self.force_noise_n
+    }
+
     /// What is known of the signals of `rig`.
     pub(super) fn of(scene: &Scene, study: &Study, rig: &RigInfo) -> Result<Signals, SceneError> {
         let force = rig
@@ -61,6 +69,7 @@ impl Signals {
         let at = study.force.as_ref().and_then(|force| force.driver.at());
         one_clock(scene, study, rig)?;
         if let Some((descriptor, facts)) = force {
+            signals.force_noise_n = facts.noise.map_or(0.0, |noise| noise.0);
             signals.stale_s = stale_s(facts);
             signals.equality_is_frozen = !facts.numbered && tells_equal(facts);
             signals.host_zero = descriptor.source() == DriverSource::Real;
@@ -75,6 +84,7 @@ impl Signals {
                 };
                 return Err(scene.text.error(at, problem));
             }
+            stops_in_time(scene, study, rig, facts)?;
             let speed = &scene.protocol.contact.speed_mm_s;
             if speed.value * signals.stale_s > BLIND_MM {
                 let problem = SceneProblem::Blind {
@@ -112,6 +122,40 @@ fn one_clock(scene: &Scene, study: &Study, rig: &RigInfo) -> Result<(), SceneErr
     let problem = SceneProblem::MixedClocks {
         simulated: simulated.key().to_string(),
         real: real.key().to_string(),
+    };
+    let at = study.robot.as_ref().and_then(|robot| robot.driver.at());
+    Err(scene.text.error(at, problem))
+}
+
+/// From a limit that is passed to a tip that rests, in ms: one period of the transducer, a way of the link, a halt sent, and the arm's own.
+const HALT_MS: f64 = 50.0;
+/// What link and sending take of it.
+const SEND_MS: f64 = 2.0;
+
+/// Refuses a robot that states that it stops so late that no guard is in time.
+fn stops_in_time(
+    scene: &Scene,
+    study: &Study,
+    rig: &RigInfo,
+    force: &ForceFacts,
+) -> Result<(), SceneError> {
+    let stop_ms = rig.robot.as_ref().and_then(|robot| {
+        let stop_ms = robot.robot()?.stop_ms?;
+        Some((robot.key(), stop_ms))
+    });
+    let Some((robot, stop_ms)) = stop_ms else {
+        return Ok(());
+    };
+    let period_ms = force.rate.map_or(0.0, |rate| 1e3 / rate.0);
+    let needed_ms = period_ms + SEND_MS + stop_ms;
+    if needed_ms <= HALT_MS {
+        return Ok(());
+    }
+    let problem = SceneProblem::SlowStop {
+        robot: robot.to_string(),
+        stop_ms,
+        needed_ms,
+        greatest_ms: HALT_MS,
     };
     let at = study.robot.as_ref().and_then(|robot| robot.driver.at());
     Err(scene.text.error(at, problem))
@@ -247,6 +291,28 @@ mod tests {
                 && refused.contains("0.833"),
             "{refused}"
         );
+    }
+
+    #[test]
+    fn a_robot_that_stops_later_than_a_guard_may_take_is_refused() {
+        let with = |rate, stop_ms| {
+            let robot = RobotFacts {
+                stop_ms: Some(stop_ms),
+                ..RobotFacts::default()
+            };
+            let force = ForceFacts {
+                rate: Some(Hertz(rate)),
+                ..ForceFacts::default()
+            };
+            signals(&rig(DriverSource::Real, robot, force), 0.1)
+        };
+        assert!(with(200.0, 43.0).is_ok(), "5 + 2 + 43 ms");
+        let refused = with(200.0, 44.0).expect_err("51 ms");
+        assert!(
+            refused.contains("51 ms") && refused.contains("50 ms"),
+            "{refused}"
+        );
+        assert!(with(20.0, 0.0).is_err(), "a period of 50 ms");
     }
 
     #[test]

@@ -8,7 +8,7 @@ use super::devices::{Devices, SpecimenChanger};
 use super::error::{Left, RunError, StopCause};
 use super::event::Event;
 use super::log::{PressLog, PressRecord};
-use super::supervisor::Supervisor;
+use super::supervisor::{SharedSupervisor, Supervisor};
 use super::tip::{DEADLINE, Pace, Step, Tip};
 use super::{Controls, Mode, RunReport, RunSpec};
 use crate::content_id::ContentId;
@@ -38,6 +38,7 @@ impl<'a> Run<'a> {
         spec: &RunSpec<'a>,
         devices: Devices<'a>,
         controls: Controls<'a>,
+        guard: Option<SharedSupervisor>,
     ) -> Step<Run<'a>> {
         let plan = spec.plan;
         if !plan.units.iter().any(|unit| unit == spec.unit) {
@@ -59,11 +60,14 @@ impl<'a> Run<'a> {
             (true, sensor) => sensor,
             (false, _) => None,
         };
-        let supervisor = Supervisor::new(limits, devices.robot.halt_handle());
+        let is_guarded = guard.is_some();
+        let supervisor = guard.unwrap_or_else(|| {
+            SharedSupervisor::new(Supervisor::new(limits, devices.robot.halt_handle()))
+        });
         let tip = Tip::new(
             (devices.robot, devices.force),
             (controls.clock, controls.cancel),
-            supervisor,
+            (supervisor, is_guarded),
             (bounds, pace),
         );
         tip.force.start(DEADLINE)?;

@@ -2,9 +2,11 @@
 //!
 //! It is no safety function: the emergency stop, the collision sensitivity of the robot and the guards are the site's duty.
 
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
-use taceva_core::{Halt, Newton, NewtonMillimetre, Pose, Stamp, Wrench, check_pose, check_wrench};
+use taceva_core::{
+    Fault, Halt, Newton, NewtonMillimetre, Pose, Stamp, Wrench, check_pose, check_wrench,
+};
 
 use super::align::Look;
 use super::trip::Trip;
@@ -61,6 +63,8 @@ pub enum MotionStage {
         /// The force that counts as contact.
         threshold_n: f64,
     },
+    /// At rest in the air while the transducer sets its zero: forces mean nothing.
+    Zeroing,
     /// On the way to the first contact.
     Search,
     /// In contact since the tip was at `height_mm`.
@@ -75,6 +79,23 @@ pub enum MotionStage {
     },
 }
 
+/// A supervisor that several threads show readings to.
+#[derive(Clone)]
+pub struct SharedSupervisor(Arc<Mutex<Supervisor>>);
+
+impl SharedSupervisor {
+    /// `supervisor`, shared by clones of this.
+    pub fn new(supervisor: Supervisor) -> SharedSupervisor {
+        SharedSupervisor(Arc::new(Mutex::new(supervisor)))
+    }
+
+    /// The supervisor, for one reading or one change of stage. A thread that panicked with it has left it whole: it changes in no step that
+    /// can panic.
+    pub fn lock(&self) -> MutexGuard<'_, Supervisor> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
 /// Halts a robot as soon as a reading says so, and holds it halted until somebody asks for another stage.
 pub struct Supervisor {
     limits: RigLimits,
@@ -82,8 +103,10 @@ pub struct Supervisor {
     stage: MotionStage,
     /// What the transducer says where nothing presses.
     zero: Wrench,
-    /// From where to where the tip was sent last.
+    /// From where to where the tip goes, while it does.
     way: Option<[Pose; 2]>,
+    /// The fault that the robot reported to somebody who looked on.
+    fault: Option<Fault>,
     /// Where it was seen under way last.
     seen: Option<Pose>,
     last: Option<(Wrench, f64)>,
@@ -102,9 +125,13 @@ impl Supervisor {
         Supervisor {
             limits,
             halt,
-            stage: MotionStage::Search,
+            // Before anybody says what the tip does, nothing is known of its zero.
+            stage: MotionStage::Retreat {
+                force_n: f64::INFINITY,
+            },
             zero: Wrench::default(),
             way: None,
+            fault: None,
             seen: None,
             last: None,
             number: None,
@@ -121,7 +148,7 @@ impl Supervisor {
         self.heard_s = now_s;
         self.tripped = None;
         // In the air the zero of the transducer may have moved; from the search on a frozen signal must not slip through.
-        if let MotionStage::Travel { .. } = stage {
+        if let MotionStage::Travel { .. } | MotionStage::Zeroing = stage {
             self.last = None;
             self.number = None;
             self.equal = 0;
@@ -131,6 +158,39 @@ impl Supervisor {
     /// Learns that the tip is sent along a straight way, before it is.
     pub fn sent(&mut self, from: Pose, to: Pose) {
         self.way = Some([from, to]);
+    }
+
+    /// Learns that the tip rests, wherever it is.
+    pub fn rests(&mut self) {
+        self.way = None;
+    }
+
+    /// Whether the tip was sent somewhere and does not rest yet: then silence is a danger.
+    pub fn is_under_way(&self) -> bool {
+        self.way.is_some()
+    }
+
+    /// Halts because the robot reported a fault to somebody who looked on.
+    pub fn fail(&mut self, fault: Fault) {
+        self.fault = Some(fault);
+        self.halt();
+    }
+
+    /// The fault that the robot reported.
+    pub fn fault(&self) -> Option<Fault> {
+        self.fault
+    }
+
+    /// Halts because a reading was clipped: how great the force is, nobody knows.
+    pub fn saturated(&mut self) -> Trip {
+        let force_n = f64::INFINITY;
+        self.trip(Trip::Saturated { force_n })
+    }
+
+    /// Halts for a reason that is no reading, such as a wish to stop.
+    pub fn halt(&mut self) {
+        // Halting twice is halting once; a link that is gone leaves nothing else to be said.
+        let _ = self.halt.halt();
     }
 
     /// Takes `zero` off every later force before it is compared with a limit of the gel.
@@ -202,8 +262,7 @@ impl Supervisor {
 
     /// Halts for a reason that only the driver knew, such as a clipped reading.
     pub(crate) fn trip(&mut self, trip: Trip) -> Trip {
-        // Halting twice is halting once; a link that is gone leaves nothing else to be said.
-        let _ = self.halt.halt();
+        self.halt();
         *self.tripped.get_or_insert(trip)
     }
 
@@ -220,6 +279,10 @@ impl Supervisor {
         let age_s = now_s - stamp.valid_s;
         if age_s > self.limits.signals.stale_s {
             return Some(Trip::StaleForce { age_s });
+        }
+        if self.stage == MotionStage::Zeroing {
+            self.heard_s = stamp.valid_s;
+            return None;
         }
         let before = self.last.replace((*wrench, stamp.valid_s));
         self.heard_s = stamp.valid_s;

@@ -10,7 +10,7 @@ use taceva_core::{
 use super::align::Look;
 use super::bounds::Bounds;
 use super::error::StopCause;
-use super::supervisor::{MotionStage, Observation, Supervisor};
+use super::supervisor::{MotionStage, Observation, SharedSupervisor};
 use super::time::{Cancel, Timekeeper};
 use super::trip::Trip;
 use super::way::{distance, is_straight_up, part_way, settled};
@@ -28,6 +28,13 @@ pub(super) const DEADLINE: Deadline = Deadline::after(Duration::from_secs(2));
 /// Segments that a motion may take beyond twice those of its way, before the robot counts as stuck.
 const SPARE_SEGMENTS: f64 = 8.0;
 
+/// While the zero is not known, or the force in which a halt left the tip: what the transducer can measure is the only limit.
+pub(super) const ANY_FORCE: MotionStage = MotionStage::Retreat {
+    force_n: f64::INFINITY,
+};
+/// So many times the force that counts as contact is a collision in the air: arms shake what they carry.
+const COLLISION_THRESHOLDS: f64 = 10.0;
+
 /// A step of a press: done, or the reason why the run must stop.
 pub(super) type Step<T> = Result<T, StopCause>;
 
@@ -37,7 +44,9 @@ pub(super) struct Tip<'a> {
     pub(super) force: &'a mut dyn ForceTransducer,
     pub(super) clock: &'a mut dyn Timekeeper,
     pub(super) cancel: &'a Cancel,
-    pub(super) supervisor: Supervisor,
+    pub(super) supervisor: SharedSupervisor,
+    /// Whether threads show every reading of force to the supervisor.
+    pub(super) is_guarded: bool,
     pub(super) bounds: Bounds,
     pub(super) pace: Pace,
     /// Where it was seen last.
@@ -63,7 +72,10 @@ pub(super) struct Pace {
     step_mm: f64,
     search_mm: f64,
     settle: Duration,
-    pub(super) threshold_n: f64,
+    threshold_n: f64,
+    /// The force above which something is touched at rest in the air: that of contact, or what noise is not.
+    air_n: f64,
+    normal_max_n: f64,
     pub(super) clearance_mm: f64,
     /// A pose within this of where the tip was sent is there, along each axis.
     pub(super) slack_mm: f64,
@@ -83,6 +95,8 @@ impl Pace {
             search_mm: contact.search_mm.value,
             settle: Duration::from_secs_f64(contact.settle_s.value),
             threshold_n: contact.threshold_n.value,
+            air_n: contact.threshold_n.value.max(limits.signals.air_n()),
+            normal_max_n: limits.normal_max.0,
             clearance_mm: contact.clearance_mm.value,
             slack_mm: limits.signals.slack_mm(),
             host_zero: limits.signals.host_zero,
@@ -94,7 +108,7 @@ impl<'a> Tip<'a> {
     pub(super) fn new(
         (robot, force): (&'a mut dyn Robot, &'a mut dyn ForceTransducer),
         (clock, cancel): (&'a mut dyn Timekeeper, &'a Cancel),
-        supervisor: Supervisor,
+        (supervisor, is_guarded): (SharedSupervisor, bool),
         (bounds, pace): (Bounds, Pace),
     ) -> Tip<'a> {
         Tip {
@@ -103,6 +117,7 @@ impl<'a> Tip<'a> {
             clock,
             cancel,
             supervisor,
+            is_guarded,
             bounds,
             pace,
             at: Pose::default(),
@@ -121,7 +136,7 @@ impl<'a> Tip<'a> {
 
     /// Learns where it stands, and goes straight up to the height of travel if it stands below.
     pub(super) fn find(&mut self) -> Step<()> {
-        self.clear_halt()?;
+        self.release()?;
         self.find_pose()?;
         let height = -self.pace.clearance_mm;
         if self.target.position.z.0 > height {
@@ -144,17 +159,34 @@ impl<'a> Tip<'a> {
             },
         };
         // The tip stands at this height or above it, so the way there is in the air.
-        self.watch_travel(f64::INFINITY);
+        self.watch_way()?;
         self.go(over, self.pace.travel)?;
         self.call_zero()?;
-        self.watch_travel(self.pace.threshold_n);
+        let threshold_n = self.pace.air_n;
+        self.watch(MotionStage::Travel { threshold_n });
         self.look().map(drop)
+    }
+
+    /// Begins to watch the way through the air: for a collision, where threads look on and the zero is known that holds there.
+    fn watch_way(&mut self) -> Step<()> {
+        let is_zero_known = self.is_box_zeroed || !self.pace.host_zero;
+        if is_zero_known {
+            let threshold_n = match self.is_guarded {
+                true => COLLISION_THRESHOLDS * self.pace.air_n,
+                false => f64::INFINITY,
+            };
+            self.watch(MotionStage::Travel { threshold_n });
+            return Ok(());
+        }
+        self.watch(ANY_FORCE);
+        let force_n = self.look()?.wrench.force[2].0 + self.pace.normal_max_n;
+        self.watch(MotionStage::Retreat { force_n });
+        Ok(())
     }
 
     /// Goes down step by step until the gel is felt; the height of the tip then, or `None` at the end of the search.
     pub(super) fn search(&mut self) -> Step<Option<Look>> {
-        let now_s = self.clock.now_s();
-        self.supervisor.watch(MotionStage::Search, now_s);
+        self.watch(MotionStage::Search);
         let start = self.target.position.z.0;
         // Until it is felt, the gel may be anywhere below.
         self.contact_mm = Some(start);
@@ -168,9 +200,7 @@ impl<'a> Tip<'a> {
             if look.wrench.force[2].0 >= self.pace.threshold_n {
                 let height_mm = look.pose.position.z.0;
                 self.contact_mm = Some(height_mm);
-                let now_s = self.clock.now_s();
-                self.supervisor
-                    .watch(MotionStage::Press { height_mm }, now_s);
+                self.watch(MotionStage::Press { height_mm });
                 return Ok(Some(look));
             }
         }
@@ -199,8 +229,7 @@ impl<'a> Tip<'a> {
             patience -= 1.0;
             if patience < 0.0 {
                 let distance_mm = distance(&self.here(), &goal);
-                let trip = self.supervisor.trip(Trip::Diverged { distance_mm });
-                return Err(StopCause::Tripped(trip));
+                return Err(self.halt_for(Trip::Diverged { distance_mm }));
             }
         }
     }
@@ -210,22 +239,35 @@ impl<'a> Tip<'a> {
         self.clock.rest(self.pace.settle);
         for _ in 0..FROZEN_READINGS {
             let look = self.look()?;
-            if self.supervisor.is_fresh() {
+            if self.supervisor.lock().is_fresh() {
                 return Ok(look);
             }
         }
         let readings = FROZEN_READINGS;
-        let trip = self.supervisor.trip(Trip::Frozen { readings });
-        Err(StopCause::Tripped(trip))
+        Err(self.halt_for(Trip::Frozen { readings }))
     }
 
-    pub(super) fn watch_travel(&mut self, threshold_n: f64) {
+    /// Begins to watch `stage`, which forgets a halt of the supervisor; that of the robot stays.
+    pub(super) fn watch(&mut self, stage: MotionStage) {
         let now_s = self.clock.now_s();
-        self.supervisor
-            .watch(MotionStage::Travel { threshold_n }, now_s);
+        self.supervisor.lock().watch(stage, now_s);
     }
 
-    pub(super) fn clear_halt(&mut self) -> Step<()> {
+    /// Ends a halt. Nobody halts again for the force that is there, before it is known how great it is.
+    pub(super) fn release(&mut self) -> Step<()> {
+        let supervisor = self.supervisor.clone();
+        // Threads that look on wait meanwhile: what they see next belongs to the new stage.
+        let mut held = supervisor.lock();
+        self.clear_halt()?;
+        held.watch(ANY_FORCE, self.clock.now_s());
+        Ok(())
+    }
+
+    fn halt_for(&mut self, trip: Trip) -> StopCause {
+        StopCause::Tripped(self.supervisor.lock().trip(trip))
+    }
+
+    fn clear_halt(&mut self) -> Step<()> {
         self.robot.clear_halt(DEADLINE).map_err(|error| {
             self.robot_failed = true;
             StopCause::Device(error)
@@ -249,8 +291,27 @@ impl<'a> Tip<'a> {
     fn failed(&mut self, error: taceva_core::DriverError) -> StopCause {
         let _ = self.robot.halt();
         let is_grave = [ErrorKind::DeviceFault, ErrorKind::Disconnected].contains(&error.kind());
+        let (tripped, fault) = {
+            let supervisor = self.supervisor.lock();
+            (supervisor.tripped(), supervisor.fault())
+        };
+        let error = match fault.filter(|_| error.fault().is_none()) {
+            Some(fault) => error.with_fault(fault),
+            None => error,
+        };
         self.robot_failed |= is_grave || error.fault().is_some();
-        StopCause::Device(error)
+        if error.kind() != ErrorKind::Interrupted || error.fault().is_some() {
+            return StopCause::Device(error);
+        }
+        // Somebody who looked on halted it.
+        match tripped {
+            Some(trip) => StopCause::Tripped(trip),
+            None if self.cancel.is_cancelled() => StopCause::Cancelled,
+            None => match self.force.read(Deadline::after(READ_DEADLINE)) {
+                Err(silent) if silent.kind() != ErrorKind::Timeout => StopCause::Device(silent),
+                _ => StopCause::Device(error),
+            },
+        }
     }
 
     /// One straight motion, then a look.
@@ -264,9 +325,11 @@ impl<'a> Tip<'a> {
         }
         let seconds = 1.0 + 2.0 * distance(&here, &target) / speed.mm_per_s();
         let deadline = Deadline::after(Duration::from_secs_f64(seconds));
-        self.supervisor.sent(here, target);
+        self.supervisor.lock().sent(here, target);
         self.target = target;
-        if let Err(error) = self.robot.move_to(target, speed, deadline) {
+        let moved = self.robot.move_to(target, speed, deadline);
+        self.supervisor.lock().rests();
+        if let Err(error) = moved {
             return Err(self.failed(error));
         }
         self.look().map(drop)
@@ -287,7 +350,7 @@ impl<'a> Tip<'a> {
         };
         self.show(&observation)?;
         Ok(Look {
-            wrench: self.supervisor.zeroed(&reading.said),
+            wrench: self.supervisor.lock().zeroed(&reading.said),
             wrench_s: reading.valid_s,
             number: reading.number,
             pose,
@@ -321,8 +384,7 @@ impl<'a> Tip<'a> {
                 }
                 Err(error) if error.kind() == ErrorKind::OutOfRange => {
                     let force_n = f64::INFINITY;
-                    let trip = self.supervisor.trip(Trip::Saturated { force_n });
-                    return Err(StopCause::Tripped(trip));
+                    return Err(self.halt_for(Trip::Saturated { force_n }));
                 }
                 Err(error) => {
                     let _ = self.robot.halt();
@@ -331,15 +393,23 @@ impl<'a> Tip<'a> {
             }
         }
         let age_s = self.clock.now_s() - asked_s;
-        let trip = self.supervisor.trip(Trip::StaleForce { age_s });
-        Err(StopCause::Tripped(trip))
+        Err(self.halt_for(Trip::StaleForce { age_s }))
     }
 
     fn show(&mut self, observation: &Observation) -> Step<()> {
         let now_s = self.clock.now_s();
-        self.supervisor
-            .observe(observation, now_s)
-            .map_err(StopCause::Tripped)
+        let mut supervisor = self.supervisor.lock();
+        let is_force = matches!(
+            observation,
+            Observation::Force(..) | Observation::Numbered(..)
+        );
+        let seen = match (self.is_guarded && is_force, supervisor.tripped()) {
+            // Whoever read it has shown it, and shown twice it would be a signal that repeats itself.
+            (true, Some(trip)) => Err(trip),
+            (true, None) => Ok(()),
+            (false, _) => supervisor.observe(observation, now_s),
+        };
+        seen.map_err(StopCause::Tripped)
     }
 
     /// The place of a waypoint: over `place`, sheared, at `depth` below `height_mm`.
@@ -383,7 +453,7 @@ mod tests {
         let rig = Rig::new(1.0, nothing);
         rig.state().stuck = true;
         let cause = with_tip(&rig, |tip| {
-            tip.clear_halt()?;
+            tip.release()?;
             tip.find_pose()?;
             tip.approach([0.0, 0.0, 0.0])
         });

@@ -2,7 +2,8 @@
 
 use taceva_core::{Newton, NewtonMillimetre, Wrench};
 
-use super::tip::{DEADLINE, Step, Tip};
+use super::supervisor::MotionStage;
+use super::tip::{ANY_FORCE, DEADLINE, Step, Tip};
 
 /// How long the host listens, in s: a box that answers a command of its own for a new zero takes up to seconds, at every press.
 const LISTEN_S: f64 = 0.25;
@@ -23,21 +24,21 @@ impl Tip<'_> {
 
     fn call_zero_by_host(&mut self) -> Step<()> {
         if !self.is_box_zeroed {
+            self.watch(MotionStage::Zeroing);
             if let Some(tare) = self.force.tare() {
                 tare.zero(DEADLINE)?;
             }
             self.is_box_zeroed = true;
-            self.supervisor.call_zero(Wrench::default());
-            // The step to the new zero is no force that rises.
-            self.watch_travel(f64::INFINITY);
+            self.supervisor.lock().call_zero(Wrench::default());
         }
+        self.watch(ANY_FORCE);
         let until_s = self.clock.now_s() + LISTEN_S;
         let (mut sum, mut count) = (Sum::default(), 0_u32);
         while count < LEAST_READINGS || self.clock.now_s() < until_s {
             sum.add(&self.read_force()?.said);
             count += 1;
         }
-        self.supervisor.call_zero(sum.mean(count));
+        self.supervisor.lock().call_zero(sum.mean(count));
         Ok(())
     }
 }
@@ -66,6 +67,7 @@ impl Sum {
 #[cfg(test)]
 mod tests {
     use crate::run::rig::{Rig, with_tip};
+    use crate::run::tip::ANY_FORCE;
 
     #[test]
     fn the_host_calls_the_mean_of_a_quarter_of_a_second_zero() {
@@ -77,7 +79,7 @@ mod tests {
         let force_n = with_tip(&rig, |tip| {
             tip.pace.host_zero = true;
             tip.find_pose()?;
-            tip.watch_travel(f64::INFINITY);
+            tip.watch(ANY_FORCE);
             tip.call_zero()?;
             Ok::<f64, crate::StopCause>(tip.look()?.wrench.force[2].0)
         });
@@ -93,7 +95,7 @@ mod tests {
         let rig = Rig::new(-3.0, |question, _| Some(0.5 + f64::from(question) * 1e-9));
         let force_n = with_tip(&rig, |tip| {
             tip.find_pose()?;
-            tip.watch_travel(f64::INFINITY);
+            tip.watch(ANY_FORCE);
             tip.call_zero()?;
             Ok::<f64, crate::StopCause>(tip.look()?.wrench.force[2].0)
         });

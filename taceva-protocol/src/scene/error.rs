@@ -152,6 +152,20 @@ pub enum SceneProblem {
         /// The real one.
         real: String,
     },
+    /// A robot that rests too late after a limit was passed.
+    #[error(
+        "`{robot}` moves on for {stop_ms} ms after a halt, so that it rests {needed_ms:.0} ms after a limit was passed: expected at most {greatest_ms:.0} ms"
+    )]
+    SlowStop {
+        /// The robot.
+        robot: String,
+        /// What it states, in ms.
+        stop_ms: f64,
+        /// With one reading and one message, in ms.
+        needed_ms: f64,
+        /// The most that is allowed, in ms.
+        greatest_ms: f64,
+    },
     /// A speed at which the tip goes too far in contact while its force grows stale.
     #[error(
         "`speed_mm_s` is {found}, but {who} may be silent for {stale_ms:.0} ms before it counts as gone: expected at most {greatest:.3}"

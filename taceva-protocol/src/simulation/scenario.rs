@@ -4,7 +4,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 
 use taceva_core::{
     Axes, Descriptor, DescriptorSpec, DriverKey, DriverSource, Facts, Field, FieldSet, Footprint,
-    ForceFacts, Hertz, Millimetre, Newton, RobotFacts, SensorFacts,
+    ForceFacts, Hertz, Millimetre, Newton, Robot, RobotFacts, SensorFacts,
 };
 
 use super::devices::{FRAME, SimulatedForce, SimulatedRobot, SimulatedSensor};
@@ -16,7 +16,10 @@ use super::record::{judge_log, missing};
 use super::world::{Gel, Killed, Sabotage, Shared};
 use crate::draw::Draws;
 use crate::plan::{MetricNeeds, Plan, plan_study};
-use crate::run::{Cancel, Controls, Devices, Event, Left, Mode, RunError, RunSpec, run};
+use crate::run::{
+    Cancel, Controls, Devices, Event, Left, Mode, RunError, RunSpec, SharedSupervisor, Supervisor,
+    run, run_guarded,
+};
 use crate::scene::{Scene, SceneError};
 use crate::source::{RigInfo, SourceInfo};
 
@@ -80,7 +83,14 @@ pub(super) fn simulate_with(seed: u64, sabotage: Sabotage) -> SimulationReport {
         step_mm,
         threshold_n,
     )
-    .at_speed(plan.contact.speed_mm_s.value, limits.overshoot.segment_mm);
+    .at_speed(
+        plan.contact.speed_mm_s.value,
+        match is_guarded(seed) {
+            // Threads look on within a segment, however long it is.
+            true => 0.0,
+            false => limits.overshoot.segment_mm,
+        },
+    );
     let plan = match sabotage {
         Sabotage::LooseLimits => loosened(&plan),
         _ => plan.clone(),
@@ -101,7 +111,12 @@ pub(super) fn simulate_with(seed: u64, sabotage: Sabotage) -> SimulationReport {
     let mut redone = 0;
     while !finished && processes < MOST_PROCESSES {
         processes += 1;
-        finished = match process(&plan, &shared, (&mut disk, &mut acknowledged), &mut redone) {
+        finished = match process(
+            &plan,
+            &shared,
+            (&mut disk, &mut acknowledged),
+            (&mut redone, is_guarded(seed)),
+        ) {
             Ended::Done => true,
             Ended::Stopped(error) => {
                 repair(&shared, error.left);
@@ -138,6 +153,11 @@ pub(super) fn simulate_with(seed: u64, sabotage: Sabotage) -> SimulationReport {
     }
 }
 
+/// Whether threads look on while the robot of this seed moves.
+fn is_guarded(seed: u64) -> bool {
+    seed % 4 == 3
+}
+
 /// The plan with a limit that nobody may loosen, loosened.
 fn loosened(plan: &Plan) -> Plan {
     let mut plan = plan.clone();
@@ -158,11 +178,15 @@ fn process(
     plan: &Plan,
     shared: &Shared,
     (disk, acknowledged): (&mut Disk, &mut Vec<crate::ContentId>),
-    redone: &mut u64,
+    (redone, is_guarded): (&mut u64, bool),
 ) -> Ended {
     let cancel = Cancel::new();
     shared.world().cancel = cancel.clone();
     let mut robot = SimulatedRobot(shared.clone());
+    let limits = plan.limits.clone().filter(|_| is_guarded);
+    let guard =
+        limits.map(|limits| SharedSupervisor::new(Supervisor::new(limits, robot.halt_handle())));
+    shared.world().guard.clone_from(&guard);
     let mut force = SimulatedForce(shared.clone());
     let mut sensor = SimulatedSensor(shared.clone());
     let mut clock = shared.clone();
@@ -185,7 +209,10 @@ fn process(
             cancel: &cancel,
             events: &mut |event| *redone += u64::from(matches!(event, Event::Redone { .. })),
         };
-        run(&spec, devices, &mut log, controls)
+        match guard {
+            Some(guard) => run_guarded(&spec, devices, &mut log, (controls, guard)),
+            None => run(&spec, devices, &mut log, controls),
+        }
     }));
     match ended {
         Ok(Ok(_)) => Ended::Done,

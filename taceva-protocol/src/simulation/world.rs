@@ -7,7 +7,7 @@ use taceva_core::Fault;
 use super::fault::{FaultKind, Faults, fraction};
 use super::oracle::{Ended, Oracle, SILENCE, TOO_HARD};
 use crate::draw::Draws;
-use crate::run::{Cancel, Timekeeper};
+use crate::run::{Cancel, SharedSupervisor, Timekeeper};
 
 /// The gel and the instruments of one seed.
 #[derive(Clone, Copy, Debug)]
@@ -79,6 +79,8 @@ pub(super) struct World {
     pub(super) oracle: Oracle,
     pub(super) faults: Faults,
     pub(super) cancel: Cancel,
+    /// Who is shown every reading in a motion, where threads look on.
+    pub(super) guard: Option<SharedSupervisor>,
     draws: Draws,
     readings: u64,
     poses: u64,
@@ -136,6 +138,7 @@ impl Shared {
             oracle,
             faults,
             cancel: Cancel::new(),
+            guard: None,
             draws,
             readings: 0,
             poses: 0,
@@ -267,11 +270,7 @@ impl World {
     /// Moves the tip along a line.
     pub(super) fn glide(&mut self, target: [f64; 3], speed_mm_s: f64) {
         let from = self.tip;
-        let way = (0..3)
-            .map(|axis| (target[axis] - from[axis]).powi(2))
-            .sum::<f64>()
-            .sqrt();
-        let seconds = way / speed_mm_s;
+        let seconds = self.way_to(target) / speed_mm_s;
         let start_s = self.now_s;
         let indented_mm = self.depth(from);
         let stuck = self.faults.strike(FaultKind::StuckRobot, start_s);
@@ -317,10 +316,15 @@ impl World {
             self.pass(deadline_s);
             return None;
         }
-        self.listening_s = None;
-        self.oracle.heard();
         let next_s = ((self.now_s / READING_S).floor() + 1.0) * READING_S;
         self.pass(next_s - self.now_s);
+        Some(self.sense())
+    }
+
+    /// What the transducer says now, and when that was true.
+    fn sense(&mut self) -> ([f64; 3], f64) {
+        self.listening_s = None;
+        self.oracle.heard();
         self.readings += 1;
         let noise = |axis: u64| {
             let part = fraction(self.draws, [self.readings, axis]);
@@ -352,7 +356,39 @@ impl World {
             valid_s -= STALE_S;
             self.hazard("a reading that is old", self.now_s);
         }
-        Some((force, valid_s))
+        (force, valid_s)
+    }
+
+    /// What a thread that reads the transducer gets in the middle of a motion; `None` of one that is silent.
+    pub(super) fn overhear(&mut self) -> Option<([f64; 3], f64)> {
+        if self.faults.strike(FaultKind::Silence, self.now_s) {
+            let listening_s = *self.listening_s.get_or_insert(self.now_s);
+            self.oracle.blinded();
+            self.hazard(SILENCE, listening_s + STALE_AFTER_S);
+            return None;
+        }
+        Some(self.sense())
+    }
+
+    /// When a motion to `target` ends that begins now, but for what binary64 makes of the sum of its parts.
+    pub(super) fn arrival_s(&self, target: [f64; 3], speed_mm_s: f64) -> f64 {
+        self.now_s + self.way_to(target) / speed_mm_s - 1e-9
+    }
+
+    /// Where a motion to `target` is after the time of one reading, at most at its end.
+    pub(super) fn next_on_way(&self, target: [f64; 3], speed_mm_s: f64) -> [f64; 3] {
+        let length_mm = self.way_to(target);
+        let step_mm = speed_mm_s * READING_S;
+        if length_mm <= step_mm {
+            return target;
+        }
+        let part = step_mm / length_mm;
+        [0, 1, 2].map(|axis| self.tip[axis] + (target[axis] - self.tip[axis]) * part)
+    }
+
+    fn way_to(&self, target: [f64; 3]) -> f64 {
+        let squares = [0, 1, 2].map(|axis| (target[axis] - self.tip[axis]).powi(2));
+        squares.iter().sum::<f64>().sqrt()
     }
 
     /// Calls the present load zero.

@@ -4,11 +4,15 @@ use std::sync::Arc;
 
 use taceva_core::{
     Descriptor, Device, DriverError, DriverKey, DriverSource, ErrorKind, ForceTransducer, Lighting,
-    Registry, Rig, Robot, Sensor,
+    Progress, Registry, Rig, Robot, Sensor,
 };
 use taceva_drivers::{Drivers, OnBench, OpenError, Selector, open};
-use taceva_protocol::{Devices, Setting, StopCause, Timekeeper};
+use taceva_protocol::{
+    Cancel, Controls, Devices, Event, PressLog, RunError, RunReport, RunSpec, Setting,
+    SharedSupervisor, StopCause, run, run_guarded,
+};
 
+use super::guardian::Guarded;
 use super::latency::{IntoDevice, Late};
 use super::workshop::{Surroundings, Workshop};
 use crate::error::StudyError;
@@ -21,6 +25,9 @@ pub(super) struct OpenRig {
     force: Box<dyn ForceTransducer>,
     lighting: Option<Box<dyn Lighting>>,
     pub(super) surroundings: Surroundings,
+    force_driver: DriverKey,
+    /// Whether its time passes by itself: then threads look on while it moves.
+    is_real: bool,
 }
 
 impl OpenRig {
@@ -59,9 +66,10 @@ impl OpenRig {
             )));
         };
         let selector = &robot.selector;
-        let surroundings = match robot.descriptor.source() {
-            DriverSource::Real => Surroundings::real(),
-            _ => (workshop.surroundings)(selector, &mut shared)
+        let is_real = robot.descriptor.source() == DriverSource::Real;
+        let surroundings = match is_real {
+            true => Surroundings::real(),
+            false => (workshop.surroundings)(selector, &mut shared)
                 .ok_or_else(|| failed(OpenError::Device(without_clock(selector))))?,
         };
         let sensor = sensor.map(|sensor| match &surroundings.bench {
@@ -71,6 +79,8 @@ impl OpenRig {
             _ => sensor.timely(|facts| facts.sensor()?.latency_ms),
         });
         Ok(OpenRig {
+            force_driver: force.descriptor.key().clone(),
+            is_real,
             sensor,
             robot: robot.timely(|facts| facts.robot()?.latency_ms),
             force: force.timely(|facts| facts.force()?.latency_ms),
@@ -79,25 +89,67 @@ impl OpenRig {
         })
     }
 
-    /// The devices and the clock, lent for one run.
-    pub(super) fn lend(&mut self) -> (Devices<'_>, &mut dyn Timekeeper) {
-        let devices = Devices {
-            robot: &mut *self.robot,
-            force: &mut *self.force,
-            sensor: match &mut self.sensor {
-                Some(sensor) => Some(&mut **sensor),
-                None => None,
-            },
-            lighting: match &mut self.lighting {
-                Some(lighting) => Some(&mut **lighting),
-                None => None,
-            },
-            specimens: match &mut self.surroundings.specimens {
-                Some(specimens) => Some(&mut **specimens),
-                None => None,
-            },
+    /// Makes the presses of `spec`, under a guard where the rig is real.
+    ///
+    /// # Errors
+    /// As [`run`](taceva_protocol::run).
+    pub(super) fn conduct(
+        &mut self,
+        spec: &RunSpec<'_>,
+        log: &mut dyn PressLog,
+        (cancel, progress): (&Cancel, &dyn Progress),
+        events: &mut dyn FnMut(&Event),
+    ) -> Result<RunReport, RunError> {
+        let OpenRig {
+            sensor,
+            robot,
+            force,
+            lighting,
+            surroundings,
+            force_driver,
+            is_real,
+        } = self;
+        let mut act = |robot: &mut dyn Robot,
+                       force: &mut dyn ForceTransducer,
+                       guard: Option<SharedSupervisor>| {
+            let devices = Devices {
+                robot,
+                force,
+                sensor: match sensor {
+                    Some(sensor) => Some(&mut **sensor),
+                    None => None,
+                },
+                lighting: match lighting {
+                    Some(lighting) => Some(&mut **lighting),
+                    None => None,
+                },
+                specimens: match &mut surroundings.specimens {
+                    Some(specimens) => Some(&mut **specimens),
+                    None => None,
+                },
+            };
+            let controls = Controls {
+                clock: &mut *surroundings.clock,
+                cancel,
+                events: &mut *events,
+            };
+            match guard {
+                Some(guard) => run_guarded(spec, devices, log, (controls, guard)),
+                None => run(spec, devices, log, controls),
+            }
         };
-        (devices, &mut *self.surroundings.clock)
+        match spec.plan.limits.clone().filter(|_| *is_real) {
+            None => act(&mut **robot, &mut **force, None),
+            Some(limits) => Guarded {
+                robot: &mut **robot,
+                force: &mut **force,
+                driver: force_driver.clone(),
+                limits,
+                cancel,
+                progress,
+            }
+            .conduct(|robot, force, guard| act(robot, force, Some(guard))),
+        }
     }
 }
 

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use taceva_core::{
     Axes, Deadline, DriverError, ForceTransducer, FrameInfo, FrameMut, GuardedMotion, Halt,
-    Interrupt, Lighting, Pose, Robot, Sensor, Speed, Stamp, Tare, Wrench,
+    Interrupt, Lighting, Pose, Robot, RobotWatch, Sensor, Speed, Stamp, Tare, Wrench,
 };
 
 /// A device that stamps what was true so long before.
@@ -21,11 +21,15 @@ impl<D: ?Sized> Late<D> {
     }
 
     fn true_stamp(&self, stamp: Stamp) -> Stamp {
-        Stamp {
-            valid_s: stamp.valid_s - self.latency_s,
-            // What was stamped on arrival arrived then.
-            received_s: stamp.received_s.or(Some(stamp.valid_s)),
-        }
+        true_stamp(stamp, self.latency_s)
+    }
+}
+
+fn true_stamp(stamp: Stamp, latency_s: f64) -> Stamp {
+    Stamp {
+        valid_s: stamp.valid_s - latency_s,
+        // What was stamped on arrival arrived then.
+        received_s: stamp.received_s.or(Some(stamp.valid_s)),
     }
 }
 
@@ -80,6 +84,12 @@ impl Robot for Late<dyn Robot> {
         self.device.halt_handle()
     }
 
+    fn watch_handle(&self) -> Option<Arc<dyn RobotWatch>> {
+        let watch = self.device.watch_handle()?;
+        let latency_s = self.latency_s;
+        Some(Arc::new(LateWatch { latency_s, watch }))
+    }
+
     fn halt(&mut self) -> Result<(), DriverError> {
         self.device.halt()
     }
@@ -90,6 +100,18 @@ impl Robot for Late<dyn Robot> {
 
     fn guarded_motion(&mut self) -> Option<&mut dyn GuardedMotion> {
         self.device.guarded_motion()
+    }
+}
+
+struct LateWatch {
+    latency_s: f64,
+    watch: Arc<dyn RobotWatch>,
+}
+
+impl RobotWatch for LateWatch {
+    fn pose(&self, deadline: Deadline) -> Result<(Pose, Stamp), DriverError> {
+        let (pose, stamp) = self.watch.pose(deadline)?;
+        Ok((pose, true_stamp(stamp, self.latency_s)))
     }
 }
 

@@ -5,9 +5,9 @@ use std::time::Duration;
 
 use taceva_core::{
     Args, Axes, Deadline, Descriptor, DescriptorSpec, DriverError, DriverKey, DriverSource,
-    ErrorKind, Factory, Facts, Footprint, ForceFacts, ForceTransducer, FrameInfo, FrameMut, Halt,
-    Hertz, Millimetre, Newton, PixelFormat, Pose, Registry, Rig, Robot, RobotFacts, Sensor,
-    SensorFacts, Speed, Stamp, Wrench,
+    ErrorKind, Factory, Facts, Fault, Footprint, ForceFacts, ForceTransducer, FrameInfo, FrameMut,
+    Halt, Hertz, Millimetre, Newton, PixelFormat, Pose, Registry, Rig, Robot, RobotFacts,
+    RobotWatch, Sensor, SensorFacts, Speed, Stamp, Wrench,
 };
 use taceva_drivers::{Drivers, MonotonicClock};
 
@@ -100,6 +100,22 @@ impl Halt for Arm {
     }
 }
 
+fn stopped(doing: &'static str) -> DriverError {
+    let error = DriverError::new(ErrorKind::DeviceFault, &ROBOT, doing);
+    error.with_fault(Fault::EmergencyStop)
+}
+
+impl RobotWatch for Arm {
+    fn pose(&self, _: Deadline) -> Result<(Pose, Stamp), DriverError> {
+        let now = MonotonicClock.now();
+        let state = self.0.state();
+        match state.is_stopped {
+            true => Err(stopped("look on")),
+            false => Ok((pose(state.tip(now.as_secs_f64())), Stamp::at(now))),
+        }
+    }
+}
+
 impl Robot for Arm {
     fn pose(&mut self, _: Deadline) -> Result<(Pose, Stamp), DriverError> {
         let now = MonotonicClock.now();
@@ -108,6 +124,9 @@ impl Robot for Arm {
     }
 
     fn move_to(&mut self, target: Pose, speed: Speed, _: Deadline) -> Result<Stamp, DriverError> {
+        if self.0.state().refuses() {
+            return Err(stopped("move"));
+        }
         let position = target.position;
         let to = [position.x.0, position.y.0, position.z.0];
         match self.0.travel(to, speed.mm_per_s()) {
@@ -120,7 +139,14 @@ impl Robot for Arm {
         Arc::new(Arm(self.0.clone()))
     }
 
+    fn watch_handle(&self) -> Option<Arc<dyn RobotWatch>> {
+        Some(Arc::new(Arm(self.0.clone())))
+    }
+
     fn clear_halt(&mut self, _: Deadline) -> Result<(), DriverError> {
+        if self.0.state().refuses() {
+            return Err(stopped("end the halt"));
+        }
         self.0.state().is_halted = false;
         Ok(())
     }

@@ -1,6 +1,7 @@
 //! Studies on devices that work in the time of the machine.
 
 mod devices;
+mod guard;
 mod world;
 
 use std::num::NonZeroUsize;

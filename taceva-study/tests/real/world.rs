@@ -25,11 +25,18 @@ pub(crate) struct State {
     pub(crate) readings: u64,
     pub(crate) withheld: u32,
     pub(crate) deepest_mm: f64,
-    /// When the robot was halted last.
-    pub(crate) halted_s: Option<f64>,
-    /// When the force first was above this, in N, and when that was.
-    pub(crate) alarm_n: f64,
-    pub(crate) alarm_s: Option<f64>,
+    /// How often the robot was halted, and when.
+    pub(crate) halts: usize,
+    halted_s: Vec<f64>,
+    /// Something stands in the air, where x is above this, and presses with 1 N.
+    pub(crate) obstacle_x_mm: f64,
+    /// When the tip came to it first.
+    pub(crate) struck_s: Option<f64>,
+    /// Whether the emergency stop is pressed.
+    pub(crate) is_stopped: bool,
+    /// Motions and releases that were asked for after it was reported.
+    pub(crate) defied: u32,
+    told: bool,
 }
 
 impl World {
@@ -42,9 +49,13 @@ impl World {
             readings: 0,
             withheld: 0,
             deepest_mm: 0.0,
-            halted_s: None,
-            alarm_n: f64::INFINITY,
-            alarm_s: None,
+            halts: 0,
+            halted_s: Vec::new(),
+            obstacle_x_mm: f64::INFINITY,
+            struck_s: None,
+            is_stopped: false,
+            defied: 0,
+            told: false,
         })))
     }
 
@@ -71,7 +82,7 @@ impl World {
         loop {
             let left_s = until_s - MonotonicClock.now_s();
             let state = self.state();
-            if state.is_halted {
+            if state.is_halted || state.is_stopped {
                 return false;
             }
             if left_s <= 0.0 {
@@ -84,15 +95,31 @@ impl World {
 
     pub(crate) fn halt(&self) {
         let mut state = self.state();
-        let now_s = MonotonicClock.now_s();
-        let tip = state.tip(now_s);
-        state.way = [tip; 2];
+        state.stand();
         state.is_halted = true;
-        state.halted_s = Some(now_s);
+        state.halts += 1;
+        state.halted_s.push(MonotonicClock.now_s());
+    }
+
+    /// Somebody presses the emergency stop.
+    pub(crate) fn stop(&self) {
+        let mut state = self.state();
+        state.stand();
+        state.is_stopped = true;
     }
 }
 
 impl State {
+    /// When it was halted first after `time_s`.
+    pub(crate) fn first_halt_after(&self, time_s: f64) -> f64 {
+        let mut later = self.halted_s.iter().filter(|halted_s| **halted_s >= time_s);
+        *later.next().expect("it was halted")
+    }
+
+    fn stand(&mut self) {
+        self.way = [self.tip(MonotonicClock.now_s()); 2];
+    }
+
     pub(crate) fn tip(&self, now_s: f64) -> [f64; 3] {
         let [from, to] = self.way;
         let [begin_s, end_s] = self.span_s;
@@ -103,18 +130,27 @@ impl State {
         [0, 1, 2].map(|axis| from[axis] + (to[axis] - from[axis]) * part)
     }
 
-    /// What presses on the gel, without noise.
+    /// What presses on the tip, without noise.
     pub(crate) fn force_n(&mut self, now_s: f64) -> f64 {
-        let [_, _, z] = self.tip(now_s);
+        let [x, _, z] = self.tip(now_s);
         self.deepest_mm = self.deepest_mm.max(z);
-        let force_n = STIFFNESS_N_MM * z.max(0.0);
-        if force_n > self.alarm_n && self.alarm_s.is_none() {
+        if x > self.obstacle_x_mm {
+            let [from, to] = self.way.map(|place| place[0]);
             let [begin_s, end_s] = self.span_s;
-            let [from, to] = self.way.map(|place| place[2]);
-            let part = (self.alarm_n / STIFFNESS_N_MM - from) / (to - from);
-            self.alarm_s = Some(begin_s + part * (end_s - begin_s));
+            let part = (self.obstacle_x_mm - from) / (to - from);
+            self.struck_s
+                .get_or_insert(begin_s + part * (end_s - begin_s));
+            return 1.0;
         }
-        force_n
+        STIFFNESS_N_MM * z.max(0.0)
+    }
+
+    /// Whether the robot refuses, because the emergency stop is pressed.
+    pub(crate) fn refuses(&mut self) -> bool {
+        if self.is_stopped {
+            self.defied += u32::from(std::mem::replace(&mut self.told, true));
+        }
+        self.is_stopped
     }
 }
 
