@@ -21,9 +21,9 @@ pub use plan::{
 };
 pub use press::{Motion, Press, Waypoint};
 pub use run::{
-    Cancel, Controls, Devices, Event, Left, Mode, MotionStage, Observation, PressLog, PressRecord,
-    RunError, RunReport, RunSpec, SharedSupervisor, SpecimenChanger, StopCause, Supervisor,
-    Timekeeper, Trip, run, run_guarded,
+    Answer, Cancel, Controls, Devices, Event, Left, Mode, MotionStage, Observation, Operator,
+    PressLog, PressRecord, Question, RunError, RunReport, RunSpec, SharedSupervisor,
+    SpecimenChanger, StopCause, Supervisor, Timekeeper, Trip, run, run_guarded,
 };
 pub use scene::{
     BuiltinScene, Calibration, Contact, DeviceSpec, FootprintSpec, GREATEST_SCENE,

@@ -7,6 +7,7 @@
 
 mod align;
 mod bounds;
+mod by_hand;
 mod camera;
 mod devices;
 mod error;
@@ -14,6 +15,7 @@ mod event;
 mod indent;
 mod log;
 mod observe;
+mod operator;
 mod press;
 mod retreat;
 #[cfg(test)]
@@ -33,6 +35,7 @@ pub use devices::{Devices, SpecimenChanger};
 pub use error::{Left, RunError, StopCause};
 pub use event::Event;
 pub use log::{PressLog, PressRecord};
+pub use operator::{Answer, Operator, Question};
 pub use supervisor::{MotionStage, Observation, SharedSupervisor, Supervisor};
 pub use time::{Cancel, Timekeeper};
 pub use trip::Trip;
@@ -73,6 +76,8 @@ pub struct Controls<'a> {
     pub cancel: &'a Cancel,
     /// Is called with each event.
     pub events: &'a mut dyn FnMut(&Event),
+    /// Does what no device can; where absent, a plan that needs hands stops there.
+    pub operator: Option<&'a mut dyn Operator>,
 }
 
 /// What a run did.
@@ -90,6 +95,8 @@ pub struct RunReport {
     pub without_contact: usize,
     /// Samples that were recorded.
     pub samples: usize,
+    /// Presses that were left for another run, because somebody skipped what they need.
+    pub skipped: usize,
 }
 
 /// Makes the presses of `spec` that `log` does not have yet, each durable before the next begins.

@@ -25,6 +25,14 @@ pub enum StopCause {
     /// Somebody wished it.
     #[error("stopped on request")]
     Cancelled,
+    /// Presses were left out because somebody skipped what they need; every other one is made.
+    #[error(
+        "{presses} presses are left, for which somebody skipped what they need: go on with the same run"
+    )]
+    Skipped {
+        /// How many.
+        presses: usize,
+    },
     /// A device failed.
     #[error("{0}")]
     Device(#[from] DriverError),

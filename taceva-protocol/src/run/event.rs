@@ -20,6 +20,8 @@ pub enum Event {
     Mounted(Specimen),
     /// The light was set.
     Lit(String),
+    /// A press is left for another run, because somebody skipped what it needs.
+    Skipped(ContentId),
     /// A press begins.
     Approaching {
         /// Which.

@@ -8,6 +8,7 @@ use super::devices::{Devices, SpecimenChanger};
 use super::error::{Left, RunError, StopCause};
 use super::event::Event;
 use super::log::{PressLog, PressRecord};
+use super::operator::{Operator, Question};
 use super::supervisor::{SharedSupervisor, Supervisor};
 use super::tip::{DEADLINE, Pace, Step, Tip};
 use super::{Controls, Mode, RunReport, RunSpec};
@@ -21,11 +22,14 @@ pub(super) struct Run<'a> {
     pub(super) lighting: Option<&'a mut dyn Lighting>,
     pub(super) specimens: Option<&'a mut dyn SpecimenChanger>,
     pub(super) events: &'a mut dyn FnMut(&Event),
+    pub(super) operator: Option<&'a mut dyn Operator>,
     pub(super) plan: &'a Plan,
     pub(super) mounted: Option<Specimen>,
     pub(super) lit: Option<String>,
     /// Presses that silence broke off.
     silences: u32,
+    /// What somebody skipped.
+    pub(super) skipped: Vec<Question>,
 }
 
 /// A press that silence breaks off so many times ends the run.
@@ -81,10 +85,12 @@ impl<'a> Run<'a> {
             lighting: devices.lighting,
             specimens: devices.specimens,
             events: controls.events,
+            operator: controls.operator,
             plan,
             mounted: None,
             lit: None,
             silences: 0,
+            skipped: Vec::new(),
         })
     }
 
@@ -130,6 +136,10 @@ impl<'a> Run<'a> {
                     report.made += 1;
                 }
                 Mode::Acquire if log.is_finished(planned.id) => {}
+                Mode::Acquire if self.is_skipped(planned)? => {
+                    (self.events)(&Event::Skipped(planned.id));
+                    report.skipped += 1;
+                }
                 Mode::Acquire => {
                     (self.events)(&Event::Approaching {
                         press: planned.id,
@@ -155,10 +165,18 @@ impl<'a> Run<'a> {
             }
         }
         report.redone = self.silences;
-        Ok(report)
+        match report.skipped {
+            0 => Ok(report),
+            presses => Err(RunError {
+                press: None,
+                cause: StopCause::Skipped { presses },
+                left: Left::Clear,
+            }),
+        }
     }
 
-    /// One press, again from its start where silence broke it off and the tip could be brought above the gel.
+    /// One press, again from its start where silence broke it off and the tip could be brought above the gel, or where a fault did and somebody
+    /// acknowledged it.
     fn acquire_patiently(
         &mut self,
         planned: &PlannedPress,
@@ -173,6 +191,10 @@ impl<'a> Run<'a> {
             };
             let is_silence = cause.is_silence();
             let error = self.abandoned(Some(planned.id), cause);
+            if let Some(fault) = error.cause.fault() {
+                self.go_on_after(fault, error)?;
+                continue;
+            }
             if !is_silence || error.left == Left::InPlace {
                 return Err(error);
             }
@@ -187,7 +209,7 @@ impl<'a> Run<'a> {
     }
 
     /// The error that ends the run, after the tip was brought to where it can be left.
-    fn abandoned(&mut self, press: Option<ContentId>, cause: StopCause) -> RunError {
+    pub(super) fn abandoned(&mut self, press: Option<ContentId>, cause: StopCause) -> RunError {
         if let StopCause::Tripped(trip) = cause {
             (self.events)(&Event::Halted(trip));
         }

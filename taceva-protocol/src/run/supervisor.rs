@@ -181,6 +181,11 @@ impl Supervisor {
         self.fault
     }
 
+    /// Forgets a fault that a person acknowledged at the robot.
+    pub fn acknowledge(&mut self) {
+        self.fault = None;
+    }
+
     /// Halts because a reading was clipped: how great the force is, nobody knows.
     pub fn saturated(&mut self) -> Trip {
         let force_n = f64::INFINITY;

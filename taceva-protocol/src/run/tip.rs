@@ -61,6 +61,8 @@ pub(super) struct Tip<'a> {
     pub(super) ignores_cancel: bool,
     /// Whether the transducer was told its own zero, which is done once where the host finds the zero by itself.
     pub(super) is_box_zeroed: bool,
+    /// Whether the zero is that of what the robot carries now.
+    pub(super) is_zero_known: bool,
 }
 
 /// How fast, how far, how hard.
@@ -126,6 +128,7 @@ impl<'a> Tip<'a> {
             robot_failed: false,
             ignores_cancel: false,
             is_box_zeroed: false,
+            is_zero_known: false,
         }
     }
 
@@ -169,8 +172,7 @@ impl<'a> Tip<'a> {
 
     /// Begins to watch the way through the air: for a collision, where threads look on and the zero is known that holds there.
     fn watch_way(&mut self) -> Step<()> {
-        let is_zero_known = self.is_box_zeroed || !self.pace.host_zero;
-        if is_zero_known {
+        if self.is_zero_known || !self.pace.host_zero {
             let threshold_n = match self.is_guarded {
                 true => COLLISION_THRESHOLDS * self.pace.air_n,
                 false => f64::INFINITY,

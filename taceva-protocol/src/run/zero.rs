@@ -39,6 +39,7 @@ impl Tip<'_> {
             count += 1;
         }
         self.supervisor.lock().call_zero(sum.mean(count));
+        self.is_zero_known = true;
         Ok(())
     }
 }

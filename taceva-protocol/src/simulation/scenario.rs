@@ -208,6 +208,7 @@ fn process(
             clock: &mut clock,
             cancel: &cancel,
             events: &mut |event| *redone += u64::from(matches!(event, Event::Redone { .. })),
+            operator: None,
         };
         match guard {
             Some(guard) => run_guarded(&spec, devices, &mut log, (controls, guard)),

@@ -6,8 +6,8 @@ use crate::content_id::ContentId;
 use crate::draw::Draws;
 use crate::plan::Plan;
 use crate::run::{
-    Cancel, Controls, Devices, Event, Mode, PressLog, PressRecord, RunError, RunReport, RunSpec,
-    run,
+    Cancel, Controls, Devices, Event, Mode, Operator, PressLog, PressRecord, RunError, RunReport,
+    RunSpec, run,
 };
 use crate::simulation::devices::{SimulatedForce, SimulatedRobot, SimulatedSensor};
 use crate::simulation::fault::Faults;
@@ -61,6 +61,8 @@ pub(super) struct Bench {
     pub(super) plan: Plan,
     pub(super) cancel: Cancel,
     pub(super) events: Vec<Event>,
+    /// Who is asked.
+    pub(super) operator: Option<Box<dyn Operator>>,
 }
 
 impl Bench {
@@ -79,6 +81,7 @@ impl Bench {
             plan,
             cancel: Cancel::new(),
             events: Vec::new(),
+            operator: None,
         }
     }
 
@@ -117,6 +120,10 @@ impl Bench {
             clock: &mut clock,
             cancel,
             events: &mut note,
+            operator: match &mut self.operator {
+                Some(operator) => Some(&mut **operator),
+                None => None,
+            },
         };
         run(&spec, devices, log, controls)
     }
