@@ -34,6 +34,9 @@ pub fn run_scene(
     jobs: NonZeroUsize,
 ) -> Result<Vec<EvaluationReport>, StudyError> {
     scene.check_models(workshop.models)?;
+    if workshop.operator.is_none() {
+        scene.check_unattended(workshop.drivers)?;
+    }
     let datasets = acquire_all(scene, folder, workshop, jobs)?;
     let work = Work {
         jobs,

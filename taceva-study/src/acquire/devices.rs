@@ -1,10 +1,10 @@
 //! The devices of a rig, opened for one unit of the sensor and lent to a run.
 
-use std::sync::Arc;
+use std::sync::{Arc, PoisonError};
 
 use taceva_core::{
     Descriptor, Device, DriverError, DriverKey, DriverSource, ErrorKind, ForceTransducer, Lighting,
-    Progress, Registry, Rig, Robot, Sensor,
+    Registry, Rig, Robot, Sensor,
 };
 use taceva_drivers::{Drivers, OnBench, OpenError, Selector, open};
 use taceva_protocol::{
@@ -97,9 +97,12 @@ impl OpenRig {
         &mut self,
         spec: &RunSpec<'_>,
         log: &mut dyn PressLog,
-        (cancel, progress): (&Cancel, &dyn Progress),
+        (cancel, workshop): (&Cancel, Workshop<'_>),
         events: &mut dyn FnMut(&Event),
     ) -> Result<RunReport, RunError> {
+        let operator = workshop.operator.filter(|_| self.is_real);
+        let mut operator =
+            operator.map(|operator| operator.lock().unwrap_or_else(PoisonError::into_inner));
         let OpenRig {
             sensor,
             robot,
@@ -132,6 +135,10 @@ impl OpenRig {
                 clock: &mut *surroundings.clock,
                 cancel,
                 events: &mut *events,
+                operator: match &mut operator {
+                    Some(operator) => Some(&mut **operator),
+                    None => None,
+                },
             };
             match guard {
                 Some(guard) => run_guarded(spec, devices, log, (controls, guard)),
@@ -146,7 +153,7 @@ impl OpenRig {
                 driver: force_driver.clone(),
                 limits,
                 cancel,
-                progress,
+                progress: workshop.progress,
             }
             .conduct(|robot, force, guard| act(robot, force, Some(guard))),
         }

@@ -1,12 +1,12 @@
 //! What presses are made with, beside the devices themselves: drivers, clocks and whoever exchanges specimens.
 
-use std::sync::Arc;
+use std::sync::{Arc, Mutex};
 use std::time::Duration;
 
 use taceva_core::{Progress, Rig, SimulatedBench};
 use taceva_drivers::{Drivers, MonotonicClock, Selector};
 use taceva_models::Models;
-use taceva_protocol::{ContentId, SpecimenChanger, Timekeeper};
+use taceva_protocol::{ContentId, Operator, SpecimenChanger, Timekeeper};
 
 use crate::cache::Cache;
 
@@ -83,4 +83,6 @@ pub struct Workshop<'a> {
     pub cache: Option<&'a Cache>,
     /// Receives progress, and may cancel.
     pub progress: &'a dyn Progress,
+    /// Who is asked for what no device of a real rig can do; without one a scene that needs hands is refused before anything is opened.
+    pub operator: Option<&'a Mutex<dyn Operator + Send>>,
 }

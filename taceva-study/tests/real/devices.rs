@@ -4,10 +4,10 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use taceva_core::{
-    Args, Axes, Deadline, Descriptor, DescriptorSpec, DriverError, DriverKey, DriverSource,
-    ErrorKind, Factory, Facts, Fault, Footprint, ForceFacts, ForceTransducer, FrameInfo, FrameMut,
-    Halt, Hertz, Millimetre, Newton, PixelFormat, Pose, Registry, Rig, Robot, RobotFacts,
-    RobotWatch, Sensor, SensorFacts, Speed, Stamp, Wrench,
+    ArgSpec, Args, Axes, Deadline, Descriptor, DescriptorSpec, DriverError, DriverKey,
+    DriverSource, ErrorKind, Factory, Facts, Fault, Footprint, ForceFacts, ForceTransducer,
+    FrameInfo, FrameMut, Halt, Hertz, Millimetre, Newton, PixelFormat, Pose, Registry, Rig, Robot,
+    RobotFacts, RobotWatch, Sensor, SensorFacts, Speed, Stamp, Wrench,
 };
 use taceva_drivers::{Drivers, MonotonicClock};
 
@@ -65,6 +65,11 @@ struct OnWall {
 impl OnWall {
     fn new(key: DriverKey, facts: Facts, world: &World) -> OnWall {
         let spec = DescriptorSpec::new(key, "a device of this test", DriverSource::Real, facts);
+        // Of a sensor there are several.
+        let spec = match spec.facts {
+            Facts::Sensor(_) => spec.arguments([ArgSpec::text("unit").optional()]),
+            _ => spec,
+        };
         OnWall {
             descriptor: spec.check().expect("no contradiction"),
             world: world.clone(),

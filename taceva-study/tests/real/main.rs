@@ -2,14 +2,17 @@
 
 mod devices;
 mod guard;
+mod hands;
 mod world;
 
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
+use std::sync::Mutex;
 
 use taceva_core::{Progress, SilentProgress};
 use taceva_dataset::{Dataset, Source};
 use taceva_models::Models;
+use taceva_protocol::Operator;
 use taceva_study::{
     Existing, PlannedScene, RunFolder, SceneText, StudyError, Surroundings, Workshop, run_scene,
 };
@@ -32,10 +35,20 @@ calibration = { points = 3, indentations = 2, shear_mm = 0.0 }
 
 /// The recording of the scene on `world`, made in `folder`.
 fn record(world: &World, folder: &Path, progress: &dyn Progress) -> Result<Dataset, StudyError> {
+    record_by_hand(world, folder, progress, (SCENE, None))
+}
+
+/// The recording of a scene that may need hands, and of who is there.
+fn record_by_hand(
+    world: &World,
+    folder: &Path,
+    progress: &dyn Progress,
+    (scene, operator): (&str, Option<&Mutex<dyn Operator + Send>>),
+) -> Result<Dataset, StudyError> {
     let drivers = drivers(world);
     let text = SceneText {
         name: "wall".to_owned(),
-        text: SCENE.to_owned(),
+        text: scene.to_owned(),
         folder: PathBuf::from("."),
     };
     let planned = PlannedScene::new(text, &drivers, None)?;
@@ -52,6 +65,7 @@ fn record(world: &World, folder: &Path, progress: &dyn Progress) -> Result<Datas
         },
         cache: None,
         progress,
+        operator,
     };
     run_scene(&planned, &run, workshop, NonZeroUsize::MIN)?;
     Ok(Dataset::open(&run.recording(0, "wall"))?)
