@@ -12,11 +12,18 @@ use crate::stderr;
 
 /// Set once by a signal, read by all work.
 static STOPPED: AtomicBool = AtomicBool::new(false);
+/// Set by a second one.
+static INSISTED: AtomicBool = AtomicBool::new(false);
+/// A robot is halted within this before the program ends.
+const HALTING: Duration = Duration::from_millis(250);
 
-/// Stops work on SIGINT and SIGTERM; a second signal ends the program at once.
+/// Stops work on SIGINT and SIGTERM: a robot leaves the gel, and what was recorded is whole. A second signal halts the robot where it is and
+/// ends the program.
 pub(crate) fn listen_for_signals() {
     let listening = ctrlc::set_handler(|| {
         if STOPPED.swap(true, Ordering::SeqCst) {
+            INSISTED.store(true, Ordering::SeqCst);
+            std::thread::sleep(HALTING);
             std::process::exit(i32::from(crate::exit::STOPPED));
         }
     });
@@ -174,6 +181,10 @@ impl Progress for TerminalProgress {
 
     fn is_cancelled(&self) -> bool {
         is_stopped()
+    }
+
+    fn is_insisted(&self) -> bool {
+        INSISTED.load(Ordering::SeqCst)
     }
 }
 

@@ -11,7 +11,8 @@
 //! [`ErrorKind::Timeout`](crate::ErrorKind::Timeout) and leaves the device usable.
 //!
 //! # Threads
-//! One call at a time a device. The exceptions are [`Halt`] and [`Interrupt`]: they may be called from any thread beside any other call.
+//! One call at a time a device. The exceptions are [`Halt`], [`RobotWatch`] and [`Interrupt`]: they may be called from any thread beside any
+//! other call.
 //!
 //! # Values
 //! mm, degrees, N and N·mm in the sensor's frame. A value that is not finite is refused on the way in
@@ -21,6 +22,7 @@
 mod bench;
 mod deadline;
 mod error;
+mod fault;
 mod finite;
 mod force;
 mod guarded_motion;
@@ -29,12 +31,14 @@ mod interrupt;
 mod kind;
 mod lighting;
 mod robot;
+mod robot_watch;
 mod sensor;
 mod speed;
 
 pub use bench::SimulatedBench;
 pub use deadline::Deadline;
 pub use error::DriverError;
+pub use fault::Fault;
 pub use finite::{NotFinite, check_pose, check_wrench};
 pub use force::{Axes, Axis, ForceTransducer, Tare};
 pub use guarded_motion::{Guard, GuardedMotion, GuardedStop};
@@ -43,5 +47,6 @@ pub use interrupt::Interrupt;
 pub use kind::{Device, DriverKind};
 pub use lighting::Lighting;
 pub use robot::Robot;
+pub use robot_watch::RobotWatch;
 pub use sensor::Sensor;
 pub use speed::{Speed, SpeedError};

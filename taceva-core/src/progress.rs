@@ -37,6 +37,10 @@ pub trait Progress: Send + Sync {
     fn end(&self);
     /// Whether the work should stop at the next safe place.
     fn is_cancelled(&self) -> bool;
+    /// Whether somebody wished so twice: what moves is halted where it is, and nothing is brought to a better place.
+    fn is_insisted(&self) -> bool {
+        false
+    }
 }
 
 /// A progress that shows nothing and never cancels.

@@ -4,6 +4,7 @@
 mod ati;
 #[cfg(feature = "mjpeg")]
 mod camera;
+mod clock;
 pub mod conformance;
 mod devices;
 pub mod doctor;
@@ -39,6 +40,7 @@ mod zero;
 pub use ati::NetftFactory;
 #[cfg(feature = "mjpeg")]
 pub use camera::MjpegFactory;
+pub use clock::MonotonicClock;
 pub use devices::{Devices, ListedArgument, ListedDevice, ListedDriver, devices};
 pub use drivers::{Drivers, OpenError, open};
 pub use on_bench::OnBench;

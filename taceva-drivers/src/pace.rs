@@ -1,9 +1,8 @@
 //! Whose time a device that is no device runs in.
 
-use std::sync::Arc;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
-use taceva_core::{DriverError, Rig};
+use crate::clock::MonotonicClock;
 
 /// Time that passes, and can be waited for.
 pub trait Pace: Send {
@@ -42,26 +41,13 @@ impl Pace for VirtualPace {
     }
 }
 
-/// The time of the machine: devices of one rig count it from one moment.
-#[derive(Clone, Debug)]
-pub struct RealPace {
-    epoch: Arc<Instant>,
-}
-
-impl RealPace {
-    /// The time of `rig`, which begins with the first device that asks for it.
-    ///
-    /// # Errors
-    /// None today; the signature is that of [`Rig::share`].
-    pub fn of(rig: &mut Rig) -> Result<RealPace, DriverError> {
-        let epoch = rig.share("time of the machine", || Ok(Instant::now()))?;
-        Ok(RealPace { epoch })
-    }
-}
+/// The time of the machine, which all real devices are stamped by.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct RealPace;
 
 impl Pace for RealPace {
     fn now_s(&self) -> f64 {
-        self.epoch.elapsed().as_secs_f64()
+        MonotonicClock.now_s()
     }
     fn wait_until(&mut self, time_s: f64) {
         // A sleep may end early on some systems, never for long.
@@ -90,13 +76,11 @@ mod tests {
     }
 
     #[test]
-    fn real_time_is_one_for_the_devices_of_a_rig() {
-        let mut rig = Rig::new();
-        let mut first = RealPace::of(&mut rig).expect("a clock");
-        let second = RealPace::of(&mut rig).expect("the same clock");
+    fn real_time_is_that_of_the_machine_for_everybody() {
+        let (mut first, second) = (RealPace, RealPace);
         let until = first.now_s() + 0.002;
         first.wait_until(until);
-        assert!(second.now_s() >= until);
+        assert!(second.now_s() >= until && MonotonicClock.now_s() >= until);
         first.wait_until(f64::NAN);
         first.wait_until(-1.0);
     }

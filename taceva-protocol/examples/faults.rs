@@ -70,6 +70,10 @@ fn summary(reports: &[SimulationReport], count: u64) -> ExitCode {
         checks.slowest_halt_s * 1e3
     );
     println!("  {} samples compared with the truth", checks.samples);
+    println!(
+        "  {} presses broken off by silence and made again",
+        checks.redone
+    );
     let failing: Vec<&SimulationReport> = reports
         .iter()
         .filter(|report| !report.violations.is_empty())

@@ -14,15 +14,16 @@ mod source;
 mod specimen;
 
 pub use content_id::ContentId;
-pub use limits::{FROZEN_READINGS, Overshoot, RigLimits};
+pub use limits::{FROZEN_READINGS, Overshoot, RigLimits, Signals};
 pub use phase::PhaseKind;
 pub use plan::{
     Cause, Cost, Fit, Plan, PlanReason, PlanSkip, PlannedMetric, PlannedPress, Subject, plan,
 };
 pub use press::{Motion, Press, Waypoint};
 pub use run::{
-    Cancel, Controls, Devices, Event, Left, Mode, MotionStage, Observation, PressLog, PressRecord,
-    RunError, RunReport, RunSpec, SpecimenChanger, StopCause, Supervisor, Timekeeper, Trip, run,
+    Answer, Cancel, Controls, Devices, Event, Left, Mode, MotionStage, Observation, Operator,
+    PressLog, PressRecord, Question, RunError, RunReport, RunSpec, SharedSupervisor,
+    SpecimenChanger, StopCause, Supervisor, Timekeeper, Trip, run, run_guarded,
 };
 pub use scene::{
     BuiltinScene, Calibration, Contact, DeviceSpec, FootprintSpec, GREATEST_SCENE,

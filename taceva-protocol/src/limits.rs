@@ -1,6 +1,12 @@
 //! The limits of a rig: the tightest that scene, study or device states. They cannot be switched off or loosened.
 
-use taceva_core::{DriverSource, Millimetre, Newton, Wrench};
+mod signals;
+
+#[cfg(feature = "simulation")]
+pub(crate) use signals::STALE_S;
+pub use signals::Signals;
+
+use taceva_core::{DriverSource, Millimetre, Newton, RobotFacts, Wrench};
 
 use crate::scene::{LimitSpec, Scene, SceneError, SceneProblem, Setting, Study};
 use crate::source::RigInfo;
@@ -25,6 +31,9 @@ pub struct RigLimits {
     pub overshoot: Overshoot,
     /// Whether all devices are simulated.
     pub simulated: bool,
+    /// What the signals of the rig are worth.
+    #[serde(skip_serializing_if = "Signals::is_default")]
+    pub signals: Signals,
 }
 
 /// How far the tip goes on after a limit was passed.
@@ -34,9 +43,12 @@ pub struct RigLimits {
 /// and a pose that were true no earlier, so that no latency is in the way that it makes: a link may take until the force counts as silent,
 /// and the tip goes no further.
 ///
-/// - With healthy signals the look before a segment showed no limit passed, and the look after it does: s + v²/2a.
+/// - With healthy signals the look before a segment showed no limit passed, and the look after it does: s + b + m.
 /// - A force that froze was true before the first segment that it hides, and
-///   [`FROZEN_READINGS`](crate::FROZEN_READINGS) = n equal readings later it halts: n·s + v²/2a.
+///   [`FROZEN_READINGS`](crate::FROZEN_READINGS) = n equal readings later it halts: n·s + b + m.
+///
+/// b is the way in which the robot stops, v·t where it states that it stops within t, else v²/2a. m = 3·√2·σ is what the noise σ of a
+/// reported pose hides: depth is the difference of two. No segment is shorter than 4·σ, so that each is seen to be made.
 ///
 /// In force it is that length times the stiffness of the gel, and what the noise of the transducer hides.
 ///
@@ -46,7 +58,7 @@ pub struct RigLimits {
 pub struct Overshoot {
     /// The length of a segment.
     pub segment_mm: f64,
-    /// With all signals healthy: one segment, and the way in which the robot stops.
+    /// With all signals healthy: one segment, the way in which the robot stops, and the noise of the pose.
     pub healthy_mm: f64,
     /// With a force signal that froze.
     pub frozen_mm: f64,
@@ -56,18 +68,27 @@ pub struct Overshoot {
 pub(crate) const SEGMENT_S: f64 = 0.015;
 /// Readings that are equal to the last bit, each after a motion, that are believed before the signal counts as frozen.
 pub const FROZEN_READINGS: u32 = 8;
-/// Slowest deceleration that a robot is credited with, in mm/s²; an arm of 1 m/s² stops from 5 mm/s within 0.0125 mm.
+/// The deceleration of a robot that states none, in mm/s²; an arm of 1 m/s² stops from 5 mm/s within 0.0125 mm.
 const DECELERATION_MM_S2: f64 = 1_000.0;
+/// A segment is at least as long as so many standard deviations of a reported pose.
+const SEGMENT_NOISES: f64 = 4.0;
+/// Of a normal distribution less than 3 in 1,000 lie farther out, in standard deviations.
+const NOISE_SPREAD: f64 = 3.0;
 
 impl Overshoot {
-    /// The overshoot at the speed of contact.
-    pub(crate) fn at(speed_mm_s: f64) -> Overshoot {
-        let segment_mm = speed_mm_s * SEGMENT_S;
-        let braking_mm = speed_mm_s * speed_mm_s / (2.0 * DECELERATION_MM_S2);
+    /// The overshoot at the speed of contact, of a robot that reports its pose with this noise.
+    pub(crate) fn at(speed_mm_s: f64, robot: &RobotFacts, pose_noise_mm: f64) -> Overshoot {
+        let segment_mm = (speed_mm_s * SEGMENT_S).max(SEGMENT_NOISES * pose_noise_mm);
+        let deceleration_mm_s2 = robot.deceleration_mm_s2.unwrap_or(DECELERATION_MM_S2);
+        let braking_mm = match robot.stop_ms {
+            Some(stop_ms) => speed_mm_s * stop_ms * 1e-3,
+            None => speed_mm_s * speed_mm_s / (2.0 * deceleration_mm_s2),
+        };
+        let margin_mm = NOISE_SPREAD * std::f64::consts::SQRT_2 * pose_noise_mm;
         Overshoot {
             segment_mm,
-            healthy_mm: segment_mm + braking_mm,
-            frozen_mm: f64::from(FROZEN_READINGS) * segment_mm + braking_mm,
+            healthy_mm: segment_mm + braking_mm + margin_mm,
+            frozen_mm: f64::from(FROZEN_READINGS) * segment_mm + braking_mm + margin_mm,
         }
     }
 }
@@ -131,6 +152,8 @@ pub(crate) fn limits(scene: &Scene, study: &Study, rig: &RigInfo) -> Result<RigL
     {
         return Err(tighten.beyond("travel_mm_s", travel_mm_s, "speed_max_mm_s", speed_max));
     }
+    let signals = Signals::of(scene, study, rig)?;
+    let arm = robot.and_then(|descriptor| descriptor.robot().copied());
     let devices = [&rig.sensor, &rig.robot, &rig.force, &rig.lighting];
     let simulated = devices
         .iter()
@@ -144,8 +167,13 @@ pub(crate) fn limits(scene: &Scene, study: &Study, rig: &RigInfo) -> Result<RigL
         speed_max_mm_s: speed_max.map_or(travel_mm_s.value, |stated| {
             stated.limit.min(travel_mm_s.value)
         }),
-        overshoot: Overshoot::at(scene.protocol.contact.speed_mm_s.value),
+        overshoot: Overshoot::at(
+            scene.protocol.contact.speed_mm_s.value,
+            &arm.unwrap_or_default(),
+            signals.pose_noise_mm,
+        ),
         simulated,
+        signals,
     })
 }
 
@@ -211,5 +239,56 @@ impl Tighten<'_> {
             who: stated.who.clone(),
         };
         self.scene.text.error(written.at(), problem)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A length in nm, so that rounding does not show.
+    fn nanometres(length_mm: f64) -> f64 {
+        (length_mm * 1e6).round()
+    }
+
+    fn shown(overshoot: Overshoot) -> [f64; 3] {
+        let Overshoot {
+            segment_mm,
+            healthy_mm,
+            frozen_mm,
+        } = overshoot;
+        [segment_mm, healthy_mm, frozen_mm].map(nanometres)
+    }
+
+    #[test]
+    fn an_arm_without_noise_that_states_nothing_goes_on_by_a_segment_and_half_a_micrometre() {
+        let overshoot = Overshoot::at(1.0, &RobotFacts::default(), 0.0);
+        assert!(shown(overshoot).iter().eq(&[15_000.0, 15_500.0, 120_500.0]));
+    }
+
+    #[test]
+    fn what_an_arm_states_of_how_it_stops_counts_in_the_place_of_what_is_assumed() {
+        let brakes = RobotFacts {
+            deceleration_mm_s2: Some(100.0),
+            ..RobotFacts::default()
+        };
+        // 2²/(2·100) = 0.02 mm.
+        let overshoot = Overshoot::at(2.0, &brakes, 0.0);
+        assert!(shown(overshoot).iter().eq(&[30_000.0, 50_000.0, 260_000.0]));
+        let stops = RobotFacts {
+            stop_ms: Some(30.0),
+            ..brakes
+        };
+        // 2 mm/s for 30 ms.
+        let overshoot = Overshoot::at(2.0, &stops, 0.0);
+        assert!(shown(overshoot).iter().eq(&[30_000.0, 90_000.0, 300_000.0]));
+    }
+
+    #[test]
+    fn noise_makes_segments_longer_and_the_overshoot_wider() {
+        let overshoot = Overshoot::at(1.0, &RobotFacts::default(), 0.05);
+        // 4·0.05; and 3·√2·0.05 = 0.212 132 mm.
+        let expected = [200_000.0, 412_632.0, 1_812_632.0];
+        assert!(shown(overshoot).iter().eq(&expected), "{overshoot:?}");
     }
 }

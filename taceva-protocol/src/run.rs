@@ -1,11 +1,13 @@
 //! Runs a plan on borrowed devices: safely, resumably, and without a clock or a file of its own.
 //!
 //! A press is an approach, a search for contact, its waypoints and a retreat. In contact the tip moves in segments of 15 ms; after each,
-//! force and pose are read and shown to the [`Supervisor`]. A limit of the gel ends the way in and the run goes on; anything else stops it,
-//! the tip leaves the gel if its signals can be trusted, and the same call resumes the run.
+//! force and pose are read and shown to the [`Supervisor`]. A limit of the gel ends the way in and the run goes on. Signals that are silent
+//! break a press off, which is made again. Anything else stops the run: the tip leaves the gel if its signals can be trusted and the robot
+//! reports no fault of its own, and the same call resumes the run.
 
 mod align;
 mod bounds;
+mod by_hand;
 mod camera;
 mod devices;
 mod error;
@@ -13,6 +15,7 @@ mod event;
 mod indent;
 mod log;
 mod observe;
+mod operator;
 mod press;
 mod retreat;
 #[cfg(test)]
@@ -25,17 +28,17 @@ mod tests;
 mod time;
 mod tip;
 mod trip;
+mod way;
+mod zero;
 
 pub use devices::{Devices, SpecimenChanger};
 pub use error::{Left, RunError, StopCause};
 pub use event::Event;
 pub use log::{PressLog, PressRecord};
-pub use supervisor::{MotionStage, Observation, Supervisor};
+pub use operator::{Answer, Operator, Question};
+pub use supervisor::{MotionStage, Observation, SharedSupervisor, Supervisor};
 pub use time::{Cancel, Timekeeper};
 pub use trip::Trip;
-
-#[cfg(feature = "simulation")]
-pub(crate) use supervisor::STALE_S;
 
 use taceva_core::Millimetre;
 
@@ -73,6 +76,8 @@ pub struct Controls<'a> {
     pub cancel: &'a Cancel,
     /// Is called with each event.
     pub events: &'a mut dyn FnMut(&Event),
+    /// Does what no device can; where absent, a plan that needs hands stops there.
+    pub operator: Option<&'a mut dyn Operator>,
 }
 
 /// What a run did.
@@ -82,12 +87,16 @@ pub struct RunReport {
     pub resumed: usize,
     /// Presses that were made and are durable; in a rehearsal, places visited.
     pub made: usize,
-    /// Of those, ended by a limit of the gel.
+    /// Times that a press was broken off because signals were silent, and made again.
+    pub redone: u32,
+    /// Of those made, ended by a limit of the gel.
     pub limited: usize,
-    /// Of those, without contact.
+    /// Of those made, without contact.
     pub without_contact: usize,
     /// Samples that were recorded.
     pub samples: usize,
+    /// Presses that were left for another run, because somebody skipped what they need.
+    pub skipped: usize,
 }
 
 /// Makes the presses of `spec` that `log` does not have yet, each durable before the next begins.
@@ -102,12 +111,35 @@ pub fn run<'a>(
     log: &mut dyn PressLog,
     controls: Controls<'a>,
 ) -> Result<RunReport, RunError> {
+    run_under(spec, devices, log, (controls, None))
+}
+
+/// The same under a guard: `supervisor` is shown every reading of force by whoever reads them in a thread of its own, and poses under way by
+/// whoever looks on. It is over the robot of `devices`, and `devices.force` only passes on what that thread has read.
+///
+/// # Errors
+/// As [`run`].
+pub fn run_guarded<'a>(
+    spec: &RunSpec<'a>,
+    devices: Devices<'a>,
+    log: &mut dyn PressLog,
+    (controls, supervisor): (Controls<'a>, SharedSupervisor),
+) -> Result<RunReport, RunError> {
+    run_under(spec, devices, log, (controls, Some(supervisor)))
+}
+
+fn run_under<'a>(
+    spec: &RunSpec<'a>,
+    devices: Devices<'a>,
+    log: &mut dyn PressLog,
+    (controls, guard): (Controls<'a>, Option<SharedSupervisor>),
+) -> Result<RunReport, RunError> {
     let stopped = |cause| RunError {
         press: None,
         cause,
         left: Left::Clear,
     };
-    let mut run = Run::new(spec, devices, controls).map_err(stopped)?;
+    let mut run = Run::new(spec, devices, controls, guard).map_err(stopped)?;
     let done = run.all(spec, log);
     let stopping = run.stop();
     match done {

@@ -1,7 +1,10 @@
 //! From a plan to a recording: every press that is not in it yet, unit after unit, each durable before the next begins.
 
+mod by_hand;
 mod devices;
+mod guardian;
 mod key;
+mod latency;
 mod log;
 pub(crate) mod retried;
 mod schedule;
@@ -14,10 +17,11 @@ use taceva_dataset::{
     Dataset, DatasetError, Footprint, Known, Recorder, RecordingFacts, RecordingSpec, SensorFacts,
     Source,
 };
-use taceva_protocol::{Cancel, Controls, Event, Mode, Plan, RunSpec, run};
+use taceva_protocol::{Cancel, Event, Mode, Plan, RunSpec, StopCause};
 
 use crate::error::StudyError;
 use crate::scene::{PlannedStudy, RigSpec};
+use by_hand::{acquisition, presses_skipped, unit_is_there};
 use devices::OpenRig;
 pub(crate) use key::key;
 use log::RecordedPresses;
@@ -51,7 +55,16 @@ pub(crate) fn acquire(
         }
     }
     let mut log: Option<RecordedPresses> = None;
+    let mut left = 0;
     for unit in &plan.units {
+        if !unit_is_there(study, rig, unit, (workshop, cancel))? {
+            left += plan
+                .presses
+                .iter()
+                .filter(|press| press.press.unit == *unit)
+                .count();
+            continue;
+        }
         let mut open = OpenRig::open(study, rig, unit, workshop)?;
         let log = match &mut log {
             Some(log) => log,
@@ -60,7 +73,14 @@ pub(crate) fn acquire(
                 log.insert(RecordedPresses::new(Recorder::open(path, &spec)?))
             }
         };
-        acquire_unit(study, (unit, &mut open, path), log, (workshop, cancel))?;
+        let done = acquire_unit(study, (unit, &mut open, path), log, (workshop, cancel));
+        if let Err(error) = done {
+            left += presses_skipped(error)?;
+        }
+    }
+    if left > 0 {
+        // What is recorded is kept open: the same call goes on with it.
+        return Err(acquisition(plan, StopCause::Skipped { presses: left }));
     }
     if let Some(log) = log {
         log.into_recorder().close()?;
@@ -106,17 +126,12 @@ fn acquire_unit(
         unit,
         mode: Mode::Acquire,
     };
-    let (devices, clock) = open.lend();
-    let controls = Controls {
-        clock,
-        cancel,
-        events: &mut events,
-    };
     let failed = |source| StudyError::Acquisition {
         study: plan.name.clone(),
         source: Box::new(source),
     };
-    let done = run(&spec, devices, log, controls).map(drop).map_err(failed);
+    let done = open.conduct(&spec, log, (cancel, workshop), &mut events);
+    let done = done.map(drop).map_err(failed);
     // A count that cannot be written is no reason to lose a recording.
     drop(retried::add(path, retried));
     done

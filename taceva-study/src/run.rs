@@ -34,6 +34,9 @@ pub fn run_scene(
     jobs: NonZeroUsize,
 ) -> Result<Vec<EvaluationReport>, StudyError> {
     scene.check_models(workshop.models)?;
+    if workshop.operator.is_none() {
+        scene.check_unattended(workshop.drivers)?;
+    }
     let datasets = acquire_all(scene, folder, workshop, jobs)?;
     let work = Work {
         jobs,
@@ -54,7 +57,8 @@ pub fn run_scene(
     assessed.collect()
 }
 
-/// The recordings of all studies; each worker takes the next study that nobody has taken.
+/// The recordings of all studies; each worker takes the next study that nobody has taken. Devices that are not simulated are there once, so
+/// that studies take turns on them.
 fn acquire_all(
     scene: &PlannedScene,
     folder: &RunFolder,
@@ -68,8 +72,16 @@ fn acquire_all(
     let next = AtomicUsize::new(0);
     let done: Mutex<Vec<Option<Result<Dataset, StudyError>>>> =
         Mutex::new(studies.iter().map(|_| None).collect());
+    let is_real = |study: &PlannedStudy| match &study.source {
+        StudySource::Rig(rig) => !rig.is_only_simulated(workshop.drivers),
+        StudySource::Recording(_) => false,
+    };
+    let workers = match studies.iter().any(is_real) {
+        true => 1,
+        false => jobs.get().min(studies.len()),
+    };
     std::thread::scope(|scope| {
-        for _ in 0..jobs.get().min(studies.len()) {
+        for _ in 0..workers {
             scope.spawn(|| {
                 loop {
                     let number = next.fetch_add(1, Ordering::Relaxed);

@@ -132,6 +132,7 @@ impl Table {
             self.inline("camera", &fields);
         }
         self.number("field_of_view_mm2", facts.field_of_view_mm2);
+        self.number("latency_ms", facts.latency_ms);
         if let Some(footprint) = facts.footprint {
             self.footprint(footprint);
         }
@@ -181,6 +182,10 @@ impl Table {
             "repeatability_mm",
             facts.repeatability.map(|spread| spread.0),
         );
+        self.number("pose_noise_mm", facts.pose_noise.map(|noise| noise.0));
+        self.number("deceleration_mm_s2", facts.deceleration_mm_s2);
+        self.number("stop_ms", facts.stop_ms);
+        self.number("latency_ms", facts.latency_ms);
         self.line("guarded_motion", &facts.guarded_motion);
     }
 
@@ -189,6 +194,9 @@ impl Table {
         self.number("rate_hz", facts.rate.map(|rate| rate.0));
         let force = facts.force_max.map(|force| written(force.0));
         self.inline("limits", &[("Fz_max_N", force)]);
+        self.number("noise_N", facts.noise.map(|noise| noise.0));
+        self.number("resolution_N", facts.resolution.map(|step| step.0));
+        self.number("latency_ms", facts.latency_ms);
         self.line("tare", &facts.tare);
     }
 

@@ -1,9 +1,11 @@
 //! `taceva run`.
 
 pub(super) mod bench;
+mod operator;
 mod stages;
 
 use std::path::{Path, PathBuf};
+use std::sync::Mutex;
 use taceva_core::shown;
 
 use anyhow::Context as _;
@@ -25,6 +27,10 @@ pub(crate) fn run(args: &Run, context: &Context) -> anyhow::Result<u8> {
     let (drivers, models) = context.equipment(Path::new(&args.scene.scene))?;
     let planned = scene::to_run(args, &drivers)?;
     planned.check_models(&models)?;
+    let terminal = operator::terminal().map(Mutex::new);
+    if terminal.is_none() {
+        planned.check_unattended(&drivers)?;
+    }
     let formats = formats(&planned)?;
     if args.format == Format::Csv && planned.studies.len() > 1 {
         return Err(Usage::error(format!(
@@ -51,6 +57,10 @@ pub(crate) fn run(args: &Run, context: &Context) -> anyhow::Result<u8> {
         surroundings: &bench::surroundings,
         cache: cache.as_ref(),
         progress: &context.progress,
+        operator: match &terminal {
+            Some(terminal) => Some(terminal),
+            None => None,
+        },
     };
     let reports = run_scene(&planned, &folder, workshop, context.jobs);
     let mut reports = reports.with_context(|| match progress::is_stopped() {

@@ -4,6 +4,7 @@ use std::borrow::Cow;
 use std::error::Error;
 use std::fmt;
 
+use super::Fault;
 use crate::error::ErrorKind;
 use crate::id::DriverKey;
 
@@ -13,6 +14,7 @@ pub struct DriverError {
     kind: ErrorKind,
     driver: DriverKey,
     doing: Cow<'static, str>,
+    fault: Option<Fault>,
     source: Option<Box<dyn Error + Send + Sync>>,
 }
 
@@ -27,8 +29,16 @@ impl DriverError {
             kind,
             driver: driver.clone(),
             doing: doing.into(),
+            fault: None,
             source: None,
         }
+    }
+
+    /// The same error, which the device gave because of `fault`.
+    #[must_use]
+    pub fn with_fault(mut self, fault: Fault) -> DriverError {
+        self.fault = Some(fault);
+        self
     }
 
     /// The same error with what caused it: another error, or a sentence that names the value and what would be accepted.
@@ -41,6 +51,11 @@ impl DriverError {
     /// What kind of failure it was.
     pub fn kind(&self) -> ErrorKind {
         self.kind
+    }
+
+    /// The fault for which the device stopped by itself, if it named one.
+    pub fn fault(&self) -> Option<Fault> {
+        self.fault
     }
 
     /// The driver that failed.
@@ -57,9 +72,11 @@ impl DriverError {
 impl fmt::Display for DriverError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}: cannot {}: ", self.driver, self.doing)?;
-        match &self.source {
-            Some(source) => write!(f, "{source}"),
-            None => write!(f, "{}", self.kind),
+        match (&self.source, self.fault) {
+            (Some(source), Some(fault)) => write!(f, "{fault}: {source}"),
+            (Some(source), None) => write!(f, "{source}"),
+            (None, Some(fault)) => write!(f, "{fault}"),
+            (None, None) => write!(f, "{}", self.kind),
         }
     }
 }
@@ -90,7 +107,19 @@ mod tests {
             caused.to_string(),
             "test/camera: cannot capture a frame: no frame within 40ms"
         );
-        assert_eq!(caused.kind(), ErrorKind::Timeout);
+        assert_eq!((caused.kind(), caused.fault()), (ErrorKind::Timeout, None));
         assert!(caused.source().is_some());
+    }
+
+    #[test]
+    fn a_fault_is_kept_and_stands_in_the_message_before_its_cause() {
+        for fault in Fault::ALL {
+            let arm = DriverKey::fixed("test/arm");
+            let bare = DriverError::new(ErrorKind::DeviceFault, &arm, "move").with_fault(fault);
+            assert_eq!(bare.fault(), Some(fault));
+            assert_eq!(bare.to_string(), format!("test/arm: cannot move: {fault}"));
+            let caused = bare.because("code 2").to_string();
+            assert_eq!(caused, format!("test/arm: cannot move: {fault}: code 2"));
+        }
     }
 }

@@ -32,6 +32,12 @@ pub trait ForceTransducer: Send {
     /// - `Disconnected` or `EndOfStream` if nothing will come any more.
     fn read(&mut self, deadline: Deadline) -> Result<(Wrench, Stamp), DriverError>;
 
+    /// The number that the device itself gave the last reading, where it numbers them: a link or a device that froze repeats it, however
+    /// fresh the stamp. It may begin anew, and means nothing beside that of another reading being the same or not.
+    fn sequence(&self) -> Option<u64> {
+        None
+    }
+
     /// Ends what [`start`](ForceTransducer::start) began; may be called in every state.
     ///
     /// # Errors

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::{Deadline, DriverError, GuardedMotion, Halt, Speed};
+use super::{Deadline, DriverError, GuardedMotion, Halt, RobotWatch, Speed};
 use crate::geometry::Pose;
 use crate::stamp::Stamp;
 
@@ -34,7 +34,7 @@ pub trait Robot: Send {
     /// - `OutOfRange` for a target outside the workspace or a speed above the greatest; nothing moves,
     /// - `Timeout` if it did not arrive within `deadline`,
     /// - `Interrupted` if it was halted, before or during the motion,
-    /// - `DeviceFault` if it reports a fault: collision, emergency stop, joint limit.
+    /// - `DeviceFault` if it reports a fault; with its [`Fault`](super::Fault) where it is one of those.
     fn move_to(
         &mut self,
         target: Pose,
@@ -45,6 +45,11 @@ pub trait Robot: Send {
     /// A handle that stops this robot from any thread, while any other call is under way.
     fn halt_handle(&self) -> Arc<dyn Halt>;
 
+    /// A handle that looks at this robot from any thread while it moves, where it has a second connection for that.
+    fn watch_handle(&self) -> Option<Arc<dyn RobotWatch>> {
+        None
+    }
+
     /// Stops the robot; legal in every state, and stopping it twice is stopping it once.
     ///
     /// # Errors
@@ -54,6 +59,9 @@ pub trait Robot: Send {
     }
 
     /// Ends a halt, so that moves are accepted again; without one it does nothing. Nothing moves.
+    ///
+    /// It ends the halt of [`halt`](Robot::halt) alone. A [`Fault`](super::Fault) of the device is never cleared: a person looks, and
+    /// acknowledges it at the device.
     ///
     /// # Errors
     /// [`DriverError`] of kind `DeviceFault` if the device itself still reports a fault that a person must acknowledge.

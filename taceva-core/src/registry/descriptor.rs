@@ -129,6 +129,7 @@ fn sensor_fault(facts: &SensorFacts) -> Option<String> {
             ("gel thickness", facts.gel_thickness.map(|height| height.0)),
             ("field of view", facts.field_of_view_mm2),
         ])
+        .or_else(|| not_negative(&[("latency", facts.latency_ms)]))
     })
 }
 
@@ -145,12 +146,13 @@ fn robot_fault(facts: &RobotFacts, source: DriverSource) -> Option<String> {
             workspace.least, workspace.greatest
         ));
     }
-    match facts.repeatability {
-        Some(spread) if !(spread.0 >= 0.0 && spread.0.is_finite()) => {
-            Some(format!("a repeatability of {spread}"))
-        }
-        _ => None,
-    }
+    not_negative(&[
+        ("repeatability", facts.repeatability.map(|spread| spread.0)),
+        ("noise of the pose", facts.pose_noise.map(|noise| noise.0)),
+        ("time to stop", facts.stop_ms),
+        ("latency", facts.latency_ms),
+    ])
+    .or_else(|| positive(&[("deceleration", facts.deceleration_mm_s2)]))
 }
 
 fn force_fault(facts: &ForceFacts) -> Option<String> {
@@ -160,7 +162,14 @@ fn force_fault(facts: &ForceFacts) -> Option<String> {
     positive(&[
         ("rate", facts.rate.map(|rate| rate.0)),
         ("greatest force", facts.force_max.map(|force| force.0)),
+        ("resolution", facts.resolution.map(|step| step.0)),
     ])
+    .or_else(|| {
+        not_negative(&[
+            ("noise", facts.noise.map(|noise| noise.0)),
+            ("latency", facts.latency_ms),
+        ])
+    })
 }
 
 fn scenes_fault(scenes: &[String]) -> Option<String> {
@@ -176,6 +185,14 @@ fn positive(named: &[(&str, Option<f64>)]) -> Option<String> {
         value
             .filter(|value| !(*value > 0.0 && value.is_finite()))
             .map(|value| format!("a {name} of {value}, expected a number above 0"))
+    })
+}
+
+fn not_negative(named: &[(&str, Option<f64>)]) -> Option<String> {
+    named.iter().find_map(|&(name, value)| {
+        value
+            .filter(|value| !(*value >= 0.0 && value.is_finite()))
+            .map(|value| format!("a {name} of {value}, expected 0 or more"))
     })
 }
 

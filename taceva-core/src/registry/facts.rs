@@ -57,6 +57,8 @@ pub struct SensorFacts {
     pub gel_thickness: Option<Millimetre>,
     /// The area that the camera sees, in mm².
     pub field_of_view_mm2: Option<f64>,
+    /// How long after it was true a frame is stamped, in ms; whoever conducts a run takes it off the stamps. 0 where stamps are true.
+    pub latency_ms: Option<f64>,
 }
 
 impl SensorFacts {
@@ -77,6 +79,15 @@ pub struct RobotFacts {
     pub speed_max: Option<Speed>,
     /// How well it comes back to a pose: one standard deviation an axis.
     pub repeatability: Option<Millimetre>,
+    /// How far a pose that it reports scatters about where it was sent: one standard deviation an axis. Where it is not known, a real robot
+    /// is taken to report as well as it comes back, and a simulated one to report where it was sent.
+    pub pose_noise: Option<Millimetre>,
+    /// How fast it slows down when it is halted, in mm/s².
+    pub deceleration_mm_s2: Option<f64>,
+    /// How long it moves on after a halt has reached it, in ms.
+    pub stop_ms: Option<f64>,
+    /// How long after it was true a pose is stamped, in ms; whoever conducts a run takes it off the stamps. 0 where stamps are true.
+    pub latency_ms: Option<f64>,
     /// Whether it can stop by itself at a force.
     pub guarded_motion: bool,
 }
@@ -116,6 +127,14 @@ pub struct ForceFacts {
     pub rate: Option<Hertz>,
     /// The greatest magnitude of each force it can measure.
     pub force_max: Option<Newton>,
+    /// How far readings of a load that rests scatter: one standard deviation a component.
+    pub noise: Option<Newton>,
+    /// The step between two neighbouring readings of a force. Equal readings betray a signal that froze only where it is below the noise.
+    pub resolution: Option<Newton>,
+    /// How long after it was true a reading is stamped, in ms; whoever conducts a run takes it off the stamps. 0 where stamps are true.
+    pub latency_ms: Option<f64>,
+    /// Whether it numbers its readings, see [`ForceTransducer::sequence`](crate::ForceTransducer::sequence).
+    pub numbered: bool,
     /// Whether it can call the present load zero.
     pub tare: bool,
 }

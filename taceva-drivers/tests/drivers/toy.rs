@@ -102,6 +102,7 @@ impl ToyFactory {
             speed_max: Some(Speed::try_new(10.0).expect("positive")),
             repeatability: Some(Millimetre(0.0)),
             guarded_motion: true,
+            ..RobotFacts::default()
         };
         ToyFactory::new(Facts::Robot(facts), flaw)
     }

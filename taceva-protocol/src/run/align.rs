@@ -7,6 +7,8 @@ use taceva_core::{Degree, Millimetre, Newton, NewtonMillimetre, Point, Pose, Rot
 pub(crate) struct Look {
     pub(crate) wrench: Wrench,
     pub(crate) wrench_s: f64,
+    /// The number that the transducer gave the reading, if it numbers them.
+    pub(crate) number: Option<u64>,
     pub(crate) pose: Pose,
     pub(crate) pose_s: f64,
 }
@@ -86,6 +88,7 @@ mod tests {
         Look {
             wrench,
             wrench_s: at_s,
+            number: None,
             pose,
             pose_s: at_s + 0.01,
         }

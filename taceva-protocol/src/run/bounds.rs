@@ -27,13 +27,15 @@ impl Bounds {
             .flat_map(|press| press.press.waypoints());
         let shear = shear.flat_map(|waypoint| waypoint.shear);
         let shear = shear.map(|shear| shear.0.abs()).max().unwrap_or(0);
-        let side = |half: Nanometre| Nanometre(half.0 + shear).to_millimetres() + ROUNDING_MM;
         let limits = plan.limits.as_ref()?;
+        // A way begins where the tip was seen, which noise puts beyond where it may be sent.
+        let slack_mm = ROUNDING_MM + limits.signals.slack_mm();
+        let side = |half: Nanometre| Nanometre(half.0 + shear).to_millimetres() + slack_mm;
         Some(Bounds {
             half_x: side(half_x),
             half_y: side(half_y),
-            highest: -plan.contact.clearance_mm.value - height_mm - ROUNDING_MM,
-            deepest: plan.contact.search_mm.value + limits.depth_max.0 + ROUNDING_MM,
+            highest: -plan.contact.clearance_mm.value - height_mm - slack_mm,
+            deepest: plan.contact.search_mm.value + limits.depth_max.0 + slack_mm,
         })
     }
 

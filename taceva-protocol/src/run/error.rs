@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use taceva_core::{DriverError, SinkError};
+use taceva_core::{DriverError, Fault, SinkError};
 
 use super::trip::Trip;
 use crate::content_id::ContentId;
@@ -25,6 +25,14 @@ pub enum StopCause {
     /// Somebody wished it.
     #[error("stopped on request")]
     Cancelled,
+    /// Presses were left out because somebody skipped what they need; every other one is made.
+    #[error(
+        "{presses} presses are left, for which somebody skipped what they need: go on with the same run"
+    )]
+    Skipped {
+        /// How many.
+        presses: usize,
+    },
     /// A device failed.
     #[error("{0}")]
     Device(#[from] DriverError),
@@ -53,6 +61,25 @@ pub enum StopCause {
     Missing(String),
 }
 
+impl StopCause {
+    /// Whether signals were silent: nothing is wrong but that nobody knows what is. The press is made again.
+    pub fn is_silence(&self) -> bool {
+        matches!(
+            self,
+            StopCause::Tripped(Trip::StaleForce { .. } | Trip::StalePose { .. })
+                | StopCause::Frames { .. }
+        )
+    }
+
+    /// The fault for which a device stopped by itself: a person acknowledges it there before anything moves again.
+    pub fn fault(&self) -> Option<Fault> {
+        match self {
+            StopCause::Device(error) => error.fault(),
+            _ => None,
+        }
+    }
+}
+
 fn of_last(last: &Option<String>) -> String {
     last.as_ref()
         .map_or_else(String::new, |last| format!("; the last: {last}"))
@@ -73,9 +100,12 @@ impl fmt::Display for RunError {
         if let Some(press) = self.press {
             write!(f, "; press {press} will be made again")?;
         }
-        match self.left {
-            Left::Clear => Ok(()),
-            Left::InPlace => f.write_str("; the tip was left where it stood, perhaps in the gel"),
+        if let Left::InPlace = self.left {
+            f.write_str("; the tip was left where it stood, perhaps in the gel")?;
+        }
+        match self.cause.fault() {
+            Some(fault) => write!(f, "; look, and acknowledge the {fault} at the device"),
+            None => Ok(()),
         }
     }
 }

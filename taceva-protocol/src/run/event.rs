@@ -20,6 +20,8 @@ pub enum Event {
     Mounted(Specimen),
     /// The light was set.
     Lit(String),
+    /// A press is left for another run, because somebody skipped what it needs.
+    Skipped(ContentId),
     /// A press begins.
     Approaching {
         /// Which.
@@ -43,6 +45,13 @@ pub enum Event {
     Halted(Trip),
     /// The tip went back from the gel after a halt.
     Retracted,
+    /// A press was broken off because signals were silent, and is made again from its start.
+    Redone {
+        /// Which.
+        press: ContentId,
+        /// How many times it was broken off.
+        times: u32,
+    },
     /// A press is finished and durable.
     Finished {
         /// Which.

@@ -219,6 +219,7 @@ mod tests {
             clock: &mut clock,
             cancel: &Cancel::new(),
             events: &mut |event| halts += u32::from(matches!(event, Event::Halted(_))),
+            operator: None,
         };
         run(&spec, devices, &mut log, controls).expect("a limit is no fault");
         let limited = PressOutcome::Limited(Limit::NormalForce);

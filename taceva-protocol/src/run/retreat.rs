@@ -14,7 +14,7 @@ const RECOVERY_TRIES: u32 = 10;
 const RECOVERY_REST: Duration = Duration::from_millis(20);
 
 impl Tip<'_> {
-    /// Leaves the gel along the way it came, under watch, up to the height of travel.
+    /// Leaves the gel along the way it came, under watch, up to the height of travel, over the place where it was sent.
     pub(super) fn retreat(&mut self) -> Step<()> {
         self.turn_back()?;
         let Point { x, y, z } = self.target.position;
@@ -40,36 +40,25 @@ impl Tip<'_> {
     pub(super) fn draw_back(&mut self, height_mm: f64) -> Step<()> {
         self.turn_back()?;
         loop {
-            let Point { x, y, z } = self.at.position;
+            let Point { x, y, z } = self.here().position;
             let up = (z.0 - self.pace.segment_mm).max(height_mm);
             self.approach([x.0, y.0, up])?;
             let wrench = self.look()?.wrench;
             let depth_mm = self.at.position.z.0 - height_mm;
-            if up <= height_mm || self.supervisor.lets_rest(depth_mm, &wrench) {
+            if up <= height_mm || self.supervisor.lock().lets_rest(depth_mm, &wrench) {
                 break;
             }
         }
-        let now_s = self.clock.now_s();
-        self.supervisor
-            .watch(MotionStage::Press { height_mm }, now_s);
+        self.watch(MotionStage::Press { height_mm });
         Ok(())
     }
 
     /// Ends a halt, and begins to watch that the force does not rise above what it is now.
     fn turn_back(&mut self) -> Step<()> {
-        self.clear_halt()?;
+        self.release()?;
         self.find_pose()?;
-        let now_s = self.clock.now_s();
-        self.supervisor.watch(
-            MotionStage::Retreat {
-                force_n: f64::INFINITY,
-            },
-            now_s,
-        );
         let force_n = self.look()?.wrench.force[2].0;
-        let now_s = self.clock.now_s();
-        self.supervisor
-            .watch(MotionStage::Retreat { force_n }, now_s);
+        self.watch(MotionStage::Retreat { force_n });
         Ok(())
     }
 
@@ -103,21 +92,11 @@ impl Tip<'_> {
 
     /// Whether two looks at the resting tip are healthy and differ, as those of a live transducer do.
     fn is_trustworthy(&mut self) -> bool {
-        if self.clear_halt().is_err() {
-            return false;
-        }
-        let now_s = self.clock.now_s();
-        self.supervisor.watch(
-            MotionStage::Retreat {
-                force_n: f64::INFINITY,
-            },
-            now_s,
-        );
-        if self.find_pose().is_err() {
+        if self.release().is_err() || self.find_pose().is_err() {
             return false;
         }
         match (self.look(), self.look()) {
-            (Ok(one), Ok(other)) => one.wrench != other.wrench,
+            (Ok(one), Ok(other)) => self.supervisor.lock().is_live(&one, &other),
             _ => false,
         }
     }

@@ -9,7 +9,7 @@ use taceva_core::{
 };
 
 use super::bounds::Bounds;
-use super::supervisor::Supervisor;
+use super::supervisor::{SharedSupervisor, Supervisor};
 use super::time::{Cancel, Timekeeper};
 use super::tip::{Pace, Tip};
 use crate::limits::Overshoot;
@@ -40,7 +40,7 @@ pub(super) struct Motion {
 }
 
 pub(super) struct State {
-    now_s: f64,
+    pub(super) now_s: f64,
     height_mm: f64,
     pub(super) halted: bool,
     /// Whether the robot says it moved and stays where it is.
@@ -205,7 +205,10 @@ pub(super) fn with_tip<T>(rig: &Rig, act: impl FnOnce(&mut Tip<'_>) -> T) -> T {
     let mut tip = Tip::new(
         (&mut robot, &mut force),
         (&mut clock, &cancel),
-        Supervisor::new(limits, Arc::new(rig.clone())),
+        (
+            SharedSupervisor::new(Supervisor::new(limits, Arc::new(rig.clone()))),
+            false,
+        ),
         (
             Bounds::of(&plan, 0.0).expect("it moves"),
             Pace::of(&plan).expect("it moves"),

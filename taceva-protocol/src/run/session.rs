@@ -7,8 +7,9 @@ use super::camera::Camera;
 use super::devices::{Devices, SpecimenChanger};
 use super::error::{Left, RunError, StopCause};
 use super::event::Event;
-use super::log::PressLog;
-use super::supervisor::Supervisor;
+use super::log::{PressLog, PressRecord};
+use super::operator::{Operator, Question};
+use super::supervisor::{SharedSupervisor, Supervisor};
 use super::tip::{DEADLINE, Pace, Step, Tip};
 use super::{Controls, Mode, RunReport, RunSpec};
 use crate::content_id::ContentId;
@@ -21,16 +22,27 @@ pub(super) struct Run<'a> {
     pub(super) lighting: Option<&'a mut dyn Lighting>,
     pub(super) specimens: Option<&'a mut dyn SpecimenChanger>,
     pub(super) events: &'a mut dyn FnMut(&Event),
+    pub(super) operator: Option<&'a mut dyn Operator>,
     pub(super) plan: &'a Plan,
     pub(super) mounted: Option<Specimen>,
     pub(super) lit: Option<String>,
+    /// Presses that silence broke off.
+    silences: u32,
+    /// What somebody skipped.
+    pub(super) skipped: Vec<Question>,
 }
+
+/// A press that silence breaks off so many times ends the run.
+const SILENCES_OF_A_PRESS: u32 = 3;
+/// As do so many of a run.
+const SILENCES_OF_A_RUN: u32 = 20;
 
 impl<'a> Run<'a> {
     pub(super) fn new(
         spec: &RunSpec<'a>,
         devices: Devices<'a>,
         controls: Controls<'a>,
+        guard: Option<SharedSupervisor>,
     ) -> Step<Run<'a>> {
         let plan = spec.plan;
         if !plan.units.iter().any(|unit| unit == spec.unit) {
@@ -52,11 +64,14 @@ impl<'a> Run<'a> {
             (true, sensor) => sensor,
             (false, _) => None,
         };
-        let supervisor = Supervisor::new(limits, devices.robot.halt_handle());
+        let is_guarded = guard.is_some();
+        let supervisor = guard.unwrap_or_else(|| {
+            SharedSupervisor::new(Supervisor::new(limits, devices.robot.halt_handle()))
+        });
         let tip = Tip::new(
             (devices.robot, devices.force),
             (controls.clock, controls.cancel),
-            supervisor,
+            (supervisor, is_guarded),
             (bounds, pace),
         );
         tip.force.start(DEADLINE)?;
@@ -70,9 +85,12 @@ impl<'a> Run<'a> {
             lighting: devices.lighting,
             specimens: devices.specimens,
             events: controls.events,
+            operator: controls.operator,
             plan,
             mounted: None,
             lit: None,
+            silences: 0,
+            skipped: Vec::new(),
         })
     }
 
@@ -118,15 +136,17 @@ impl<'a> Run<'a> {
                     report.made += 1;
                 }
                 Mode::Acquire if log.is_finished(planned.id) => {}
+                Mode::Acquire if self.is_skipped(planned)? => {
+                    (self.events)(&Event::Skipped(planned.id));
+                    report.skipped += 1;
+                }
                 Mode::Acquire => {
                     (self.events)(&Event::Approaching {
                         press: planned.id,
                         number: position + 1,
                     });
                     let is_first = first_seen == Some(planned.id);
-                    let record = self
-                        .acquire(planned, is_first.then_some(&mut *log))
-                        .map_err(|cause| self.abandoned(Some(planned.id), cause))?;
+                    let record = self.acquire_patiently(planned, is_first, log)?;
                     log.append(&record).map_err(|error| RunError {
                         press: Some(planned.id),
                         cause: StopCause::Log(error),
@@ -144,11 +164,52 @@ impl<'a> Run<'a> {
                 }
             }
         }
-        Ok(report)
+        report.redone = self.silences;
+        match report.skipped {
+            0 => Ok(report),
+            presses => Err(RunError {
+                press: None,
+                cause: StopCause::Skipped { presses },
+                left: Left::Clear,
+            }),
+        }
+    }
+
+    /// One press, again from its start where silence broke it off and the tip could be brought above the gel, or where a fault did and somebody
+    /// acknowledged it.
+    fn acquire_patiently(
+        &mut self,
+        planned: &PlannedPress,
+        is_first: bool,
+        log: &mut dyn PressLog,
+    ) -> Result<PressRecord, RunError> {
+        let mut times = 0;
+        loop {
+            let cause = match self.acquire(planned, is_first.then_some(&mut *log)) {
+                Ok(record) => return Ok(record),
+                Err(cause) => cause,
+            };
+            let is_silence = cause.is_silence();
+            let error = self.abandoned(Some(planned.id), cause);
+            if let Some(fault) = error.cause.fault() {
+                self.go_on_after(fault, error)?;
+                continue;
+            }
+            if !is_silence || error.left == Left::InPlace {
+                return Err(error);
+            }
+            times += 1;
+            self.silences += 1;
+            if times == SILENCES_OF_A_PRESS || self.silences == SILENCES_OF_A_RUN {
+                return Err(error);
+            }
+            let press = planned.id;
+            (self.events)(&Event::Redone { press, times });
+        }
     }
 
     /// The error that ends the run, after the tip was brought to where it can be left.
-    fn abandoned(&mut self, press: Option<ContentId>, cause: StopCause) -> RunError {
+    pub(super) fn abandoned(&mut self, press: Option<ContentId>, cause: StopCause) -> RunError {
         if let StopCause::Tripped(trip) = cause {
             (self.events)(&Event::Halted(trip));
         }

@@ -2,23 +2,29 @@
 //!
 //! It is no safety function: the emergency stop, the collision sensitivity of the robot and the guards are the site's duty.
 
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
-use taceva_core::{Halt, Pose, Stamp, Wrench, check_pose, check_wrench};
+use taceva_core::{
+    Fault, Halt, Newton, NewtonMillimetre, Pose, Stamp, Wrench, check_pose, check_wrench,
+};
 
+use super::align::Look;
 use super::trip::Trip;
+use super::way::{distance, distance_from_way};
 use crate::limits::{FROZEN_READINGS, RigLimits};
 
-/// A reading older than this says nothing about now, in s: three periods of a transducer of 60 Hz.
-pub(crate) const STALE_S: f64 = 0.05;
-/// Farther from its target the tip is not where it was sent, in mm.
+/// Farther from where it was sent, or from the way there, the tip has gone astray, in mm.
 const DIVERGED_MM: f64 = 0.5;
+/// Or farther than so many standard deviations of the reported pose.
+const DIVERGED_NOISES: f64 = 5.0;
 /// No gel that is pressed at 5 mm/s or less makes force rise faster, in N/s.
 const RATE_MAX_N_S: f64 = 200.0;
 /// Two readings this near in time have no rate that noise does not make, in s.
 const RATE_SPAN_S: f64 = 0.005;
 /// While the tip retreats the force may be this much above that of the halt, in N: the noise of a transducer.
 const RETREAT_MARGIN_N: f64 = 0.05;
+/// Less than this is no motion, in mm: what a robot without noise reports at rest.
+const MOVED_MM: f64 = 1e-6;
 
 /// A reading that the supervisor checks.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -26,7 +32,16 @@ const RETREAT_MARGIN_N: f64 = 0.05;
 pub enum Observation {
     /// The force transducer said this.
     Force(Wrench, Stamp),
-    /// The robot said this, after it was sent to `target`.
+    /// The force transducer said this, and gave the reading this number.
+    Numbered(Wrench, Stamp, u64),
+    /// The robot said this under way from and to where [`Supervisor::sent`] was told; seen by a thread of its own.
+    UnderWay {
+        /// Where it is.
+        pose: Pose,
+        /// When that was true.
+        stamp: Stamp,
+    },
+    /// The robot said this, after it was sent to `target` and came to rest.
     Pose {
         /// Where it is.
         pose: Pose,
@@ -48,6 +63,8 @@ pub enum MotionStage {
         /// The force that counts as contact.
         threshold_n: f64,
     },
+    /// At rest in the air while the transducer sets its zero: forces mean nothing.
+    Zeroing,
     /// On the way to the first contact.
     Search,
     /// In contact since the tip was at `height_mm`.
@@ -62,12 +79,39 @@ pub enum MotionStage {
     },
 }
 
+/// A supervisor that several threads show readings to.
+#[derive(Clone)]
+pub struct SharedSupervisor(Arc<Mutex<Supervisor>>);
+
+impl SharedSupervisor {
+    /// `supervisor`, shared by clones of this.
+    pub fn new(supervisor: Supervisor) -> SharedSupervisor {
+        SharedSupervisor(Arc::new(Mutex::new(supervisor)))
+    }
+
+    /// The supervisor, for one reading or one change of stage. A thread that panicked with it has left it whole: it changes in no step that
+    /// can panic.
+    pub fn lock(&self) -> MutexGuard<'_, Supervisor> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
 /// Halts a robot as soon as a reading says so, and holds it halted until somebody asks for another stage.
 pub struct Supervisor {
     limits: RigLimits,
     halt: Arc<dyn Halt>,
     stage: MotionStage,
+    /// What the transducer says where nothing presses.
+    zero: Wrench,
+    /// From where to where the tip goes, while it does.
+    way: Option<[Pose; 2]>,
+    /// The fault that the robot reported to somebody who looked on.
+    fault: Option<Fault>,
+    /// Where it was seen under way last.
+    seen: Option<Pose>,
     last: Option<(Wrench, f64)>,
+    /// The number of the last force, if it has one.
+    number: Option<u64>,
     /// When the last force or, before one, the watch began.
     heard_s: f64,
     equal: u32,
@@ -81,8 +125,16 @@ impl Supervisor {
         Supervisor {
             limits,
             halt,
-            stage: MotionStage::Search,
+            // Before anybody says what the tip does, nothing is known of its zero.
+            stage: MotionStage::Retreat {
+                force_n: f64::INFINITY,
+            },
+            zero: Wrench::default(),
+            way: None,
+            fault: None,
+            seen: None,
             last: None,
+            number: None,
             heard_s: f64::NEG_INFINITY,
             equal: 0,
             moved: false,
@@ -96,9 +148,77 @@ impl Supervisor {
         self.heard_s = now_s;
         self.tripped = None;
         // In the air the zero of the transducer may have moved; from the search on a frozen signal must not slip through.
-        if let MotionStage::Travel { .. } = stage {
+        if let MotionStage::Travel { .. } | MotionStage::Zeroing = stage {
             self.last = None;
+            self.number = None;
             self.equal = 0;
+        }
+    }
+
+    /// Learns that the tip is sent along a straight way, before it is.
+    pub fn sent(&mut self, from: Pose, to: Pose) {
+        self.way = Some([from, to]);
+    }
+
+    /// Learns that the tip rests, wherever it is.
+    pub fn rests(&mut self) {
+        self.way = None;
+    }
+
+    /// Whether the tip was sent somewhere and does not rest yet: then silence is a danger.
+    pub fn is_under_way(&self) -> bool {
+        self.way.is_some()
+    }
+
+    /// Halts because the robot reported a fault to somebody who looked on.
+    pub fn fail(&mut self, fault: Fault) {
+        self.fault = Some(fault);
+        self.halt();
+    }
+
+    /// The fault that the robot reported.
+    pub fn fault(&self) -> Option<Fault> {
+        self.fault
+    }
+
+    /// Forgets a fault that a person acknowledged at the robot.
+    pub fn acknowledge(&mut self) {
+        self.fault = None;
+    }
+
+    /// Halts because a reading was clipped: how great the force is, nobody knows.
+    pub fn saturated(&mut self) -> Trip {
+        let force_n = f64::INFINITY;
+        self.trip(Trip::Saturated { force_n })
+    }
+
+    /// Halts for a reason that is no reading, such as a wish to stop.
+    pub fn halt(&mut self) {
+        // Halting twice is halting once; a link that is gone leaves nothing else to be said.
+        let _ = self.halt.halt();
+    }
+
+    /// Takes `zero` off every later force before it is compared with a limit of the gel.
+    pub fn call_zero(&mut self, zero: Wrench) {
+        self.zero = zero;
+    }
+
+    /// What presses on the gel by what the transducer said.
+    pub fn zeroed(&self, said: &Wrench) -> Wrench {
+        let axes = [0, 1, 2];
+        Wrench {
+            force: axes.map(|axis| Newton(said.force[axis].0 - self.zero.force[axis].0)),
+            torque: axes
+                .map(|axis| NewtonMillimetre(said.torque[axis].0 - self.zero.torque[axis].0)),
+        }
+    }
+
+    /// Whether two looks at a tip that rests differ as those at a live transducer do.
+    pub(super) fn is_live(&self, one: &Look, other: &Look) -> bool {
+        match (one.number, other.number) {
+            (Some(one), Some(other)) => one != other,
+            _ if self.limits.signals.equality_is_frozen => one.wrench != other.wrench,
+            _ => one.wrench_s < other.wrench_s,
         }
     }
 
@@ -123,7 +243,11 @@ impl Supervisor {
     /// The [`Trip`], which holds until the next [`watch`](Supervisor::watch).
     pub fn observe(&mut self, observation: &Observation, now_s: f64) -> Result<(), Trip> {
         let trip = self.tripped.or_else(|| match observation {
-            Observation::Force(wrench, stamp) => self.force(wrench, stamp, now_s),
+            Observation::Force(wrench, stamp) => self.force(wrench, stamp, None, now_s),
+            Observation::Numbered(wrench, stamp, number) => {
+                self.force(wrench, stamp, Some(*number), now_s)
+            }
+            Observation::UnderWay { pose, stamp } => self.under_way(pose, stamp, now_s),
             Observation::Pose {
                 pose,
                 stamp,
@@ -131,7 +255,8 @@ impl Supervisor {
             } => self.pose(pose, stamp, target, now_s),
             Observation::Silence => {
                 let age_s = now_s - self.heard_s;
-                (age_s > STALE_S).then_some(Trip::StaleForce { age_s })
+                let is_stale = age_s > self.limits.signals.stale_s;
+                is_stale.then_some(Trip::StaleForce { age_s })
             }
         });
         match trip {
@@ -142,23 +267,36 @@ impl Supervisor {
 
     /// Halts for a reason that only the driver knew, such as a clipped reading.
     pub(crate) fn trip(&mut self, trip: Trip) -> Trip {
-        // Halting twice is halting once; a link that is gone leaves nothing else to be said.
-        let _ = self.halt.halt();
+        self.halt();
         *self.tripped.get_or_insert(trip)
     }
 
-    fn force(&mut self, wrench: &Wrench, stamp: &Stamp, now_s: f64) -> Option<Trip> {
+    fn force(
+        &mut self,
+        wrench: &Wrench,
+        stamp: &Stamp,
+        number: Option<u64>,
+        now_s: f64,
+    ) -> Option<Trip> {
         if check_wrench(wrench).is_err() || !stamp.valid_s.is_finite() {
             return Some(Trip::NotFinite);
         }
         let age_s = now_s - stamp.valid_s;
-        if age_s > STALE_S {
+        if age_s > self.limits.signals.stale_s {
             return Some(Trip::StaleForce { age_s });
+        }
+        if self.stage == MotionStage::Zeroing {
+            self.heard_s = stamp.valid_s;
+            return None;
         }
         let before = self.last.replace((*wrench, stamp.valid_s));
         self.heard_s = stamp.valid_s;
         // A signal counts as frozen only against motion: at rest, equal readings are news from a quiet gel.
-        let is_equal = before.is_some_and(|(last, _)| last == *wrench);
+        let is_equal = match (std::mem::replace(&mut self.number, number), number) {
+            (Some(last), Some(number)) => last == number,
+            _ if number.is_some() || !self.limits.signals.equality_is_frozen => false,
+            _ => before.is_some_and(|(last, _)| last == *wrench),
+        };
         self.equal = match (is_equal, std::mem::take(&mut self.moved)) {
             (true, true) => self.equal + 1,
             (true, false) => self.equal,
@@ -179,13 +317,15 @@ impl Supervisor {
     }
 
     fn force_trip(&self, wrench: &Wrench) -> Option<Trip> {
-        let [x, y, z] = wrench.force.map(|force| force.0);
-        let greatest = x.abs().max(y.abs()).max(z.abs());
+        // What the transducer can measure is a matter of what it says; what the gel bears, of what presses on it.
+        let greatest = wrench.force.map(|force| force.0.abs());
+        let greatest = greatest.into_iter().fold(0.0, f64::max);
         if let Some(saturation) = self.limits.saturation
             && greatest >= saturation.0
         {
             return Some(Trip::Saturated { force_n: greatest });
         }
+        let [x, y, z] = self.zeroed(wrench).force.map(|force| force.0);
         let (normal_max, shear_max) = (self.limits.normal_max.0, self.limits.shear_max.0);
         // A root is taken where it can matter: √2/2 of the limit is within it.
         let shear = if x.abs().max(y.abs()) > 0.5 * shear_max {
@@ -213,36 +353,48 @@ impl Supervisor {
 
     fn pose(&mut self, pose: &Pose, stamp: &Stamp, target: &Pose, now_s: f64) -> Option<Trip> {
         self.moved = true;
+        self.place(pose, stamp, now_s).or_else(|| {
+            let distance_mm = distance(pose, target);
+            (distance_mm > self.diverged_mm()).then_some(Trip::Diverged { distance_mm })
+        })
+    }
+
+    /// A tip that moves is on its way; one that rests under a watch of its own is no news for its force.
+    fn under_way(&mut self, pose: &Pose, stamp: &Stamp, now_s: f64) -> Option<Trip> {
+        let seen = *self.seen.get_or_insert(*pose);
+        if distance(pose, &seen) > MOVED_MM.max(self.limits.signals.slack_mm()) {
+            self.seen = Some(*pose);
+            self.moved = true;
+        }
+        self.place(pose, stamp, now_s).or_else(|| {
+            let [from, to] = self.way.as_ref()?;
+            let distance_mm = distance_from_way(pose, from, to);
+            (distance_mm > self.diverged_mm()).then_some(Trip::Diverged { distance_mm })
+        })
+    }
+
+    /// Whether a pose is a place, is news, and is not too deep.
+    fn place(&self, pose: &Pose, stamp: &Stamp, now_s: f64) -> Option<Trip> {
         if check_pose(pose).is_err() || !stamp.valid_s.is_finite() {
             return Some(Trip::NotFinite);
         }
         let age_s = now_s - stamp.valid_s;
-        if age_s > STALE_S {
+        if age_s > self.limits.signals.stale_s {
             return Some(Trip::StalePose { age_s });
         }
-        if let MotionStage::Press { height_mm } = self.stage {
-            let depth_mm = pose.position.z.0 - height_mm;
-            let limit_mm = self.limits.depth_max.0;
-            // A tip that reaches the limit itself does what it was allowed; the robot's own noise is not a trespass.
-            if depth_mm > limit_mm + self.limits.overshoot.healthy_mm {
-                return Some(Trip::Depth { depth_mm, limit_mm });
-            }
-        }
-        let distance_mm = distance(pose, target);
-        (distance_mm > DIVERGED_MM).then_some(Trip::Diverged { distance_mm })
+        let MotionStage::Press { height_mm } = self.stage else {
+            return None;
+        };
+        let depth_mm = pose.position.z.0 - height_mm;
+        let limit_mm = self.limits.depth_max.0;
+        // A tip that reaches the limit itself does what it was allowed; the robot's own noise is not a trespass.
+        let is_trespass = depth_mm > limit_mm + self.limits.overshoot.healthy_mm;
+        is_trespass.then_some(Trip::Depth { depth_mm, limit_mm })
     }
-}
 
-/// How far two tips are apart, in mm.
-pub(crate) fn distance(one: &Pose, other: &Pose) -> f64 {
-    let (one, other) = (&one.position, &other.position);
-    let [x, y] = [one.x.0 - other.x.0, one.y.0 - other.y.0];
-    let z = one.z.0 - other.z.0;
-    // Most ways are straight down: then nothing is left of the roots.
-    if x == 0.0 && y == 0.0 {
-        return z.abs();
+    fn diverged_mm(&self) -> f64 {
+        DIVERGED_MM.max(DIVERGED_NOISES * self.limits.signals.pose_noise_mm)
     }
-    x.hypot(y).hypot(z)
 }
 
 #[cfg(test)]

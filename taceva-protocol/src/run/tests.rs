@@ -97,6 +97,7 @@ fn light_is_set_where_it_changes_and_the_transducer_is_stopped_at_the_end() {
         clock: &mut clock,
         cancel: &Cancel::new(),
         events: &mut |_| {},
+        operator: None,
     };
     let report = run(&spec, devices, &mut Nowhere, controls).expect("nothing in the way");
     assert_eq!((report.made, report.samples), (3, 3));

@@ -4,15 +4,16 @@ use std::time::Duration;
 
 use taceva_core::{
     Deadline, Degree, ErrorKind, ForceTransducer, Millimetre, Nanometre, Point, Pose, Robot,
-    Rotation, Speed,
+    Rotation, Speed, Stamp, Wrench,
 };
 
 use super::align::Look;
 use super::bounds::Bounds;
 use super::error::StopCause;
-use super::supervisor::{MotionStage, Observation, Supervisor, distance};
+use super::supervisor::{MotionStage, Observation, SharedSupervisor};
 use super::time::{Cancel, Timekeeper};
 use super::trip::Trip;
+use super::way::{distance, is_straight_up, part_way, settled};
 use crate::limits::FROZEN_READINGS;
 use crate::plan::Plan;
 
@@ -27,6 +28,13 @@ pub(super) const DEADLINE: Deadline = Deadline::after(Duration::from_secs(2));
 /// Segments that a motion may take beyond twice those of its way, before the robot counts as stuck.
 const SPARE_SEGMENTS: f64 = 8.0;
 
+/// While the zero is not known, or the force in which a halt left the tip: what the transducer can measure is the only limit.
+pub(super) const ANY_FORCE: MotionStage = MotionStage::Retreat {
+    force_n: f64::INFINITY,
+};
+/// So many times the force that counts as contact is a collision in the air: arms shake what they carry.
+const COLLISION_THRESHOLDS: f64 = 10.0;
+
 /// A step of a press: done, or the reason why the run must stop.
 pub(super) type Step<T> = Result<T, StopCause>;
 
@@ -36,7 +44,9 @@ pub(super) struct Tip<'a> {
     pub(super) force: &'a mut dyn ForceTransducer,
     pub(super) clock: &'a mut dyn Timekeeper,
     pub(super) cancel: &'a Cancel,
-    pub(super) supervisor: Supervisor,
+    pub(super) supervisor: SharedSupervisor,
+    /// Whether threads show every reading of force to the supervisor.
+    pub(super) is_guarded: bool,
     pub(super) bounds: Bounds,
     pub(super) pace: Pace,
     /// Where it was seen last.
@@ -49,6 +59,10 @@ pub(super) struct Tip<'a> {
     pub(super) robot_failed: bool,
     /// Whether cancellation is ignored, because the tip is retracting already.
     pub(super) ignores_cancel: bool,
+    /// Whether the transducer was told its own zero, which is done once where the host finds the zero by itself.
+    pub(super) is_box_zeroed: bool,
+    /// Whether the zero is that of what the robot carries now.
+    pub(super) is_zero_known: bool,
 }
 
 /// How fast, how far, how hard.
@@ -61,7 +75,13 @@ pub(super) struct Pace {
     search_mm: f64,
     settle: Duration,
     threshold_n: f64,
+    /// The force above which something is touched at rest in the air: that of contact, or what noise is not.
+    air_n: f64,
+    normal_max_n: f64,
     pub(super) clearance_mm: f64,
+    /// A pose within this of where the tip was sent is there, along each axis.
+    pub(super) slack_mm: f64,
+    pub(super) host_zero: bool,
 }
 
 impl Pace {
@@ -77,7 +97,11 @@ impl Pace {
             search_mm: contact.search_mm.value,
             settle: Duration::from_secs_f64(contact.settle_s.value),
             threshold_n: contact.threshold_n.value,
+            air_n: contact.threshold_n.value.max(limits.signals.air_n()),
+            normal_max_n: limits.normal_max.0,
             clearance_mm: contact.clearance_mm.value,
+            slack_mm: limits.signals.slack_mm(),
+            host_zero: limits.signals.host_zero,
         })
     }
 }
@@ -86,7 +110,7 @@ impl<'a> Tip<'a> {
     pub(super) fn new(
         (robot, force): (&'a mut dyn Robot, &'a mut dyn ForceTransducer),
         (clock, cancel): (&'a mut dyn Timekeeper, &'a Cancel),
-        supervisor: Supervisor,
+        (supervisor, is_guarded): (SharedSupervisor, bool),
         (bounds, pace): (Bounds, Pace),
     ) -> Tip<'a> {
         Tip {
@@ -95,6 +119,7 @@ impl<'a> Tip<'a> {
             clock,
             cancel,
             supervisor,
+            is_guarded,
             bounds,
             pace,
             at: Pose::default(),
@@ -102,12 +127,19 @@ impl<'a> Tip<'a> {
             contact_mm: None,
             robot_failed: false,
             ignores_cancel: false,
+            is_box_zeroed: false,
+            is_zero_known: false,
         }
+    }
+
+    /// Where it is taken to be: where it was sent, if nothing but noise tells that from where it was seen.
+    pub(super) fn here(&self) -> Pose {
+        settled(&self.at, &self.target, self.pace.slack_mm)
     }
 
     /// Learns where it stands, and goes straight up to the height of travel if it stands below.
     pub(super) fn find(&mut self) -> Step<()> {
-        self.clear_halt()?;
+        self.release()?;
         self.find_pose()?;
         let height = -self.pace.clearance_mm;
         if self.target.position.z.0 > height {
@@ -130,19 +162,33 @@ impl<'a> Tip<'a> {
             },
         };
         // The tip stands at this height or above it, so the way there is in the air.
-        self.watch_travel(f64::INFINITY);
+        self.watch_way()?;
         self.go(over, self.pace.travel)?;
-        if let Some(tare) = self.force.tare() {
-            tare.zero(DEADLINE)?;
-        }
-        self.watch_travel(self.pace.threshold_n);
+        self.call_zero()?;
+        let threshold_n = self.pace.air_n;
+        self.watch(MotionStage::Travel { threshold_n });
         self.look().map(drop)
+    }
+
+    /// Begins to watch the way through the air: for a collision, where threads look on and the zero is known that holds there.
+    fn watch_way(&mut self) -> Step<()> {
+        if self.is_zero_known || !self.pace.host_zero {
+            let threshold_n = match self.is_guarded {
+                true => COLLISION_THRESHOLDS * self.pace.air_n,
+                false => f64::INFINITY,
+            };
+            self.watch(MotionStage::Travel { threshold_n });
+            return Ok(());
+        }
+        self.watch(ANY_FORCE);
+        let force_n = self.look()?.wrench.force[2].0 + self.pace.normal_max_n;
+        self.watch(MotionStage::Retreat { force_n });
+        Ok(())
     }
 
     /// Goes down step by step until the gel is felt; the height of the tip then, or `None` at the end of the search.
     pub(super) fn search(&mut self) -> Step<Option<Look>> {
-        let now_s = self.clock.now_s();
-        self.supervisor.watch(MotionStage::Search, now_s);
+        self.watch(MotionStage::Search);
         let start = self.target.position.z.0;
         // Until it is felt, the gel may be anywhere below.
         self.contact_mm = Some(start);
@@ -156,9 +202,7 @@ impl<'a> Tip<'a> {
             if look.wrench.force[2].0 >= self.pace.threshold_n {
                 let height_mm = look.pose.position.z.0;
                 self.contact_mm = Some(height_mm);
-                let now_s = self.clock.now_s();
-                self.supervisor
-                    .watch(MotionStage::Press { height_mm }, now_s);
+                self.watch(MotionStage::Press { height_mm });
                 return Ok(Some(look));
             }
         }
@@ -175,19 +219,19 @@ impl<'a> Tip<'a> {
             ..self.target
         };
         let segment_mm = self.pace.segment_mm;
-        let mut patience = SPARE_SEGMENTS + 2.0 * distance(&self.at, &goal) / segment_mm;
+        let mut patience = SPARE_SEGMENTS + 2.0 * distance(&self.here(), &goal) / segment_mm;
         loop {
-            let way_mm = distance(&self.at, &goal);
+            let here = self.here();
+            let way_mm = distance(&here, &goal);
             if way_mm <= segment_mm {
                 return self.go(goal, self.pace.contact);
             }
-            let next = part_way(&self.at, &goal, segment_mm / way_mm);
+            let next = part_way(&here, &goal, segment_mm / way_mm);
             self.go(next, self.pace.contact)?;
             patience -= 1.0;
             if patience < 0.0 {
-                let distance_mm = distance(&self.at, &goal);
-                let trip = self.supervisor.trip(Trip::Diverged { distance_mm });
-                return Err(StopCause::Tripped(trip));
+                let distance_mm = distance(&self.here(), &goal);
+                return Err(self.halt_for(Trip::Diverged { distance_mm }));
             }
         }
     }
@@ -197,44 +241,79 @@ impl<'a> Tip<'a> {
         self.clock.rest(self.pace.settle);
         for _ in 0..FROZEN_READINGS {
             let look = self.look()?;
-            if self.supervisor.is_fresh() {
+            if self.supervisor.lock().is_fresh() {
                 return Ok(look);
             }
         }
         let readings = FROZEN_READINGS;
-        let trip = self.supervisor.trip(Trip::Frozen { readings });
-        Err(StopCause::Tripped(trip))
+        Err(self.halt_for(Trip::Frozen { readings }))
     }
 
-    fn watch_travel(&mut self, threshold_n: f64) {
+    /// Begins to watch `stage`, which forgets a halt of the supervisor; that of the robot stays.
+    pub(super) fn watch(&mut self, stage: MotionStage) {
         let now_s = self.clock.now_s();
-        self.supervisor
-            .watch(MotionStage::Travel { threshold_n }, now_s);
+        self.supervisor.lock().watch(stage, now_s);
     }
 
-    pub(super) fn clear_halt(&mut self) -> Step<()> {
+    /// Ends a halt. Nobody halts again for the force that is there, before it is known how great it is.
+    pub(super) fn release(&mut self) -> Step<()> {
+        let supervisor = self.supervisor.clone();
+        // Threads that look on wait meanwhile: what they see next belongs to the new stage.
+        let mut held = supervisor.lock();
+        self.clear_halt()?;
+        held.watch(ANY_FORCE, self.clock.now_s());
+        Ok(())
+    }
+
+    fn halt_for(&mut self, trip: Trip) -> StopCause {
+        StopCause::Tripped(self.supervisor.lock().trip(trip))
+    }
+
+    fn clear_halt(&mut self) -> Step<()> {
         self.robot.clear_halt(DEADLINE).map_err(|error| {
             self.robot_failed = true;
             StopCause::Device(error)
         })
     }
 
-    /// Learns where the tip is; it is where it should be.
+    /// Learns where the tip is; it is where it should be. What noise alone makes of where it was sent is not believed.
     pub(super) fn find_pose(&mut self) -> Step<()> {
         let (pose, _) = match self.robot.pose(DEADLINE) {
             Ok(read) => read,
             Err(error) => return Err(self.failed(error)),
         };
-        (self.at, self.target) = (pose, pose);
+        self.at = pose;
+        self.target = self.here();
         Ok(())
     }
 
     /// A robot that fails is halted, whatever it says.
+    ///
+    /// After a [`Fault`](taceva_core::Fault) it is not moved again, nor is the fault cleared.
     fn failed(&mut self, error: taceva_core::DriverError) -> StopCause {
         let _ = self.robot.halt();
         let is_grave = [ErrorKind::DeviceFault, ErrorKind::Disconnected].contains(&error.kind());
-        self.robot_failed |= is_grave;
-        StopCause::Device(error)
+        let (tripped, fault) = {
+            let supervisor = self.supervisor.lock();
+            (supervisor.tripped(), supervisor.fault())
+        };
+        let error = match fault.filter(|_| error.fault().is_none()) {
+            Some(fault) => error.with_fault(fault),
+            None => error,
+        };
+        self.robot_failed |= is_grave || error.fault().is_some();
+        if error.kind() != ErrorKind::Interrupted || error.fault().is_some() {
+            return StopCause::Device(error);
+        }
+        // Somebody who looked on halted it.
+        match tripped {
+            Some(trip) => StopCause::Tripped(trip),
+            None if self.cancel.is_cancelled() => StopCause::Cancelled,
+            None => match self.force.read(Deadline::after(READ_DEADLINE)) {
+                Err(silent) if silent.kind() != ErrorKind::Timeout => StopCause::Device(silent),
+                _ => StopCause::Device(error),
+            },
+        }
     }
 
     /// One straight motion, then a look.
@@ -242,13 +321,17 @@ impl<'a> Tip<'a> {
         if self.cancel.is_cancelled() && !self.ignores_cancel {
             return Err(StopCause::Cancelled);
         }
-        if !is_straight_up(&self.at, &target) {
+        let here = self.here();
+        if !is_straight_up(&here, &target) {
             self.bounds.admit(&target)?;
         }
-        let seconds = 1.0 + 2.0 * distance(&self.at, &target) / speed.mm_per_s();
+        let seconds = 1.0 + 2.0 * distance(&here, &target) / speed.mm_per_s();
         let deadline = Deadline::after(Duration::from_secs_f64(seconds));
+        self.supervisor.lock().sent(here, target);
         self.target = target;
-        if let Err(error) = self.robot.move_to(target, speed, deadline) {
+        let moved = self.robot.move_to(target, speed, deadline);
+        self.supervisor.lock().rests();
+        if let Err(error) = moved {
             return Err(self.failed(error));
         }
         self.look().map(drop)
@@ -256,7 +339,7 @@ impl<'a> Tip<'a> {
 
     /// Reads force and pose and shows both to the supervisor.
     pub(super) fn look(&mut self) -> Step<Look> {
-        let (wrench, wrench_s) = self.read_force()?;
+        let reading = self.read_force()?;
         let (pose, stamp) = match self.robot.pose(DEADLINE) {
             Ok(read) => read,
             Err(error) => return Err(self.failed(error)),
@@ -269,8 +352,9 @@ impl<'a> Tip<'a> {
         };
         self.show(&observation)?;
         Ok(Look {
-            wrench,
-            wrench_s,
+            wrench: self.supervisor.lock().zeroed(&reading.said),
+            wrench_s: reading.valid_s,
+            number: reading.number,
             pose,
             pose_s: stamp.valid_s,
         })
@@ -280,14 +364,20 @@ impl<'a> Tip<'a> {
     ///
     /// The tip rests meanwhile, so that links and filters that deliver late cost time and no way: what they still hold of before the end
     /// of the last motion is shown to the supervisor, and the next reading awaited.
-    fn read_force(&mut self) -> Step<(taceva_core::Wrench, f64)> {
+    pub(super) fn read_force(&mut self) -> Step<Reading> {
         let asked_s = self.clock.now_s();
         for _ in 0..READ_TRIES {
             match self.force.read(Deadline::after(READ_DEADLINE)) {
-                Ok((wrench, stamp)) => {
-                    self.show(&Observation::Force(wrench, stamp))?;
-                    if stamp.valid_s >= asked_s {
-                        return Ok((wrench, stamp.valid_s));
+                Ok((said, stamp)) => {
+                    let number = self.force.sequence();
+                    self.show(&observation(said, stamp, number))?;
+                    let valid_s = stamp.valid_s;
+                    if valid_s >= asked_s {
+                        return Ok(Reading {
+                            said,
+                            valid_s,
+                            number,
+                        });
                     }
                     self.clock.rest(LATE_REST);
                 }
@@ -296,8 +386,7 @@ impl<'a> Tip<'a> {
                 }
                 Err(error) if error.kind() == ErrorKind::OutOfRange => {
                     let force_n = f64::INFINITY;
-                    let trip = self.supervisor.trip(Trip::Saturated { force_n });
-                    return Err(StopCause::Tripped(trip));
+                    return Err(self.halt_for(Trip::Saturated { force_n }));
                 }
                 Err(error) => {
                     let _ = self.robot.halt();
@@ -306,15 +395,23 @@ impl<'a> Tip<'a> {
             }
         }
         let age_s = self.clock.now_s() - asked_s;
-        let trip = self.supervisor.trip(Trip::StaleForce { age_s });
-        Err(StopCause::Tripped(trip))
+        Err(self.halt_for(Trip::StaleForce { age_s }))
     }
 
     fn show(&mut self, observation: &Observation) -> Step<()> {
         let now_s = self.clock.now_s();
-        self.supervisor
-            .observe(observation, now_s)
-            .map_err(StopCause::Tripped)
+        let mut supervisor = self.supervisor.lock();
+        let is_force = matches!(
+            observation,
+            Observation::Force(..) | Observation::Numbered(..)
+        );
+        let seen = match (self.is_guarded && is_force, supervisor.tripped()) {
+            // Whoever read it has shown it, and shown twice it would be a signal that repeats itself.
+            (true, Some(trip)) => Err(trip),
+            (true, None) => Ok(()),
+            (false, _) => supervisor.observe(observation, now_s),
+        };
+        seen.map_err(StopCause::Tripped)
     }
 
     /// The place of a waypoint: over `place`, sheared, at `depth` below `height_mm`.
@@ -329,23 +426,22 @@ impl<'a> Tip<'a> {
     }
 }
 
-/// Whether a motion only leaves the gel: that is allowed from wherever the tip was found.
-fn is_straight_up(from: &Pose, to: &Pose) -> bool {
-    let (start, end) = (&from.position, &to.position);
-    start.x == end.x && start.y == end.y && end.z <= start.z
+/// What the transducer said.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Reading {
+    /// With its own zero.
+    pub(super) said: Wrench,
+    /// When that was true.
+    pub(super) valid_s: f64,
+    /// The number that it gave the reading.
+    number: Option<u64>,
 }
 
-/// A pose between two that are turned alike.
-fn part_way(from: &Pose, to: &Pose, part: f64) -> Pose {
-    let mix = |from: Millimetre, to: Millimetre| Millimetre(from.0 + (to.0 - from.0) * part);
-    let (start, end) = (&from.position, &to.position);
-    Pose {
-        position: Point {
-            x: mix(start.x, end.x),
-            y: mix(start.y, end.y),
-            z: mix(start.z, end.z),
-        },
-        ..*to
+/// A reading of force, with its number if it has one.
+fn observation(said: Wrench, stamp: Stamp, number: Option<u64>) -> Observation {
+    match number {
+        Some(number) => Observation::Numbered(said, stamp, number),
+        None => Observation::Force(said, stamp),
     }
 }
 
@@ -359,7 +455,7 @@ mod tests {
         let rig = Rig::new(1.0, nothing);
         rig.state().stuck = true;
         let cause = with_tip(&rig, |tip| {
-            tip.clear_halt()?;
+            tip.release()?;
             tip.find_pose()?;
             tip.approach([0.0, 0.0, 0.0])
         });

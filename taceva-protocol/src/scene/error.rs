@@ -142,6 +142,56 @@ pub enum SceneProblem {
         /// What there is.
         catalogue: &'static str,
     },
+    /// Devices that are stamped by different clocks.
+    #[error(
+        "`{simulated}` runs in the time of its simulated bench and `{real}` in that of the machine: one rig has one clock; choose both simulated or both real"
+    )]
+    MixedClocks {
+        /// The simulated device.
+        simulated: String,
+        /// The real one.
+        real: String,
+    },
+    /// A robot that rests too late after a limit was passed.
+    #[error(
+        "`{robot}` moves on for {stop_ms} ms after a halt, so that it rests {needed_ms:.0} ms after a limit was passed: expected at most {greatest_ms:.0} ms"
+    )]
+    SlowStop {
+        /// The robot.
+        robot: String,
+        /// What it states, in ms.
+        stop_ms: f64,
+        /// With one reading and one message, in ms.
+        needed_ms: f64,
+        /// The most that is allowed, in ms.
+        greatest_ms: f64,
+    },
+    /// A speed at which the tip goes too far in contact while its force grows stale.
+    #[error(
+        "`speed_mm_s` is {found}, but {who} may be silent for {stale_ms:.0} ms before it counts as gone: expected at most {greatest:.3}"
+    )]
+    Blind {
+        /// As written, in mm/s.
+        found: f64,
+        /// Whose readings.
+        who: String,
+        /// Their greatest age, in ms.
+        stale_ms: f64,
+        /// The most that is allowed, in mm/s.
+        greatest: f64,
+    },
+    /// A force transducer of which nobody could say that its signal froze.
+    #[error(
+        "{who} reads in steps of {resolution_n} N, its noise is {noise_n} N and it numbers no readings: a signal that is frozen could not be told from one that rests; expected numbered readings, or steps below the noise"
+    )]
+    FrozenUnseen {
+        /// Which.
+        who: String,
+        /// Its step, in N.
+        resolution_n: f64,
+        /// Its noise, in N.
+        noise_n: f64,
+    },
     /// Two statements that exclude each other.
     #[error("{0}")]
     Contradiction(String),

@@ -29,11 +29,13 @@ pub enum FaultKind {
     Kill,
     /// The run is cancelled.
     Cancel,
+    /// Somebody presses the emergency stop, and the robot moves no more until a person acknowledged it.
+    EmergencyStop,
 }
 
 impl FaultKind {
     /// Every kind.
-    pub const ALL: [FaultKind; 11] = [
+    pub const ALL: [FaultKind; 12] = [
         FaultKind::Silence,
         FaultKind::Freeze,
         FaultKind::NotANumber,
@@ -45,7 +47,10 @@ impl FaultKind {
         FaultKind::FullDisk,
         FaultKind::Kill,
         FaultKind::Cancel,
+        FaultKind::EmergencyStop,
     ];
+    /// How many of them every scenario draws from; those after them come beside.
+    const DRAWN: i64 = 11;
 
     /// The word in reports.
     pub const fn name(self) -> &'static str {
@@ -61,6 +66,7 @@ impl FaultKind {
             FaultKind::FullDisk => "full disk",
             FaultKind::Kill => "kill",
             FaultKind::Cancel => "cancel",
+            FaultKind::EmergencyStop => "emergency stop",
         }
     }
 }
@@ -101,6 +107,9 @@ struct Fault {
     until_s: f64,
 }
 
+/// What the emergency stop of a scenario is drawn under.
+const STOP: u64 = 90;
+
 /// The faults of a scenario.
 #[derive(Clone, Debug)]
 pub(super) struct Faults {
@@ -109,7 +118,7 @@ pub(super) struct Faults {
 }
 
 impl Faults {
-    /// Up to four faults within the first `span_s`; one seed in eight has none.
+    /// Up to four faults within the first `span_s`, one seed in eight without; and in one of eight an emergency stop besides.
     pub(super) fn draw(draws: Draws, span_s: f64) -> Faults {
         let whole = |least, greatest, place| draws.between(least, greatest, place);
         let count = if whole(0, 7, [0, 0]) == 0 {
@@ -118,7 +127,7 @@ impl Faults {
             whole(1, 4, [0, 1])
         };
         let faults = (1..=count.unsigned_abs()).map(|number| {
-            let kind = whole(0, FaultKind::ALL.len() as i64 - 1, [number, 0]).unsigned_abs();
+            let kind = whole(0, FaultKind::DRAWN - 1, [number, 0]).unsigned_abs();
             let kind = FaultKind::ALL[usize::try_from(kind).unwrap_or(0)];
             let part = |place| fraction(draws, [number, place]);
             let from_s = part(1) * span_s;
@@ -135,8 +144,13 @@ impl Faults {
                 until_s,
             }
         });
+        let stop = (whole(0, 7, [STOP, 0]) == 0).then(|| Fault {
+            kind: FaultKind::EmergencyStop,
+            from_s: fraction(draws, [STOP, 1]) * span_s,
+            until_s: f64::INFINITY,
+        });
         Faults {
-            faults: faults.collect(),
+            faults: faults.chain(stop).collect(),
             struck: FaultCounts::default(),
         }
     }
@@ -160,6 +174,27 @@ impl Faults {
                 from_s,
                 until_s,
             }],
+            ..Faults::none()
+        }
+    }
+
+    /// A fault of `kind` from `from_s` until `until_s`.
+    #[cfg(test)]
+    pub(super) fn between(kind: FaultKind, from_s: f64, until_s: f64) -> Faults {
+        let mut faults = Faults::from(kind, from_s);
+        faults.faults[0].until_s = until_s;
+        faults
+    }
+
+    /// A fault of `kind` for `lasting_s` every `period_s`, two hundred times.
+    #[cfg(test)]
+    pub(super) fn every(kind: FaultKind, period_s: f64, lasting_s: f64) -> Faults {
+        let one = |number: u32| {
+            let from_s = f64::from(number) * period_s;
+            Faults::between(kind, from_s, from_s + lasting_s).faults
+        };
+        Faults {
+            faults: (1..=200).flat_map(one).collect(),
             ..Faults::none()
         }
     }

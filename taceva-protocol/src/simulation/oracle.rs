@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use crate::limits::RigLimits;
+use crate::limits::{RigLimits, SEGMENT_S};
 
 /// A halt must reach the robot within this, in s.
 pub const HALT_WITHIN_S: f64 = 0.05;
@@ -32,6 +32,8 @@ pub enum Violation {
         /// What had happened.
         hazard: &'static str,
     },
+    /// After an emergency stop was reported the robot was asked for this.
+    Defied(&'static str),
     /// A press that was acknowledged is gone.
     Lost(String),
     /// A press is recorded twice.
@@ -62,6 +64,9 @@ impl fmt::Display for Violation {
             Violation::LateHalt { after_s, hazard } => {
                 write!(f, "no halt within {:.1} ms of {hazard}", after_s * 1e3)
             }
+            Violation::Defied(asked) => {
+                write!(f, "asked for {asked} after an emergency stop")
+            }
             Violation::Lost(what) => write!(f, "acknowledged and lost: {what}"),
             Violation::Doubled(what) => write!(f, "recorded twice: {what}"),
             Violation::Invented(what) => write!(f, "recorded and never planned so: {what}"),
@@ -78,12 +83,14 @@ pub struct Checks {
     pub motions: u64,
     /// Halts that followed a hazard.
     pub halts: u64,
-    /// The slowest of them, in s.
+    /// The slowest of them, in s, without what a longer segment delays the look at its end.
     pub slowest_halt_s: f64,
     /// The greatest true force, as a part of the greatest that was stated.
     pub greatest_force: f64,
     /// Samples compared with the truth.
     pub samples: u64,
+    /// Presses that silence broke off and that were made again in the same process.
+    pub redone: u64,
 }
 
 impl Checks {
@@ -94,6 +101,7 @@ impl Checks {
         self.slowest_halt_s = self.slowest_halt_s.max(other.slowest_halt_s);
         self.greatest_force = self.greatest_force.max(other.greatest_force);
         self.samples += other.samples;
+        self.redone += other.redone;
     }
 }
 
@@ -113,6 +121,8 @@ pub(super) struct Stated {
     pub(super) late_contact_mm: f64,
     pub(super) stiffness_n_mm: f64,
     pub(super) noise_n: f64,
+    /// How much later than within a segment of [`SEGMENT_S`] a limit is seen that is passed in a longer one, in s.
+    pub(super) late_look_s: f64,
 }
 
 impl Stated {
@@ -131,6 +141,15 @@ impl Stated {
             late_contact_mm: step_mm + (threshold_n + NOISE_SPAN * noise_n) / stiffness_n_mm,
             stiffness_n_mm,
             noise_n,
+            late_look_s: 0.0,
+        }
+    }
+
+    /// The same for segments at this speed in contact, which noise may have made longer.
+    pub(super) fn at_speed(self, speed_mm_s: f64, segment_mm: f64) -> Stated {
+        Stated {
+            late_look_s: (segment_mm / speed_mm_s - SEGMENT_S).max(0.0),
+            ..self
         }
     }
 }
@@ -233,6 +252,11 @@ impl Oracle {
         std::mem::take(&mut self.overlooked)
     }
 
+    /// Somebody was told of an emergency stop and asked for `asked` all the same.
+    pub(super) fn defied(&mut self, asked: &'static str) {
+        self.violations.push(Violation::Defied(asked));
+    }
+
     /// A halt reached the robot.
     pub(super) fn halted(&mut self, now_s: f64) {
         self.overlooked = false;
@@ -243,8 +267,10 @@ impl Oracle {
                 // Halted before it had to be.
                 return;
             }
-            self.checks.slowest_halt_s = self.checks.slowest_halt_s.max(after_s);
-            if after_s > HALT_WITHIN_S {
+            let within_s = self.within_s(hazard);
+            let answered_s = after_s - (within_s - HALT_WITHIN_S);
+            self.checks.slowest_halt_s = self.checks.slowest_halt_s.max(answered_s);
+            if after_s > within_s {
                 self.violations
                     .push(Violation::LateHalt { after_s, hazard });
             }
@@ -254,12 +280,20 @@ impl Oracle {
     /// Time passed; a hazard that is old and unanswered is a violation.
     pub(super) fn passed(&mut self, now_s: f64) {
         if let Some((hazard, since_s)) = self.hazard
-            && now_s - since_s > HALT_WITHIN_S
+            && now_s - since_s > self.within_s(hazard)
         {
             self.hazard = None;
             let after_s = now_s - since_s;
             self.violations
                 .push(Violation::LateHalt { after_s, hazard });
+        }
+    }
+
+    /// How long after `hazard` the robot must be halted, in s.
+    fn within_s(&self, hazard: &str) -> f64 {
+        match hazard {
+            TOO_HARD => HALT_WITHIN_S + self.stated.late_look_s,
+            _ => HALT_WITHIN_S,
         }
     }
 

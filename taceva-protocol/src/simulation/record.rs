@@ -11,8 +11,8 @@ use crate::content_id::ContentId;
 use crate::plan::{Plan, PlannedPress};
 use crate::press::Motion;
 
-/// How far a sample may be from its waypoint where the robot stuck in the last segment; the label holds the true place.
-const LAG_MM: f64 = 0.015 + 1e-6;
+/// What binary64 makes of sums of a few lengths, in mm.
+const ROUNDING_MM: f64 = 1e-6;
 
 /// What was found in a record.
 pub(super) struct Found {
@@ -117,6 +117,15 @@ impl Found {
         }
         self.violations.extend(one_sided(planned, entry));
         let waypoints = planned.press.waypoints();
+        // The depth of a sample is the difference of two poses that were reported.
+        let reported_mm = ROUNDING_MM + 2.0 * gel.pose_noise_mm;
+        // It may lag behind its waypoint where the robot stuck in the last segment, and before it by what noise hides; the label holds
+        // the true place.
+        let limits = plan.limits.as_ref();
+        let stuck_mm = limits.map_or(0.0, |limits| {
+            limits.overshoot.segment_mm + limits.signals.slack_mm() + gel.pose_noise_mm
+        });
+        let lag_mm = stuck_mm + reported_mm;
         let mut height = None;
         for sample in &entry.samples {
             let place = sample.number;
@@ -128,7 +137,7 @@ impl Found {
             if let Some(waypoint) = waypoint {
                 let depth_mm = waypoint.depth.to_millimetres();
                 let off_mm = sample.depth_mm - depth_mm;
-                if off_mm > LAG_MM || (off_mm < -LAG_MM && !sample.is_limited) {
+                if off_mm > lag_mm || (off_mm < -lag_mm && !sample.is_limited) {
                     untrue(format!(
                         "{name}/{place} is {} mm deep, not {depth_mm}",
                         sample.depth_mm
@@ -160,7 +169,7 @@ impl Found {
                 // The contact is at one height for all samples of a press.
                 let contact_mm = height_mm - sample.depth_mm;
                 let first: f64 = *height.get_or_insert(contact_mm);
-                if (contact_mm - first).abs() > 1e-6 {
+                if (contact_mm - first).abs() > 2.0 * reported_mm {
                     untrue(format!("{name}/{place} shows a frame of another height"));
                 }
             }

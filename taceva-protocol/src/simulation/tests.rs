@@ -1,6 +1,8 @@
 //! Runs on the simulated rig, one property each.
 
 mod bench;
+mod conduct;
+mod operator;
 mod seeds;
 
 use std::collections::BTreeSet;
@@ -248,6 +250,7 @@ fn a_plan_with_pictures_is_not_run_without_a_sensor() {
         clock: &mut clock,
         cancel: &bench.cancel,
         events: &mut |_| {},
+        operator: None,
     };
     let error = run(&spec, devices, &mut Memory::default(), controls).expect_err("blind");
     assert_eq!(
@@ -319,6 +322,7 @@ fn a_specimen_that_cannot_be_mounted_stops_the_run_in_the_air() {
         clock: &mut clock,
         cancel: &bench.cancel,
         events: &mut |_| {},
+        operator: None,
     };
     let error = run(&spec, devices, &mut Memory::default(), controls).expect_err("no board");
     assert!(

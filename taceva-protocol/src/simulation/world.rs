@@ -2,10 +2,12 @@
 
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
+use taceva_core::Fault;
+
 use super::fault::{FaultKind, Faults, fraction};
 use super::oracle::{Ended, Oracle, SILENCE, TOO_HARD};
 use crate::draw::Draws;
-use crate::run::{Cancel, Timekeeper};
+use crate::run::{Cancel, SharedSupervisor, Timekeeper};
 
 /// The gel and the instruments of one seed.
 #[derive(Clone, Copy, Debug)]
@@ -16,6 +18,15 @@ pub(super) struct Gel {
     /// The force at which the transducer is at the end of its range.
     pub(super) saturation_n: f64,
     pub(super) normal_max_n: f64,
+    /// Half the span of the noise of a reported pose along each axis, in mm.
+    pub(super) pose_noise_mm: f64,
+}
+
+impl Gel {
+    /// The standard deviation of a reported pose along an axis: that of an even spread.
+    pub(super) fn pose_deviation_mm(&self) -> f64 {
+        self.pose_noise_mm / 3.0_f64.sqrt()
+    }
 }
 
 /// How a call to a device travels, in s each way.
@@ -27,6 +38,8 @@ const LAG_S: f64 = 0.015;
 const READING_S: f64 = 0.005;
 /// From one frame to the next, in s.
 const FRAME_S: f64 = 0.02;
+/// What the noise of poses is drawn under, beside that of forces.
+const POSE_NOISE: u64 = 8;
 /// How old readings are while their stamps are stale, in s.
 const STALE_S: f64 = 0.12;
 
@@ -58,12 +71,19 @@ pub(super) struct World {
     /// Where the gel was touched, while it is: the surface is uneven, and depth counts from there.
     touched: Option<[f64; 2]>,
     pub(super) halted: bool,
+    /// Whether somebody pressed the emergency stop, which a person must acknowledge.
+    pub(super) stopped: bool,
+    /// Whether whoever conducts the run was told.
+    told_of_stop: bool,
     pub(super) gel: Gel,
     pub(super) oracle: Oracle,
     pub(super) faults: Faults,
     pub(super) cancel: Cancel,
+    /// Who is shown every reading in a motion, where threads look on.
+    pub(super) guard: Option<SharedSupervisor>,
     draws: Draws,
     readings: u64,
+    poses: u64,
     zero_n: f64,
     last_force: Option<[f64; 3]>,
     /// Since when the transducer shows an old force.
@@ -112,12 +132,16 @@ impl Shared {
             },
             touched: None,
             halted: false,
+            stopped: false,
+            told_of_stop: false,
             gel,
             oracle,
             faults,
             cancel: Cancel::new(),
+            guard: None,
             draws,
             readings: 0,
+            poses: 0,
             zero_n: 0.0,
             last_force: None,
             frozen: false,
@@ -172,6 +196,36 @@ impl World {
         self.listening_s = None;
     }
 
+    /// Refuses what moves or releases the robot while the emergency stop holds. Who asks again after being told defies it.
+    pub(super) fn obey(&mut self, asked: &'static str) -> Result<(), Fault> {
+        self.stopped |= self
+            .faults
+            .strike_once(FaultKind::EmergencyStop, self.now_s);
+        if !self.stopped {
+            return Ok(());
+        }
+        if std::mem::replace(&mut self.told_of_stop, true) {
+            self.oracle.defied(asked);
+        }
+        Err(Fault::EmergencyStop)
+    }
+
+    /// A person acknowledges an emergency stop at the robot.
+    pub(super) fn acknowledge(&mut self) {
+        (self.stopped, self.told_of_stop) = (false, false);
+    }
+
+    /// Where the robot says that the tip is.
+    pub(super) fn reported(&mut self) -> [f64; 3] {
+        self.poses += 1;
+        let noise = |axis: u64| {
+            let part = fraction(self.draws, [self.poses, POSE_NOISE + axis]);
+            self.gel.pose_noise_mm * (2.0 * part - 1.0)
+        };
+        let noise = [noise(0), noise(1), noise(2)];
+        [0, 1, 2].map(|axis| self.tip[axis] + noise[axis])
+    }
+
     /// A person brings the tip above the gel.
     pub(super) fn lift(&mut self) {
         self.tip[2] = -2.0;
@@ -216,11 +270,7 @@ impl World {
     /// Moves the tip along a line.
     pub(super) fn glide(&mut self, target: [f64; 3], speed_mm_s: f64) {
         let from = self.tip;
-        let way = (0..3)
-            .map(|axis| (target[axis] - from[axis]).powi(2))
-            .sum::<f64>()
-            .sqrt();
-        let seconds = way / speed_mm_s;
+        let seconds = self.way_to(target) / speed_mm_s;
         let start_s = self.now_s;
         let indented_mm = self.depth(from);
         let stuck = self.faults.strike(FaultKind::StuckRobot, start_s);
@@ -266,10 +316,15 @@ impl World {
             self.pass(deadline_s);
             return None;
         }
-        self.listening_s = None;
-        self.oracle.heard();
         let next_s = ((self.now_s / READING_S).floor() + 1.0) * READING_S;
         self.pass(next_s - self.now_s);
+        Some(self.sense())
+    }
+
+    /// What the transducer says now, and when that was true.
+    fn sense(&mut self) -> ([f64; 3], f64) {
+        self.listening_s = None;
+        self.oracle.heard();
         self.readings += 1;
         let noise = |axis: u64| {
             let part = fraction(self.draws, [self.readings, axis]);
@@ -301,7 +356,39 @@ impl World {
             valid_s -= STALE_S;
             self.hazard("a reading that is old", self.now_s);
         }
-        Some((force, valid_s))
+        (force, valid_s)
+    }
+
+    /// What a thread that reads the transducer gets in the middle of a motion; `None` of one that is silent.
+    pub(super) fn overhear(&mut self) -> Option<([f64; 3], f64)> {
+        if self.faults.strike(FaultKind::Silence, self.now_s) {
+            let listening_s = *self.listening_s.get_or_insert(self.now_s);
+            self.oracle.blinded();
+            self.hazard(SILENCE, listening_s + STALE_AFTER_S);
+            return None;
+        }
+        Some(self.sense())
+    }
+
+    /// When a motion to `target` ends that begins now, but for what binary64 makes of the sum of its parts.
+    pub(super) fn arrival_s(&self, target: [f64; 3], speed_mm_s: f64) -> f64 {
+        self.now_s + self.way_to(target) / speed_mm_s - 1e-9
+    }
+
+    /// Where a motion to `target` is after the time of one reading, at most at its end.
+    pub(super) fn next_on_way(&self, target: [f64; 3], speed_mm_s: f64) -> [f64; 3] {
+        let length_mm = self.way_to(target);
+        let step_mm = speed_mm_s * READING_S;
+        if length_mm <= step_mm {
+            return target;
+        }
+        let part = step_mm / length_mm;
+        [0, 1, 2].map(|axis| self.tip[axis] + (target[axis] - self.tip[axis]) * part)
+    }
+
+    fn way_to(&self, target: [f64; 3]) -> f64 {
+        let squares = [0, 1, 2].map(|axis| (target[axis] - self.tip[axis]).powi(2));
+        squares.iter().sum::<f64>().sqrt()
     }
 
     /// Calls the present load zero.
@@ -328,4 +415,4 @@ impl World {
 }
 
 /// A silence of this length is one.
-const STALE_AFTER_S: f64 = crate::run::STALE_S;
+const STALE_AFTER_S: f64 = crate::limits::STALE_S;

@@ -1,14 +1,19 @@
 //! The devices of a rig, opened for one unit of the sensor and lent to a run.
 
-use std::sync::Arc;
+use std::sync::{Arc, PoisonError};
 
 use taceva_core::{
-    Device, DriverError, DriverKey, DriverSource, ErrorKind, ForceTransducer, Lighting, Registry,
-    Rig, Robot, Sensor,
+    Descriptor, Device, DriverError, DriverKey, DriverSource, ErrorKind, ForceTransducer, Lighting,
+    Registry, Rig, Robot, Sensor,
 };
 use taceva_drivers::{Drivers, OnBench, OpenError, Selector, open};
-use taceva_protocol::{Devices, Setting, StopCause, Timekeeper};
+use taceva_protocol::{
+    Cancel, Controls, Devices, Event, PressLog, RunError, RunReport, RunSpec, Setting,
+    SharedSupervisor, StopCause, run, run_guarded,
+};
 
+use super::guardian::Guarded;
+use super::latency::{IntoDevice, Late};
 use super::workshop::{Surroundings, Workshop};
 use crate::error::StudyError;
 use crate::scene::{PlannedStudy, RigSpec};
@@ -20,6 +25,9 @@ pub(super) struct OpenRig {
     force: Box<dyn ForceTransducer>,
     lighting: Option<Box<dyn Lighting>>,
     pub(super) surroundings: Surroundings,
+    force_driver: DriverKey,
+    /// Whether its time passes by itself: then threads look on while it moves.
+    is_real: bool,
 }
 
 impl OpenRig {
@@ -50,49 +58,105 @@ impl OpenRig {
         let force = force.map_err(failed)?;
         let lighting = opener.open(lightings, rig.lighting.as_ref(), &mut shared);
         let lighting = lighting.map_err(failed)?;
-        let (Some((robot, selector)), Some((force, _))) = (robot, force) else {
+        let (Some(robot), Some(force)) = (robot, force) else {
             let needed = "a robot and a force transducer: what it measures is pressed";
             return Err(StudyError::Request(format!(
                 "study `{}` needs {needed}",
                 study.plan.name
             )));
         };
-        let surroundings = (workshop.surroundings)(&selector, &mut shared)
-            .ok_or_else(|| failed(OpenError::Device(without_clock(&selector))))?;
-        let sensor = sensor.map(|(sensor, own)| match &surroundings.bench {
-            Some(bench) if own.bench() != selector.bench() => {
-                Box::new(OnBench::new(sensor, Arc::clone(bench)))
+        let selector = &robot.selector;
+        let is_real = robot.descriptor.source() == DriverSource::Real;
+        let surroundings = match is_real {
+            true => Surroundings::real(),
+            false => (workshop.surroundings)(selector, &mut shared)
+                .ok_or_else(|| failed(OpenError::Device(without_clock(selector))))?,
+        };
+        let sensor = sensor.map(|sensor| match &surroundings.bench {
+            Some(bench) if sensor.selector.bench() != selector.bench() => {
+                Box::new(OnBench::new(sensor.device, Arc::clone(bench)))
             }
-            _ => sensor,
+            _ => sensor.timely(|facts| facts.sensor()?.latency_ms),
         });
         Ok(OpenRig {
+            force_driver: force.descriptor.key().clone(),
+            is_real,
             sensor,
-            robot,
-            force,
-            lighting: lighting.map(|(lighting, _)| lighting),
+            robot: robot.timely(|facts| facts.robot()?.latency_ms),
+            force: force.timely(|facts| facts.force()?.latency_ms),
+            lighting: lighting.map(|lighting| lighting.device),
             surroundings,
         })
     }
 
-    /// The devices and the clock, lent for one run.
-    pub(super) fn lend(&mut self) -> (Devices<'_>, &mut dyn Timekeeper) {
-        let devices = Devices {
-            robot: &mut *self.robot,
-            force: &mut *self.force,
-            sensor: match &mut self.sensor {
-                Some(sensor) => Some(&mut **sensor),
-                None => None,
-            },
-            lighting: match &mut self.lighting {
-                Some(lighting) => Some(&mut **lighting),
-                None => None,
-            },
-            specimens: match &mut self.surroundings.specimens {
-                Some(specimens) => Some(&mut **specimens),
-                None => None,
-            },
+    /// Makes the presses of `spec`, under a guard where the rig is real.
+    ///
+    /// # Errors
+    /// As [`run`](taceva_protocol::run).
+    pub(super) fn conduct(
+        &mut self,
+        spec: &RunSpec<'_>,
+        log: &mut dyn PressLog,
+        (cancel, workshop): (&Cancel, Workshop<'_>),
+        events: &mut dyn FnMut(&Event),
+    ) -> Result<RunReport, RunError> {
+        let operator = workshop.operator.filter(|_| self.is_real);
+        let mut operator =
+            operator.map(|operator| operator.lock().unwrap_or_else(PoisonError::into_inner));
+        let OpenRig {
+            sensor,
+            robot,
+            force,
+            lighting,
+            surroundings,
+            force_driver,
+            is_real,
+        } = self;
+        let mut act = |robot: &mut dyn Robot,
+                       force: &mut dyn ForceTransducer,
+                       guard: Option<SharedSupervisor>| {
+            let devices = Devices {
+                robot,
+                force,
+                sensor: match sensor {
+                    Some(sensor) => Some(&mut **sensor),
+                    None => None,
+                },
+                lighting: match lighting {
+                    Some(lighting) => Some(&mut **lighting),
+                    None => None,
+                },
+                specimens: match &mut surroundings.specimens {
+                    Some(specimens) => Some(&mut **specimens),
+                    None => None,
+                },
+            };
+            let controls = Controls {
+                clock: &mut *surroundings.clock,
+                cancel,
+                events: &mut *events,
+                operator: match &mut operator {
+                    Some(operator) => Some(&mut **operator),
+                    None => None,
+                },
+            };
+            match guard {
+                Some(guard) => run_guarded(spec, devices, log, (controls, guard)),
+                None => run(spec, devices, log, controls),
+            }
         };
-        (devices, &mut *self.surroundings.clock)
+        match spec.plan.limits.clone().filter(|_| *is_real) {
+            None => act(&mut **robot, &mut **force, None),
+            Some(limits) => Guarded {
+                robot: &mut **robot,
+                force: &mut **force,
+                driver: force_driver.clone(),
+                limits,
+                cancel,
+                progress: workshop.progress,
+            }
+            .conduct(|robot, force, guard| act(robot, force, Some(guard))),
+        }
     }
 }
 
@@ -108,7 +172,7 @@ impl Opener<'_> {
         registry: &Registry<D>,
         device: Option<&Setting<String>>,
         shared: &mut Rig,
-    ) -> Result<Option<(Box<D>, Selector)>, OpenError> {
+    ) -> Result<Option<Opened<D>>, OpenError> {
         let Some(device) = device else {
             return Ok(None);
         };
@@ -116,8 +180,39 @@ impl Opener<'_> {
             .rig
             .selector(registry, device, self.unit)
             .expect("the selector was read when the scene was planned");
-        let opened = open(registry, &selector, shared)?;
-        Ok(Some((opened, selector)))
+        let device = open(registry, &selector, shared)?;
+        let factory = registry
+            .get(selector.driver())
+            .expect("it was opened by this key");
+        let arguments = factory.descriptor().args(selector.arguments());
+        let described = arguments
+            .ok()
+            .and_then(|arguments| factory.describe(&arguments).ok());
+        Ok(Some(Opened {
+            device,
+            descriptor: described.unwrap_or_else(|| factory.descriptor().clone()),
+            selector,
+        }))
+    }
+}
+
+/// A device that is open, with what is known about it.
+struct Opened<D: ?Sized> {
+    device: Box<D>,
+    descriptor: Descriptor,
+    selector: Selector,
+}
+
+impl<D: ?Sized + 'static> Opened<D>
+where
+    Late<D>: IntoDevice<D>,
+{
+    /// The device with stamps of when observations were true, where `latency_ms` of its facts says that they come later.
+    fn timely(self, latency_ms: impl Fn(&Descriptor) -> Option<f64>) -> Box<D> {
+        match latency_ms(&self.descriptor) {
+            Some(latency_ms) if latency_ms > 0.0 => Late::new(self.device, latency_ms).boxed(),
+            _ => self.device,
+        }
     }
 }
 
@@ -129,7 +224,7 @@ impl RigSpec {
     }
 
     /// Whether every device of it is simulated: then it may be opened just to be asked for facts.
-    pub(super) fn is_only_simulated(&self, drivers: &Drivers) -> bool {
+    pub(crate) fn is_only_simulated(&self, drivers: &Drivers) -> bool {
         self.sources(drivers)
             .all(|source| source == DriverSource::Simulated)
     }

@@ -1,12 +1,12 @@
 //! What presses are made with, beside the devices themselves: drivers, clocks and whoever exchanges specimens.
 
-use std::sync::Arc;
+use std::sync::{Arc, Mutex};
 use std::time::Duration;
 
 use taceva_core::{Progress, Rig, SimulatedBench};
-use taceva_drivers::{Drivers, Selector};
+use taceva_drivers::{Drivers, MonotonicClock, Selector};
 use taceva_models::Models;
-use taceva_protocol::{ContentId, SpecimenChanger, Timekeeper};
+use taceva_protocol::{ContentId, Operator, SpecimenChanger, Timekeeper};
 
 use crate::cache::Cache;
 
@@ -29,6 +29,33 @@ pub struct Surroundings {
     pub begins_anew: bool,
 }
 
+impl Surroundings {
+    /// Those of a real rig: the time of the machine, in which nothing can be turned, and a gel that nobody can renew.
+    pub fn real() -> Surroundings {
+        Surroundings {
+            clock: Box::new(MachineTime),
+            specimens: None,
+            upcoming: None,
+            gel: None,
+            bench: None,
+            begins_anew: false,
+        }
+    }
+}
+
+/// Time that passes by itself.
+struct MachineTime;
+
+impl Timekeeper for MachineTime {
+    fn now_s(&self) -> f64 {
+        MonotonicClock.now_s()
+    }
+
+    fn rest(&mut self, rest: Duration) {
+        std::thread::sleep(rest);
+    }
+}
+
 /// A press that is about to be made.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Upcoming {
@@ -39,7 +66,8 @@ pub struct Upcoming {
     pub begins: Duration,
 }
 
-/// Gives the surroundings of the rig whose robot was opened by a selector; `None` where nobody knows its clock.
+/// Gives the surroundings of the rig whose simulated robot was opened by a selector; `None` where nobody knows its clock. Those of a real
+/// robot are [`Surroundings::real`].
 pub type SurroundingsOf<'a> = &'a (dyn Fn(&Selector, &mut Rig) -> Option<Surroundings> + Sync);
 
 /// What presses are made with.
@@ -55,4 +83,6 @@ pub struct Workshop<'a> {
     pub cache: Option<&'a Cache>,
     /// Receives progress, and may cancel.
     pub progress: &'a dyn Progress,
+    /// Who is asked for what no device of a real rig can do; without one a scene that needs hands is refused before anything is opened.
+    pub operator: Option<&'a Mutex<dyn Operator + Send>>,
 }

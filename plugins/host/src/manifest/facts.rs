@@ -52,6 +52,7 @@ impl WrittenProvides {
                 .map(|camera| [camera.get_ref().width, camera.get_ref().height]),
             gel_thickness: gel.and_then(|gel| gel.thickness_mm).map(Millimetre),
             field_of_view_mm2: value(&self.field_of_view_mm2),
+            latency_ms: value(&self.latency_ms),
         })
     }
 
@@ -75,6 +76,10 @@ impl WrittenProvides {
                 })
                 .transpose()?,
             repeatability: value(&self.repeatability_mm).map(Millimetre),
+            pose_noise: value(&self.pose_noise_mm).map(Millimetre),
+            deceleration_mm_s2: value(&self.deceleration_mm_s2),
+            stop_ms: value(&self.stop_ms),
+            latency_ms: value(&self.latency_ms),
             guarded_motion: value(&self.guarded_motion).unwrap_or(false),
         })
     }
@@ -89,6 +94,11 @@ impl WrittenProvides {
             axes,
             rate: value(&self.rate_hz).map(Hertz),
             force_max: limits.and_then(|limits| limits.force_n).map(Newton),
+            noise: value(&self.noise_n).map(Newton),
+            resolution: value(&self.resolution_n).map(Newton),
+            latency_ms: value(&self.latency_ms),
+            // Numbers of readings do not cross the boundary.
+            numbered: false,
             tare: value(&self.tare).unwrap_or(false),
         })
     }

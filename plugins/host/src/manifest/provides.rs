@@ -101,7 +101,7 @@ impl WrittenProvides {
                 .map(Spanned::span)
         };
         type Key<'a> = (&'static str, Option<Range<usize>>, &'a [Kind]);
-        let table: [Key<'_>; 16] = [
+        let table: [Key<'_>; 22] = [
             ("source", span(&self.source), devices),
             ("frame", span(&self.frame), &[Sensor]),
             ("rate_hz", span(&self.rate_hz), &[Sensor, Force]),
@@ -116,6 +116,20 @@ impl WrittenProvides {
             ("scenes", span(&self.scenes), &[Sensor, Lighting]),
             ("workspace", span(&self.workspace), &[Robot]),
             ("repeatability_mm", span(&self.repeatability_mm), &[Robot]),
+            ("pose_noise_mm", span(&self.pose_noise_mm), &[Robot]),
+            (
+                "deceleration_mm_s2",
+                span(&self.deceleration_mm_s2),
+                &[Robot],
+            ),
+            ("stop_ms", span(&self.stop_ms), &[Robot]),
+            (
+                "latency_ms",
+                span(&self.latency_ms),
+                &[Sensor, Robot, Force],
+            ),
+            ("noise_N", span(&self.noise_n), &[Force]),
+            ("resolution_N", span(&self.resolution_n), &[Force]),
             ("guarded_motion", span(&self.guarded_motion), &[Robot]),
             ("axes", span(&self.axes), &[Force]),
             ("tare", span(&self.tare), &[Force]),

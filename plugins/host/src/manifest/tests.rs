@@ -63,6 +63,10 @@ source = "real"
 workspace = { least_mm = [-10, -10, -5], greatest_mm = [10, 10, 5] }
 limits = { speed_max_mm_s = 20 }
 repeatability_mm = 0.01
+pose_noise_mm = 0.02
+deceleration_mm_s2 = 500
+stop_ms = 30
+latency_ms = 1
 guarded_motion = true
 
 [[provides]]
@@ -73,6 +77,9 @@ source = "real"
 axes = ["Fx", "Fy", "Fz"]
 rate_hz = 500
 limits = { Fz_max_N = 50 }
+noise_N = 0.02
+resolution_N = 0.005
+latency_ms = 4
 tare = true
 
 [[provides]]
@@ -126,12 +133,20 @@ fn every_fact_of_every_kind_has_a_key() {
     let robot = robot.robot().expect("a robot");
     let top = robot.workspace.expect("a box").greatest.z;
     assert_eq!(top, taceva_core::Millimetre(5.0));
+    let signals = [robot.deceleration_mm_s2, robot.stop_ms, robot.latency_ms];
+    assert_eq!(signals, [500.0, 30.0, 1.0].map(Some));
+    assert_eq!(robot.pose_noise, Some(taceva_core::Millimetre(0.02)));
     let Facts::Force(force) = force.facts() else {
         panic!("a force transducer");
     };
     assert_eq!(
         (force.axes.to_string().as_str(), force.tare),
         ("Fx Fy Fz", true)
+    );
+    let signals = [force.noise, force.resolution].map(|force| force.map(|force| force.0));
+    assert_eq!(
+        (signals, force.latency_ms),
+        ([Some(0.02), Some(0.005)], Some(4.0))
     );
     let estimator = manifest.estimators().next().expect("one");
     assert_eq!(estimator.key.as_str(), "org.example.hand/nearest");
@@ -218,6 +233,10 @@ fn whatever_cannot_be_meant_is_refused_where_it_stands() {
         ("source = \"simulated\"\n", "", "`source` is missing"),
         ("tare = true", "guarded_motion = true", "no fact of a force"),
         ("repeatability_mm", "rate_hz", "no fact of a robot"),
+        ("stop_ms = 30", "noise_N = 30", "no fact of a robot"),
+        ("stop_ms = 30", "stop_ms = -1", "0 or more"),
+        ("resolution_N = 0.005", "resolution_N = 0", "above 0"),
+        ("tare = true", "stop_ms = 3", "no fact of a force"),
         ("speed_max_mm_s = 20", "Pz_max_mm = 2", "no fact of a robot"),
         ("speed_max_mm_s = 20", "speed_max_mm_s = 0", "above 0"),
         ("\"Fx\", \"Fy\"", "\"Fx\", \"Fx\"", "at most once"),

@@ -25,6 +25,14 @@ pub(super) struct WrittenProvides {
     pub(super) scenes: Option<Spanned<Vec<String>>>,
     pub(super) workspace: Option<Spanned<WrittenWorkspace>>,
     pub(super) repeatability_mm: Option<Spanned<f64>>,
+    pub(super) pose_noise_mm: Option<Spanned<f64>>,
+    pub(super) deceleration_mm_s2: Option<Spanned<f64>>,
+    pub(super) stop_ms: Option<Spanned<f64>>,
+    pub(super) latency_ms: Option<Spanned<f64>>,
+    #[serde(rename = "noise_N")]
+    pub(super) noise_n: Option<Spanned<f64>>,
+    #[serde(rename = "resolution_N")]
+    pub(super) resolution_n: Option<Spanned<f64>>,
     pub(super) guarded_motion: Option<Spanned<bool>>,
     pub(super) axes: Option<Spanned<Vec<Spanned<String>>>>,
     pub(super) tare: Option<Spanned<bool>>,

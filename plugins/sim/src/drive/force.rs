@@ -36,6 +36,7 @@ impl ForceTransducerFactory {
             rate: Some(Hertz(RATE_HZ)),
             force_max: Some(Newton(Model::GelSight.parameters().transducer.range_n)),
             tare: true,
+            ..ForceFacts::default()
         };
         let spec = DescriptorSpec::new(
             KEY,

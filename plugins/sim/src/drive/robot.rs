@@ -39,6 +39,7 @@ impl RobotFactory {
                 Model::GelSight.parameters().robot.positioning_mm,
             )),
             guarded_motion: true,
+            ..RobotFacts::default()
         };
         let spec = DescriptorSpec::new(
             KEY,

@@ -154,6 +154,7 @@ impl Trial {
                 clock: &mut clock,
                 cancel: &cancel,
                 events: &mut events,
+                operator: None,
             },
         );
         done.map(|_| retried)

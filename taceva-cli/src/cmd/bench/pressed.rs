@@ -83,6 +83,7 @@ impl Pressed {
             surroundings: &surroundings,
             cache: None,
             progress: &context.progress,
+            operator: None,
         };
         run_scene(&planned, &run, workshop, context.jobs)?;
         let study = &planned.studies[0].plan.name;

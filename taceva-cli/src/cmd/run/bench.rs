@@ -9,7 +9,7 @@ use taceva_protocol::{ContentId, SpecimenChanger, Timekeeper};
 use taceva_sim::{MODEL_VERSION, Model};
 use taceva_study::{Surroundings, Upcoming};
 
-/// The surroundings of the rig whose robot was opened by `robot`; `None` on a real rig.
+/// The surroundings of the rig whose simulated robot was opened by `robot`; `None` where its bench is not known.
 pub(in crate::cmd) fn surroundings(robot: &Selector, rig: &mut Rig) -> Option<Surroundings> {
     let bench = rig.bench(&robot.bench()?)?;
     let gel = bench.provenance();

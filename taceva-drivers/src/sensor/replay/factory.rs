@@ -69,13 +69,13 @@ impl Factory<dyn Sensor> for ReplayFactory {
         spec.check()
     }
 
-    fn open(&self, args: &Args, rig: &mut Rig) -> Result<Box<dyn Sensor>, DriverError> {
+    fn open(&self, args: &Args, _: &mut Rig) -> Result<Box<dyn Sensor>, DriverError> {
         let folder = Path::new(args.text("folder"));
         let source = FolderSource::open(folder, &timing(args)).map_err(|fault| {
             DriverError::new(fault.kind(), &KEY, "open the recording").because(fault)
         })?;
         let pace: Box<dyn Pace> = match args.text("pace") {
-            "real" => Box::new(RealPace::of(rig)?),
+            "real" => Box::new(RealPace),
             _ => Box::new(VirtualPace::starting_at(source.times_s()[0])),
         };
         let options = ReplayOptions {

@@ -1,14 +1,15 @@
 //! Every reading that must halt, and those that must not.
 
 mod boundaries;
+mod noise;
 mod signals;
 
 use std::sync::atomic::{AtomicU32, Ordering};
 
-use taceva_core::{DriverError, Millimetre, Newton, Point};
+use taceva_core::{DriverError, Millimetre, Newton, Point, RobotFacts};
 
 use super::*;
-use crate::limits::Overshoot;
+use crate::limits::{Overshoot, Signals};
 
 #[derive(Default)]
 struct Halts(AtomicU32);
@@ -27,8 +28,9 @@ fn watching(stage: MotionStage) -> (Supervisor, Arc<Halts>) {
         shear_max: Newton(1.0),
         saturation: Some(Newton(20.0)),
         speed_max_mm_s: 20.0,
-        overshoot: Overshoot::at(1.0),
+        overshoot: Overshoot::at(1.0, &RobotFacts::default(), 0.0),
         simulated: true,
+        signals: Signals::default(),
     };
     let halts = Arc::new(Halts::default());
     let mut supervisor = Supervisor::new(limits, halts.clone());

@@ -6,8 +6,8 @@ use crate::content_id::ContentId;
 use crate::draw::Draws;
 use crate::plan::Plan;
 use crate::run::{
-    Cancel, Controls, Devices, Event, Mode, PressLog, PressRecord, RunError, RunReport, RunSpec,
-    run,
+    Cancel, Controls, Devices, Event, Mode, Operator, PressLog, PressRecord, RunError, RunReport,
+    RunSpec, run,
 };
 use crate::simulation::devices::{SimulatedForce, SimulatedRobot, SimulatedSensor};
 use crate::simulation::fault::Faults;
@@ -20,6 +20,7 @@ pub(super) const SOFT: Gel = Gel {
     noise_n: 0.003,
     saturation_n: 20.0,
     normal_max_n: 1.5,
+    pose_noise_mm: 0.0,
 };
 
 /// A gel so hard that every press ends at the limit of force.
@@ -60,19 +61,27 @@ pub(super) struct Bench {
     pub(super) plan: Plan,
     pub(super) cancel: Cancel,
     pub(super) events: Vec<Event>,
+    /// Who is asked.
+    pub(super) operator: Option<Box<dyn Operator>>,
 }
 
 impl Bench {
     pub(super) fn new(gel: Gel) -> Bench {
-        let plan = scenario_plan(1, &gel).expect("a plan");
+        Bench::with(gel, scenario_plan(1, &gel).expect("a plan"))
+    }
+
+    /// A rig with this gel, and a plan for it.
+    pub(super) fn with(gel: Gel, plan: Plan) -> Bench {
         let limits = plan.limits.as_ref().expect("limits");
-        let stated = Stated::new(limits, gel.stiffness_n_mm, gel.noise_n, 0.1, 0.02);
+        let stated = Stated::new(limits, gel.stiffness_n_mm, gel.noise_n, 0.1, 0.02)
+            .at_speed(plan.contact.speed_mm_s.value, limits.overshoot.segment_mm);
         let faultless = Faults::none();
         Bench {
             shared: Shared::new(gel, Oracle::new(stated), faultless, Draws::new(1, "test")),
             plan,
             cancel: Cancel::new(),
             events: Vec::new(),
+            operator: None,
         }
     }
 
@@ -111,6 +120,10 @@ impl Bench {
             clock: &mut clock,
             cancel,
             events: &mut note,
+            operator: match &mut self.operator {
+                Some(operator) => Some(&mut **operator),
+                None => None,
+            },
         };
         run(&spec, devices, log, controls)
     }

@@ -30,6 +30,7 @@ fn five_hundred_seeds_pass_without_a_violation_and_strike_with_every_fault() {
         );
     }
     assert!(checks.halts > 500 && checks.samples > 5_000 && checks.motions > 100_000);
+    assert!(checks.redone >= 10, "{checks:?}");
     assert!(checks.slowest_halt_s <= HALT_WITHIN_S);
 }
 

@@ -17,12 +17,20 @@ fields!(RobotFacts {
     workspace,
     speed_max,
     repeatability,
+    pose_noise,
+    deceleration_mm_s2,
+    stop_ms,
+    latency_ms,
     guarded_motion
 });
 fields!(ForceFacts {
     axes,
     rate,
     force_max,
+    noise,
+    resolution,
+    latency_ms,
+    numbered,
     tare
 });
 fields!(LightingFacts { scenes });
@@ -37,7 +45,8 @@ fields!(SensorFacts {
     force_max,
     camera,
     gel_thickness,
-    field_of_view_mm2
+    field_of_view_mm2,
+    latency_ms
 });
 
 impl Wire for ArgSpec {

@@ -51,6 +51,7 @@ pub(super) fn describe(
             Body::Layer(_) => surface.width_mm * surface.height_mm,
             Body::Dome(_) => std::f64::consts::FRAC_PI_4 * surface.width_mm * surface.height_mm,
         }),
+        ..SensorFacts::default()
     };
     DescriptorSpec::new(
         key(model),

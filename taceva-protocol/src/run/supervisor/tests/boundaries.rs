@@ -11,8 +11,9 @@ fn limits() -> RigLimits {
         shear_max: Newton(0.3125),
         saturation: Some(Newton(16.0)),
         speed_max_mm_s: 20.0,
-        overshoot: Overshoot::at(1.0),
+        overshoot: Overshoot::at(1.0, &RobotFacts::default(), 0.0),
         simulated: true,
+        signals: Signals::default(),
     }
 }
 

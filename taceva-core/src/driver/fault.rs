@@ -1,0 +1,45 @@
+//! Faults of a robot after which nothing moves until a person has looked.
+
+use std::fmt;
+
+/// Why a device stopped by itself, where it says so.
+///
+/// Whoever conducts a run leaves the tip where it is: it neither draws back nor clears the fault, which is acknowledged at the device.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum Fault {
+    /// Somebody pressed an emergency stop, or a guard opened.
+    EmergencyStop,
+    /// It struck something.
+    Collision,
+    /// It came to the border of where it may move.
+    Boundary,
+    /// A servo, a brake or its controller failed.
+    Servo,
+}
+
+impl Fault {
+    /// Every fault.
+    pub const ALL: [Fault; 4] = [
+        Fault::EmergencyStop,
+        Fault::Collision,
+        Fault::Boundary,
+        Fault::Servo,
+    ];
+
+    /// The words in messages.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Fault::EmergencyStop => "emergency stop",
+            Fault::Collision => "collision",
+            Fault::Boundary => "boundary",
+            Fault::Servo => "servo fault",
+        }
+    }
+}
+
+impl fmt::Display for Fault {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}

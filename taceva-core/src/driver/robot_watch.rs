@@ -1,0 +1,19 @@
+//! Looking at a robot from another thread.
+
+use super::{Deadline, DriverError};
+use crate::geometry::Pose;
+use crate::stamp::Stamp;
+
+/// Looks at the robot it came from while that moves: from any thread, beside any other call, over a connection of its own.
+///
+/// It outlives the robot harmlessly: once that is dropped it answers `Disconnected`.
+pub trait RobotWatch: Send + Sync {
+    /// Where the tip is now, and when that was true; never waits for a motion.
+    ///
+    /// # Units
+    /// As [`Robot::pose`](super::Robot::pose): mm and degrees in the sensor's frame.
+    /// # Errors
+    /// [`DriverError`] of kind `Timeout` if no pose came within `deadline`, `Disconnected`, or `DeviceFault`, with its
+    /// [`Fault`](super::Fault) where the robot names one.
+    fn pose(&self, deadline: Deadline) -> Result<(Pose, Stamp), DriverError>;
+}

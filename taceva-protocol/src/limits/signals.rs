@@ -1,0 +1,342 @@
+//! What the signals of a rig are worth: how exact, how fresh, and how one that froze is told from one that rests.
+
+use taceva_core::{Descriptor, DriverSource, ForceFacts};
+
+use crate::scene::{Scene, SceneError, SceneProblem, Study};
+use crate::source::RigInfo;
+
+/// Allowance that the conduct of a run makes for the signals of its rig; [`Default`] is that for signals without noise.
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
+pub struct Signals {
+    /// How far a reported pose scatters about where the tip was sent: one standard deviation an axis, in mm.
+    pub pose_noise_mm: f64,
+    /// How far readings of a load that rests scatter: one standard deviation, in N; 0 where it is not stated.
+    pub force_noise_n: f64,
+    /// The greatest age of a reading that still says something of now, in s.
+    pub stale_s: f64,
+    /// Whether readings that are equal to the last bit although the tip moved betray a signal that froze. They do not where the transducer
+    /// numbers its readings, which is then asked, and where its steps are as coarse as its noise.
+    pub equality_is_frozen: bool,
+    /// Whether the zero of the force is the mean of a quarter of a second on the host, and the transducer's own is set once a session.
+    pub host_zero: bool,
+}
+
+/// A reading older than this says nothing about now, in s: three periods of a transducer of 60 Hz.
+pub(crate) const STALE_S: f64 = 0.05;
+/// A slower transducer may miss so many readings in a row.
+const STALE_READINGS: f64 = 3.0;
+/// How far the tip may go in contact while its readings grow stale, in mm.
+const BLIND_MM: f64 = 0.25;
+
+impl Default for Signals {
+    fn default() -> Signals {
+        Signals {
+            pose_noise_mm: 0.0,
+            force_noise_n: 0.0,
+            stale_s: STALE_S,
+            equality_is_frozen: true,
+            host_zero: false,
+        }
+    }
+}
+
+impl Signals {
+    /// Whether they are those without noise.
+    pub(crate) fn is_default(&self) -> bool {
+        *self == Signals::default()
+    }
+
+    /// A pose within this of where the tip was sent is there, along each axis, in mm.
+    pub(crate) fn slack_mm(&self) -> f64 {
+        3.0 * self.pose_noise_mm
+    }
+
+    /// A force in the air that noise does not make, in N.
+    pub(crate) fn air_n(&self) -> f64 {
+        5.0 * self.force_noise_n
+    }
+
+    /// What is known of the signals of `rig`.
+    pub(super) fn of(scene: &Scene, study: &Study, rig: &RigInfo) -> Result<Signals, SceneError> {
+        let force = rig
+            .force
+            .as_ref()
+            .and_then(|descriptor| Some((descriptor, descriptor.force()?)));
+        let mut signals = Signals {
+            pose_noise_mm: rig.robot.as_ref().map_or(0.0, pose_noise_mm),
+            ..Signals::default()
+        };
+        let at = study.force.as_ref().and_then(|force| force.driver.at());
+        one_clock(scene, study, rig)?;
+        if let Some((descriptor, facts)) = force {
+            signals.force_noise_n = facts.noise.map_or(0.0, |noise| noise.0);
+            signals.stale_s = stale_s(facts);
+            signals.equality_is_frozen = !facts.numbered && tells_equal(facts);
+            signals.host_zero = descriptor.source() == DriverSource::Real;
+            let who = || format!("the force transducer `{}`", descriptor.key());
+            if let (false, false, Some(step)) =
+                (facts.numbered, signals.equality_is_frozen, facts.resolution)
+            {
+                let problem = SceneProblem::FrozenUnseen {
+                    who: who(),
+                    resolution_n: step.0,
+                    noise_n: facts.noise.map_or(0.0, |noise| noise.0),
+                };
+                return Err(scene.text.error(at, problem));
+            }
+            stops_in_time(scene, study, rig, facts)?;
+            let speed = &scene.protocol.contact.speed_mm_s;
+            if speed.value * signals.stale_s > BLIND_MM {
+                let problem = SceneProblem::Blind {
+                    found: speed.value,
+                    who: who(),
+                    stale_ms: signals.stale_s * 1e3,
+                    greatest: BLIND_MM / signals.stale_s,
+                };
+                return Err(scene.text.error(speed.at(), problem));
+            }
+        }
+        Ok(signals)
+    }
+}
+
+/// Refuses a rig whose devices are stamped by two clocks: that of a simulated bench and that of the machine.
+///
+/// A sensor that is not of the bench is no part of this: its frames are stamped anew when they come.
+fn one_clock(scene: &Scene, study: &Study, rig: &RigInfo) -> Result<(), SceneError> {
+    let is_simulated = |device: &Descriptor| device.source() == DriverSource::Simulated;
+    let Some(robot) = &rig.robot else {
+        return Ok(());
+    };
+    let force = rig.force.as_ref();
+    let force = force.filter(|force| is_simulated(force) != is_simulated(robot));
+    let sensor = rig.sensor.as_ref();
+    let sensor = sensor.filter(|sensor| is_simulated(sensor) && !is_simulated(robot));
+    let Some(other) = force.or(sensor) else {
+        return Ok(());
+    };
+    let (simulated, real) = match is_simulated(robot) {
+        true => (robot, other),
+        false => (other, robot),
+    };
+    let problem = SceneProblem::MixedClocks {
+        simulated: simulated.key().to_string(),
+        real: real.key().to_string(),
+    };
+    let at = study.robot.as_ref().and_then(|robot| robot.driver.at());
+    Err(scene.text.error(at, problem))
+}
+
+/// From a limit that is passed to a tip that rests, in ms: one period of the transducer, a way of the link, a halt sent, and the arm's own.
+const HALT_MS: f64 = 50.0;
+/// What link and sending take of it.
+const SEND_MS: f64 = 2.0;
+
+/// Refuses a robot that states that it stops so late that no guard is in time.
+fn stops_in_time(
+    scene: &Scene,
+    study: &Study,
+    rig: &RigInfo,
+    force: &ForceFacts,
+) -> Result<(), SceneError> {
+    let stop_ms = rig.robot.as_ref().and_then(|robot| {
+        let stop_ms = robot.robot()?.stop_ms?;
+        Some((robot.key(), stop_ms))
+    });
+    let Some((robot, stop_ms)) = stop_ms else {
+        return Ok(());
+    };
+    let period_ms = force.rate.map_or(0.0, |rate| 1e3 / rate.0);
+    let needed_ms = period_ms + SEND_MS + stop_ms;
+    if needed_ms <= HALT_MS {
+        return Ok(());
+    }
+    let problem = SceneProblem::SlowStop {
+        robot: robot.to_string(),
+        stop_ms,
+        needed_ms,
+        greatest_ms: HALT_MS,
+    };
+    let at = study.robot.as_ref().and_then(|robot| robot.driver.at());
+    Err(scene.text.error(at, problem))
+}
+
+/// As stated; else a real arm reports as well as it comes back, and a simulated one where it was sent.
+fn pose_noise_mm(robot: &Descriptor) -> f64 {
+    let Some(facts) = robot.robot() else {
+        return 0.0;
+    };
+    let repeatability = facts
+        .repeatability
+        .filter(|_| robot.source() == DriverSource::Real);
+    facts
+        .pose_noise
+        .or(repeatability)
+        .map_or(0.0, |noise| noise.0)
+}
+
+fn stale_s(facts: &ForceFacts) -> f64 {
+    let of_rate = facts.rate.map(|rate| STALE_READINGS / rate.0);
+    of_rate.map_or(STALE_S, |stale_s| stale_s.max(STALE_S))
+}
+
+/// Whether two readings of a live transducer are hardly ever equal. One that states no step is taken to: a halt too many harms nobody.
+fn tells_equal(facts: &ForceFacts) -> bool {
+    facts
+        .resolution
+        .is_none_or(|step| facts.noise.is_some_and(|noise| step.0 < noise.0))
+}
+
+#[cfg(test)]
+mod tests {
+    use taceva_core::{
+        Axes, DescriptorSpec, DriverKey, Facts, Hertz, Millimetre, Newton, RobotFacts,
+    };
+
+    use super::*;
+    use crate::plan::tests::bench::{SMALL, rig_of, sensor};
+
+    fn device(source: DriverSource, facts: Facts) -> Option<Descriptor> {
+        let key = DriverKey::fixed("test/device");
+        let spec = DescriptorSpec::new(key, "a device", source, facts);
+        spec.check().ok()
+    }
+
+    fn rig(source: DriverSource, robot: RobotFacts, force: ForceFacts) -> RigInfo {
+        let force = ForceFacts {
+            axes: Axes::FORCE,
+            ..force
+        };
+        RigInfo {
+            robot: device(source, Facts::Robot(robot)),
+            force: device(source, Facts::Force(force)),
+            sensor: device(source, Facts::Sensor(Box::new(sensor()))),
+            ..rig_of(sensor(), Axes::FORCE)
+        }
+    }
+
+    fn signals(rig: &RigInfo, speed_mm_s: f64) -> Result<Signals, String> {
+        let mut scene = Scene::parse("small", SMALL).expect("a scene");
+        scene.protocol.contact.speed_mm_s.value = speed_mm_s;
+        Signals::of(&scene, &scene.studies[0], rig).map_err(|error| error.to_string())
+    }
+
+    #[test]
+    fn a_real_arm_reports_as_well_as_it_comes_back_and_a_simulated_one_where_it_was_sent() {
+        let returns = RobotFacts {
+            repeatability: Some(Millimetre(0.02)),
+            ..RobotFacts::default()
+        };
+        let states = RobotFacts {
+            pose_noise: Some(Millimetre(0.05)),
+            ..returns
+        };
+        for (source, facts, expected_mm) in [
+            (DriverSource::Real, returns, 0.02),
+            (DriverSource::Simulated, returns, 0.0),
+            (DriverSource::Real, states, 0.05),
+            (DriverSource::Simulated, states, 0.05),
+        ] {
+            let rig = rig(source, facts, ForceFacts::default());
+            let signals = signals(&rig, 1.0).expect("no contradiction");
+            assert!((signals.pose_noise_mm - expected_mm).abs() < 1e-12);
+            assert_eq!(signals.host_zero, source == DriverSource::Real);
+            assert_eq!(signals.is_default(), expected_mm <= 0.0);
+        }
+    }
+
+    #[test]
+    fn a_simulated_robot_and_a_real_transducer_have_two_clocks_and_are_refused_either_way() {
+        let (real, simulated) = (DriverSource::Real, DriverSource::Simulated);
+        let with = |robot, force, sensor| {
+            let mut mixed = rig(robot, RobotFacts::default(), ForceFacts::default());
+            let other = rig(force, RobotFacts::default(), ForceFacts::default());
+            mixed.force = other.force;
+            mixed.sensor = device(
+                sensor,
+                Facts::Sensor(Box::new(crate::plan::tests::bench::sensor())),
+            );
+            signals(&mixed, 1.0)
+        };
+        for (robot, force, sensor) in [
+            (simulated, real, simulated),
+            (real, simulated, real),
+            (real, real, simulated),
+        ] {
+            let refused = with(robot, force, sensor).expect_err("two clocks");
+            assert!(refused.contains("one rig has one clock"), "{refused}");
+        }
+        // A sensor that is not of the bench is stamped by it.
+        assert!(with(simulated, simulated, real).is_ok());
+        assert!(with(real, real, real).is_ok());
+    }
+
+    #[test]
+    fn a_slow_transducer_may_be_silent_for_three_readings_if_the_tip_is_as_slow() {
+        let slow = |rate| {
+            let force = ForceFacts {
+                rate: Some(Hertz(rate)),
+                ..ForceFacts::default()
+            };
+            rig(DriverSource::Simulated, RobotFacts::default(), force)
+        };
+        let stale_s = |rate, speed| signals(&slow(rate), speed).map(|signals| signals.stale_s);
+        assert_eq!(stale_s(200.0, 5.0), Ok(0.05));
+        assert_eq!(stale_s(60.0, 5.0), Ok(0.05));
+        assert_eq!(stale_s(10.0, 0.8), Ok(0.3));
+        let refused = stale_s(10.0, 1.0).expect_err("0.3 mm blind");
+        assert!(
+            refused.contains("test/device")
+                && refused.contains("300 ms")
+                && refused.contains("0.833"),
+            "{refused}"
+        );
+    }
+
+    #[test]
+    fn a_robot_that_stops_later_than_a_guard_may_take_is_refused() {
+        let with = |rate, stop_ms| {
+            let robot = RobotFacts {
+                stop_ms: Some(stop_ms),
+                ..RobotFacts::default()
+            };
+            let force = ForceFacts {
+                rate: Some(Hertz(rate)),
+                ..ForceFacts::default()
+            };
+            signals(&rig(DriverSource::Real, robot, force), 0.1)
+        };
+        assert!(with(200.0, 43.0).is_ok(), "5 + 2 + 43 ms");
+        let refused = with(200.0, 44.0).expect_err("51 ms");
+        assert!(
+            refused.contains("51 ms") && refused.contains("50 ms"),
+            "{refused}"
+        );
+        assert!(with(20.0, 0.0).is_err(), "a period of 50 ms");
+    }
+
+    #[test]
+    fn equal_readings_betray_a_frozen_signal_only_where_steps_are_finer_than_noise() {
+        let of = |noise: Option<f64>, resolution: Option<f64>, numbered| {
+            let force = ForceFacts {
+                noise: noise.map(Newton),
+                resolution: resolution.map(Newton),
+                numbered,
+                ..ForceFacts::default()
+            };
+            let rig = rig(DriverSource::Simulated, RobotFacts::default(), force);
+            signals(&rig, 1.0).map(|signals| signals.equality_is_frozen)
+        };
+        assert_eq!(of(None, None, false), Ok(true));
+        assert_eq!(of(Some(0.003), Some(0.001), false), Ok(true));
+        assert_eq!(of(Some(0.003), Some(0.001), true), Ok(false));
+        assert_eq!(of(Some(0.001), Some(0.01), true), Ok(false));
+        for noise in [None, Some(0.001), Some(0.01)] {
+            let refused = of(noise, Some(0.01), false).expect_err("nothing would tell");
+            assert!(
+                refused.contains("frozen") && refused.contains("0.01 N"),
+                "{refused}"
+            );
+        }
+    }
+}

@@ -1,0 +1,126 @@
+//! Ways of the tip: how far places are apart, and which of them are one place to a robot whose reported pose is noisy.
+
+use taceva_core::{Degree, Millimetre, Point, Pose, Rotation};
+
+/// Nearer than this, in degrees, a robot whose pose is noisy is turned as it was told: arms come back to hundredths.
+const TURN_SLACK_DEG: f64 = 0.1;
+
+/// How far two tips are apart, in mm.
+pub(crate) fn distance(one: &Pose, other: &Pose) -> f64 {
+    let (one, other) = (&one.position, &other.position);
+    let [x, y] = [one.x.0 - other.x.0, one.y.0 - other.y.0];
+    let z = one.z.0 - other.z.0;
+    // Most ways are straight down: then nothing is left of the roots.
+    if x == 0.0 && y == 0.0 {
+        return z.abs();
+    }
+    x.hypot(y).hypot(z)
+}
+
+/// How far a tip is from the straight way between two others, its ends included, in mm.
+pub(super) fn distance_from_way(tip: &Pose, from: &Pose, to: &Pose) -> f64 {
+    let coordinates = |pose: &Pose| {
+        let Point { x, y, z } = pose.position;
+        [x.0, y.0, z.0]
+    };
+    let [tip_mm, from_mm, to_mm] = [tip, from, to].map(coordinates);
+    let axes = [0, 1, 2];
+    let way = axes.map(|axis| to_mm[axis] - from_mm[axis]);
+    let gone = axes.map(|axis| tip_mm[axis] - from_mm[axis]);
+    let product = |one: &[f64; 3], other: &[f64; 3]| -> f64 {
+        axes.iter().map(|axis| one[*axis] * other[*axis]).sum()
+    };
+    let length_squared = product(&way, &way);
+    if length_squared <= 0.0 {
+        return distance(tip, to);
+    }
+    let part = (product(&gone, &way) / length_squared).clamp(0.0, 1.0);
+    distance(tip, &part_way(from, to, part))
+}
+
+/// Where the tip is taken to be that was seen at `seen` after it was sent to `sent`: along each axis where it was sent if it was seen
+/// within `slack_mm` of it, else where it was seen.
+pub(super) fn settled(seen: &Pose, sent: &Pose, slack_mm: f64) -> Pose {
+    let settle = |seen: Millimetre, sent: Millimetre| {
+        let is_there = (seen.0 - sent.0).abs() < slack_mm;
+        if is_there { sent } else { seen }
+    };
+    let turn = |seen: Degree, sent: Degree| {
+        let is_there = slack_mm > 0.0 && (seen.0 - sent.0).abs() < TURN_SLACK_DEG;
+        if is_there { sent } else { seen }
+    };
+    let (turned, to_turn) = (&seen.rotation, &sent.rotation);
+    let (found, meant) = (&seen.position, &sent.position);
+    Pose {
+        rotation: Rotation {
+            x: turn(turned.x, to_turn.x),
+            y: turn(turned.y, to_turn.y),
+            z: turn(turned.z, to_turn.z),
+        },
+        position: Point {
+            x: settle(found.x, meant.x),
+            y: settle(found.y, meant.y),
+            z: settle(found.z, meant.z),
+        },
+    }
+}
+
+/// Whether a motion only leaves the gel: that is allowed from wherever the tip was found.
+pub(super) fn is_straight_up(from: &Pose, to: &Pose) -> bool {
+    let (start, end) = (&from.position, &to.position);
+    start.x == end.x && start.y == end.y && end.z <= start.z
+}
+
+/// A pose between two, turned as the second.
+pub(super) fn part_way(from: &Pose, to: &Pose, part: f64) -> Pose {
+    let mix = |from: Millimetre, to: Millimetre| Millimetre(from.0 + (to.0 - from.0) * part);
+    let (start, end) = (&from.position, &to.position);
+    Pose {
+        position: Point {
+            x: mix(start.x, end.x),
+            y: mix(start.y, end.y),
+            z: mix(start.z, end.z),
+        },
+        ..*to
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn pose([x, y, z]: [f64; 3]) -> Pose {
+        let [x, y, z] = [x, y, z].map(Millimetre);
+        Pose {
+            position: Point { x, y, z },
+            ..Pose::default()
+        }
+    }
+
+    #[test]
+    fn the_distance_from_a_way_is_that_from_its_nearest_place() {
+        let (from, to) = (pose([1.0, 2.0, -2.0]), pose([1.0, 2.0, 2.0]));
+        for (tip, expected) in [
+            ([1.0, 2.0, 0.5], 0.0),
+            ([1.3, 2.4, 0.5], 0.5),
+            ([1.0, 2.0, 2.75], 0.75),
+            ([1.0, 2.0, -2.5], 0.5),
+            ([1.0, 5.0, 6.0], 5.0),
+        ] {
+            let found = distance_from_way(&pose(tip), &from, &to);
+            assert!((found - expected).abs() < 1e-12, "{tip:?}: {found}");
+        }
+        // A way of no length is a place.
+        let found = distance_from_way(&pose([1.0, 2.0, 1.0]), &to, &to);
+        assert!((found - 1.0).abs() < 1e-12, "{found}");
+    }
+
+    #[test]
+    fn a_tip_is_where_it_was_sent_along_each_axis_on_which_noise_alone_tells_them_apart() {
+        let (seen, sent) = (pose([1.03, -2.04, 0.5]), pose([1.0, -2.0, 0.0]));
+        let found = settled(&seen, &sent, 0.05);
+        assert_eq!(found, pose([1.0, -2.0, 0.5]));
+        assert_eq!(settled(&seen, &sent, 0.0), seen);
+        assert_eq!(settled(&sent, &sent, 0.0), sent);
+    }
+}

@@ -1,0 +1,156 @@
+//! Signals as they are on a real rig: poses with noise, readings that stay away for a while, a robot that stops by itself.
+
+use taceva_core::{Fault, RobotFacts};
+
+use super::bench::{Bench, Memory, SOFT};
+use crate::limits::{Overshoot, Signals};
+use crate::plan::Plan;
+use crate::run::{Event, Left, Mode, StopCause, Trip};
+use crate::simulation::fault::{FaultKind, Faults};
+use crate::simulation::scenario::planned_scene;
+use crate::simulation::world::Gel;
+
+/// A robot that reports its pose with an even spread of ±0.05 mm an axis.
+const JITTERED: Gel = Gel {
+    pose_noise_mm: 0.05,
+    ..SOFT
+};
+
+const SCENE: &str = r#"
+scene_version = 1
+name = "jittered"
+sensor = { driver = "faults/sensor" }
+robot = { driver = "faults/robot" }
+force = { driver = "faults/force" }
+model = { name = "ridge" }
+[protocol]
+contact = { clearance_mm = 0.5, search_mm = 1.0 }
+calibration = { points = 120, indentations = 4 }
+hysteresis = { points = 100, depth_step_mm = 0.4 }
+"#;
+
+/// 200 presses and no picture, for a robot with that noise.
+fn plan() -> Plan {
+    let mut plan = planned_scene(SCENE, 1, &JITTERED).expect("a plan");
+    assert!(plan.presses.len() >= 200, "{}", plan.presses.len());
+    plan.presses.truncate(200);
+    for press in &mut plan.presses {
+        press.frames = false;
+    }
+    plan
+}
+
+fn is_halt(event: &&Event) -> bool {
+    matches!(event, Event::Halted(_) | Event::Redone { .. })
+}
+
+#[test]
+fn a_robot_whose_pose_jitters_makes_two_hundred_presses_without_a_false_halt() {
+    let mut bench = Bench::with(JITTERED, plan());
+    let mut log = Memory::default();
+    let report = bench
+        .run(Mode::Acquire, &mut log)
+        .expect("noise is no fault");
+    assert_eq!((report.made, report.limited, report.redone), (200, 0, 0));
+    assert_eq!(bench.events.iter().find(is_halt), None);
+    assert_eq!(bench.shared.world().oracle.violations, []);
+}
+
+#[test]
+fn the_same_robot_is_halted_without_allowance_for_its_noise() {
+    let mut plan = plan();
+    let limits = plan.limits.as_mut().expect("it moves");
+    limits.signals = Signals::default();
+    limits.overshoot = Overshoot::at(1.0, &RobotFacts::default(), 0.0);
+    let mut bench = Bench::with(JITTERED, plan);
+    let mut log = Memory::default();
+    let error = bench
+        .run(Mode::Acquire, &mut log)
+        .expect_err("a false halt");
+    assert!(
+        matches!(error.cause, StopCause::Workspace { .. }),
+        "{error}"
+    );
+    assert_eq!(log.records.len(), 0);
+}
+
+/// Silence from `from_s` on, for `lasting_s`.
+fn silent(from_s: f64, lasting_s: f64) -> Bench {
+    let bench = Bench::new(SOFT);
+    bench.shared.world().faults = Faults::between(FaultKind::Silence, from_s, from_s + lasting_s);
+    bench
+}
+
+#[test]
+fn a_press_that_silence_broke_off_is_made_again_and_recorded_once() {
+    // The fault begins in the first press that touches the gel.
+    let mut bench = silent(8.0, 0.2);
+    let mut log = Memory::default();
+    let report = bench.run(Mode::Acquire, &mut log).expect("it spoke again");
+    let presses = bench.plan.presses.len();
+    assert_eq!((report.made, report.redone), (presses, 1));
+    assert_eq!(log.records.len(), presses);
+    let stale = |event: &&Event| matches!(event, Event::Halted(Trip::StaleForce { .. }));
+    assert_eq!(bench.events.iter().filter(stale).count(), 1);
+    let redone = |event: &&Event| matches!(event, Event::Redone { times: 1, .. });
+    assert_eq!(bench.events.iter().filter(redone).count(), 1);
+    assert_eq!(bench.shared.world().oracle.violations, []);
+}
+
+#[test]
+fn a_press_that_is_broken_off_three_times_ends_the_run() {
+    let mut bench = Bench::new(SOFT);
+    bench.shared.world().faults = Faults::always(FaultKind::DroppedFrames);
+    let mut log = Memory::default();
+    let error = bench.run(Mode::Acquire, &mut log).expect_err("blind");
+    assert!(matches!(error.cause, StopCause::Frames { .. }), "{error}");
+    let redone = |event: &&Event| matches!(event, Event::Redone { .. });
+    assert_eq!(bench.events.iter().filter(redone).count(), 2);
+}
+
+#[test]
+fn twenty_presses_that_were_broken_off_end_the_run() {
+    let mut bench = Bench::with(SOFT, planned_scene(SCENE, 1, &SOFT).expect("a plan"));
+    for press in &mut bench.plan.presses {
+        press.frames = false;
+    }
+    // Now and then the transducer is silent for longer than is believed, and hardly ever twice in a press.
+    bench.shared.world().faults = Faults::every(FaultKind::Silence, 40.0, 0.2);
+    let mut log = Memory::default();
+    let error = bench.run(Mode::Acquire, &mut log).expect_err("too often");
+    assert!(error.cause.is_silence(), "{error}");
+    let redone = |event: &&Event| matches!(event, Event::Redone { .. });
+    assert!(bench.events.iter().filter(redone).count() <= 19);
+    assert!(log.records.len() > 5, "it went on for a while");
+}
+
+#[test]
+fn after_an_emergency_stop_nothing_is_asked_of_the_robot_and_the_error_says_what_to_do() {
+    let mut bench = Bench::new(SOFT);
+    bench.shared.world().faults = Faults::from(FaultKind::EmergencyStop, 8.0);
+    let mut log = Memory::default();
+    let error = bench.run(Mode::Acquire, &mut log).expect_err("stopped");
+    assert_eq!(error.cause.fault(), Some(Fault::EmergencyStop));
+    assert_eq!(error.left, Left::InPlace);
+    let text = error.to_string();
+    assert!(
+        text.ends_with("look, and acknowledge the emergency stop at the device"),
+        "{text}"
+    );
+    // A second run does not clear it either.
+    let again = bench
+        .run(Mode::Acquire, &mut log)
+        .expect_err("stopped still");
+    assert_eq!(again.cause.fault(), Some(Fault::EmergencyStop));
+    let mut world = bench.shared.world();
+    assert_eq!(
+        world.oracle.violations.len(),
+        1,
+        "the second run asked once: {:?}",
+        world.oracle.violations
+    );
+    world.acknowledge();
+    drop(world);
+    let report = bench.run(Mode::Acquire, &mut log).expect("acknowledged");
+    assert!(report.resumed + report.made == bench.plan.presses.len());
+}

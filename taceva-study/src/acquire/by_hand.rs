@@ -1,0 +1,119 @@
+//! What hands do at a real rig beside the presses of one unit, and whether a scene needs them.
+
+use std::sync::PoisonError;
+
+use taceva_drivers::Drivers;
+use taceva_protocol::{Answer, Cancel, Left, Plan, Question, RunError, StopCause};
+
+use super::workshop::Workshop;
+use crate::error::StudyError;
+use crate::scene::{PlannedScene, PlannedStudy, RigSpec, StudySource};
+
+/// What is changed by hand.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+struct Changes {
+    specimens: usize,
+    units: usize,
+}
+
+impl Changes {
+    /// Of a plan: units come one after the other, and specimens within a unit. What is mounted at the beginning and stays is no change.
+    fn of(plan: &Plan) -> Changes {
+        let mut specimens = 0;
+        for unit in &plan.units {
+            let of_unit = plan
+                .presses
+                .iter()
+                .filter(|press| press.press.unit == *unit);
+            let mut mounted: Vec<_> = of_unit.map(|press| press.press.specimen).collect();
+            mounted.dedup();
+            if mounted.len() > 1 {
+                specimens += mounted.len();
+            }
+        }
+        let units = match plan.units.len() {
+            0 | 1 => 0,
+            units => units,
+        };
+        Changes { specimens, units }
+    }
+}
+
+impl PlannedScene {
+    /// Refuses a scene on a real rig that needs hands: for whoever cannot ask anybody, before anything is opened.
+    ///
+    /// # Errors
+    /// [`StudyError::Request`], with how many changes there are.
+    pub fn check_unattended(&self, drivers: &Drivers) -> Result<(), StudyError> {
+        let real = self.studies.iter().filter(|study| match &study.source {
+            StudySource::Rig(rig) => !rig.is_simulated(drivers),
+            StudySource::Recording(_) => false,
+        });
+        for study in real {
+            let Changes { specimens, units } = Changes::of(&study.plan);
+            let counted = [(specimens, "specimens"), (units, "units of the sensor")];
+            let needed: Vec<String> = counted
+                .into_iter()
+                .filter(|(count, _)| *count > 0)
+                .map(|(count, what)| format!("{count} {what} are changed by hand"))
+                .collect();
+            if !needed.is_empty() {
+                return Err(StudyError::Request(format!(
+                    "study `{}`: this rig needs a person: {}; run it from a terminal, where somebody can be asked",
+                    taceva_core::shown(&study.plan.name),
+                    needed.join(", ")
+                )));
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Whether `unit` is under the robot: of several units of a real rig somebody says so, or skips it.
+pub(super) fn unit_is_there(
+    study: &PlannedStudy,
+    rig: &RigSpec,
+    unit: &str,
+    (workshop, cancel): (Workshop<'_>, &Cancel),
+) -> Result<bool, StudyError> {
+    let plan = &study.plan;
+    if plan.units.len() < 2 || rig.is_simulated(workshop.drivers) {
+        return Ok(true);
+    }
+    let question = Question::Unit(unit.to_owned());
+    let Some(operator) = workshop.operator else {
+        return Err(acquisition(
+            plan,
+            StopCause::Missing(format!("somebody to {question}")),
+        ));
+    };
+    let mut operator = operator.lock().unwrap_or_else(PoisonError::into_inner);
+    match operator.ask(&question, cancel) {
+        Answer::Done => Ok(true),
+        Answer::Skip => Ok(false),
+        Answer::Stop => Err(acquisition(plan, StopCause::Cancelled)),
+    }
+}
+
+/// A rig that stopped where nothing was in the gel.
+pub(super) fn acquisition(plan: &Plan, cause: StopCause) -> StudyError {
+    StudyError::Acquisition {
+        study: plan.name.clone(),
+        source: Box::new(RunError {
+            press: None,
+            cause,
+            left: Left::Clear,
+        }),
+    }
+}
+
+/// How many presses of a unit were left out by hand, if that is all that is wrong: the units after it are pressed all the same.
+pub(super) fn presses_skipped(error: StudyError) -> Result<usize, StudyError> {
+    match &error {
+        StudyError::Acquisition { source, .. } => match source.cause {
+            StopCause::Skipped { presses } => Ok(presses),
+            _ => Err(error),
+        },
+        _ => Err(error),
+    }
+}

@@ -1,0 +1,140 @@
+//! Threads that look on while a run on real devices goes on, so that a limit is seen within a motion and not after it.
+//!
+//! One thread owns the force transducer: what it reads it shows to the [`Supervisor`] and puts where the run finds it. Another looks at the
+//! robot a hundred times a second, over a connection of its own where the robot has one, and hears when nothing is heard and when somebody
+//! wishes to stop. Both halt through the supervisor, which decides alone.
+//!
+//! They run with the priority of the process. On a busy machine a thread may wait for a tenth of a second: `chrt -f 10 taceva run …` makes
+//! that milliseconds.
+
+mod mailbox;
+
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Duration;
+
+use taceva_core::{Deadline, DriverKey, ForceTransducer, Pose, Progress, Robot, RobotWatch, Stamp};
+use taceva_drivers::MonotonicClock;
+use taceva_protocol::{Cancel, Observation, RigLimits, SharedSupervisor, Supervisor};
+
+use mailbox::Mailbox;
+
+/// From one look at the robot to the next.
+const LOOK: Duration = Duration::from_millis(10);
+/// A robot that says nothing for so long has missed a look.
+const LOOK_DEADLINE: Deadline = Deadline::after(Duration::from_millis(20));
+
+/// What is looked at, and who may wish to stop.
+pub(super) struct Guarded<'a> {
+    pub(super) robot: &'a mut dyn Robot,
+    pub(super) force: &'a mut dyn ForceTransducer,
+    /// The driver of the transducer.
+    pub(super) driver: DriverKey,
+    pub(super) limits: RigLimits,
+    pub(super) cancel: &'a Cancel,
+    pub(super) progress: &'a dyn Progress,
+}
+
+impl Guarded<'_> {
+    /// Lets `conduct` move the robot while threads look on; they end when it does.
+    pub(super) fn conduct<T>(
+        self,
+        conduct: impl FnOnce(&mut dyn Robot, &mut dyn ForceTransducer, SharedSupervisor) -> T,
+    ) -> T {
+        let Guarded {
+            robot,
+            force,
+            driver,
+            limits,
+            cancel,
+            progress,
+        } = self;
+        let supervisor = Supervisor::new(limits, robot.halt_handle());
+        let supervisor = SharedSupervisor::new(supervisor);
+        let (mailbox, reader) = Mailbox::of(force, driver);
+        let watcher = Watcher {
+            supervisor: &supervisor,
+            watch: robot.watch_handle(),
+            last: None,
+            cancel,
+            progress,
+            was_cancelled: false,
+        };
+        let is_over = AtomicBool::new(false);
+        std::thread::scope(|scope| {
+            scope.spawn(|| reader.serve(force, &supervisor));
+            scope.spawn(|| watcher.look_on(&is_over));
+            let _over = Over(&is_over);
+            // Dropped here, so that the reader ends even if the conduct panics.
+            let mut mailbox = mailbox;
+            conduct(robot, &mut mailbox, supervisor.clone())
+        })
+    }
+}
+
+/// Tells a thread that it is over, however that comes.
+struct Over<'a>(&'a AtomicBool);
+
+impl Drop for Over<'_> {
+    fn drop(&mut self) {
+        self.0.store(true, Ordering::Release);
+    }
+}
+
+/// Looks at the robot, and listens for silence and for wishes.
+struct Watcher<'a> {
+    supervisor: &'a SharedSupervisor,
+    watch: Option<Arc<dyn RobotWatch>>,
+    /// The last pose that was heard of.
+    last: Option<(Pose, Stamp)>,
+    cancel: &'a Cancel,
+    progress: &'a dyn Progress,
+    was_cancelled: bool,
+}
+
+impl Watcher<'_> {
+    fn look_on(mut self, is_over: &AtomicBool) {
+        while !is_over.load(Ordering::Acquire) {
+            std::thread::sleep(LOOK);
+            self.obey();
+            self.look();
+        }
+    }
+
+    /// A wish to stop ends the motion that goes on, once: the retreat after it is another. One that was repeated ends that too.
+    fn obey(&mut self) {
+        let is_first = self.progress.is_cancelled() && !self.was_cancelled;
+        if is_first {
+            self.was_cancelled = true;
+            self.cancel.cancel();
+        }
+        if is_first || self.progress.is_insisted() {
+            self.supervisor.lock().halt();
+        }
+    }
+
+    fn look(&mut self) {
+        if let Some(watch) = &self.watch {
+            match watch.pose(LOOK_DEADLINE) {
+                Ok(seen) => self.last = Some(seen),
+                Err(error) => {
+                    if let Some(fault) = error.fault() {
+                        self.supervisor.lock().fail(fault);
+                    }
+                }
+            }
+        }
+        let mut supervisor = self.supervisor.lock();
+        if !supervisor.is_under_way() {
+            return;
+        }
+        let now_s = MonotonicClock.now_s();
+        // A pose that is shown again because none came is the older for it. What is halted for, the run learns of its own motion.
+        let seen = self
+            .last
+            .map(|(pose, stamp)| Observation::UnderWay { pose, stamp });
+        for observation in seen.iter().chain([&Observation::Silence]) {
+            let _ = supervisor.observe(observation, now_s);
+        }
+    }
+}

@@ -1,0 +1,201 @@
+//! Devices whose stamps come late, with stamps of when observations were true.
+
+use std::sync::Arc;
+
+use taceva_core::{
+    Axes, Deadline, DriverError, ForceTransducer, FrameInfo, FrameMut, GuardedMotion, Halt,
+    Interrupt, Lighting, Pose, Robot, RobotWatch, Sensor, Speed, Stamp, Tare, Wrench,
+};
+
+/// A device that stamps what was true so long before.
+pub(super) struct Late<D: ?Sized> {
+    latency_s: f64,
+    device: Box<D>,
+}
+
+impl<D: ?Sized> Late<D> {
+    /// `device`, of which it is known that it stamps so many ms too late.
+    pub(super) fn new(device: Box<D>, latency_ms: f64) -> Late<D> {
+        let latency_s = latency_ms * 1e-3;
+        Late { latency_s, device }
+    }
+
+    fn true_stamp(&self, stamp: Stamp) -> Stamp {
+        true_stamp(stamp, self.latency_s)
+    }
+}
+
+fn true_stamp(stamp: Stamp, latency_s: f64) -> Stamp {
+    Stamp {
+        valid_s: stamp.valid_s - latency_s,
+        // What was stamped on arrival arrived then.
+        received_s: stamp.received_s.or(Some(stamp.valid_s)),
+    }
+}
+
+impl ForceTransducer for Late<dyn ForceTransducer> {
+    fn axes(&self) -> Axes {
+        self.device.axes()
+    }
+
+    fn start(&mut self, deadline: Deadline) -> Result<(), DriverError> {
+        self.device.start(deadline)
+    }
+
+    fn read(&mut self, deadline: Deadline) -> Result<(Wrench, Stamp), DriverError> {
+        let (wrench, stamp) = self.device.read(deadline)?;
+        Ok((wrench, self.true_stamp(stamp)))
+    }
+
+    fn sequence(&self) -> Option<u64> {
+        self.device.sequence()
+    }
+
+    fn stop(&mut self) -> Result<(), DriverError> {
+        self.device.stop()
+    }
+
+    fn interrupt_handle(&self) -> Option<Arc<dyn Interrupt>> {
+        self.device.interrupt_handle()
+    }
+
+    fn tare(&mut self) -> Option<&mut dyn Tare> {
+        self.device.tare()
+    }
+}
+
+impl Robot for Late<dyn Robot> {
+    fn pose(&mut self, deadline: Deadline) -> Result<(Pose, Stamp), DriverError> {
+        let (pose, stamp) = self.device.pose(deadline)?;
+        Ok((pose, self.true_stamp(stamp)))
+    }
+
+    fn move_to(
+        &mut self,
+        target: Pose,
+        speed: Speed,
+        deadline: Deadline,
+    ) -> Result<Stamp, DriverError> {
+        let stamp = self.device.move_to(target, speed, deadline)?;
+        Ok(self.true_stamp(stamp))
+    }
+
+    fn halt_handle(&self) -> Arc<dyn Halt> {
+        self.device.halt_handle()
+    }
+
+    fn watch_handle(&self) -> Option<Arc<dyn RobotWatch>> {
+        let watch = self.device.watch_handle()?;
+        let latency_s = self.latency_s;
+        Some(Arc::new(LateWatch { latency_s, watch }))
+    }
+
+    fn halt(&mut self) -> Result<(), DriverError> {
+        self.device.halt()
+    }
+
+    fn clear_halt(&mut self, deadline: Deadline) -> Result<(), DriverError> {
+        self.device.clear_halt(deadline)
+    }
+
+    fn guarded_motion(&mut self) -> Option<&mut dyn GuardedMotion> {
+        self.device.guarded_motion()
+    }
+}
+
+struct LateWatch {
+    latency_s: f64,
+    watch: Arc<dyn RobotWatch>,
+}
+
+impl RobotWatch for LateWatch {
+    fn pose(&self, deadline: Deadline) -> Result<(Pose, Stamp), DriverError> {
+        let (pose, stamp) = self.watch.pose(deadline)?;
+        Ok((pose, true_stamp(stamp, self.latency_s)))
+    }
+}
+
+impl Sensor for Late<dyn Sensor> {
+    fn frame_info(&self) -> FrameInfo {
+        self.device.frame_info()
+    }
+
+    fn start(&mut self, deadline: Deadline) -> Result<(), DriverError> {
+        self.device.start(deadline)
+    }
+
+    fn capture(&mut self, into: FrameMut<'_>, deadline: Deadline) -> Result<Stamp, DriverError> {
+        let stamp = self.device.capture(into, deadline)?;
+        Ok(self.true_stamp(stamp))
+    }
+
+    fn stop(&mut self) -> Result<(), DriverError> {
+        self.device.stop()
+    }
+
+    fn interrupt_handle(&self) -> Option<Arc<dyn Interrupt>> {
+        self.device.interrupt_handle()
+    }
+
+    fn lighting(&mut self) -> Option<&mut dyn Lighting> {
+        self.device.lighting()
+    }
+}
+
+/// A device of its own kind again.
+pub(super) trait IntoDevice<D: ?Sized> {
+    fn boxed(self) -> Box<D>;
+}
+
+impl IntoDevice<dyn ForceTransducer> for Late<dyn ForceTransducer> {
+    fn boxed(self) -> Box<dyn ForceTransducer> {
+        Box::new(self)
+    }
+}
+
+impl IntoDevice<dyn Robot> for Late<dyn Robot> {
+    fn boxed(self) -> Box<dyn Robot> {
+        Box::new(self)
+    }
+}
+
+impl IntoDevice<dyn Sensor> for Late<dyn Sensor> {
+    fn boxed(self) -> Box<dyn Sensor> {
+        Box::new(self)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    struct Arrived;
+
+    impl ForceTransducer for Arrived {
+        fn axes(&self) -> Axes {
+            Axes::FORCE
+        }
+
+        fn read(&mut self, _: Deadline) -> Result<(Wrench, Stamp), DriverError> {
+            let stamp = Stamp {
+                valid_s: 7.0,
+                received_s: None,
+            };
+            Ok((Wrench::default(), stamp))
+        }
+
+        fn sequence(&self) -> Option<u64> {
+            Some(5)
+        }
+    }
+
+    #[test]
+    fn a_reading_that_was_stamped_on_arrival_was_true_by_the_latency_earlier() {
+        let arrived: Box<dyn ForceTransducer> = Box::new(Arrived);
+        let mut late = Late::new(arrived, 4.0);
+        let (_, stamp) = late.read(Deadline::PASSED).expect("a reading");
+        assert!((stamp.valid_s - 6.996).abs() < 1e-12, "{stamp:?}");
+        assert_eq!(stamp.received_s, Some(7.0));
+        assert_eq!(late.sequence(), Some(5));
+    }
+}

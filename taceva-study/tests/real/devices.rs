@@ -1,0 +1,222 @@
+//! The drivers of that world.
+
+use std::sync::Arc;
+use std::time::Duration;
+
+use taceva_core::{
+    ArgSpec, Args, Axes, Deadline, Descriptor, DescriptorSpec, DriverError, DriverKey,
+    DriverSource, ErrorKind, Factory, Facts, Fault, Footprint, ForceFacts, ForceTransducer,
+    FrameInfo, FrameMut, Halt, Hertz, Millimetre, Newton, PixelFormat, Pose, Registry, Rig, Robot,
+    RobotFacts, RobotWatch, Sensor, SensorFacts, Speed, Stamp, Wrench,
+};
+use taceva_drivers::{Drivers, MonotonicClock};
+
+use crate::world::{World, pose};
+
+const ROBOT: DriverKey = DriverKey::fixed("wall/robot");
+const FORCE: DriverKey = DriverKey::fixed("wall/force");
+const SENSOR: DriverKey = DriverKey::fixed("wall/gel");
+/// From one reading to the next.
+const READING_S: f64 = 0.005;
+/// How late readings are stamped.
+const LATENCY_MS: f64 = 1.0;
+
+/// The drivers of `world`.
+pub(crate) fn drivers(world: &World) -> Drivers {
+    let robot = RobotFacts {
+        repeatability: Some(Millimetre(0.002)),
+        ..RobotFacts::default()
+    };
+    let force = ForceFacts {
+        axes: Axes::FORCE,
+        rate: Some(Hertz(1.0 / READING_S)),
+        force_max: Some(Newton(20.0)),
+        latency_ms: Some(LATENCY_MS),
+        numbered: true,
+        ..ForceFacts::default()
+    };
+    let sensor = SensorFacts {
+        frame: Some(FRAME),
+        footprint: Footprint::rectangle(4.0, 4.0, Some(1.0)).ok(),
+        force_max: Some(Newton(2.0)),
+        ..SensorFacts::default()
+    };
+    let mut drivers = Drivers {
+        sensors: Registry::empty(),
+        robots: Registry::empty(),
+        forces: Registry::empty(),
+        lightings: Registry::empty(),
+    };
+    let gel = OnWall::new(SENSOR, Facts::Sensor(Box::new(sensor)), world);
+    drivers.sensors.add(Box::new(gel)).expect("one");
+    let arm = OnWall::new(ROBOT, Facts::Robot(robot), world);
+    drivers.robots.add(Box::new(arm)).expect("one");
+    let transducer = OnWall::new(FORCE, Facts::Force(force), world);
+    drivers.forces.add(Box::new(transducer)).expect("one");
+    drivers
+}
+
+/// Opens a device of a world.
+struct OnWall {
+    descriptor: Descriptor,
+    world: World,
+}
+
+impl OnWall {
+    fn new(key: DriverKey, facts: Facts, world: &World) -> OnWall {
+        let spec = DescriptorSpec::new(key, "a device of this test", DriverSource::Real, facts);
+        // Of a sensor there are several.
+        let spec = match spec.facts {
+            Facts::Sensor(_) => spec.arguments([ArgSpec::text("unit").optional()]),
+            _ => spec,
+        };
+        OnWall {
+            descriptor: spec.check().expect("no contradiction"),
+            world: world.clone(),
+        }
+    }
+}
+
+/// Makes the factory one of devices of a kind.
+macro_rules! opens {
+    ($kind:ty, $device:ident) => {
+        impl Factory<$kind> for OnWall {
+            fn descriptor(&self) -> &Descriptor {
+                &self.descriptor
+            }
+
+            fn open(&self, _: &Args, _: &mut Rig) -> Result<Box<$kind>, DriverError> {
+                Ok(Box::new($device(self.world.clone())))
+            }
+        }
+    };
+}
+
+opens!(dyn Robot, Arm);
+opens!(dyn ForceTransducer, Transducer);
+opens!(dyn Sensor, Gel);
+
+struct Arm(World);
+
+impl Halt for Arm {
+    fn halt(&self) -> Result<(), DriverError> {
+        self.0.halt();
+        Ok(())
+    }
+}
+
+fn stopped(doing: &'static str) -> DriverError {
+    let error = DriverError::new(ErrorKind::DeviceFault, &ROBOT, doing);
+    error.with_fault(Fault::EmergencyStop)
+}
+
+impl RobotWatch for Arm {
+    fn pose(&self, _: Deadline) -> Result<(Pose, Stamp), DriverError> {
+        let now = MonotonicClock.now();
+        let state = self.0.state();
+        match state.is_stopped {
+            true => Err(stopped("look on")),
+            false => Ok((pose(state.tip(now.as_secs_f64())), Stamp::at(now))),
+        }
+    }
+}
+
+impl Robot for Arm {
+    fn pose(&mut self, _: Deadline) -> Result<(Pose, Stamp), DriverError> {
+        let now = MonotonicClock.now();
+        let tip = self.0.state().tip(now.as_secs_f64());
+        Ok((pose(tip), Stamp::at(now)))
+    }
+
+    fn move_to(&mut self, target: Pose, speed: Speed, _: Deadline) -> Result<Stamp, DriverError> {
+        if self.0.state().refuses() {
+            return Err(stopped("move"));
+        }
+        let position = target.position;
+        let to = [position.x.0, position.y.0, position.z.0];
+        match self.0.travel(to, speed.mm_per_s()) {
+            true => Ok(Stamp::at(MonotonicClock.now())),
+            false => Err(DriverError::new(ErrorKind::Interrupted, &ROBOT, "move")),
+        }
+    }
+
+    fn halt_handle(&self) -> Arc<dyn Halt> {
+        Arc::new(Arm(self.0.clone()))
+    }
+
+    fn watch_handle(&self) -> Option<Arc<dyn RobotWatch>> {
+        Some(Arc::new(Arm(self.0.clone())))
+    }
+
+    fn clear_halt(&mut self, _: Deadline) -> Result<(), DriverError> {
+        if self.0.state().refuses() {
+            return Err(stopped("end the halt"));
+        }
+        self.0.state().is_halted = false;
+        Ok(())
+    }
+}
+
+struct Transducer(World);
+
+impl ForceTransducer for Transducer {
+    fn axes(&self) -> Axes {
+        Axes::FORCE
+    }
+
+    fn read(&mut self, deadline: Deadline) -> Result<(Wrench, Stamp), DriverError> {
+        let now_s = MonotonicClock.now_s();
+        let next_s = ((now_s / READING_S).floor() + 1.0) * READING_S;
+        let is_silent = {
+            let mut state = self.0.state();
+            let is_silent = state.withheld > 0;
+            state.withheld = state.withheld.saturating_sub(1);
+            is_silent
+        };
+        if is_silent {
+            std::thread::sleep(deadline.remaining());
+            return Err(DriverError::new(ErrorKind::Timeout, &FORCE, "read"));
+        }
+        std::thread::sleep(Duration::from_secs_f64(next_s - now_s));
+        let mut state = self.0.state();
+        let now = MonotonicClock.now();
+        state.readings += 1;
+        // A load of 0.3 N rests on it, and its noise is a function of the number of the reading.
+        let noise_n = if state.readings.is_multiple_of(2) {
+            0.001
+        } else {
+            -0.001
+        };
+        let force_n = state.force_n(now.as_secs_f64()) + noise_n + 0.3;
+        let force = [Newton(0.0), Newton(0.0), Newton(force_n)];
+        // It is stamped late, as its descriptor says.
+        let stamp = Stamp::at(now + Duration::from_micros(1_000));
+        let wrench = Wrench {
+            force,
+            ..Wrench::default()
+        };
+        Ok((wrench, stamp))
+    }
+
+    fn sequence(&self) -> Option<u64> {
+        Some(self.0.state().readings)
+    }
+}
+
+const FRAME: FrameInfo = FrameInfo {
+    width: 2,
+    height: 2,
+    format: PixelFormat::Gray8,
+};
+
+struct Gel(#[expect(dead_code, reason = "it shows nothing of the world")] World);
+
+impl Sensor for Gel {
+    fn frame_info(&self) -> FrameInfo {
+        FRAME
+    }
+
+    fn capture(&mut self, _: FrameMut<'_>, _: Deadline) -> Result<Stamp, DriverError> {
+        Ok(Stamp::at(MonotonicClock.now()))
+    }
+}

@@ -1,0 +1,87 @@
+//! A study that needs hands: refused where nobody is, and asked for where somebody is.
+
+use std::sync::Mutex;
+
+use taceva_core::SilentProgress;
+use taceva_protocol::{Answer, Cancel, Operator, Question, StopCause};
+use taceva_study::StudyError;
+
+use crate::record_by_hand;
+use crate::world::World;
+
+/// Two units, of which the surface is felt at two places each.
+const SCENE: &str = r#"
+scene_version = 1
+name = "wall"
+robot = { driver = "wall/robot" }
+force = { driver = "wall/force" }
+[sensor]
+driver = "wall/gel"
+units = ["a", "b"]
+[metrics]
+want = ["inter_sensor"]
+[protocol]
+contact = { clearance_mm = 0.3, search_mm = 0.5, speed_mm_s = 5.0, travel_mm_s = 50.0, settle_s = 0.01 }
+surface = { points = 2 }
+"#;
+
+struct Hands {
+    asked: Vec<Question>,
+    answer: fn(&Question) -> Answer,
+}
+
+impl Operator for Hands {
+    fn ask(&mut self, question: &Question, _: &Cancel) -> Answer {
+        self.asked.push(question.clone());
+        (self.answer)(question)
+    }
+}
+
+fn unit(name: &str) -> Question {
+    Question::Unit(name.to_owned())
+}
+
+#[test]
+fn a_scene_that_needs_hands_is_refused_where_nobody_can_be_asked_before_anything_is_opened() {
+    let (world, folder) = (World::new(), tempfile::tempdir().expect("a folder"));
+    let path = folder.path().join("run");
+    let refused = record_by_hand(&world, &path, &SilentProgress, (SCENE, None));
+    let refused = refused.expect_err("nobody is there");
+    assert!(refused.is_usage());
+    let text = refused.to_string();
+    let needed = "this rig needs a person: 2 units of the sensor are changed by hand";
+    assert!(text.contains(needed), "{text}");
+    assert_eq!(world.state().readings, 0);
+}
+
+#[test]
+fn each_unit_is_asked_for_and_one_that_is_skipped_is_left_for_the_next_call() {
+    let (world, folder) = (World::new(), tempfile::tempdir().expect("a folder"));
+    let path = folder.path().join("run");
+    let hands = Mutex::new(Hands {
+        asked: Vec::new(),
+        answer: |question| match *question == unit("b") {
+            true => Answer::Skip,
+            false => Answer::Done,
+        },
+    });
+    let left = record_by_hand(&world, &path, &SilentProgress, (SCENE, Some(&hands)));
+    let Err(StudyError::Acquisition { source, .. }) = left else {
+        panic!("unit b was skipped");
+    };
+    assert!(
+        matches!(source.cause, StopCause::Skipped { presses: 2 }),
+        "{source}"
+    );
+    let mut held = hands.lock().expect("whole");
+    let [first, mount, last] = &held.asked[..] else {
+        panic!("{:?}", held.asked);
+    };
+    assert_eq!([first, last], [&unit("a"), &unit("b")]);
+    assert!(matches!(mount, Question::Mount(_)));
+    held.answer = |_| Answer::Done;
+    drop(held);
+    let whole = record_by_hand(&world, &path, &SilentProgress, (SCENE, Some(&hands)));
+    let whole = whole.expect("unit b too");
+    assert_eq!(whole.table().samples().len(), 4);
+}

@@ -1,0 +1,106 @@
+//! Studies on devices that work in the time of the machine.
+
+mod devices;
+mod guard;
+mod hands;
+mod world;
+
+use std::num::NonZeroUsize;
+use std::path::{Path, PathBuf};
+use std::sync::Mutex;
+
+use taceva_core::{Progress, SilentProgress};
+use taceva_dataset::{Dataset, Source};
+use taceva_models::Models;
+use taceva_protocol::Operator;
+use taceva_study::{
+    Existing, PlannedScene, RunFolder, SceneText, StudyError, Surroundings, Workshop, run_scene,
+};
+
+use devices::drivers;
+use world::World;
+
+const SCENE: &str = r#"
+scene_version = 1
+name = "wall"
+sensor = { driver = "wall/gel" }
+robot = { driver = "wall/robot" }
+force = { driver = "wall/force" }
+[metrics]
+want = ["sensitivity"]
+[protocol]
+contact = { clearance_mm = 0.3, search_mm = 0.5, speed_mm_s = 5.0, travel_mm_s = 50.0, settle_s = 0.01 }
+calibration = { points = 3, indentations = 2, shear_mm = 0.0 }
+"#;
+
+/// The recording of the scene on `world`, made in `folder`.
+fn record(world: &World, folder: &Path, progress: &dyn Progress) -> Result<Dataset, StudyError> {
+    record_by_hand(world, folder, progress, (SCENE, None))
+}
+
+/// The recording of a scene that may need hands, and of who is there.
+fn record_by_hand(
+    world: &World,
+    folder: &Path,
+    progress: &dyn Progress,
+    (scene, operator): (&str, Option<&Mutex<dyn Operator + Send>>),
+) -> Result<Dataset, StudyError> {
+    let drivers = drivers(world);
+    let text = SceneText {
+        name: "wall".to_owned(),
+        text: scene.to_owned(),
+        folder: PathBuf::from("."),
+    };
+    let planned = PlannedScene::new(text, &drivers, None)?;
+    let existing = match folder.join("plans.json").exists() {
+        true => Existing::Resume,
+        false => Existing::Refuse,
+    };
+    let run = RunFolder::open(folder, &planned, existing)?;
+    let workshop = Workshop {
+        drivers: &drivers,
+        models: &Models::builtin(),
+        surroundings: &|_, _| -> Option<Surroundings> {
+            panic!("a real robot has the clock of the machine")
+        },
+        cache: None,
+        progress,
+        operator,
+    };
+    run_scene(&planned, &run, workshop, NonZeroUsize::MIN)?;
+    Ok(Dataset::open(&run.recording(0, "wall"))?)
+}
+
+#[test]
+fn a_study_on_real_devices_runs_in_the_time_of_the_machine_and_finds_its_zero_by_itself() {
+    let (world, folder) = (World::new(), tempfile::tempdir().expect("a folder"));
+    let dataset = record(&world, &folder.path().join("run"), &SilentProgress);
+    let dataset = dataset.expect("a recording");
+    assert_eq!(dataset.header().source, Source::Recorded);
+    let table = dataset.table();
+    let channel = |name| {
+        let mut channels = table.channels().iter();
+        let place = channels.position(|channel| channel.name() == name);
+        table.truth(place.expect("measured"))
+    };
+    let (depth, force) = (channel("Pz"), channel("Fz"));
+    assert_eq!(table.samples().len(), 6);
+    for row in 0..6 {
+        let (depth_mm, force_n) = (
+            depth.get(row).expect("a depth"),
+            force.get(row).expect("a force"),
+        );
+        // Contact is felt a step late, at most; the load of 0.3 N that rests on the transducer is no force.
+        let pressed_mm = force_n / 0.5;
+        assert!(
+            (depth_mm - 0.01..depth_mm + 0.16).contains(&pressed_mm),
+            "{depth_mm} mm, {force_n} N"
+        );
+    }
+    let state = world.state();
+    assert!(
+        state.motions > 100 && state.deepest_mm < 1.2,
+        "{} mm",
+        state.deepest_mm
+    );
+}

@@ -1,0 +1,163 @@
+//! A robot, a gel and a force transducer that say that they are real: the time in which they work is that of the machine.
+
+use std::sync::{Arc, Mutex, MutexGuard};
+use std::time::Duration;
+
+use taceva_core::{Millimetre, Point, Pose};
+use taceva_drivers::MonotonicClock;
+
+/// The gel, in N/mm from a height of 0.
+const STIFFNESS_N_MM: f64 = 0.5;
+/// Where the tip begins.
+const HOME_MM: [f64; 3] = [0.0, 0.0, -2.0];
+
+/// What goes on, shared by the devices and by a test that looks on.
+#[derive(Clone)]
+pub(crate) struct World(Arc<Mutex<State>>);
+
+pub(crate) struct State {
+    /// From where to where, and from when to when.
+    way: [[f64; 3]; 2],
+    span_s: [f64; 2],
+    pub(crate) is_halted: bool,
+    pub(crate) motions: u32,
+    /// Readings that were given, and how many are still withheld.
+    pub(crate) readings: u64,
+    pub(crate) withheld: u32,
+    pub(crate) deepest_mm: f64,
+    /// How often the robot was halted, and when.
+    pub(crate) halts: usize,
+    halted_s: Vec<f64>,
+    /// Something stands in the air, where x is above this, and presses with 1 N.
+    pub(crate) obstacle_x_mm: f64,
+    /// When the tip came to it first.
+    pub(crate) struck_s: Option<f64>,
+    /// Whether the emergency stop is pressed.
+    pub(crate) is_stopped: bool,
+    /// Motions and releases that were asked for after it was reported.
+    pub(crate) defied: u32,
+    told: bool,
+}
+
+impl World {
+    pub(crate) fn new() -> World {
+        World(Arc::new(Mutex::new(State {
+            way: [HOME_MM; 2],
+            span_s: [0.0; 2],
+            is_halted: false,
+            motions: 0,
+            readings: 0,
+            withheld: 0,
+            deepest_mm: 0.0,
+            halts: 0,
+            halted_s: Vec::new(),
+            obstacle_x_mm: f64::INFINITY,
+            struck_s: None,
+            is_stopped: false,
+            defied: 0,
+            told: false,
+        })))
+    }
+
+    pub(crate) fn state(&self) -> MutexGuard<'_, State> {
+        self.0.lock().expect("nobody panics with it")
+    }
+
+    /// Moves the tip, and returns when it rests; whether it arrived.
+    pub(crate) fn travel(&self, to: [f64; 3], speed_mm_s: f64) -> bool {
+        let until_s = {
+            let mut state = self.state();
+            if state.is_halted {
+                return false;
+            }
+            let now_s = MonotonicClock.now_s();
+            let from = state.tip(now_s);
+            let way_mm = [0, 1, 2].map(|axis| (to[axis] - from[axis]).powi(2));
+            let seconds = way_mm.iter().sum::<f64>().sqrt() / speed_mm_s;
+            state.way = [from, to];
+            state.span_s = [now_s, now_s + seconds];
+            state.motions += 1;
+            now_s + seconds
+        };
+        loop {
+            let left_s = until_s - MonotonicClock.now_s();
+            let state = self.state();
+            if state.is_halted || state.is_stopped {
+                return false;
+            }
+            if left_s <= 0.0 {
+                return true;
+            }
+            drop(state);
+            std::thread::sleep(Duration::from_secs_f64(left_s.min(0.001)));
+        }
+    }
+
+    pub(crate) fn halt(&self) {
+        let mut state = self.state();
+        state.stand();
+        state.is_halted = true;
+        state.halts += 1;
+        state.halted_s.push(MonotonicClock.now_s());
+    }
+
+    /// Somebody presses the emergency stop.
+    pub(crate) fn stop(&self) {
+        let mut state = self.state();
+        state.stand();
+        state.is_stopped = true;
+    }
+}
+
+impl State {
+    /// When it was halted first after `time_s`.
+    pub(crate) fn first_halt_after(&self, time_s: f64) -> f64 {
+        let mut later = self.halted_s.iter().filter(|halted_s| **halted_s >= time_s);
+        *later.next().expect("it was halted")
+    }
+
+    fn stand(&mut self) {
+        self.way = [self.tip(MonotonicClock.now_s()); 2];
+    }
+
+    pub(crate) fn tip(&self, now_s: f64) -> [f64; 3] {
+        let [from, to] = self.way;
+        let [begin_s, end_s] = self.span_s;
+        if now_s >= end_s {
+            return to;
+        }
+        let part = (now_s - begin_s) / (end_s - begin_s);
+        [0, 1, 2].map(|axis| from[axis] + (to[axis] - from[axis]) * part)
+    }
+
+    /// What presses on the tip, without noise.
+    pub(crate) fn force_n(&mut self, now_s: f64) -> f64 {
+        let [x, _, z] = self.tip(now_s);
+        self.deepest_mm = self.deepest_mm.max(z);
+        if x > self.obstacle_x_mm {
+            let [from, to] = self.way.map(|place| place[0]);
+            let [begin_s, end_s] = self.span_s;
+            let part = (self.obstacle_x_mm - from) / (to - from);
+            self.struck_s
+                .get_or_insert(begin_s + part * (end_s - begin_s));
+            return 1.0;
+        }
+        STIFFNESS_N_MM * z.max(0.0)
+    }
+
+    /// Whether the robot refuses, because the emergency stop is pressed.
+    pub(crate) fn refuses(&mut self) -> bool {
+        if self.is_stopped {
+            self.defied += u32::from(std::mem::replace(&mut self.told, true));
+        }
+        self.is_stopped
+    }
+}
+
+pub(crate) fn pose([x, y, z]: [f64; 3]) -> Pose {
+    let [x, y, z] = [x, y, z].map(Millimetre);
+    Pose {
+        position: Point { x, y, z },
+        ..Pose::default()
+    }
+}
