@@ -6,6 +6,45 @@ use super::DriverError;
 use crate::specimen::Specimen;
 
 /// A simulated bench, for whoever conducts a run on it; found in a [`Rig`](crate::Rig) under the name that its devices were opened with.
+///
+/// ```
+/// use std::sync::{Arc, Mutex};
+/// use std::time::Duration;
+/// use taceva_core::{DriverError, Rig, SimulatedBench, Specimen};
+///
+/// /// A clock and nothing else.
+/// #[derive(Default)]
+/// struct Clock(Mutex<Duration>);
+///
+/// impl SimulatedBench for Clock {
+///     fn now(&self) -> Duration {
+///         *self.0.lock().expect("nobody panics with it")
+///     }
+///     fn rest(&self, rest: Duration) -> Result<(), DriverError> {
+///         *self.0.lock().expect("nobody panics with it") += rest;
+///         Ok(())
+///     }
+///     fn mount(&self, _: Specimen) -> Result<(), DriverError> {
+///         Ok(())
+///     }
+///     fn name_press(&self, _: u64) -> Result<(), DriverError> {
+///         Ok(())
+///     }
+///     fn schedule(&self, _: Duration) -> Result<(), DriverError> {
+///         Ok(())
+///     }
+///     fn provenance(&self) -> Option<String> {
+///         None
+///     }
+/// }
+///
+/// let mut rig = Rig::new();
+/// rig.offer_bench("sim bench", Arc::new(Clock::default()));
+/// let bench = rig.bench("sim bench").expect("it was offered");
+/// bench.rest(Duration::from_secs(3600))?;
+/// assert_eq!(bench.now(), Duration::from_secs(3600));
+/// # Ok::<(), DriverError>(())
+/// ```
 pub trait SimulatedBench: Send + Sync {
     /// The time of its clock: that of every stamp of its devices.
     fn now(&self) -> Duration;

@@ -9,6 +9,14 @@ use crate::error::ErrorKind;
 use crate::id::DriverKey;
 
 /// A call to a device that failed: what kind of failure, which driver, what it was doing, and what caused it.
+///
+/// ```
+/// use taceva_core::{DriverError, DriverKey, ErrorKind};
+/// let camera = DriverKey::fixed("org.example/camera");
+/// let error = DriverError::new(ErrorKind::Timeout, &camera, "capture a frame").because("no frame within 40 ms");
+/// assert_eq!(error.kind(), ErrorKind::Timeout);
+/// assert_eq!(error.to_string(), "org.example/camera: cannot capture a frame: no frame within 40 ms");
+/// ```
 #[derive(Debug)]
 pub struct DriverError {
     kind: ErrorKind,

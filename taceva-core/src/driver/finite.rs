@@ -45,6 +45,12 @@ fn check(named: &[(&'static str, f64)]) -> Result<(), NotFinite> {
 }
 
 /// A number that is NaN or infinite where a device takes or gives finite ones.
+///
+/// ```
+/// use taceva_core::{Newton, Wrench, check_wrench};
+/// let wrench = Wrench { force: [Newton(0.0), Newton(0.0), Newton(f64::NAN)], ..Wrench::default() };
+/// assert_eq!(check_wrench(&wrench).unwrap_err().to_string(), "`Fz` is NaN, expected a number");
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NotFinite {
     name: &'static str,

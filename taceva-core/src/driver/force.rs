@@ -9,6 +9,42 @@ use crate::stamp::Stamp;
 use crate::wrench::Wrench;
 
 /// A transducer that measures force, and perhaps torque.
+///
+/// ```
+/// use std::time::Duration;
+/// use taceva_core::{Axes, Deadline, DriverError, ForceTransducer, Newton, Stamp, Tare, Wrench};
+///
+/// /// Rests under one load, in N.
+/// struct Resting {
+///     load: f64,
+///     zero: f64,
+/// }
+///
+/// impl ForceTransducer for Resting {
+///     fn axes(&self) -> Axes {
+///         Axes::NORMAL
+///     }
+///     fn read(&mut self, _: Deadline) -> Result<(Wrench, Stamp), DriverError> {
+///         let force = [Newton(0.0), Newton(0.0), Newton(self.load - self.zero)];
+///         Ok((Wrench { force, ..Wrench::default() }, Stamp::at(Duration::ZERO)))
+///     }
+///     fn tare(&mut self) -> Option<&mut dyn Tare> {
+///         Some(self)
+///     }
+/// }
+///
+/// impl Tare for Resting {
+///     fn zero(&mut self, _: Deadline) -> Result<(), DriverError> {
+///         self.zero = self.load;
+///         Ok(())
+///     }
+/// }
+///
+/// let mut transducer = Resting { load: 0.25, zero: 0.0 };
+/// let (wrench, _) = transducer.read(Deadline::PASSED)?;
+/// assert_eq!(wrench.force[2], Newton(0.25));
+/// # Ok::<(), DriverError>(())
+/// ```
 pub trait ForceTransducer: Send {
     /// Which components it measures; the others are 0 in every reading and mean nothing.
     fn axes(&self) -> Axes;
@@ -58,6 +94,44 @@ pub trait ForceTransducer: Send {
 }
 
 /// The ability of a transducer to call the present load zero.
+///
+/// ```
+/// # use std::time::Duration;
+/// # use taceva_core::{Axes, Deadline, DriverError, ForceTransducer, Newton, Stamp, Tare, Wrench};
+/// #
+/// # /// Rests under one load, in N.
+/// # struct Resting {
+/// #     load: f64,
+/// #     zero: f64,
+/// # }
+/// #
+/// # impl ForceTransducer for Resting {
+/// #     fn axes(&self) -> Axes {
+/// #         Axes::NORMAL
+/// #     }
+/// #     fn read(&mut self, _: Deadline) -> Result<(Wrench, Stamp), DriverError> {
+/// #         let force = [Newton(0.0), Newton(0.0), Newton(self.load - self.zero)];
+/// #         Ok((Wrench { force, ..Wrench::default() }, Stamp::at(Duration::ZERO)))
+/// #     }
+/// #     fn tare(&mut self) -> Option<&mut dyn Tare> {
+/// #         Some(self)
+/// #     }
+/// # }
+/// #
+/// impl Tare for Resting {
+///     fn zero(&mut self, _: Deadline) -> Result<(), DriverError> {
+///         self.zero = self.load;
+///         Ok(())
+///     }
+/// }
+///
+/// let mut transducer = Resting { load: 0.25, zero: 0.0 };
+/// if let Some(tare) = transducer.tare() {
+///     tare.zero(Deadline::PASSED)?;
+/// }
+/// assert_eq!(transducer.read(Deadline::PASSED)?.0, Wrench::default());
+/// # Ok::<(), DriverError>(())
+/// ```
 pub trait Tare {
     /// Makes the present load the zero of all later readings, and returns once that holds.
     ///
@@ -69,6 +143,12 @@ pub trait Tare {
 }
 
 /// One component of a wrench.
+///
+/// ```
+/// use taceva_core::{Axes, Axis};
+/// assert_eq!(Axis::Tz.name(), "Tz");
+/// assert_eq!(Axes::NORMAL.iter().collect::<Vec<_>>(), [Axis::Fz]);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 #[repr(u8)]
 pub enum Axis {

@@ -6,6 +6,41 @@ use crate::quantity::Newton;
 use crate::stamp::Stamp;
 
 /// The ability of a robot to watch the force by itself, faster than a host could.
+///
+/// ```
+/// use std::time::Duration;
+/// use taceva_core::{
+///     Deadline, DriverError, Guard, GuardedMotion, GuardedStop, Millimetre, Newton, Pose, Speed, Stamp,
+/// };
+///
+/// /// A gel of 2 N/mm that begins at z = 0.
+/// struct OverGel;
+///
+/// impl GuardedMotion for OverGel {
+///     fn move_guarded(
+///         &mut self,
+///         mut target: Pose,
+///         _: Speed,
+///         guard: Guard,
+///         _: Deadline,
+///     ) -> Result<GuardedStop, DriverError> {
+///         let stamp = Stamp::at(Duration::ZERO);
+///         let deepest = Millimetre(guard.force.0 / 2.0);
+///         if target.position.z <= deepest {
+///             return Ok(GuardedStop::Arrived { stamp });
+///         }
+///         target.position.z = deepest;
+///         Ok(GuardedStop::Guarded { pose: target, stamp })
+///     }
+/// }
+///
+/// let mut target = Pose::default();
+/// target.position.z = Millimetre(1.0);
+/// let guard = Guard { force: Newton(0.5) };
+/// let stop = OverGel.move_guarded(target, Speed::try_new(1.0)?, guard, Deadline::PASSED)?;
+/// assert!(matches!(stop, GuardedStop::Guarded { pose, .. } if pose.position.z == Millimetre(0.25)));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub trait GuardedMotion {
     /// Moves as [`move_to`](super::Robot::move_to) does, and stops by itself once `guard` is reached.
     ///
@@ -21,6 +56,11 @@ pub trait GuardedMotion {
 }
 
 /// What ends a guarded motion.
+///
+/// ```
+/// use taceva_core::{Guard, Newton};
+/// assert_eq!(Guard { force: Newton(0.5) }.force.to_string(), "0.5 N");
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Guard {
     /// The magnitude of the force at which the robot stops.
@@ -28,6 +68,13 @@ pub struct Guard {
 }
 
 /// How a guarded motion ended.
+///
+/// ```
+/// use std::time::Duration;
+/// use taceva_core::{GuardedStop, Stamp};
+/// let stop = GuardedStop::Arrived { stamp: Stamp::at(Duration::from_secs(1)) };
+/// assert!(matches!(stop, GuardedStop::Arrived { stamp } if stamp.valid_s == 1.0));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum GuardedStop {
     /// At the target, without reaching the guard.

@@ -6,6 +6,28 @@ use super::DriverError;
 ///
 /// It outlives the robot harmlessly: once that is dropped there is nothing left to stop and the halt succeeds.
 /// It is advisory: software is not a safety function, the emergency stop of the site is.
+///
+/// ```
+/// use std::sync::atomic::{AtomicBool, Ordering};
+/// use taceva_core::{DriverError, Halt};
+///
+/// /// What a robot looks at before each step of a motion.
+/// #[derive(Default)]
+/// struct Latch(AtomicBool);
+///
+/// impl Halt for Latch {
+///     fn halt(&self) -> Result<(), DriverError> {
+///         self.0.store(true, Ordering::Release);
+///         Ok(())
+///     }
+/// }
+///
+/// let latch = Latch::default();
+/// latch.halt()?;
+/// latch.halt()?;
+/// assert!(latch.0.into_inner());
+/// # Ok::<(), DriverError>(())
+/// ```
 pub trait Halt: Send + Sync {
     /// Stops the motion within 50 ms and latches, see [`Robot`](super::Robot); never waits for another call to finish.
     ///

@@ -4,6 +4,25 @@
 ///
 /// A call that waits returns [`ErrorKind::Interrupted`](crate::ErrorKind::Interrupted) within 50 ms and leaves the device usable; where
 /// none is pending nothing happens. It outlives the device harmlessly.
+///
+/// ```
+/// use std::sync::mpsc::{SyncSender, sync_channel};
+/// use taceva_core::Interrupt;
+///
+/// /// Wakes a call that waits for the other end.
+/// struct Wake(SyncSender<()>);
+///
+/// impl Interrupt for Wake {
+///     fn interrupt(&self) {
+///         // Whoever no longer waits need not be woken.
+///         let _ = self.0.try_send(());
+///     }
+/// }
+///
+/// let (sender, receiver) = sync_channel(1);
+/// Wake(sender).interrupt();
+/// assert!(receiver.recv().is_ok());
+/// ```
 pub trait Interrupt: Send + Sync {
     /// Ends the pending call, and never waits for it.
     fn interrupt(&self);

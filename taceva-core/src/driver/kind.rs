@@ -5,6 +5,11 @@ use std::fmt;
 use super::{ForceTransducer, Lighting, Robot, Sensor};
 
 /// The kind of a device.
+///
+/// ```
+/// use taceva_core::DriverKind;
+/// assert_eq!(DriverKind::ALL.map(DriverKind::name), ["sensor", "robot", "force", "lighting"]);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "lowercase"))]
@@ -47,6 +52,11 @@ impl fmt::Display for DriverKind {
 }
 
 /// A device trait as a type, `dyn Sensor` for one: what registries and factories are generic over.
+///
+/// ```
+/// use taceva_core::{Device, DriverKind, Robot};
+/// assert_eq!(<dyn Robot as Device>::KIND, DriverKind::Robot);
+/// ```
 pub trait Device {
     /// Its kind.
     const KIND: DriverKind;

@@ -5,6 +5,36 @@ use super::{Deadline, DriverError};
 /// Light that falls on a sensor from outside, in scenes that have a name.
 ///
 /// The light inside a sensor belongs to the sensor and is set by its arguments.
+///
+/// ```
+/// use taceva_core::{Deadline, DriverError, DriverKey, ErrorKind, Lighting};
+///
+/// struct Lamps {
+///     scenes: Vec<String>,
+///     lit: usize,
+/// }
+///
+/// impl Lighting for Lamps {
+///     fn scenes(&self) -> &[String] {
+///         &self.scenes
+///     }
+///     fn set(&mut self, scene: &str, _: Deadline) -> Result<(), DriverError> {
+///         let unknown = || {
+///             let lamps = DriverKey::fixed("room/lamps");
+///             DriverError::new(ErrorKind::InvalidArgument, &lamps, "set a scene")
+///         };
+///         let found = self.scenes.iter().position(|known| known == scene);
+///         self.lit = found.ok_or_else(unknown)?;
+///         Ok(())
+///     }
+/// }
+///
+/// let mut lamps = Lamps { scenes: vec!["dark".to_owned(), "bright".to_owned()], lit: 0 };
+/// lamps.set("bright", Deadline::PASSED)?;
+/// assert_eq!(lamps.lit, 1);
+/// assert!(lamps.set("dusk", Deadline::PASSED).is_err());
+/// # Ok::<(), DriverError>(())
+/// ```
 pub trait Lighting: Send {
     /// The names of the scenes, in the order in which a sweep visits them; the first is the one in which a sensor is calibrated.
     fn scenes(&self) -> &[String];

@@ -17,6 +17,61 @@ use crate::stamp::Stamp;
 /// - [`halt`](Robot::halt) stops the motion and latches: every later move is refused with `Interrupted` until
 ///   [`clear_halt`](Robot::clear_halt). A halt between two moves is therefore never lost.
 /// - After an error the robot stands still. `pose`, `halt` and `clear_halt` are safe to call then.
+///
+/// ```
+/// use std::sync::Arc;
+/// use std::sync::atomic::{AtomicBool, Ordering};
+/// use std::time::Duration;
+/// use taceva_core::{Deadline, DriverError, DriverKey, ErrorKind, Halt, Pose, Robot, Speed, Stamp};
+///
+/// const ARM: DriverKey = DriverKey::fixed("org.example/arm");
+///
+/// /// Arrives at once.
+/// #[derive(Default)]
+/// struct Arm {
+///     pose: Pose,
+///     halted: Arc<Latch>,
+/// }
+///
+/// #[derive(Default)]
+/// struct Latch(AtomicBool);
+///
+/// impl Halt for Latch {
+///     fn halt(&self) -> Result<(), DriverError> {
+///         self.0.store(true, Ordering::Release);
+///         Ok(())
+///     }
+/// }
+///
+/// impl Robot for Arm {
+///     fn pose(&mut self, _: Deadline) -> Result<(Pose, Stamp), DriverError> {
+///         Ok((self.pose, Stamp::at(Duration::ZERO)))
+///     }
+///     fn move_to(&mut self, target: Pose, _: Speed, _: Deadline) -> Result<Stamp, DriverError> {
+///         if self.halted.0.load(Ordering::Acquire) {
+///             return Err(DriverError::new(ErrorKind::Interrupted, &ARM, "move"));
+///         }
+///         self.pose = target;
+///         Ok(Stamp::at(Duration::ZERO))
+///     }
+///     fn halt_handle(&self) -> Arc<dyn Halt> {
+///         Arc::clone(&self.halted) as Arc<dyn Halt>
+///     }
+///     fn clear_halt(&mut self, _: Deadline) -> Result<(), DriverError> {
+///         self.halted.0.store(false, Ordering::Release);
+///         Ok(())
+///     }
+/// }
+///
+/// let mut arm = Arm::default();
+/// let speed = Speed::try_new(10.0)?;
+/// arm.halt()?;
+/// let error = arm.move_to(Pose::default(), speed, Deadline::PASSED).unwrap_err();
+/// assert_eq!(error.kind(), ErrorKind::Interrupted);
+/// arm.clear_halt(Deadline::PASSED)?;
+/// arm.move_to(Pose::default(), speed, Deadline::PASSED)?;
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub trait Robot: Send {
     /// Where the tip is, and when that was true.
     ///

@@ -7,6 +7,31 @@ use crate::frame::{FrameInfo, FrameMut};
 use crate::stamp::Stamp;
 
 /// A sensor that gives pictures.
+///
+/// ```
+/// use std::time::Duration;
+/// use taceva_core::{Deadline, DriverError, FrameInfo, FrameMut, PixelFormat, Sensor, Stamp};
+///
+/// /// Sees one gray everywhere.
+/// struct Gray;
+///
+/// impl Sensor for Gray {
+///     fn frame_info(&self) -> FrameInfo {
+///         FrameInfo { width: 4, height: 2, format: PixelFormat::Gray8 }
+///     }
+///     fn capture(&mut self, mut into: FrameMut<'_>, _: Deadline) -> Result<Stamp, DriverError> {
+///         into.bytes_mut().fill(128);
+///         Ok(Stamp::at(Duration::ZERO))
+///     }
+/// }
+///
+/// let mut sensor = Gray;
+/// let info = sensor.frame_info();
+/// let mut bytes = vec![0; info.byte_len().expect("8 bytes")];
+/// sensor.capture(FrameMut::new(info, &mut bytes)?, Deadline::PASSED)?;
+/// assert_eq!(bytes, [128; 8]);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub trait Sensor: Send {
     /// Size and format of every frame, from opening to dropping.
     fn frame_info(&self) -> FrameInfo;

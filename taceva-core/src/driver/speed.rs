@@ -6,6 +6,12 @@ use std::fmt;
 ///
 /// # Units
 /// mm/s.
+///
+/// ```
+/// use taceva_core::Speed;
+/// assert_eq!(Speed::try_new(2.5)?.to_string(), "2.5 mm/s");
+/// # Ok::<(), taceva_core::SpeedError>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
 pub struct Speed(f64);
 
@@ -35,6 +41,12 @@ impl fmt::Display for Speed {
 }
 
 /// A number that is no speed.
+///
+/// ```
+/// use taceva_core::Speed;
+/// let error = Speed::try_new(0.0).unwrap_err();
+/// assert_eq!(error.to_string(), "a speed of 0 mm/s, expected a number above 0");
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SpeedError {
     mm_per_s: f64,

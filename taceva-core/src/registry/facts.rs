@@ -7,6 +7,11 @@ use crate::geometry::Point;
 use crate::quantity::{Hertz, Millimetre, Newton};
 
 /// The facts of a device of each kind; an absent one is not known, never assumed.
+///
+/// ```
+/// use taceva_core::{DriverKind, Facts, RobotFacts};
+/// assert_eq!(Facts::Robot(RobotFacts::default()).kind(), DriverKind::Robot);
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Facts {
@@ -33,6 +38,14 @@ impl Facts {
 }
 
 /// What is known about a sensor.
+///
+/// ```
+/// use taceva_core::{Footprint, Millimetre, SensorFacts};
+/// let mut facts = SensorFacts::default();
+/// facts.footprint = Some(Footprint::disc(17.0, Some(3.5))?);
+/// assert_eq!(facts.depth_limit(), Some(Millimetre(3.5)));
+/// # Ok::<(), taceva_core::FootprintError>(())
+/// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct SensorFacts {
     /// Size and format of the frames it gives; `None` where only its arguments or a recording decide.
@@ -71,6 +84,14 @@ impl SensorFacts {
 }
 
 /// What is known about a robot.
+///
+/// ```
+/// use taceva_core::{RobotFacts, Speed};
+/// let mut facts = RobotFacts::default();
+/// facts.speed_max = Some(Speed::try_new(100.0)?);
+/// assert_eq!((facts.workspace, facts.guarded_motion), (None, false));
+/// # Ok::<(), taceva_core::SpeedError>(())
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct RobotFacts {
     /// Where its tip may be.
@@ -93,6 +114,13 @@ pub struct RobotFacts {
 }
 
 /// The box in which a tip may be, its faces included, in the sensor's frame.
+///
+/// ```
+/// use taceva_core::{Millimetre, Point, Workspace};
+/// let corner = |side: f64| Point { x: Millimetre(side), y: Millimetre(side), z: Millimetre(side) };
+/// let workspace = Workspace { least: corner(-10.0), greatest: corner(10.0) };
+/// assert!(workspace.contains(&corner(10.0)) && !workspace.contains(&corner(10.5)));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Workspace {
     /// The corner of the least coordinates.
@@ -119,6 +147,13 @@ impl Workspace {
 }
 
 /// What is known about a force transducer.
+///
+/// ```
+/// use taceva_core::{Axes, ForceFacts, Hertz};
+/// let mut facts = ForceFacts::default();
+/// (facts.axes, facts.rate) = (Axes::SIX, Some(Hertz(1000.0)));
+/// assert_eq!(facts.force_max, None);
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct ForceFacts {
     /// Which components it measures.
@@ -140,6 +175,13 @@ pub struct ForceFacts {
 }
 
 /// What is known about a lighting.
+///
+/// ```
+/// use taceva_core::LightingFacts;
+/// let mut facts = LightingFacts::default();
+/// facts.scenes = vec!["normal".to_owned(), "dark".to_owned()];
+/// assert_eq!(facts.scenes[0], "normal");
+/// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct LightingFacts {
     /// The names of its scenes, the one of the calibration first.
