@@ -7,9 +7,11 @@ mod page;
 mod paired;
 mod remarks;
 mod render;
+mod ties;
 
 pub use overview::{Decision, OVERVIEW_LINES, OVERVIEW_WIDTH};
 pub use render::COMPARISON_SCHEMA;
+pub use ties::ties;
 
 use std::collections::BTreeMap;
 

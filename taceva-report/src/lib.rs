@@ -29,7 +29,7 @@ pub use choose::{
 };
 pub use compare::{
     Answer, COMPARISON_SCHEMA, CompareRequest, Comparison, Decision, OVERVIEW_LINES,
-    OVERVIEW_WIDTH, compare,
+    OVERVIEW_WIDTH, compare, ties,
 };
 pub use escape::{
     csv as escape_csv, from_csv as unescape_csv, html as escape_html, latex as escape_latex,
@@ -50,4 +50,3 @@ pub use short_digests::short_digests;
 pub use table::{
     Align, Cell, Column, Direction, Estimate, Layout, Row, Table, Words, latex_number, latex_symbol,
 };
-pub use tie::ties;

@@ -1,0 +1,146 @@
+//! What a tie leaves open: whom those that share the best value are not shown to be better than.
+
+use super::{Answer, CompareRequest, compare};
+use crate::figures::listed;
+use crate::results::Study;
+use crate::tie::{GRATINGS, Tie, tie};
+
+/// The ties of `studies` in telling gratings, a line each: `sr line: tie: GelSight and TacTip both predict the spacing of gratings down to 0.25 mm to within
+/// 0.05 mm`.
+pub fn ties(studies: &[Study]) -> Vec<String> {
+    let names = crate::figures::names(studies);
+    let mut channels: Vec<&str> = Vec::new();
+    for score in studies.iter().flat_map(|study| study.of_metric(GRATINGS)) {
+        if !channels.contains(&score.channel.as_str()) {
+            channels.push(&score.channel);
+        }
+    }
+    let request = CompareRequest {
+        metrics: vec![GRATINGS.to_owned()],
+        ..CompareRequest::default()
+    };
+    let answers = compare(studies, &request).answers;
+    let channels = channels.into_iter();
+    let lines = channels.filter_map(|channel| {
+        let tie = tie(studies, &names, GRATINGS, channel)?;
+        let answers = answers.iter().filter(|answer| answer.channel == channel);
+        let answers: Vec<&Answer> = answers.collect();
+        let others = (0..studies.len()).filter(|at| {
+            let score = studies[*at].score(GRATINGS, channel);
+            score.is_some_and(|score| score.standing.takes_part() && score.value.number().is_some())
+        });
+        let unbeaten = tie.unbeaten(&answers, others, &names);
+        Some(format!("{GRATINGS} {channel}: {}{unbeaten}", tie.words))
+    });
+    lines.collect()
+}
+
+impl Tie {
+    /// Whom of `others` those that are tied are not shown to be better than, by `answers` about this score: `; neither is shown to be better
+    /// than MagicTac and ViTacTip`. A tie says who shares the best value, and no more.
+    pub(crate) fn unbeaten(
+        &self,
+        answers: &[&Answer],
+        others: impl IntoIterator<Item = usize>,
+        names: &[String],
+    ) -> String {
+        let others: Vec<usize> = others
+            .into_iter()
+            .filter(|at| !self.who.contains(at))
+            .collect();
+        let unbeaten = |tied: usize| -> Vec<usize> {
+            let loses = |other: usize| {
+                let mut answers = answers.iter();
+                answers.any(|answer| {
+                    let both = [answer.sides.a, answer.sides.b];
+                    both.contains(&other) && answer.better() == Some(tied)
+                })
+            };
+            others.iter().copied().filter(|at| !loses(*at)).collect()
+        };
+        let all: Vec<Vec<usize>> = self.who.iter().map(|tied| unbeaten(*tied)).collect();
+        let named = |rivals: &[usize]| {
+            let names: Vec<String> = rivals.iter().map(|at| names[*at].clone()).collect();
+            listed(&names)
+        };
+        let who = match self.who.len() {
+            2 => "neither",
+            _ => "none of them",
+        };
+        match all.as_slice() {
+            _ if others.is_empty() => String::new(),
+            [first, rest @ ..] if rest.iter().all(|other| other == first) => match first.is_empty()
+            {
+                true => "; each is shown to be better than every other one".to_owned(),
+                false => format!("; {who} is shown to be better than {}", named(first)),
+            },
+            _ => {
+                let pairs = self.who.iter().zip(&all);
+                let pairs = pairs.filter(|(_, rivals)| !rivals.is_empty());
+                let said = pairs.map(|(tied, rivals)| {
+                    let (name, rivals) = (&names[*tied], named(rivals));
+                    format!("; {name} is not shown to be better than {rivals}")
+                });
+                said.collect()
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::samples::Samples;
+
+    /// A study whose success rate is `share`, `exact` without any error, with samples if there are any.
+    fn study(name: &str, [share, exact]: [f64; 2], samples: &str) -> Study {
+        let text = format!(
+            r#"{{"schema": "taceva.evaluation/1.1", "subject": {{"sensor": "{name}"}}, "metrics": {{"sr": {{"line":
+               {{"value": {share}, "unit": "1", "parameters": {{"tolerance_mm": 0.05}}, "exact": {{"value": {exact}, "unit": "1"}}}}}}}}}}"#
+        );
+        let mut study = Study::read(&text).expect("a result").remove(0);
+        study.samples = (!samples.is_empty()).then(|| {
+            let head = "id,kind,spacing_mm,spacing_predicted_mm\n";
+            Samples::read(&format!("{head}{samples}")).expect("samples")
+        });
+        study
+    }
+
+    #[test]
+    fn a_tie_says_how_fine_both_resolve_and_a_winner_is_no_tie() {
+        let fine = "1,line,0.5,0.5\n2,line,0.3,0.35\n3,line,0.2,0.4\n4,dot,0.1,0.1\n";
+        let both = [study("a", [0.75, 0.5], fine), study("b", [0.75, 0.5], fine)];
+        let expected = "sr line: tie: a and b both predict the spacing of gratings down to 0.3 mm to within 0.05 mm, and no finer tolerance separates them";
+        assert_eq!(ties(&both), [expected]);
+        let other = [study("a", [1.0, 0.5], ""), study("b", [0.9, 0.5], "")];
+        assert!(ties(&other).is_empty());
+    }
+
+    #[test]
+    fn a_sensor_that_resolves_every_board_resolves_the_finest() {
+        let pressed = "1,line,0.5,\n2,line,0.25,\n3,dot,0.1,\n";
+        let all = [
+            study("a", [1.0, 0.5], pressed),
+            study("b", [1.0, 0.25], pressed),
+        ];
+        let expected = "sr line: tie: a and b both predict the spacing of gratings down to 0.25 mm to within 0.05 mm; without any error a 50 % and b 25 %";
+        assert_eq!(ties(&all), [expected]);
+    }
+
+    #[test]
+    fn without_samples_shares_are_said_and_which_of_them_is_finer() {
+        let of = |exact: f64| study("x", [0.9, exact], "");
+        let mut all = [of(0.5), of(0.75), study("worse", [0.2, 0.2], "")];
+        "a".clone_into(&mut all[0].sensor);
+        "b".clone_into(&mut all[1].sensor);
+        let expected = "sr line: tie: a and b both predict the spacing of 90 % of the gratings to within 0.05 mm; without any error a 50 % and b 75 %; neither is shown to be better than worse";
+        assert_eq!(ties(&all), [expected]);
+    }
+
+    #[test]
+    fn what_has_no_skill_is_tied_with_nobody() {
+        let mut all = [study("a", [0.9, 0.5], ""), study("b", [0.9, 0.5], "")];
+        all[1].scores[0].standing = taceva_metrics::Standing::NoSkill;
+        assert!(ties(&all).is_empty());
+    }
+}
