@@ -9,8 +9,11 @@ mod devices;
 pub mod doctor;
 mod drivers;
 pub mod fault;
+#[cfg(all(feature = "grbl", unix))]
+mod gcode;
 mod guard;
 #[cfg(any(
+    feature = "grbl",
     feature = "mjpeg",
     feature = "netft",
     feature = "sri",
@@ -41,6 +44,8 @@ pub use ati::NetftFactory;
 pub use camera::MjpegFactory;
 pub use devices::{Devices, ListedArgument, ListedDevice, ListedDriver, devices};
 pub use drivers::{Drivers, OpenError, open};
+#[cfg(all(feature = "grbl", unix))]
+pub use gcode::GrblFactory;
 pub use on_bench::OnBench;
 pub use pace::{Pace, RealPace, VirtualPace};
 pub use selector::{Selector, SelectorError};

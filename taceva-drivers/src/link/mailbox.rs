@@ -105,7 +105,12 @@ impl<T: Clone> Mailbox<T> {
     }
 
     /// How many came so far.
-    #[cfg(any(feature = "mjpeg", feature = "netft", feature = "sri"))]
+    #[cfg(any(
+        feature = "grbl",
+        feature = "mjpeg",
+        feature = "netft",
+        feature = "sri"
+    ))]
     pub(crate) fn posted(&self) -> u64 {
         self.inside().posted
     }
