@@ -12,14 +12,7 @@ pub mod fault;
 #[cfg(all(feature = "grbl", unix))]
 mod gcode;
 mod guard;
-#[cfg(any(
-    feature = "grbl",
-    feature = "mjpeg",
-    feature = "netft",
-    feature = "sri",
-    feature = "ur",
-    feature = "xarm"
-))]
+#[cfg(feature = "link")]
 mod link;
 mod name_order;
 mod on_bench;

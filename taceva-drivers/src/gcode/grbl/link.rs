@@ -12,7 +12,8 @@ use taceva_core::ErrorKind;
 use thiserror::Error;
 
 use super::line::{Line, Lines, Status};
-use crate::link::{Ending, Mailbox, monotonic};
+use crate::link::mailbox::Ending;
+use crate::link::{Mailbox, monotonic};
 
 /// Why a command had no effect.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
