@@ -10,14 +10,10 @@ mod devices;
 pub mod doctor;
 mod drivers;
 pub mod fault;
+#[cfg(all(feature = "grbl", unix))]
+mod gcode;
 mod guard;
-#[cfg(any(
-    feature = "mjpeg",
-    feature = "netft",
-    feature = "sri",
-    feature = "ur",
-    feature = "xarm"
-))]
+#[cfg(feature = "link")]
 mod link;
 mod name_order;
 mod on_bench;
@@ -43,6 +39,8 @@ pub use camera::MjpegFactory;
 pub use clock::MonotonicClock;
 pub use devices::{Devices, ListedArgument, ListedDevice, ListedDriver, devices};
 pub use drivers::{Drivers, OpenError, open};
+#[cfg(all(feature = "grbl", unix))]
+pub use gcode::GrblFactory;
 pub use on_bench::OnBench;
 pub use pace::{Pace, RealPace, VirtualPace};
 pub use selector::{Selector, SelectorError};

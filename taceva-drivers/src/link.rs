@@ -1,17 +1,25 @@
-//! What drivers over TCP have in common: connecting within a deadline, the errors of a link, and the clock that stamps what comes.
+//! What drivers of devices have in common: connecting within a deadline, the errors of a link, the newest of what came, and the clock
+//! that stamps it.
 
+#[cfg(feature = "tcp")]
 mod connect;
+#[cfg(feature = "tcp")]
 mod error;
-mod mailbox;
+pub(crate) mod mailbox;
 mod monotonic;
 
+#[cfg(feature = "tcp")]
 pub(crate) use connect::connect;
+#[cfg(feature = "tcp")]
 pub(crate) use error::LinkError;
-pub(crate) use mailbox::{Ending, Mailbox, NoNews, Seen};
+pub(crate) use mailbox::{Mailbox, NoNews, Seen};
 pub(crate) use monotonic::monotonic;
 
 /// The bytes that `text` writes in hexadecimal, white space between them.
-#[cfg(test)]
+#[cfg(all(
+    test,
+    any(feature = "netft", feature = "sri", feature = "ur", feature = "xarm")
+))]
 pub(crate) fn hexadecimal(text: &str) -> Vec<u8> {
     let digits: Vec<u32> = text
         .chars()

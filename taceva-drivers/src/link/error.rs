@@ -26,7 +26,8 @@ pub(crate) enum LinkError {
         address: SocketAddr,
         source: io::Error,
     },
-    /// The other side closed it.
+    /// The other side closed it, which datagrams do not tell.
+    #[cfg(any(feature = "mjpeg", feature = "sri", feature = "ur", feature = "xarm"))]
     #[error("{address} closed the connection")]
     Closed { address: SocketAddr },
 }
@@ -41,7 +42,9 @@ impl LinkError {
                 io::ErrorKind::TimedOut | io::ErrorKind::WouldBlock => ErrorKind::Timeout,
                 _ => ErrorKind::NotFound,
             },
-            LinkError::Broken { .. } | LinkError::Closed { .. } => ErrorKind::Disconnected,
+            LinkError::Broken { .. } => ErrorKind::Disconnected,
+            #[cfg(any(feature = "mjpeg", feature = "sri", feature = "ur", feature = "xarm"))]
+            LinkError::Closed { .. } => ErrorKind::Disconnected,
         }
     }
 }

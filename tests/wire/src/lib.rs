@@ -1,7 +1,8 @@
 //! A bench on the wire: the simulated gel of `taceva-sim` at the time of the wall, behind the sockets of devices that exist.
 //!
 //! A client sees a robot that moves, a transducer that streams and a camera that sends pictures, each in the protocol of a real one; what
-//! it presses is one simulated gel, whose truth is known. Faults can be put on each link while it runs. Everything listens on loopback alone.
+//! it presses is one simulated gel, whose truth is known. Faults can be put on each link while it runs. Everything listens on loopback alone,
+//! or is a pseudo-terminal.
 //!
 //! It is **not** a test of the devices: protocols here and drivers elsewhere share one reading of the documents. The clients of vendors and
 //! of others, which tests start where they are installed, are what proves frames.
@@ -24,6 +25,8 @@ mod rig_file;
 mod server;
 
 pub mod control;
+#[cfg(unix)]
+pub mod grbl;
 pub mod mjpeg;
 pub mod netft;
 pub mod sri;

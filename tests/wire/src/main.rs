@@ -59,6 +59,9 @@ enum RobotKind {
     Xarm,
     /// An arm of Universal Robots.
     Ur,
+    /// A machine with GRBL, on a pseudo-terminal.
+    #[cfg(unix)]
+    Grbl,
 }
 
 #[derive(Clone, Copy, Debug, ValueEnum)]
@@ -127,6 +130,8 @@ fn serve(arguments: &Arguments) -> Result<(), WireError> {
             let ports = if usual { ur::USUAL_PORTS } else { [0, 0] };
             Some(Arc::new(ur::Emulator::start(&bench, host, ports)?))
         }
+        #[cfg(unix)]
+        Some(RobotKind::Grbl) => Some(Arc::new(taceva_wire::grbl::Emulator::start(&bench)?)),
         None => None,
     };
     // Kept until the end: a device that is dropped is unplugged.

@@ -10,7 +10,8 @@ use taceva_core::{
 use super::KEY;
 use super::stream::{Picture, Stream};
 use super::url::Url;
-use crate::link::{Ending, Mailbox, NoNews, Seen};
+use crate::link::mailbox::Ending;
+use crate::link::{Mailbox, NoNews, Seen};
 use crate::source::{Mismatch, decode, frame_info};
 
 /// A camera that streams.

@@ -13,7 +13,8 @@ use super::body::Body;
 use super::head::{Head, HeadError};
 use super::parts::Parts;
 use super::url::Url;
-use crate::link::{Ending, LinkError, Mailbox, connect, monotonic};
+use crate::link::mailbox::Ending;
+use crate::link::{LinkError, Mailbox, connect, monotonic};
 
 /// A picture as it was sent, and when its first bytes came, on the monotonic clock.
 #[derive(Clone, Debug)]

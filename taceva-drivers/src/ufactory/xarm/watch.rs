@@ -9,7 +9,8 @@ use std::time::Duration;
 use taceva_core::ErrorKind;
 
 use super::report::{Report, ReportKind, Reports};
-use crate::link::{Ending, LinkError, Mailbox, NoNews, Seen, connect, monotonic};
+use crate::link::mailbox::Ending;
+use crate::link::{LinkError, Mailbox, NoNews, Seen, connect, monotonic};
 
 /// The reports of one port.
 #[derive(Debug)]
@@ -85,7 +86,7 @@ fn read(
         loop {
             match reports.next() {
                 Ok(None) => break,
-                Ok(Some(report)) => posting.post(report, at),
+                Ok(Some(report)) => posting.post_last(1, report, at),
                 Err(error) => {
                     let _ = stream.shutdown(Shutdown::Both);
                     return Ending {

@@ -13,7 +13,8 @@ use super::message::{
     ArmState, Message, MessageError, Messages, OUTPUTS, START, VERSION, ask_outputs, ask_start,
     ask_version, check_types,
 };
-use crate::link::{Ending, LinkError, Mailbox, connect, monotonic};
+use crate::link::mailbox::Ending;
+use crate::link::{LinkError, Mailbox, connect, monotonic};
 
 /// The states of one arm.
 #[derive(Debug)]

@@ -1,0 +1,207 @@
+//! The machine as a robot.
+
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Duration;
+
+use taceva_core::{
+    Deadline, DriverError, ErrorKind, Halt, Millimetre, Point, Pose, Robot, Rotation, Speed, Stamp,
+    check_pose,
+};
+
+use super::KEY;
+use super::line::{State, Status};
+use super::link::{ASK_STATUS, CommandError, GrblLink, HOLD, RESET, Writer};
+use super::port::open_line;
+use crate::link::{NoNews, Seen, monotonic};
+
+/// How a machine is reached, and within which limits it moves.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct GrblOptions {
+    pub(super) port: String,
+    pub(super) baud: u32,
+    pub(super) speed_max: Speed,
+}
+
+/// A machine that is connected.
+#[derive(Debug)]
+pub(super) struct Machine {
+    pub(super) link: GrblLink,
+    pub(super) stop: Arc<Stop>,
+    options: GrblOptions,
+}
+
+/// The means to stop the machine from any thread: a latch on this side, and the byte that holds it.
+#[derive(Debug)]
+pub(super) struct Stop {
+    is_halted: AtomicBool,
+    /// Set once the robot is dropped: there is nothing left to stop.
+    is_gone: AtomicBool,
+    writer: Writer,
+}
+
+impl Stop {
+    pub(super) fn is_halted(&self) -> bool {
+        self.is_halted.load(Ordering::Acquire)
+    }
+}
+
+impl Halt for Stop {
+    fn halt(&self) -> Result<(), DriverError> {
+        self.is_halted.store(true, Ordering::Release);
+        if self.is_gone.load(Ordering::Acquire) {
+            return Ok(());
+        }
+        let held = self.writer.send_byte(HOLD);
+        held.map_err(|error| failed(ErrorKind::Disconnected, "stop the machine", error))
+    }
+}
+
+/// An error of the machine with its reason.
+pub(super) fn failed(
+    kind: ErrorKind,
+    doing: &'static str,
+    why: impl Into<Box<dyn std::error::Error + Send + Sync>>,
+) -> DriverError {
+    DriverError::new(kind, &KEY, doing).because(why)
+}
+
+/// What a command that failed was for.
+pub(super) fn refused(doing: &'static str) -> impl Fn(CommandError) -> DriverError {
+    move |error| failed(error.kind(), doing, error)
+}
+
+/// How long a machine may take after its line was opened, which resets many, until it answers.
+const AWAKE: Duration = Duration::from_secs(4);
+/// How long an answer may take.
+pub(super) const ANSWER: Duration = Duration::from_millis(500);
+/// How often a machine that does not answer is asked again: one that wakes up loses what comes.
+const AGAIN: Duration = Duration::from_millis(250);
+/// The least time between two looks of a caller that has run out of it.
+const GLANCE: Duration = Duration::from_millis(50);
+
+impl Machine {
+    /// Opens the line and waits until the machine answers; nothing moves.
+    pub(super) fn open(options: GrblOptions) -> Result<Machine, DriverError> {
+        let doing = "connect to the machine";
+        let file = open_line(&options.port, options.baud)
+            .map_err(|error| failed(error.kind(), doing, error))?;
+        let link =
+            GrblLink::new(file).map_err(|error| failed(ErrorKind::Internal, doing, error))?;
+        let stop = Arc::new(Stop {
+            is_halted: AtomicBool::new(false),
+            is_gone: AtomicBool::new(false),
+            writer: link.writer().clone(),
+        });
+        let mut machine = Machine {
+            link,
+            stop,
+            options,
+        };
+        let until = monotonic() + AWAKE;
+        while let Err(error) = machine.look(AGAIN) {
+            if error.kind() != ErrorKind::Timeout || monotonic() >= until {
+                return Err(error);
+            }
+        }
+        Ok(machine)
+    }
+
+    /// What the machine does now.
+    pub(super) fn look(&mut self, patience: Duration) -> Result<Seen<Status>, DriverError> {
+        let doing = "ask where the machine is";
+        let statuses = self.link.statuses();
+        let after = statuses.posted();
+        self.link
+            .writer()
+            .send_byte(ASK_STATUS)
+            .map_err(|error| failed(ErrorKind::Disconnected, doing, error))?;
+        // Whoever has no time left is answered all the same, if the machine answers at once.
+        statuses
+            .next(after, patience.max(GLANCE))
+            .map_err(|none| match none {
+                NoNews::Ended(ending) => failed(ending.kind, doing, ending.why),
+                NoNews::Silent | NoNews::Interrupted => {
+                    let why = format!("no status with `MPos:` within {patience:?}, as GRBL 1.1 with $10=1 gives it");
+                    failed(ErrorKind::Timeout, doing, why)
+                }
+            })
+    }
+
+    /// Throws away what a machine at rest still has to do, so that it is idle.
+    pub(super) fn empty(&mut self, doing: &'static str) -> Result<(), DriverError> {
+        let until = monotonic() + ANSWER;
+        loop {
+            let state = self.look(ANSWER)?.what.state;
+            match state {
+                State::Idle => return Ok(()),
+                // At rest nothing is lost by a reset; on the way the place would be.
+                State::Held => {
+                    let reset = self.link.writer().send_byte(RESET);
+                    reset.map_err(|error| failed(ErrorKind::Disconnected, doing, error))?;
+                }
+                State::Slowing | State::Running if monotonic() < until => {}
+                State::Alarm => return Err(alarm(doing)),
+                _ => {
+                    let why = format!("it does not come to rest, it stays {state:?}");
+                    return Err(failed(ErrorKind::DeviceFault, doing, why));
+                }
+            }
+        }
+    }
+}
+
+pub(super) fn alarm(doing: &'static str) -> DriverError {
+    let why = "the machine is in alarm: look at it, then reset and home it, which this program never does";
+    failed(ErrorKind::DeviceFault, doing, why)
+}
+
+impl Robot for Machine {
+    fn pose(&mut self, deadline: Deadline) -> Result<(Pose, Stamp), DriverError> {
+        let seen = self.look(deadline.remaining())?;
+        let [x, y, z] = seen.what.place_mm.map(Millimetre);
+        let pose = Pose {
+            position: Point { x, y, z },
+            ..Pose::default()
+        };
+        check_pose(&pose)
+            .map_err(|error| failed(ErrorKind::DeviceFault, "ask where the machine is", error))?;
+        Ok((pose.on_grid(), Stamp::at(seen.at)))
+    }
+
+    fn move_to(
+        &mut self,
+        target: Pose,
+        speed: Speed,
+        deadline: Deadline,
+    ) -> Result<Stamp, DriverError> {
+        let doing = "move the machine";
+        check_pose(&target).map_err(|error| failed(ErrorKind::InvalidArgument, doing, error))?;
+        if target.rotation != Rotation::default() {
+            let why = format!("{:?}, expected no turn: it has three axes", target.rotation);
+            return Err(failed(ErrorKind::OutOfRange, doing, why));
+        }
+        let most = self.options.speed_max;
+        if speed > most {
+            let why = format!("{speed}, expected at most {most}");
+            return Err(failed(ErrorKind::OutOfRange, doing, why));
+        }
+        self.go(target, speed, deadline)
+    }
+
+    fn halt_handle(&self) -> Arc<dyn Halt> {
+        Arc::clone(&self.stop) as Arc<dyn Halt>
+    }
+
+    fn clear_halt(&mut self, _: Deadline) -> Result<(), DriverError> {
+        // First, so that a halt which comes meanwhile stays.
+        self.stop.is_halted.store(false, Ordering::Release);
+        self.empty("end the halt")
+    }
+}
+
+impl Drop for Machine {
+    fn drop(&mut self) {
+        self.stop.is_gone.store(true, Ordering::Release);
+    }
+}

@@ -1,0 +1,125 @@
+//! One straight motion, from the look before it to the rest after it.
+
+use std::time::Duration;
+
+use taceva_core::{Deadline, DriverError, ErrorKind, Point, Pose, Speed, Stamp};
+
+use super::line::State;
+use super::link::HOLD;
+use super::machine::{ANSWER, Machine, alarm, failed, refused};
+use crate::link::monotonic;
+
+const DOING: &str = "move the machine";
+/// How near the target a motion ends: a step of most machines is 0.01 mm or less.
+const NEAR_MM: f64 = 0.02;
+/// A motion that the machine took has begun after this time.
+const BEGUN: Duration = Duration::from_millis(100);
+/// How often the machine is asked while it moves; it is not made for more.
+const LOOK_EVERY: Duration = Duration::from_millis(20);
+/// Seconds in a minute, by which the machine counts speed.
+const SECONDS: f64 = 60.0;
+
+impl Machine {
+    /// Moves the tip to `target` and returns once it rests there, or stands elsewhere and why.
+    pub(super) fn go(
+        &mut self,
+        target: Pose,
+        speed: Speed,
+        deadline: Deadline,
+    ) -> Result<Stamp, DriverError> {
+        let until = monotonic().saturating_add(deadline.remaining());
+        if self.stop.is_halted() {
+            return Err(halted());
+        }
+        if deadline.has_passed() {
+            return Err(failed(ErrorKind::Timeout, DOING, "no time to move at all"));
+        }
+        match self.look(ANSWER)?.what.state {
+            State::Idle => {}
+            State::Alarm => return Err(alarm(DOING)),
+            state => {
+                let why = format!("it is {state:?}, expected idle: end the halt to go on");
+                return Err(failed(ErrorKind::DeviceFault, DOING, why));
+            }
+        }
+        let ended = self.follow(&target, speed, until);
+        if let Err(error) = &ended {
+            // Held twice is held once; a stop that could not be sent says so by a line that is gone.
+            let _ = self.link.writer().send_byte(HOLD);
+            // A motion that was given up is no halt: the next one is accepted. A halt is ended by whoever made it.
+            let given_up = error.kind() == ErrorKind::Timeout;
+            let _ = match given_up && !self.stop.is_halted() {
+                true => self.empty(DOING),
+                false => self.rest(),
+            };
+        }
+        ended
+    }
+
+    fn follow(
+        &mut self,
+        target: &Pose,
+        speed: Speed,
+        until: Duration,
+    ) -> Result<Stamp, DriverError> {
+        let Point { x, y, z } = target.position;
+        let feed = speed.mm_per_s() * SECONDS;
+        // In mm, to a place in the frame of the machine, at mm a minute.
+        let line = format!(
+            "G21 G90 G94 G53 G1 X{:.4} Y{:.4} Z{:.4} F{feed:.3}",
+            x.0, y.0, z.0
+        );
+        self.link.command(&line, ANSWER).map_err(refused(DOING))?;
+        let sent = monotonic();
+        loop {
+            if self.stop.is_halted() {
+                return Err(halted());
+            }
+            if monotonic() >= until {
+                let why = "it did not arrive within the deadline";
+                return Err(failed(ErrorKind::Timeout, DOING, why));
+            }
+            let seen = self.look(ANSWER)?;
+            match seen.what.state {
+                State::Running => {}
+                State::Idle => {
+                    let [a, b, c] = seen.what.place_mm;
+                    let sides = [a - x.0, b - y.0, c - z.0];
+                    let short_mm = sides.iter().map(|side| side * side).sum::<f64>().sqrt();
+                    if short_mm <= NEAR_MM {
+                        return Ok(Stamp::at(seen.at));
+                    }
+                    if seen.at.saturating_sub(sent) >= BEGUN && !self.stop.is_halted() {
+                        let why = format!(
+                            "it came to rest {short_mm:.3} mm from its target, expected at most {NEAR_MM} mm"
+                        );
+                        return Err(failed(ErrorKind::DeviceFault, DOING, why));
+                    }
+                }
+                State::Alarm => return Err(alarm(DOING)),
+                state if !self.stop.is_halted() => {
+                    let why = format!("somebody else stopped it, it is {state:?}");
+                    return Err(failed(ErrorKind::DeviceFault, DOING, why));
+                }
+                _ => {}
+            }
+            std::thread::sleep(LOOK_EVERY);
+        }
+    }
+
+    /// Waits until a machine that was held stands, or cannot be seen.
+    fn rest(&mut self) -> Result<(), DriverError> {
+        let until = monotonic() + ANSWER;
+        while monotonic() < until {
+            let state = self.look(ANSWER)?.what.state;
+            if !matches!(state, State::Running | State::Slowing) {
+                break;
+            }
+        }
+        Ok(())
+    }
+}
+
+fn halted() -> DriverError {
+    failed(ErrorKind::Interrupted, DOING, "it was halted")
+}
