@@ -6,14 +6,12 @@ mod connect;
 #[cfg(feature = "tcp")]
 mod error;
 pub(crate) mod mailbox;
-mod monotonic;
 
 #[cfg(feature = "tcp")]
 pub(crate) use connect::connect;
 #[cfg(feature = "tcp")]
 pub(crate) use error::LinkError;
 pub(crate) use mailbox::{Mailbox, NoNews, Seen};
-pub(crate) use monotonic::monotonic;
 
 /// The bytes that `text` writes in hexadecimal, white space between them.
 #[cfg(all(
@@ -27,4 +25,9 @@ pub(crate) fn hexadecimal(text: &str) -> Vec<u8> {
         .collect();
     let byte = |pair: &[u32]| u8::try_from(16 * pair[0] + pair[1]).expect("two digits");
     digits.chunks_exact(2).map(byte).collect()
+}
+
+/// The time of the clock that real devices are stamped by.
+pub(crate) fn monotonic() -> std::time::Duration {
+    crate::clock::MonotonicClock.now()
 }

@@ -14,6 +14,7 @@ mod error;
 mod event;
 mod indent;
 mod log;
+mod look;
 mod observe;
 mod operator;
 mod press;

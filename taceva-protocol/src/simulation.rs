@@ -14,6 +14,7 @@
 mod devices;
 mod disk;
 mod fault;
+mod gel;
 mod journal;
 mod oracle;
 mod record;

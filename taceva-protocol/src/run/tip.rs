@@ -4,25 +4,20 @@ use std::time::Duration;
 
 use taceva_core::{
     Deadline, Degree, ErrorKind, ForceTransducer, Millimetre, Nanometre, Point, Pose, Robot,
-    Rotation, Speed, Stamp, Wrench,
+    Rotation, Speed,
 };
 
 use super::align::Look;
 use super::bounds::Bounds;
 use super::error::StopCause;
-use super::supervisor::{MotionStage, Observation, SharedSupervisor};
+use super::look::READ_DEADLINE;
+use super::supervisor::{MotionStage, SharedSupervisor};
 use super::time::{Cancel, Timekeeper};
 use super::trip::Trip;
 use super::way::{distance, is_straight_up, part_way, settled};
 use crate::limits::FROZEN_READINGS;
 use crate::plan::Plan;
 
-/// A transducer that says nothing for so long is asked again, until the supervisor calls it silent.
-const READ_DEADLINE: Duration = Duration::from_millis(20);
-/// Before a transducer that said what was true too early is asked again.
-const LATE_REST: Duration = Duration::from_millis(1);
-/// Questions in a row that remain without answer, should the clock stand still.
-const READ_TRIES: u32 = 64;
 /// For everything that is no motion.
 pub(super) const DEADLINE: Deadline = Deadline::after(Duration::from_secs(2));
 /// Segments that a motion may take beyond twice those of its way, before the robot counts as stuck.
@@ -265,7 +260,7 @@ impl<'a> Tip<'a> {
         Ok(())
     }
 
-    fn halt_for(&mut self, trip: Trip) -> StopCause {
+    pub(super) fn halt_for(&mut self, trip: Trip) -> StopCause {
         StopCause::Tripped(self.supervisor.lock().trip(trip))
     }
 
@@ -290,7 +285,7 @@ impl<'a> Tip<'a> {
     /// A robot that fails is halted, whatever it says.
     ///
     /// After a [`Fault`](taceva_core::Fault) it is not moved again, nor is the fault cleared.
-    fn failed(&mut self, error: taceva_core::DriverError) -> StopCause {
+    pub(super) fn failed(&mut self, error: taceva_core::DriverError) -> StopCause {
         let _ = self.robot.halt();
         let is_grave = [ErrorKind::DeviceFault, ErrorKind::Disconnected].contains(&error.kind());
         let (tripped, fault) = {
@@ -337,83 +332,6 @@ impl<'a> Tip<'a> {
         self.look().map(drop)
     }
 
-    /// Reads force and pose and shows both to the supervisor.
-    pub(super) fn look(&mut self) -> Step<Look> {
-        let reading = self.read_force()?;
-        let (pose, stamp) = match self.robot.pose(DEADLINE) {
-            Ok(read) => read,
-            Err(error) => return Err(self.failed(error)),
-        };
-        self.at = pose;
-        let observation = Observation::Pose {
-            pose,
-            stamp,
-            target: self.target,
-        };
-        self.show(&observation)?;
-        Ok(Look {
-            wrench: self.supervisor.lock().zeroed(&reading.said),
-            wrench_s: reading.valid_s,
-            number: reading.number,
-            pose,
-            pose_s: stamp.valid_s,
-        })
-    }
-
-    /// The force as it was when it was asked for, or later.
-    ///
-    /// The tip rests meanwhile, so that links and filters that deliver late cost time and no way: what they still hold of before the end
-    /// of the last motion is shown to the supervisor, and the next reading awaited.
-    pub(super) fn read_force(&mut self) -> Step<Reading> {
-        let asked_s = self.clock.now_s();
-        for _ in 0..READ_TRIES {
-            match self.force.read(Deadline::after(READ_DEADLINE)) {
-                Ok((said, stamp)) => {
-                    let number = self.force.sequence();
-                    self.show(&observation(said, stamp, number))?;
-                    let valid_s = stamp.valid_s;
-                    if valid_s >= asked_s {
-                        return Ok(Reading {
-                            said,
-                            valid_s,
-                            number,
-                        });
-                    }
-                    self.clock.rest(LATE_REST);
-                }
-                Err(error) if error.kind() == ErrorKind::Timeout => {
-                    self.show(&Observation::Silence)?
-                }
-                Err(error) if error.kind() == ErrorKind::OutOfRange => {
-                    let force_n = f64::INFINITY;
-                    return Err(self.halt_for(Trip::Saturated { force_n }));
-                }
-                Err(error) => {
-                    let _ = self.robot.halt();
-                    return Err(StopCause::Device(error));
-                }
-            }
-        }
-        let age_s = self.clock.now_s() - asked_s;
-        Err(self.halt_for(Trip::StaleForce { age_s }))
-    }
-
-    fn show(&mut self, observation: &Observation) -> Step<()> {
-        let now_s = self.clock.now_s();
-        let mut supervisor = self.supervisor.lock();
-        let is_force = matches!(
-            observation,
-            Observation::Force(..) | Observation::Numbered(..)
-        );
-        let seen = match (self.is_guarded && is_force, supervisor.tripped()) {
-            // Whoever read it has shown it, and shown twice it would be a signal that repeats itself.
-            (true, Some(trip)) => Err(trip),
-            (true, None) => Ok(()),
-            (false, _) => supervisor.observe(observation, now_s),
-        };
-        seen.map_err(StopCause::Tripped)
-    }
-
     /// The place of a waypoint: over `place`, sheared, at `depth` below `height_mm`.
     pub(super) fn waypoint(
         place: [Nanometre; 2],
@@ -423,25 +341,6 @@ impl<'a> Tip<'a> {
     ) -> [f64; 3] {
         let side = |axis: usize| Nanometre(place[axis].0 + shear[axis].0).to_millimetres();
         [side(0), side(1), height_mm + depth.to_millimetres()]
-    }
-}
-
-/// What the transducer said.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Reading {
-    /// With its own zero.
-    pub(super) said: Wrench,
-    /// When that was true.
-    pub(super) valid_s: f64,
-    /// The number that it gave the reading.
-    number: Option<u64>,
-}
-
-/// A reading of force, with its number if it has one.
-fn observation(said: Wrench, stamp: Stamp, number: Option<u64>) -> Observation {
-    match number {
-        Some(number) => Observation::Numbered(said, stamp, number),
-        None => Observation::Force(said, stamp),
     }
 }
 

@@ -4,30 +4,12 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use taceva_core::Fault;
 
+pub(super) use super::gel::Gel;
+
 use super::fault::{FaultKind, Faults, fraction};
 use super::oracle::{Ended, Oracle, SILENCE, TOO_HARD};
 use crate::draw::Draws;
 use crate::run::{Cancel, SharedSupervisor, Timekeeper};
-
-/// The gel and the instruments of one seed.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Gel {
-    pub(super) stiffness_n_mm: f64,
-    /// Half the span of the noise of the transducer.
-    pub(super) noise_n: f64,
-    /// The force at which the transducer is at the end of its range.
-    pub(super) saturation_n: f64,
-    pub(super) normal_max_n: f64,
-    /// Half the span of the noise of a reported pose along each axis, in mm.
-    pub(super) pose_noise_mm: f64,
-}
-
-impl Gel {
-    /// The standard deviation of a reported pose along an axis: that of an even spread.
-    pub(super) fn pose_deviation_mm(&self) -> f64 {
-        self.pose_noise_mm / 3.0_f64.sqrt()
-    }
-}
 
 /// How a call to a device travels, in s each way.
 const LINK_S: f64 = 0.000_5;

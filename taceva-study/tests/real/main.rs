@@ -2,7 +2,7 @@
 
 mod devices;
 mod guard;
-mod hands;
+mod operator;
 mod world;
 
 use std::num::NonZeroUsize;

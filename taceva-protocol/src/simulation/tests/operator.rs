@@ -25,13 +25,13 @@ calibration = { points = 2, indentations = 1 }
 type Asked = Arc<Mutex<Vec<Question>>>;
 
 /// Answers by a rule, notes what it was asked, and looks whether the robot is halted meanwhile.
-struct Hands {
+struct ScriptedOperator {
     world: Shared,
     asked: Asked,
     answer: fn(&Shared, &Question) -> Answer,
 }
 
-impl Operator for Hands {
+impl Operator for ScriptedOperator {
     fn ask(&mut self, question: &Question, _: &Cancel) -> Answer {
         let is_fault = matches!(question, Question::Acknowledge(_));
         assert!(self.world.world().halted || is_fault, "hands are in");
@@ -50,7 +50,7 @@ fn bench(answer: fn(&Shared, &Question) -> Answer) -> (Bench, Asked) {
     last.press.specimen = other;
     let mut bench = Bench::with(SOFT, plan);
     let asked = Asked::default();
-    bench.operator = Some(Box::new(Hands {
+    bench.operator = Some(Box::new(ScriptedOperator {
         world: bench.shared.clone(),
         asked: Arc::clone(&asked),
         answer,

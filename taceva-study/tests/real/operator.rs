@@ -25,12 +25,12 @@ contact = { clearance_mm = 0.3, search_mm = 0.5, speed_mm_s = 5.0, travel_mm_s =
 surface = { points = 2 }
 "#;
 
-struct Hands {
+struct ScriptedOperator {
     asked: Vec<Question>,
     answer: fn(&Question) -> Answer,
 }
 
-impl Operator for Hands {
+impl Operator for ScriptedOperator {
     fn ask(&mut self, question: &Question, _: &Cancel) -> Answer {
         self.asked.push(question.clone());
         (self.answer)(question)
@@ -58,7 +58,7 @@ fn a_scene_that_needs_hands_is_refused_where_nobody_can_be_asked_before_anything
 fn each_unit_is_asked_for_and_one_that_is_skipped_is_left_for_the_next_call() {
     let (world, folder) = (World::new(), tempfile::tempdir().expect("a folder"));
     let path = folder.path().join("run");
-    let hands = Mutex::new(Hands {
+    let hands = Mutex::new(ScriptedOperator {
         asked: Vec::new(),
         answer: |question| match *question == unit("b") {
             true => Answer::Skip,
