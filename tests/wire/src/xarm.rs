@@ -5,6 +5,7 @@
 //! jerk, braking ways. An unknown register is answered with "result invalid".
 
 mod answer;
+mod client;
 mod controller;
 mod line;
 mod report;

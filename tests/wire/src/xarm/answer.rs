@@ -1,8 +1,8 @@
 //! What each register answers.
 
+use super::client::{Client, Push};
 use super::controller::{Controller, Snapshot};
 use super::line::Line;
-use super::session::{Client, Push};
 
 /// What one client has set for itself.
 #[derive(Debug, Default)]

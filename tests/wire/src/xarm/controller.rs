@@ -5,8 +5,8 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use taceva_core::Speed;
 
+use super::client::Push;
 use super::line::Line;
-use super::session::Push;
 use crate::base::Base;
 use crate::bench::WallBench;
 use crate::fault::ArmFault;
