@@ -5,6 +5,12 @@ use std::fmt;
 /// Why a device stopped by itself, where it says so.
 ///
 /// Whoever conducts a run leaves the tip where it is: it neither draws back nor clears the fault, which is acknowledged at the device.
+///
+/// ```
+/// use taceva_core::Fault;
+/// assert_eq!(Fault::ALL.len(), 4);
+/// assert_eq!(Fault::EmergencyStop.to_string(), "emergency stop");
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Fault {

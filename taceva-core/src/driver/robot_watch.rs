@@ -7,6 +7,15 @@ use crate::stamp::Stamp;
 /// Looks at the robot it came from while that moves: from any thread, beside any other call, over a connection of its own.
 ///
 /// It outlives the robot harmlessly: once that is dropped it answers `Disconnected`.
+///
+/// ```
+/// use taceva_core::{Deadline, DriverError, Pose, RobotWatch};
+/// /// How deep the tip is now, in mm.
+/// fn depth_mm(watch: &dyn RobotWatch, deadline: Deadline) -> Result<f64, DriverError> {
+///     let (pose, _) = watch.pose(deadline)?;
+///     Ok(pose.position.z.0)
+/// }
+/// ```
 pub trait RobotWatch: Send + Sync {
     /// Where the tip is now, and when that was true; never waits for a motion.
     ///

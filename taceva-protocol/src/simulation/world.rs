@@ -56,7 +56,7 @@ pub(super) struct World {
     /// Whether somebody pressed the emergency stop, which a person must acknowledge.
     pub(super) stopped: bool,
     /// Whether whoever conducts the run was told.
-    told_of_stop: bool,
+    has_noted_stop: bool,
     pub(super) gel: Gel,
     pub(super) oracle: Oracle,
     pub(super) faults: Faults,
@@ -115,7 +115,7 @@ impl Shared {
             touched: None,
             halted: false,
             stopped: false,
-            told_of_stop: false,
+            has_noted_stop: false,
             gel,
             oracle,
             faults,
@@ -186,7 +186,7 @@ impl World {
         if !self.stopped {
             return Ok(());
         }
-        if std::mem::replace(&mut self.told_of_stop, true) {
+        if std::mem::replace(&mut self.has_noted_stop, true) {
             self.oracle.defied(asked);
         }
         Err(Fault::EmergencyStop)
@@ -194,7 +194,7 @@ impl World {
 
     /// A person acknowledges an emergency stop at the robot.
     pub(super) fn acknowledge(&mut self) {
-        (self.stopped, self.told_of_stop) = (false, false);
+        (self.stopped, self.has_noted_stop) = (false, false);
     }
 
     /// Where the robot says that the tip is.

@@ -62,7 +62,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn answers_are_told_apart() {
+    fn answers_are_distinguished() {
         let rate = Command::Rate(200);
         assert_eq!(rate.line(), "AT+SMPF=200\r\n");
         assert_eq!(rate.answered_by("ACK+SMPF=200$OK"), Some(true));
