@@ -11,6 +11,7 @@ mod motion;
 mod observe;
 mod options;
 mod report;
+mod reported;
 mod stop;
 mod watch;
 

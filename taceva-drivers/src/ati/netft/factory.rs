@@ -63,6 +63,7 @@ impl NetftFactory {
         let facts = Facts::Force(ForceFacts {
             axes: Axes::SIX,
             tare: true,
+            numbered: true,
             ..ForceFacts::default()
         });
         let title = "a force transducer behind a Net F/T box of ATI";

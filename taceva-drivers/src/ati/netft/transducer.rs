@@ -34,6 +34,8 @@ pub(super) struct Transducer {
     stream: RecordStream,
     zero: HostZero,
     is_running: bool,
+    /// The number that the box gave the last reading.
+    sequence: Option<u64>,
     /// The number of the last record that was given.
     last: u64,
 }
@@ -64,6 +66,7 @@ impl Transducer {
             records,
             stream,
             is_running: false,
+            sequence: None,
             last: 0,
         })
     }
@@ -96,6 +99,7 @@ impl Transducer {
             NoNews::Ended(ending) => failed(ending.kind, READ, ending.why),
         })?;
         self.last = seen.number;
+        self.sequence = Some(u64::from(seen.what.record.number));
         Ok(seen)
     }
 
@@ -147,6 +151,10 @@ impl ForceTransducer for Transducer {
         let wrench = self.zero.taken_off(&self.wrench(&seen.what.record)?);
         self.check_range(&wrench)?;
         Ok((wrench, Stamp::at(seen.at)))
+    }
+
+    fn sequence(&self) -> Option<u64> {
+        self.sequence
     }
 
     fn stop(&mut self) -> Result<(), DriverError> {

@@ -73,6 +73,7 @@ impl M8128Factory {
         let facts = Facts::Force(ForceFacts {
             axes: Axes::SIX,
             tare: true,
+            numbered: true,
             ..ForceFacts::default()
         });
         let title = "a force transducer behind a box of SRI";

@@ -45,6 +45,8 @@ pub(super) struct Transducer {
     /// What is taken off every reading.
     zero: HostZero,
     is_running: bool,
+    /// The number that the box gave the last reading.
+    sequence: Option<u64>,
     /// The number of the last reading that was given.
     last: u64,
 }
@@ -75,6 +77,7 @@ impl Transducer {
             zero: HostZero::new(options.force_max_n),
             options,
             is_running: false,
+            sequence: None,
             last: 0,
         })
     }
@@ -120,6 +123,7 @@ impl Transducer {
             NoNews::Ended(ending) => failed(ending.kind, READ, ending.why),
         })?;
         self.last = seen.number;
+        self.sequence = Some(u64::from(seen.what.reading.number));
         Ok(seen)
     }
 
@@ -174,6 +178,10 @@ impl ForceTransducer for Transducer {
         let wrench = self.zero.taken_off(&self.wrench(&seen.what.reading)?);
         self.check_range(&wrench)?;
         Ok((wrench, Stamp::at(seen.at)))
+    }
+
+    fn sequence(&self) -> Option<u64> {
+        self.sequence
     }
 
     fn stop(&mut self) -> Result<(), DriverError> {

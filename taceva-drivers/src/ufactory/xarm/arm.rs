@@ -2,7 +2,9 @@
 
 use std::sync::Arc;
 
-use taceva_core::{Deadline, DriverError, ErrorKind, Halt, Pose, Robot, Speed, Stamp, check_pose};
+use taceva_core::{
+    Deadline, DriverError, ErrorKind, Halt, Pose, Robot, RobotWatch, Speed, Stamp, check_pose,
+};
 
 use super::KEY;
 use super::command::{Command, TargetState};
@@ -11,6 +13,7 @@ use super::firmware::Firmware;
 use super::frame::Reply;
 use super::observe::{ANSWER, Observer, error_now};
 use super::options::XarmOptions;
+use super::reported::ReportedPose;
 use super::stop::{Keeper, Place, Stop};
 use crate::link::monotonic;
 
@@ -80,7 +83,7 @@ impl Arm {
     /// Makes a controller that was stopped by this driver stand by again, unless a person must see to it first.
     pub(super) fn stand_by(&mut self, doing: &'static str) -> Result<(), DriverError> {
         if let Some(fault) = error_now(&mut self.exchange).map_err(unanswered(doing))? {
-            return Err(failed(ErrorKind::DeviceFault, doing, fault));
+            return Err(fault.met(doing));
         }
         let ready = [
             Command::SetPositionMode,
@@ -156,6 +159,11 @@ impl Robot for Arm {
 
     fn halt_handle(&self) -> Arc<dyn Halt> {
         Arc::clone(self.keeper.stop()) as Arc<dyn Halt>
+    }
+
+    fn watch_handle(&self) -> Option<Arc<dyn RobotWatch>> {
+        let reports = self.observer.reports()?;
+        Some(Arc::new(ReportedPose { reports }))
     }
 
     fn clear_halt(&mut self, _: Deadline) -> Result<(), DriverError> {

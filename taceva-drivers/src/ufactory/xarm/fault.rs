@@ -2,6 +2,10 @@
 
 use std::fmt;
 
+use taceva_core::{DriverError, ErrorKind, Fault};
+
+use super::arm::failed;
+
 /// An error that the controller reports.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct XarmFault {
@@ -10,6 +14,26 @@ pub(super) struct XarmFault {
 }
 
 impl XarmFault {
+    /// Of which kind it is, where only a person may go on from it.
+    fn kind(self) -> Option<Fault> {
+        match self.code {
+            1..=3 => Some(Fault::EmergencyStop),
+            10..=17 => Some(Fault::Servo),
+            22 | 31 => Some(Fault::Collision),
+            35 => Some(Fault::Boundary),
+            _ => None,
+        }
+    }
+
+    /// The error of whoever was `doing` something when the controller reported it.
+    pub(super) fn met(self, doing: &'static str) -> DriverError {
+        let error = failed(ErrorKind::DeviceFault, doing, self);
+        match self.kind() {
+            Some(kind) => error.with_fault(kind),
+            None => error,
+        }
+    }
+
     /// What it means.
     fn meaning(self) -> &'static str {
         match self.code {

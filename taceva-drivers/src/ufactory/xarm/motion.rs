@@ -79,7 +79,7 @@ impl Arm {
         }
         let fault = self.observer.error(&mut self.exchange);
         if let Some(fault) = fault.map_err(unanswered(DOING))? {
-            return Err(failed(ErrorKind::DeviceFault, DOING, fault));
+            return Err(fault.met(DOING));
         }
         if self.observer.is_enabled() == Some(false) {
             let why = "its motors are off; enable the arm in UFACTORY Studio, which this program never does";
@@ -129,7 +129,7 @@ impl Arm {
                 .observe(&mut self.exchange, Some(&last), STALE)?;
             let fault = self.observer.error(&mut self.exchange);
             if let Some(fault) = fault.map_err(unanswered(DOING))? {
-                return Err(failed(ErrorKind::DeviceFault, DOING, fault).into());
+                return Err(fault.met(DOING).into());
             }
             let since = last.at.saturating_sub(sent);
             if last.state == State::MOVING {
@@ -169,7 +169,7 @@ impl Arm {
             halted()
         } else {
             match error_now(&mut self.exchange) {
-                Ok(Some(fault)) => failed(ErrorKind::DeviceFault, DOING, fault),
+                Ok(Some(fault)) => fault.met(DOING),
                 Ok(None) => {
                     let why = format!(
                         "the controller is {}, by somebody else or by an earlier halt; end the halt to go on",

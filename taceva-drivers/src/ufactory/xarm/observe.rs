@@ -1,5 +1,6 @@
 //! What the arm does now: from its reports, or asked for where it sends none.
 
+use std::sync::Arc;
 use std::time::Duration;
 
 use taceva_core::{DriverError, ErrorKind, NotFinite, Pose, check_pose};
@@ -9,9 +10,9 @@ use super::command::Command;
 use super::exchange::{Exchange, ExchangeError};
 use super::fault::XarmFault;
 use super::frame::Reply;
-use super::report::{ReportKind, State, pose_of};
+use super::report::{Report, ReportKind, State, pose_of};
 use super::watch::Watch;
-use crate::link::{LinkError, NoNews, monotonic};
+use crate::link::{LinkError, Mailbox, NoNews, monotonic};
 
 /// Where the arm is and what it does, at one moment.
 #[derive(Clone, Copy, Debug)]
@@ -73,6 +74,11 @@ impl Observer {
             asked: Duration::ZERO,
             asked_for_errors: Duration::ZERO,
         })
+    }
+
+    /// Where reports of poses are left, if the arm sends any.
+    pub(super) fn reports(&self) -> Option<Arc<Mailbox<Report>>> {
+        self.poses.as_ref().map(Watch::mailbox)
     }
 
     /// What the arm does now: after `last`, and not older than is of use.

@@ -42,6 +42,11 @@ impl Watch {
         })
     }
 
+    /// Where the reports are left.
+    pub(super) fn mailbox(&self) -> Arc<Mailbox<Report>> {
+        Arc::clone(&self.reports)
+    }
+
     /// The newest report, if one has come and others still may.
     pub(super) fn newest(&self) -> Option<Seen<Report>> {
         self.reports.newest()

@@ -194,7 +194,7 @@ impl Robot for Arm {
         let seen = self.look(None, deadline.remaining())?;
         match ArmFault::of(&seen.what) {
             None => Ok(()),
-            Some(fault) => Err(failed(ErrorKind::DeviceFault, "end the halt", fault)),
+            Some(fault) => Err(fault.met("end the halt")),
         }
     }
 }

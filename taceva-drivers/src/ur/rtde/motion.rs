@@ -51,7 +51,7 @@ impl Arm {
         let left = until.saturating_sub(monotonic());
         let first = self.look(None, left)?;
         if let Some(fault) = ArmFault::of(&first.what) {
-            return Err(failed(ErrorKind::DeviceFault, DOING, fault));
+            return Err(fault.met(DOING));
         }
         if first.what.runtime != STOPPED {
             let why = "the controller runs another program, expected none";
@@ -98,7 +98,7 @@ impl Arm {
             }
             last = self.look(Some(last.number), STALE)?;
             if let Some(fault) = ArmFault::of(&last.what) {
-                return Err(failed(ErrorKind::DeviceFault, DOING, fault));
+                return Err(fault.met(DOING));
             }
             let since = last.at.saturating_sub(sent);
             if last.what.runtime != STOPPED {

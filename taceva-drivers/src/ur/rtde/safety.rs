@@ -2,6 +2,10 @@
 
 use std::fmt;
 
+use taceva_core::{DriverError, ErrorKind, Fault};
+
+use super::arm::failed;
+
 use super::message::ArmState;
 
 /// Why an arm does not move.
@@ -32,6 +36,26 @@ const FAULT: u32 = 1 << 9;
 const RUNNING: i32 = 7;
 
 impl ArmFault {
+    /// Of which kind it is, where only a person may go on from it.
+    fn kind(self) -> Option<Fault> {
+        match self {
+            ArmFault::EmergencyStop => Some(Fault::EmergencyStop),
+            ArmFault::ProtectiveStop => Some(Fault::Collision),
+            ArmFault::SafeguardStop | ArmFault::Violation => Some(Fault::Boundary),
+            ArmFault::Fault => Some(Fault::Servo),
+            ArmFault::NotRunning { .. } => None,
+        }
+    }
+
+    /// The error of whoever was `doing` something when the arm reported it.
+    pub(super) fn met(self, doing: &'static str) -> DriverError {
+        let error = failed(ErrorKind::DeviceFault, doing, self);
+        match self.kind() {
+            Some(kind) => error.with_fault(kind),
+            None => error,
+        }
+    }
+
     /// The gravest reason in `state`; `None` if it may move.
     pub(super) fn of(state: &ArmState) -> Option<ArmFault> {
         let any = |bits: u32| state.safety & bits != 0;

@@ -64,6 +64,19 @@ fn the_suite_passes() {
 }
 
 #[test]
+fn every_reading_has_the_number_that_the_box_gave_it() {
+    let setup = setup();
+    let mut transducer = setup.started("");
+    let mut last = None;
+    for _ in 0..20 {
+        transducer.read(PATIENCE).expect("a reading");
+        let number = transducer.sequence();
+        assert!(number.is_some() && number != last, "{last:?}, {number:?}");
+        last = number;
+    }
+}
+
+#[test]
 fn two_hundred_readings_come_a_second() {
     let setup = setup();
     let mut transducer = setup.started("");

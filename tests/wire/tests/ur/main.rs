@@ -122,6 +122,7 @@ fn an_emergency_stop_is_a_fault_that_nobody_but_a_person_ends() {
         error.to_string().contains("the emergency stop was pressed"),
         "{error}"
     );
+    assert_eq!(error.fault(), Some(taceva_core::Fault::EmergencyStop));
     assert!(took < Duration::from_millis(700), "{took:?}");
     let mut arm = setup.open();
     let (at, _) = arm.pose(PATIENCE).expect("a pose");
@@ -138,6 +139,7 @@ fn a_collision_is_a_protective_stop() {
     let (error, _) = setup.moved(|| setup.arm.suffer(ArmFault::Collision));
     assert_eq!(error.kind(), ErrorKind::DeviceFault);
     assert!(error.to_string().contains("a protective stop"), "{error}");
+    assert_eq!(error.fault(), Some(taceva_core::Fault::Collision));
 }
 
 #[test]

@@ -41,6 +41,32 @@ fn the_suite_passes_where_the_controller_reports_nothing_and_is_asked() {
 }
 
 #[test]
+fn another_thread_sees_the_arm_move() {
+    let setup = setup(Ports::ANY);
+    let mut arm = setup.open();
+    let watch = arm.watch_handle().expect("an arm that reports");
+    let (home, _) = arm.pose(PATIENCE).expect("a pose");
+    let seen = std::thread::scope(|scope| {
+        let moving = scope.spawn(|| arm.move_to(lower(home, 10.0), speed(20.0), PATIENCE));
+        let mut seen = Vec::new();
+        while !moving.is_finished() {
+            let (pose, stamp) = watch.pose(PATIENCE).expect("a report");
+            seen.push((stamp.valid_s, pose.position.z.0));
+        }
+        moving.join().expect("no panic").expect("it arrives");
+        seen
+    });
+    assert!(seen.is_sorted_by(|one, other| one.0 < other.0), "{seen:?}");
+    let between =
+        |(_, z): &&(f64, f64)| *z < home.position.z.0 - 1.0 && *z > home.position.z.0 - 9.0;
+    // Half a second of motion, a hundred reports a second; a busy machine skips some.
+    assert!(seen.iter().filter(between).count() >= 5, "{seen:?}");
+    drop(arm);
+    let gone = watch.pose(PATIENCE).expect_err("the arm is gone");
+    assert_eq!(gone.kind(), ErrorKind::Disconnected);
+}
+
+#[test]
 fn a_press_reaches_the_gel_where_the_driver_sent_it() {
     let setup = setup(Ports::ANY);
     let mut arm = setup.open();

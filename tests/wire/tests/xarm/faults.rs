@@ -44,6 +44,7 @@ fn an_emergency_stop_is_a_fault_that_nobody_but_a_person_ends() {
             .contains("error 2: the emergency stop was pressed"),
         "{error}"
     );
+    assert_eq!(error.fault(), Some(taceva_core::Fault::EmergencyStop));
     assert!(took < Duration::from_millis(100), "{took:?}");
     let stood = setup.bench.truth().tip_mm;
     let mut arm = setup.open();
