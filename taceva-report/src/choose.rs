@@ -33,6 +33,8 @@ pub struct Choice {
     pub evidence: Option<Vec<Evidence>>,
     /// Which of the errors that rank are of labels of different spread, in a sentence.
     pub spread: Option<String>,
+    /// Whether samples behind the numbers are simulated.
+    pub simulated: bool,
 }
 
 /// A sensor that meets every hard need, as far as is known.
@@ -107,6 +109,7 @@ pub fn choose(sensors: &[Sensor], needs: &[Need]) -> Choice {
         unknown: Vec::new(),
         evidence: None,
         spread: None,
+        simulated: false,
     };
     let mut remaining: Vec<&Sensor> = Vec::new();
     for sensor in sensors.iter().filter(|entry| entry.kind == Kind::Sensor) {
@@ -161,8 +164,14 @@ fn unmet(sensor: &Sensor, needs: &[Need]) -> Option<String> {
     let mut failed = bounds.filter_map(|(need, bound)| {
         let value = bound.property.of(sensor)?;
         (!bound.holds(value)).then(|| {
+            let ends = bound.property.interval(sensor);
+            let is_unsure = ends.is_some_and(|ends| ends.into_iter().any(|end| bound.holds(end)));
+            let unsure = match is_unsure {
+                true => ", by the value alone: its interval reaches across",
+                false => "",
+            };
             format!(
-                "`{}` needs {bound}, and its {} is {}",
+                "`{}` needs {bound}, and its {} is {}{unsure}",
                 need.words,
                 bound.property,
                 bound.property.shown(value)

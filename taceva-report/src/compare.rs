@@ -135,9 +135,24 @@ pub fn compare(studies: &[Study], request: &CompareRequest) -> Comparison {
     }
     Comparison {
         asides: asides(studies, &names, &answers),
-        notes: comparability::notes(studies, &names).into_iter().collect(),
+        notes: comparability::notes(studies, &names)
+            .into_iter()
+            .chain(simulated(studies))
+            .collect(),
         names,
         answers,
+    }
+}
+
+/// That nothing, or not everything, was measured.
+fn simulated(studies: &[Study]) -> Option<String> {
+    let simulated = studies.iter().filter(|study| study.is_simulated()).count();
+    match simulated {
+        0 => None,
+        _ if simulated == studies.len() => {
+            Some("the samples are simulated: nothing here was measured".to_owned())
+        }
+        _ => Some("some of the samples are simulated and were not measured".to_owned()),
     }
 }
 

@@ -43,7 +43,7 @@ pub(crate) fn note(studies: &[Study], names: &[String], channels: &[&str]) -> Op
     let differing: Vec<String> = differing.collect();
     (!differing.is_empty()).then(|| {
         format!(
-            "Labels differ in spread between the sensors ({}): errors in units, sMAPE, repeatability, spatial robustness and shares within a tolerance follow it; R² and skill do not.",
+            "Labels differ more than twofold in spread between the sensors ({}): part of a difference between scores of these channels may be one of labels.",
             differing.join("; ")
         )
     })

@@ -85,7 +85,7 @@ impl Standing {
                 "low stimulus: what it is formed from, the light of some scene or the labels of repeated presses, hardly changed",
             ),
             Standing::NotAboveConstant => Some(
-                "not above the constant: its interval does not lie above the share that a constant answer reaches",
+                "not above the constant: its interval does not lie above the share that the constant of the skill, the mean of the labels that the model was fitted on, reaches",
             ),
             Standing::NoSkill => {
                 Some("no skill: the model is not shown to do better than a constant")

@@ -1,4 +1,4 @@
-//! Limits to begin with: those that a result itself keeps, each with what was measured beside it.
+//! Limits to begin with: those that a result itself keeps, each with the value of the result beside it.
 
 use taceva_metrics::Better;
 
@@ -8,7 +8,7 @@ use crate::number::{FormattedValue, spaced};
 use crate::results::{Interval, Score, Study};
 use crate::scores::ScoreTable;
 
-/// How much worse than what was measured a limit is, as a part of the value.
+/// How much worse than the value of the result a limit is, as a part of the value.
 const MARGIN: f64 = 0.2;
 /// Digits of a limit: a limit of more is read as if it were known that well.
 const DIGITS: i32 = 3;
@@ -39,7 +39,7 @@ pub fn limits_template(study: &Study) -> String {
     let name = toml::Value::String(format!("limits made from a result of {}", study.sensor));
     let mut out = format!(
         "# Limits made from a result of {}, serial {}, samples {}.\n\
-         # Each is {:.0} % worse than what was measured, or the worse end of its interval where that is further: change what you need, leave out the rest,\n\
+         # Each is {:.0} % worse than the value of the result, or the worse end of its interval where that is further: change what you need, leave out the rest,\n\
          # then: taceva accept RESULT.json --limits THIS.toml\n\
          # `most` must not be exceeded, `least` must be reached; with `whole_interval = true` by the whole interval, not by the value alone.\n\
          limits_version = {LIMITS_VERSION}\nname = {name}\n",
@@ -48,6 +48,9 @@ pub fn limits_template(study: &Study) -> String {
         line(&study.source),
         MARGIN * 100.0
     );
+    if study.is_simulated() {
+        out += "# The samples are simulated: nothing here was measured.\n";
+    }
     match limits.is_empty() {
         true => out += "\n# This result has no score to derive a limit from.\n",
         false => out += &limits,
@@ -78,7 +81,7 @@ fn left_out(barred: &[&Score]) -> String {
     comments.collect()
 }
 
-/// A limit with what was measured; nothing of scores that only describe or have no value.
+/// A limit with the value of the result; nothing of scores that only describe or have no value.
 fn limit(score: &Score) -> Option<String> {
     let value = score.value.number()?;
     let ends = score.interval.as_ref().and_then(Interval::ends);
@@ -93,12 +96,12 @@ fn limit(score: &Score) -> Option<String> {
         }
         _ => return None,
     };
-    let measured =
+    let found =
         FormattedValue::of(&score.value, score.interval.as_ref()).phrase(&spaced(score.unit));
     let text = |text: &str| toml::Value::String(text.to_owned()).to_string();
     Some(format!(
-        "\n# measured: {}, n = {}\n[[limit]]\nmetric = {}\nchannel = {}\nunit = {}\n{bounds}",
-        line(&measured),
+        "\n# result: {}, n = {}\n[[limit]]\nmetric = {}\nchannel = {}\nunit = {}\n{bounds}",
+        line(&found),
         score.n,
         text(&score.metric),
         text(&score.channel),

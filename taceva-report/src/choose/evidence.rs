@@ -45,6 +45,7 @@ pub fn choose_results(studies: &[Study], needs: &[Need]) -> Choice {
     let mut choice = choose(&sensors, needs);
     choice.evidence = Some(evidence(studies, needs, &choice));
     choice.spread = spread(studies, &names, &choice);
+    choice.simulated = studies.iter().any(Study::is_simulated);
     choice
 }
 

@@ -93,6 +93,7 @@ mod tests {
             unknown: Vec::new(),
             evidence: Some(Vec::new()),
             spread: None,
+            simulated: false,
         }
     }
 

@@ -62,6 +62,9 @@ impl Choice {
         for sentence in self.tested() {
             table.note(format!("Tests: {sentence}."));
         }
+        if self.simulated {
+            table.note("Simulated samples: these numbers were not measured.");
+        }
         if let Some(spread) = &self.spread {
             table.note(spread.clone());
         }
@@ -138,7 +141,7 @@ impl Choice {
             all.map(|of| json!({"better": of.better, "than": of.than, "looked_at": of.property.to_string(), "p_holm": of.p}))
                 .collect::<Vec<_>>()
         });
-        let whole = json!({"schema": CHOICE_SCHEMA, "ranked": ranked, "open": open, "dropped": dropped, "barred": barred, "unknown": self.unknown, "evidence": evidence});
+        let whole = json!({"schema": CHOICE_SCHEMA, "ranked": ranked, "open": open, "dropped": dropped, "barred": barred, "unknown": self.unknown, "evidence": evidence, "simulated": self.simulated});
         format!("{whole:#}\n")
     }
 

@@ -96,7 +96,7 @@ impl Comparison {
             let words = crate::escape::terminal(words);
             width.map_or_else(|| words.clone(), |width| cut(&words, width))
         };
-        let notes = self.notes.iter().take(1);
+        let notes = self.notes.iter().take(2);
         let notes: Vec<String> = notes.map(|note| line(&format!("note: {note}"))).collect();
         let room = OVERVIEW_LINES - 2 - notes.len();
         let decisions = self.decisions();

@@ -79,7 +79,6 @@ impl MetricPlan {
     fn optional(&self, metric: &Metric) -> FieldSet {
         let fields = match metric.formula {
             Formula::Intrinsic => intrinsic::OPTIONAL_FIELDS,
-            Formula::SignalToRepeatability => FieldSet::EMPTY.with(Field::Truth),
             _ => FieldSet::EMPTY,
         };
         fields.iter().filter(|field| self.carries(*field)).collect()

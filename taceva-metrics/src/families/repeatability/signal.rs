@@ -8,7 +8,7 @@ use crate::score::Parameter;
 use crate::score::better::Better;
 use crate::score::range::Range;
 use crate::score::value::UndefinedReason;
-use taceva_core::Unit;
+use taceva_core::{Field, Needs, Unit};
 
 pub(crate) static SIGNAL_TO_REPEATABILITY: Metric = Metric {
     id: "signal_to_repeatability",
@@ -22,7 +22,8 @@ pub(crate) static SIGNAL_TO_REPEATABILITY: Metric = Metric {
                     sensor that always says the same repeats perfectly and has no signal: its value is 0. Undefined where \
                     repeats do not differ at all although presses do. Where labels differ less from press to press than predictions of one press \
                     do, the score is flagged `low stimulus` and takes part in no verdict: what predictions differ by is no signal.",
-    needs: NEEDS,
+    // Without labels nobody can say whether there was a signal.
+    needs: Needs::new(NEEDS.fields.with(Field::Truth)).with_least_samples(2),
     facts: &[],
     constants: no_constants,
     formula: Formula::SignalToRepeatability,
