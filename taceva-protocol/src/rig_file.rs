@@ -271,8 +271,8 @@ impl Check<'_> {
         (numbers, greatest): (&Setting<[f64; 3]>, f64),
     ) -> Result<(), SceneError> {
         // NaN is in no range.
-        let is_outside = |number: &&f64| !(number.abs() <= greatest);
-        match numbers.value.iter().find(is_outside) {
+        let is_inside = |number: &f64| (-greatest..=greatest).contains(number);
+        match numbers.value.iter().find(|number| !is_inside(number)) {
             None => Ok(()),
             Some(found) => self.refuse(
                 numbers.at(),

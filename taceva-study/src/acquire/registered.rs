@@ -169,3 +169,104 @@ impl ForceTransducer for Turned {
         self.force.tare()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use taceva_core::{DriverKey, ErrorKind, Millimetre, Point};
+    use taceva_protocol::RigFile;
+
+    use super::*;
+
+    /// Stands where it was sent, in its base frame, and presses with that force.
+    struct Arm(Pose);
+
+    struct Rests;
+
+    impl Halt for Rests {
+        fn halt(&self) -> Result<(), DriverError> {
+            Ok(())
+        }
+    }
+
+    impl Robot for Arm {
+        fn pose(&mut self, _: Deadline) -> Result<(Pose, Stamp), DriverError> {
+            Ok((self.0, Stamp::at(std::time::Duration::ZERO)))
+        }
+
+        fn move_to(&mut self, target: Pose, _: Speed, _: Deadline) -> Result<Stamp, DriverError> {
+            // One that was sent into the table shows that nobody mapped the target.
+            if target.position.z.0 < 200.0 {
+                let key = DriverKey::fixed("lab/arm");
+                return Err(DriverError::new(ErrorKind::OutOfRange, &key, "move"));
+            }
+            self.0 = target;
+            Ok(Stamp::at(std::time::Duration::ZERO))
+        }
+
+        fn halt_handle(&self) -> Arc<dyn Halt> {
+            Arc::new(Rests)
+        }
+
+        fn clear_halt(&mut self, _: Deadline) -> Result<(), DriverError> {
+            Ok(())
+        }
+    }
+
+    /// Six components, each another number.
+    struct Loaded;
+
+    impl ForceTransducer for Loaded {
+        fn axes(&self) -> Axes {
+            Axes::SIX
+        }
+
+        fn read(&mut self, _: Deadline) -> Result<(Wrench, Stamp), DriverError> {
+            let wrench = Wrench {
+                force: [1.0, 2.0, 3.0].map(Newton),
+                torque: [4.0, 5.0, 6.0].map(NewtonMillimetre),
+            };
+            Ok((wrench, Stamp::at(std::time::Duration::ZERO)))
+        }
+    }
+
+    fn place([x, y, z]: [f64; 3]) -> Point {
+        let [x, y, z] = [x, y, z].map(Millimetre);
+        Point { x, y, z }
+    }
+
+    #[test]
+    fn an_arm_of_a_rig_file_is_sent_in_its_base_frame_and_seen_in_the_sensors() {
+        let text = "rig_version = 1\n[robot]\ndriver = \"lab/arm\"\ncarries = \"indenter\"\norigin_mm = [300.0, 0.0, 251.3]\naxes = [\"x\", \"-y\", \"-z\"]\n";
+        let rig = RigFile::parse("lab.toml", text).expect("a rig");
+        let stands = Pose {
+            position: place([300.0, 0.0, 271.3]),
+            rotation: Rotation {
+                x: Degree(180.0),
+                ..Rotation::default()
+            },
+        };
+        let robot = rig.robot.as_ref().expect("a robot");
+        let mut arm =
+            Registered::new(Box::new(Arm(stands)), robot, Deadline::PASSED).expect("a pose");
+        let (seen, _) = arm.pose(Deadline::PASSED).expect("a pose");
+        assert_eq!(seen.position, place([0.0, 0.0, -20.0]));
+        assert_eq!(seen.rotation, Rotation::default());
+        let target = Pose {
+            position: place([4.0, 3.0, 0.5]),
+            ..Pose::default()
+        };
+        let speed = Speed::try_new(1.0).expect("a speed");
+        arm.move_to(target, speed, Deadline::PASSED)
+            .expect("it reaches that");
+        assert_eq!(arm.pose(Deadline::PASSED).expect("a pose").0, target);
+    }
+
+    #[test]
+    fn forces_and_torques_are_turned_into_the_frame_of_the_sensor() {
+        let axes = SignedAxes::read(["x", "-y", "-z"]).expect("axes");
+        let mut turned = Turned::new(Box::new(Loaded), axes);
+        let (wrench, _) = turned.read(Deadline::PASSED).expect("a reading");
+        assert_eq!(wrench.force, [1.0, -2.0, -3.0].map(Newton));
+        assert_eq!(wrench.torque, [4.0, -5.0, -6.0].map(NewtonMillimetre));
+    }
+}
