@@ -21,6 +21,11 @@ impl fmt::Debug for ContentId {
 }
 
 impl ContentId {
+    /// The digest of a text.
+    pub fn of_text(text: &str) -> ContentId {
+        Hasher::new("taceva.text/1").text(text).finish()
+    }
+
     /// The digest written as 32 hexadecimal digits.
     pub fn from_hex(text: &str) -> Option<ContentId> {
         let is_hex = text.len() == 32 && text.bytes().all(|byte| byte.is_ascii_hexdigit());

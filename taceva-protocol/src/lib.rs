@@ -6,6 +6,7 @@ mod limits;
 mod phase;
 mod plan;
 mod press;
+mod rig_file;
 mod run;
 mod scene;
 #[cfg(feature = "simulation")]
@@ -20,6 +21,7 @@ pub use plan::{
     Cause, Cost, Fit, Plan, PlanReason, PlanSkip, PlannedMetric, PlannedPress, Subject, plan,
 };
 pub use press::{Motion, Press, Waypoint};
+pub use rig_file::{Carried, Registration, RigFile, RigForce, RigRobot, RigSensor, SignedAxes};
 pub use run::{
     Answer, Cancel, Controls, Devices, Event, Left, Mode, MotionStage, Observation, Operator,
     PressLog, PressRecord, Question, RunError, RunReport, RunSpec, SharedSupervisor,

@@ -8,7 +8,7 @@ pub use signals::Signals;
 
 use taceva_core::{DriverSource, Millimetre, Newton, RobotFacts, Wrench};
 
-use crate::scene::{LimitSpec, Scene, SceneError, SceneProblem, Setting, Study};
+use crate::scene::{LimitSpec, Scene, SceneError, SceneProblem, Setting, Study, Text};
 use crate::source::RigInfo;
 
 /// What must not be passed, and by how much a stop may come late.
@@ -138,7 +138,7 @@ pub(crate) fn limits(scene: &Scene, study: &Study, rig: &RigInfo) -> Result<RigL
         Some(Stated { limit, who })
     });
 
-    let tighten = Tighten { scene };
+    let tighten = Tighten { scene, study };
     let depth = of_sensor(facts.and_then(|facts| Some(facts.depth_limit()?.0)));
     let depth_max = tighten.required("Pz_max_mm", depth_max_mm, [depth, None])?;
     let normal = of_sensor(facts.and_then(|facts| Some(facts.force_max?.0)));
@@ -179,6 +179,7 @@ pub(crate) fn limits(scene: &Scene, study: &Study, rig: &RigInfo) -> Result<RigL
 
 struct Tighten<'a> {
     scene: &'a Scene,
+    study: &'a Study,
 }
 
 impl Tighten<'_> {
@@ -193,22 +194,18 @@ impl Tighten<'_> {
             .into_iter()
             .flatten()
             .min_by(|one, other| one.limit.total_cmp(&other.limit));
-        match (written, tightest) {
-            (Some(written), Some(tightest)) if written.value > tightest.limit => {
-                let problem = SceneProblem::LimitLoosened {
-                    key,
-                    found: written.value,
-                    who: tightest.who,
-                    limit: tightest.limit,
-                };
-                Err(self.scene.text.error(written.at(), problem))
+        let tightest = match &self.study.rig {
+            Some(rig) => {
+                let of_rig = rig.limits.named().into_iter();
+                let of_rig = of_rig.filter(|(named, _)| *named == key);
+                let limit = of_rig.filter_map(|(_, limit)| limit).next();
+                let who = format!("[limits] of the rig file `{}`", rig.name());
+                tightened((key, limit), tightest, (&rig.text, who))?
             }
-            (Some(written), _) => Ok(Some(Stated {
-                limit: written.value,
-                who: "[limits] of the scene".to_owned(),
-            })),
-            (None, tightest) => Ok(tightest),
-        }
+            None => tightest,
+        };
+        let who = "[limits] of the scene".to_owned();
+        tightened((key, written), tightest, (&self.scene.text, who))
     }
 
     fn required(
@@ -239,6 +236,30 @@ impl Tighten<'_> {
             who: stated.who.clone(),
         };
         self.scene.text.error(written.at(), problem)
+    }
+}
+
+/// The limit that `written` makes of the `tightest` that stood before it, which it may not loosen.
+fn tightened(
+    (key, written): (&'static str, Option<Setting<f64>>),
+    tightest: Option<Stated>,
+    (text, who): (&Text, String),
+) -> Result<Option<Stated>, SceneError> {
+    match (written, tightest) {
+        (Some(written), Some(tightest)) if written.value > tightest.limit => {
+            let problem = SceneProblem::LimitLoosened {
+                key,
+                found: written.value,
+                who: tightest.who,
+                limit: tightest.limit,
+            };
+            Err(text.error(written.at(), problem))
+        }
+        (Some(written), _) => Ok(Some(Stated {
+            limit: written.value,
+            who,
+        })),
+        (None, tightest) => Ok(tightest),
     }
 }
 

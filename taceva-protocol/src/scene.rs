@@ -29,7 +29,20 @@ pub use study::Study;
 
 pub(crate) use parse::Text;
 
+use std::sync::Arc;
+
 use taceva_core::DriverKind;
+
+use crate::rig_file::RigFile;
+
+/// Who says which devices there are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum NamedBy {
+    /// The scene.
+    Scene,
+    /// A rig file.
+    Rig,
+}
 
 /// A scene that was read and is whole in itself: what devices can do is asked by [`plan`](crate::plan).
 ///
@@ -56,6 +69,8 @@ pub struct Scene {
     pub studies: Vec<Study>,
     /// What is to be computed, and how.
     pub metrics: MetricsSpec,
+    /// The rig file that it is carried out on, if it names one; relative to the scene.
+    pub rig: Option<Setting<String>>,
     /// How many presses of which kind.
     pub protocol: Protocol,
     /// How results are written.
@@ -72,7 +87,37 @@ impl Scene {
     /// [`SceneError`] with the line: no TOML, an unknown key or name with the nearest known one, a count of nothing, a number that
     /// is none, two statements that exclude each other, a limit of a study above that of its scene.
     pub fn parse(source_name: &str, text: &str) -> Result<Scene, SceneError> {
-        check::checked(parse::Text::new(source_name, text)?)
+        check::checked(parse::Text::new(source_name, text)?, NamedBy::Scene)
+    }
+
+    /// The scene that `text` says, to be put on a rig: whether it names devices or not.
+    ///
+    /// # Errors
+    /// As [`parse`](Scene::parse).
+    pub fn parse_for_rig(source_name: &str, text: &str) -> Result<Scene, SceneError> {
+        check::checked(parse::Text::new(source_name, text)?, NamedBy::Rig)
+    }
+
+    /// Puts every study that presses on `rig`, whose devices stand in the place of those that the scene names.
+    ///
+    /// # Errors
+    /// [`SceneError`] of the rig file, if it has no sensor.
+    pub fn put_on(&mut self, rig: &Arc<RigFile>) -> Result<(), SceneError> {
+        let pressed = |study: &&mut Study| study.sensor.dataset.is_none();
+        for study in self.studies.iter_mut().filter(pressed) {
+            let Some(sensor) = &rig.sensor else {
+                let problem = SceneProblem::MissingKey("sensor".to_owned());
+                return Err(rig.error(None, problem));
+            };
+            let device = |driver: &Setting<String>| DeviceSpec {
+                driver: driver.clone(),
+            };
+            study.sensor.driver = Some(sensor.driver.clone());
+            study.robot = rig.robot.as_ref().map(|robot| device(&robot.driver));
+            study.force = rig.force.as_ref().map(|force| device(&force.driver));
+            study.rig = Some(Arc::clone(rig));
+        }
+        Ok(())
     }
 
     /// The drivers it names, study by study.
@@ -85,7 +130,11 @@ impl Scene {
     /// # Errors
     /// [`SceneProblem::UnknownName`] with the line and the nearest key.
     pub fn check_drivers(&self, known: &[(DriverKind, &str)]) -> Result<(), SceneError> {
-        for (kind, selector) in self.drivers() {
+        let named = self
+            .studies
+            .iter()
+            .flat_map(|study| study.drivers().map(move |named| (study, named)));
+        for (study, (kind, selector)) in named {
             let of_kind: Vec<&str> = known
                 .iter()
                 .filter(|(known, _)| *known == kind)
@@ -99,7 +148,11 @@ impl Scene {
                     DriverKind::Force => "driver of a force transducer",
                     _ => "driver of lighting",
                 };
-                return Err(self.text.unknown_name(selector.at(), what, key, of_kind));
+                let text = match kind {
+                    DriverKind::Lighting => &self.text,
+                    _ => study.device_text(self),
+                };
+                return Err(text.unknown_name(selector.at(), what, key, of_kind));
             }
         }
         Ok(())

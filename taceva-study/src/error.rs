@@ -92,6 +92,18 @@ pub enum StudyError {
         /// What is wrong, and what was expected.
         problem: String,
     },
+    /// A device of a rig file that another run has.
+    #[error(
+        "{}: `{}` is in use by another run: wait until it has ended, or stop it",
+        taceva_core::shown(rig),
+        taceva_core::shown(device)
+    )]
+    RigTaken {
+        /// The rig file.
+        rig: String,
+        /// What opens the device.
+        device: String,
+    },
     /// Something was asked for that the dataset or the model does not have.
     #[error("{0}")]
     Request(String),

@@ -32,7 +32,7 @@ mod subject;
 mod taken_rows;
 mod work;
 
-pub use acquire::{Surroundings, SurroundingsOf, Upcoming, Workshop};
+pub use acquire::{HeldRigs, Surroundings, SurroundingsOf, Upcoming, Workshop};
 pub use cache::{
     Cache, CacheEntry, CachedStage, Pruning, StageRecord, cache_entries, pruned, remove_entry,
 };

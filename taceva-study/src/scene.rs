@@ -25,6 +25,7 @@ pub use instead::Instead;
 pub(crate) use rig::RigSpec;
 pub(crate) use settings::settings_of;
 pub use text::SceneText;
+use text::read_rig;
 
 /// A scene with the plan of each of its studies.
 #[derive(Debug)]
@@ -86,7 +87,17 @@ impl PlannedScene {
         drivers: &Drivers,
         instead: &Instead,
     ) -> Result<PlannedScene, StudyError> {
-        let mut scene = Scene::parse(&text.name, &text.text)?;
+        let mut scene = match &instead.rig {
+            Some(_) => Scene::parse_for_rig(&text.name, &text.text)?,
+            None => Scene::parse(&text.name, &text.text)?,
+        };
+        let written = scene.rig.as_ref();
+        let written = written.map(|rig| text.folder.join(&rig.value));
+        let rig = instead.rig.clone().or(written);
+        let rig = rig.map(|path| read_rig(&path)).transpose()?;
+        if let Some(rig) = &rig {
+            scene.put_on(rig)?;
+        }
         scene.seed = instead.seed.unwrap_or(scene.seed);
         for study in &mut scene.studies {
             instead.exchange_model(&study.name, &mut study.model)?;
@@ -204,10 +215,15 @@ impl Source {
         drivers: &Drivers,
     ) -> Result<Source, StudyError> {
         let Some(dataset) = &study.sensor.dataset else {
-            let spec = RigSpec::new(study, scene.seed, &text.folder);
+            let rig = study.rig.as_ref();
+            let folder = rig.and_then(|rig| Path::new(rig.name()).parent());
+            let spec = RigSpec::new(study, scene.seed, folder.unwrap_or(&text.folder));
             let info = spec
                 .info(study, drivers)
-                .map_err(|(at, problem)| text.error(at, problem))?;
+                .map_err(|(at, problem)| match rig {
+                    Some(rig) => StudyError::from(rig.error(at, problem)),
+                    None => text.error(at, problem),
+                })?;
             return Ok(Source {
                 info: SourceInfo::Rig(Box::new(info)),
                 source: StudySource::Rig(spec),
@@ -253,7 +269,11 @@ impl Serialize for PlannedScene {
         let gratings = &self.scene.protocol.gratings;
         let (classified_by, set) = (gratings.classified_by.value, &gratings.set.value);
         let is_classified_otherwise = classified_by != GratingClassifier::default();
-        let fields = 4 + 2 * usize::from(is_classified_otherwise);
+        let rig = self
+            .studies
+            .iter()
+            .find_map(|study| study.study.rig.as_ref());
+        let fields = 4 + 2 * usize::from(is_classified_otherwise) + usize::from(rig.is_some());
         let mut scene = serializer.serialize_struct("PlannedScene", fields)?;
         scene.serialize_field("schema", "taceva.plans/1")?;
         scene.serialize_field("scene", &self.scene.name)?;
@@ -263,6 +283,10 @@ impl Serialize for PlannedScene {
         if is_classified_otherwise {
             scene.serialize_field("gratings_classified_by", &classified_by)?;
             scene.serialize_field("gratings_set", set)?;
+        }
+        // What was recorded on one rig is not gone on with on another.
+        if let Some(rig) = rig {
+            scene.serialize_field("rig", &rig.digest().to_string())?;
         }
         scene.end()
     }

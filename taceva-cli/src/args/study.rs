@@ -15,6 +15,9 @@ pub(crate) struct SceneArgs {
     /// The seed of all random numbers, instead of the scene's
     #[arg(long, value_name = "N")]
     pub(crate) seed: Option<u64>,
+    /// The rig file with the robot, the force transducer and the sensor to measure with, instead of those that the scene names; see docs/rig.md
+    #[arg(long, value_name = "FILE")]
+    pub(crate) rig: Option<PathBuf>,
 }
 
 /// The folder of the run holds `report.html`, one file that needs no network; every figure as SVG and PDF in `figures/`; `results.json`

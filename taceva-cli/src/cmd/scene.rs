@@ -12,13 +12,19 @@ use crate::disk_space::{self, Need};
 
 /// The scene of `args`, planned with `drivers`.
 pub(super) fn planned(args: &SceneArgs, drivers: &Drivers) -> anyhow::Result<PlannedScene> {
-    Ok(PlannedScene::new(text(&args.scene)?, drivers, args.seed)?)
+    let instead = Instead {
+        seed: args.seed,
+        rig: args.rig.clone(),
+        ..Instead::default()
+    };
+    Ok(PlannedScene::with(text(&args.scene)?, drivers, &instead)?)
 }
 
 /// The scene of a run, with its overrides.
 pub(super) fn to_run(args: &Run, drivers: &Drivers) -> anyhow::Result<PlannedScene> {
     let instead = Instead {
         seed: args.scene.seed,
+        rig: args.scene.rig.clone(),
         model: args.model.clone(),
         set: args.set.clone(),
         seeds: args.seeds.clone().map_or_else(Vec::new, |seeds| seeds.0),

@@ -82,7 +82,7 @@ impl Signals {
                     resolution_n: step.0,
                     noise_n: facts.noise.map_or(0.0, |noise| noise.0),
                 };
-                return Err(scene.text.error(at, problem));
+                return Err(study.device_text(scene).error(at, problem));
             }
             stops_in_time(scene, study, rig, facts)?;
             let speed = &scene.protocol.contact.speed_mm_s;
@@ -124,7 +124,7 @@ fn one_clock(scene: &Scene, study: &Study, rig: &RigInfo) -> Result<(), SceneErr
         real: real.key().to_string(),
     };
     let at = study.robot.as_ref().and_then(|robot| robot.driver.at());
-    Err(scene.text.error(at, problem))
+    Err(study.device_text(scene).error(at, problem))
 }
 
 /// From a limit that is passed to a tip that rests, in ms: one period of the transducer, a way of the link, a halt sent, and the arm's own.
@@ -158,7 +158,7 @@ fn stops_in_time(
         greatest_ms: HALT_MS,
     };
     let at = study.robot.as_ref().and_then(|robot| robot.driver.at());
-    Err(scene.text.error(at, problem))
+    Err(study.device_text(scene).error(at, problem))
 }
 
 /// As stated; else a real arm reports as well as it comes back, and a simulated one where it was sent.

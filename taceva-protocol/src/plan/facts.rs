@@ -120,11 +120,12 @@ impl<'a> Gather<'a> {
     fn of_rig(&self, rig: &RigInfo) -> Result<StudyFacts<'a>, SceneError> {
         let (scene, study) = (self.scene, self.study);
         let sensor = rig.sensor.as_ref().and_then(Descriptor::sensor);
-        let axes = rig
-            .force
-            .as_ref()
-            .and_then(Descriptor::force)
-            .map(|force| force.axes);
+        let axes = rig.force.as_ref().and_then(Descriptor::force).map(|force| {
+            match study.rig.as_ref().and_then(|rig| rig.force.as_ref()) {
+                Some(mounted) => mounted.axes.measured(force.axes),
+                None => force.axes,
+            }
+        });
         let opaque = self.agreed(
             "opaque",
             study.sensor.opaque,

@@ -8,7 +8,6 @@ use taceva_core::shown;
 use serde::Deserialize;
 use taceva_metrics::{Settings, catalogue};
 
-use super::Scene;
 use super::counts::Protocol;
 use super::devices::{DeviceSpec, LightingSpec, ModelSpec, SensorSpec};
 use super::error::{SceneError, SceneProblem};
@@ -18,9 +17,12 @@ use super::parse::Text;
 use super::renamed;
 use super::setting::Setting;
 use super::study::Study;
+use super::{NamedBy, Scene};
 
 /// The longest length in a scene, in mm.
 const GREATEST_LENGTH: f64 = 1_000.0;
+/// The table of the sensor.
+const SENSOR: &str = "[sensor]";
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields, expecting = "a scene")]
@@ -29,6 +31,7 @@ struct WrittenScene {
     name: Setting<String>,
     #[serde(default)]
     seed: u64,
+    rig: Option<Setting<String>>,
     sensor: Option<Setting<SensorSpec>>,
     robot: Option<DeviceSpec>,
     force: Option<DeviceSpec>,
@@ -60,9 +63,16 @@ struct WrittenStudy {
 }
 
 /// The scene that `text` says, checked.
-pub(super) fn checked(text: Text) -> Result<Scene, SceneError> {
+pub(super) fn checked(text: Text, named_by: NamedBy) -> Result<Scene, SceneError> {
     let written: WrittenScene = text.read()?;
-    let check = Check { text: &text };
+    let named_by = match &written.rig {
+        Some(_) => NamedBy::Rig,
+        None => named_by,
+    };
+    let check = Check {
+        text: &text,
+        named_by,
+    };
     check.version(&written)?;
     check.limits(&written.limits)?;
     check.metrics(&written.metrics)?;
@@ -72,6 +82,7 @@ pub(super) fn checked(text: Text) -> Result<Scene, SceneError> {
     Ok(Scene {
         name: written.name.value,
         seed: written.seed,
+        rig: written.rig,
         studies,
         metrics: written.metrics,
         protocol: written.protocol,
@@ -83,6 +94,7 @@ pub(super) fn checked(text: Text) -> Result<Scene, SceneError> {
 
 struct Check<'a> {
     text: &'a Text,
+    named_by: NamedBy,
 }
 
 type Checked = Result<(), SceneError>;
@@ -158,6 +170,10 @@ impl Check<'_> {
             return self.refuse(study.name.at(), SceneProblem::Incomplete(problem));
         };
         self.sensor(sensor)?;
+        if scene.rig.is_some() {
+            let devices = [&study.robot, &study.force, &scene.robot, &scene.force];
+            self.no_device(sensor.value.driver.as_ref(), devices)?;
+        }
         self.limits(&study.limits)?;
         self.tightened(&study.limits, &scene.limits)?;
         let lighting = study.lighting.as_ref().or(scene.lighting.as_ref());
@@ -180,6 +196,7 @@ impl Check<'_> {
             lighting: lighting.cloned(),
             limits: study.limits.or(scene.limits),
             model: model.map(|model| model.value.clone()),
+            rig: None,
         })
     }
 
@@ -193,7 +210,7 @@ impl Check<'_> {
         } = &sensor.value;
         self.one_of(
             sensor.at(),
-            "[sensor]",
+            SENSOR,
             ("driver", driver),
             ("dataset", dataset),
         )?;
@@ -220,11 +237,28 @@ impl Check<'_> {
                 let problem = format!("{table} has `{first}` and `{second}`: expected one of them");
                 self.contradiction(other.at(), &problem)
             }
+            (None, None) if table == SENSOR && self.named_by == NamedBy::Rig => Ok(()),
             (None, None) => {
                 let problem = format!("{table} has neither `{first}` nor `{second}`");
                 self.refuse(at, SceneProblem::Incomplete(problem))
             }
             _ => Ok(()),
+        }
+    }
+
+    /// Refuses devices beside a rig file, which says which there are.
+    fn no_device(
+        &self,
+        sensor: Option<&Setting<String>>,
+        devices: [&Option<DeviceSpec>; 4],
+    ) -> Checked {
+        let named = devices.into_iter().flatten().map(|device| &device.driver);
+        match sensor.into_iter().chain(named).next() {
+            None => Ok(()),
+            Some(driver) => self.contradiction(
+                driver.at(),
+                "the scene has `rig` and `driver`: expected one of them, the rig file names the devices",
+            ),
         }
     }
 

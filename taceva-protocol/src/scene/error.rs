@@ -58,6 +58,9 @@ pub enum SceneProblem {
     /// A scene for another program version.
     #[error("scene version {0} is not known here, expected 1")]
     Version(u32),
+    /// A rig file for another program version.
+    #[error("rig version {0} is not known here, expected 1")]
+    RigVersion(u32),
     /// A name out of a closed list that is not in it.
     #[error("`{name}`: unknown {what}{}; known: {known}", did_you_mean(.nearest))]
     UnknownName {

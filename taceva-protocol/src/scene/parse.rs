@@ -10,7 +10,7 @@ use super::renamed::RENAMED;
 pub const GREATEST_SCENE: usize = 1 << 20;
 
 /// The text of a scene and the name that errors call it by.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Text {
     source_name: String,
     text: String,
@@ -30,6 +30,16 @@ impl Text {
             return Err(whole.error(None, problem));
         }
         Ok(whole)
+    }
+
+    /// What errors call it.
+    pub(crate) fn source_name(&self) -> &str {
+        &self.source_name
+    }
+
+    /// What was written.
+    pub(crate) fn whole(&self) -> &str {
+        &self.text
     }
 
     /// The text as a `T`.

@@ -1,10 +1,15 @@
 //! One sensor of a scene, with the rig it is measured on.
 
+use std::sync::Arc;
+
 use taceva_core::DriverKind;
 
+use super::Scene;
 use super::devices::{DeviceSpec, LightingSpec, ModelSpec, SensorSpec};
 use super::limits::LimitSpec;
+use super::parse::Text;
 use super::setting::Setting;
+use crate::rig_file::RigFile;
 
 /// What one sensor is measured with.
 #[derive(Clone, Debug, PartialEq)]
@@ -23,9 +28,19 @@ pub struct Study {
     pub limits: LimitSpec,
     /// The model; without one nothing is predicted.
     pub model: Option<ModelSpec>,
+    /// The rig file that names its devices, where one does.
+    pub rig: Option<Arc<RigFile>>,
 }
 
 impl Study {
+    /// The text that names its sensor, its robot and its force transducer: that of a rig file, or that of `scene`.
+    pub(crate) fn device_text<'a>(&'a self, scene: &'a Scene) -> &'a Text {
+        match &self.rig {
+            Some(rig) => &rig.text,
+            None => &scene.text,
+        }
+    }
+
     /// The drivers it names.
     pub fn drivers(&self) -> impl Iterator<Item = (DriverKind, &Setting<String>)> {
         [

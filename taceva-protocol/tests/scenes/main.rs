@@ -1,5 +1,6 @@
 //! Scenes as people write them, and every way to write one wrong.
 
+mod on_a_rig;
 mod planning;
 mod reading;
 

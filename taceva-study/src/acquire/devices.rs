@@ -1,10 +1,11 @@
 //! The devices of a rig, opened for one unit of the sensor and lent to a run.
 
 use std::sync::{Arc, PoisonError};
+use std::time::Duration;
 
 use taceva_core::{
-    Descriptor, Device, DriverError, DriverKey, DriverSource, ErrorKind, ForceTransducer, Lighting,
-    Registry, Rig, Robot, Sensor,
+    Deadline, Descriptor, Device, DriverError, DriverKey, DriverSource, ErrorKind, ForceTransducer,
+    Lighting, Registry, Rig, Robot, Sensor,
 };
 use taceva_drivers::{Drivers, OnBench, OpenError, Selector, open};
 use taceva_protocol::{
@@ -14,9 +15,13 @@ use taceva_protocol::{
 
 use super::guardian::Guarded;
 use super::latency::{IntoDevice, Late};
+use super::registered::{Registered, Turned};
 use super::workshop::{Surroundings, Workshop};
 use crate::error::StudyError;
 use crate::scene::{PlannedStudy, RigSpec};
+
+/// How long a robot may take to say for the first time where it stands.
+const FIRST_POSE: Duration = Duration::from_secs(2);
 
 /// Devices that are open.
 pub(super) struct OpenRig {
@@ -72,18 +77,32 @@ impl OpenRig {
             false => (workshop.surroundings)(selector, &mut shared)
                 .ok_or_else(|| failed(OpenError::Device(without_clock(selector))))?,
         };
+        let rig_file = study.study.rig.as_deref();
+        let sensor_latency = rig_file.and_then(|rig| rig.sensor.as_ref()?.latency_ms);
+        let force_latency = rig_file.and_then(|rig| rig.force.as_ref()?.latency_ms);
         let sensor = sensor.map(|sensor| match &surroundings.bench {
             Some(bench) if sensor.selector.bench() != selector.bench() => {
                 Box::new(OnBench::new(sensor.device, Arc::clone(bench)))
             }
-            _ => sensor.timely(|facts| facts.sensor()?.latency_ms),
+            _ => sensor.timely(|facts| sensor_latency.or(facts.sensor()?.latency_ms)),
         });
+        let force_driver = force.descriptor.key().clone();
+        let mut robot = robot.timely(|facts| facts.robot()?.latency_ms);
+        if let Some(registered) = rig_file.and_then(|rig| rig.robot.as_ref()) {
+            let deadline = Deadline::after(FIRST_POSE);
+            let mapped = Registered::new(robot, registered, deadline);
+            robot = Box::new(mapped.map_err(|error| failed(OpenError::Device(error)))?);
+        }
+        let mut force = force.timely(|facts| force_latency.or(facts.force()?.latency_ms));
+        if let Some(mounted) = rig_file.and_then(|rig| rig.force.as_ref()) {
+            force = Box::new(Turned::new(force, mounted.axes));
+        }
         Ok(OpenRig {
-            force_driver: force.descriptor.key().clone(),
+            force_driver,
             is_real,
             sensor,
-            robot: robot.timely(|facts| facts.robot()?.latency_ms),
-            force: force.timely(|facts| facts.force()?.latency_ms),
+            robot,
+            force,
             lighting: lighting.map(|lighting| lighting.device),
             surroundings,
         })

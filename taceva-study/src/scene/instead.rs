@@ -1,5 +1,7 @@
 //! What may be said of a scene otherwise than it is written, without editing it.
 
+use std::path::PathBuf;
+
 use taceva_models::ModelSettings;
 use taceva_protocol::{ModelSpec, Setting};
 
@@ -10,6 +12,8 @@ use crate::error::StudyError;
 pub struct Instead {
     /// The seed of every draw of the scene.
     pub seed: Option<u64>,
+    /// The rig file whose devices every study presses with, in the place of those that the scene names; relative to the working folder.
+    pub rig: Option<PathBuf>,
     /// The model of every study, without the settings that the scene has for another.
     pub model: Option<String>,
     /// ModelSettings of the model, as `key=value`, beside those that stay.

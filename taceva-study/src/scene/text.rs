@@ -3,8 +3,9 @@
 use std::fs::File;
 use std::io::Read;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
-use taceva_protocol::{BuiltinScene, GREATEST_SCENE, SceneError, SceneProblem};
+use taceva_protocol::{BuiltinScene, GREATEST_SCENE, RigFile, SceneError, SceneProblem};
 
 use crate::error::StudyError;
 
@@ -35,17 +36,7 @@ impl SceneText {
     /// [`StudyError::Scene`] if it cannot be read.
     pub fn read(path: &Path) -> Result<SceneText, StudyError> {
         let name = path.display().to_string();
-        let mut text = String::new();
-        // One byte more than is accepted is enough to see that there are too many.
-        let most = GREATEST_SCENE as u64 + 1;
-        let read = File::open(path).and_then(|file| file.take(most).read_to_string(&mut text));
-        if let Err(error) = read {
-            return Err(StudyError::from(SceneError {
-                source_name: name,
-                line: None,
-                problem: Box::new(SceneProblem::Syntax(error.to_string())),
-            }));
-        }
+        let text = read_text(path)?;
         let folder = path.parent().unwrap_or(Path::new("")).to_owned();
         Ok(SceneText { name, text, folder })
     }
@@ -61,5 +52,30 @@ impl SceneText {
             line,
             problem: Box::new(problem),
         })
+    }
+}
+
+/// The rig file at `path`.
+///
+/// # Errors
+/// [`StudyError::Scene`] if it cannot be read or is none.
+pub(super) fn read_rig(path: &Path) -> Result<Arc<RigFile>, StudyError> {
+    let text = read_text(path)?;
+    let rig = RigFile::parse(&path.display().to_string(), &text)?;
+    Ok(Arc::new(rig))
+}
+
+fn read_text(path: &Path) -> Result<String, StudyError> {
+    let mut text = String::new();
+    // One byte more than is accepted is enough to see that there are too many.
+    let most = GREATEST_SCENE as u64 + 1;
+    let read = File::open(path).and_then(|file| file.take(most).read_to_string(&mut text));
+    match read {
+        Ok(_) => Ok(text),
+        Err(error) => Err(StudyError::from(SceneError {
+            source_name: path.display().to_string(),
+            line: None,
+            problem: Box::new(SceneProblem::Syntax(error.to_string())),
+        })),
     }
 }

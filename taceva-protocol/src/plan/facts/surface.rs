@@ -1,8 +1,9 @@
 //! The surface that is pressed: within that of the sensor, and within reach of the robot.
 
-use taceva_core::{Footprint, Millimetre, Nanometre, Point};
+use taceva_core::{Footprint, Millimetre, Nanometre, Point, Pose, Rotation};
 
 use super::Gather;
+use crate::rig_file::Registration;
 use crate::scene::{SceneError, SceneProblem};
 use crate::source::RigInfo;
 
@@ -65,17 +66,45 @@ impl Gather<'_> {
             ]
             .map(|(x, y)| corner(x, y, z))
         });
-        match corners
-            .into_iter()
-            .find(|corner| !workspace.contains(corner))
-        {
-            None => Ok(()),
-            Some(Point { x, y, z }) => {
+        let rig = self.study.rig.as_ref();
+        let registered = rig.and_then(|rig| {
+            let robot = rig.robot.as_ref()?;
+            Some((rig, Registration::new(robot, Rotation::default())))
+        });
+        let reached = |tip: Point| match &registered {
+            Some((_, registration)) => {
+                let unturned = Rotation::default();
+                let tip = Pose {
+                    position: tip,
+                    rotation: unturned,
+                };
+                registration.to_base(&tip).position
+            }
+            None => tip,
+        };
+        let outside = corners
+            .map(|tip| (tip, reached(tip)))
+            .find(|(_, place)| !workspace.contains(place));
+        let Some((tip, Point { x, y, z })) = outside else {
+            return Ok(());
+        };
+        let key = robot.key();
+        let shorter = "shorten `search_mm` or `clearance_mm`, or state a smaller footprint";
+        match registered {
+            None => {
+                let problem =
+                    format!("the robot `{key}` does not reach ({x}, {y}, {z}): {shorter}");
+                let at = contact.search_mm.at();
+                Err(self.refusal(at, SceneProblem::Contradiction(problem)))
+            }
+            Some((rig, _)) => {
                 let problem = format!(
-                    "the robot `{}` does not reach ({x}, {y}, {z}): shorten `search_mm` or `clearance_mm`, or state a smaller footprint",
-                    robot.key()
+                    "the robot `{key}` does not reach ({x}, {y}, {z}) in its base frame, which is ({}, {}, {}) in the sensor's: mend `origin_mm`, `axes` or the workspace of the driver; or in the scene {shorter}",
+                    tip.x, tip.y, tip.z
                 );
-                Err(self.refusal(contact.search_mm.at(), SceneProblem::Contradiction(problem)))
+                let robot = self.study.robot.as_ref();
+                let at = robot.and_then(|robot| robot.driver.at());
+                Err(rig.error(at, SceneProblem::Contradiction(problem)))
             }
         }
     }

@@ -1,0 +1,155 @@
+//! How the axes of a device lie to those of the sensor.
+
+use taceva_core::{Axes, Axis};
+
+/// Which axis of a device each axis of the sensor is, with its sign: a turn by right angles.
+///
+/// ```
+/// use taceva_protocol::SignedAxes;
+/// let axes = SignedAxes::read(["x", "-y", "-z"])?;
+/// assert_eq!(axes.to_sensor([1.0, 2.0, 3.0]), [1.0, -2.0, -3.0]);
+/// assert!(SignedAxes::read(["x", "y", "-z"]).unwrap_err().contains("left-handed"));
+/// # Ok::<(), String>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SignedAxes([Along; 3]);
+
+/// One axis of the device, or the opposite of one.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Along {
+    /// 0 for x, 1 for y, 2 for z.
+    axis: usize,
+    /// 1 or −1.
+    sign: f64,
+}
+
+impl Along {
+    fn read(word: &str) -> Option<Along> {
+        let (sign, letter) = match word.strip_prefix('-') {
+            Some(letter) => (-1.0, letter),
+            None => (1.0, word),
+        };
+        let axis = ["x", "y", "z"].iter().position(|known| *known == letter)?;
+        Some(Along { axis, sign })
+    }
+}
+
+impl SignedAxes {
+    /// The axes that `words` name: for x, y and z of the sensor that of the device, `-` before it where it points the other way.
+    ///
+    /// # Errors
+    /// What is wrong with them and what is expected: a word that names no axis, an axis that is named twice, a left-handed frame.
+    pub fn read<T: AsRef<str>>(words: [T; 3]) -> Result<SignedAxes, String> {
+        let mut axes = [Along { axis: 0, sign: 1.0 }; 3];
+        for (along, word) in axes.iter_mut().zip(&words) {
+            let word = word.as_ref();
+            *along = Along::read(word).ok_or_else(|| {
+                let shown = taceva_core::shown(word);
+                format!("`axes`: `{shown}` names no axis, expected x, y, z, -x, -y or -z")
+            })?;
+        }
+        let axes = SignedAxes(axes);
+        match axes.determinant() {
+            determinant if determinant > 0.5 => Ok(axes),
+            determinant if determinant < -0.5 => Err(format!(
+                "`axes` are left-handed ({}): no device can be turned so; turn the sign of one axis that is wrong",
+                written(&words)
+            )),
+            _ => Err(format!(
+                "`axes` name one axis twice ({}): expected each of x, y and z once",
+                written(&words)
+            )),
+        }
+    }
+
+    /// A vector of the device in the sensor's frame.
+    pub fn to_sensor(self, device: [f64; 3]) -> [f64; 3] {
+        self.0.map(|along| along.sign * device[along.axis])
+    }
+
+    /// A vector of the sensor in the frame of the device.
+    pub fn to_device(self, sensor: [f64; 3]) -> [f64; 3] {
+        let mut device = [0.0; 3];
+        for (along, value) in self.0.iter().zip(sensor) {
+            device[along.axis] = along.sign * value;
+        }
+        device
+    }
+
+    /// Which components a transducer measures in the sensor's frame that measures `device` in its own.
+    pub fn measured(self, device: Axes) -> Axes {
+        let [forces, torques] = [
+            [Axis::Fx, Axis::Fy, Axis::Fz],
+            [Axis::Tx, Axis::Ty, Axis::Tz],
+        ];
+        let mut measured = Axes::NONE;
+        for triple in [forces, torques] {
+            for (along, component) in self.0.iter().zip(triple) {
+                if device.contains(triple[along.axis]) {
+                    measured = measured.with(component);
+                }
+            }
+        }
+        measured
+    }
+
+    /// 1 where they are right-handed, −1 where they are left-handed, 0 where one axis is named twice.
+    fn determinant(self) -> f64 {
+        let [x, y, z] = [0, 1, 2].map(|axis| {
+            let mut row = [0.0; 3];
+            row[self.0[axis].axis] = self.0[axis].sign;
+            row
+        });
+        x[0] * (y[1] * z[2] - y[2] * z[1]) - x[1] * (y[0] * z[2] - y[2] * z[0])
+            + x[2] * (y[0] * z[1] - y[1] * z[0])
+    }
+}
+
+fn written<T: AsRef<str>>(words: &[T; 3]) -> String {
+    words.each_ref().map(AsRef::as_ref).join(", ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn of_48_signed_permutations_24_are_right_handed_and_each_leads_there_and_back() {
+        let words = ["x", "y", "z", "-x", "-y", "-z"];
+        let mut accepted = 0;
+        for x in words {
+            for y in words {
+                for z in words {
+                    let Ok(axes) = SignedAxes::read([x, y, z]) else {
+                        continue;
+                    };
+                    accepted += 1;
+                    let there = axes.to_sensor([1.0, 2.0, 3.0]);
+                    assert!(
+                        axes.to_device(there).iter().eq(&[1.0, 2.0, 3.0]),
+                        "{x} {y} {z}"
+                    );
+                }
+            }
+        }
+        assert_eq!(accepted, 24);
+    }
+
+    #[test]
+    fn what_is_no_frame_is_refused_by_what_is_wrong_with_it() {
+        let refused = |words: [&str; 3]| SignedAxes::read(words).expect_err("no frame");
+        assert!(refused(["x", "y", "-z"]).contains("left-handed (x, y, -z)"));
+        assert!(refused(["x", "x", "z"]).contains("one axis twice"));
+        assert!(refused(["x", "north", "z"]).contains("`north` names no axis"));
+        assert!(refused(["--x", "y", "z"]).contains("`--x` names no axis"));
+    }
+
+    #[test]
+    fn a_scale_on_its_side_measures_another_component() {
+        let upright = SignedAxes::read(["x", "-y", "-z"]).expect("axes");
+        assert_eq!(upright.measured(Axes::NORMAL), Axes::NORMAL);
+        let aside = SignedAxes::read(["z", "x", "y"]).expect("axes");
+        assert_eq!(aside.measured(Axes::NORMAL), Axes::NONE.with(Axis::Fx));
+        assert_eq!(aside.measured(Axes::SIX), Axes::SIX);
+    }
+}

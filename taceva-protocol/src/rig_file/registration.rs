@@ -1,0 +1,156 @@
+//! Poses of a robot in its base frame, and of the tip in the sensor's.
+
+use taceva_core::{Degree, Millimetre, Point, Pose, Rotation};
+
+use super::{Carried, RigRobot, SignedAxes};
+
+/// How the base frame of a robot lies to the sensor's.
+///
+/// With A the turn from base to sensor that `axes` say, o the `origin_mm`, and Q the turn of the tool since it stood as registered:
+///
+/// - A robot that carries the indenter has its tip at A·(p − o), turned by A·Q·Aᵀ.
+/// - One that carries the sensor has the tip, which rests at o in the base, at A·Qᵀ·(o − p), turned by A·Qᵀ·Aᵀ.
+///
+/// # Units
+/// mm and degrees.
+#[derive(Clone, Copy, Debug)]
+pub struct Registration {
+    carries: Carried,
+    origin_mm: [f64; 3],
+    axes: SignedAxes,
+    /// The turn of the tool as it was registered.
+    turned: Rotation,
+}
+
+type Matrix = [[f64; 3]; 3];
+
+impl Registration {
+    /// That of `robot`, whose tool stood turned by `turned` in the base frame as it was registered.
+    pub fn new(robot: &RigRobot, turned: Rotation) -> Registration {
+        Registration {
+            carries: robot.carries,
+            origin_mm: robot.origin_mm,
+            axes: robot.axes,
+            turned,
+        }
+    }
+
+    /// The pose of the tip in the sensor's frame, of a robot that says it stands at `base`.
+    pub fn to_sensor(&self, base: &Pose) -> Pose {
+        let since = product(&matrix(&base.rotation), &transposed(&matrix(&self.turned)));
+        let place = coordinates(&base.position);
+        let gone = std::array::from_fn(|axis| place[axis] - self.origin_mm[axis]);
+        let (place, turn) = match self.carries {
+            Carried::Indenter => (gone, since),
+            Carried::Sensor => {
+                let back = transposed(&since);
+                (applied(&back, gone.map(|length: f64| -length)), back)
+            }
+        };
+        pose(
+            self.axes.to_sensor(place),
+            &self.turn_to_sensor(&turn),
+            &Rotation::default(),
+        )
+    }
+
+    /// Where a robot is sent so that the tip has the pose `tip` in the sensor's frame.
+    pub fn to_base(&self, tip: &Pose) -> Pose {
+        let turn = self.turn_to_base(&matrix(&tip.rotation));
+        let place = self.axes.to_device(coordinates(&tip.position));
+        let (gone, since) = match self.carries {
+            Carried::Indenter => (place, turn),
+            Carried::Sensor => {
+                let since = transposed(&turn);
+                (applied(&since, place).map(|length| -length), since)
+            }
+        };
+        let there = std::array::from_fn(|axis| self.origin_mm[axis] + gone[axis]);
+        let turned = product(&since, &matrix(&self.turned));
+        pose(there, &turned, &self.turned)
+    }
+
+    fn turn_to_sensor(&self, base: &Matrix) -> Matrix {
+        // A·M·Aᵀ: the columns of M, then those of what came of it as rows.
+        let rows = transposed(&columns(base).map(|column| self.axes.to_sensor(column)));
+        rows.map(|row| self.axes.to_sensor(row))
+    }
+
+    fn turn_to_base(&self, sensor: &Matrix) -> Matrix {
+        let rows = transposed(&columns(sensor).map(|column| self.axes.to_device(column)));
+        rows.map(|row| self.axes.to_device(row))
+    }
+}
+
+fn coordinates(point: &Point) -> [f64; 3] {
+    [point.x.0, point.y.0, point.z.0]
+}
+
+/// The pose at `place` turned by `turn`, its angles on the branch that is nearest to `near`.
+fn pose([x, y, z]: [f64; 3], turn: &Matrix, near: &Rotation) -> Pose {
+    let [x, y, z] = [x, y, z].map(Millimetre);
+    Pose {
+        position: Point { x, y, z },
+        rotation: rotation(turn, near),
+    }
+    .on_grid()
+}
+
+/// Rz·Ry·Rx: turns about the fixed x, then y, then z.
+fn matrix(rotation: &Rotation) -> Matrix {
+    let [x, y, z] = [rotation.x, rotation.y, rotation.z].map(|angle| angle.0.to_radians());
+    let ((sx, cx), (sy, cy), (sz, cz)) = (x.sin_cos(), y.sin_cos(), z.sin_cos());
+    [
+        [cz * cy, cz * sy * sx - sz * cx, cz * sy * cx + sz * sx],
+        [sz * cy, sz * sy * sx + cz * cx, sz * sy * cx - cz * sx],
+        [-sy, cy * sx, cy * cx],
+    ]
+}
+
+/// The angles of a turn. Where y is a quarter turn, x and z turn about one line: then x is taken to be that of `near`.
+fn rotation(turn: &Matrix, near: &Rotation) -> Rotation {
+    let level = turn[0][0].hypot(turn[1][0]);
+    let y = (-turn[2][0]).atan2(level).to_degrees();
+    let (x, z) = match level > 1e-9 {
+        true => (
+            turn[2][1].atan2(turn[2][2]).to_degrees(),
+            turn[1][0].atan2(turn[0][0]).to_degrees(),
+        ),
+        false => {
+            let about = (-turn[0][1]).atan2(turn[1][1]).to_degrees();
+            let side = (-turn[2][0]).signum();
+            (near.x.0, about + side * near.x.0)
+        }
+    };
+    let nearest =
+        |angle: f64, near: Degree| Degree(angle - 360.0 * ((angle - near.0) / 360.0).round());
+    Rotation {
+        x: nearest(x, near.x),
+        y: nearest(y, near.y),
+        z: nearest(z, near.z),
+    }
+}
+
+fn product(one: &Matrix, other: &Matrix) -> Matrix {
+    let columns = columns(other);
+    one.map(|row| std::array::from_fn(|column| dot(&row, &columns[column])))
+}
+
+fn applied(turn: &Matrix, vector: [f64; 3]) -> [f64; 3] {
+    turn.map(|row| dot(&row, &vector))
+}
+
+fn dot(one: &[f64; 3], other: &[f64; 3]) -> f64 {
+    one.iter().zip(other).map(|(one, other)| one * other).sum()
+}
+
+fn transposed(matrix: &Matrix) -> Matrix {
+    std::array::from_fn(|row| std::array::from_fn(|column| matrix[column][row]))
+}
+
+fn columns(matrix: &Matrix) -> Matrix {
+    transposed(matrix)
+}
+
+#[cfg(test)]
+mod tests;

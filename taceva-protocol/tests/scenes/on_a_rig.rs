@@ -1,0 +1,260 @@
+//! Rig files, every way to write one wrong, and what a scene that is put on one may not ask.
+
+use std::sync::Arc;
+
+use taceva_core::{Millimetre, Point, Workspace};
+use taceva_protocol::{Carried, RigFile};
+
+use super::*;
+
+const RIG: &str = r#"rig_version = 1
+[robot]
+driver = "lab/arm:host=10.0.0.2"
+carries = "indenter"
+origin_mm = [300.0, 0.0, 251.3]
+axes = ["x", "-y", "-z"]
+[force]
+driver = "lab/box"
+axes = ["x", "-y", "-z"]
+latency_ms = 4.0
+[sensor]
+driver = "lab/camera"
+latency_ms = 38.0
+[limits]
+speed_max_mm_s = 20.0
+"#;
+
+/// What a scene must say of a sensor whose camera states nothing.
+const SCENE: &str = r#"scene_version = 1
+name = "my gel"
+rig = "lab.toml"
+limits = { Pz_max_mm = 1.0, Fz_max_N = 1.8 }
+[sensor]
+opaque = true
+footprint = { shape = "rect", half_x_mm = 8.0, half_y_mm = 10.0 }
+"#;
+
+fn refused(from: &str, to: &str) -> String {
+    assert!(RIG.contains(from), "{from}");
+    let error = RigFile::parse("lab.toml", &RIG.replacen(from, to, 1)).expect_err("wrong");
+    error.to_string()
+}
+
+fn put_on(scene: &str, rig: &str) -> Scene {
+    let rig = Arc::new(RigFile::parse("lab.toml", rig).expect("a rig"));
+    let mut scene = Scene::parse("s.toml", scene).expect("reads");
+    scene.put_on(&rig).expect("it has a sensor");
+    scene
+}
+
+/// What the planner says of [`SCENE`] on `rig`.
+fn planned_on(scene: &str, rig: &str) -> Result<(), String> {
+    let devices = devices();
+    plan(&put_on(scene, rig), |_| {
+        SourceInfo::Rig(Box::new(devices.clone()))
+    })
+    .map(drop)
+    .map_err(|error| error.to_string())
+}
+
+/// An arm that reaches half a metre along x of its base and 300 mm above the table, and a transducer that measures Fz alone.
+fn devices() -> RigInfo {
+    let corner = |x: f64, y: f64, z: f64| {
+        let [x, y, z] = [x, y, z].map(Millimetre);
+        Point { x, y, z }
+    };
+    RigInfo {
+        sensor: Some(descriptor("lab/camera", Facts::Sensor(Box::default()))),
+        robot: Some(descriptor(
+            "lab/arm",
+            Facts::Robot(RobotFacts {
+                workspace: Some(Workspace {
+                    least: corner(200.0, -100.0, 150.0),
+                    greatest: corner(500.0, 100.0, 300.0),
+                }),
+                speed_max: Some(Speed::try_new(100.0).expect("a speed")),
+                ..RobotFacts::default()
+            }),
+        )),
+        force: Some(descriptor(
+            "lab/box",
+            Facts::Force(ForceFacts {
+                axes: Axes::NORMAL,
+                ..ForceFacts::default()
+            }),
+        )),
+        lighting: None,
+    }
+}
+
+#[test]
+fn a_rig_file_says_which_drivers_and_how_they_stand() {
+    let rig = RigFile::parse("lab.toml", RIG).expect("a rig");
+    let robot = rig.robot.as_ref().expect("a robot");
+    assert_eq!(robot.driver.value, "lab/arm:host=10.0.0.2");
+    assert_eq!((robot.carries, robot.turned_deg), (Carried::Indenter, None));
+    assert_eq!(
+        rig.force.as_ref().and_then(|force| force.latency_ms),
+        Some(4.0)
+    );
+    assert_eq!(planned_on(SCENE, RIG), Ok(()));
+    let scene = put_on(SCENE, RIG);
+    let drivers: Vec<&str> = scene
+        .drivers()
+        .map(|(_, driver)| driver.value.as_str())
+        .collect();
+    assert_eq!(drivers, ["lab/camera", "lab/arm:host=10.0.0.2", "lab/box"]);
+    let commented = RigFile::parse("lab.toml", &format!("{RIG}# moved\n")).expect("a rig");
+    assert_ne!(rig.digest(), commented.digest());
+}
+
+#[test]
+fn what_is_wrong_in_a_rig_file_is_refused_with_its_line_and_what_is_expected() {
+    let axes = r#"axes = ["x", "-y", "-z"]"#;
+    let cases = [
+        (
+            "rig_version = 1",
+            "rig_version = 2",
+            "lab.toml, line 1: rig version 2 is not known here, expected 1",
+        ),
+        (
+            axes,
+            r#"axes = ["x", "y", "-z"]"#,
+            "lab.toml, line 6: `axes` are left-handed (x, y, -z)",
+        ),
+        (
+            axes,
+            r#"axes = ["x", "x", "-z"]"#,
+            "lab.toml, line 6: `axes` name one axis twice",
+        ),
+        (
+            axes,
+            r#"axes = ["x", "up", "-z"]"#,
+            "lab.toml, line 6: `axes`: `up` names no axis",
+        ),
+        (axes, r#"axes = ["x", "-y"]"#, "lab.toml, line 6: "),
+        (
+            axes,
+            "axs = 3",
+            "lab.toml, line 6: `axs`: unknown key, did you mean `axes`?",
+        ),
+        (
+            "\"indenter\"",
+            "\"nothing\"",
+            "lab.toml, line 4: unknown variant `nothing`, expected `indenter` or `sensor`",
+        ),
+        (
+            "carries = \"indenter\"\n",
+            "",
+            "lab.toml, line 2: the key `carries` is missing",
+        ),
+        (
+            "[300.0,",
+            "[nan,",
+            "lab.toml, line 5: `origin_mm` holds NaN, expected three numbers from -10000 to 10000 mm",
+        ),
+        (
+            "38.0",
+            "-1.0",
+            "lab.toml, line 13: `latency_ms` is -1, expected 0 to 1000 ms",
+        ),
+        (
+            "20.0",
+            "0.0",
+            "lab.toml, line 15: `speed_max_mm_s` is 0, expected a number above 0 and up to 1000",
+        ),
+        (
+            "[limits]",
+            "[operator]\nenable = \"hid/pedal\"\n[limits]",
+            "lab.toml, line 15: `enable` is `hid/pedal`, and this program reads no enabling switch",
+        ),
+        ("[robot]", "[robot", "lab.toml, line 2: "),
+    ];
+    for (from, to, expected) in cases {
+        let said = refused(from, to);
+        assert!(said.starts_with(expected), "{said}\nexpected {expected}");
+    }
+}
+
+#[test]
+fn limits_of_a_rig_tighten_those_of_its_devices_and_a_scene_may_not_loosen_them() {
+    assert_eq!(
+        planned_on(SCENE, &RIG.replace("20.0", "120.0")).expect_err("faster than the arm"),
+        "lab.toml, line 15: `speed_max_mm_s` is 120, but the robot `lab/arm` allows at most 100: limits may only be tightened"
+    );
+    let faster = SCENE.replace("Pz_max_mm = 1.0", "Pz_max_mm = 1.0, speed_max_mm_s = 30.0");
+    assert_eq!(
+        planned_on(&faster, RIG).expect_err("faster than the rig"),
+        "s.toml, line 4: `speed_max_mm_s` is 30, but [limits] of the rig file `lab.toml` allows at most 20: limits may only be tightened"
+    );
+    let devices = devices();
+    let plans = plan(&put_on(SCENE, RIG), |_| {
+        SourceInfo::Rig(Box::new(devices.clone()))
+    });
+    let limits = plans.expect("plans")[0].limits.clone().expect("it moves");
+    assert!(limits.speed_max_mm_s <= 20.0, "{limits:?}");
+}
+
+#[test]
+fn a_place_that_the_arm_does_not_reach_is_refused_in_its_base_frame_with_the_line_of_the_rig() {
+    let said = planned_on(SCENE, &RIG.replace("251.3", "299.9")).expect_err("too high");
+    assert!(
+        said.starts_with("lab.toml, line 3: the robot `lab/arm` does not reach (292 mm, 10 mm, 30"),
+        "{said}"
+    );
+    assert!(
+        said.contains("mend `origin_mm`, `axes` or the workspace"),
+        "{said}"
+    );
+}
+
+#[test]
+fn a_transducer_on_its_side_measures_no_normal_force() {
+    let aside = RIG.replace(
+        "driver = \"lab/box\"\naxes = [\"x\", \"-y\", \"-z\"]",
+        "driver = \"lab/box\"\naxes = [\"z\", \"x\", \"y\"]",
+    );
+    let devices = devices();
+    let plans = |rig: &str| {
+        let info = SourceInfo::Rig(Box::new(devices.clone()));
+        plan(&put_on(SCENE, rig), |_| info.clone()).expect("plans")[0]
+            .channels
+            .clone()
+    };
+    assert!(plans(RIG).contains(&"Fz".to_owned()), "{:?}", plans(RIG));
+    assert!(
+        !plans(&aside).contains(&"Fz".to_owned()),
+        "{:?}",
+        plans(&aside)
+    );
+}
+
+#[test]
+fn a_scene_with_a_rig_names_no_devices_and_one_without_names_them() {
+    let both = SCENE.replace("[sensor]\n", "[sensor]\ndriver = \"lab/camera\"\n");
+    assert_eq!(
+        message(&both),
+        "s.toml, line 6: the scene has `rig` and `driver`: expected one of them, the rig file names the devices"
+    );
+    let none = SCENE.replace("rig = \"lab.toml\"\n", "");
+    assert!(message(&none).contains("[sensor] has neither `driver` nor `dataset`"));
+    assert!(Scene::parse_for_rig("s.toml", &none).is_ok());
+    let mut blind = Scene::parse("s.toml", SCENE).expect("reads");
+    let (without, _) = RIG.split_once("[sensor]").expect("a sensor");
+    let without = Arc::new(RigFile::parse("lab.toml", without).expect("a rig"));
+    let error = blind.put_on(&without).expect_err("no sensor");
+    assert_eq!(error.to_string(), "lab.toml: the key `sensor` is missing");
+}
+
+#[test]
+fn a_driver_that_is_not_linked_in_is_refused_with_the_line_of_the_rig() {
+    let scene = put_on(SCENE, RIG);
+    let known = [(taceva_core::DriverKind::Sensor, "lab/camer")];
+    let error = scene.check_drivers(&known).expect_err("unknown");
+    assert!(
+        error.to_string().starts_with(
+            "lab.toml, line 12: `lab/camera`: unknown driver of a sensor, did you mean `lab/camer`?"
+        ),
+        "{error}"
+    );
+}

@@ -1,0 +1,272 @@
+//! Devices of a rig file in the sensor's frame: poses by the registration of the robot, wrenches by the axes of the transducer.
+
+use std::sync::Arc;
+
+use taceva_core::{
+    Axes, Deadline, DriverError, ForceTransducer, Guard, GuardedMotion, GuardedStop, Halt,
+    Interrupt, Pose, Robot, RobotWatch, Speed, Stamp, Tare, Wrench,
+};
+use taceva_core::{Degree, Newton, NewtonMillimetre, Rotation};
+use taceva_protocol::{Registration, RigRobot, SignedAxes};
+
+/// A robot that is told and says poses in the sensor's frame, over one that knows its base frame alone.
+pub(super) struct Registered {
+    registration: Registration,
+    robot: Box<dyn Robot>,
+}
+
+impl Registered {
+    /// `robot` as `registered` says that it stands. Where that does not say how the tool is turned, it is asked now, within `deadline`.
+    ///
+    /// # Errors
+    /// [`DriverError`] if it says no pose.
+    pub(super) fn new(
+        mut robot: Box<dyn Robot>,
+        registered: &RigRobot,
+        deadline: Deadline,
+    ) -> Result<Registered, DriverError> {
+        let turned = match registered.turned_deg {
+            Some(angles) => {
+                let [x, y, z] = angles.map(Degree);
+                Rotation { x, y, z }
+            }
+            None => robot.pose(deadline)?.0.rotation,
+        };
+        let registration = Registration::new(registered, turned);
+        Ok(Registered {
+            registration,
+            robot,
+        })
+    }
+}
+
+impl Robot for Registered {
+    fn pose(&mut self, deadline: Deadline) -> Result<(Pose, Stamp), DriverError> {
+        let (base, stamp) = self.robot.pose(deadline)?;
+        Ok((self.registration.to_sensor(&base), stamp))
+    }
+
+    fn move_to(
+        &mut self,
+        target: Pose,
+        speed: Speed,
+        deadline: Deadline,
+    ) -> Result<Stamp, DriverError> {
+        let target = self.registration.to_base(&target);
+        self.robot.move_to(target, speed, deadline)
+    }
+
+    fn halt_handle(&self) -> Arc<dyn Halt> {
+        self.robot.halt_handle()
+    }
+
+    fn watch_handle(&self) -> Option<Arc<dyn RobotWatch>> {
+        let watch = self.robot.watch_handle()?;
+        let registration = self.registration;
+        Some(Arc::new(RegisteredWatch {
+            registration,
+            watch,
+        }))
+    }
+
+    fn halt(&mut self) -> Result<(), DriverError> {
+        self.robot.halt()
+    }
+
+    fn clear_halt(&mut self, deadline: Deadline) -> Result<(), DriverError> {
+        self.robot.clear_halt(deadline)
+    }
+
+    fn guarded_motion(&mut self) -> Option<&mut dyn GuardedMotion> {
+        match self.robot.guarded_motion().is_some() {
+            true => Some(self),
+            false => None,
+        }
+    }
+}
+
+impl GuardedMotion for Registered {
+    fn move_guarded(
+        &mut self,
+        target: Pose,
+        speed: Speed,
+        guard: Guard,
+        deadline: Deadline,
+    ) -> Result<GuardedStop, DriverError> {
+        let target = self.registration.to_base(&target);
+        let guarded = self.robot.guarded_motion();
+        let stop = guarded
+            .expect("this is lent only where the robot has it, which does not change")
+            .move_guarded(target, speed, guard, deadline)?;
+        Ok(match stop {
+            GuardedStop::Guarded { pose, stamp } => GuardedStop::Guarded {
+                pose: self.registration.to_sensor(&pose),
+                stamp,
+            },
+            arrived @ GuardedStop::Arrived { .. } => arrived,
+        })
+    }
+}
+
+struct RegisteredWatch {
+    registration: Registration,
+    watch: Arc<dyn RobotWatch>,
+}
+
+impl RobotWatch for RegisteredWatch {
+    fn pose(&self, deadline: Deadline) -> Result<(Pose, Stamp), DriverError> {
+        let (base, stamp) = self.watch.pose(deadline)?;
+        Ok((self.registration.to_sensor(&base), stamp))
+    }
+}
+
+/// A transducer whose readings are turned into the sensor's frame.
+pub(super) struct Turned {
+    axes: SignedAxes,
+    force: Box<dyn ForceTransducer>,
+}
+
+impl Turned {
+    /// `force`, whose axes lie so.
+    pub(super) fn new(force: Box<dyn ForceTransducer>, axes: SignedAxes) -> Turned {
+        Turned { axes, force }
+    }
+}
+
+impl ForceTransducer for Turned {
+    fn axes(&self) -> Axes {
+        self.axes.measured(self.force.axes())
+    }
+
+    fn start(&mut self, deadline: Deadline) -> Result<(), DriverError> {
+        self.force.start(deadline)
+    }
+
+    fn read(&mut self, deadline: Deadline) -> Result<(Wrench, Stamp), DriverError> {
+        let (wrench, stamp) = self.force.read(deadline)?;
+        let force = self.axes.to_sensor(wrench.force.map(|force| force.0));
+        let torque = self.axes.to_sensor(wrench.torque.map(|torque| torque.0));
+        let wrench = Wrench {
+            force: force.map(Newton),
+            torque: torque.map(NewtonMillimetre),
+        };
+        Ok((wrench, stamp))
+    }
+
+    fn sequence(&self) -> Option<u64> {
+        self.force.sequence()
+    }
+
+    fn stop(&mut self) -> Result<(), DriverError> {
+        self.force.stop()
+    }
+
+    fn interrupt_handle(&self) -> Option<Arc<dyn Interrupt>> {
+        self.force.interrupt_handle()
+    }
+
+    fn tare(&mut self) -> Option<&mut dyn Tare> {
+        self.force.tare()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use taceva_core::{DriverKey, ErrorKind, Millimetre, Point};
+    use taceva_protocol::RigFile;
+
+    use super::*;
+
+    /// Stands where it was sent, in its base frame, and presses with that force.
+    struct Arm(Pose);
+
+    struct Rests;
+
+    impl Halt for Rests {
+        fn halt(&self) -> Result<(), DriverError> {
+            Ok(())
+        }
+    }
+
+    impl Robot for Arm {
+        fn pose(&mut self, _: Deadline) -> Result<(Pose, Stamp), DriverError> {
+            Ok((self.0, Stamp::at(std::time::Duration::ZERO)))
+        }
+
+        fn move_to(&mut self, target: Pose, _: Speed, _: Deadline) -> Result<Stamp, DriverError> {
+            // One that was sent into the table shows that nobody mapped the target.
+            if target.position.z.0 < 200.0 {
+                let key = DriverKey::fixed("lab/arm");
+                return Err(DriverError::new(ErrorKind::OutOfRange, &key, "move"));
+            }
+            self.0 = target;
+            Ok(Stamp::at(std::time::Duration::ZERO))
+        }
+
+        fn halt_handle(&self) -> Arc<dyn Halt> {
+            Arc::new(Rests)
+        }
+
+        fn clear_halt(&mut self, _: Deadline) -> Result<(), DriverError> {
+            Ok(())
+        }
+    }
+
+    /// Six components, each another number.
+    struct Loaded;
+
+    impl ForceTransducer for Loaded {
+        fn axes(&self) -> Axes {
+            Axes::SIX
+        }
+
+        fn read(&mut self, _: Deadline) -> Result<(Wrench, Stamp), DriverError> {
+            let wrench = Wrench {
+                force: [1.0, 2.0, 3.0].map(Newton),
+                torque: [4.0, 5.0, 6.0].map(NewtonMillimetre),
+            };
+            Ok((wrench, Stamp::at(std::time::Duration::ZERO)))
+        }
+    }
+
+    fn place([x, y, z]: [f64; 3]) -> Point {
+        let [x, y, z] = [x, y, z].map(Millimetre);
+        Point { x, y, z }
+    }
+
+    #[test]
+    fn an_arm_of_a_rig_file_is_sent_in_its_base_frame_and_seen_in_the_sensors() {
+        let text = "rig_version = 1\n[robot]\ndriver = \"lab/arm\"\ncarries = \"indenter\"\norigin_mm = [300.0, 0.0, 251.3]\naxes = [\"x\", \"-y\", \"-z\"]\n";
+        let rig = RigFile::parse("lab.toml", text).expect("a rig");
+        let stands = Pose {
+            position: place([300.0, 0.0, 271.3]),
+            rotation: Rotation {
+                x: Degree(180.0),
+                ..Rotation::default()
+            },
+        };
+        let robot = rig.robot.as_ref().expect("a robot");
+        let mut arm =
+            Registered::new(Box::new(Arm(stands)), robot, Deadline::PASSED).expect("a pose");
+        let (seen, _) = arm.pose(Deadline::PASSED).expect("a pose");
+        assert_eq!(seen.position, place([0.0, 0.0, -20.0]));
+        assert_eq!(seen.rotation, Rotation::default());
+        let target = Pose {
+            position: place([4.0, 3.0, 0.5]),
+            ..Pose::default()
+        };
+        let speed = Speed::try_new(1.0).expect("a speed");
+        arm.move_to(target, speed, Deadline::PASSED)
+            .expect("it reaches that");
+        assert_eq!(arm.pose(Deadline::PASSED).expect("a pose").0, target);
+    }
+
+    #[test]
+    fn forces_and_torques_are_turned_into_the_frame_of_the_sensor() {
+        let axes = SignedAxes::read(["x", "-y", "-z"]).expect("axes");
+        let mut turned = Turned::new(Box::new(Loaded), axes);
+        let (wrench, _) = turned.read(Deadline::PASSED).expect("a reading");
+        assert_eq!(wrench.force, [1.0, -2.0, -3.0].map(Newton));
+        assert_eq!(wrench.torque, [4.0, -5.0, -6.0].map(NewtonMillimetre));
+    }
+}
