@@ -22,12 +22,13 @@ use std::os::fd::OwnedFd;
 use std::time::{Duration, Instant};
 
 use serde::Serialize;
-use taceva_core::{DriverError, DriverKey, DriverKind, ErrorKind};
+use taceva_core::{Args, DriverError, DriverKey, DriverKind, ErrorKind};
 
 use self::probe::Probe;
 pub(crate) use self::run::run;
 use self::subject::{Ending, Subject};
 use crate::child::{Child, ChildError, ChildSpec};
+use crate::grant::Grant;
 use crate::host::PluginHost;
 use crate::library::Image;
 use crate::manifest::Provided;
@@ -190,11 +191,22 @@ impl PluginHost {
         };
         spec.files.extend(files);
         spec.program = self.children().program.clone();
-        spec.confinement.needs = self.config().allowed(plugin).into_iter().collect();
+        let grant = match self.grant_of(plugin, &probe.driver, &probe.arguments) {
+            Ok(grant) => grant,
+            Err(error) => return CheckOutcome::Failed(error.to_string()),
+        };
+        spec.confinement.needs = grant.reached.iter().cloned().collect();
         spec.patience.start = limit;
         let child = match Child::start(spec) {
             Ok(child) => child,
-            Err(error) => return ended(error),
+            Err(error) => {
+                return match ended(error) {
+                    CheckOutcome::Failed(why) => {
+                        CheckOutcome::Failed(grant.withheld.explain(&why).unwrap_or(why))
+                    }
+                    other => other,
+                };
+            }
         };
         let life = std::sync::Arc::clone(child.life());
         drop(child);
@@ -203,6 +215,28 @@ impl PluginHost {
             return CheckOutcome::Failed(format!("it printed {printed:?}"));
         }
         CheckOutcome::Passed
+    }
+}
+
+impl PluginHost {
+    /// What a check of `driver` may reach: what a device may that is opened with `arguments`.
+    fn grant_of(
+        &self,
+        plugin: &Plugin,
+        driver: &str,
+        arguments: &str,
+    ) -> Result<Grant, DriverError> {
+        let mut drivers = plugin.manifest.drivers();
+        let descriptor = drivers.find(|descriptor| descriptor.key().as_str() == driver);
+        let args = descriptor.and_then(|descriptor| {
+            let args = Args::parse(descriptor.arguments(), arguments).ok()?;
+            Some((descriptor.key(), args))
+        });
+        match args {
+            Some((key, args)) => self.config().grant_for(plugin, key, &args),
+            // The check itself says which arguments it lacks.
+            None => Ok(self.config().grant(plugin)),
+        }
     }
 }
 

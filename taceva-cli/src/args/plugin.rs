@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use clap::{Args, Subcommand, ValueEnum};
-use taceva_host::PluginId;
+use taceva_host::{Need, PluginId};
 use taceva_template::{Kind, Name};
 
 use super::renamed::FormerFolder;
@@ -33,6 +33,10 @@ pub(crate) enum Plugin {
     Headers(PluginHeaders),
     /// Check a plugin against its interface, each check in a sandboxed process with a time limit
     Check(PluginCheck),
+    /// Let a plugin reach what its manifest needs: a camera, a port, a machine, a file
+    Allow(PluginAllow),
+    /// Take back what a plugin may reach
+    Deny(PluginDeny),
     /// Release a crashed plugin from quarantine
     Release(PluginRelease),
 }
@@ -117,6 +121,36 @@ pub(crate) struct PluginCheck {
     pub(crate) limit: u64,
     #[command(flatten)]
     pub(crate) output: Output<ListFormat>,
+}
+
+/// A plugin runs in a process that reaches nothing of the machine but what its manifest needs and its user allows. This writes into
+/// the user's settings, `~/.config/taceva/config.toml`; comments and everything else in there stay.
+///
+/// usb, camera, hid           devices on USB, cameras (/dev/video*), scales and pedals (/dev/hidraw*)
+/// serial:/dev/ttyUSB*        serial ports; `*` stands for anything but `/`
+/// device:/dev/spidev0.0      another character device
+/// tcp:10.0.0.5:502           connections to one machine and port; `tcp:10.0.0.*:502` to all of a network
+/// udp:10.0.0.5:49152         messages to and from a machine
+/// listen:5025                a TCP port on which it waits for connections
+/// read:/run/scale            a file or all in a folder, to be read only
+#[derive(Debug, Args)]
+#[command(verbatim_doc_comment)]
+pub(crate) struct PluginAllow {
+    /// The id of the plugin
+    pub(crate) id: String,
+    /// What it may reach, of what its manifest needs
+    #[arg(required = true, value_name = "NEED")]
+    pub(crate) needs: Vec<Need>,
+}
+
+/// Without NEED, everything is taken back that it may reach.
+#[derive(Debug, Args)]
+pub(crate) struct PluginDeny {
+    /// The id of the plugin
+    pub(crate) id: PluginId,
+    /// What it may not reach any more, as it was allowed
+    #[arg(value_name = "NEED")]
+    pub(crate) needs: Vec<Need>,
 }
 
 #[derive(Debug, Args)]

@@ -1,5 +1,6 @@
 //! `taceva plugin`.
 
+mod allow;
 mod check;
 mod new;
 
@@ -14,6 +15,8 @@ pub(crate) fn run(which: &Plugin, context: &Context) -> anyhow::Result<u8> {
         Plugin::New(args) => new::project(args, context),
         Plugin::Headers(args) => new::headers(args, context),
         Plugin::Check(args) => check::run(args, context),
+        Plugin::Allow(args) => allow::allow(args, context),
+        Plugin::Deny(args) => allow::deny(args),
         Plugin::Release(args) => release(args, context),
     }
 }
