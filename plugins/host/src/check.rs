@@ -1,7 +1,7 @@
 //! Whether a plugin keeps its promises: many small checks, each in a confined process of its own with a time limit.
 //!
 //! A check runs beside the plugin, in the child, and calls the functions of its tables as a host would, and as no host should. Whatever it
-//! does to its process, the others go on.
+//! does to its process, the others go on. A plugin that its user trusts is checked as it runs: in a process that nothing is kept from.
 
 mod driver;
 mod estimator;
@@ -151,6 +151,8 @@ impl PluginHost {
             let mut only = request.only.iter();
             request.only.is_empty() || only.any(|begin| check.name.starts_with(begin))
         };
+        // Of each driver, why a check failed and which one did so first: a cause is told once.
+        let mut causes: BTreeMap<(Option<String>, String), &'static str> = BTreeMap::new();
         for check in checks().filter(is_wanted) {
             for key in subjects(check, plugin) {
                 let probe = Probe {
@@ -164,7 +166,19 @@ impl PluginHost {
                     moves: request.moves,
                 };
                 let begun = Instant::now();
-                let outcome = self.made(plugin, (&image, &probe), request.limit);
+                let mut outcome = self.made(plugin, (&image, &probe), request.limit);
+                if let CheckOutcome::Failed(why) = &outcome {
+                    let cause = (key.map(ToString::to_string), why.clone());
+                    match causes.get(&cause) {
+                        Some(first) => {
+                            let why = format!("for the reason why `{first}` failed");
+                            outcome = CheckOutcome::Skipped(why);
+                        }
+                        None => {
+                            causes.insert(cause, check.name);
+                        }
+                    }
+                }
                 tell(CheckResult {
                     check: check.name,
                     subject: key.map(ToString::to_string),
@@ -196,6 +210,7 @@ impl PluginHost {
             Err(error) => return CheckOutcome::Failed(error.to_string()),
         };
         spec.confinement.needs = grant.reached.iter().cloned().collect();
+        spec.confinement.is_trusted = self.config().trust(plugin).is_some();
         spec.patience.start = limit;
         let child = match Child::start(spec) {
             Ok(child) => child,

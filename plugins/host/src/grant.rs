@@ -218,3 +218,54 @@ pub(crate) fn resolved(
         DriverError::new(ErrorKind::InvalidArgument, driver, "open the device").because(error)
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn withheld(needs: &[&str]) -> Withheld {
+        Withheld {
+            plugin: "org.example.arm".to_owned(),
+            folder: None,
+            needs: needs
+                .iter()
+                .map(|need| need.parse().expect("a need"))
+                .collect(),
+        }
+    }
+
+    #[test]
+    fn the_line_is_one_that_a_shell_takes() {
+        let mut withheld = withheld(&["tcp:10.0.0.5:502", "serial:/dev/ttyUSB*"]);
+        withheld.folder = Some("/home/a b/it's".to_owned());
+        assert_eq!(
+            withheld.to_string(),
+            r"allow it: taceva plugin allow org.example.arm 'serial:/dev/ttyUSB*' tcp:10.0.0.5:502 --plugin-dir '/home/a b/it'\''s'"
+        );
+    }
+
+    #[test]
+    fn only_a_want_of_permission_is_explained_and_only_where_something_is_withheld() {
+        let some = withheld(&["usb"]);
+        let refused = std::io::Error::from_raw_os_error(libc::EACCES).to_string();
+        let explained = some.explain(&refused).expect("it is");
+        assert!(explained.ends_with("; allow it: taceva plugin allow org.example.arm usb"));
+        assert_eq!(some.explain("no such file (os error 2)"), None);
+        assert_eq!(some.explain("broken (os error 111)"), None);
+        assert_eq!(withheld(&[]).explain(&refused), None);
+        let key = DriverKey::fixed("org.example.arm/arm");
+        let denied = || DriverError::new(ErrorKind::PermissionDenied, &key, "open the arm");
+        assert!(some.explained(denied()).to_string().contains("allow it: "));
+        let other = DriverError::new(ErrorKind::Timeout, &key, "open the arm");
+        assert_eq!(
+            some.explained(other).to_string(),
+            "org.example.arm/arm: cannot open the arm: timeout"
+        );
+        assert!(
+            !withheld(&[])
+                .explained(denied())
+                .to_string()
+                .contains("allow it")
+        );
+    }
+}

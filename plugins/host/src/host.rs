@@ -11,10 +11,10 @@ use std::path::PathBuf;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
-use taceva_core::{DriverError, DriverKey, ErrorKind, Factory};
+use taceva_core::{Args, DriverError, DriverKey, ErrorKind, Factory};
 
 #[cfg(target_os = "linux")]
-use crate::child::{ChildSession, ChildSpec, Quarantine};
+use crate::child::{ChildSession, ChildSpec, Quarantine, no_port};
 use crate::config::{Delivery, PluginConfig};
 use crate::grant::{Grant, Withheld};
 use crate::id::PluginId;
@@ -111,6 +111,23 @@ impl PluginHost {
     /// What `plugin` needs whatever it is opened with, and its user does not allow.
     pub fn withheld(&self, plugin: &Plugin) -> Withheld {
         self.config.grant(plugin).withheld
+    }
+
+    /// What a device of `driver` needs that is opened with `arguments`, `key=value;key=value`, and its user does not allow; `None` if no
+    /// plugin has that driver, or these are no arguments of it.
+    pub fn withheld_from(&self, driver: &str, arguments: &str) -> Option<Withheld> {
+        let mut drivers = self.plugins.iter().flat_map(|plugin| {
+            let drivers = plugin.manifest.drivers();
+            drivers.map(move |descriptor| (plugin, descriptor))
+        });
+        let (plugin, descriptor) =
+            drivers.find(|(_, descriptor)| descriptor.key().as_str() == driver)?;
+        let args = Args::parse(descriptor.arguments(), arguments).ok()?;
+        let grant = self
+            .config
+            .grant_for(plugin, descriptor.key(), &args)
+            .ok()?;
+        Some(grant.withheld)
     }
 
     /// Where plugins run that are not trusted.
@@ -269,6 +286,9 @@ impl PluginHost {
             }
         }));
         spec.confinement.needs = grant.reached.iter().cloned().collect();
+        if let Some(why) = no_port(&spec.confinement.needs) {
+            return Err(DriverError::new(ErrorKind::InvalidArgument, driver, DOING).because(why));
+        }
         let session = ChildSession::of_plugin(spec, &plugin.manifest);
         let session = session.map_err(|error| error.of(driver, DOING))?;
         Ok((Arc::new(session), image.digest()))

@@ -31,7 +31,7 @@ pub(crate) enum Plugin {
     New(PluginNew),
     /// Write the headers for plugins in C and C++
     Headers(PluginHeaders),
-    /// Check a plugin against its interface, each check in a sandboxed process with a time limit
+    /// Check a plugin against its interface, each check in a process of its own with a time limit
     Check(PluginCheck),
     /// Let a plugin reach what its manifest needs: a camera, a port, a machine, a file
     Allow(PluginAllow),
@@ -100,7 +100,9 @@ pub(crate) struct PluginHeaders {
     pub(crate) former: FormerFolder,
 }
 
-/// The exit code is 1 if a check fails.
+/// Each check runs in a sandboxed process that reaches what `taceva plugin allow` lets the plugin reach; with `--trust ID`, in one that
+/// nothing is kept from. A real device is opened at most three times a check, and what needs one that is not there is skipped. A cause for
+/// which several checks fail is told once. The exit code is 1 if a check fails.
 #[derive(Debug, Args)]
 pub(crate) struct PluginCheck {
     /// The id of the plugin

@@ -13,4 +13,5 @@ pub use isolation::Isolation;
 
 use crate::manifest::Need;
 
+pub(crate) use devices::no_port;
 pub(crate) use enforce::{confine, seal};

@@ -67,8 +67,19 @@ fn is_device(metadata: &Metadata) -> bool {
         && own_terminal() != Some((major, minor))
 }
 
+/// Why a serial port that `needs` name without a star would stay closed: what is there is none.
+pub(crate) fn no_port(needs: &[Need]) -> Option<String> {
+    needs.iter().find_map(|need| match need {
+        Need::Serial { path } if !need.has_star() => {
+            let is_other = fs::metadata(path).is_ok_and(|metadata| !is_serial(&metadata));
+            is_other.then(|| format!("`{need}`: what is there is no serial port of a device, expected one; `device:` names others"))
+        }
+        _ => None,
+    })
+}
+
 /// Whether it is a port with lines as those of a terminal; it is not opened for this, which would reset some boards.
-pub(crate) fn is_serial(metadata: &Metadata) -> bool {
+fn is_serial(metadata: &Metadata) -> bool {
     let (major, minor) = numbers(metadata);
     let class = format!("/sys/dev/char/{major}:{minor}/subsystem");
     let is_tty = fs::read_link(class).is_ok_and(|class| class.ends_with("tty"));
@@ -166,6 +177,14 @@ mod tests {
                 assert!(found.is_empty(), "{text}: {found:?}");
             }
         }
+    }
+
+    #[test]
+    fn what_is_no_serial_port_is_named() {
+        let why = no_port(&need("serial:/dev/null")).expect("it is none");
+        assert!(why.starts_with("`serial:/dev/null`: "), "{why}");
+        assert_eq!(no_port(&need("serial:/dev/no-such-port")), None);
+        assert_eq!(no_port(&need("usb")), None);
     }
 
     #[test]
