@@ -90,6 +90,8 @@ fn the_line_that_a_refusal_prints_makes_the_next_run_pass() {
     );
     let refused = bench.run(&check);
     assert_eq!(refused.code, 1, "{}{}", refused.out, refused.err);
+    // Three checks open it, one tells why none can.
+    assert_eq!(refused.out.matches("FAIL").count(), 1, "{}", refused.out);
     let looked = bench.run("doctor --plugin-dir my-eye");
     assert_eq!(looked.code, 1, "{}", looked.out);
     assert!(
@@ -113,6 +115,31 @@ fn the_line_that_a_refusal_prints_makes_the_next_run_pass() {
     // And taken back.
     bench.ok("plugin deny org.example.my-eye");
     assert_eq!(bench.run(&check).code, 1);
+    // Whoever is trusted asks nobody.
+    bench.ok(&format!("{check} --trust org.example.my-eye"));
+
+    // Where it is installed, the line needs no folder.
+    let said = bench.ok("plugin install my-eye");
+    let line = format!("allow it: taceva plugin allow org.example.my-eye tcp:127.0.0.1:{port}\n");
+    assert!(said.ends_with(&line), "{said}");
+    bench.refused("plugin install my-eye", 3, "`--force` replaces it");
+    bench.ok("plugin install my-eye --force");
+    let installed = bench.path("user-data/taceva/plugins");
+    let left = support::leftovers(&installed, &["org.example.my-eye"]);
+    assert!(left.is_empty(), "{left:?}");
+    let check_installed = check.replace(" --plugin-dir my-eye", "");
+    let refused = bench.run(&check_installed);
+    assert_eq!(refused.code, 1, "{}{}", refused.out, refused.err);
+    assert_eq!(paste(&bench, &refused.out).code, 0);
+    bench.ok(&check_installed);
+    bench.ok("plugin deny org.example.my-eye");
+    fs::remove_dir_all(&installed).expect("removed");
+    // What is no library is not installed.
+    let manifest = fs::read_to_string(bench.path("my-eye/plugin.toml")).expect("there");
+    bench.write("broken/plugin.toml", &manifest);
+    bench.write("broken/target/release/libmy_eye.so", "no library");
+    assert_ne!(bench.run("plugin install broken").code, 0);
+    assert!(!installed.join("org.example.my-eye").exists());
 
     // What the arguments decide, with the name of a machine that a confined plugin could ask nobody for.
     needs(&bench, "tcp:{host}:{port}");

@@ -33,6 +33,8 @@ pub(crate) enum Plugin {
     Headers(PluginHeaders),
     /// Check a plugin against its interface, each check in a process of its own with a time limit
     Check(PluginCheck),
+    /// Copy a plugin to where every command finds it: ~/.local/share/taceva/plugins
+    Install(PluginInstall),
     /// Let a plugin reach what its manifest needs: a camera, a port, a machine, a file
     Allow(PluginAllow),
     /// Take back what a plugin may reach
@@ -123,6 +125,17 @@ pub(crate) struct PluginCheck {
     pub(crate) limit: u64,
     #[command(flatten)]
     pub(crate) output: Output<ListFormat>,
+}
+
+/// Its manifest is read first, and its library loaded in a sandboxed process: one that is not what its manifest says is not installed.
+/// The manifest, the library for this machine and the licences beside them are copied.
+#[derive(Debug, Args)]
+pub(crate) struct PluginInstall {
+    /// The folder of its plugin.toml
+    pub(crate) folder: PathBuf,
+    /// Replace a plugin of that id that is installed already
+    #[arg(long)]
+    pub(crate) force: bool,
 }
 
 /// A plugin runs in a process that reaches nothing of the machine but what its manifest needs and its user allows. This writes into
