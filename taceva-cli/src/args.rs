@@ -17,8 +17,8 @@ pub(crate) use self::cache::{CacheCommand, CacheList, CachePrune, CacheSubject};
 pub(crate) use self::dataset::{Check, Import, Reseal};
 pub(crate) use self::model::{Evaluate, Fit, Merge, Predict, Score};
 pub(crate) use self::plugin::{
-    Plugin, PluginArgs, PluginCheck, PluginHeaders, PluginInfo, PluginList, PluginNew,
-    PluginRelease,
+    Plugin, PluginAllow, PluginArgs, PluginCheck, PluginDeny, PluginHeaders, PluginInfo,
+    PluginInstall, PluginList, PluginNew, PluginRelease,
 };
 pub(crate) use self::results::{
     Accept, CatalogueArgs, CatalogueShow, CatalogueSite, CatalogueSubject, Choose, Compare,

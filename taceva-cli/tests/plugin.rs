@@ -160,6 +160,12 @@ units = ["0"]
 fn a_scene_may_name_a_driver_of_a_plugin_beside_it() {
     let bench = with_plugins(&["a"]);
     bench.write("lamp.toml", SCENE);
+    // What it needs is not allowed, and the plan says how to allow it.
+    let planned = bench.run("plan lamp.toml");
+    assert_eq!(planned.code, 1, "{}", planned.err);
+    let line = "allow it: taceva plugin allow org.example.a usb --plugin-dir ";
+    assert!(planned.err.contains(line), "{}", planned.err);
+    bench.ok("plugin allow org.example.a usb --plugin-dir plugins");
     let planned = bench.run("plan lamp.toml");
     assert_eq!(planned.code, 0, "{}", planned.err);
     fs::remove_dir_all(bench.path("plugins")).expect("there");

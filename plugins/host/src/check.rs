@@ -1,7 +1,7 @@
 //! Whether a plugin keeps its promises: many small checks, each in a confined process of its own with a time limit.
 //!
 //! A check runs beside the plugin, in the child, and calls the functions of its tables as a host would, and as no host should. Whatever it
-//! does to its process, the others go on.
+//! does to its process, the others go on. A plugin that its user trusts is checked as it runs: in a process that nothing is kept from.
 
 mod driver;
 mod estimator;
@@ -22,12 +22,13 @@ use std::os::fd::OwnedFd;
 use std::time::{Duration, Instant};
 
 use serde::Serialize;
-use taceva_core::{DriverError, DriverKey, DriverKind, ErrorKind};
+use taceva_core::{Args, DriverError, DriverKey, DriverKind, ErrorKind};
 
 use self::probe::Probe;
 pub(crate) use self::run::run;
 use self::subject::{Ending, Subject};
 use crate::child::{Child, ChildError, ChildSpec};
+use crate::grant::Grant;
 use crate::host::PluginHost;
 use crate::library::Image;
 use crate::manifest::Provided;
@@ -150,6 +151,8 @@ impl PluginHost {
             let mut only = request.only.iter();
             request.only.is_empty() || only.any(|begin| check.name.starts_with(begin))
         };
+        // Of each driver, why a check failed and which one did so first: a cause is told once.
+        let mut causes: BTreeMap<(Option<String>, String), &'static str> = BTreeMap::new();
         for check in checks().filter(is_wanted) {
             for key in subjects(check, plugin) {
                 let probe = Probe {
@@ -163,7 +166,19 @@ impl PluginHost {
                     moves: request.moves,
                 };
                 let begun = Instant::now();
-                let outcome = self.made(plugin, (&image, &probe), request.limit);
+                let mut outcome = self.made(plugin, (&image, &probe), request.limit);
+                if let CheckOutcome::Failed(why) = &outcome {
+                    let cause = (key.map(ToString::to_string), why.clone());
+                    match causes.get(&cause) {
+                        Some(first) => {
+                            let why = format!("for the reason why `{first}` failed");
+                            outcome = CheckOutcome::Skipped(why);
+                        }
+                        None => {
+                            causes.insert(cause, check.name);
+                        }
+                    }
+                }
                 tell(CheckResult {
                     check: check.name,
                     subject: key.map(ToString::to_string),
@@ -190,11 +205,23 @@ impl PluginHost {
         };
         spec.files.extend(files);
         spec.program = self.children().program.clone();
-        spec.confinement.needs = self.config().allowed(plugin).into_iter().collect();
+        let grant = match self.grant_of(plugin, &probe.driver, &probe.arguments) {
+            Ok(grant) => grant,
+            Err(error) => return CheckOutcome::Failed(error.to_string()),
+        };
+        spec.confinement.needs = grant.reached.iter().cloned().collect();
+        spec.confinement.is_trusted = self.config().trust(plugin).is_some();
         spec.patience.start = limit;
         let child = match Child::start(spec) {
             Ok(child) => child,
-            Err(error) => return ended(error),
+            Err(error) => {
+                return match ended(error) {
+                    CheckOutcome::Failed(why) => {
+                        CheckOutcome::Failed(grant.withheld.explain(&why).unwrap_or(why))
+                    }
+                    other => other,
+                };
+            }
         };
         let life = std::sync::Arc::clone(child.life());
         drop(child);
@@ -203,6 +230,28 @@ impl PluginHost {
             return CheckOutcome::Failed(format!("it printed {printed:?}"));
         }
         CheckOutcome::Passed
+    }
+}
+
+impl PluginHost {
+    /// What a check of `driver` may reach: what a device may that is opened with `arguments`.
+    fn grant_of(
+        &self,
+        plugin: &Plugin,
+        driver: &str,
+        arguments: &str,
+    ) -> Result<Grant, DriverError> {
+        let mut drivers = plugin.manifest.drivers();
+        let descriptor = drivers.find(|descriptor| descriptor.key().as_str() == driver);
+        let args = descriptor.and_then(|descriptor| {
+            let args = Args::parse(descriptor.arguments(), arguments).ok()?;
+            Some((descriptor.key(), args))
+        });
+        match args {
+            Some((key, args)) => self.config().grant_for(plugin, key, &args),
+            // The check itself says which arguments it lacks.
+            None => Ok(self.config().grant(plugin)),
+        }
     }
 }
 

@@ -48,6 +48,7 @@ pub use exit_status::Fate;
 pub use main_hook::{CHILD_ARGUMENT, main_if_child_with};
 pub use plugin::main_if_child;
 pub use quarantine::{Quarantine, Quarantined};
+pub(crate) use sandbox::no_port;
 pub use sandbox::{Confinement, Isolation};
 pub use session::ChildSession;
 pub use spec::ChildSpec;

@@ -1,5 +1,7 @@
 //! What the user decides about plugins: a part of the user's settings, and words on the command line.
 
+mod edit;
+
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::io;
@@ -105,13 +107,20 @@ impl PluginConfig {
             .or(settings.then_some(Trust::Settings))
     }
 
-    /// What `plugin` may reach: what it asks for and the user allows.
+    /// What `plugin` may reach at most: what it asks for and the user allows.
     pub fn allowed(&self, plugin: &Plugin) -> BTreeSet<Need> {
-        let needs = &plugin.manifest.needs;
-        match self.allow.get(plugin.id()) {
-            Some(allowed) => needs.intersection(allowed).cloned().collect(),
-            None => BTreeSet::new(),
-        }
+        let Some(allowed) = self.allow.get(plugin.id()) else {
+            return BTreeSet::new();
+        };
+        let needs = plugin.manifest.needs.iter();
+        let given = needs.map(|need| match need.fixed() {
+            Some(need) => need.given_by(allowed),
+            None => {
+                let asked = allowed.iter().filter(|given| need.asks_for(given));
+                asked.cloned().collect()
+            }
+        });
+        given.flatten().collect()
     }
 }
 

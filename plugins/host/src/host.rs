@@ -11,11 +11,12 @@ use std::path::PathBuf;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
-use taceva_core::{DriverError, DriverKey, ErrorKind, Factory};
+use taceva_core::{Args, DriverError, DriverKey, ErrorKind, Factory};
 
 #[cfg(target_os = "linux")]
-use crate::child::{ChildSession, ChildSpec, Quarantine};
+use crate::child::{ChildSession, ChildSpec, Quarantine, no_port};
 use crate::config::{Delivery, PluginConfig};
+use crate::grant::{Grant, Withheld};
 use crate::id::PluginId;
 use crate::in_process::InProcess;
 use crate::library::{Image, Level, Library, Log};
@@ -107,6 +108,28 @@ impl PluginHost {
         &self.config
     }
 
+    /// What `plugin` needs whatever it is opened with, and its user does not allow.
+    pub fn withheld(&self, plugin: &Plugin) -> Withheld {
+        self.config.grant(plugin).withheld
+    }
+
+    /// What a device of `driver` needs that is opened with `arguments`, `key=value;key=value`, and its user does not allow; `None` if no
+    /// plugin has that driver, or these are no arguments of it.
+    pub fn withheld_from(&self, driver: &str, arguments: &str) -> Option<Withheld> {
+        let mut drivers = self.plugins.iter().flat_map(|plugin| {
+            let drivers = plugin.manifest.drivers();
+            drivers.map(move |descriptor| (plugin, descriptor))
+        });
+        let (plugin, descriptor) =
+            drivers.find(|(_, descriptor)| descriptor.key().as_str() == driver)?;
+        let args = Args::parse(descriptor.arguments(), arguments).ok()?;
+        let grant = self
+            .config
+            .grant_for(plugin, descriptor.key(), &args)
+            .ok()?;
+        Some(grant.withheld)
+    }
+
     /// Where plugins run that are not trusted.
     pub(crate) fn children(&self) -> &Children {
         &self.children
@@ -160,9 +183,20 @@ impl PluginHost {
         self.start(plugin, driver).map(|(session, _)| session)
     }
 
+    /// A new session of `plugin` that reaches what `grant` gives.
+    fn session_of(
+        &self,
+        plugin: &Plugin,
+        driver: &DriverKey,
+        grant: &Grant,
+    ) -> Result<Arc<dyn Session>, DriverError> {
+        let started = self.start_within(plugin, driver, grant, None);
+        started.map(|(session, _)| session)
+    }
+
     /// A new session of `plugin`, and the digest of the library that answers in it.
     fn start(&self, plugin: &Plugin, driver: &DriverKey) -> Result<Started, DriverError> {
-        self.start_within(plugin, driver, None)
+        self.start_within(plugin, driver, &self.config.grant(plugin), None)
     }
 
     /// The same, of a child that has so long to load and for each order.
@@ -170,6 +204,7 @@ impl PluginHost {
         &self,
         plugin: &Plugin,
         driver: &DriverKey,
+        grant: &Grant,
         limit: Option<Duration>,
     ) -> Result<Started, DriverError> {
         match self.config.delivery(plugin) {
@@ -177,7 +212,9 @@ impl PluginHost {
                 let (library, digest) = self.library(plugin, driver)?;
                 Ok((Arc::new(InProcess::open(&library)?), digest))
             }
-            Delivery::Child => self.child(plugin, driver, limit),
+            Delivery::Child => self
+                .child(plugin, driver, grant, limit)
+                .map_err(|error| grant.withheld.explained(error)),
         }
     }
 
@@ -216,12 +253,13 @@ impl PluginHost {
         Ok(0)
     }
 
-    /// A session in a child that may reach what the plugin asks for and the user allows.
+    /// A session in a child that may reach what `grant` gives.
     #[cfg(target_os = "linux")]
     fn child(
         &self,
         plugin: &Plugin,
         driver: &DriverKey,
+        grant: &Grant,
         limit: Option<Duration>,
     ) -> Result<Started, DriverError> {
         const DOING: &str = "load the plugin";
@@ -247,7 +285,10 @@ impl PluginHost {
                 log(Level::Warn, "host", &why);
             }
         }));
-        spec.confinement.needs = self.config.allowed(plugin).into_iter().collect();
+        spec.confinement.needs = grant.reached.iter().cloned().collect();
+        if let Some(why) = no_port(&spec.confinement.needs) {
+            return Err(DriverError::new(ErrorKind::InvalidArgument, driver, DOING).because(why));
+        }
         let session = ChildSession::of_plugin(spec, &plugin.manifest);
         let session = session.map_err(|error| error.of(driver, DOING))?;
         Ok((Arc::new(session), image.digest()))
@@ -258,6 +299,7 @@ impl PluginHost {
         &self,
         plugin: &Plugin,
         driver: &DriverKey,
+        _: &Grant,
         _: Option<Duration>,
     ) -> Result<Started, DriverError> {
         let why = format!(

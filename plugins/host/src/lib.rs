@@ -9,6 +9,7 @@ mod config;
 mod descriptor;
 mod device;
 mod estimator;
+mod grant;
 mod host;
 mod id;
 mod in_process;
@@ -34,13 +35,14 @@ pub use child::{
 pub use child::read_any_message;
 pub use config::{ConfigError, Delivery, PluginConfig, Trust};
 pub use device::{LentFrame, PluginSensor};
+pub use grant::Withheld;
 pub use host::{Children, Keeping, PluginDriver, PluginHost, PluginLog};
 pub use id::{PluginId, PluginIdError};
 pub use in_process::InProcess;
 pub use library::{Image, Level, Library, LoadError, LoadProblem, Log, libraries_loaded};
 pub use manifest::{
-    AbiVersion, EstimatorInfo, LibraryFile, Manifest, ManifestError, Need, NeedError, Provided,
-    Sha256Digest, UsbId, platform,
+    AbiVersion, DeclaredNeed, EstimatorInfo, LibraryFile, Manifest, ManifestError, Need, NeedError,
+    Provided, Sha256Digest, UsbId, platform,
 };
 pub use search::{
     NotFound, Place, Plugin, Plugins, Reason, ReasonKind, Rejection, SearchPath, user_config_file,

@@ -19,7 +19,8 @@ use toml::Spanned;
 pub use self::error::ManifestError;
 pub use self::library::{LibraryFile, Sha256Digest, platform};
 use self::library::{PLATFORMS, path_fault};
-pub use self::need::{Need, NeedError};
+pub(crate) use self::need::matches;
+pub use self::need::{DeclaredNeed, Need, NeedError};
 pub use self::provides::{EstimatorInfo, Provided};
 pub use self::usb_id::UsbId;
 use self::written::WrittenProvides;
@@ -85,7 +86,7 @@ pub struct Manifest {
     /// The interface it was written for.
     pub abi: AbiVersion,
     /// What it must reach outside itself.
-    pub needs: BTreeSet<Need>,
+    pub needs: BTreeSet<DeclaredNeed>,
     /// Its drivers and estimators, in the order of the manifest.
     pub provides: Vec<Provided>,
     libraries: BTreeMap<String, LibraryFile>,
@@ -229,7 +230,7 @@ fn meant(written: Written) -> Result<Manifest, Refused> {
     let libraries = libraries(&written.library)?;
     let mut needs = BTreeSet::new();
     for need in &written.needs {
-        let read = (need.get_ref().parse())
+        let read: DeclaredNeed = (need.get_ref().parse())
             .map_err(|error| Refused::at(need, format!("`needs`: {error}")))?;
         if !needs.insert(read) {
             return Err(Refused::at(need, "`needs`: named twice"));
@@ -253,6 +254,9 @@ fn meant(written: Written) -> Result<Manifest, Refused> {
             return Err(Refused::at(&key, problem));
         }
     }
+    for need in &written.needs {
+        check_arguments(need, &needs, &provides)?;
+    }
     Ok(Manifest {
         id,
         name,
@@ -263,6 +267,32 @@ fn meant(written: Written) -> Result<Manifest, Refused> {
         provides,
         libraries,
     })
+}
+
+/// Refuses a need of arguments that no driver has, all of one.
+fn check_arguments(
+    written: &Spanned<String>,
+    needs: &BTreeSet<DeclaredNeed>,
+    provides: &[Provided],
+) -> Result<(), Refused> {
+    let is_written = |need: &&DeclaredNeed| need.to_string() == *written.get_ref();
+    let Some(need) = needs.iter().find(is_written) else {
+        return Ok(());
+    };
+    let has_all = |provided: &Provided| match provided {
+        Provided::Driver { descriptor, .. } => need.arguments().all(|key| {
+            let mut specs = descriptor.arguments().iter();
+            specs.any(|spec| spec.key == key)
+        }),
+        Provided::Estimator(_) => need.fixed().is_some(),
+    };
+    if provides.iter().any(has_all) {
+        return Ok(());
+    }
+    let problem = format!(
+        "`needs`: `{need}`: no driver has these arguments, expected keys of `[[provides.args]]`"
+    );
+    Err(Refused::at(written, problem))
 }
 
 fn libraries(

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use clap::{Args, Subcommand, ValueEnum};
-use taceva_host::PluginId;
+use taceva_host::{Need, PluginId};
 use taceva_template::{Kind, Name};
 
 use super::renamed::FormerFolder;
@@ -31,8 +31,14 @@ pub(crate) enum Plugin {
     New(PluginNew),
     /// Write the headers for plugins in C and C++
     Headers(PluginHeaders),
-    /// Check a plugin against its interface, each check in a sandboxed process with a time limit
+    /// Check a plugin against its interface, each check in a process of its own with a time limit
     Check(PluginCheck),
+    /// Copy a plugin to where every command finds it: ~/.local/share/taceva/plugins
+    Install(PluginInstall),
+    /// Let a plugin reach what its manifest needs: a camera, a port, a machine, a file
+    Allow(PluginAllow),
+    /// Take back what a plugin may reach
+    Deny(PluginDeny),
     /// Release a crashed plugin from quarantine
     Release(PluginRelease),
 }
@@ -96,7 +102,9 @@ pub(crate) struct PluginHeaders {
     pub(crate) former: FormerFolder,
 }
 
-/// The exit code is 1 if a check fails.
+/// Each check runs in a sandboxed process that reaches what `taceva plugin allow` lets the plugin reach; with `--trust ID`, in one that
+/// nothing is kept from. A real device is opened at most three times a check, and what needs one that is not there is skipped. A cause for
+/// which several checks fail is told once. The exit code is 1 if a check fails.
 #[derive(Debug, Args)]
 pub(crate) struct PluginCheck {
     /// The id of the plugin
@@ -117,6 +125,47 @@ pub(crate) struct PluginCheck {
     pub(crate) limit: u64,
     #[command(flatten)]
     pub(crate) output: Output<ListFormat>,
+}
+
+/// Its manifest is read first, and its library loaded in a sandboxed process: one that is not what its manifest says is not installed.
+/// The manifest, the library for this machine and the licences beside them are copied.
+#[derive(Debug, Args)]
+pub(crate) struct PluginInstall {
+    /// The folder of its plugin.toml
+    pub(crate) folder: PathBuf,
+    /// Replace a plugin of that id that is installed already
+    #[arg(long)]
+    pub(crate) force: bool,
+}
+
+/// A plugin runs in a process that reaches nothing of the machine but what its manifest needs and its user allows. This writes into
+/// the user's settings, `~/.config/taceva/config.toml`; comments and everything else in there stay.
+///
+/// usb, camera, hid           devices on USB, cameras (/dev/video*), scales and pedals (/dev/hidraw*)
+/// serial:/dev/ttyUSB*        serial ports; `*` stands for anything but `/`
+/// device:/dev/spidev0.0      another character device
+/// tcp:10.0.0.5:502           connections to one machine and port; `tcp:10.0.0.*:502` to all of a network
+/// udp:10.0.0.5:49152         messages to and from a machine
+/// listen:5025                a TCP port on which it waits for connections
+/// read:/run/scale            a file or all in a folder, to be read only
+#[derive(Debug, Args)]
+#[command(verbatim_doc_comment)]
+pub(crate) struct PluginAllow {
+    /// The id of the plugin
+    pub(crate) id: String,
+    /// What it may reach, of what its manifest needs
+    #[arg(required = true, value_name = "NEED")]
+    pub(crate) needs: Vec<Need>,
+}
+
+/// Without NEED, everything is taken back that it may reach.
+#[derive(Debug, Args)]
+pub(crate) struct PluginDeny {
+    /// The id of the plugin
+    pub(crate) id: PluginId,
+    /// What it may not reach any more, as it was allowed
+    #[arg(value_name = "NEED")]
+    pub(crate) needs: Vec<Need>,
 }
 
 #[derive(Debug, Args)]

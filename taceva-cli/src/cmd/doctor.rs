@@ -1,7 +1,8 @@
 //! `taceva doctor`.
 
 use taceva_drivers::Drivers;
-use taceva_drivers::doctor::{Machine, State, examine, examine_plugins};
+use taceva_drivers::doctor::{Finding, Machine, State, examine, examine_plugins};
+use taceva_host::PluginHost;
 
 use super::Context;
 use crate::args::{ListFormat, Output};
@@ -15,6 +16,7 @@ pub(crate) fn run(args: &Output<ListFormat>, context: &Context) -> anyhow::Resul
     let drivers = Drivers::builtin()?.with_plugins(&host)?;
     let mut findings = examine(&drivers, &Machine::this());
     findings.extend(examine_plugins(&host));
+    findings.extend(permissions(&host));
     output::write_as(args.format, args.path.as_deref(), |out| {
         report::devices::findings(&findings, args.format, out)
     })?;
@@ -26,4 +28,21 @@ pub(crate) fn run(args: &Output<ListFormat>, context: &Context) -> anyhow::Resul
     } else {
         exit::DONE
     })
+}
+
+/// The plugins that need what their user does not allow.
+fn permissions(host: &PluginHost) -> Vec<Finding> {
+    let findings = host.plugins().iter().filter_map(|plugin| {
+        let remedy = report::plugin::remedy(host, plugin)?;
+        let needs = host.withheld(plugin);
+        let needs: Vec<String> = needs.needs().iter().map(ToString::to_string).collect();
+        Some(Finding {
+            code: "plugin-needs",
+            state: State::Problem,
+            subject: plugin.id().to_string(),
+            detail: format!("needs {}, which is not allowed", needs.join(", ")),
+            remedy: Some(remedy),
+        })
+    });
+    findings.collect()
 }

@@ -1,21 +1,55 @@
 //! `taceva plan`.
 
+use std::collections::BTreeSet;
 use std::path::Path;
+
+use taceva_drivers::{Drivers, Selector};
+use taceva_host::PluginHost;
+use taceva_study::PlannedScene;
 
 use super::{Context, scene};
 use crate::args::PlanArgs;
-use crate::{exit, output, report};
+use crate::{exit, output, report, stderr};
 
 pub(crate) fn run(args: &PlanArgs, context: &Context) -> anyhow::Result<u8> {
     let to = &args.output;
     if let Some(path) = to.path.as_deref() {
         output::check_free(path, to.force)?;
     }
-    let drivers = context.drivers(Some(Path::new(&args.scene.scene)))?;
+    let host = context.plugins(Some(Path::new(&args.scene.scene)))?;
+    let drivers = Drivers::builtin()?.with_plugins(&host)?;
     let planned = scene::planned(&args.scene, &drivers)?;
     scene::print_cost(&planned, Path::new("."), context)?;
     output::write_as(to.format, to.path.as_deref(), |out| {
         report::plan::write(&planned, to.format, out)
     })?;
-    Ok(exit::DONE)
+    Ok(if say_withheld(&planned, &host) {
+        exit::CHECK_FAILED
+    } else {
+        exit::DONE
+    })
+}
+
+/// Says which devices of the scene need what their user does not allow, each once; whether there are any.
+fn say_withheld(planned: &PlannedScene, host: &PluginHost) -> bool {
+    let mut said = BTreeSet::new();
+    for (_, device) in planned.scene.drivers() {
+        let Ok(selector) = device.value.parse::<Selector>() else {
+            continue;
+        };
+        let Some(withheld) = host.withheld_from(selector.driver(), selector.arguments()) else {
+            continue;
+        };
+        let needs: Vec<String> = withheld.needs().iter().map(ToString::to_string).collect();
+        if !needs.is_empty() {
+            let (driver, needs) = (selector.driver(), needs.join(", "));
+            said.insert(format!(
+                "{driver}: needs {needs}, which is not allowed; {withheld}"
+            ));
+        }
+    }
+    for line in &said {
+        stderr::say(format_args!("{line}"));
+    }
+    !said.is_empty()
 }

@@ -101,6 +101,9 @@ fn line(plugin: &Listed, out: &mut dyn Write) -> io::Result<()> {
             allowed => format!("allowed: {}", allowed.join(", ")),
         };
         writeln!(out, "    needs {} ({allowed})", plugin.needs.join(", "))?;
+        if let Some(remedy) = &plugin.remedy {
+            writeln!(out, "    {remedy}")?;
+        }
     }
     Ok(())
 }
@@ -129,6 +132,9 @@ struct Listed {
     isolation: String,
     needs: Vec<String>,
     allowed: Vec<String>,
+    /// The line that allows the rest of what it needs.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    remedy: Option<String>,
     #[serde(skip_serializing_if = "Option::is_none")]
     quarantined: Option<String>,
     drivers: Vec<ListedDriver>,
@@ -162,8 +168,9 @@ impl Listed {
             },
             delivery: host.config().delivery(plugin),
             isolation: host.keeping(plugin).to_string(),
-            needs: words(manifest.needs.clone()),
+            needs: manifest.needs.iter().map(ToString::to_string).collect(),
             allowed: words(host.config().allowed(plugin)),
+            remedy: remedy(host, plugin),
             quarantined: host.quarantined(plugin),
             drivers: manifest.drivers().map(ListedDriver::of).collect(),
             estimators: manifest
@@ -175,6 +182,12 @@ impl Listed {
                 .collect(),
         }
     }
+}
+
+/// The line that allows what `plugin` needs whatever it is opened with, if something of it is not.
+pub(crate) fn remedy(host: &PluginHost, plugin: &Plugin) -> Option<String> {
+    let withheld = host.withheld(plugin);
+    (!withheld.needs().is_empty()).then(|| withheld.to_string())
 }
 
 #[derive(Serialize)]

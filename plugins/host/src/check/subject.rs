@@ -60,6 +60,9 @@ pub(super) const AT_ONCE: Duration = Duration::from_millis(50);
 /// Within which whatever should return at once does, on a busy machine.
 pub(super) const SOON: Duration = Duration::from_millis(500);
 
+/// How often one check opens a real device.
+const REAL_OPENINGS: usize = 3;
+
 /// A loaded plugin, and one of its drivers or estimators.
 pub(crate) struct Subject {
     pub(super) probe: Probe,
@@ -136,7 +139,34 @@ impl Subject {
     /// The device with its bare table, in a rig of its own.
     pub(super) fn open<T: Table>(&self) -> Result<Opened<T>, Ending> {
         let rig = RigHandle::open(&self.library)?;
-        Ok(open(&rig, self.entry()?, &self.list()?)?)
+        open(&rig, self.entry()?, &self.list()?).map_err(|error| self.not_opened(error))
+    }
+
+    /// Why a device did not open: one that exists, and is not here, keeps no promise and breaks none.
+    fn not_opened(&self, error: DriverError) -> Ending {
+        let is_absent = error.kind() == ErrorKind::NotFound && self.is_real();
+        if is_absent {
+            let key = &self.probe.driver;
+            return Ending::Skipped(format!(
+                "no device is there: {error}; `--with {key}:…` says where one is"
+            ));
+        }
+        error.into()
+    }
+
+    /// Whether its devices are made of matter, and wear.
+    pub(super) fn is_real(&self) -> bool {
+        let descriptor = self.descriptor();
+        descriptor.is_ok_and(|descriptor| descriptor.source() == DriverSource::Real)
+    }
+
+    /// How often a device is opened that `simulated` times would be if it were none: a real one takes seconds and wears.
+    pub(super) fn openings(&self, simulated: usize) -> usize {
+        if self.is_real() {
+            simulated.min(REAL_OPENINGS)
+        } else {
+            simulated
+        }
     }
 
     /// Skips a check that moves a robot, unless it is a simulation or its user allowed it.

@@ -1,6 +1,7 @@
 //! What a child may do: said by the host, enforced by the child upon itself before it loads anything, and reported back.
 
 mod confinement;
+mod devices;
 mod enforce;
 mod files;
 mod identity;
@@ -12,4 +13,5 @@ pub use isolation::Isolation;
 
 use crate::manifest::Need;
 
+pub(crate) use devices::no_port;
 pub(crate) use enforce::{confine, seal};

@@ -8,7 +8,9 @@ use taceva_core::{
 };
 
 use super::PluginHost;
+use crate::config::Delivery;
 use crate::descriptor::changes_facts;
+use crate::grant::{self, Grant};
 use crate::id::PluginId;
 use crate::library::{Image, Level};
 use crate::manifest::UsbId;
@@ -31,19 +33,54 @@ impl PluginDriver {
         &self,
         args: &Args,
         rig: &mut Rig,
-        open: impl FnOnce(&dyn Session, &DriverKey) -> Result<Box<D>, DriverError>,
+        open: impl FnOnce(&dyn Session, &DriverKey, &Args) -> Result<Box<D>, DriverError>,
     ) -> Result<Box<D>, DriverError> {
         let key = self.descriptor.key();
-        let name = format!("plugin {}", self.plugin);
+        let plugin = self.plugin("load the plugin")?;
+        let (grant, args) = self.granted(plugin, args)?;
+        let args = &args;
+        // A process reaches what it reached from its beginning: devices of other places are opened in others.
+        let name = match grant.is_bound {
+            true => format!("plugin {} {:?}", self.plugin, grant.reached),
+            false => format!("plugin {}", self.plugin),
+        };
         let session: Arc<Arc<dyn Session>> =
-            rig.share(&name, || self.host.session(&self.plugin, key))?;
-        let device = open(&**session, key)?;
+            rig.share(&name, || self.host.session_of(plugin, key, &grant))?;
+        let device =
+            open(&**session, key, args).map_err(|error| grant.withheld.explained(error))?;
         if let Some(ArgValue::Text(bench)) = args.get("rig")
             && let Some(found) = session.bench(bench)
         {
             rig.offer_bench(&format!("{} {bench}", self.plugin), found);
         }
         Ok(device)
+    }
+
+    /// What a device may reach that is opened with `args`, and the arguments with the addresses of the machines that they name.
+    fn granted(&self, plugin: &Plugin, args: &Args) -> Result<(Grant, Args), DriverError> {
+        let key = self.descriptor.key();
+        let config = self.host.config();
+        let grant = config.grant_for(plugin, key, args)?;
+        if config.delivery(plugin) == Delivery::InProcess || !grant.is_bound {
+            return Ok((grant, args.clone()));
+        }
+        // Nobody is asked for the address of a machine that may not be reached.
+        if plugin.manifest.needs.iter().any(|need| {
+            let bound = need
+                .fixed()
+                .is_none()
+                .then(|| need.bound_to(args).ok().flatten());
+            let withheld = grant.withheld.needs();
+            bound
+                .flatten()
+                .is_some_and(|bound| withheld.contains(&bound))
+        }) {
+            let denied = DriverError::new(ErrorKind::PermissionDenied, key, "open the device")
+                .because("its user does not allow what its arguments name");
+            return Err(grant.withheld.explained(denied));
+        }
+        let args = grant::resolved(plugin, key, self.descriptor.arguments(), args)?;
+        Ok((grant, args))
     }
 
     /// What the manifest says, unless `args` can change that: then the library is asked, in its process. Where it cannot be, opening the
@@ -117,7 +154,7 @@ macro_rules! factories {
             }
 
             fn open(&self, args: &Args, rig: &mut Rig) -> Result<Box<$device>, DriverError> {
-                self.open_in(args, rig, |session, key| session.$open(key, args))
+                self.open_in(args, rig, |session, key, args| session.$open(key, args))
             }
 
             fn discover(&self) -> Result<Vec<Found>, DriverError> {

@@ -27,7 +27,11 @@ impl PluginHost {
         driver: &DriverKey,
     ) -> Result<Vec<Found>, DriverError> {
         match self.looker(plugin, driver) {
-            Looker::Looks(session) => session.discover(driver),
+            Looker::Looks(session) => {
+                let grant = self.config.grant(plugin);
+                let found = session.discover(driver);
+                found.map_err(|error| grant.withheld.explained(error))
+            }
             Looker::Failed(kind, why) => {
                 Err(DriverError::new(kind, driver, "look for devices").because(why))
             }
@@ -40,13 +44,14 @@ impl PluginHost {
         if let Some(looker) = lookers.get(plugin.id()) {
             return looker.clone();
         }
-        let looker = match self.start_within(plugin, driver, Some(LOOKING)) {
-            Ok((session, _)) => Looker::Looks(session),
-            Err(error) => {
-                let why = std::error::Error::source(&error).map(ToString::to_string);
-                Looker::Failed(error.kind(), why.unwrap_or_else(|| error.to_string()))
-            }
-        };
+        let looker =
+            match self.start_within(plugin, driver, &self.config.grant(plugin), Some(LOOKING)) {
+                Ok((session, _)) => Looker::Looks(session),
+                Err(error) => {
+                    let why = std::error::Error::source(&error).map(ToString::to_string);
+                    Looker::Failed(error.kind(), why.unwrap_or_else(|| error.to_string()))
+                }
+            };
         lookers.insert(plugin.id().clone(), looker.clone());
         looker
     }

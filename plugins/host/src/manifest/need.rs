@@ -1,11 +1,23 @@
 //! What a plugin needs beyond computing: nothing of it is given in a child process unless its manifest says so and the user agrees.
 
+mod covers;
+mod declared;
+#[cfg(test)]
+mod tests;
+
 use std::fmt;
 use std::str::FromStr;
 
 use serde::{Deserialize, Serialize};
 
+pub(crate) use self::covers::matches;
+pub use self::declared::DeclaredNeed;
 use crate::shown::{shown, suggestion};
+
+/// The words that needs begin with.
+const WORDS: [&str; 9] = [
+    "camera", "device", "hid", "listen", "read", "serial", "tcp", "udp", "usb",
+];
 
 /// Something outside the plugin that it must reach.
 ///
@@ -14,6 +26,9 @@ use crate::shown::{shown, suggestion};
 /// let need: Need = "tcp:192.168.1.10:4008".parse()?;
 /// assert_eq!(need, Need::Tcp { address: "192.168.1.10".to_owned(), port: 4008 });
 /// assert_eq!(need.to_string(), "tcp:192.168.1.10:4008");
+///
+/// let every: Need = "tcp:192.168.1.*:4008".parse()?;
+/// assert!(every.covers(&need) && !need.covers(&every));
 /// # Ok::<(), taceva_host::NeedError>(())
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
@@ -22,24 +37,43 @@ use crate::shown::{shown, suggestion};
 pub enum Need {
     /// Devices on USB.
     Usb,
-    /// Serial ports: a path below `/dev`, in which `*` stands for anything but `/`.
+    /// Cameras that the system has a driver for: `/dev/video*`.
+    Camera,
+    /// Human interface devices, such as scales and pedals: `/dev/hidraw*`.
+    Hid,
+    /// Serial ports, and no other devices: a path below `/dev`, in which `*` stands for anything but `/`.
     Serial {
         /// The path.
         path: String,
     },
-    /// One TCP server.
+    /// Character devices: a path below `/dev`, in which `*` stands for anything but `/`.
+    Device {
+        /// The path.
+        path: String,
+    },
+    /// One TCP server, or those of addresses in which `*` stands for anything but `.`.
     Tcp {
         /// Its address or name.
         address: String,
         /// Its port.
         port: u16,
     },
-    /// One UDP peer.
+    /// One UDP peer, as of TCP.
     Udp {
         /// Its address or name.
         address: String,
         /// Its port.
         port: u16,
+    },
+    /// A TCP port of this machine, on which it waits for connections.
+    Listen {
+        /// The port.
+        port: u16,
+    },
+    /// A file, or all that is in a folder: to be read only.
+    Read {
+        /// Its absolute path, in which `*` stands for anything but `/`.
+        path: String,
     },
 }
 
@@ -53,12 +87,35 @@ impl FromStr for Need {
         };
         match text.split_once(':') {
             None if text == "usb" => Ok(Need::Usb),
+            None if text == "camera" => Ok(Need::Camera),
+            None if text == "hid" => Ok(Need::Hid),
             Some(("serial", path)) if is_device(path) => Ok(Need::Serial {
                 path: path.to_owned(),
             }),
             Some(("serial", _)) => Err(refused(
                 "expected a path below /dev without `..`, such as `serial:/dev/ttyUSB*`",
             )),
+            Some(("device", path)) if is_device(path) && names_something(path) => {
+                Ok(Need::Device {
+                    path: path.to_owned(),
+                })
+            }
+            Some(("device", _)) => Err(refused(
+                "expected a path below /dev without `..` and without a part that is `*` alone, such as `device:/dev/spidev0.*`",
+            )),
+            Some(("read", path)) if is_readable(path) => Ok(Need::Read {
+                path: path.to_owned(),
+            }),
+            Some(("read", _)) => Err(refused(
+                "expected an absolute path without `..` and without a part that is `*` alone, and not below /dev, /proc or /sys, such as `read:/run/scale`",
+            )),
+            Some(("listen", port)) => {
+                port_of(port)
+                    .map(|port| Need::Listen { port })
+                    .ok_or_else(|| {
+                        refused("expected a port from 1 to 65535 after it, such as `listen:5025`")
+                    })
+            }
             Some((kind @ ("tcp" | "udp"), peer)) => {
                 let (address, port) =
                     peer_of(peer).ok_or_else(|| refused("expected `ADDRESS:PORT` after it"))?;
@@ -69,31 +126,56 @@ impl FromStr for Need {
             }
             _ => {
                 let kind = text.split(':').next().unwrap_or(text);
-                Err(refused(&suggestion(kind, &["usb", "serial", "tcp", "udp"])))
+                Err(refused(&suggestion(kind, &WORDS)))
             }
         }
     }
 }
 
 fn is_device(path: &str) -> bool {
+    path.strip_prefix("/dev/").is_some_and(is_path)
+}
+
+/// Parts between `/`, each a name; braces are those of arguments, see [`DeclaredNeed`].
+fn is_path(path: &str) -> bool {
     let is_plain = |part: &str| !part.is_empty() && part != "." && part != "..";
-    match path.strip_prefix("/dev/") {
-        Some(rest) => rest.split('/').all(is_plain) && !rest.contains(char::is_control),
-        None => false,
-    }
+    let is_foreign = |letter: char| letter.is_control() || matches!(letter, '{' | '}');
+    path.split('/').all(is_plain) && !path.contains(is_foreign)
+}
+
+/// Whether no part of `path` matches every name there is.
+fn names_something(path: &str) -> bool {
+    let mut parts = path.split('/').skip(1);
+    parts.all(|part| part.chars().any(|letter| letter != '*'))
+}
+
+/// Whether files below `path` are those of users: what the system shows of itself there says too much of other processes.
+fn is_readable(path: &str) -> bool {
+    let first = path.split('/').nth(1).unwrap_or_default();
+    let shows_system = ["dev", "proc", "sys"]
+        .iter()
+        .any(|name| matches(first, name));
+    path.strip_prefix('/').is_some_and(is_path) && names_something(path) && !shows_system
 }
 
 /// An address or a host's name, and a port that is not 0; an IPv6 address stands in brackets.
 fn peer_of(text: &str) -> Option<(String, u16)> {
     let (address, port) = text.rsplit_once(':')?;
-    let is_name = |letter: char| letter.is_ascii_alphanumeric() || matches!(letter, '.' | '-');
+    let is_name =
+        |letter: char| letter.is_ascii_alphanumeric() || matches!(letter, '.' | '-' | '*');
     let is_ipv6 = address
         .strip_prefix('[')
         .and_then(|rest| rest.strip_suffix(']'))
         .is_some_and(|inside| inside.parse::<std::net::Ipv6Addr>().is_ok());
-    let is_address = is_ipv6 || (!address.is_empty() && address.chars().all(is_name));
-    let port = port.parse().ok().filter(|port| *port > 0)?;
-    is_address.then(|| (address.to_owned(), port))
+    // Of nothing but stars and dots every machine would be one.
+    let names_something = address.contains(|letter: char| letter.is_ascii_alphanumeric());
+    let is_address = is_ipv6 || (names_something && address.chars().all(is_name));
+    is_address.then_some((address.to_owned(), port_of(port)?))
+}
+
+fn port_of(text: &str) -> Option<u16> {
+    let is_plain = text.bytes().all(|byte| byte.is_ascii_digit());
+    text.parse().ok().filter(|port| is_plain && *port > 0)
 }
 
 impl TryFrom<String> for Need {
@@ -114,9 +196,14 @@ impl fmt::Display for Need {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Need::Usb => f.write_str("usb"),
+            Need::Camera => f.write_str("camera"),
+            Need::Hid => f.write_str("hid"),
             Need::Serial { path } => write!(f, "serial:{path}"),
+            Need::Device { path } => write!(f, "device:{path}"),
             Need::Tcp { address, port } => write!(f, "tcp:{address}:{port}"),
             Need::Udp { address, port } => write!(f, "udp:{address}:{port}"),
+            Need::Listen { port } => write!(f, "listen:{port}"),
+            Need::Read { path } => write!(f, "read:{path}"),
         }
     }
 }
@@ -129,39 +216,11 @@ pub struct NeedError {
     problem: String,
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_need_reads_back_as_it_is_written() {
-        for text in [
-            "usb",
-            "serial:/dev/ttyUSB*",
-            "tcp:sensor.local:4008",
-            "udp:[fe80::1]:49152",
-        ] {
-            let need: Need = text.parse().expect(text);
-            assert_eq!(need.to_string(), text);
-        }
-    }
-
-    #[test]
-    fn what_could_reach_further_than_it_says_is_refused() {
-        for (text, expected) in [
-            ("usbs", "did you mean `usb`?"),
-            ("usb:1", "did you mean `usb`?"),
-            ("serial:/etc/passwd", "below /dev"),
-            ("serial:/dev/../etc/passwd", "below /dev"),
-            ("serial:/dev/", "below /dev"),
-            ("tcp:10.0.0.1", "ADDRESS:PORT"),
-            ("tcp:10.0.0.1:0", "ADDRESS:PORT"),
-            ("tcp:10.0.0.1:65536", "ADDRESS:PORT"),
-            ("udp::5", "ADDRESS:PORT"),
-            ("everything", "expected one of"),
-        ] {
-            let error = text.parse::<Need>().expect_err(text).to_string();
-            assert!(error.contains(expected), "{error}");
+impl NeedError {
+    fn new(text: &str, problem: impl Into<String>) -> NeedError {
+        NeedError {
+            text: text.to_owned(),
+            problem: problem.into(),
         }
     }
 }

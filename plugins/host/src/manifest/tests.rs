@@ -268,6 +268,11 @@ fn whatever_cannot_be_meant_is_refused_where_it_stands() {
         ("key = \"pace\"", "key = \"unit\"", "declared twice"),
         ("abi =", "needs = [\"usb\", \"usb\"]\nabi =", "named twice"),
         ("abi =", "needs = [\"net\"]\nabi =", "`needs`"),
+        (
+            "abi =",
+            "needs = [\"tcp:{nowhere}:1\"]\nabi =",
+            "no driver has these arguments",
+        ),
     ] {
         let message = with(old, new);
         assert!(message.contains(expected), "{new}: {message}");

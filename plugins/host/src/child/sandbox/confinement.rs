@@ -17,6 +17,8 @@ pub struct Confinement {
     pub needs: Vec<Need>,
     /// Whether a kernel that enforces only a part will do; without, the child refuses to start.
     pub accepts_less: bool,
+    /// Whether nothing is kept from it: its user trusts it, and it is apart only so that it can end alone.
+    pub is_trusted: bool,
 }
 
 impl Default for Confinement {
@@ -27,6 +29,7 @@ impl Default for Confinement {
             files: 256,
             needs: Vec::new(),
             accepts_less: false,
+            is_trusted: false,
         }
     }
 }
@@ -35,7 +38,8 @@ fields!(Confinement {
     memory,
     files,
     needs,
-    accepts_less
+    accepts_less,
+    is_trusted
 });
 
 impl Wire for Need {

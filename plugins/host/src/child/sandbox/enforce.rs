@@ -8,6 +8,10 @@ use super::{Confinement, Isolation, files, identity, system_calls};
 /// # Errors
 /// What could not be given up, in words. The process must end then: it may be confined in part.
 pub(crate) fn confine(confinement: &Confinement, parent: u32) -> Result<Isolation, String> {
+    if confinement.is_trusted {
+        identity::end_with(parent)?;
+        return Ok(Isolation::default());
+    }
     identity::limit(confinement)?;
     let user = identity::give_up_root(&confinement.needs)?;
     identity::end_with(parent)?;

@@ -8,7 +8,7 @@ use landlock::{
     Scope,
 };
 
-use super::Need;
+use super::{Need, devices};
 
 /// The newest version of Landlock whose rights are handled; an older kernel handles what it knows.
 const NEWEST: ABI = ABI::V7;
@@ -52,15 +52,20 @@ fn restrict(needs: &[Need]) -> Result<Option<u32>, RulesetError> {
     let device = read | AccessFs::WriteFile | AccessFs::IoctlDev;
     let mut ruleset = allow(ruleset, READABLE.iter().map(Path::new), read)?;
     ruleset = allow(ruleset, [Path::new("/dev/null")], write)?;
-    let devices = devices(needs);
+    let devices = devices::devices(needs);
     ruleset = allow(ruleset, devices.iter().map(PathBuf::as_path), device)?;
+    let readable = devices::readable(needs);
+    ruleset = allow(ruleset, readable.iter().map(PathBuf::as_path), read)?;
     if needs.contains(&Need::Usb) {
         ruleset = allow(ruleset, USB.iter().map(Path::new), device)?;
     }
     for need in needs {
-        if let Need::Tcp { port, .. } = need {
-            ruleset = ruleset.add_rule(NetPort::new(*port, AccessNet::ConnectTcp))?;
-        }
+        let (port, access) = match need {
+            Need::Tcp { port, .. } => (*port, AccessNet::ConnectTcp),
+            Need::Listen { port } => (*port, AccessNet::BindTcp),
+            _ => continue,
+        };
+        ruleset = ruleset.add_rule(NetPort::new(port, access))?;
     }
     let status = ruleset.restrict_self()?;
     Ok(match status.landlock {
@@ -93,63 +98,4 @@ fn allow<'a>(
         ruleset = ruleset.add_rule(PathBeneath::new(file, access))?;
     }
     Ok(ruleset)
-}
-
-/// The serial ports among `needs` that are there now.
-pub(super) fn devices(needs: &[Need]) -> Vec<PathBuf> {
-    let mut devices = Vec::new();
-    for need in needs {
-        if let Need::Serial { path } = need {
-            devices.extend(matching(path));
-        }
-    }
-    devices.sort();
-    devices.dedup();
-    devices
-}
-
-/// The paths that are there and match `pattern`, in which `*` stands for anything but `/`.
-fn matching(pattern: &str) -> Vec<PathBuf> {
-    let mut found = vec![PathBuf::from("/")];
-    for part in pattern.split('/').filter(|part| !part.is_empty()) {
-        found = found
-            .iter()
-            .flat_map(|folder| {
-                let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
-                entries.map(|entry| entry.path())
-            })
-            .filter(|path| {
-                let name = path.file_name().and_then(|name| name.to_str());
-                name.is_some_and(|name| matches(part, name))
-            })
-            .collect();
-    }
-    found
-}
-
-fn matches(pattern: &str, name: &str) -> bool {
-    match pattern.split_once('*') {
-        None => pattern == name,
-        Some((beginning, rest)) => name.strip_prefix(beginning).is_some_and(|left| {
-            left.char_indices()
-                .map(|(at, _)| at)
-                .chain([left.len()])
-                .any(|at| matches(rest, &left[at..]))
-        }),
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_star_names_the_devices_that_are_there() {
-        let need = |text: &str| [text.parse::<Need>().expect("a need")];
-        assert!(devices(&need("serial:/dev/nul*")).contains(&PathBuf::from("/dev/null")));
-        assert!(devices(&need("serial:/dev/n*l")).contains(&PathBuf::from("/dev/null")));
-        assert!(devices(&need("serial:/dev/no-such-port*")).is_empty());
-        assert!(devices(&need("serial:/dev/nul")).is_empty());
-        assert!(devices(&[Need::Usb]).is_empty());
-    }
 }

@@ -8,7 +8,7 @@ use rustix::process::{
 };
 use rustix::thread::{set_no_new_privs, set_thread_groups, set_thread_res_gid, set_thread_res_uid};
 
-use super::{Confinement, Need, files};
+use super::{Confinement, Need, devices};
 
 /// The user and the group that own nothing, by custom.
 const NOBODY: u32 = 65_534;
@@ -37,12 +37,12 @@ pub(super) fn limit(confinement: &Confinement) -> Result<(), String> {
     Ok(())
 }
 
-/// Becomes nobody, if it is root; of root's groups those remain that own a serial port it needs.
+/// Becomes nobody, if it is root; of root's groups those remain that own a device it needs.
 pub(super) fn give_up_root(needs: &[Need]) -> Result<Option<u32>, String> {
     if !geteuid().is_root() {
         return Ok(None);
     }
-    let mut groups: Vec<u32> = files::devices(needs)
+    let mut groups: Vec<u32> = devices::devices(needs)
         .iter()
         .filter_map(|path| path.metadata().ok())
         .map(|metadata| metadata.gid())

@@ -16,7 +16,7 @@ use seccompiler::{
     SeccompFilter, SeccompRule, TargetArch, apply_filter, apply_filter_all_threads,
 };
 
-use self::allowed::{ALWAYS, ALWAYS_TOO, FILE_CONTROLS, PROCESS_CONTROLS, SOCKETS};
+use self::allowed::{ALWAYS, ALWAYS_TOO, FILE_CONTROLS, LISTENING, PROCESS_CONTROLS, SOCKETS};
 use super::Need;
 
 type Rules = BTreeMap<i64, Vec<SeccompRule>>;
@@ -116,16 +116,30 @@ fn rules(needs: &[Need]) -> Result<Rules, BackendError> {
         rules.insert(SYS_socket, sockets);
         rules.extend(SOCKETS.iter().map(|call| (*call, Vec::new())));
     }
+    if needs.iter().any(|need| matches!(need, Need::Listen { .. })) {
+        rules.extend(LISTENING.iter().map(|call| (*call, Vec::new())));
+    }
     Ok(rules)
 }
 
 /// Questions about files that are open; whoever has a device may tell it anything.
 fn device_controls(needs: &[Need]) -> Result<Vec<SeccompRule>, BackendError> {
-    let has_device = needs
-        .iter()
-        .any(|need| matches!(need, Need::Usb | Need::Serial { .. }));
+    let has_device = needs.iter().any(|need| {
+        matches!(
+            need,
+            Need::Usb | Need::Camera | Need::Hid | Need::Serial { .. } | Need::Device { .. }
+        )
+    });
     if has_device {
-        return Ok(Vec::new());
+        // But not type for a person, nor take a terminal away from one.
+        let denied = [libc::TIOCSTI, libc::TIOCLINUX, libc::TIOCSCTTY];
+        let conditions: Result<Vec<_>, _> = denied
+            .into_iter()
+            .map(|request| {
+                SeccompCondition::new(1, SeccompCmpArgLen::Dword, SeccompCmpOp::Ne, request)
+            })
+            .collect();
+        return Ok(vec![rule(&conditions?)?]);
     }
     [libc::TCGETS, libc::FIONREAD, libc::FIONBIO, libc::FIOCLEX]
         .into_iter()
@@ -145,7 +159,7 @@ fn sockets(needs: &[Need]) -> Result<Vec<SeccompRule>, BackendError> {
     let mut rules = Vec::new();
     for need in needs {
         match need {
-            Need::Tcp { .. } => {
+            Need::Tcp { .. } | Need::Listen { .. } => {
                 rules.push(kind(libc::AF_INET, libc::SOCK_STREAM)?);
                 rules.push(kind(libc::AF_INET6, libc::SOCK_STREAM)?);
             }
@@ -158,7 +172,11 @@ fn sockets(needs: &[Need]) -> Result<Vec<SeccompRule>, BackendError> {
                 0,
                 u64::from(libc::AF_NETLINK.unsigned_abs()),
             )?])?),
-            Need::Serial { .. } => {}
+            Need::Camera
+            | Need::Hid
+            | Need::Serial { .. }
+            | Need::Device { .. }
+            | Need::Read { .. } => {}
         }
     }
     Ok(rules)
@@ -205,6 +223,9 @@ mod tests {
         let bare = count(&[]);
         assert_eq!(count(&need("serial:/dev/ttyUSB0")), bare);
         assert_eq!(count(&need("tcp:10.0.0.1:502")), bare + 1 + SOCKETS.len());
+        let listening = bare + 1 + SOCKETS.len() + LISTENING.len();
+        assert_eq!(count(&need("listen:5025")), listening);
+        assert_eq!(count(&need("read:/run/scale")), bare);
         assert!(!rules(&[]).expect("sound").contains_key(&SYS_socket));
     }
 
@@ -235,7 +256,12 @@ mod tests {
     fn need_everything() -> Vec<Need> {
         [
             "usb",
+            "camera",
+            "hid",
             "serial:/dev/ttyUSB*",
+            "device:/dev/spidev0.0",
+            "listen:5025",
+            "read:/run/scale",
             "tcp:10.0.0.1:502",
             "udp:10.0.0.1:502",
         ]

@@ -120,6 +120,9 @@ pub(super) const SOCKETS: &[i64] = &[
     libc::SYS_setsockopt,
 ];
 
+/// Calls of whoever waits for connections.
+pub(super) const LISTENING: &[i64] = &[libc::SYS_accept, libc::SYS_accept4, libc::SYS_listen];
+
 /// What `fcntl` may do: nothing that lets the kernel signal another process.
 pub(super) const FILE_CONTROLS: &[i32] = &[
     libc::F_DUPFD,

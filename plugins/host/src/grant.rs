@@ -1,0 +1,271 @@
+//! What a device may reach: what its manifest declares for its arguments, as far as the user allows it; and the line that allows the rest.
+
+use std::collections::BTreeSet;
+use std::error::Error;
+use std::fmt;
+use std::net::{IpAddr, ToSocketAddrs};
+
+use taceva_core::{ArgSpec, Args, DriverError, DriverKey, ErrorKind};
+
+use crate::config::{Delivery, PluginConfig};
+use crate::manifest::{DeclaredNeed, Need};
+use crate::search::{Place, Plugin};
+
+/// What a session may reach.
+#[derive(Clone, Debug)]
+pub(crate) struct Grant {
+    /// What it reaches.
+    pub(crate) reached: BTreeSet<Need>,
+    /// What it declares and may not reach.
+    pub(crate) withheld: Withheld,
+    /// Whether arguments decide a part of it.
+    pub(crate) is_bound: bool,
+}
+
+/// What a plugin declares, and its user does not allow.
+///
+/// It is shown as what a person types to allow it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Withheld {
+    plugin: String,
+    /// The folder, of a plugin that nobody installed.
+    folder: Option<String>,
+    needs: BTreeSet<Need>,
+}
+
+impl Withheld {
+    /// What is not allowed; nothing where everything is.
+    pub fn needs(&self) -> &BTreeSet<Need> {
+        &self.needs
+    }
+
+    /// `why`, and the line that allows what is withheld, if a want of permission is what `why` says.
+    pub(crate) fn explain(&self, why: &str) -> Option<String> {
+        let is_refusal = [
+            "permission denied",
+            "permission-denied",
+            "operation not permitted",
+            "(os error 1)",
+            "(os error 13)",
+            "eacces",
+            "eperm",
+        ];
+        let folded = why.to_lowercase();
+        let is_refused = is_refusal.iter().any(|words| folded.contains(words));
+        (is_refused && !self.needs.is_empty()).then(|| format!("{why}; {self}"))
+    }
+
+    /// The same error, which ends with the line that allows what is withheld, if that is its reason.
+    pub(crate) fn explained(&self, error: DriverError) -> DriverError {
+        let why =
+            Error::source(&error).map_or_else(|| error.kind().to_string(), ToString::to_string);
+        let is_denied = error.kind() == ErrorKind::PermissionDenied && !self.needs.is_empty();
+        let explained = self.explain(&why);
+        let Some(explained) = explained.or(is_denied.then(|| format!("{why}; {self}"))) else {
+            return error;
+        };
+        let fault = error.fault();
+        let doing = error.doing().to_owned();
+        let again =
+            DriverError::new(ErrorKind::PermissionDenied, error.driver(), doing).because(explained);
+        match fault {
+            Some(fault) => again.with_fault(fault),
+            None => again,
+        }
+    }
+}
+
+impl fmt::Display for Withheld {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "allow it: taceva plugin allow {}", self.plugin)?;
+        for need in &self.needs {
+            write!(f, " {}", word(&need.to_string()))?;
+        }
+        match &self.folder {
+            Some(folder) => write!(f, " --plugin-dir {}", word(folder)),
+            None => Ok(()),
+        }
+    }
+}
+
+/// `text` as one word of a shell.
+fn word(text: &str) -> String {
+    let is_plain = |letter: char| letter.is_ascii_alphanumeric() || "/:.,_-+@%".contains(letter);
+    if text.chars().all(is_plain) {
+        text.to_owned()
+    } else {
+        format!("'{}'", text.replace('\'', r"'\''"))
+    }
+}
+
+impl PluginConfig {
+    /// What `plugin` may reach where no arguments are known, and what it may not.
+    pub(crate) fn grant(&self, plugin: &Plugin) -> Grant {
+        let mut grant = self.granted(
+            plugin,
+            plugin.manifest.needs.iter().filter_map(DeclaredNeed::fixed),
+        );
+        grant.reached = self.allowed(plugin);
+        grant
+    }
+
+    /// What a device of `plugin` may reach that is opened with `args`.
+    ///
+    /// # Errors
+    /// [`DriverError`] of `driver` for an argument that names nothing a plugin may reach.
+    pub(crate) fn grant_for(
+        &self,
+        plugin: &Plugin,
+        driver: &DriverKey,
+        args: &Args,
+    ) -> Result<Grant, DriverError> {
+        let refused = |error| {
+            DriverError::new(ErrorKind::InvalidArgument, driver, "open the device").because(error)
+        };
+        let mut needs = Vec::new();
+        for declared in &plugin.manifest.needs {
+            needs.extend(declared.bound_to(args).map_err(refused)?);
+        }
+        let is_bound = plugin
+            .manifest
+            .needs
+            .iter()
+            .any(|declared| declared.fixed().is_none());
+        let grant = self.granted(plugin, needs);
+        Ok(Grant { is_bound, ..grant })
+    }
+
+    fn granted(&self, plugin: &Plugin, needs: impl IntoIterator<Item = Need>) -> Grant {
+        let (mut reached, mut withheld) = (BTreeSet::new(), BTreeSet::new());
+        let allowed = self.allow.get(plugin.id()).cloned().unwrap_or_default();
+        for need in needs {
+            let given = need.given_by(&allowed);
+            if given.is_empty() {
+                withheld.insert(need);
+            }
+            reached.extend(given);
+        }
+        if self.delivery(plugin) == Delivery::InProcess {
+            // Nothing is kept from what is trusted.
+            withheld.clear();
+        }
+        let is_installed = matches!(
+            plugin.place,
+            Place::User | Place::System | Place::Environment
+        );
+        let folder = plugin.folder.display().to_string();
+        Grant {
+            reached,
+            withheld: Withheld {
+                plugin: plugin.id().to_string(),
+                folder: (!is_installed).then_some(folder),
+                needs: withheld,
+            },
+            is_bound: false,
+        }
+    }
+}
+
+/// `args` with addresses in the place of the names of machines that a need is bound to: a confined plugin can ask nobody for them.
+///
+/// # Errors
+/// [`DriverError`] of `driver` for a name that nobody knows.
+pub(crate) fn resolved(
+    plugin: &Plugin,
+    driver: &DriverKey,
+    specs: &[ArgSpec],
+    args: &Args,
+) -> Result<Args, DriverError> {
+    let mut given: Vec<(String, String)> = specs
+        .iter()
+        .filter_map(|spec| Some((spec.key.clone(), args.get(&spec.key)?.to_string())))
+        .collect();
+    let mut is_changed = false;
+    for need in &plugin.manifest.needs {
+        let Some(key) = need.host_argument() else {
+            continue;
+        };
+        let Some((_, name)) = given.iter_mut().find(|(other, _)| other == key) else {
+            continue;
+        };
+        if name.parse::<IpAddr>().is_ok() {
+            continue;
+        }
+        let failed = |why: String| {
+            let why = format!(
+                "`{key}`: cannot find the address of `{}`: {why}",
+                taceva_core::shown(name)
+            );
+            DriverError::new(ErrorKind::NotFound, driver, "open the device").because(why)
+        };
+        let addresses = (name.as_str(), 0).to_socket_addrs();
+        let mut addresses: Vec<IpAddr> = addresses
+            .map_err(|error| failed(error.to_string()))?
+            .map(|address| address.ip())
+            .collect();
+        // Devices of a laboratory that have both answer the older one.
+        addresses.sort_by_key(IpAddr::is_ipv6);
+        let first = addresses
+            .first()
+            .ok_or_else(|| failed("it has none".to_owned()))?;
+        *name = first.to_string();
+        is_changed = true;
+    }
+    if !is_changed {
+        return Ok(args.clone());
+    }
+    Args::from_pairs(specs, given).map_err(|error| {
+        DriverError::new(ErrorKind::InvalidArgument, driver, "open the device").because(error)
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn withheld(needs: &[&str]) -> Withheld {
+        Withheld {
+            plugin: "org.example.arm".to_owned(),
+            folder: None,
+            needs: needs
+                .iter()
+                .map(|need| need.parse().expect("a need"))
+                .collect(),
+        }
+    }
+
+    #[test]
+    fn the_line_is_one_that_a_shell_takes() {
+        let mut withheld = withheld(&["tcp:10.0.0.5:502", "serial:/dev/ttyUSB*"]);
+        withheld.folder = Some("/home/a b/it's".to_owned());
+        assert_eq!(
+            withheld.to_string(),
+            r"allow it: taceva plugin allow org.example.arm 'serial:/dev/ttyUSB*' tcp:10.0.0.5:502 --plugin-dir '/home/a b/it'\''s'"
+        );
+    }
+
+    #[test]
+    fn only_a_want_of_permission_is_explained_and_only_where_something_is_withheld() {
+        let some = withheld(&["usb"]);
+        let refused = std::io::Error::from_raw_os_error(libc::EACCES).to_string();
+        let explained = some.explain(&refused).expect("it is");
+        assert!(explained.ends_with("; allow it: taceva plugin allow org.example.arm usb"));
+        assert_eq!(some.explain("no such file (os error 2)"), None);
+        assert_eq!(some.explain("broken (os error 111)"), None);
+        assert_eq!(withheld(&[]).explain(&refused), None);
+        let key = DriverKey::fixed("org.example.arm/arm");
+        let denied = || DriverError::new(ErrorKind::PermissionDenied, &key, "open the arm");
+        assert!(some.explained(denied()).to_string().contains("allow it: "));
+        let other = DriverError::new(ErrorKind::Timeout, &key, "open the arm");
+        assert_eq!(
+            some.explained(other).to_string(),
+            "org.example.arm/arm: cannot open the arm: timeout"
+        );
+        assert!(
+            !withheld(&[])
+                .explained(denied())
+                .to_string()
+                .contains("allow it")
+        );
+    }
+}

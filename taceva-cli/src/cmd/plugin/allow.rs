@@ -1,0 +1,104 @@
+//! `taceva plugin allow` and `taceva plugin deny`: what plugins may reach, in the user's settings.
+
+use std::collections::BTreeSet;
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+
+use anyhow::Context as _;
+use taceva_core::shown;
+use taceva_host::{Need, PluginConfig, PluginId, user_config_file};
+
+use crate::args::{PluginAllow, PluginDeny};
+use crate::cmd::{Context, Usage};
+use crate::{exit, output};
+
+pub(super) fn allow(args: &PluginAllow, context: &Context) -> anyhow::Result<u8> {
+    let host = context.plugins(None)?;
+    let plugin = host.plugins().get(&args.id)?;
+    let asked = &plugin.manifest.needs;
+    for need in &args.needs {
+        if asked.iter().any(|asked| asked.asks_for(need)) {
+            continue;
+        }
+        let asked: Vec<String> = asked.iter().map(|need| format!("`{need}`")).collect();
+        let asks = match asked.as_slice() {
+            [] => "nothing".to_owned(),
+            asked => asked.join(", "),
+        };
+        let problem = format!(
+            "`{need}`: the plugin `{}` does not ask for it, it asks for {asks}",
+            args.id
+        );
+        return Err(Usage::error(problem));
+    }
+    change(plugin.id(), |allowed| {
+        allowed.extend(args.needs.iter().cloned());
+        Ok(())
+    })
+}
+
+pub(super) fn deny(args: &PluginDeny) -> anyhow::Result<u8> {
+    change(&args.id, |allowed| {
+        for need in &args.needs {
+            if !allowed.remove(need) {
+                let problem = format!("`{need}`: not allowed to `{}`, {}", args.id, reach(allowed));
+                return Err(Usage::error(problem));
+            }
+        }
+        if args.needs.is_empty() {
+            allowed.clear();
+        }
+        Ok(())
+    })
+}
+
+/// Changes what the plugin `id` may reach, and says what that is now.
+fn change(
+    id: &PluginId,
+    change: impl FnOnce(&mut BTreeSet<Need>) -> anyhow::Result<()>,
+) -> anyhow::Result<u8> {
+    let path = user_config_file()
+        .context("no folder for settings: neither XDG_CONFIG_HOME nor HOME is set")?;
+    let text = match fs::read_to_string(&path) {
+        Ok(text) => text,
+        Err(error) if error.kind() == io::ErrorKind::NotFound => String::new(),
+        Err(error) => return Err(error).with_context(|| shown(&path).to_string()),
+    };
+    let config = PluginConfig::parse(&text).with_context(|| shown(&path).to_string())?;
+    let before = config.allow.get(id).cloned().unwrap_or_default();
+    let mut after = before.clone();
+    change(&mut after)?;
+    if after != before {
+        let edited =
+            PluginConfig::edited(&text, id, &after).with_context(|| shown(&path).to_string())?;
+        write(&path, &edited).with_context(|| format!("cannot write {}", shown(&path)))?;
+    }
+    output::write(None, |out| {
+        writeln!(out, "{id} {} ({})", reach(&after), shown(&path))
+    })?;
+    Ok(exit::DONE)
+}
+
+fn reach(allowed: &BTreeSet<Need>) -> String {
+    let needs: Vec<String> = allowed.iter().map(ToString::to_string).collect();
+    match needs.as_slice() {
+        [] => "may reach nothing outside its process".to_owned(),
+        needs => format!("may reach {}", needs.join(", ")),
+    }
+}
+
+/// Writes the settings: whole or as they were. A link stays one, and the file keeps who may read it.
+fn write(path: &Path, text: &str) -> io::Result<()> {
+    let path = path.canonicalize().unwrap_or_else(|_| path.to_owned());
+    let folder = taceva_durable::parent_of(&path);
+    fs::create_dir_all(folder)?;
+    let beside: PathBuf = folder.join(format!(".config.toml.{}.partial", std::process::id()));
+    taceva_durable::replace(&path, &beside, |beside| {
+        fs::write(beside, text)?;
+        match fs::metadata(&path) {
+            Ok(metadata) => fs::set_permissions(beside, metadata.permissions()),
+            Err(_) => Ok(()),
+        }
+    })
+}
