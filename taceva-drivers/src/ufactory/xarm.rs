@@ -2,6 +2,7 @@
 
 mod arm;
 mod command;
+mod error;
 mod exchange;
 mod factory;
 mod fault;

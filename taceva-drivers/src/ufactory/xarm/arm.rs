@@ -6,9 +6,9 @@ use taceva_core::{
     Deadline, DriverError, ErrorKind, Halt, Pose, Robot, RobotWatch, Speed, Stamp, check_pose,
 };
 
-use super::KEY;
 use super::command::{Command, TargetState};
-use super::exchange::{Exchange, ExchangeError};
+use super::error::{failed, unanswered};
+use super::exchange::Exchange;
 use super::firmware::Firmware;
 use super::frame::Reply;
 use super::observe::{ANSWER, Observer, error_now};
@@ -25,20 +25,6 @@ pub(super) struct Arm {
     pub(super) exchange: Exchange,
     pub(super) observer: Observer,
     pub(super) options: XarmOptions,
-}
-
-/// An error of the arm with its reason.
-pub(super) fn failed(
-    kind: ErrorKind,
-    doing: &'static str,
-    why: impl Into<Box<dyn std::error::Error + Send + Sync>>,
-) -> DriverError {
-    DriverError::new(kind, &KEY, doing).because(why)
-}
-
-/// What an exchange that failed was for.
-pub(super) fn unanswered(doing: &'static str) -> impl Fn(ExchangeError) -> DriverError {
-    move |error| failed(error.kind(), doing, error)
 }
 
 /// Commands of firmware that is not known yet: only those that never changed are sent.

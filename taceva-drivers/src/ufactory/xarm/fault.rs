@@ -4,7 +4,7 @@ use std::fmt;
 
 use taceva_core::{DriverError, ErrorKind, Fault};
 
-use super::arm::failed;
+use super::error::failed;
 
 /// An error that the controller reports.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -4,8 +4,9 @@ use std::time::Duration;
 
 use taceva_core::{Deadline, DriverError, ErrorKind, Pose, Speed, Stamp};
 
-use super::arm::{Arm, failed, unanswered};
+use super::arm::Arm;
 use super::command::{Command, MoveLine};
+use super::error::{failed, unanswered};
 use super::observe::{ANSWER, Observation, STALE, error_now};
 use super::report::{State, numbers_of, pose_of};
 use crate::link::monotonic;

@@ -5,8 +5,8 @@ use std::time::Duration;
 
 use taceva_core::{DriverError, ErrorKind, NotFinite, Pose, check_pose};
 
-use super::arm::failed;
 use super::command::Command;
+use super::error::failed;
 use super::exchange::{Exchange, ExchangeError};
 use super::fault::XarmFault;
 use super::frame::Reply;

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use taceva_core::{Deadline, DriverError, ErrorKind, Pose, RobotWatch, Stamp, check_pose};
 
-use super::arm::failed;
+use super::error::failed;
 use super::report::{Report, pose_of};
 use crate::link::{Mailbox, NoNews};
 
