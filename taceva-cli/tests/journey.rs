@@ -73,6 +73,7 @@ fn without_skill(report: &mut Value) {
             let score = score.as_object_mut().expect("an object");
             score.remove("standing");
             score.remove("bounded_share");
+            score.remove("of_constant");
         }
     }
 }

@@ -35,6 +35,8 @@ const GREATEST_LIMIT: f64 = 1_000.0;
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct RigFile {
+    /// Whether what answers is emulated, so that nothing that is recorded there was measured.
+    pub simulated: bool,
     /// The robot.
     pub robot: Option<RigRobot>,
     /// The force transducer.
@@ -96,6 +98,8 @@ pub struct RigSensor {
 #[serde(deny_unknown_fields, expecting = "a rig file")]
 struct WrittenRig {
     rig_version: Setting<u32>,
+    #[serde(default)]
+    simulated: bool,
     robot: Option<WrittenRobot>,
     force: Option<WrittenForce>,
     sensor: Option<WrittenSensor>,
@@ -160,6 +164,7 @@ impl RigFile {
             None => None,
         };
         Ok(RigFile {
+            simulated: written.simulated,
             robot,
             force,
             sensor,

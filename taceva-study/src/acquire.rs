@@ -72,7 +72,9 @@ pub(crate) fn acquire(
         let log = match &mut log {
             Some(log) => log,
             None => {
-                let spec = recording_spec(study, &open, rig.is_simulated(workshop.drivers));
+                let is_emulated = study.study.rig.as_ref().is_some_and(|rig| rig.simulated);
+                let is_simulated = is_emulated || rig.is_simulated(workshop.drivers);
+                let spec = recording_spec(study, &open, is_simulated);
                 log.insert(RecordedPresses::new(Recorder::open(path, &spec)?))
             }
         };

@@ -258,3 +258,15 @@ fn a_driver_that_is_not_linked_in_is_refused_with_the_line_of_the_rig() {
         "{error}"
     );
 }
+
+#[test]
+fn a_rig_says_whether_it_is_emulated_and_is_real_where_it_says_nothing() {
+    let parse = |text: &str| taceva_protocol::RigFile::parse("rig.toml", text).expect("a rig");
+    assert!(!parse(RIG).simulated);
+    let emulated = RIG.replacen(
+        "rig_version = 1\n",
+        "rig_version = 1\nsimulated = true\n",
+        1,
+    );
+    assert!(parse(&emulated).simulated);
+}

@@ -27,7 +27,7 @@ impl RigFile<'_> {
     /// The text of the file.
     pub fn text(&self) -> String {
         let mut text = format!(
-            "# Everything here is simulated: {}. Faults and truth: JSON lines on {}.\nrig_version = 1\n",
+            "# Everything here is simulated: {}. Faults and truth: JSON lines on {}.\nrig_version = 1\nsimulated = true\n",
             self.bench.serial(),
             self.control.address()
         );
