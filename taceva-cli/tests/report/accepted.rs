@@ -38,7 +38,7 @@ fn limits_of_a_result_are_kept_by_it() {
     scored(&bench);
     let limits = bench.ok("accept --template r.json -q");
     assert!(
-        limits.contains("# measured: ") && limits.contains("metric = \"mae\""),
+        limits.contains("# result: ") && limits.contains("metric = \"mae\""),
         "{limits}"
     );
     bench.ok("accept --template r.json --out limits.toml -q");
