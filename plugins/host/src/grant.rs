@@ -237,10 +237,10 @@ mod tests {
     #[test]
     fn the_line_is_one_that_a_shell_takes() {
         let mut withheld = withheld(&["tcp:10.0.0.5:502", "serial:/dev/ttyUSB*"]);
-        withheld.folder = Some("/home/a b/it's".to_owned());
+        withheld.folder = Some("/opt/a b/it's".to_owned());
         assert_eq!(
             withheld.to_string(),
-            r"allow it: taceva plugin allow org.example.arm 'serial:/dev/ttyUSB*' tcp:10.0.0.5:502 --plugin-dir '/home/a b/it'\''s'"
+            r"allow it: taceva plugin allow org.example.arm 'serial:/dev/ttyUSB*' tcp:10.0.0.5:502 --plugin-dir '/opt/a b/it'\''s'"
         );
     }
 

@@ -1,5 +1,7 @@
 //! Remarks on a verdict: ties, light that hardly changed, and labels of different spread.
 
+use taceva_metrics::Standing;
+
 use crate::light::Light;
 use crate::results::Study;
 use crate::spread;
@@ -33,7 +35,8 @@ impl Remarks {
                 .standing
                 .words()
                 .filter(|_| !score.standing.takes_part())?;
-            let words = Light::of(score).low_stimulus();
+            let is_low = score.standing == Standing::LowStimulus;
+            let words = Light::of(score).low_stimulus().filter(|_| is_low);
             let words = words.unwrap_or_else(|| mark.to_owned());
             Some((*at, format!("{}: {words}", names.get(*at)?)))
         });

@@ -96,14 +96,14 @@ fn pressed(studies: &[Study]) -> String {
     match (presses, points) {
         (Some(presses), Some(points)) => {
             format!(
-                " Each recording holds {presses} presses, at {points} places, gratings and a look at the untouched gel included."
+                " Each recording holds {presses} presses at {points} places, those of every part of its protocol."
             )
         }
-        (Some(presses), None) => format!(
-            " Each recording holds {presses} presses, a look at the untouched gel included."
-        ),
+        (Some(presses), None) => {
+            format!(" Each recording holds {presses} presses, those of every part of its protocol.")
+        }
         (None, Some(points)) => format!(
-            " Each recording holds presses at {points} places, gratings and a look at the untouched gel included."
+            " Each recording holds presses at {points} places, those of every part of its protocol."
         ),
         (None, None) => String::new(),
     }

@@ -3,8 +3,9 @@
 use std::sync::Arc;
 
 use taceva_core::{
-    Axes, Deadline, DriverError, ForceTransducer, FrameInfo, FrameMut, GuardedMotion, Halt,
-    Interrupt, Lighting, Pose, Robot, RobotWatch, Sensor, Speed, Stamp, Tare, Wrench,
+    Axes, Deadline, DriverError, ForceTransducer, FrameInfo, FrameMut, Guard, GuardedMotion,
+    GuardedStop, Halt, Interrupt, Lighting, Pose, Robot, RobotWatch, Sensor, Speed, Stamp, Tare,
+    Wrench,
 };
 
 /// A device that stamps what was true so long before.
@@ -99,7 +100,35 @@ impl Robot for Late<dyn Robot> {
     }
 
     fn guarded_motion(&mut self) -> Option<&mut dyn GuardedMotion> {
-        self.device.guarded_motion()
+        match self.device.guarded_motion().is_some() {
+            true => Some(self),
+            false => None,
+        }
+    }
+}
+
+impl GuardedMotion for Late<dyn Robot> {
+    fn move_guarded(
+        &mut self,
+        target: Pose,
+        speed: Speed,
+        guard: Guard,
+        deadline: Deadline,
+    ) -> Result<GuardedStop, DriverError> {
+        let latency_s = self.latency_s;
+        let guarded = self.device.guarded_motion();
+        let stop = guarded
+            .expect("this is lent only where the robot has it, which does not change")
+            .move_guarded(target, speed, guard, deadline)?;
+        Ok(match stop {
+            GuardedStop::Guarded { pose, stamp } => GuardedStop::Guarded {
+                pose,
+                stamp: true_stamp(stamp, latency_s),
+            },
+            GuardedStop::Arrived { stamp } => GuardedStop::Arrived {
+                stamp: true_stamp(stamp, latency_s),
+            },
+        })
     }
 }
 
