@@ -3,7 +3,7 @@
 use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
-use taceva_core::{ErrorKind, Interrupt};
+use taceva_core::{DriverError, DriverKey, ErrorKind, Interrupt};
 
 /// The newest of what came, and why nothing comes any more. Older things are not kept: who comes late gets what is true now.
 #[derive(Debug)]
@@ -46,6 +46,23 @@ pub(crate) enum NoNews {
     Interrupted,
     /// Nothing will come.
     Ended(Ending),
+}
+
+impl NoNews {
+    /// The error of `driver` that waited while it was `doing` something; `silence` says what did not come, and for how long.
+    pub(crate) fn while_waiting(
+        self,
+        driver: &DriverKey,
+        doing: &'static str,
+        silence: impl FnOnce() -> String,
+    ) -> DriverError {
+        let (kind, why) = match self {
+            NoNews::Silent => (ErrorKind::Timeout, silence()),
+            NoNews::Interrupted => (ErrorKind::Interrupted, "it was interrupted".to_owned()),
+            NoNews::Ended(ending) => (ending.kind, ending.why),
+        };
+        DriverError::new(kind, driver, doing).because(why)
+    }
 }
 
 impl<T> Default for Mailbox<T> {

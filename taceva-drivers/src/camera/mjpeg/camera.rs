@@ -11,7 +11,7 @@ use super::KEY;
 use super::stream::{Picture, Stream};
 use super::url::Url;
 use crate::link::mailbox::Ending;
-use crate::link::{Mailbox, NoNews, Seen};
+use crate::link::{Mailbox, Seen};
 use crate::source::{Mismatch, decode, frame_info};
 
 /// A camera that streams.
@@ -74,13 +74,8 @@ fn next(
     patience: Duration,
 ) -> Result<Seen<Picture>, DriverError> {
     let found = pictures.next(after, patience);
-    found.map_err(|none| match none {
-        NoNews::Silent => {
-            let why = format!("no frame within {patience:?}");
-            failed(ErrorKind::Timeout, CAPTURE, why)
-        }
-        NoNews::Interrupted => failed(ErrorKind::Interrupted, CAPTURE, "it was interrupted"),
-        NoNews::Ended(ending) => failed(ending.kind, CAPTURE, ending.why),
+    found.map_err(|none| {
+        none.while_waiting(&KEY, CAPTURE, || format!("no frame within {patience:?}"))
     })
 }
 

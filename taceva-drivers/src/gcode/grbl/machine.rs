@@ -13,7 +13,7 @@ use super::KEY;
 use super::line::{State, Status};
 use super::link::{ASK_STATUS, CommandError, GrblLink, HOLD, RESET, Writer};
 use super::port::open_line;
-use crate::link::{NoNews, Seen, monotonic};
+use crate::link::{Seen, monotonic};
 
 /// How a machine is reached, and within which limits it moves.
 #[derive(Clone, Debug, PartialEq)]
@@ -117,15 +117,13 @@ impl Machine {
             .send_byte(ASK_STATUS)
             .map_err(|error| failed(ErrorKind::Disconnected, doing, error))?;
         // Whoever has no time left is answered all the same, if the machine answers at once.
-        statuses
-            .next(after, patience.max(GLANCE))
-            .map_err(|none| match none {
-                NoNews::Ended(ending) => failed(ending.kind, doing, ending.why),
-                NoNews::Silent | NoNews::Interrupted => {
-                    let why = format!("no status with `MPos:` within {patience:?}, as GRBL 1.1 with $10=1 gives it");
-                    failed(ErrorKind::Timeout, doing, why)
-                }
+        statuses.next(after, patience.max(GLANCE)).map_err(|none| {
+            none.while_waiting(&KEY, doing, || {
+                format!(
+                    "no status with `MPos:` within {patience:?}, as GRBL 1.1 with $10=1 gives it"
+                )
             })
+        })
     }
 
     /// Throws away what a machine at rest still has to do, so that it is idle.
