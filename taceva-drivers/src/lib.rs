@@ -1,5 +1,7 @@
 #![doc = include_str!("../README.md")]
 
+#[cfg(feature = "link")]
+mod arguments;
 #[cfg(feature = "netft")]
 mod ati;
 #[cfg(feature = "mjpeg")]
@@ -13,6 +15,8 @@ pub mod fault;
 #[cfg(all(feature = "grbl", unix))]
 mod gcode;
 mod guard;
+#[cfg(all(feature = "hid", target_os = "linux"))]
+mod hid;
 #[cfg(feature = "link")]
 mod link;
 mod name_order;
@@ -29,7 +33,7 @@ mod text;
 mod ufactory;
 #[cfg(feature = "ur")]
 mod ur;
-#[cfg(any(feature = "netft", feature = "sri"))]
+#[cfg(any(feature = "hid", feature = "netft", feature = "sri"))]
 mod zero;
 
 #[cfg(feature = "netft")]
@@ -41,6 +45,8 @@ pub use devices::{Devices, ListedArgument, ListedDevice, ListedDriver, devices};
 pub use drivers::{Drivers, OpenError, open};
 #[cfg(all(feature = "grbl", unix))]
 pub use gcode::GrblFactory;
+#[cfg(all(feature = "hid", target_os = "linux"))]
+pub use hid::{Pedal, ScaleFactory};
 pub use on_bench::OnBench;
 pub use pace::{Pace, RealPace, VirtualPace};
 pub use selector::{Selector, SelectorError};

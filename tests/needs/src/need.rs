@@ -38,6 +38,8 @@ pub enum Need {
     PublicClients,
     /// `ffmpeg`, which serves a stream of pictures.
     Ffmpeg,
+    /// QEMU, a static busybox and a kernel with its modules: a virtual machine for devices that only a kernel can emulate.
+    Kernel,
     /// An example that is built where a whole package is tested, and not by a single test of it.
     Example,
 }
@@ -51,7 +53,7 @@ pub struct UnknownNeed(
 
 impl Need {
     /// Every need.
-    pub const ALL: [Need; 16] = [
+    pub const ALL: [Need; 17] = [
         Need::Browser,
         Need::Axe,
         Need::Latex,
@@ -67,6 +69,7 @@ impl Need {
         Need::Gpu,
         Need::PublicClients,
         Need::Ffmpeg,
+        Need::Kernel,
         Need::Example,
     ];
 
@@ -88,6 +91,7 @@ impl Need {
             Need::Gpu => "gpu",
             Need::PublicClients => "public-clients",
             Need::Ffmpeg => "ffmpeg",
+            Need::Kernel => "kernel",
             Need::Example => "example",
         }
     }

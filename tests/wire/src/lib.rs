@@ -30,6 +30,8 @@ pub mod grbl;
 pub mod mjpeg;
 pub mod netft;
 pub mod sri;
+#[cfg(target_os = "linux")]
+pub mod uhid;
 pub mod ur;
 pub mod xarm;
 

@@ -1,12 +1,13 @@
 //! The built-in driver `ati/netft`.
 
 use taceva_core::{
-    ArgSpec, ArgValue, Args, Axes, Descriptor, DescriptorError, DescriptorSpec, DriverError,
-    DriverSource, Factory, Facts, ForceFacts, ForceTransducer, Hertz, Newton, Rig, submit_builtin,
+    ArgSpec, Args, Axes, Descriptor, DescriptorError, DescriptorSpec, DriverError, DriverSource,
+    Factory, Facts, ForceFacts, ForceTransducer, Hertz, Newton, Rig, submit_builtin,
 };
 
 use super::KEY;
 use super::transducer::{NetftOptions, Transducer};
+use crate::arguments::{optional_number, port, port_of};
 
 submit_builtin!(dyn ForceTransducer, || Ok(Box::new(NetftFactory::new()?)));
 
@@ -41,11 +42,6 @@ impl NetftFactory {
     /// # Errors
     /// [`DescriptorError`] if it contradicted itself, which its tests rule out.
     pub fn new() -> Result<NetftFactory, DescriptorError> {
-        let port = |key: &str, number: i64, help: &str| {
-            ArgSpec::whole(key, 1, 65_535)
-                .default(ArgValue::Whole(number))
-                .help(help)
-        };
         let arguments = [
             ArgSpec::text("host").help("name or address of the box"),
             port("port", 49_152, "the port of its records, UDP"),
@@ -82,27 +78,19 @@ impl Factory<dyn ForceTransducer> for NetftFactory {
     fn describe(&self, args: &Args) -> Result<Descriptor, DescriptorError> {
         let mut spec = self.descriptor.to_spec();
         if let Facts::Force(facts) = &mut spec.facts {
-            facts.rate = number(args, "rate").map(Hertz);
-            facts.force_max = number(args, "force_max_n").map(Newton);
+            facts.rate = optional_number(args, "rate").map(Hertz);
+            facts.force_max = optional_number(args, "force_max_n").map(Newton);
         }
         spec.check()
     }
 
     fn open(&self, args: &Args, _: &mut Rig) -> Result<Box<dyn ForceTransducer>, DriverError> {
-        let port = |key: &str| u16::try_from(args.whole(key)).unwrap_or(0);
         let options = NetftOptions {
             host: args.text("host").to_owned(),
-            port: port("port"),
-            page_port: port("page_port"),
-            force_max_n: number(args, "force_max_n"),
+            port: port_of(args, "port"),
+            page_port: port_of(args, "page_port"),
+            force_max_n: optional_number(args, "force_max_n"),
         };
         Ok(Box::new(Transducer::open(options)?))
-    }
-}
-
-fn number(args: &Args, key: &str) -> Option<f64> {
-    match args.get(key) {
-        Some(&ArgValue::Number(number)) => Some(number),
-        _ => None,
     }
 }

@@ -2,11 +2,12 @@
 
 use taceva_core::{
     ArgSpec, ArgValue, Args, Descriptor, DescriptorError, DescriptorSpec, DriverError,
-    DriverSource, ErrorKind, Factory, Facts, Rig, Robot, RobotFacts, Speed, submit_builtin,
+    DriverSource, ErrorKind, Factory, Facts, Rig, Robot, RobotFacts, submit_builtin,
 };
 
 use super::KEY;
 use super::machine::{GrblOptions, Machine, failed};
+use crate::arguments::{speed_limit, speed_max};
 
 submit_builtin!(dyn Robot, || Ok(Box::new(GrblFactory::new()?)));
 
@@ -46,10 +47,7 @@ impl GrblFactory {
             ArgSpec::whole("baud", 1_200, 4_000_000)
                 .default(ArgValue::Whole(115_200))
                 .help("its speed"),
-            ArgSpec::number("speed_max_mm_s", 0.01, 250.0)
-                .default(ArgValue::Number(20.0))
-                .help("the greatest speed of the tip, in mm/s")
-                .changes_facts(),
+            speed_limit(0.01, 20.0),
         ];
         let facts = Facts::Robot(RobotFacts::default());
         let spec = DescriptorSpec::new(KEY, "a machine with GRBL", DriverSource::Real, facts);
@@ -67,15 +65,15 @@ impl Factory<dyn Robot> for GrblFactory {
     fn describe(&self, args: &Args) -> Result<Descriptor, DescriptorError> {
         let mut spec = self.descriptor.to_spec();
         if let Facts::Robot(facts) = &mut spec.facts {
-            facts.speed_max = Speed::try_new(args.number("speed_max_mm_s")).ok();
+            facts.speed_max = speed_max(args).ok();
         }
         spec.check()
     }
 
     fn open(&self, args: &Args, _: &mut Rig) -> Result<Box<dyn Robot>, DriverError> {
         let doing = "open the machine";
-        let speed_max = Speed::try_new(args.number("speed_max_mm_s"))
-            .map_err(|error| failed(ErrorKind::InvalidArgument, doing, error))?;
+        let speed_max =
+            speed_max(args).map_err(|error| failed(ErrorKind::InvalidArgument, doing, error))?;
         let options = GrblOptions {
             port: args.text("port").to_owned(),
             baud: u32::try_from(args.whole("baud")).unwrap_or(0),

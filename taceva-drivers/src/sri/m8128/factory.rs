@@ -7,6 +7,7 @@ use taceva_core::{
 
 use super::KEY;
 use super::transducer::{M8128Options, Transducer, Zero};
+use crate::arguments::{optional_number, port, port_of};
 
 submit_builtin!(dyn ForceTransducer, || Ok(Box::new(M8128Factory::new()?)));
 
@@ -51,9 +52,7 @@ impl M8128Factory {
     pub fn new() -> Result<M8128Factory, DescriptorError> {
         let arguments = [
             ArgSpec::text("host").help("name or address of the box"),
-            ArgSpec::whole("port", 1, 65_535)
-                .default(ArgValue::Whole(4008))
-                .help("its port"),
+            port("port", 4008, "its port"),
             ArgSpec::number("rate", 1.0, 2_000.0)
                 .unit("Hz")
                 .default(ArgValue::Number(200.0))
@@ -105,17 +104,13 @@ impl Factory<dyn ForceTransducer> for M8128Factory {
 }
 
 fn options(args: &Args) -> M8128Options {
-    let number = |key: &str| match args.get(key) {
-        Some(&ArgValue::Number(number)) => Some(number),
-        _ => None,
-    };
     let torque = args.text("torque");
     let unit = TORQUES.into_iter().find(|(name, _)| *name == torque);
     M8128Options {
         host: args.text("host").to_owned(),
-        port: u16::try_from(args.whole("port")).unwrap_or(0),
-        rate_hz: whole(number("rate").unwrap_or(1.0)),
-        force_max_n: number("force_max_n"),
+        port: port_of(args, "port"),
+        rate_hz: whole(args.number("rate")),
+        force_max_n: optional_number(args, "force_max_n"),
         torque_unit_nmm: unit.map_or(1000.0, |(_, unit)| unit),
         zero: match args.text("zero") {
             "box" => Zero::Box,

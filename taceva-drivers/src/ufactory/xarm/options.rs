@@ -3,6 +3,7 @@
 use taceva_core::{ArgValue, Args, Millimetre, Point, RobotFacts, Speed, Workspace};
 use thiserror::Error;
 
+use crate::arguments::{port_of, speed_max};
 use crate::text::shown;
 
 /// Where the controller is, and within which limits the arm moves.
@@ -29,7 +30,6 @@ pub(super) enum OptionsError {
 impl XarmOptions {
     /// The options in `args`, which the declaration of the driver has checked.
     pub(super) fn read(args: &Args) -> Result<XarmOptions, OptionsError> {
-        let port = |key: &str| u16::try_from(args.whole(key)).unwrap_or(0);
         let workspace = match args.get("workspace").and_then(ArgValue::as_text) {
             None => None,
             Some(text) => Some(workspace(text).ok_or_else(|| OptionsError::Workspace {
@@ -38,11 +38,10 @@ impl XarmOptions {
         };
         Ok(XarmOptions {
             host: args.text("host").to_owned(),
-            port: port("port"),
-            pose_port: port("pose_port"),
-            status_port: port("status_port"),
-            speed_max: Speed::try_new(args.number("speed_max_mm_s"))
-                .map_err(|_| OptionsError::Speed)?,
+            port: port_of(args, "port"),
+            pose_port: port_of(args, "pose_port"),
+            status_port: port_of(args, "status_port"),
+            speed_max: speed_max(args).map_err(|_| OptionsError::Speed)?,
             acceleration_mm_s2: args.number("acceleration_mm_s2"),
             workspace,
         })
