@@ -18,13 +18,18 @@ pub(crate) fn port_of(args: &Args, key: &str) -> u16 {
 }
 
 /// The number that an optional argument gives, if it was given.
-#[cfg(any(feature = "hid", feature = "netft", feature = "sri"))]
+#[cfg(any(
+    feature = "camera",
+    feature = "hid",
+    feature = "netft",
+    feature = "sri"
+))]
 pub(crate) fn optional_number(args: &Args, key: &str) -> Option<f64> {
     args.get(key).and_then(ArgValue::as_number)
 }
 
 /// The greatest speed that may be asked of a robot, at least `least` and `usual` where nobody says otherwise, in mm/s.
-#[cfg(any(feature = "grbl", feature = "ur", feature = "xarm"))]
+#[cfg(any(feature = "gcode", feature = "ur", feature = "xarm"))]
 pub(crate) fn speed_limit(least: f64, usual: f64) -> ArgSpec {
     ArgSpec::number(SPEED_MAX, least, SPEED_LIMIT_MM_S)
         .default(ArgValue::Number(usual))
@@ -36,13 +41,13 @@ pub(crate) fn speed_limit(least: f64, usual: f64) -> ArgSpec {
 ///
 /// # Errors
 /// [`SpeedError`] where it is none, which its range rules out.
-#[cfg(any(feature = "grbl", feature = "ur", feature = "xarm"))]
+#[cfg(any(feature = "gcode", feature = "ur", feature = "xarm"))]
 pub(crate) fn speed_max(args: &Args) -> Result<Speed, SpeedError> {
     Speed::try_new(args.number(SPEED_MAX))
 }
 
-#[cfg(any(feature = "grbl", feature = "ur", feature = "xarm"))]
+#[cfg(any(feature = "gcode", feature = "ur", feature = "xarm"))]
 const SPEED_MAX: &str = "speed_max_mm_s";
 /// No tip is moved faster: what people beside it are taken to bear of an arm at reduced speed.
-#[cfg(any(feature = "grbl", feature = "ur", feature = "xarm"))]
+#[cfg(any(feature = "gcode", feature = "ur", feature = "xarm"))]
 const SPEED_LIMIT_MM_S: f64 = 250.0;

@@ -4,7 +4,7 @@
 mod arguments;
 #[cfg(feature = "netft")]
 mod ati;
-#[cfg(feature = "mjpeg")]
+#[cfg(feature = "camera")]
 mod camera;
 mod clock;
 pub mod conformance;
@@ -22,6 +22,11 @@ mod link;
 mod name_order;
 mod on_bench;
 mod pace;
+#[cfg(all(
+    any(feature = "grbl", feature = "hid", feature = "v4l2"),
+    target_os = "linux"
+))]
+mod present;
 mod random;
 mod selector;
 mod sensor;
@@ -40,6 +45,13 @@ mod zero;
 pub use ati::NetftFactory;
 #[cfg(feature = "mjpeg")]
 pub use camera::MjpegFactory;
+#[cfg(all(
+    feature = "v4l2",
+    target_os = "linux",
+    target_pointer_width = "64",
+    target_endian = "little"
+))]
+pub use camera::V4l2Factory;
 pub use clock::MonotonicClock;
 pub use devices::{Devices, ListedArgument, ListedDevice, ListedDriver, devices};
 pub use drivers::{Drivers, OpenError, open};

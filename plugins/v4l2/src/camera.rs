@@ -118,7 +118,10 @@ impl Camera {
             _ => found.own,
         };
         for (bit, what) in [
-            (kernel::CAN_CAPTURE, "it gives no pictures; a camera has several files, of which one does"),
+            (
+                kernel::CAN_CAPTURE,
+                "it gives no pictures; a camera has several files, of which one does",
+            ),
             (kernel::CAN_STREAM, "it does not stream"),
         ] {
             if can & bit == 0 {
@@ -179,7 +182,6 @@ impl Camera {
     /// # Errors
     /// [`V4l2Error::Rate`] where it gives others: by more than a hundredth.
     pub fn set_rate(&mut self, wanted_hz: f64) -> Result<(), V4l2Error> {
-        
         let doing = "set how many pictures it gives a second";
         let refused = |source| V4l2Error::of(doing, source);
         let mut rate = Rate::default();

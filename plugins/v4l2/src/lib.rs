@@ -1,5 +1,9 @@
 #![doc = include_str!("../README.md")]
-#![cfg(all(target_os = "linux", target_pointer_width = "64", target_endian = "little"))]
+#![cfg(all(
+    target_os = "linux",
+    target_pointer_width = "64",
+    target_endian = "little"
+))]
 
 mod camera;
 mod control;

@@ -78,7 +78,11 @@ impl Stream {
         match kernel::take(fd, &mut taken) {
             Ok(()) => {}
             // Nothing was there after all, or the camera stopped: the first of them that stays is an error.
-            Err(Errno::AGAIN) if !waiting[0].revents().intersects(PollFlags::ERR | PollFlags::HUP) => {
+            Err(Errno::AGAIN)
+                if !waiting[0]
+                    .revents()
+                    .intersects(PollFlags::ERR | PollFlags::HUP) =>
+            {
                 return Ok(None);
             }
             Err(Errno::AGAIN | Errno::INVAL) => return Err(V4l2Error::Gone { doing }),

@@ -3,11 +3,13 @@
 use std::ffi::CString;
 use std::fmt;
 use std::io;
+use std::path::Path;
 
 use hidapi::{DeviceInfo, HidApi, HidDevice, HidError};
 use taceva_core::{Access, ArgSpec, Args, DriverKey, ErrorKind, Found};
 use thiserror::Error;
 
+use crate::present::access_of;
 use crate::text::shown;
 
 /// What tells one HID device from others; what is absent is not asked for.
@@ -121,17 +123,14 @@ impl Present {
             true => self.path.clone(),
             false => self.title.clone(),
         };
-        let opened = std::fs::File::options()
-            .read(true)
-            .write(true)
-            .open(&self.path);
-        let access = match opened {
-            Err(error) if error.kind() == io::ErrorKind::PermissionDenied => Access::Denied {
+        let access = match access_of(Path::new(&self.path), "plugdev") {
+            // No group owns HID devices of its own accord.
+            Access::Denied { .. } => Access::Denied {
                 remedy: format!(
                     "permit it by a udev rule: KERNEL==\"hidraw*\", ATTRS{{idVendor}}==\"{vendor:04x}\", TAG+=\"uaccess\""
                 ),
             },
-            _ => Access::Ready,
+            access => access,
         };
         Found::new(driver, shown(&title))
             .with_arguments(arguments)

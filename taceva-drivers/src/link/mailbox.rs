@@ -98,13 +98,13 @@ impl<T: Clone> Mailbox<T> {
     }
 
     /// Whether nothing comes any more.
-    #[cfg(any(feature = "mjpeg", feature = "netft"))]
+    #[cfg(any(feature = "camera", feature = "netft"))]
     pub(crate) fn has_ended(&self) -> bool {
         self.inside().ended.is_some()
     }
 
     /// Takes things again, from a link that was made anew; what came before is not given any more.
-    #[cfg(any(feature = "mjpeg", feature = "netft"))]
+    #[cfg(any(feature = "camera", feature = "netft"))]
     pub(crate) fn begin_again(&self) {
         let mut inside = self.inside();
         (inside.ended, inside.newest) = (None, None);
@@ -119,8 +119,9 @@ impl<T: Clone> Mailbox<T> {
 
     /// How many came so far.
     #[cfg(any(
-        feature = "grbl",
-        feature = "mjpeg",
+        feature = "camera",
+        feature = "gcode",
+        feature = "hid",
         feature = "netft",
         feature = "sri"
     ))]

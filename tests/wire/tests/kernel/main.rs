@@ -8,3 +8,4 @@ mod archive;
 mod hid;
 mod machine;
 mod modules;
+mod v4l2;

@@ -1,0 +1,345 @@
+//! A camera of this machine as a sensor.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+use std::time::Duration;
+
+use taceva_core::{
+    Deadline, DriverError, ErrorKind, FrameInfo, FrameMut, Interrupt, PixelFormat, Sensor, Stamp,
+};
+use taceva_v4l2::{Camera, FourCc, GivenFormat, PictureFormat, V4l2Error};
+
+use super::KEY;
+use super::fixed::Fixed;
+use super::reader::{Picture, Reader};
+use super::yuyv::Matrix;
+use crate::camera::CAPTURE;
+use crate::camera::crop::Crop;
+use crate::camera::jpeg::Pictures;
+use crate::link::{Mailbox, Seen};
+
+/// How a camera is opened.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct V4l2Options {
+    pub(super) device: String,
+    pub(super) width: u32,
+    pub(super) height: u32,
+    /// The ways in which pictures may be sent, the best first.
+    pub(super) pixels: Vec<FourCc>,
+    pub(super) rate_hz: Option<f64>,
+    pub(super) crop: Crop,
+    pub(super) fixed: Fixed,
+}
+
+/// A camera that is open.
+#[derive(Debug)]
+pub(super) struct LocalCamera {
+    options: V4l2Options,
+    pictures: Arc<Mailbox<Picture>>,
+    /// The camera while it gives no pictures; `None` once it is lost, and while it gives some.
+    camera: Option<Camera>,
+    reader: Option<Reader>,
+    frames: Frames,
+    settings: BTreeMap<String, String>,
+    /// The number of the last picture that was given.
+    last: u64,
+    /// Pictures that came while nobody asked, or that did not come at all.
+    missed: u64,
+}
+
+/// How frames are made of pictures.
+#[derive(Debug)]
+enum Frames {
+    /// Of rows of pixels.
+    Rows {
+        given: GivenFormat,
+        matrix: Matrix,
+        sent: FrameInfo,
+        /// A row of them, where a part of it is kept.
+        row: Vec<u8>,
+    },
+    /// Of files.
+    Files(Pictures),
+}
+
+const OPEN: &str = "open the camera";
+const START: &str = "start the camera";
+/// How long a camera may take to send its first picture, by which the kind of a file is known.
+const FIRST: Duration = Duration::from_secs(3);
+
+/// What kind of failure an error of a camera is.
+pub(super) fn kind_of(error: &V4l2Error) -> ErrorKind {
+    match error {
+        V4l2Error::Open { source, .. } => match source.kind() {
+            std::io::ErrorKind::PermissionDenied => ErrorKind::PermissionDenied,
+            std::io::ErrorKind::ResourceBusy => ErrorKind::Busy,
+            _ => ErrorKind::NotFound,
+        },
+        V4l2Error::NoCamera { .. } => ErrorKind::InvalidArgument,
+        V4l2Error::Format { .. } | V4l2Error::Rate { .. } => ErrorKind::Unsupported,
+        V4l2Error::Busy { .. } => ErrorKind::Busy,
+        V4l2Error::Gone { .. } => ErrorKind::Disconnected,
+        _ => ErrorKind::DeviceFault,
+    }
+}
+
+fn failed(
+    kind: ErrorKind,
+    doing: &'static str,
+    why: impl Into<Box<dyn std::error::Error + Send + Sync>>,
+) -> DriverError {
+    DriverError::new(kind, &KEY, doing).because(why)
+}
+
+fn refused(doing: &'static str) -> impl Fn(V4l2Error) -> DriverError {
+    move |error| failed(kind_of(&error), doing, error)
+}
+
+impl LocalCamera {
+    /// Opens a camera, sets its format and fixes it; where pictures are files it looks at one.
+    pub(super) fn open(options: V4l2Options) -> Result<LocalCamera, DriverError> {
+        let (mut camera, given) = options.connect()?;
+        let settings = options.fixed.apply(&mut camera)?;
+        let pictures = Arc::new(Mailbox::default());
+        let (camera, frames) = match given.picture.pixels {
+            FourCc::MJPG => {
+                let (camera, first) = first_picture(camera)?;
+                let frames = Pictures::like(&first, options.crop, &KEY)?;
+                let sent = frames.sent();
+                if (sent.width, sent.height) != (options.width, options.height) {
+                    let why = format!(
+                        "the camera sends files of {sent}, expected {}×{}",
+                        options.width, options.height
+                    );
+                    return Err(failed(ErrorKind::Protocol, OPEN, why));
+                }
+                (camera, Frames::Files(frames))
+            }
+            _ => (camera, Frames::rows(given)),
+        };
+        Ok(LocalCamera {
+            options,
+            pictures,
+            camera: Some(camera),
+            reader: None,
+            frames,
+            settings,
+            last: 0,
+            missed: 0,
+        })
+    }
+
+    fn begin(&mut self) -> Result<(), DriverError> {
+        if self.pictures.has_ended() {
+            // The camera was gone, and may be back.
+            self.reader = None;
+            self.camera = None;
+            self.pictures.begin_again();
+        }
+        let mut camera = match self.camera.take() {
+            Some(camera) => camera,
+            None => {
+                let (camera, given) = self.options.connect()?;
+                self.frames.check(&given)?;
+                camera
+            }
+        };
+        // Another program may have turned them meanwhile.
+        self.settings = self.options.fixed.apply(&mut camera)?;
+        let stream = camera.start().map_err(refused(START))?;
+        (self.last, self.missed) = (self.pictures.posted(), 0);
+        let reader = Reader::start(stream, &self.pictures);
+        self.reader = Some(reader.map_err(|error| failed(ErrorKind::Internal, START, error))?);
+        Ok(())
+    }
+
+    fn next(&self, patience: Duration) -> Result<Seen<Picture>, DriverError> {
+        self.pictures.next(self.last, patience).map_err(|none| {
+            none.while_waiting(&KEY, CAPTURE, || format!("no picture within {patience:?}"))
+        })
+    }
+}
+
+impl V4l2Options {
+    /// The camera with the first of the ways to send pictures that it knows.
+    fn connect(&self) -> Result<(Camera, GivenFormat), DriverError> {
+        let mut camera = Camera::open(&self.device).map_err(refused(OPEN))?;
+        let mut unknown = None;
+        for pixels in &self.pixels {
+            let wanted = PictureFormat {
+                width: self.width,
+                height: self.height,
+                pixels: *pixels,
+            };
+            match camera.set_format(&wanted) {
+                Ok(given) => {
+                    if let Some(rate_hz) = self.rate_hz {
+                        camera.set_rate(rate_hz).map_err(refused(OPEN))?;
+                    }
+                    return Ok((camera, given));
+                }
+                Err(error @ V4l2Error::Format { .. }) => unknown = Some(error),
+                Err(error) => return Err(refused(OPEN)(error)),
+            }
+        }
+        match unknown {
+            Some(error) => Err(refused(OPEN)(error)),
+            None => Err(failed(
+                ErrorKind::InvalidArgument,
+                OPEN,
+                "no way to send pictures",
+            )),
+        }
+    }
+}
+
+/// The first picture that is whole, and the camera, which gives none any more.
+fn first_picture(camera: Camera) -> Result<(Camera, Vec<u8>), DriverError> {
+    let mut stream = camera.start().map_err(refused(OPEN))?;
+    let began = crate::link::monotonic();
+    loop {
+        let spent = crate::link::monotonic().saturating_sub(began);
+        let Some(left) = FIRST.checked_sub(spent) else {
+            let why = format!("no picture within {FIRST:?}");
+            return Err(failed(ErrorKind::Timeout, OPEN, why));
+        };
+        let taken = stream.next(left).map_err(refused(OPEN))?;
+        let first = taken.filter(|filled| !filled.is_damaged());
+        let first = first.map(|filled| filled.bytes().to_vec());
+        if let Some(first) = first {
+            return Ok((stream.stop(), first));
+        }
+    }
+}
+
+impl Frames {
+    fn rows(given: GivenFormat) -> Frames {
+        let PictureFormat { width, height, .. } = given.picture;
+        let sent = FrameInfo {
+            width,
+            height,
+            format: PixelFormat::Rgb8,
+        };
+        Frames::Rows {
+            given,
+            matrix: Matrix::of(given.coding),
+            sent,
+            row: Vec::new(),
+        }
+    }
+
+    fn info(&self, crop: Crop) -> FrameInfo {
+        match self {
+            Frames::Rows { sent, .. } => crop.of(*sent),
+            Frames::Files(pictures) => pictures.info(),
+        }
+    }
+
+    /// Refuses a camera that sends its pictures otherwise than before.
+    fn check(&self, found: &GivenFormat) -> Result<(), DriverError> {
+        let is_same = match self {
+            Frames::Rows { given, .. } => given == found,
+            Frames::Files(_) => found.picture.pixels == FourCc::MJPG,
+        };
+        if is_same {
+            return Ok(());
+        }
+        let why = format!(
+            "the camera came back with {}, expected what it gave before",
+            found.picture
+        );
+        Err(failed(ErrorKind::Protocol, START, why))
+    }
+
+    fn make(
+        &mut self,
+        picture: &Picture,
+        crop: Crop,
+        missed: u64,
+        mut into: FrameMut<'_>,
+    ) -> Result<(), DriverError> {
+        let damaged = picture.damaged;
+        let losses = || format!("{missed} pictures were missed and {damaged} were damaged");
+        match self {
+            Frames::Files(pictures) => pictures.decode(&picture.bytes, into, losses),
+            Frames::Rows {
+                given,
+                matrix,
+                sent,
+                row: room,
+            } => {
+                let size = |number: u32| usize::try_from(number).unwrap_or(usize::MAX);
+                let (stride, whole) = (size(given.stride), 3 * size(sent.width));
+                // The last row may end with its last pixel.
+                let least = stride * (size(sent.height) - 1) + 2 * size(sent.width);
+                if stride < 2 * size(sent.width) || picture.bytes.len() < least {
+                    let why = format!(
+                        "a picture of {} bytes, expected {least} of {}; before, {}",
+                        picture.bytes.len(),
+                        given.picture,
+                        losses()
+                    );
+                    return Err(failed(ErrorKind::Protocol, CAPTURE, why));
+                }
+                room.resize(whole, 0);
+                let kept = 3 * size(crop.of(*sent).width);
+                let begin = 3 * size(crop.left);
+                let rows = picture.bytes.chunks(stride).skip(size(crop.top));
+                for (row, into) in rows.zip(into.bytes_mut().chunks_exact_mut(kept.max(1))) {
+                    matrix.row(row, room);
+                    into.copy_from_slice(&room[begin..begin + kept]);
+                }
+                Ok(())
+            }
+        }
+    }
+}
+
+impl Sensor for LocalCamera {
+    fn frame_info(&self) -> FrameInfo {
+        self.frames.info(self.options.crop)
+    }
+
+    fn start(&mut self, _: Deadline) -> Result<(), DriverError> {
+        if self.reader.is_some() && !self.pictures.has_ended() {
+            return Ok(());
+        }
+        self.begin()
+    }
+
+    fn capture(&mut self, into: FrameMut<'_>, deadline: Deadline) -> Result<Stamp, DriverError> {
+        let info = self.frame_info();
+        if into.info() != info {
+            let why = format!("a buffer for {}, expected {info}", into.info());
+            return Err(failed(ErrorKind::InvalidArgument, CAPTURE, why));
+        }
+        if self.reader.is_none() {
+            let why = "it is not started";
+            return Err(failed(ErrorKind::InvalidArgument, CAPTURE, why));
+        }
+        let seen = self.next(deadline.remaining())?;
+        self.missed += seen.number - self.last - 1;
+        self.last = seen.number;
+        let Seen {
+            what: picture, at, ..
+        } = seen;
+        self.frames
+            .make(&picture, self.options.crop, self.missed, into)?;
+        Ok(Stamp::new(picture.taken.unwrap_or(at), Some(at)))
+    }
+
+    fn stop(&mut self) -> Result<(), DriverError> {
+        if let Some(reader) = self.reader.take() {
+            self.camera = reader.stop();
+        }
+        Ok(())
+    }
+
+    fn interrupt_handle(&self) -> Option<Arc<dyn Interrupt>> {
+        Some(Arc::clone(&self.pictures) as Arc<dyn Interrupt>)
+    }
+
+    fn settings(&self) -> BTreeMap<String, String> {
+        self.settings.clone()
+    }
+}
