@@ -1,6 +1,10 @@
 //! What arguments of several drivers have in common.
 
-use taceva_core::{ArgSpec, ArgValue, Args, Speed, SpeedError};
+use taceva_core::{ArgSpec, ArgValue, Args};
+#[cfg(any(feature = "hid", feature = "netft", feature = "sri"))]
+use taceva_core::{ForceFacts, Newton};
+#[cfg(any(feature = "gcode", feature = "ur", feature = "xarm"))]
+use taceva_core::{Millimetre, RobotFacts, Speed, SpeedError};
 
 /// A port of a network, `usual` where nobody says otherwise.
 #[cfg(feature = "tcp")]
@@ -51,3 +55,102 @@ const SPEED_MAX: &str = "speed_max_mm_s";
 /// No tip is moved faster: what people beside it are taken to bear of an arm at reduced speed.
 #[cfg(any(feature = "gcode", feature = "ur", feature = "xarm"))]
 const SPEED_LIMIT_MM_S: f64 = 250.0;
+
+/// A fact of a device that no protocol tells: from a data sheet or a measurement, and unknown where nobody says it.
+#[cfg(any(
+    feature = "gcode",
+    feature = "hid",
+    feature = "netft",
+    feature = "sri",
+    feature = "ur",
+    feature = "xarm"
+))]
+fn fact(key: &str, [least, most]: [f64; 2], help: &str) -> ArgSpec {
+    ArgSpec::number(key, least, most)
+        .optional()
+        .help(help)
+        .changes_facts()
+}
+
+/// Facts of a robot that its protocol does not tell.
+#[cfg(any(feature = "gcode", feature = "ur", feature = "xarm"))]
+pub(crate) fn robot_facts() -> [ArgSpec; 2] {
+    [
+        fact(
+            STOP,
+            [0.0, 2_000.0],
+            "how long it moves on after a halt has reached it, in ms, as it was measured",
+        ),
+        fact(
+            REPEATABILITY,
+            [1e-4, 10.0],
+            "how well it comes back to a pose, in mm: one standard deviation an axis, from its data sheet or measured",
+        ),
+    ]
+}
+
+/// How fast a robot slows down, where its driver does not tell it.
+#[cfg(any(feature = "gcode", feature = "xarm"))]
+pub(crate) fn deceleration() -> ArgSpec {
+    fact(
+        DECELERATION,
+        [1.0, 100_000.0],
+        "how fast it slows down when it is halted, in mm/s², as it was measured",
+    )
+}
+
+/// The facts that arguments of [`robot_facts`], [`deceleration`] and [`speed_limit`] give.
+#[cfg(any(feature = "gcode", feature = "ur", feature = "xarm"))]
+pub(crate) fn facts_of_robot(args: &Args) -> RobotFacts {
+    RobotFacts {
+        speed_max: speed_max(args).ok(),
+        deceleration_mm_s2: optional_number(args, DECELERATION),
+        stop_ms: optional_number(args, STOP),
+        repeatability: optional_number(args, REPEATABILITY).map(Millimetre),
+        ..RobotFacts::default()
+    }
+}
+
+/// Facts of a force transducer that its protocol does not tell.
+#[cfg(any(feature = "hid", feature = "netft", feature = "sri"))]
+pub(crate) fn force_facts() -> [ArgSpec; 3] {
+    [
+        fact(
+            FORCE_MAX,
+            [0.001, 100_000.0],
+            "the least of the ranges of its forces, in N, from its certificate",
+        ),
+        fact(
+            RESOLUTION,
+            [1e-9, 1_000.0],
+            "the step between two neighbouring readings of a force, in N",
+        ),
+        fact(
+            NOISE,
+            [1e-9, 1_000.0],
+            "how far readings of a load that rests scatter, in N: one standard deviation, as it was measured",
+        ),
+    ]
+}
+
+/// The facts that arguments of [`force_facts`] give.
+#[cfg(any(feature = "hid", feature = "netft", feature = "sri"))]
+pub(crate) fn add_facts_of_force(args: &Args, facts: &mut ForceFacts) {
+    let force = |key| optional_number(args, key).map(Newton);
+    facts.force_max = force(FORCE_MAX);
+    facts.resolution = force(RESOLUTION);
+    facts.noise = force(NOISE);
+}
+
+#[cfg(any(feature = "gcode", feature = "ur", feature = "xarm"))]
+const DECELERATION: &str = "deceleration_mm_s2";
+#[cfg(any(feature = "gcode", feature = "ur", feature = "xarm"))]
+const STOP: &str = "stop_ms";
+#[cfg(any(feature = "gcode", feature = "ur", feature = "xarm"))]
+const REPEATABILITY: &str = "repeatability_mm";
+#[cfg(any(feature = "hid", feature = "netft", feature = "sri"))]
+pub(crate) const FORCE_MAX: &str = "force_max_n";
+#[cfg(any(feature = "hid", feature = "netft", feature = "sri"))]
+const RESOLUTION: &str = "resolution_n";
+#[cfg(any(feature = "hid", feature = "netft", feature = "sri"))]
+const NOISE: &str = "noise_n";

@@ -12,7 +12,7 @@ mod devices;
 pub mod doctor;
 mod drivers;
 pub mod fault;
-#[cfg(all(feature = "grbl", unix))]
+#[cfg(all(feature = "gcode", unix))]
 mod gcode;
 mod guard;
 #[cfg(all(feature = "hid", target_os = "linux"))]
@@ -22,10 +22,7 @@ mod link;
 mod name_order;
 mod on_bench;
 mod pace;
-#[cfg(all(
-    any(feature = "grbl", feature = "hid", feature = "v4l2"),
-    target_os = "linux"
-))]
+#[cfg(all(any(feature = "gcode", feature = "hid", feature = "v4l2"), unix))]
 mod present;
 mod random;
 mod selector;
@@ -57,6 +54,8 @@ pub use devices::{Devices, ListedArgument, ListedDevice, ListedDriver, devices};
 pub use drivers::{Drivers, OpenError, open};
 #[cfg(all(feature = "grbl", unix))]
 pub use gcode::GrblFactory;
+#[cfg(all(feature = "marlin", unix))]
+pub use gcode::MarlinFactory;
 #[cfg(all(feature = "hid", target_os = "linux"))]
 pub use hid::{Pedal, ScaleFactory};
 pub use on_bench::OnBench;

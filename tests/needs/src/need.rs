@@ -40,6 +40,8 @@ pub enum Need {
     Ffmpeg,
     /// QEMU, a static busybox and a kernel with its modules: a virtual machine for devices that only a kernel can emulate.
     Kernel,
+    /// Python with OctoPrint, whose virtual printer speaks as Marlin does.
+    VirtualPrinter,
     /// An example that is built where a whole package is tested, and not by a single test of it.
     Example,
 }
@@ -53,7 +55,7 @@ pub struct UnknownNeed(
 
 impl Need {
     /// Every need.
-    pub const ALL: [Need; 17] = [
+    pub const ALL: [Need; 18] = [
         Need::Browser,
         Need::Axe,
         Need::Latex,
@@ -70,6 +72,7 @@ impl Need {
         Need::PublicClients,
         Need::Ffmpeg,
         Need::Kernel,
+        Need::VirtualPrinter,
         Need::Example,
     ];
 
@@ -92,6 +95,7 @@ impl Need {
             Need::PublicClients => "public-clients",
             Need::Ffmpeg => "ffmpeg",
             Need::Kernel => "kernel",
+            Need::VirtualPrinter => "virtual-printer",
             Need::Example => "example",
         }
     }

@@ -2,12 +2,14 @@
 
 use taceva_core::{
     ArgSpec, Args, Axes, Descriptor, DescriptorError, DescriptorSpec, DriverError, DriverSource,
-    Factory, Facts, ForceFacts, ForceTransducer, Hertz, Newton, Rig, submit_builtin,
+    Factory, Facts, ForceFacts, ForceTransducer, Hertz, Rig, submit_builtin,
 };
 
 use super::KEY;
 use super::transducer::{NetftOptions, Transducer};
-use crate::arguments::{optional_number, port, port_of};
+use crate::arguments::{
+    FORCE_MAX, add_facts_of_force, force_facts, optional_number, port, port_of,
+};
 
 submit_builtin!(dyn ForceTransducer, || Ok(Box::new(NetftFactory::new()?)));
 
@@ -51,10 +53,6 @@ impl NetftFactory {
                 .optional()
                 .help("readings a second that the box is set to, where it is known")
                 .changes_facts(),
-            ArgSpec::number("force_max_n", 0.001, 100_000.0)
-                .optional()
-                .help("the least of the ranges of its forces, in N, from its certificate")
-                .changes_facts(),
         ];
         let facts = Facts::Force(ForceFacts {
             axes: Axes::SIX,
@@ -65,7 +63,7 @@ impl NetftFactory {
         let title = "a force transducer behind a Net F/T box of ATI";
         let spec = DescriptorSpec::new(KEY, title, DriverSource::Real, facts);
         Ok(NetftFactory {
-            descriptor: spec.arguments(arguments).check()?,
+            descriptor: spec.arguments(arguments).arguments(force_facts()).check()?,
         })
     }
 }
@@ -79,7 +77,7 @@ impl Factory<dyn ForceTransducer> for NetftFactory {
         let mut spec = self.descriptor.to_spec();
         if let Facts::Force(facts) = &mut spec.facts {
             facts.rate = optional_number(args, "rate").map(Hertz);
-            facts.force_max = optional_number(args, "force_max_n").map(Newton);
+            add_facts_of_force(args, facts);
         }
         spec.check()
     }
@@ -89,7 +87,7 @@ impl Factory<dyn ForceTransducer> for NetftFactory {
             host: args.text("host").to_owned(),
             port: port_of(args, "port"),
             page_port: port_of(args, "page_port"),
-            force_max_n: optional_number(args, "force_max_n"),
+            force_max_n: optional_number(args, FORCE_MAX),
         };
         Ok(Box::new(Transducer::open(options)?))
     }

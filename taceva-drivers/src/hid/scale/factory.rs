@@ -2,13 +2,12 @@
 
 use taceva_core::{
     ArgSpec, ArgValue, Args, Axes, Descriptor, DescriptorError, DescriptorSpec, DriverError,
-    DriverSource, Factory, Facts, ForceFacts, ForceTransducer, Found, Hertz, Newton, Rig,
-    submit_builtin,
+    DriverSource, Factory, Facts, ForceFacts, ForceTransducer, Found, Hertz, Rig, submit_builtin,
 };
 
 use super::KEY;
 use super::transducer::{SCALE, Transducer};
-use crate::arguments::optional_number;
+use crate::arguments::{FORCE_MAX, add_facts_of_force, force_facts, optional_number};
 use crate::hid::selected::{Present, Selection};
 
 submit_builtin!(dyn ForceTransducer, || Ok(Box::new(ScaleFactory::new()?)));
@@ -47,24 +46,21 @@ impl ScaleFactory {
     /// # Errors
     /// [`DescriptorError`] if it contradicted itself, which its tests rule out.
     pub fn new() -> Result<ScaleFactory, DescriptorError> {
-        let arguments = [
-            ArgSpec::number("rate", 0.1, 20.0)
-                .unit("Hz")
-                .default(ArgValue::Number(2.0))
-                .help("weights a second that the scale sends at least, as it was measured")
-                .changes_facts(),
-            ArgSpec::number("force_max_n", 0.001, 10_000.0)
-                .optional()
-                .help("what it weighs at most, in N: 9.8 N a kilogram")
-                .changes_facts(),
-        ];
+        let arguments = [ArgSpec::number("rate", 0.1, 20.0)
+            .unit("Hz")
+            .default(ArgValue::Number(2.0))
+            .help("weights a second that the scale sends at least, as it was measured")
+            .changes_facts()];
         let facts = Facts::Force(ForceFacts {
             axes: Axes::NORMAL,
             tare: true,
             ..ForceFacts::default()
         });
         let spec = DescriptorSpec::new(KEY, "a scale on the USB", DriverSource::Real, facts);
-        let spec = spec.arguments(Selection::arguments()).arguments(arguments);
+        let spec = spec
+            .arguments(Selection::arguments())
+            .arguments(arguments)
+            .arguments(force_facts());
         Ok(ScaleFactory {
             descriptor: spec.check()?,
         })
@@ -80,7 +76,7 @@ impl Factory<dyn ForceTransducer> for ScaleFactory {
         let mut spec = self.descriptor.to_spec();
         if let Facts::Force(facts) = &mut spec.facts {
             facts.rate = Some(Hertz(args.number("rate")));
-            facts.force_max = optional_number(args, "force_max_n").map(Newton);
+            add_facts_of_force(args, facts);
         }
         spec.check()
     }
@@ -89,7 +85,7 @@ impl Factory<dyn ForceTransducer> for ScaleFactory {
         let selection = Selection::of(args).map_err(|error| {
             DriverError::new(error.kind(), &KEY, "open the scale").because(error)
         })?;
-        let force_max_n = optional_number(args, "force_max_n");
+        let force_max_n = optional_number(args, FORCE_MAX);
         Ok(Box::new(Transducer::open(&selection, force_max_n)?))
     }
 

@@ -11,7 +11,7 @@ use taceva_core::{
 use super::KEY;
 use super::box_link::{BoxLink, CommandError, Counted};
 use super::command::Command;
-use super::frame::Reading;
+use super::frame::{Check, Reading};
 use crate::link::Seen;
 use crate::zero::{HostZero, READ, ZERO};
 
@@ -21,6 +21,7 @@ pub(super) struct M8128Options {
     pub(super) host: String,
     pub(super) port: u16,
     pub(super) rate_hz: u16,
+    pub(super) check: Check,
     /// What it measures is clipped at this force, in N.
     pub(super) force_max_n: Option<f64>,
     /// N·mm a unit of torque of the box.
@@ -99,7 +100,8 @@ impl Transducer {
             }
             done => done?,
         }
-        self.link.command(Command::Sum, ANSWER)?;
+        self.link
+            .command(Command::Check(self.options.check), ANSWER)?;
         self.link.command(Command::Units, ANSWER)?;
         self.last = self.link.readings().posted();
         self.link.send(Command::Start)?;

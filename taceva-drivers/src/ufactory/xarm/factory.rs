@@ -8,7 +8,7 @@ use taceva_core::{
 use super::KEY;
 use super::arm::Arm;
 use super::options::XarmOptions;
-use crate::arguments::{port, speed_limit};
+use crate::arguments::{deceleration, facts_of_robot, port, robot_facts, speed_limit};
 
 submit_builtin!(dyn Robot, || Ok(Box::new(XarmFactory::new()?)));
 
@@ -64,7 +64,11 @@ impl XarmFactory {
         let facts = Facts::Robot(RobotFacts::default());
         let spec = DescriptorSpec::new(KEY, "an arm of UFACTORY", DriverSource::Real, facts);
         Ok(XarmFactory {
-            descriptor: spec.arguments(arguments).check()?,
+            descriptor: spec
+                .arguments(arguments)
+                .arguments([deceleration()])
+                .arguments(robot_facts())
+                .check()?,
         })
     }
 }
@@ -78,7 +82,10 @@ impl Factory<dyn Robot> for XarmFactory {
         let mut spec = self.descriptor.to_spec();
         // Arguments that make no sense are refused when the arm is opened, in their own words.
         if let Ok(options) = XarmOptions::read(args) {
-            spec.facts = Facts::Robot(options.facts());
+            spec.facts = Facts::Robot(RobotFacts {
+                workspace: options.workspace,
+                ..facts_of_robot(args)
+            });
         }
         spec.check()
     }

@@ -1,6 +1,6 @@
 //! How an arm is opened, from the arguments.
 
-use taceva_core::{ArgValue, Args, Millimetre, Point, RobotFacts, Speed, Workspace};
+use taceva_core::{ArgValue, Args, Millimetre, Point, Speed, Workspace};
 use thiserror::Error;
 
 use crate::arguments::{port_of, speed_max};
@@ -45,15 +45,6 @@ impl XarmOptions {
             acceleration_mm_s2: args.number("acceleration_mm_s2"),
             workspace,
         })
-    }
-
-    /// What is known of the arm before it is opened.
-    pub(super) fn facts(&self) -> RobotFacts {
-        RobotFacts {
-            workspace: self.workspace,
-            speed_max: Some(self.speed_max),
-            ..RobotFacts::default()
-        }
     }
 }
 

@@ -7,7 +7,7 @@ use taceva_core::{
 
 use super::KEY;
 use super::arm::{Arm, UrOptions, failed};
-use crate::arguments::{port, port_of, speed_limit, speed_max};
+use crate::arguments::{facts_of_robot, port, port_of, robot_facts, speed_limit, speed_max};
 
 submit_builtin!(dyn Robot, || Ok(Box::new(UrFactory::new()?)));
 
@@ -69,13 +69,14 @@ impl UrFactory {
                 "deceleration_mm_s2",
                 [100.0, 10_000.0, 2_000.0],
                 "how fast the tip brakes at a halt, in mm/s²",
-            ),
+            )
+            .changes_facts(),
         ];
         let facts = Facts::Robot(RobotFacts::default());
         let spec =
             DescriptorSpec::new(KEY, "an arm of Universal Robots", DriverSource::Real, facts);
         Ok(UrFactory {
-            descriptor: spec.arguments(arguments).check()?,
+            descriptor: spec.arguments(arguments).arguments(robot_facts()).check()?,
         })
     }
 }
@@ -87,9 +88,8 @@ impl Factory<dyn Robot> for UrFactory {
 
     fn describe(&self, args: &Args) -> Result<Descriptor, DescriptorError> {
         let mut spec = self.descriptor.to_spec();
-        if let Facts::Robot(facts) = &mut spec.facts {
-            facts.speed_max = speed_max(args).ok();
-        }
+        // The deceleration is the one that the driver itself asks of the arm.
+        spec.facts = Facts::Robot(facts_of_robot(args));
         spec.check()
     }
 
