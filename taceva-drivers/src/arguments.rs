@@ -102,13 +102,12 @@ pub(crate) fn deceleration() -> ArgSpec {
 /// The facts that arguments of [`robot_facts`], [`deceleration`] and [`speed_limit`] give.
 #[cfg(any(feature = "gcode", feature = "ur", feature = "xarm"))]
 pub(crate) fn facts_of_robot(args: &Args) -> RobotFacts {
-    RobotFacts {
-        speed_max: speed_max(args).ok(),
-        deceleration_mm_s2: optional_number(args, DECELERATION),
-        stop_ms: optional_number(args, STOP),
-        repeatability: optional_number(args, REPEATABILITY).map(Millimetre),
-        ..RobotFacts::default()
-    }
+    let mut facts = RobotFacts::default();
+    facts.speed_max = speed_max(args).ok();
+    facts.deceleration_mm_s2 = optional_number(args, DECELERATION);
+    facts.stop_ms = optional_number(args, STOP);
+    facts.repeatability = optional_number(args, REPEATABILITY).map(Millimetre);
+    facts
 }
 
 /// Facts of a force transducer that its protocol does not tell.

@@ -51,11 +51,10 @@ impl ScaleFactory {
             .default(ArgValue::Number(2.0))
             .help("weights a second that the scale sends at least, as it was measured")
             .changes_facts()];
-        let facts = Facts::Force(ForceFacts {
-            axes: Axes::NORMAL,
-            tare: true,
-            ..ForceFacts::default()
-        });
+        let facts = ForceFacts::default()
+            .with_axes(Axes::NORMAL)
+            .with_tare(true);
+        let facts = Facts::Force(facts);
         let spec = DescriptorSpec::new(KEY, "a scale on the USB", DriverSource::Real, facts);
         let spec = spec
             .arguments(Selection::arguments())

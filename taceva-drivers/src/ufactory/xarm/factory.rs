@@ -82,10 +82,7 @@ impl Factory<dyn Robot> for XarmFactory {
         let mut spec = self.descriptor.to_spec();
         // Arguments that make no sense are refused when the arm is opened, in their own words.
         if let Ok(options) = XarmOptions::read(args) {
-            spec.facts = Facts::Robot(RobotFacts {
-                workspace: options.workspace,
-                ..facts_of_robot(args)
-            });
+            spec.facts = Facts::Robot(facts_of_robot(args).with_workspace(options.workspace));
         }
         spec.check()
     }
