@@ -1,8 +1,10 @@
 //! `camera/v4l2`: cameras of this machine, by the kernel's own interface.
 
 mod camera;
+mod error;
 mod factory;
 mod fixed;
+mod frames;
 mod reader;
 mod yuyv;
 

@@ -5,14 +5,15 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use taceva_core::{
-    Deadline, DriverError, ErrorKind, FrameInfo, FrameMut, Interrupt, PixelFormat, Sensor, Stamp,
+    Deadline, DriverError, ErrorKind, FrameInfo, FrameMut, Interrupt, Sensor, Stamp,
 };
 use taceva_v4l2::{Camera, FourCc, GivenFormat, PictureFormat, V4l2Error};
 
 use super::KEY;
+use super::error::{START, failed, refused};
 use super::fixed::Fixed;
+use super::frames::Frames;
 use super::reader::{Picture, Reader};
-use super::yuyv::Matrix;
 use crate::camera::CAPTURE;
 use crate::camera::crop::Crop;
 use crate::camera::jpeg::Pictures;
@@ -47,53 +48,9 @@ pub(super) struct LocalCamera {
     missed: u64,
 }
 
-/// How frames are made of pictures.
-#[derive(Debug)]
-enum Frames {
-    /// Of rows of pixels.
-    Rows {
-        given: GivenFormat,
-        matrix: Matrix,
-        sent: FrameInfo,
-        /// A row of them, where a part of it is kept.
-        row: Vec<u8>,
-    },
-    /// Of files.
-    Files(Pictures),
-}
-
 const OPEN: &str = "open the camera";
-const START: &str = "start the camera";
 /// How long a camera may take to send its first picture, by which the kind of a file is known.
 const FIRST: Duration = Duration::from_secs(3);
-
-/// What kind of failure an error of a camera is.
-pub(super) fn kind_of(error: &V4l2Error) -> ErrorKind {
-    match error {
-        V4l2Error::Open { source, .. } => match source.kind() {
-            std::io::ErrorKind::PermissionDenied => ErrorKind::PermissionDenied,
-            std::io::ErrorKind::ResourceBusy => ErrorKind::Busy,
-            _ => ErrorKind::NotFound,
-        },
-        V4l2Error::NoCamera { .. } => ErrorKind::InvalidArgument,
-        V4l2Error::Format { .. } | V4l2Error::Rate { .. } => ErrorKind::Unsupported,
-        V4l2Error::Busy { .. } => ErrorKind::Busy,
-        V4l2Error::Gone { .. } => ErrorKind::Disconnected,
-        _ => ErrorKind::DeviceFault,
-    }
-}
-
-fn failed(
-    kind: ErrorKind,
-    doing: &'static str,
-    why: impl Into<Box<dyn std::error::Error + Send + Sync>>,
-) -> DriverError {
-    DriverError::new(kind, &KEY, doing).because(why)
-}
-
-fn refused(doing: &'static str) -> impl Fn(V4l2Error) -> DriverError {
-    move |error| failed(kind_of(&error), doing, error)
-}
 
 impl LocalCamera {
     /// Opens a camera, sets its format and fixes it; where pictures are files it looks at one.
@@ -208,89 +165,6 @@ fn first_picture(camera: Camera) -> Result<(Camera, Vec<u8>), DriverError> {
         let first = first.map(|filled| filled.bytes().to_vec());
         if let Some(first) = first {
             return Ok((stream.stop(), first));
-        }
-    }
-}
-
-impl Frames {
-    fn rows(given: GivenFormat) -> Frames {
-        let PictureFormat { width, height, .. } = given.picture;
-        let sent = FrameInfo {
-            width,
-            height,
-            format: PixelFormat::Rgb8,
-        };
-        Frames::Rows {
-            given,
-            matrix: Matrix::of(given.coding),
-            sent,
-            row: Vec::new(),
-        }
-    }
-
-    fn info(&self, crop: Crop) -> FrameInfo {
-        match self {
-            Frames::Rows { sent, .. } => crop.of(*sent),
-            Frames::Files(pictures) => pictures.info(),
-        }
-    }
-
-    /// Refuses a camera that sends its pictures otherwise than before.
-    fn check(&self, found: &GivenFormat) -> Result<(), DriverError> {
-        let is_same = match self {
-            Frames::Rows { given, .. } => given == found,
-            Frames::Files(_) => found.picture.pixels == FourCc::MJPG,
-        };
-        if is_same {
-            return Ok(());
-        }
-        let why = format!(
-            "the camera came back with {}, expected what it gave before",
-            found.picture
-        );
-        Err(failed(ErrorKind::Protocol, START, why))
-    }
-
-    fn make(
-        &mut self,
-        picture: &Picture,
-        crop: Crop,
-        missed: u64,
-        mut into: FrameMut<'_>,
-    ) -> Result<(), DriverError> {
-        let damaged = picture.damaged;
-        let losses = || format!("{missed} pictures were missed and {damaged} were damaged");
-        match self {
-            Frames::Files(pictures) => pictures.decode(&picture.bytes, into, losses),
-            Frames::Rows {
-                given,
-                matrix,
-                sent,
-                row: room,
-            } => {
-                let size = |number: u32| usize::try_from(number).unwrap_or(usize::MAX);
-                let (stride, whole) = (size(given.stride), 3 * size(sent.width));
-                // The last row may end with its last pixel.
-                let least = stride * (size(sent.height) - 1) + 2 * size(sent.width);
-                if stride < 2 * size(sent.width) || picture.bytes.len() < least {
-                    let why = format!(
-                        "a picture of {} bytes, expected {least} of {}; before, {}",
-                        picture.bytes.len(),
-                        given.picture,
-                        losses()
-                    );
-                    return Err(failed(ErrorKind::Protocol, CAPTURE, why));
-                }
-                room.resize(whole, 0);
-                let kept = 3 * size(crop.of(*sent).width);
-                let begin = 3 * size(crop.left);
-                let rows = picture.bytes.chunks(stride).skip(size(crop.top));
-                for (row, into) in rows.zip(into.bytes_mut().chunks_exact_mut(kept.max(1))) {
-                    matrix.row(row, room);
-                    into.copy_from_slice(&room[begin..begin + kept]);
-                }
-                Ok(())
-            }
         }
     }
 }

@@ -5,8 +5,7 @@ use std::collections::BTreeMap;
 use taceva_core::{ArgSpec, ArgValue, Args, DriverError, ErrorKind};
 use taceva_v4l2::{Camera, Control, ControlId, V4l2Error};
 
-use super::KEY;
-use super::camera::kind_of;
+use super::error::{failed, refused};
 
 /// What the caller wants of a camera; what is absent stays as it is, and is read back.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -134,12 +133,13 @@ impl Knob {
     ) -> Result<(), DriverError> {
         let name = self.name;
         let is_automatic = self.let_go(camera, keeps_automatic)?;
-        let control = camera.control(self.control).map_err(refused)?;
+        let control = camera.control(self.control).map_err(refused(FIX))?;
         match (control, self.wanted) {
             (None, None) => {}
             (None, Some(_)) => {
                 return Err(failed(
                     ErrorKind::Unsupported,
+                    FIX,
                     format!("the camera has no `{name}` to set"),
                 ));
             }
@@ -147,7 +147,7 @@ impl Knob {
                 if let Some(wanted) = wanted.filter(|_| !is_automatic) {
                     self.set(camera, &control, wanted)?;
                 }
-                let value = camera.value(self.control).map_err(refused)?;
+                let value = camera.value(self.control).map_err(refused(FIX))?;
                 found.insert(name.to_owned(), self.shown(value));
             }
         }
@@ -160,23 +160,24 @@ impl Knob {
     /// Whether the camera sets it by itself, after it was told not to.
     fn let_go(&self, camera: &mut Camera, keeps: bool) -> Result<bool, DriverError> {
         let (automatic, off) = self.automatic;
-        if camera.control(automatic).map_err(refused)?.is_none() {
+        if camera.control(automatic).map_err(refused(FIX))?.is_none() {
             return Ok(false);
         }
         if keeps {
-            return Ok(camera.value(automatic).map_err(refused)? != off);
+            return Ok(camera.value(automatic).map_err(refused(FIX))? != off);
         }
         let why = match camera.set(automatic, off) {
             Ok(value) if value == off => return Ok(false),
             Ok(_) => "it does not let go".to_owned(),
             Err(error @ (V4l2Error::Gone { .. } | V4l2Error::Busy { .. })) => {
-                return Err(refused(error));
+                return Err(refused(FIX)(error));
             }
             Err(error) => error.to_string(),
         };
         let name = self.name;
         Err(failed(
             ErrorKind::Unsupported,
+            FIX,
             format!(
                 "the camera sets `{name}` by itself, {why}: pictures would change without a touch; `automatic=keep` records it all the same"
             ),
@@ -195,16 +196,16 @@ impl Knob {
                 self.shown(least),
                 self.shown(greatest)
             );
-            return Err(failed(ErrorKind::OutOfRange, why));
+            return Err(failed(ErrorKind::OutOfRange, FIX, why));
         }
-        let value = camera.set(self.control, wanted).map_err(refused)?;
+        let value = camera.set(self.control, wanted).map_err(refused(FIX))?;
         if value != wanted {
             let why = format!(
                 "the camera made `{name}` {}, expected {}",
                 self.shown(value),
                 self.shown(wanted)
             );
-            return Err(failed(ErrorKind::DeviceFault, why));
+            return Err(failed(ErrorKind::DeviceFault, FIX, why));
         }
         Ok(())
     }
@@ -216,12 +217,4 @@ impl Knob {
             false => value.to_string(),
         }
     }
-}
-
-fn refused(error: V4l2Error) -> DriverError {
-    DriverError::new(kind_of(&error), &KEY, FIX).because(error)
-}
-
-fn failed(kind: ErrorKind, why: String) -> DriverError {
-    DriverError::new(kind, &KEY, FIX).because(why)
 }

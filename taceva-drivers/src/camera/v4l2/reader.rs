@@ -8,7 +8,7 @@ use std::time::Duration;
 
 use taceva_v4l2::{Camera, Stream};
 
-use super::camera::kind_of;
+use super::error::kind_of;
 use crate::link::mailbox::Ending;
 use crate::link::{Mailbox, monotonic};
 
