@@ -13,7 +13,16 @@ pub(crate) mod watch;
 pub(crate) use connect::connect;
 #[cfg(feature = "tcp")]
 pub(crate) use error::LinkError;
-pub(crate) use mailbox::{Mailbox, Seen};
+pub(crate) use mailbox::Mailbox;
+#[cfg(any(
+    feature = "camera",
+    feature = "gcode",
+    feature = "netft",
+    feature = "sri",
+    feature = "ur",
+    feature = "xarm"
+))]
+pub(crate) use mailbox::Seen;
 
 /// The bytes that `text` writes in hexadecimal, white space between them.
 #[cfg(all(

@@ -5,7 +5,7 @@ use taceva_core::{
     SpeedError, check_pose,
 };
 
-use crate::arguments::{deceleration, robot_facts, speed_limit, speed_max};
+use crate::arguments::robot::{deceleration, robot_facts, speed_limit, speed_max};
 
 /// What a machine is opened with.
 #[derive(Clone, Debug, PartialEq)]

@@ -31,6 +31,7 @@ impl<S> Heard<S> {
     };
 
     /// An answer alone.
+    #[cfg(any(test, feature = "grbl"))]
     pub(super) fn answer(answer: Answer) -> Heard<S> {
         Heard {
             answer: Some(answer),
@@ -41,6 +42,10 @@ impl<S> Heard<S> {
 
 /// What a machine says of a command.
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[cfg_attr(
+    not(feature = "marlin"),
+    expect(dead_code, reason = "GRBL says less than others")
+)]
 pub(super) enum Answer {
     /// It was taken.
     Ok,

@@ -33,6 +33,8 @@ pub(super) enum HidOpenError {
     None { expected: String, found: String },
     #[error("there are several: {found}; name one by `serial=`, `usb=` or `device=`")]
     Several { found: String },
+    #[error("it is not said which: name it by `usb=`, `serial=` or `device=`; there are {found}")]
+    Unnamed { found: String },
     #[error("{}: {source}", shown(.path))]
     Refused { path: String, source: io::Error },
     #[error("{} is no HID device: {why}", shown(.path))]
@@ -45,6 +47,7 @@ impl HidOpenError {
         match self {
             HidOpenError::Numbers(_)
             | HidOpenError::Several { .. }
+            | HidOpenError::Unnamed { .. }
             | HidOpenError::Foreign { .. } => ErrorKind::InvalidArgument,
             HidOpenError::List(_) => ErrorKind::Internal,
             HidOpenError::None { .. } => ErrorKind::NotFound,
@@ -164,13 +167,19 @@ impl Selection {
         })
     }
 
-    /// Opens the one device that fits, of those with `usage` where nothing else is said of it.
+    /// Opens the one device that fits, of those with `usage` where nothing else is said of it. Where no usage is asked for it must be named: any
+    /// mouse would fit.
     pub(super) fn open(&self, usage: Option<(u16, u16)>) -> Result<HidDevice, HidOpenError> {
-        let path = match &self.device {
-            Some(path) => path.clone(),
-            None => self.only(&Present::all()?, usage)?.path.clone(),
-        };
-        open(&path)
+        if let Some(path) = &self.device {
+            return open(path);
+        }
+        let present = Present::all()?;
+        if usage.is_none() && *self == Selection::default() {
+            return Err(HidOpenError::Unnamed {
+                found: listed(present.iter()),
+            });
+        }
+        open(&self.only(&present, usage)?.path)
     }
 
     fn only<'a>(
@@ -331,6 +340,11 @@ mod tests {
 
     #[test]
     fn what_cannot_be_opened_is_said_by_its_kind() {
+        let unnamed = Selection::default().open(None).map(drop);
+        assert_eq!(
+            unnamed.expect_err("any device").kind(),
+            ErrorKind::InvalidArgument
+        );
         assert_eq!(
             open("/dev/no-such-hidraw")
                 .map(drop)

@@ -7,9 +7,9 @@ use taceva_core::{
 
 use super::KEY;
 use super::transducer::{NetftOptions, Transducer};
-use crate::arguments::{
-    FORCE_MAX, add_facts_of_force, force_facts, optional_number, port, port_of,
-};
+use crate::arguments::force::{FORCE_MAX, add_facts_of_force, force_facts};
+use crate::arguments::network::{port, port_of};
+use crate::arguments::optional_number;
 
 submit_builtin!(dyn ForceTransducer, || Ok(Box::new(NetftFactory::new()?)));
 

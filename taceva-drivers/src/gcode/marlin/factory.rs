@@ -7,7 +7,7 @@ use taceva_core::{
 
 use super::KEY;
 use super::machine::Printer;
-use crate::arguments::facts_of_robot;
+use crate::arguments::robot::facts_of_robot;
 use crate::gcode::limits::SerialOptions;
 use crate::gcode::present::adapters;
 

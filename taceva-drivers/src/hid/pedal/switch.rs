@@ -13,9 +13,10 @@ use crate::hid::selected::Selection;
 use crate::link::Mailbox;
 use crate::{OpenError, Selector};
 
-/// A pedal that is open: `hid/pedal`, or `hid/pedal:usb=0c45:7403;byte=2` where several HID devices are there.
+/// A pedal that is open: `hid/pedal:usb=0c45:7403`, or with `;byte=2` where not every bit of its reports is the pedal's.
 ///
 /// # The physical contract
+/// - It must be named by `usb`, `serial` or `device`: what a pedal is no device says of itself, and a mouse that moves must not count as one.
 /// - It is held while one of its bits is set in its reports; whoever watches it halts the robot once it is released, unplugged or not
 ///   understood. Until its first report it counts as released: it is pressed after it was opened.
 /// - A pedal sends a report when it changes and is silent otherwise: one whose electronics died while it was held cannot be told from one

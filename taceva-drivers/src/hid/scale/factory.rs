@@ -7,7 +7,8 @@ use taceva_core::{
 
 use super::KEY;
 use super::transducer::{SCALE, Transducer};
-use crate::arguments::{FORCE_MAX, add_facts_of_force, force_facts, optional_number};
+use crate::arguments::force::{FORCE_MAX, add_facts_of_force, force_facts};
+use crate::arguments::optional_number;
 use crate::hid::selected::{Present, Selection};
 
 submit_builtin!(dyn ForceTransducer, || Ok(Box::new(ScaleFactory::new()?)));
@@ -93,5 +94,26 @@ impl Factory<dyn ForceTransducer> for ScaleFactory {
         let present = Present::all().unwrap_or_default();
         let scales = present.iter().filter(|present| present.has_usage(SCALE));
         Ok(scales.map(|scale| scale.found(KEY)).collect())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_scale_is_slow_unless_somebody_measured_it() {
+        let factory = ScaleFactory::new().expect("a factory");
+        let described = |arguments: &str| {
+            let args = factory.descriptor().args(arguments).expect("good");
+            let described = factory.describe(&args).expect("no contradiction");
+            *described.force().expect("of a force transducer")
+        };
+        // Three periods without a weight, 1.5 s, are 0.25 mm at 0.17 mm/s: no robot presses so slowly.
+        assert_eq!(described("").rate, Some(Hertz(2.0)));
+        let measured = described("rate=10 Hz;force_max_n=49;resolution_n=0.0196");
+        assert_eq!(measured.rate, Some(Hertz(10.0)));
+        assert_eq!(measured.force_max.map(|force| force.0), Some(49.0));
+        assert_eq!(measured.resolution.map(|force| force.0), Some(0.0196));
     }
 }

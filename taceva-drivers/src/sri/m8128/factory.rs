@@ -8,9 +8,9 @@ use taceva_core::{
 use super::KEY;
 use super::frame::Check;
 use super::transducer::{M8128Options, Transducer, Zero};
-use crate::arguments::{
-    FORCE_MAX, add_facts_of_force, force_facts, optional_number, port, port_of,
-};
+use crate::arguments::force::{FORCE_MAX, add_facts_of_force, force_facts};
+use crate::arguments::network::{port, port_of};
+use crate::arguments::optional_number;
 
 submit_builtin!(dyn ForceTransducer, || Ok(Box::new(M8128Factory::new()?)));
 

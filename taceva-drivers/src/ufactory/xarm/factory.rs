@@ -8,7 +8,8 @@ use taceva_core::{
 use super::KEY;
 use super::arm::Arm;
 use super::options::XarmOptions;
-use crate::arguments::{deceleration, facts_of_robot, port, robot_facts, speed_limit};
+use crate::arguments::network::port;
+use crate::arguments::robot::{deceleration, facts_of_robot, robot_facts, speed_limit};
 
 submit_builtin!(dyn Robot, || Ok(Box::new(XarmFactory::new()?)));
 

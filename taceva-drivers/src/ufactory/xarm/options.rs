@@ -3,7 +3,8 @@
 use taceva_core::{ArgValue, Args, Millimetre, Point, Speed, Workspace};
 use thiserror::Error;
 
-use crate::arguments::{port_of, speed_max};
+use crate::arguments::network::port_of;
+use crate::arguments::robot::speed_max;
 use crate::text::shown;
 
 /// Where the controller is, and within which limits the arm moves.

@@ -7,7 +7,8 @@ use taceva_core::{
 
 use super::KEY;
 use super::arm::{Arm, UrOptions, failed};
-use crate::arguments::{facts_of_robot, port, port_of, robot_facts, speed_limit, speed_max};
+use crate::arguments::network::{port, port_of};
+use crate::arguments::robot::{facts_of_robot, robot_facts, speed_limit, speed_max};
 
 submit_builtin!(dyn Robot, || Ok(Box::new(UrFactory::new()?)));
 
