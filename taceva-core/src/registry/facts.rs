@@ -111,6 +111,8 @@ pub struct RobotFacts {
     pub latency_ms: Option<f64>,
     /// Whether it can stop by itself at a force.
     pub guarded_motion: bool,
+    /// Whether its poses are in a base frame of its own, which somebody must map to that of the sensor before it is moved over a gel.
+    pub base_frame: bool,
 }
 
 /// The box in which a tip may be, its faces included, in the sensor's frame.

@@ -81,6 +81,8 @@ impl WrittenProvides {
             stop_ms: value(&self.stop_ms),
             latency_ms: value(&self.latency_ms),
             guarded_motion: value(&self.guarded_motion).unwrap_or(false),
+            // No manifest says so yet.
+            base_frame: false,
         })
     }
 

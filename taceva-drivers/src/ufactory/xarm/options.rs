@@ -53,6 +53,7 @@ impl XarmOptions {
         RobotFacts {
             workspace: self.workspace,
             speed_max: Some(self.speed_max),
+            base_frame: true,
             ..RobotFacts::default()
         }
     }

@@ -21,7 +21,8 @@ fields!(RobotFacts {
     deceleration_mm_s2,
     stop_ms,
     latency_ms,
-    guarded_motion
+    guarded_motion,
+    base_frame
 });
 fields!(ForceFacts {
     axes,

@@ -1,0 +1,566 @@
+use std::sync::{Arc, Mutex, MutexGuard};
+use std::time::Duration;
+
+use taceva_core::{
+    Axes, Deadline, DriverError, DriverKey, ErrorKind, ForceTransducer, Frame, FrameInfo, FrameMut,
+    Halt, Newton, PixelFormat, Pose, Robot, Sensor, SinkError, Speed, Stamp, Wrench,
+};
+
+use crate::content_id::ContentId;
+use crate::plan::Plan;
+use crate::press::Motion;
+use crate::rig_file::{RigFile, SignedAxes};
+use crate::run::rig::plan;
+use crate::run::{
+    Answer, Cancel, Controls, Devices, Left, Mode, Observation, Operator, PressLog, PressRecord,
+    Question, ReferenceTouch, RunError, RunSpec, SessionRecord, SessionSpec, SharedSupervisor,
+    StopCause, Supervisor, Timekeeper, TouchFault, run_session,
+};
+
+/// How the transducer of the bench is mounted.
+const MOUNTED: [&str; 3] = ["x", "-y", "-z"];
+/// Where its gel begins, in mm, and how stiff it is against presses and pushes, in N/mm.
+const SURFACE_MM: f64 = 0.13;
+const STIFFNESS_N_MM: [f64; 3] = [0.1, 0.1, 0.5];
+
+fn rig_file(force_axes: [&str; 3]) -> RigFile {
+    let axes = SignedAxes::read(force_axes).expect("right-handed");
+    let text = format!(
+        "rig_version = 1\n[robot]\ndriver = \"lab/arm\"\ncarries = \"indenter\"\norigin_mm = [0.0, 0.0, 0.0]\naxes = [\"x\", \"y\", \"z\"]\n[force]\ndriver = \"lab/box\"\naxes = {axes}\n"
+    );
+    RigFile::parse("lab.toml", &text).expect("a rig")
+}
+
+/// A gel of three stiffnesses with an arm, a transducer and a camera, in simulated time.
+#[derive(Clone)]
+struct Bench(Arc<Mutex<State>>);
+
+struct State {
+    now_s: f64,
+    pose: Pose,
+    /// Where the tip touched the gel.
+    touched: Option<[f64; 2]>,
+    axes: SignedAxes,
+    readings: u32,
+    motions: u32,
+    is_halted: bool,
+    supervisor: Option<SharedSupervisor>,
+    // What may be wrong with it.
+    surface_mm: f64,
+    stiffness: f64,
+    latency_s: f64,
+    clings_n: f64,
+    sees: Sees,
+}
+
+#[derive(Clone, Copy, PartialEq)]
+enum Sees {
+    Touches,
+    Nothing,
+    /// What it saw once it shows for ever.
+    Afterwards,
+}
+
+impl Bench {
+    fn new(axes: [&str; 3]) -> Bench {
+        let mut pose = Pose::default();
+        pose.position.z.0 = -5.0;
+        Bench(Arc::new(Mutex::new(State {
+            now_s: 10.0,
+            pose,
+            touched: None,
+            axes: SignedAxes::read(axes).expect("right-handed"),
+            readings: 0,
+            motions: 0,
+            is_halted: false,
+            supervisor: None,
+            surface_mm: SURFACE_MM,
+            stiffness: 1.0,
+            latency_s: 0.0,
+            clings_n: 0.0,
+            sees: Sees::Touches,
+        })))
+    }
+
+    fn state(&self) -> MutexGuard<'_, State> {
+        self.0.lock().expect("whole")
+    }
+}
+
+impl State {
+    fn stamp(&self) -> Stamp {
+        Stamp {
+            valid_s: self.now_s,
+            received_s: None,
+        }
+    }
+
+    fn depth_mm(&self) -> f64 {
+        (self.pose.position.z.0 - self.surface_mm).max(0.0)
+    }
+
+    /// What the tip does to the gel, along the axes of the sensor.
+    fn force_n(&mut self) -> [f64; 3] {
+        let depth_mm = self.depth_mm();
+        if depth_mm <= 0.0 {
+            let is_new = self.touched.take().is_none();
+            return [0.0, 0.0, if is_new { 0.0 } else { self.clings_n }];
+        }
+        let here = [self.pose.position.x.0, self.pose.position.y.0];
+        let touched = *self.touched.get_or_insert(here);
+        let [x, y, z] = STIFFNESS_N_MM.map(|stiffness| stiffness * self.stiffness);
+        [
+            x * (here[0] - touched[0]),
+            y * (here[1] - touched[1]),
+            z * depth_mm,
+        ]
+    }
+}
+
+impl Halt for Bench {
+    fn halt(&self) -> Result<(), DriverError> {
+        self.state().is_halted = true;
+        Ok(())
+    }
+}
+
+impl Robot for Bench {
+    fn pose(&mut self, _: Deadline) -> Result<(Pose, Stamp), DriverError> {
+        let state = self.state();
+        Ok((state.pose, state.stamp()))
+    }
+
+    fn move_to(&mut self, target: Pose, speed: Speed, _: Deadline) -> Result<Stamp, DriverError> {
+        let mut state = self.state();
+        if state.is_halted {
+            let key = DriverKey::fixed("lab/arm");
+            return Err(DriverError::new(ErrorKind::Interrupted, &key, "move"));
+        }
+        let (from, to) = (state.pose.position, target.position);
+        let way_mm = (to.x.0 - from.x.0)
+            .hypot(to.y.0 - from.y.0)
+            .hypot(to.z.0 - from.z.0);
+        state.now_s += way_mm / speed.mm_per_s();
+        state.pose = target;
+        state.motions += 1;
+        state.force_n();
+        Ok(state.stamp())
+    }
+
+    fn halt_handle(&self) -> Arc<dyn Halt> {
+        Arc::new(self.clone())
+    }
+
+    fn clear_halt(&mut self, _: Deadline) -> Result<(), DriverError> {
+        self.state().is_halted = false;
+        Ok(())
+    }
+}
+
+struct Transducer(Bench);
+
+impl ForceTransducer for Transducer {
+    fn axes(&self) -> Axes {
+        Axes::FORCE
+    }
+
+    /// As it is mounted, turned as the rig file says, and shown to the supervisor as a thread of the guard would.
+    fn read(&mut self, _: Deadline) -> Result<(Wrench, Stamp), DriverError> {
+        let mut state = self.0.state();
+        state.readings += 1;
+        state.now_s += 0.002;
+        let mounted = SignedAxes::read(MOUNTED).expect("right-handed");
+        let hiss = f64::from(state.readings % 3) * 1e-4;
+        let force = state.force_n();
+        let force = state.axes.to_sensor(mounted.to_device(force));
+        let wrench = Wrench {
+            force: force.map(|force_n| Newton(force_n + 0.2 + hiss)),
+            ..Wrench::default()
+        };
+        let stamp = state.stamp();
+        let now_s = state.now_s + state.latency_s;
+        state.now_s = now_s;
+        let supervisor = state.supervisor.clone().expect("it is guarded");
+        let seen = Observation::Numbered(wrench, stamp, u64::from(state.readings));
+        drop(state);
+        let _ = supervisor.lock().observe(&seen, now_s);
+        // The next question is asked once the reading is here: it was true when this one was.
+        Ok((
+            wrench,
+            Stamp {
+                valid_s: now_s,
+                ..stamp
+            },
+        ))
+    }
+
+    fn sequence(&self) -> Option<u64> {
+        Some(u64::from(self.0.state().readings))
+    }
+}
+
+const FRAME: FrameInfo = FrameInfo {
+    width: 16,
+    height: 16,
+    format: PixelFormat::Gray8,
+};
+
+struct Camera(Bench);
+
+impl Sensor for Camera {
+    fn frame_info(&self) -> FrameInfo {
+        FRAME
+    }
+
+    fn capture(&mut self, mut into: FrameMut<'_>, _: Deadline) -> Result<Stamp, DriverError> {
+        let mut state = self.0.state();
+        state.now_s += 0.01;
+        let is_seen = match state.sees {
+            Sees::Nothing => false,
+            Sees::Touches => state.depth_mm() > 0.0,
+            Sees::Afterwards => state.readings > 0 && state.deepest() > 0.0,
+        };
+        for (place, byte) in into.bytes_mut().iter_mut().enumerate() {
+            *byte = if is_seen && place < 32 { 90 } else { 60 };
+        }
+        Ok(state.stamp())
+    }
+}
+
+impl State {
+    /// The way below the surface, for a picture that keeps what it saw.
+    fn deepest(&mut self) -> f64 {
+        if self.depth_mm() > 0.0 {
+            self.clings_n = self.clings_n.max(f64::MIN_POSITIVE);
+        }
+        self.clings_n
+    }
+}
+
+impl Timekeeper for Bench {
+    fn now_s(&self) -> f64 {
+        self.state().now_s
+    }
+
+    fn rest(&mut self, rest: Duration) {
+        self.state().now_s += rest.as_secs_f64();
+    }
+}
+
+/// What a session wrote.
+#[derive(Default)]
+struct Memory {
+    presses: usize,
+    sessions: Vec<SessionRecord>,
+}
+
+impl PressLog for Memory {
+    fn is_finished(&self, _: ContentId) -> bool {
+        false
+    }
+    fn append(&mut self, _: &PressRecord) -> Result<(), SinkError> {
+        self.presses += 1;
+        Ok(())
+    }
+    fn untouched(&mut self, _: &Frame) -> Result<(), SinkError> {
+        Ok(())
+    }
+    fn session(&mut self, record: &SessionRecord) -> Result<(), SinkError> {
+        assert_eq!(self.presses, 0, "it comes before the first press");
+        self.sessions.push(record.clone());
+        Ok(())
+    }
+}
+
+/// Answers, and notes how high the tip stood and how often it had moved.
+struct Person {
+    bench: Bench,
+    answer: Answer,
+    asked: Vec<(Question, f64, u32)>,
+}
+
+impl Operator for Person {
+    fn ask(&mut self, question: &Question, _: &Cancel) -> Answer {
+        let state = self.bench.state();
+        let asked = (question.clone(), state.pose.position.z.0, state.motions);
+        self.asked.push(asked);
+        self.answer
+    }
+}
+
+struct Session<'a> {
+    rig: &'a RigFile,
+    robot: Option<&'a str>,
+    touched: &'a [ReferenceTouch],
+    answer: Option<Answer>,
+}
+
+/// One touch of the surface, with a picture.
+fn one_press() -> Plan {
+    let mut plan = plan();
+    plan.presses.truncate(1);
+    let planned = &mut plan.presses[0];
+    planned.press.motion = Motion::Touch;
+    planned.press.light = None;
+    planned.frames = true;
+    plan.contact.threshold_n.value = 0.02;
+    plan.limits.as_mut().expect("it moves").signals.host_zero = true;
+    plan
+}
+
+fn begun(bench: &Bench, session: Session<'_>) -> (Result<(), RunError>, Memory, Person) {
+    let plan = one_press();
+    let mut log = Memory::default();
+    let mut person = Person {
+        bench: bench.clone(),
+        answer: session.answer.unwrap_or(Answer::Done),
+        asked: Vec::new(),
+    };
+    let limits = plan.limits.clone().expect("it moves");
+    let supervisor = Supervisor::new(limits, Arc::new(bench.clone()));
+    let supervisor = SharedSupervisor::new(supervisor);
+    bench.state().supervisor = Some(supervisor.clone());
+    let (mut robot, mut clock) = (bench.clone(), bench.clone());
+    let (mut force, mut camera) = (Transducer(bench.clone()), Camera(bench.clone()));
+    let devices = Devices {
+        robot: &mut robot,
+        force: &mut force,
+        sensor: Some(&mut camera),
+        lighting: None,
+        specimens: None,
+    };
+    let cancel = Cancel::new();
+    let has_person = session.answer.is_some();
+    let controls = Controls {
+        clock: &mut clock,
+        cancel: &cancel,
+        events: &mut |_| {},
+        operator: has_person.then_some(&mut person as &mut dyn Operator),
+    };
+    let spec = RunSpec {
+        plan: &plan,
+        unit: &plan.presses[0].press.unit,
+        mode: Mode::Acquire,
+    };
+    let session = SessionSpec {
+        rig: session.rig,
+        robot: session.robot,
+        touched: session.touched,
+    };
+    let done = run_session(&spec, devices, &mut log, (controls, supervisor, session));
+    (done.map(drop), log, person)
+}
+
+/// On a rig file with these axes of the transducer.
+fn with_axes(axes: [&str; 3]) -> (Result<(), RunError>, Memory) {
+    let (bench, rig) = (Bench::new(axes), rig_file(axes));
+    let session = Session {
+        rig: &rig,
+        robot: None,
+        touched: &[],
+        answer: None,
+    };
+    let (done, log, _) = begun(&bench, session);
+    (done, log)
+}
+
+/// On a bench of which `change` makes something wrong.
+fn with_fault(change: impl FnOnce(&mut State)) -> (StopCause, Left, usize) {
+    let (bench, rig) = (Bench::new(MOUNTED), rig_file(MOUNTED));
+    change(&mut bench.state());
+    let session = Session {
+        rig: &rig,
+        robot: None,
+        touched: &[],
+        answer: None,
+    };
+    let (done, log, _) = begun(&bench, session);
+    let error = done.expect_err("something is wrong");
+    (error.cause, error.left, log.presses)
+}
+
+#[test]
+fn a_rig_that_is_as_its_file_says_is_touched_gently_and_then_pressed() {
+    let (done, log) = with_axes(MOUNTED);
+    done.expect("nothing is wrong");
+    assert_eq!((log.presses, log.sessions.len()), (1, 1));
+    let SessionRecord {
+        touch,
+        zero,
+        pushes_felt,
+        picture_changed,
+        reaction_ms,
+        overshoot_mm,
+    } = &log.sessions[0];
+    // Felt where the force is 0.02 N, 0.04 mm below the surface, within what a straight line over one step of a bent one errs.
+    assert!((touch.height_mm - 0.17).abs() < 0.02, "{touch:?}");
+    // Three times that, or up to a quarter of a step more.
+    assert!((0.06..0.08).contains(&touch.force_n), "{touch:?}");
+    let pressed_mm = touch.height_mm + touch.depth_mm - SURFACE_MM;
+    assert!(
+        (touch.force_n - 0.5 * pressed_mm).abs() < 0.001,
+        "{touch:?}"
+    );
+    assert!((zero.force[2].0 - 0.2).abs() < 0.001, "{zero:?}");
+    assert_eq!((*pushes_felt, *picture_changed), ([true; 2], true));
+    // Read every 2 ms and shown at once; a halt is sent in 1 ms.
+    assert!((2.9..4.0).contains(reaction_ms), "{reaction_ms} ms");
+    assert!(*overshoot_mm < 0.3, "{overshoot_mm} mm");
+}
+
+#[test]
+fn every_other_way_to_write_the_axes_of_the_transducer_is_refused_with_its_line_and_the_right_one()
+{
+    let words = ["x", "y", "z", "-x", "-y", "-z"];
+    let mut refused = 0;
+    for x in words {
+        for y in words {
+            for z in words {
+                if SignedAxes::read([x, y, z]).is_err() || [x, y, z] == MOUNTED {
+                    continue;
+                }
+                let (done, log) = with_axes([x, y, z]);
+                let error = done.expect_err("the axes are wrong");
+                let said = error.to_string();
+                assert!(matches!(error.cause, StopCause::Rig(_)), "{said}");
+                assert!(
+                    said.starts_with("lab.toml, line 9: `axes` of [force]: "),
+                    "{said}"
+                );
+                let line = "write axes = [\"x\", \"-y\", \"-z\"]";
+                assert!(said.contains(line), "{x} {y} {z}: {said}");
+                assert_eq!((error.left, log.presses), (Left::Clear, 0), "{said}");
+                refused += 1;
+            }
+        }
+    }
+    assert_eq!(refused, 23);
+}
+
+#[test]
+fn a_tip_that_finds_no_gel_names_the_origin_of_the_rig_file() {
+    let (cause, left, presses) = with_fault(|state| state.surface_mm = 1e3);
+    let said = cause.to_string();
+    assert!(
+        said.starts_with("lab.toml, line 5: nothing was touched"),
+        "{said}"
+    );
+    assert_eq!((left, presses), (Left::Clear, 0));
+}
+
+#[test]
+fn a_camera_that_does_not_see_the_touch_is_refused_and_one_that_goes_on_seeing_it_too() {
+    let (cause, _, presses) = with_fault(|state| state.sees = Sees::Nothing);
+    assert!(
+        matches!(cause, StopCause::Touch(TouchFault::Unseen { .. })),
+        "{cause}"
+    );
+    assert_eq!(presses, 0);
+    let (cause, _, presses) = with_fault(|state| state.sees = Sees::Afterwards);
+    assert!(
+        matches!(cause, StopCause::Touch(TouchFault::Stays { .. })),
+        "{cause}"
+    );
+    assert_eq!(presses, 0);
+}
+
+#[test]
+fn a_machine_that_reads_late_is_refused_with_what_helps() {
+    // 40 ms and a period of 42 at 4 mm/s are 0.33 mm, beyond 0.3 of 1 mm.
+    let (cause, left, presses) = with_fault(|state| state.latency_s = 0.04);
+    let said = cause.to_string();
+    let StopCause::SlowGuard {
+        reaction_ms,
+        overshoot_mm,
+        greatest_mm,
+        speed_mm_s,
+    } = cause
+    else {
+        panic!("{said}");
+    };
+    assert!((82.0..84.0).contains(&reaction_ms), "{said}");
+    assert!(
+        overshoot_mm > greatest_mm && (0.3 - greatest_mm).abs() < 1e-9,
+        "{said}"
+    );
+    assert!((2.0..4.0).contains(&speed_mm_s), "{said}");
+    assert!(
+        said.contains("`chrt -f 10 taceva run …`") && said.contains("`speed_mm_s`"),
+        "{said}"
+    );
+    assert_eq!((left, presses), (Left::Clear, 0));
+}
+
+#[test]
+fn a_robot_is_enabled_by_its_name_before_it_moves_and_not_at_all_where_nobody_says_so() {
+    let (bench, rig) = (Bench::new(MOUNTED), rig_file(MOUNTED));
+    let session = |answer| Session {
+        rig: &rig,
+        robot: Some("lab/arm"),
+        touched: &[],
+        answer,
+    };
+    let (done, log, person) = begun(&bench, session(Some(Answer::Stop)));
+    let error = done.expect_err("not enabled");
+    assert!(matches!(error.cause, StopCause::Cancelled), "{error}");
+    assert_eq!((error.left, log.presses), (Left::Untouched, 0));
+    assert_eq!(person.asked[0].0, Question::Enable("lab/arm".to_owned()));
+    let (done, ..) = begun(&bench, session(None));
+    let error = done.expect_err("nobody is there");
+    assert!(matches!(error.cause, StopCause::Missing(_)), "{error}");
+    assert_eq!(bench.state().motions, 0);
+    let (done, log, person) = begun(&bench, session(Some(Answer::Done)));
+    done.expect("enabled");
+    assert_eq!(log.presses, 1);
+    let [(enable, _, moved), (mount, height_mm, _)] = &person.asked[..] else {
+        panic!("{:?}", person.asked);
+    };
+    assert!(matches!(enable, Question::Enable(_)) && *moved == 0);
+    // Hands come near at the height of travel or above it.
+    assert!(matches!(mount, Question::Mount(_)) && *height_mm <= -2.0);
+}
+
+#[test]
+fn a_gel_that_is_not_touched_as_before_is_asked_about_and_one_that_is_goes_on() {
+    let (bench, rig) = (Bench::new(MOUNTED), rig_file(MOUNTED));
+    let session = |touched, answer| Session {
+        rig: &rig,
+        robot: None,
+        touched,
+        answer,
+    };
+    let (done, log, _) = begun(&bench, session(&[], None));
+    done.expect("the first session");
+    let touched = [log.sessions[0].touch.clone()];
+    let (done, log, person) = begun(&bench, session(&touched, Some(Answer::Done)));
+    done.expect("the same gel");
+    assert!(
+        !person
+            .asked
+            .iter()
+            .any(|(asked, ..)| matches!(asked, Question::Resume(_))),
+        "{:?}",
+        person.asked
+    );
+    assert!((log.sessions[0].touch.depth_mm - touched[0].depth_mm).abs() < 1e-9);
+    // It was moved by a quarter of a millimetre, or it is another one.
+    for change in [
+        (|state: &mut State| state.surface_mm += 0.25) as fn(&mut State),
+        |state| state.stiffness = 1.3,
+    ] {
+        let bench = Bench::new(MOUNTED);
+        change(&mut bench.state());
+        let (done, log, person) = begun(&bench, session(&touched, Some(Answer::Done)));
+        done.expect("somebody says that it is the same");
+        assert_eq!(log.presses, 1);
+        let (asked, height_mm, _) = person.asked.last().expect("asked");
+        assert!(
+            matches!(asked, Question::Resume(_)) && *height_mm <= -2.0,
+            "{asked:?}"
+        );
+        let (done, log, _) = begun(&bench, session(&touched, None));
+        let error = done.expect_err("nobody can be asked");
+        assert!(matches!(error.cause, StopCause::Missing(_)), "{error}");
+        assert_eq!(log.presses, 0);
+    }
+}
