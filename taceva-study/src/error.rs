@@ -140,7 +140,12 @@ impl StudyError {
             StudyError::Device(_) => true,
             StudyError::Open { source, .. } => matches!(**source, OpenError::Device(_)),
             StudyError::Acquisition { source, .. } => {
-                !matches!(source.cause, StopCause::Cancelled | StopCause::Log(_))
+                let cause = &source.cause;
+                // A rig file that is wrong is a file that is wrong.
+                !matches!(
+                    cause,
+                    StopCause::Cancelled | StopCause::Log(_) | StopCause::Rig(_)
+                )
             }
             _ => false,
         }

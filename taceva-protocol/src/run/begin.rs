@@ -7,7 +7,7 @@ mod touch;
 
 use std::time::Duration;
 
-use taceva_core::{Degree, Nanometre};
+use taceva_core::{Degree, Nanometre, Speed};
 
 use super::error::{Left, RunError, StopCause};
 use super::log::PressLog;
@@ -22,6 +22,8 @@ use crate::plan::PlannedPress;
 const TIMED: Duration = Duration::from_secs(2);
 /// Of the depth that is allowed, so much may be passed by a machine that reacts late.
 const OVERSHOOT_PART: f64 = 0.3;
+/// How fast the tip passes through the air for the first time, in mm/s.
+const AIR_MM_S: f64 = 10.0;
 /// Times that silence may break the beginning off.
 const TRIES: u32 = 3;
 
@@ -132,10 +134,10 @@ impl Run<'_> {
         allowed(reaction_s, limits, self.plan.contact.speed_mm_s.value)
     }
 
-    /// Goes over three of the places as slowly as in contact, so that whoever looks on sees where the robot is going to move.
+    /// Goes over three of the places slowly, so that whoever looks on sees where the robot is going to move.
     fn pass_through_the_air(&mut self, places: &[[Nanometre; 2]]) -> Step<()> {
         let usual = self.tip.pace;
-        self.tip.pace.travel = usual.contact;
+        self.tip.pace.travel = slowly(usual.travel);
         let height_mm = -usual.clearance_mm;
         let passed = farthest(places).into_iter().try_for_each(|place| {
             let place = place.map(Nanometre::to_millimetres);
@@ -143,6 +145,14 @@ impl Run<'_> {
         });
         self.tip.pace = usual;
         passed
+    }
+}
+
+/// At most as fast as somebody with a hand on the stop can follow.
+fn slowly(travel: Speed) -> Speed {
+    match Speed::try_new(AIR_MM_S) {
+        Ok(slow) if slow.mm_per_s() < travel.mm_per_s() => slow,
+        _ => travel,
     }
 }
 

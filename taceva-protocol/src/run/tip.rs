@@ -63,7 +63,7 @@ pub(super) struct Tip<'a> {
 /// How fast, how far, how hard.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Pace {
-    pub(super) contact: Speed,
+    contact: Speed,
     pub(super) travel: Speed,
     pub(super) segment_mm: f64,
     pub(super) step_mm: f64,

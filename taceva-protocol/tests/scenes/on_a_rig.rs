@@ -67,21 +67,18 @@ fn devices() -> RigInfo {
         sensor: Some(descriptor("lab/camera", Facts::Sensor(Box::default()))),
         robot: Some(descriptor(
             "lab/arm",
-            Facts::Robot(RobotFacts {
-                workspace: Some(Workspace {
-                    least: corner(200.0, -100.0, 150.0),
-                    greatest: corner(500.0, 100.0, 300.0),
-                }),
-                speed_max: Some(Speed::try_new(100.0).expect("a speed")),
-                ..RobotFacts::default()
-            }),
+            Facts::Robot(
+                RobotFacts::default()
+                    .with_workspace(Workspace {
+                        least: corner(200.0, -100.0, 150.0),
+                        greatest: corner(500.0, 100.0, 300.0),
+                    })
+                    .with_speed_max(Speed::try_new(100.0).expect("a speed")),
+            ),
         )),
         force: Some(descriptor(
             "lab/box",
-            Facts::Force(ForceFacts {
-                axes: Axes::NORMAL,
-                ..ForceFacts::default()
-            }),
+            Facts::Force(ForceFacts::default().with_axes(Axes::NORMAL)),
         )),
         lighting: None,
     }
@@ -274,10 +271,7 @@ fn a_rig_says_whether_it_is_emulated_and_is_real_where_it_says_nothing() {
 #[test]
 fn a_robot_that_moves_in_its_base_frame_is_refused_without_a_rig_file_that_maps_it() {
     let mut devices = devices();
-    let in_base = RobotFacts {
-        base_frame: true,
-        ..RobotFacts::default()
-    };
+    let in_base = RobotFacts::default().with_base_frame(true);
     devices.robot = Some(descriptor("lab/arm", Facts::Robot(in_base)));
     let text = SCENE.replacen(
         "rig = \"lab.toml\"\n",

@@ -51,7 +51,7 @@ impl PlannedScene {
         });
         for study in real {
             let mut needed = study.by_hand();
-            let rig = study.study.rig.as_ref();
+            let rig = study.rig().filter(|rig| !rig.simulated);
             if let Some(robot) = rig.and_then(|rig| rig.robot.as_ref()) {
                 let robot = taceva_core::shown(&robot.driver.value);
                 needed.insert(0, format!("somebody lets `{robot}` move"));

@@ -278,9 +278,7 @@ mod tests {
             let stops: Box<dyn Robot> = Box::new(Stops { is_felt });
             let mut late = Late::new(stops, 4.0);
             let guarded = late.guarded_motion().expect("it has it");
-            let guard = Guard {
-                force: taceva_core::Newton(0.5),
-            };
+            let guard = Guard::at(taceva_core::Newton(0.5));
             let speed = Speed::try_new(1.0).expect("a speed");
             let stop = guarded.move_guarded(Pose::default(), speed, guard, Deadline::PASSED);
             let (GuardedStop::Guarded { stamp, .. } | GuardedStop::Arrived { stamp }) =

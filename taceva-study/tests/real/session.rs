@@ -21,6 +21,11 @@ pub(crate) fn rig_file(folder: &Path, force_axes: &str) -> PathBuf {
     path
 }
 
+/// The scene with a tip so slow in contact that a busy machine is in time.
+fn scene() -> String {
+    SCENE.replacen("speed_mm_s = 5.0", "speed_mm_s = 1.5", 1)
+}
+
 pub(crate) const UPRIGHT: &str = "[\"x\", \"y\", \"z\"]";
 
 /// Says yes to everything, and notes what was asked.
@@ -65,7 +70,7 @@ fn a_session_is_enabled_tried_and_written_down_and_the_next_one_goes_on_where_th
     let person = Mutex::new(Person::default());
     let table = run.join("recordings/1-wall.sessions.csv");
     let stops = StopsInPress(&world, table, AtomicBool::new(false));
-    let stopped = record_on(&world, &run, &stops, (SCENE, Some(&rig), Some(&person)));
+    let stopped = record_on(&world, &run, &stops, (&scene(), Some(&rig), Some(&person)));
     let Err(StudyError::Acquisition { source, .. }) = stopped else {
         panic!("it was stopped in a press");
     };
@@ -79,7 +84,7 @@ fn a_session_is_enabled_tried_and_written_down_and_the_next_one_goes_on_where_th
         &world,
         &run,
         &SilentProgress,
-        (SCENE, Some(&rig), Some(&person)),
+        (&scene(), Some(&rig), Some(&person)),
     );
     assert_eq!(dataset.expect("it goes on").table().samples().len(), 6);
     let rows = rows(&run);
@@ -110,7 +115,7 @@ fn a_transducer_that_is_upside_down_in_the_rig_file_stops_the_session_before_its
         &world,
         &run,
         &SilentProgress,
-        (SCENE, Some(&rig), Some(&person)),
+        (&scene(), Some(&rig), Some(&person)),
     );
     let said = refused.expect_err("pressed, it pulls").to_string();
     let line = "lab.toml, line 9: `axes` of [force]: pressed along +z, the gel was felt along -z";
@@ -127,7 +132,7 @@ fn a_robot_that_nobody_is_there_to_let_move_is_refused_before_anything_is_opened
     let (world, folder) = (World::new(), tempfile::tempdir().expect("a folder"));
     let rig = rig_file(folder.path(), UPRIGHT);
     let run = folder.path().join("run");
-    let refused = record_on(&world, &run, &SilentProgress, (SCENE, Some(&rig), None));
+    let refused = record_on(&world, &run, &SilentProgress, (&scene(), Some(&rig), None));
     let refused = refused.expect_err("nobody is there");
     assert!(refused.is_usage());
     let said = refused.to_string();
@@ -165,7 +170,7 @@ fn ctrl_c_at_any_moment_leaves_the_tip_above_the_gel_and_no_press_is_lost_or_dou
     // While readings are timed, in the air, in the gentle touch, in presses.
     for seconds in [0.3, 2.2, 2.9, 3.6, 4.4, 5.3] {
         let stops = StopsAfter::seconds(seconds);
-        let stopped = record_on(&world, &run, &stops, (SCENE, Some(&rig), Some(&person)));
+        let stopped = record_on(&world, &run, &stops, (&scene(), Some(&rig), Some(&person)));
         match stopped {
             Err(StudyError::Acquisition { source, .. }) => {
                 assert!(
@@ -184,7 +189,7 @@ fn ctrl_c_at_any_moment_leaves_the_tip_above_the_gel_and_no_press_is_lost_or_dou
         &world,
         &run,
         &SilentProgress,
-        (SCENE, Some(&rig), Some(&person)),
+        (&scene(), Some(&rig), Some(&person)),
     );
     let dataset = dataset.expect("it goes on");
     let mut names: Vec<String> = dataset.table().samples().to_vec();
@@ -213,7 +218,7 @@ fn an_operator_who_walks_away_is_waited_for_while_nothing_moves_until_somebody_s
     let run = folder.path().join("run");
     let nobody = Mutex::new(WalkedAway(world.clone(), u32::MAX));
     let stops = StopsAfter::seconds(1.0);
-    let stopped = record_on(&world, &run, &stops, (SCENE, Some(&rig), Some(&nobody)));
+    let stopped = record_on(&world, &run, &stops, (&scene(), Some(&rig), Some(&nobody)));
     let said = stopped.expect_err("nobody let it move").to_string();
     assert!(said.contains("stopped on request"), "{said}");
     assert_eq!(
@@ -231,7 +236,7 @@ fn a_disk_that_takes_no_session_stops_it_before_its_first_press() {
     // Written beside its place first, where a folder stands in the way.
     let in_the_way = run.join("recordings/.1-wall.sessions.csv.partial");
     let blocks = Blocks(in_the_way.clone());
-    let stopped = record_on(&world, &run, &blocks, (SCENE, Some(&rig), Some(&person)));
+    let stopped = record_on(&world, &run, &blocks, (&scene(), Some(&rig), Some(&person)));
     let Err(StudyError::Acquisition { source, .. }) = stopped else {
         panic!("it could not be written");
     };
@@ -242,7 +247,7 @@ fn a_disk_that_takes_no_session_stops_it_before_its_first_press() {
         &world,
         &run,
         &SilentProgress,
-        (SCENE, Some(&rig), Some(&person)),
+        (&scene(), Some(&rig), Some(&person)),
     );
     assert_eq!(dataset.expect("it goes on").table().samples().len(), 6);
 }
@@ -256,4 +261,7 @@ impl Progress for Blocks {
     }
     fn advance(&self, _: u64) {}
     fn end(&self) {}
+    fn is_cancelled(&self) -> bool {
+        false
+    }
 }

@@ -50,12 +50,10 @@ impl XarmOptions {
 
     /// What is known of the arm before it is opened.
     pub(super) fn facts(&self) -> RobotFacts {
-        RobotFacts {
-            workspace: self.workspace,
-            speed_max: Some(self.speed_max),
-            base_frame: true,
-            ..RobotFacts::default()
-        }
+        RobotFacts::default()
+            .with_workspace(self.workspace)
+            .with_speed_max(self.speed_max)
+            .with_base_frame(true)
     }
 }
 
