@@ -34,6 +34,7 @@ use log::RecordedPresses;
 pub(crate) use of_file::{FileDevices, FileOpener};
 pub use rehearse::{AIR_MM, rehearse_scene};
 use schedule::Schedule;
+pub use sessions::RecordedSessions;
 use sessions::Sessions;
 pub use workshop::{Surroundings, SurroundingsOf, Upcoming, Workshop};
 

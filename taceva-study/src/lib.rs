@@ -34,7 +34,8 @@ mod taken_rows;
 mod work;
 
 pub use acquire::{
-    AIR_MM, HeldRigs, Surroundings, SurroundingsOf, Upcoming, Workshop, rehearse_scene,
+    AIR_MM, HeldRigs, RecordedSessions, Surroundings, SurroundingsOf, Upcoming, Workshop,
+    rehearse_scene,
 };
 pub use cache::{
     Cache, CacheEntry, CachedStage, Pruning, StageRecord, cache_entries, pruned, remove_entry,

@@ -130,6 +130,28 @@ impl Sessions {
     }
 }
 
+/// The sessions on a real rig in which a recording was made.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct RecordedSessions {
+    /// How many boots of the machine stamped its samples: each has a clock that begins anew.
+    pub boots: usize,
+    /// What reports say of them.
+    pub note: String,
+}
+
+/// The sessions of the recording at `path`, if it was made in some and their table is beside it still.
+pub(crate) fn recorded_in(path: &Path) -> Option<RecordedSessions> {
+    let note = note(path)?;
+    let rows = Sessions::of(path).ok()?.rows;
+    let mut boots: Vec<&str> = rows.iter().map(|row| row.boot_id.as_str()).collect();
+    boots.sort_unstable();
+    boots.dedup();
+    Some(RecordedSessions {
+        boots: boots.len(),
+        note,
+    })
+}
+
 /// A note on the recording at `path`, if it was made in sessions on a real rig.
 pub(crate) fn note(path: &Path) -> Option<String> {
     // A recording that was moved has left the table behind.
