@@ -175,6 +175,7 @@ fn recording_spec(study: &PlannedStudy, open: &OpenRig, is_simulated: bool) -> R
     }
     let mut facts = RecordingFacts::new(source, taceva_core::Clock::Monotonic, sensor);
     facts.footprint = footprint(plan);
+    facts.settings = open.settings_of_sensor();
     RecordingSpec::new(facts, plan.truth_channels())
 }
 

@@ -1,5 +1,6 @@
 //! The devices of a rig, opened for one unit of the sensor and lent to a run.
 
+use std::collections::BTreeMap;
 use std::sync::{Arc, PoisonError};
 use std::time::Duration;
 
@@ -118,6 +119,12 @@ impl OpenRig {
             lighting: lighting.map(|lighting| lighting.device),
             surroundings,
         })
+    }
+
+    /// What was set of the camera and read back.
+    pub(super) fn settings_of_sensor(&self) -> BTreeMap<String, String> {
+        let sensor = self.sensor.as_ref();
+        sensor.map(|sensor| sensor.settings()).unwrap_or_default()
     }
 
     /// Makes the presses of `spec`, under a guard where the rig is real.

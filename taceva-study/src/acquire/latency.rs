@@ -1,5 +1,6 @@
 //! Devices whose stamps come late, with stamps of when observations were true.
 
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use taceva_core::{
@@ -164,6 +165,10 @@ impl Sensor for Late<dyn Sensor> {
 
     fn interrupt_handle(&self) -> Option<Arc<dyn Interrupt>> {
         self.device.interrupt_handle()
+    }
+
+    fn settings(&self) -> BTreeMap<String, String> {
+        self.device.settings()
     }
 
     fn lighting(&mut self) -> Option<&mut dyn Lighting> {

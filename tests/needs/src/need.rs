@@ -38,6 +38,10 @@ pub enum Need {
     PublicClients,
     /// `ffmpeg`, which serves a stream of pictures.
     Ffmpeg,
+    /// QEMU, a static busybox and a kernel with its modules: a virtual machine for devices that only a kernel can emulate.
+    Kernel,
+    /// Python with OctoPrint, whose virtual printer speaks as Marlin does.
+    VirtualPrinter,
     /// An example that is built where a whole package is tested, and not by a single test of it.
     Example,
 }
@@ -51,7 +55,7 @@ pub struct UnknownNeed(
 
 impl Need {
     /// Every need.
-    pub const ALL: [Need; 16] = [
+    pub const ALL: [Need; 18] = [
         Need::Browser,
         Need::Axe,
         Need::Latex,
@@ -67,6 +71,8 @@ impl Need {
         Need::Gpu,
         Need::PublicClients,
         Need::Ffmpeg,
+        Need::Kernel,
+        Need::VirtualPrinter,
         Need::Example,
     ];
 
@@ -88,6 +94,8 @@ impl Need {
             Need::Gpu => "gpu",
             Need::PublicClients => "public-clients",
             Need::Ffmpeg => "ffmpeg",
+            Need::Kernel => "kernel",
+            Need::VirtualPrinter => "virtual-printer",
             Need::Example => "example",
         }
     }

@@ -23,13 +23,19 @@ mod fault;
 mod options;
 mod rig_file;
 mod server;
+#[cfg(unix)]
+mod terminal;
 
 pub mod control;
 #[cfg(unix)]
 pub mod grbl;
+#[cfg(unix)]
+pub mod marlin;
 pub mod mjpeg;
 pub mod netft;
 pub mod sri;
+#[cfg(target_os = "linux")]
+pub mod uhid;
 pub mod ur;
 pub mod xarm;
 

@@ -15,6 +15,7 @@ use crate::server::{End, read};
 struct Settings {
     rate_hz: u32,
     is_streaming: bool,
+    is_crc32: bool,
 }
 
 /// The stream of one client, and what it wants of it.
@@ -49,6 +50,7 @@ pub(super) fn serve(mut stream: TcpStream, bench: &WallBench, end: &End) {
         settings: Mutex::new(Settings {
             rate_hz: 200,
             is_streaming: false,
+            is_crc32: false,
         }),
         stream: Mutex::new(writing),
     });
@@ -88,7 +90,13 @@ fn answer(command: &str, session: &Session, bench: &WallBench) -> Option<String>
             }
             _ => false,
         },
-        "DCKMD" => value == "SUM",
+        "DCKMD" => match value {
+            "SUM" | "CRC32" => {
+                session.settings().is_crc32 = value == "CRC32";
+                true
+            }
+            _ => false,
+        },
         "SGDM" => value == "(A01,A02,A03,A04,A05,A06);E;1;(WMA:1)",
         "GSD" if value == "STOP" => {
             session.settings().is_streaming = false;
@@ -122,6 +130,7 @@ fn stream_readings(session: &Session, bench: &WallBench, over: &End) {
         let Settings {
             rate_hz,
             is_streaming,
+            is_crc32,
         } = *session.settings();
         let now = bench.now();
         if !is_streaming {
@@ -146,7 +155,7 @@ fn stream_readings(session: &Session, bench: &WallBench, over: &End) {
         if bench.is_faulty(Device::Force, FaultKind::NotANumber) {
             values[2] = f64::NAN;
         }
-        held.extend(frame(number, values));
+        held.extend(frame(number, values, is_crc32));
         if bench.delay(Device::Force).is_zero() {
             let frames = std::mem::take(&mut held);
             if !session.send(&frames) {
@@ -156,8 +165,8 @@ fn stream_readings(session: &Session, bench: &WallBench, over: &End) {
     }
 }
 
-/// A frame with six numbers, checked by the sum of their bytes.
-fn frame(number: u16, values: [f64; 6]) -> Vec<u8> {
+/// A frame with six numbers, checked by the sum of their bytes or by their CRC32.
+fn frame(number: u16, values: [f64; 6], is_crc32: bool) -> Vec<u8> {
     #[expect(
         clippy::cast_possible_truncation,
         reason = "the frame has no finer numbers; a cast rounds to the nearest"
@@ -168,11 +177,15 @@ fn frame(number: u16, values: [f64; 6]) -> Vec<u8> {
         .flat_map(|value| single(value).to_le_bytes())
         .collect();
     let sum = data.iter().fold(0_u8, |sum, byte| sum.wrapping_add(*byte));
-    let length: u16 = 27;
+    let check = match is_crc32 {
+        true => crc32fast::hash(&data).to_le_bytes().to_vec(),
+        false => vec![sum],
+    };
+    let length: u16 = if is_crc32 { 30 } else { 27 };
     let mut frame = vec![0xaa, 0x55];
     frame.extend(length.to_be_bytes());
     frame.extend(number.to_be_bytes());
     frame.extend(data);
-    frame.push(sum);
+    frame.extend(check);
     frame
 }

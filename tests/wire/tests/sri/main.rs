@@ -56,7 +56,7 @@ fn opened(arguments: &str) -> Result<Box<dyn ForceTransducer>, DriverError> {
 fn the_suite_passes() {
     let setup = setup();
     let factory = M8128Factory::new().expect("a factory");
-    for more in [";rate=200 Hz", ";rate=1000 Hz", ";zero=box"] {
+    for more in [";rate=200 Hz", ";rate=1000 Hz", ";zero=box", ";check=crc32"] {
         let trial = Trial::with_arguments(setup.arguments(more));
         let report = conformance::force(&factory, &trial);
         assert!(report.passed(), "{report}");

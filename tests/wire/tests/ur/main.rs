@@ -188,3 +188,36 @@ fn an_arm_that_goes_away_is_disconnected() {
     });
     assert_eq!(halted.expect("gone").kind(), ErrorKind::Disconnected);
 }
+
+#[test]
+fn another_thread_sees_the_arm_move_and_its_faults() {
+    let setup = setup();
+    let mut arm = setup.open();
+    let watch = arm.watch_handle().expect("an arm that reports");
+    let (home, _) = arm.pose(PATIENCE).expect("a pose");
+    let seen = std::thread::scope(|scope| {
+        let moving = scope.spawn(|| arm.move_to(lower(home, 10.0), speed(20.0), PATIENCE));
+        let mut seen = Vec::new();
+        while !moving.is_finished() {
+            let (pose, stamp) = watch.pose(PATIENCE).expect("a state");
+            seen.push((stamp.valid_s, pose.position.z.0));
+        }
+        moving.join().expect("no panic").expect("it arrives");
+        seen
+    });
+    assert!(seen.is_sorted_by(|one, other| one.0 < other.0), "{seen:?}");
+    let between =
+        |(_, z): &&(f64, f64)| *z < home.position.z.0 - 1.0 && *z > home.position.z.0 - 9.0;
+    assert!(seen.iter().filter(between).count() >= 5, "{seen:?}");
+    setup.arm.suffer(ArmFault::Collision);
+    let found = std::iter::repeat_with(|| watch.pose(PATIENCE)).find_map(Result::err);
+    let found = found.expect("the fault is reported");
+    assert_eq!(
+        found.fault(),
+        Some(taceva_core::Fault::Collision),
+        "{found}"
+    );
+    drop(arm);
+    let gone = watch.pose(PATIENCE).expect_err("the arm is gone");
+    assert_eq!(gone.kind(), ErrorKind::Disconnected);
+}
