@@ -1,12 +1,14 @@
 //! Plays every fault of the wire bench so many times: `wire_faults [TIMES] [NAME]`, 100 by default; a name plays the cases that begin so.
 //!
+//! `wire_faults TIMES kill` kills one study so many times in the place of that.
+//!
 //! Ends with 1 if anything came of one that must not. What is printed is of this machine as busy as it is.
 #![expect(clippy::print_stdout, reason = "it is run to be read")]
 
 use std::error::Error;
 use std::process::ExitCode;
 
-use taceva_tests::wire::faults::{CASES, Outcome, play};
+use taceva_tests::wire::faults::{CASES, Outcome, play, play_kills};
 
 const SEED: u64 = 20_261_123;
 
@@ -14,6 +16,11 @@ fn main() -> Result<ExitCode, Box<dyn Error>> {
     let mut arguments = std::env::args().skip(1);
     let times = arguments.next().map_or(Ok(100), |times| times.parse())?;
     let name = arguments.next().unwrap_or_default();
+    if name == "kill" {
+        let presses = play_kills(times, SEED)?;
+        println!("killed {times} times: {presses} presses, each recorded once");
+        return Ok(ExitCode::SUCCESS);
+    }
     println!("| fault | times | studies | ended | in motion, median | most | allowed |");
     println!("|---|---|---|---|---|---|---|");
     let mut is_well = true;

@@ -253,6 +253,40 @@ impl Tally {
     }
 }
 
+/// Kills a study so many times, as `kill -9` does, each time after a time that is drawn from `seed`, and goes on with it: how many presses
+/// were recorded in the end, or what they lack.
+///
+/// # Errors
+/// What the recording lacks or has twice, or what the last study said.
+///
+/// # Panics
+/// If the devices or the program cannot be started, which ends the test.
+pub fn play_kills(times: usize, seed: u64) -> Result<usize, String> {
+    let mut random = Random::new(seed);
+    let options = ServeOptions::over(BenchOptions::noisy(seed));
+    let on = OnTheWire::new(&options, &scene());
+    let mut kills = 0;
+    while kills < times {
+        let mut study = UnderWay::begin(on.study());
+        std::thread::sleep(Duration::from_millis(300 + random.below(5_000) as u64));
+        if study.ended() == Some(true) {
+            // It was faster: what is recorded is judged, and begun anew.
+            lacks(&on.recording(RUN)).map_or(Ok(()), Err)?;
+            let folder = on.folder().join(RUN);
+            std::fs::remove_dir_all(folder).map_err(|error| error.to_string())?;
+            continue;
+        }
+        study.kill();
+        kills += 1;
+    }
+    let (is_well, said) = UnderWay::begin(on.study()).end();
+    match (is_well, is_well.then(|| lacks(&on.recording(RUN))).flatten()) {
+        (false, _) => Err(said),
+        (true, Some(lack)) => Err(lack),
+        (true, None) => Ok(PRESSES),
+    }
+}
+
 /// Waits for `pause`, then until the tip moves; `false` if the study ended first.
 fn wait_for_motion(on: &OnTheWire, study: &mut UnderWay, pause: Duration) -> bool {
     std::thread::sleep(pause);

@@ -50,6 +50,8 @@ pub struct Truth {
     pub limit_n: Option<f64>,
     /// When that force was first passed, since the start of the bench.
     pub passed: Option<Duration>,
+    /// How deep the tip was then, in mm.
+    pub passed_mm: Option<f64>,
     /// When the tip first stood after that.
     pub stopped: Option<Duration>,
 }
@@ -217,7 +219,7 @@ impl WallBench {
         let mut truth = self.inner.truth();
         truth.deepest_mm = f64::NEG_INFINITY;
         truth.limit_n = limit_n;
-        (truth.passed, truth.stopped) = (None, None);
+        (truth.passed, truth.passed_mm, truth.stopped) = (None, None, None);
     }
 
     fn camera(&self) -> MutexGuard<'_, Camera> {
@@ -258,6 +260,7 @@ impl Inner {
         let is_beyond = truth.limit_n.is_some_and(|limit| truth.force_n[2] > limit);
         if is_beyond && truth.passed.is_none() {
             truth.passed = Some(now);
+            truth.passed_mm = Some(truth.tip_mm[2]);
         }
         if truth.passed.is_some() && truth.stopped.is_none() && !truth.is_moving {
             truth.stopped = Some(now);
