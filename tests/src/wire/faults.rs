@@ -130,16 +130,19 @@ impl Tally {
     }
 }
 
-/// Presses of a study that is played with.
-const PRESSES: usize = 12;
+/// Presses of a study that is played with so many times: a fault now and then is enough for a short one.
+fn presses_of(times: usize) -> usize {
+    times.clamp(3, 12)
+}
+
 /// A study that is gone on with so often makes no progress.
 const MOST_ENDS: usize = 60;
 /// How long an arm that must not move is looked at.
 const LOOKED_AT: Duration = Duration::from_millis(300);
 
 /// Presses that follow each other fast, so that much can go wrong in little time.
-fn scene() -> String {
-    let text = scene_of(PRESSES);
+fn scene(presses: usize) -> String {
+    let text = scene_of(presses);
     let quick = "speed_mm_s = 5.0\nclearance_mm = 0.6\nsettle_s = 0.02\n";
     let changed = text.replace("speed_mm_s = 2.0\n", quick);
     assert!(changed != text, "the scene has a speed");
@@ -155,7 +158,7 @@ pub fn play(case: &Case, times: usize, seed: u64) -> Tally {
     let mut random = Random::new(seed);
     while tally.times < times && tally.broken.is_empty() {
         let options = ServeOptions::over(BenchOptions::noisy(seed + tally.studies as u64));
-        let on = OnTheWire::new(&options, &scene());
+        let on = OnTheWire::new(&options, &scene(presses_of(times)));
         tally.studies += 1;
         tally.play_study(case, times, &on, &mut random);
     }
@@ -189,7 +192,7 @@ impl Tally {
                 return;
             }
             if is_well {
-                self.broken.extend(lacks(&on.recording(RUN)));
+                self.broken.extend(lacks(&on.recording(RUN), presses_of(times)));
                 return;
             }
             ends += 1;
@@ -264,14 +267,15 @@ impl Tally {
 pub fn play_kills(times: usize, seed: u64) -> Result<usize, String> {
     let mut random = Random::new(seed);
     let options = ServeOptions::over(BenchOptions::noisy(seed));
-    let on = OnTheWire::new(&options, &scene());
+    let presses = presses_of(times);
+    let on = OnTheWire::new(&options, &scene(presses));
     let mut kills = 0;
     while kills < times {
         let mut study = UnderWay::begin(on.study());
         std::thread::sleep(Duration::from_millis(300 + random.below(5_000) as u64));
         if study.ended() == Some(true) {
             // It was faster: what is recorded is judged, and begun anew.
-            lacks(&on.recording(RUN)).map_or(Ok(()), Err)?;
+            lacks(&on.recording(RUN), presses).map_or(Ok(()), Err)?;
             let folder = on.folder().join(RUN);
             std::fs::remove_dir_all(folder).map_err(|error| error.to_string())?;
             continue;
@@ -280,10 +284,10 @@ pub fn play_kills(times: usize, seed: u64) -> Result<usize, String> {
         kills += 1;
     }
     let (is_well, said) = UnderWay::begin(on.study()).end();
-    match (is_well, is_well.then(|| lacks(&on.recording(RUN))).flatten()) {
+    match (is_well, is_well.then(|| lacks(&on.recording(RUN), presses)).flatten()) {
         (false, _) => Err(said),
         (true, Some(lack)) => Err(lack),
-        (true, None) => Ok(PRESSES),
+        (true, None) => Ok(presses),
     }
 }
 
@@ -299,8 +303,8 @@ fn wait_for_motion(on: &OnTheWire, study: &mut UnderWay, pause: Duration) -> boo
     study.ended().is_none()
 }
 
-/// What a recording lacks or has twice.
-pub fn lacks(recording: &Dataset) -> Option<String> {
+/// What a recording lacks of so many presses, or has twice.
+fn lacks(recording: &Dataset, expected: usize) -> Option<String> {
     let samples = recording.table().samples();
     let presses: BTreeSet<&str> = samples
         .iter()
@@ -308,10 +312,10 @@ pub fn lacks(recording: &Dataset) -> Option<String> {
         .map(|(press, _)| press)
         .collect();
     let different: BTreeSet<&String> = samples.iter().collect();
-    let is_whole = presses.len() == PRESSES && different.len() == samples.len();
+    let is_whole = presses.len() == expected && different.len() == samples.len();
     (!is_whole).then(|| {
         format!(
-            "{} samples, {} of them different, of {} presses, expected {PRESSES}",
+            "{} samples, {} of them different, of {} presses, expected {expected}",
             samples.len(),
             different.len(),
             presses.len()
