@@ -5,14 +5,14 @@ use std::net::{Ipv4Addr, TcpListener};
 use std::time::{Duration, Instant};
 
 use taceva_core::{
-    Deadline, DriverError, ErrorKind, Factory, ForceTransducer, Millimetre, Rig, Speed,
+    Deadline, DriverError, ErrorKind, Factory, ForceTransducer, Millimetre, Rig,
 };
 use taceva_drivers::conformance::{self, Trial};
 use taceva_drivers::{M8128Factory, XarmFactory};
 use taceva_wire::sri::Emulator;
-use taceva_wire::{BenchOptions, Device, Fault, FaultKind, WallBench, xarm};
+use taceva_wire::{BenchOptions, Device, FaultKind, WallBench, xarm};
 
-const PATIENCE: Deadline = Deadline::after(Duration::from_secs(2));
+use crate::support::{MOMENT, inject, speed};
 
 struct Setup {
     bench: WallBench,
@@ -33,16 +33,8 @@ impl Setup {
 
     fn started(&self, more: &str) -> Box<dyn ForceTransducer> {
         let mut transducer = opened(&self.arguments(more)).expect("a box");
-        transducer.start(PATIENCE).expect("it starts");
+        transducer.start(MOMENT).expect("it starts");
         transducer
-    }
-
-    fn inject(&self, kind: FaultKind, lasts_ms: u64) {
-        self.bench.inject(Fault {
-            device: Device::Force,
-            kind,
-            lasts: Duration::from_millis(lasts_ms),
-        });
     }
 }
 
@@ -69,7 +61,7 @@ fn every_reading_has_the_number_that_the_box_gave_it() {
     let mut transducer = setup.started("");
     let mut last = None;
     for _ in 0..20 {
-        transducer.read(PATIENCE).expect("a reading");
+        transducer.read(MOMENT).expect("a reading");
         let number = transducer.sequence();
         assert!(number.is_some() && number != last, "{last:?}, {number:?}");
         last = number;
@@ -82,7 +74,7 @@ fn two_hundred_readings_come_a_second() {
     let mut transducer = setup.started("");
     let mut stamps = Vec::new();
     for _ in 0..100 {
-        stamps.push(transducer.read(PATIENCE).expect("a reading").1.valid_s);
+        stamps.push(transducer.read(MOMENT).expect("a reading").1.valid_s);
     }
     let mean_s = (stamps[99] - stamps[0]) / 99.0;
     // Late readings are skipped on a busy machine, never doubled.
@@ -106,17 +98,16 @@ fn a_press_is_felt_in_the_axes_of_the_transducer_and_zero_is_taken_off() {
     let mut transducer = setup.started("");
     let tare = |transducer: &mut Box<dyn ForceTransducer>| {
         let tare = transducer.tare().expect("it can");
-        tare.zero(PATIENCE).expect("zero");
+        tare.zero(MOMENT).expect("zero");
     };
     tare(&mut transducer);
-    let mut pressed = robot.pose(PATIENCE).expect("a pose").0;
+    let mut pressed = robot.pose(MOMENT).expect("a pose").0;
     pressed.position.z = Millimetre(250.8);
-    let speed = Speed::try_new(100.0).expect("above 0");
-    robot.move_to(pressed, speed, PATIENCE).expect("it arrives");
+    robot.move_to(pressed, speed(100.0), MOMENT).expect("it arrives");
     // The first is the newest that came, which may be of the last moment of the motion; its stamp says so.
-    transducer.read(PATIENCE).expect("a reading");
-    transducer.read(PATIENCE).expect("a reading");
-    let (wrench, _) = transducer.read(PATIENCE).expect("a reading");
+    transducer.read(MOMENT).expect("a reading");
+    transducer.read(MOMENT).expect("a reading");
+    let (wrench, _) = transducer.read(MOMENT).expect("a reading");
     let truth = setup.bench.truth();
     // The transducer is mounted as the base frame lies: what presses into the gel points down.
     assert!(wrench.force[2].0 < -0.1, "{wrench:?}");
@@ -125,7 +116,7 @@ fn a_press_is_felt_in_the_axes_of_the_transducer_and_zero_is_taken_off() {
         "{wrench:?}, {truth:?}"
     );
     tare(&mut transducer);
-    let (wrench, _) = transducer.read(PATIENCE).expect("a reading");
+    let (wrench, _) = transducer.read(MOMENT).expect("a reading");
     assert!(wrench.force[2].0.abs() < 0.002, "{wrench:?}");
 }
 
@@ -133,16 +124,16 @@ fn a_press_is_felt_in_the_axes_of_the_transducer_and_zero_is_taken_off() {
 fn a_silent_box_is_a_timeout_and_one_that_comes_back_goes_on() {
     let setup = setup();
     let mut transducer = setup.started("");
-    transducer.read(PATIENCE).expect("a reading");
-    setup.inject(FaultKind::Silent, 200);
+    transducer.read(MOMENT).expect("a reading");
+    inject(&setup.bench, Device::Force, FaultKind::Silent, 200);
     let patience = Deadline::after(Duration::from_millis(30));
     let silent = (0..5).find_map(|_| transducer.read(patience).err());
     assert_eq!(silent.expect("nothing came").kind(), ErrorKind::Timeout);
-    transducer.read(PATIENCE).expect("it is back");
-    setup.inject(FaultKind::Drop, 50);
+    transducer.read(MOMENT).expect("it is back");
+    inject(&setup.bench, Device::Force, FaultKind::Drop, 50);
     std::thread::sleep(Duration::from_millis(60));
-    transducer.read(PATIENCE).expect("it is back");
-    setup.inject(FaultKind::Silent, 200);
+    transducer.read(MOMENT).expect("it is back");
+    inject(&setup.bench, Device::Force, FaultKind::Silent, 200);
     let silent = (0..5).find_map(|_| transducer.read(patience).err());
     let message = silent.expect("nothing came").to_string();
     assert!(message.contains("frames were missing"), "{message}");
@@ -152,12 +143,12 @@ fn a_silent_box_is_a_timeout_and_one_that_comes_back_goes_on() {
 fn what_a_link_held_back_is_not_taken_for_what_is_true_now() {
     let setup = setup();
     let mut transducer = setup.started("");
-    transducer.read(PATIENCE).expect("a reading");
-    setup.inject(FaultKind::Late, 100);
+    transducer.read(MOMENT).expect("a reading");
+    inject(&setup.bench, Device::Force, FaultKind::Late, 100);
     let began = Instant::now();
-    transducer.read(PATIENCE).expect("a reading from before");
-    let (_, after) = transducer.read(PATIENCE).expect("the newest of those held");
-    let (_, next) = transducer.read(PATIENCE).expect("the next");
+    transducer.read(MOMENT).expect("a reading from before");
+    let (_, after) = transducer.read(MOMENT).expect("the newest of those held");
+    let (_, next) = transducer.read(MOMENT).expect("the next");
     assert!(began.elapsed() > Duration::from_millis(90));
     // Twenty came at once, and one of them is given.
     assert!(next.valid_s - after.valid_s < 0.1 && next.valid_s > after.valid_s);
@@ -167,11 +158,11 @@ fn what_a_link_held_back_is_not_taken_for_what_is_true_now() {
 fn a_number_that_is_none_is_a_fault_of_that_reading_alone() {
     let setup = setup();
     let mut transducer = setup.started("");
-    setup.inject(FaultKind::NotANumber, 60);
+    inject(&setup.bench, Device::Force, FaultKind::NotANumber, 60);
     let until = Instant::now() + Duration::from_millis(40);
     let mut faults = 0;
     while Instant::now() < until {
-        if let Err(error) = transducer.read(PATIENCE) {
+        if let Err(error) = transducer.read(MOMENT) {
             assert_eq!(error.kind(), ErrorKind::DeviceFault);
             assert!(error.to_string().contains("`Fz` is NaN"), "{error}");
             faults += 1;
@@ -179,14 +170,14 @@ fn a_number_that_is_none_is_a_fault_of_that_reading_alone() {
     }
     assert!(faults > 0);
     std::thread::sleep(Duration::from_millis(40));
-    transducer.read(PATIENCE).expect("a number again");
+    transducer.read(MOMENT).expect("a number again");
 }
 
 #[test]
 fn an_interrupt_ends_a_reading_that_is_waited_for() {
     let setup = setup();
     let mut transducer = setup.started("");
-    setup.inject(FaultKind::Silent, 3_000);
+    inject(&setup.bench, Device::Force, FaultKind::Silent, 3_000);
     let handle = transducer.interrupt_handle().expect("it can");
     let reading = std::thread::spawn(move || {
         let patience = Deadline::after(Duration::from_secs(20));
@@ -204,7 +195,7 @@ fn an_interrupt_ends_a_reading_that_is_waited_for() {
 fn a_box_that_goes_away_is_disconnected() {
     let Setup { bench, emulator } = setup();
     let mut transducer = Setup { bench, emulator }.started("");
-    let gone = (0..1_000).find_map(|_| transducer.read(PATIENCE).err());
+    let gone = (0..1_000).find_map(|_| transducer.read(MOMENT).err());
     assert_eq!(gone.expect("gone").kind(), ErrorKind::Disconnected);
 }
 
@@ -224,7 +215,7 @@ fn a_box_that_refuses_a_command_says_which() {
         }
     });
     let mut transducer = opened(&format!("host=127.0.0.1;port={port}")).expect("it accepts");
-    let error = transducer.start(PATIENCE).expect_err("refused");
+    let error = transducer.start(MOMENT).expect_err("refused");
     assert_eq!(error.kind(), ErrorKind::Unsupported);
     let message = error.to_string();
     assert!(

@@ -9,34 +9,13 @@ use taceva_drivers::XarmFactory;
 use taceva_wire::xarm::Ports;
 use taceva_wire::{Arm, ArmFault, Device, Fault, FaultKind};
 
-use crate::support::{PATIENCE, Setup, lower, setup, speed};
-
-/// What a motion of 15 mm at 10 mm/s gives if `happens` once it goes on, and how long after that it gave it.
-fn moved(setup: &Setup, happens: impl FnOnce() + Send) -> (DriverError, Duration) {
-    let mut arm = setup.open();
-    let (home, _) = arm.pose(PATIENCE).expect("a pose");
-    std::thread::scope(|scope| {
-        let bench = setup.bench.clone();
-        let happening = scope.spawn(move || {
-            while !bench.truth().is_moving {
-                std::thread::yield_now();
-            }
-            happens();
-            Instant::now()
-        });
-        let error = arm
-            .move_to(lower(home, 15.0), speed(10.0), PATIENCE)
-            .expect_err("broken off");
-        let returned = Instant::now();
-        let happened = happening.join().expect("it happened");
-        (error, returned.saturating_duration_since(happened))
-    })
-}
+use super::setup::{Setup, setup};
+use crate::support::{PATIENCE, lower, moved, speed};
 
 #[test]
 fn an_emergency_stop_is_a_fault_that_nobody_but_a_person_ends() {
     let setup = setup(Ports::ANY);
-    let (error, took) = moved(&setup, || setup.arm.suffer(ArmFault::EmergencyStop));
+    let (error, took) = moved(&setup.bench, setup.open(), || setup.arm.suffer(ArmFault::EmergencyStop));
     assert_eq!(error.kind(), ErrorKind::DeviceFault);
     assert!(
         error
@@ -63,7 +42,7 @@ fn an_emergency_stop_is_a_fault_that_nobody_but_a_person_ends() {
 #[test]
 fn a_collision_is_a_fault_that_is_named() {
     let setup = setup(Ports::ANY);
-    let (error, _) = moved(&setup, || setup.arm.suffer(ArmFault::Collision));
+    let (error, _) = moved(&setup.bench, setup.open(), || setup.arm.suffer(ArmFault::Collision));
     assert_eq!(error.kind(), ErrorKind::DeviceFault);
     assert!(
         error.to_string().contains("error 31: a collision"),
@@ -79,7 +58,7 @@ fn reports_that_stop_stop_the_arm() {
         kind: FaultKind::Silent,
         lasts: Duration::from_secs(1),
     };
-    let (error, took) = moved(&setup, || setup.bench.inject(silence));
+    let (error, took) = moved(&setup.bench, setup.open(), || setup.bench.inject(silence));
     assert_eq!(error.kind(), ErrorKind::Timeout, "{error}");
     // A quarter of a second without a report, 40 ms for an answer that does not come, and looking whether it stands.
     assert!(took < Duration::from_millis(1_200), "{took:?}");

@@ -1,15 +1,15 @@
 //! `ur/rtde` against the emulated controller, through sockets.
 
 use std::net::Ipv4Addr;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
-use taceva_core::{Deadline, DriverError, ErrorKind, Factory, Millimetre, Pose, Rig, Robot, Speed};
+use taceva_core::{ErrorKind, Factory, Rig, Robot};
 use taceva_drivers::UrFactory;
 use taceva_drivers::conformance::{self, Trial};
 use taceva_wire::ur::Emulator;
 use taceva_wire::{Arm, ArmFault, BenchOptions, Device, Fault, FaultKind, WallBench};
 
-const PATIENCE: Deadline = Deadline::after(Duration::from_secs(10));
+use crate::support::{PATIENCE, lower, moved, speed};
 
 struct Setup {
     bench: WallBench,
@@ -34,37 +34,6 @@ impl Setup {
         let args = factory.descriptor().args(&self.arguments()).expect("good");
         factory.open(&args, &mut Rig::new()).expect("an arm")
     }
-
-    /// What a motion of 15 mm at 10 mm/s gives if `happens` once it goes on, and how long after that it gave it.
-    fn moved(&self, happens: impl FnOnce() + Send) -> (DriverError, Duration) {
-        let mut arm = self.open();
-        let (home, _) = arm.pose(PATIENCE).expect("a pose");
-        std::thread::scope(|scope| {
-            let bench = self.bench.clone();
-            let happening = scope.spawn(move || {
-                while !bench.truth().is_moving {
-                    std::thread::yield_now();
-                }
-                happens();
-                Instant::now()
-            });
-            let moved = arm.move_to(lower(home, 15.0), speed(10.0), PATIENCE);
-            let returned = Instant::now();
-            let happened = happening.join().expect("it happened");
-            let took = returned.saturating_duration_since(happened);
-            (moved.expect_err("broken off"), took)
-        })
-    }
-}
-
-fn speed(mm_per_s: f64) -> Speed {
-    Speed::try_new(mm_per_s).expect("above 0")
-}
-
-fn lower(pose: Pose, mm: f64) -> Pose {
-    let mut lower = pose;
-    lower.position.z = Millimetre(pose.position.z.0 - mm);
-    lower
 }
 
 #[test]
@@ -116,7 +85,7 @@ fn a_halt_stops_the_arm_at_once_and_no_program_begins_after_it() {
 #[test]
 fn an_emergency_stop_is_a_fault_that_nobody_but_a_person_ends() {
     let setup = setup();
-    let (error, took) = setup.moved(|| setup.arm.suffer(ArmFault::EmergencyStop));
+    let (error, took) = moved(&setup.bench, setup.open(), || setup.arm.suffer(ArmFault::EmergencyStop));
     assert_eq!(error.kind(), ErrorKind::DeviceFault);
     assert!(
         error.to_string().contains("the emergency stop was pressed"),
@@ -136,7 +105,7 @@ fn an_emergency_stop_is_a_fault_that_nobody_but_a_person_ends() {
 #[test]
 fn a_collision_is_a_protective_stop() {
     let setup = setup();
-    let (error, _) = setup.moved(|| setup.arm.suffer(ArmFault::Collision));
+    let (error, _) = moved(&setup.bench, setup.open(), || setup.arm.suffer(ArmFault::Collision));
     assert_eq!(error.kind(), ErrorKind::DeviceFault);
     assert!(error.to_string().contains("a protective stop"), "{error}");
     assert_eq!(error.fault(), Some(taceva_core::Fault::Collision));
@@ -150,7 +119,7 @@ fn states_that_stop_stop_the_arm() {
         kind: FaultKind::Silent,
         lasts: Duration::from_secs(1),
     };
-    let (error, _) = setup.moved(|| setup.bench.inject(silence));
+    let (error, _) = moved(&setup.bench, setup.open(), || setup.bench.inject(silence));
     assert_eq!(error.kind(), ErrorKind::Timeout, "{error}");
     assert!(!setup.bench.truth().is_moving);
 }

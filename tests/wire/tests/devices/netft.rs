@@ -7,9 +7,9 @@ use taceva_core::{Deadline, DriverError, ErrorKind, Factory, ForceTransducer, Ri
 use taceva_drivers::NetftFactory;
 use taceva_drivers::conformance::{self, Trial};
 use taceva_wire::netft::Emulator;
-use taceva_wire::{BenchOptions, Device, Fault, FaultKind, WallBench};
+use taceva_wire::{BenchOptions, Device, FaultKind, WallBench};
 
-const PATIENCE: Deadline = Deadline::after(Duration::from_secs(2));
+use crate::support::{MOMENT, inject};
 
 struct Setup {
     bench: WallBench,
@@ -37,16 +37,8 @@ impl Setup {
 
     fn started(&self) -> Box<dyn ForceTransducer> {
         let mut transducer = opened(&self.arguments()).expect("a box");
-        transducer.start(PATIENCE).expect("it starts");
+        transducer.start(MOMENT).expect("it starts");
         transducer
-    }
-
-    fn inject(&self, kind: FaultKind, lasts_ms: u64) {
-        self.bench.inject(Fault {
-            device: Device::Force,
-            kind,
-            lasts: Duration::from_millis(lasts_ms),
-        });
     }
 }
 
@@ -63,36 +55,36 @@ fn the_suite_passes() {
 fn a_silent_box_is_a_timeout_that_says_what_was_missing_and_one_that_comes_back_goes_on() {
     let setup = setup();
     let mut transducer = setup.started();
-    transducer.read(PATIENCE).expect("a reading");
-    setup.inject(FaultKind::Drop, 50);
+    transducer.read(MOMENT).expect("a reading");
+    inject(&setup.bench, Device::Force, FaultKind::Drop, 50);
     std::thread::sleep(Duration::from_millis(60));
-    transducer.read(PATIENCE).expect("it is back");
-    transducer.read(PATIENCE).expect("it goes on");
-    setup.inject(FaultKind::Silent, 200);
+    transducer.read(MOMENT).expect("it is back");
+    transducer.read(MOMENT).expect("it goes on");
+    inject(&setup.bench, Device::Force, FaultKind::Silent, 200);
     let patience = Deadline::after(Duration::from_millis(40));
     let silent = (0..5).find_map(|_| transducer.read(patience).err());
     let silent = silent.expect("nothing came");
     assert_eq!(silent.kind(), ErrorKind::Timeout);
     assert!(!silent.to_string().contains("; 0 were missing"), "{silent}");
-    transducer.read(PATIENCE).expect("it is back");
+    transducer.read(MOMENT).expect("it is back");
 }
 
 #[test]
 fn an_error_of_the_box_is_a_fault_of_that_reading_alone() {
     let setup = setup();
     let mut transducer = setup.started();
-    setup.inject(FaultKind::NotANumber, 60);
+    inject(&setup.bench, Device::Force, FaultKind::NotANumber, 60);
     let until = Instant::now() + Duration::from_millis(40);
     let mut faults = 0;
     while Instant::now() < until {
-        if let Err(error) = transducer.read(PATIENCE) {
+        if let Err(error) = transducer.read(MOMENT) {
             assert_eq!(error.kind(), ErrorKind::DeviceFault);
             faults += 1;
         }
     }
     assert!(faults > 0);
     std::thread::sleep(Duration::from_millis(40));
-    transducer.read(PATIENCE).expect("a reading again");
+    transducer.read(MOMENT).expect("a reading again");
 }
 
 #[test]
@@ -104,7 +96,7 @@ fn datagrams_of_others_and_torn_ones_are_no_readings() {
     let page = setup.emulator.page_address().port();
     let arguments = format!("host=127.0.0.1;port={port};page_port={page}");
     let mut transducer = opened(&arguments).expect("a box");
-    transducer.start(PATIENCE).expect("it starts");
+    transducer.start(MOMENT).expect("it starts");
     let mut request = [0; 64];
     let (length, client) = false_box.recv_from(&mut request).expect("asked");
     assert_eq!(&request[..length], [0x12, 0x34, 0, 2, 0, 0, 0, 0]);
@@ -120,7 +112,7 @@ fn datagrams_of_others_and_torn_ones_are_no_readings() {
     let nothing = transducer.read(Deadline::after(Duration::from_millis(100)));
     assert_eq!(nothing.expect_err("no record").kind(), ErrorKind::Timeout);
     send(&false_box, &record);
-    transducer.read(PATIENCE).expect("a record");
+    transducer.read(MOMENT).expect("a record");
     send(&false_box, &record);
     record[3] = 8;
     send(&false_box, &record);
@@ -129,7 +121,7 @@ fn datagrams_of_others_and_torn_ones_are_no_readings() {
     record[3] = 10;
     record[9] = 2;
     send(&false_box, &record);
-    let clipped = transducer.read(PATIENCE).expect_err("clipped");
+    let clipped = transducer.read(MOMENT).expect_err("clipped");
     assert_eq!(clipped.kind(), ErrorKind::OutOfRange);
 }
 
@@ -137,7 +129,7 @@ fn datagrams_of_others_and_torn_ones_are_no_readings() {
 fn a_box_that_goes_away_is_disconnected_or_silent() {
     let setup = setup();
     let mut transducer = setup.started();
-    transducer.read(PATIENCE).expect("a reading");
+    transducer.read(MOMENT).expect("a reading");
     drop(setup);
     let patience = Deadline::after(Duration::from_millis(100));
     let gone = (0..1_000).find_map(|_| transducer.read(patience).err());

@@ -8,7 +8,8 @@ use taceva_drivers::conformance::{self, Trial};
 use taceva_wire::Base;
 use taceva_wire::xarm::{Port, Ports};
 
-use crate::support::{PATIENCE, lower, setup, speed};
+use super::setup::setup;
+use crate::support::{PATIENCE, lower, speed};
 
 fn passes(ports: Ports) {
     let setup = setup(ports);

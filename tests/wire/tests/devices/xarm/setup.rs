@@ -1,8 +1,6 @@
 //! An emulated arm, and the driver that is connected to it.
 
-use std::time::Duration;
-
-use taceva_core::{Deadline, Factory, Millimetre, Pose, Rig, Robot, Speed};
+use taceva_core::{Factory, Rig, Robot};
 use taceva_drivers::XarmFactory;
 use taceva_wire::xarm::{Emulator, Port, Ports};
 use taceva_wire::{BenchOptions, WallBench};
@@ -36,17 +34,4 @@ impl Setup {
         let args = factory.descriptor().args(&self.arguments()).expect("good");
         factory.open(&args, &mut Rig::new()).expect("an arm")
     }
-}
-
-pub(crate) const PATIENCE: Deadline = Deadline::after(Duration::from_secs(10));
-
-pub(crate) fn speed(mm_per_s: f64) -> Speed {
-    Speed::try_new(mm_per_s).expect("above 0")
-}
-
-/// `pose`, lower by `mm`.
-pub(crate) fn lower(pose: Pose, mm: f64) -> Pose {
-    let mut lower = pose;
-    lower.position.z = Millimetre(pose.position.z.0 - mm);
-    lower
 }
