@@ -168,6 +168,19 @@ metrics = {{ want = ["mae"] }}
     let allowed = paste(&bench, &refused.err);
     assert_eq!(allowed.code, 0, "{}{}", allowed.out, allowed.err);
     bench.ok("run eye.toml --plugin-dir my-eye --out second");
+    let by_name = check.replace("host=127.0.0.1", "host=localhost");
+    bench.ok(&by_name);
+    bench.ok("plugin deny org.example.my-eye");
+    let refused = bench.run(&by_name);
+    assert_eq!(refused.code, 1, "{}", refused.out);
+    assert_eq!(
+        refused.out.matches("allow it: ").count(),
+        1,
+        "{}",
+        refused.out
+    );
+    assert_eq!(paste(&bench, &refused.out).code, 0);
+    bench.ok(&by_name);
     // Another port is another permission.
     let other = port.wrapping_add(1).max(1);
     bench.write(

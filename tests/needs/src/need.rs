@@ -38,6 +38,8 @@ pub enum Need {
     PublicClients,
     /// `ffmpeg`, which serves a stream of pictures.
     Ffmpeg,
+    /// The right to make device files, which stand for cameras and scales that are not there.
+    DeviceFiles,
     /// An example that is built where a whole package is tested, and not by a single test of it.
     Example,
 }
@@ -51,7 +53,7 @@ pub struct UnknownNeed(
 
 impl Need {
     /// Every need.
-    pub const ALL: [Need; 16] = [
+    pub const ALL: [Need; 17] = [
         Need::Browser,
         Need::Axe,
         Need::Latex,
@@ -67,6 +69,7 @@ impl Need {
         Need::Gpu,
         Need::PublicClients,
         Need::Ffmpeg,
+        Need::DeviceFiles,
         Need::Example,
     ];
 
@@ -88,6 +91,7 @@ impl Need {
             Need::Gpu => "gpu",
             Need::PublicClients => "public-clients",
             Need::Ffmpeg => "ffmpeg",
+            Need::DeviceFiles => "device-files",
             Need::Example => "example",
         }
     }

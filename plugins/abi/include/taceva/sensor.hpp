@@ -145,5 +145,5 @@ template <class... Sensors> struct [[gnu::visibility("hidden")]] sensor_plugin {
   extern "C" TACEVA_EXPORT const taceva_plugin taceva_plugin_v1;                                                             \
   constexpr taceva_plugin taceva_plugin_v1 = {                                                                               \
       TACEVA_MAGIC, sizeof taceva_plugin_v1, TACEVA_ABI_MAJOR, TACEVA_ABI_MINOR, {id, sizeof id - 1}, {version, sizeof version - 1}, \
-      nullptr, nullptr, taceva::sensor_plugin<__VA_ARGS__>::factory, nullptr, nullptr, nullptr}
+      nullptr, nullptr, taceva::sensor_plugin<__VA_ARGS__>::factory, nullptr, nullptr, nullptr, {nullptr, 0}}
 #endif

@@ -97,8 +97,7 @@ impl WrittenProvides {
             noise: value(&self.noise_n).map(Newton),
             resolution: value(&self.resolution_n).map(Newton),
             latency_ms: value(&self.latency_ms),
-            // Numbers of readings do not cross the boundary.
-            numbered: false,
+            numbered: value(&self.numbered).unwrap_or(false),
             tare: value(&self.tare).unwrap_or(false),
         })
     }

@@ -7,4 +7,6 @@ mod children;
 mod devices;
 mod estimator;
 mod fixture;
+#[cfg(target_os = "linux")]
+mod reach;
 mod rejects;
