@@ -11,7 +11,7 @@ use std::sync::Arc;
 
 use rustix::fs::{FileType, Mode, makedev, mknodat};
 use rustix::pty::{OpenptFlags, grantpt, openpt, ptsname, unlockpt};
-use taceva_core::{Args, Factory, Lighting};
+use taceva_core::{Args, Lighting};
 use taceva_host::{Children, Need, PluginConfig, PluginHost, Plugins, SearchPath};
 use taceva_needs::{Need as Missing, skip};
 use tempfile::TempDir;
