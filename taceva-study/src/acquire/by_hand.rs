@@ -13,29 +13,41 @@ use crate::scene::{PlannedScene, PlannedStudy, RigSpec, StudySource};
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 struct Changes {
     specimens: usize,
+    lights: usize,
     units: usize,
 }
 
 impl Changes {
     /// Of a plan: units come one after the other, and specimens within a unit. What is mounted at the beginning and stays is no change.
-    fn of(plan: &Plan) -> Changes {
-        let mut specimens = 0;
+    fn of(plan: &Plan, is_lit_by_hand: bool) -> Changes {
+        let (mut specimens, mut lights) = (0, 0);
+        let presses_of = |unit: &str| {
+            let presses = plan.presses.iter().map(|planned| &planned.press);
+            presses.filter(move |press| press.unit == unit)
+        };
         for unit in &plan.units {
-            let of_unit = plan
-                .presses
-                .iter()
-                .filter(|press| press.press.unit == *unit);
-            let mut mounted: Vec<_> = of_unit.map(|press| press.press.specimen).collect();
+            let mut mounted: Vec<_> = presses_of(unit).map(|press| press.specimen).collect();
             mounted.dedup();
             if mounted.len() > 1 {
                 specimens += mounted.len();
+            }
+            if is_lit_by_hand {
+                let mut lit: Vec<_> = presses_of(unit)
+                    .filter_map(|press| press.light.as_ref())
+                    .collect();
+                lit.dedup();
+                lights += lit.len();
             }
         }
         let units = match plan.units.len() {
             0 | 1 => 0,
             units => units,
         };
-        Changes { specimens, units }
+        Changes {
+            specimens,
+            lights,
+            units,
+        }
     }
 }
 
@@ -45,13 +57,22 @@ impl PlannedScene {
     /// # Errors
     /// [`StudyError::Request`], with how many changes there are.
     pub fn check_unattended(&self, drivers: &Drivers) -> Result<(), StudyError> {
-        let real = self.studies.iter().filter(|study| match &study.source {
-            StudySource::Rig(rig) => !rig.is_simulated(drivers),
-            StudySource::Recording(_) => false,
+        let real = self.studies.iter().filter_map(|study| match &study.source {
+            StudySource::Rig(rig) if !rig.is_simulated(drivers) => Some((study, rig)),
+            _ => None,
         });
-        for study in real {
-            let Changes { specimens, units } = Changes::of(&study.plan);
-            let counted = [(specimens, "specimens"), (units, "units of the sensor")];
+        for (study, rig) in real {
+            let is_lit_by_hand = is_lit_by_hand(study, rig, drivers);
+            let Changes {
+                specimens,
+                lights,
+                units,
+            } = Changes::of(&study.plan, is_lit_by_hand);
+            let counted = [
+                (specimens, "specimens"),
+                (lights, "lights"),
+                (units, "units of the sensor"),
+            ];
             let needed: Vec<String> = counted
                 .into_iter()
                 .filter(|(count, _)| *count > 0)
@@ -67,6 +88,15 @@ impl PlannedScene {
         }
         Ok(())
     }
+}
+
+/// Whether no device of the rig sets its light: neither one for that, nor the sensor.
+fn is_lit_by_hand(study: &PlannedStudy, rig: &RigSpec, drivers: &Drivers) -> bool {
+    let info = rig.info(&study.study, drivers);
+    info.is_ok_and(|info| {
+        let own = info.sensor.as_ref().and_then(|sensor| sensor.sensor());
+        info.lighting.is_none() && own.is_none_or(|own| own.scenes.is_empty())
+    })
 }
 
 /// Whether `unit` is under the robot: of several units of a real rig somebody says so, or skips it.

@@ -4,6 +4,8 @@
 mod check;
 #[cfg(target_os = "linux")]
 mod children;
+#[cfg(target_os = "linux")]
+mod cpp;
 mod devices;
 mod estimator;
 mod fixture;
