@@ -7,7 +7,7 @@ mod support;
 use std::fs;
 use std::io::Write;
 use std::net::TcpListener;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::thread;
 use std::time::Duration;
 
@@ -39,24 +39,10 @@ fn resting(number: u64) -> String {
     format!("{number};0.01;-0.02;1.5;0.001;0;0\n")
 }
 
-fn example() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("../examples/plugins/line-transducer")
-}
-
-/// The plugin, built as its README says.
-fn built(bench: &Bench) {
-    bench.ok("plugin new force line-transducer");
-    for file in ["plugin.toml", "src/lib.rs", "src/force.rs"] {
-        let to = bench.path("line-transducer").join(file);
-        fs::copy(example().join(file), to).expect(file);
-    }
-    bench.build_plugin("line-transducer");
-}
-
 #[test]
 fn the_example_is_allowed_checked_and_planned_with_and_says_what_is_wrong_with_its_device() {
     let bench = Bench::new();
-    built(&bench);
+    bench.make_example("force", "line-transducer");
     let folder = "--plugin-dir line-transducer";
     assert_eq!(bench.run("plugin manifest line-transducer").code, 0);
 
@@ -123,7 +109,10 @@ driver = "camera/mjpeg:url=http://127.0.0.1:9/stream"
 "#
     );
     bench.write("lab.toml", &rig);
-    let scene = fs::read_to_string(example().join("../../scenes/wire.toml")).expect("there");
+    let scene = fs::read_to_string(
+        Path::new(env!("CARGO_MANIFEST_DIR")).join("../examples/scenes/wire.toml"),
+    )
+    .expect("there");
     bench.write("wire.toml", &scene);
     let plan = format!("plan wire.toml --rig lab.toml {folder}");
     let refused = bench.run(&plan);

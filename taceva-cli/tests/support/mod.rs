@@ -142,6 +142,17 @@ impl Bench {
         self.build_plugin(name);
     }
 
+    /// The plugin in `examples/plugins/NAME`, built as its README says.
+    pub(crate) fn make_example(&self, kind: &str, name: &str) {
+        self.ok(&format!("plugin new {kind} {name}"));
+        let examples = Path::new(env!("CARGO_MANIFEST_DIR")).join("../examples/plugins");
+        for file in ["plugin.toml", "src/lib.rs", &format!("src/{kind}.rs")] {
+            let to = self.path(name).join(file);
+            fs::copy(examples.join(name).join(file), to).expect(file);
+        }
+        self.build_plugin(name);
+    }
+
     /// Builds the plugin in the folder `name`, without a network.
     pub(crate) fn build_plugin(&self, name: &str) {
         let built = Command::new(env!("CARGO"))

@@ -275,6 +275,16 @@ fn updated(mut written: Table, said: &Table) -> Table {
             put(&mut written, key, item);
         }
     }
+    // In the order of the library, so that a text that was compared with what it writes still equals it.
+    let own = said.iter().map(|(key, _)| key.to_owned());
+    let left = written.iter().map(|(key, _)| key.to_owned());
+    let left = left.filter(|key| !said.contains_key(key));
+    let order: Vec<String> = own.chain(left.collect::<Vec<_>>()).collect();
+    for key in order {
+        if let Some((key, item)) = written.remove_entry(&key) {
+            written.insert_formatted(&key, item);
+        }
+    }
     written
 }
 
@@ -309,6 +319,11 @@ mod tests {
         let manifest = Manifest::parse(&text).expect("it reads");
         assert_eq!(manifest.drivers().count(), 2);
         assert_eq!(manifest.needs.len(), 2);
+        // As the tests of a new project compare it.
+        for table in &offer().provides {
+            let table = table.replace("[[args]]", "[[provides.args]]");
+            assert!(text.contains(&table), "{table} in:\n{text}");
+        }
         assert_eq!(
             offer().manifest(&text, &library(), None).as_ref(),
             Ok(&text)
@@ -419,5 +434,20 @@ choices = ["g"] # of weight
         );
         let edited = offer().manifest(&with, &of(2), None).expect("edited");
         assert!(edited.contains(&digest(2).to_string()), "{edited}");
+    }
+
+    #[test]
+    fn what_is_new_stands_where_the_library_says_it() {
+        let text = offer()
+            .manifest("", &library(), Some("MIT"))
+            .expect("a manifest");
+        let mut numbered = offer();
+        numbered.provides[0] =
+            numbered.provides[0].replace("tare = false", "numbered = true\ntare = false");
+        let edited = numbered.manifest(&text, &library(), None).expect("edited");
+        assert!(
+            edited.contains("rate_hz = 10.0\nnumbered = true\ntare = false\n"),
+            "{edited}"
+        );
     }
 }
