@@ -124,7 +124,7 @@ fn a_light_without_a_driver_is_set_by_hand_on_real_rigs_alone() {
         error.contains("set by hand, which needs a real robot"),
         "{error}"
     );
-    let nothing = with("lighting = {}");
+    let nothing = with("[lighting]");
     assert!(
         nothing.contains("expected [lighting] with `driver`"),
         "{nothing}"

@@ -21,18 +21,16 @@ impl Changes {
     /// Of a plan: units come one after the other, and specimens within a unit. What is mounted at the beginning and stays is no change.
     fn of(plan: &Plan, is_lit_by_hand: bool) -> Changes {
         let (mut specimens, mut lights) = (0, 0);
-        let presses_of = |unit: &str| {
-            let presses = plan.presses.iter().map(|planned| &planned.press);
-            presses.filter(move |press| press.unit == unit)
-        };
         for unit in &plan.units {
-            let mut mounted: Vec<_> = presses_of(unit).map(|press| press.specimen).collect();
+            let presses = plan.presses.iter().map(|planned| &planned.press);
+            let of_unit = presses.filter(|press| press.unit == *unit);
+            let mut mounted: Vec<_> = of_unit.clone().map(|press| press.specimen).collect();
             mounted.dedup();
             if mounted.len() > 1 {
                 specimens += mounted.len();
             }
             if is_lit_by_hand {
-                let mut lit: Vec<_> = presses_of(unit)
+                let mut lit: Vec<_> = of_unit
                     .filter_map(|press| press.light.as_ref())
                     .collect();
                 lit.dedup();

@@ -1,9 +1,6 @@
 //! What a library offers and needs, as it says so itself: what a manifest is written from.
 
-use taceva_core::DriverError;
-
 use super::{Library, LoadProblem, text};
-use crate::library::Image;
 
 /// What a library says that a manifest says too. Nothing of it was checked by anybody but by whoever reads the manifest that is made of it.
 ///
@@ -39,10 +36,13 @@ impl Offer {
     /// # Errors
     /// [`DriverError`] if it cannot be loaded, or says what cannot be read.
     #[cfg(target_os = "linux")]
-    pub fn of(image: &Image, children: &crate::Children) -> Result<Offer, DriverError> {
+    pub fn of(
+        image: &crate::Image,
+        children: &crate::Children,
+    ) -> Result<Offer, taceva_core::DriverError> {
         use crate::child::{ChildSession, ChildSpec};
         use crate::session::Session;
-        use taceva_core::{DriverKey, ErrorKind};
+        use taceva_core::{DriverError, DriverKey, ErrorKind};
 
         const DOING: &str = "ask the library what it offers";
         let nameless = DriverKey::fixed("plugin");
