@@ -19,7 +19,7 @@ pub(crate) use self::dataset::{Check, Import, Reseal};
 pub(crate) use self::model::{Evaluate, Fit, Merge, Predict, Score};
 pub(crate) use self::plugin::{
     Plugin, PluginAllow, PluginArgs, PluginCheck, PluginDeny, PluginHeaders, PluginInfo,
-    PluginInstall, PluginList, PluginNew, PluginRelease,
+    PluginInstall, PluginList, PluginManifest, PluginNew, PluginPack, PluginRelease,
 };
 pub(crate) use self::results::{
     Accept, CatalogueArgs, CatalogueShow, CatalogueSite, CatalogueSubject, Choose, Compare,

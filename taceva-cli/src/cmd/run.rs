@@ -55,7 +55,7 @@ pub(crate) fn run(args: &Run, context: &Context) -> anyhow::Result<u8> {
         .clone()
         .unwrap_or_else(|| RunFolder::numbered(Path::new(RUNS), &planned.scene.name, existing));
     scene::print_cost(&planned, &path, context)?;
-    scene::print_rigs(&planned, context);
+    scene::print_rigs(&planned, &drivers, context);
     let _held = planned.hold_rigs()?;
     let folder = RunFolder::open(&path, &planned, existing)?;
     context.say(format_args!("run in {}", shown(&path)));
@@ -113,7 +113,7 @@ fn rehearse(
     terminal: Option<&Mutex<operator::AtTerminal>>,
     context: &Context,
 ) -> anyhow::Result<u8> {
-    scene::print_rigs(planned, context);
+    scene::print_rigs(planned, drivers, context);
     let _held = planned.hold_rigs()?;
     let workshop = Workshop {
         drivers,
