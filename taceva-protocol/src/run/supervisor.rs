@@ -3,6 +3,7 @@
 //! It is no safety function: the emergency stop, the collision sensitivity of the robot and the guards are the site's duty.
 
 mod observation;
+mod reaction;
 
 pub use observation::{MotionStage, Observation};
 
@@ -16,6 +17,7 @@ use super::align::Look;
 use super::trip::Trip;
 use super::way::{distance, distance_from_way};
 use crate::limits::{FROZEN_READINGS, RigLimits};
+use reaction::Lateness;
 
 /// Farther from where it was sent, or from the way there, the tip has gone astray, in mm.
 const DIVERGED_MM: f64 = 0.5;
@@ -68,6 +70,8 @@ pub struct Supervisor {
     equal: u32,
     moved: bool,
     tripped: Option<Trip>,
+    /// How late readings come, while somebody measures that.
+    lateness: Option<Lateness>,
 }
 
 impl Supervisor {
@@ -90,6 +94,7 @@ impl Supervisor {
             equal: 0,
             moved: false,
             tripped: None,
+            lateness: None,
         }
     }
 
@@ -154,6 +159,11 @@ impl Supervisor {
         self.zero = zero;
     }
 
+    /// What is taken off every force.
+    pub(super) fn zero(&self) -> Wrench {
+        self.zero
+    }
+
     /// What presses on the gel by what the transducer said.
     pub fn zeroed(&self, said: &Wrench) -> Wrench {
         let axes = [0, 1, 2];
@@ -171,6 +181,17 @@ impl Supervisor {
             _ if self.limits.signals.equality_is_frozen => one.wrench != other.wrench,
             _ => one.wrench_s < other.wrench_s,
         }
+    }
+
+    /// Begins to measure how late readings come.
+    pub(super) fn time_readings(&mut self) {
+        self.lateness = Some(Lateness::default());
+    }
+
+    /// From a limit that is passed to a halt that is sent, in s, by the readings since
+    /// [`time_readings`](Supervisor::time_readings): 999 of 1,000 come sooner. `None` of fewer than two readings.
+    pub(super) fn reaction_s(&mut self) -> Option<f64> {
+        self.lateness.take()?.reaction_s()
     }
 
     /// Whether the tip may rest at this depth under this force.
@@ -233,6 +254,9 @@ impl Supervisor {
             return Some(Trip::NotFinite);
         }
         let age_s = now_s - stamp.valid_s;
+        if let Some(lateness) = &mut self.lateness {
+            lateness.add(stamp.valid_s, age_s);
+        }
         if age_s > self.limits.signals.stale_s {
             return Some(Trip::StaleForce { age_s });
         }

@@ -66,13 +66,13 @@ pub(super) struct Pace {
     contact: Speed,
     pub(super) travel: Speed,
     pub(super) segment_mm: f64,
-    step_mm: f64,
-    search_mm: f64,
+    pub(super) step_mm: f64,
+    pub(super) search_mm: f64,
     settle: Duration,
     threshold_n: f64,
     /// The force above which something is touched at rest in the air: that of contact, or what noise is not.
-    air_n: f64,
-    normal_max_n: f64,
+    pub(super) air_n: f64,
+    pub(super) normal_max_n: f64,
     pub(super) clearance_mm: f64,
     /// A pose within this of where the tip was sent is there, along each axis.
     pub(super) slack_mm: f64,

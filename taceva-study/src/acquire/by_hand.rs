@@ -3,7 +3,7 @@
 use std::sync::PoisonError;
 
 use taceva_drivers::Drivers;
-use taceva_protocol::{Answer, Cancel, Left, Plan, Question, RunError, StopCause};
+use taceva_protocol::{Answer, Cancel, Left, Plan, Question, RigFile, RunError, StopCause};
 
 use super::workshop::Workshop;
 use crate::error::StudyError;
@@ -50,13 +50,12 @@ impl PlannedScene {
             StudySource::Recording(_) => false,
         });
         for study in real {
-            let Changes { specimens, units } = Changes::of(&study.plan);
-            let counted = [(specimens, "specimens"), (units, "units of the sensor")];
-            let needed: Vec<String> = counted
-                .into_iter()
-                .filter(|(count, _)| *count > 0)
-                .map(|(count, what)| format!("{count} {what} are changed by hand"))
-                .collect();
+            let mut needed = study.by_hand();
+            let rig = study.rig().filter(|rig| !rig.simulated);
+            if let Some(robot) = rig.and_then(|rig| rig.robot.as_ref()) {
+                let robot = taceva_core::shown(&robot.driver.value);
+                needed.insert(0, format!("somebody lets `{robot}` move"));
+            }
             if !needed.is_empty() {
                 return Err(StudyError::Request(format!(
                     "study `{}`: this rig needs a person: {}; run it from a terminal, where somebody can be asked",
@@ -66,6 +65,22 @@ impl PlannedScene {
             }
         }
         Ok(())
+    }
+}
+
+impl PlannedStudy {
+    /// What hands change on a real rig, with how often; nothing where nothing is changed.
+    pub fn by_hand(&self) -> Vec<String> {
+        let Changes { specimens, units } = Changes::of(&self.plan);
+        let counted = [(specimens, "specimens"), (units, "units of the sensor")];
+        let needed = counted.into_iter().filter(|(count, _)| *count > 0);
+        let needed = needed.map(|(count, what)| format!("{count} {what} are changed by hand"));
+        needed.collect()
+    }
+
+    /// The rig file that it is carried out on, if one names its devices.
+    pub fn rig(&self) -> Option<&RigFile> {
+        self.study.rig.as_deref()
     }
 }
 

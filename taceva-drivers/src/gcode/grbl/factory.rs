@@ -51,7 +51,7 @@ impl GrblFactory {
                 .help("the greatest speed of the tip, in mm/s")
                 .changes_facts(),
         ];
-        let facts = Facts::Robot(RobotFacts::default());
+        let facts = Facts::Robot(RobotFacts::default().with_base_frame(true));
         let spec = DescriptorSpec::new(KEY, "a machine with GRBL", DriverSource::Real, facts);
         Ok(GrblFactory {
             descriptor: spec.arguments(arguments).check()?,

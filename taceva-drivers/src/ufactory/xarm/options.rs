@@ -53,6 +53,7 @@ impl XarmOptions {
         RobotFacts::default()
             .with_workspace(self.workspace)
             .with_speed_max(self.speed_max)
+            .with_base_frame(true)
     }
 }
 

@@ -80,7 +80,7 @@ impl UrFactory {
                 "how fast the tip brakes at a halt, in mm/s²",
             ),
         ];
-        let facts = Facts::Robot(RobotFacts::default());
+        let facts = Facts::Robot(RobotFacts::default().with_base_frame(true));
         let spec =
             DescriptorSpec::new(KEY, "an arm of Universal Robots", DriverSource::Real, facts);
         Ok(UrFactory {

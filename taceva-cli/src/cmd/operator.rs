@@ -4,17 +4,22 @@ use std::io::{BufRead, BufReader, IsTerminal, Read, Stdin};
 
 use taceva_protocol::{Answer, Cancel, Operator, Question};
 
+use taceva_core::shown;
+
 use crate::{progress, stderr};
 
 /// A terminal that somebody reads and types at.
-pub(super) struct Terminal<I: Read> {
+pub(in crate::cmd) struct Terminal<I: Read> {
     input: BufReader<I>,
     say: fn(&str),
     is_stopped: fn() -> bool,
 }
 
+/// Whoever is at the terminal of this program.
+pub(in crate::cmd) type AtTerminal = Terminal<Stdin>;
+
 /// The terminal of this program, if there is somebody at it.
-pub(super) fn terminal() -> Option<Terminal<Stdin>> {
+pub(in crate::cmd) fn terminal() -> Option<AtTerminal> {
     let is_there = std::io::stdin().is_terminal() && std::io::stderr().is_terminal();
     is_there.then(|| Terminal {
         input: BufReader::new(std::io::stdin()),
@@ -24,11 +29,20 @@ pub(super) fn terminal() -> Option<Terminal<Stdin>> {
 }
 
 /// What is typed for each answer.
-const KEYS: &str = "Enter: done, hands out of reach; s: skip; q or Esc: stop";
+fn keys(question: &Question) -> String {
+    match question {
+        Question::Enable(robot) => {
+            format!("type {} to let it move; q or Esc: stop", shown(robot))
+        }
+        Question::Resume(_) => "Enter: go on; q or Esc: stop".to_owned(),
+        _ => "Enter: done, hands out of reach; s: skip; q or Esc: stop".to_owned(),
+    }
+}
 
 impl<I: Read + Waits> Operator for Terminal<I> {
     fn ask(&mut self, question: &Question, cancel: &Cancel) -> Answer {
-        (self.say)(&format!("{question} ({KEYS})"));
+        let keys = keys(question);
+        (self.say)(&format!("{question} ({keys})"));
         loop {
             if cancel.is_cancelled() || (self.is_stopped)() {
                 return Answer::Stop;
@@ -42,28 +56,30 @@ impl<I: Read + Waits> Operator for Terminal<I> {
                 Ok(0) | Err(_) => return Answer::Stop,
                 Ok(_) => {}
             }
-            match answer(&line) {
+            match answer(question, &line) {
                 Some(answer) => return answer,
-                None => (self.say)(KEYS),
+                None => (self.say)(&keys),
             }
         }
     }
 }
 
-/// The answer that a line means.
-fn answer(line: &str) -> Option<Answer> {
-    let typed = line.trim_end_matches(['\r', '\n']);
-    match typed.trim() {
-        stop if stop.contains('\u{1b}') => Some(Answer::Stop),
-        "" => Some(Answer::Done),
-        "s" | "S" => Some(Answer::Skip),
-        "q" | "Q" => Some(Answer::Stop),
+/// The answer that a line means. A robot is let move by its name alone.
+fn answer(question: &Question, line: &str) -> Option<Answer> {
+    let typed = line.trim_end_matches(['\r', '\n']).trim();
+    match (question, typed) {
+        (_, stop) if stop.contains('\u{1b}') => Some(Answer::Stop),
+        (_, "q" | "Q") => Some(Answer::Stop),
+        (Question::Enable(robot), typed) => (typed == robot).then_some(Answer::Done),
+        (_, "") => Some(Answer::Done),
+        (Question::Resume(_), _) => None,
+        (_, "s" | "S") => Some(Answer::Skip),
         _ => None,
     }
 }
 
 /// Input that can be waited for without being read.
-pub(super) trait Waits {
+pub(in crate::cmd) trait Waits {
     /// Waits for a tenth of a second at most; whether there is something to read, or an end.
     fn has_input(&self) -> bool;
 }
@@ -102,6 +118,10 @@ mod tests {
 
     /// What is answered to each of `count` questions by who types `text` and hangs up.
     fn answers(text: &str, count: usize) -> Vec<Answer> {
+        answers_to(&Question::Unit("b".to_owned()), text, count)
+    }
+
+    fn answers_to(question: &Question, text: &str, count: usize) -> Vec<Answer> {
         let (mut person, input) = UnixStream::pair().expect("a line");
         person.write_all(text.as_bytes()).expect("typed");
         drop(person);
@@ -110,9 +130,8 @@ mod tests {
             say: |_| {},
             is_stopped: || false,
         };
-        let question = Question::Unit("b".to_owned());
         (0..count)
-            .map(|_| terminal.ask(&question, &Cancel::new()))
+            .map(|_| terminal.ask(question, &Cancel::new()))
             .collect()
     }
 
@@ -124,6 +143,17 @@ mod tests {
         assert_eq!(answers("\u{1b}\n S \r\n", 2), [Stop, Skip]);
         // Hung up.
         assert_eq!(answers("", 1), [Stop]);
+    }
+
+    #[test]
+    fn a_robot_is_let_move_by_its_whole_name_and_by_nothing_else() {
+        use Answer::{Done, Stop};
+        let enable = Question::Enable("ufactory/xarm".to_owned());
+        // An Enter that was meant for another question, a part of the name, and no skip.
+        let typed = "\ns\nyes\nxarm\n ufactory/xarm \n";
+        assert_eq!(answers_to(&enable, typed, 1), [Done]);
+        assert_eq!(answers_to(&enable, "\nq\n", 1), [Stop]);
+        assert_eq!(answers_to(&enable, "\n", 1), [Stop]);
     }
 
     #[test]
