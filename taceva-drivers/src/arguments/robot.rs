@@ -48,7 +48,8 @@ pub(crate) fn deceleration() -> ArgSpec {
 
 /// The facts that arguments of [`speed_limit`], [`robot_facts`] and `deceleration_mm_s2` give.
 pub(crate) fn facts_of_robot(args: &Args) -> RobotFacts {
-    let mut facts = RobotFacts::default();
+    // No robot of a rig moves in the frame of a sensor.
+    let mut facts = RobotFacts::default().with_base_frame(true);
     facts.speed_max = speed_max(args).ok();
     facts.deceleration_mm_s2 = optional_number(args, DECELERATION);
     facts.stop_ms = optional_number(args, STOP);

@@ -42,6 +42,8 @@ pub enum Need {
     Kernel,
     /// Python with OctoPrint, whose virtual printer speaks as Marlin does.
     VirtualPrinter,
+    /// The right to make device files, which stand for cameras and scales that are not there.
+    DeviceFiles,
     /// An example that is built where a whole package is tested, and not by a single test of it.
     Example,
 }
@@ -55,7 +57,7 @@ pub struct UnknownNeed(
 
 impl Need {
     /// Every need.
-    pub const ALL: [Need; 18] = [
+    pub const ALL: [Need; 19] = [
         Need::Browser,
         Need::Axe,
         Need::Latex,
@@ -73,6 +75,7 @@ impl Need {
         Need::Ffmpeg,
         Need::Kernel,
         Need::VirtualPrinter,
+        Need::DeviceFiles,
         Need::Example,
     ];
 
@@ -96,6 +99,7 @@ impl Need {
             Need::Ffmpeg => "ffmpeg",
             Need::Kernel => "kernel",
             Need::VirtualPrinter => "virtual-printer",
+            Need::DeviceFiles => "device-files",
             Need::Example => "example",
         }
     }

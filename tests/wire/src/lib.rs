@@ -20,8 +20,10 @@ mod base;
 mod bench;
 mod error;
 mod fault;
+mod link;
 mod options;
 mod rig_file;
+mod served;
 mod server;
 #[cfg(unix)]
 mod terminal;
@@ -44,4 +46,4 @@ pub use bench::{Truth, WallBench};
 pub use error::WireError;
 pub use fault::{Arm, ArmFault, Device, Fault, FaultKind};
 pub use options::BenchOptions;
-pub use rig_file::RigFile;
+pub use served::{ForceKind, RobotKind, ServeOptions, Served};

@@ -15,6 +15,7 @@ use crate::server::{End, Server};
 #[derive(Debug)]
 pub struct Emulator {
     server: Server,
+    force_max_n: f64,
 }
 
 /// The port that clients expect.
@@ -31,13 +32,21 @@ impl Emulator {
         let server = Server::start(host, port, &end, move |stream| {
             session::serve(stream, &serving.0, &serving.1);
         })?;
-        Ok(Emulator { server })
+        Ok(Emulator {
+            server,
+            force_max_n: bench.force_range_n(),
+        })
     }
 
     /// The driver that reaches it, with its arguments.
     pub fn selector(&self) -> String {
         let address = self.address();
-        format!("sri/m8128:host={};port={}", address.ip(), address.port())
+        format!(
+            "sri/m8128:host={};port={};force_max_n={}",
+            address.ip(),
+            address.port(),
+            self.force_max_n
+        )
     }
 
     /// Where it listens.

@@ -44,7 +44,7 @@ impl GrblFactory {
     /// # Errors
     /// [`DescriptorError`] if it contradicted itself, which its tests rule out.
     pub fn new() -> Result<GrblFactory, DescriptorError> {
-        let facts = Facts::Robot(RobotFacts::default());
+        let facts = Facts::Robot(RobotFacts::default().with_base_frame(true));
         let spec = DescriptorSpec::new(KEY, "a machine with GRBL", DriverSource::Real, facts);
         Ok(GrblFactory {
             descriptor: spec.arguments(SerialOptions::arguments()).check()?,

@@ -50,7 +50,7 @@ impl MarlinFactory {
     /// # Errors
     /// [`DescriptorError`] if it contradicted itself, which its tests rule out.
     pub fn new() -> Result<MarlinFactory, DescriptorError> {
-        let facts = Facts::Robot(RobotFacts::default());
+        let facts = Facts::Robot(RobotFacts::default().with_base_frame(true));
         let spec = DescriptorSpec::new(KEY, "a printer with Marlin", DriverSource::Real, facts);
         Ok(MarlinFactory {
             descriptor: spec.arguments(SerialOptions::arguments()).check()?,

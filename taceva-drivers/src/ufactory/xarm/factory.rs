@@ -62,7 +62,7 @@ impl XarmFactory {
                 .help("the box in which the tip may be, in mm in the base frame: the least x,y,z and the greatest, six numbers with commas")
                 .changes_facts(),
         ];
-        let facts = Facts::Robot(RobotFacts::default());
+        let facts = Facts::Robot(RobotFacts::default().with_base_frame(true));
         let spec = DescriptorSpec::new(KEY, "an arm of UFACTORY", DriverSource::Real, facts);
         Ok(XarmFactory {
             descriptor: spec

@@ -74,7 +74,7 @@ impl UrFactory {
             )
             .changes_facts(),
         ];
-        let facts = Facts::Robot(RobotFacts::default());
+        let facts = Facts::Robot(RobotFacts::default().with_base_frame(true));
         let spec =
             DescriptorSpec::new(KEY, "an arm of Universal Robots", DriverSource::Real, facts);
         Ok(UrFactory {
