@@ -16,6 +16,8 @@ const NEAR_MM: f64 = 0.02;
 const LOOK_EVERY: Duration = Duration::from_millis(10);
 /// A printer that works on something says so every two seconds; one that says nothing for longer is gone.
 const SILENT: Duration = Duration::from_secs(5);
+/// How long a printer that was stopped may take to answer again.
+const SETTLED: Duration = Duration::from_secs(3);
 /// Waits until the motion has ended.
 const WAIT: &str = "M400";
 
@@ -46,7 +48,7 @@ impl Printer {
             // Stopped twice is stopped once; a stop that could not be sent says so by a line that is gone.
             let _ = self.link.writer().send(QUICK_STOP);
             // A motion that was given up is no halt: the next one is accepted, once what was said of this one has passed.
-            let _ = self.agree(ANSWER);
+            let _ = self.agree(SETTLED);
         }
         ended
     }

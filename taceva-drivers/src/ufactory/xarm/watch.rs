@@ -88,10 +88,14 @@ fn read(
             Err(source) => return LinkError::Broken { address, source }.into(),
         }
         let at = monotonic();
+        let (mut count, mut newest) = (0, None);
         loop {
             match reports.next() {
                 Ok(None) => break,
-                Ok(Some(report)) => posting.post_last(1, report, at),
+                Ok(Some(report)) => {
+                    count += 1;
+                    newest = Some(report);
+                }
                 Err(error) => {
                     let _ = stream.shutdown(Shutdown::Both);
                     return Ending {
@@ -100,6 +104,9 @@ fn read(
                     };
                 }
             }
+        }
+        if let Some(report) = newest {
+            posting.post_last(count, report, at);
         }
     }
 }
