@@ -1,6 +1,5 @@
 //! Opening a camera, and which pictures it gives.
 
-use std::fmt;
 use std::os::fd::{AsFd, BorrowedFd, OwnedFd};
 use std::path::Path;
 
@@ -9,73 +8,8 @@ use rustix::io::Errno;
 
 use crate::error::V4l2Error;
 use crate::kernel::{self, Capability, Format, FormatName, Rate, Size};
+use crate::picture::{Coding, FourCc, GivenFormat, PictureFormat};
 use crate::stream::Stream;
-
-/// How the pixels of a picture are sent, as four letters.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub struct FourCc(u32);
-
-impl FourCc {
-    /// Two bytes a pixel: brightness of each, colour of two together.
-    pub const YUYV: FourCc = FourCc::new(*b"YUYV");
-    /// A JPEG file a picture.
-    pub const MJPG: FourCc = FourCc::new(*b"MJPG");
-
-    /// The code of four letters.
-    pub const fn new(letters: [u8; 4]) -> FourCc {
-        FourCc(u32::from_le_bytes(letters))
-    }
-}
-
-impl fmt::Display for FourCc {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let letters = self.0.to_le_bytes();
-        write!(f, "{}", letters.escape_ascii())
-    }
-}
-
-/// The pictures that are wanted of a camera. A plain value, which gets no further fields.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct PictureFormat {
-    /// Pixels of a row.
-    pub width: u32,
-    /// Rows.
-    pub height: u32,
-    /// How they are sent.
-    pub pixels: FourCc,
-}
-
-impl fmt::Display for PictureFormat {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}×{} {}", self.width, self.height, self.pixels)
-    }
-}
-
-/// How colours are made of YUYV.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Coding {
-    /// ITU-R BT.601, of brightness 16 to 235.
-    Limited601,
-    /// ITU-R BT.601, of brightness 0 to 255.
-    Full601,
-    /// ITU-R BT.709, of brightness 16 to 235.
-    Limited709,
-    /// ITU-R BT.709, of brightness 0 to 255.
-    Full709,
-}
-
-/// The pictures that a camera gives.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct GivenFormat {
-    /// Size and kind, as they were wanted.
-    pub picture: PictureFormat,
-    /// Bytes from one row to the next; 0 where pictures are compressed.
-    pub stride: u32,
-    /// Bytes of a picture, at most those where it is compressed.
-    pub bytes: u32,
-    /// How colours are made of it.
-    pub coding: Coding,
-}
 
 /// A camera that is open, and gives no pictures yet.
 #[derive(Debug)]
@@ -85,10 +19,6 @@ pub struct Camera {
     bus: String,
 }
 
-const COLOURS_709: u32 = 3;
-const CODING_601: u32 = 1;
-const CODING_709: u32 = 2;
-const RANGE_FULL: u32 = 1;
 const RATE_CAN_BE_SET: u32 = 0x1000;
 const FIELD_NONE: u32 = 1;
 /// No camera offers more formats or sizes; one that seems to has gone wrong.
@@ -153,7 +83,7 @@ impl Camera {
         let mut format = Format {
             width: wanted.width,
             height: wanted.height,
-            pixels: wanted.pixels.0,
+            pixels: wanted.pixels.number(),
             ..Format::default()
         };
         kernel::set_format(self.fd(), &mut format)
@@ -161,7 +91,7 @@ impl Camera {
         let found = PictureFormat {
             width: format.width,
             height: format.height,
-            pixels: FourCc(format.pixels),
+            pixels: FourCc::of(format.pixels),
         };
         if found != *wanted || format.field != FIELD_NONE {
             return Err(V4l2Error::Format {
@@ -173,7 +103,7 @@ impl Camera {
             picture: found,
             stride: format.stride,
             bytes: format.bytes,
-            coding: coding(&format),
+            coding: Coding::of(&format),
         })
     }
 
@@ -233,7 +163,7 @@ impl Camera {
                 break;
             }
             let sizes = self.sizes(name.pixels);
-            offered.push(format!("{} of {sizes}", FourCc(name.pixels)));
+            offered.push(format!("{} of {sizes}", FourCc::of(name.pixels)));
         }
         match offered.is_empty() {
             true => "nothing that it names".to_owned(),
@@ -269,20 +199,6 @@ impl Camera {
     }
 }
 
-fn coding(format: &Format) -> Coding {
-    let is_709 = match format.coding {
-        CODING_709 => true,
-        CODING_601 => false,
-        _ => format.colours == COLOURS_709,
-    };
-    match (is_709, format.range == RANGE_FULL) {
-        (false, false) => Coding::Limited601,
-        (false, true) => Coding::Full601,
-        (true, false) => Coding::Limited709,
-        (true, true) => Coding::Full709,
-    }
-}
-
 /// A text that ends at its first zero.
 pub(crate) fn text(bytes: &[u8]) -> String {
     let end = bytes.iter().position(|byte| *byte == 0);
@@ -300,27 +216,5 @@ mod tests {
         let foreign = Camera::open("/dev/null").expect_err("foreign");
         assert!(matches!(foreign, V4l2Error::NoCamera { .. }), "{foreign}");
         assert!(foreign.to_string().contains("/dev/null"), "{foreign}");
-    }
-
-    #[test]
-    fn kinds_of_pixels_are_shown_by_their_letters() {
-        assert_eq!(FourCc::YUYV.to_string(), "YUYV");
-        assert_eq!(FourCc::new(*b"A\x1b\0 ").to_string(), "A\\x1b\\x00 ");
-    }
-
-    #[test]
-    fn colours_are_made_as_the_camera_says() {
-        let with = |colours, coding, range| {
-            super::coding(&Format {
-                colours,
-                coding,
-                range,
-                ..Format::default()
-            })
-        };
-        assert_eq!(with(8, 0, 0), Coding::Limited601);
-        assert_eq!(with(3, 0, 2), Coding::Limited709);
-        assert_eq!(with(3, 1, 1), Coding::Full601);
-        assert_eq!(with(8, 2, 1), Coding::Full709);
     }
 }

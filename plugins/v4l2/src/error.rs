@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use thiserror::Error;
 
-use crate::camera::PictureFormat;
+use crate::picture::PictureFormat;
 
 /// A call to a camera that failed.
 #[derive(Debug, Error)]

@@ -10,9 +10,11 @@ mod control;
 mod error;
 mod kernel;
 mod mapped;
+mod picture;
 mod stream;
 
-pub use camera::{Camera, Coding, FourCc, GivenFormat, PictureFormat};
+pub use camera::Camera;
 pub use control::{Control, ControlId, ControlKind};
 pub use error::V4l2Error;
+pub use picture::{Coding, FourCc, GivenFormat, PictureFormat};
 pub use stream::{Filled, Stream};

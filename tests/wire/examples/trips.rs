@@ -102,7 +102,10 @@ fn main() -> Result<ExitCode, Box<dyn Error>> {
     let bound_mm = speed_mm_s * (late_ms + LOOK_MS) * 1e-3;
     println!("| trips | speed | | median | 99 % | 99.9 % | most |");
     println!("|---|---|---|---|---|---|---|");
-    for (what, unit, all) in [("stopped after", "ms", &took_ms), ("went on by", "mm", &went_mm)] {
+    for (what, unit, all) in [
+        ("stopped after", "ms", &took_ms),
+        ("went on by", "mm", &went_mm),
+    ] {
         let [median, most_of, nearly_all] = [500, 990, 999].map(|part| share(all, part));
         println!(
             "| {trips} | {speed_mm_s} mm/s | {what} | {median:.3} {unit} | {most_of:.3} {unit} | {nearly_all:.3} {unit} | {:.3} {unit} |",

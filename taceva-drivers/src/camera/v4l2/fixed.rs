@@ -132,7 +132,21 @@ impl Knob {
         found: &mut BTreeMap<String, String>,
     ) -> Result<(), DriverError> {
         let name = self.name;
-        let is_automatic = self.let_go(camera, keeps_automatic)?;
+        if self.let_go(camera, keeps_automatic)? {
+            // What it is now says nothing of the next picture.
+            found.insert(format!("{name}_automatic"), "true".to_owned());
+            return match self.wanted {
+                None => Ok(()),
+                Some(wanted) => Err(failed(
+                    ErrorKind::InvalidArgument,
+                    FIX,
+                    format!(
+                        "`{name}` is to be {}, and `automatic=keep` leaves it to the camera: give one of them",
+                        self.shown(wanted)
+                    ),
+                )),
+            };
+        }
         let control = camera.control(self.control).map_err(refused(FIX))?;
         match (control, self.wanted) {
             (None, None) => {}
@@ -144,15 +158,12 @@ impl Knob {
                 ));
             }
             (Some(control), wanted) => {
-                if let Some(wanted) = wanted.filter(|_| !is_automatic) {
+                if let Some(wanted) = wanted {
                     self.set(camera, &control, wanted)?;
                 }
                 let value = camera.value(self.control).map_err(refused(FIX))?;
                 found.insert(name.to_owned(), self.shown(value));
             }
-        }
-        if is_automatic {
-            found.insert(format!("{name}_automatic"), "true".to_owned());
         }
         Ok(())
     }

@@ -21,7 +21,8 @@ submit_builtin!(dyn Robot, || Ok(Box::new(MarlinFactory::new()?)));
 /// - Opening takes the line for itself alone, which resets many boards; nothing moves. Firmware without `EMERGENCY_PARSER` is refused: a stop would
 ///   wait behind the motion that it is to stop.
 /// - A move is one `G1` and the wait `M400` behind it. It ends once the wait is answered and `M114` is within 0.02 mm of the target. On its way
-///   the printer does not tell where it is.
+///   the printer does not tell where it is. One that says nothing for 5 s counts as gone: its firmware needs `HOST_KEEPALIVE_FEATURE`, which it has
+///   unless somebody took it out.
 /// - A halt is `M410`, by which the motors stand **without slowing down**: from more than a few mm/s a printer may lose steps, and with them its
 ///   place. Move slowly, and home it after a halt at speed. `clear_halt` sends nothing that moves.
 /// - An `Error:` of the firmware ends a move with `DeviceFault`; a person resets it.

@@ -22,6 +22,7 @@ submit_builtin!(dyn Robot, || Ok(Box::new(UrFactory::new()?)));
 /// - A halt sends a program of one `stopl` over a connection of its own, which takes the place of the one that runs; the controller confirms
 ///   none. Without that connection no move begins.
 /// - Emergency, protective and safeguard stops end a move with `DeviceFault`.
+/// - It is watched while it moves by the states that it sends, which name these stops too.
 ///
 /// # What confirmed it
 /// An emulated controller on which the driver passes its suite; the public client `ur-rtde` 1.6.5 reads its poses too. **Not verified without

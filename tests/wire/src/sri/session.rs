@@ -166,7 +166,10 @@ fn stream_readings(session: &Session, bench: &WallBench, over: &End) {
             values[2] = -bench.force_range_n();
         }
         let frame = frame(number, values, is_crc32);
-        if link.send(bench, &frame, |bytes| session.send(bytes)).is_err() {
+        if link
+            .send(bench, &frame, |bytes| session.send(bytes))
+            .is_err()
+        {
             return;
         }
     }

@@ -2,6 +2,8 @@
 
 #[cfg(unix)]
 mod grbl;
+#[cfg(unix)]
+mod marlin;
 mod netft;
 mod sri;
 mod support;

@@ -143,6 +143,9 @@ fn its_gain_is_fixed_and_read_back() {
         flagged.settings().get("gain_automatic").map(String::as_str),
         Some("true")
     );
+    assert_eq!(flagged.settings().get("gain"), None);
+    let both = opened(&format!("{ARGUMENTS};automatic=keep;gain=3")).map(drop);
+    assert_eq!(both.expect_err("both").kind(), ErrorKind::InvalidArgument);
     let beyond = opened(&format!("{ARGUMENTS};gain=100000")).map(drop);
     assert_eq!(beyond.expect_err("beyond").kind(), ErrorKind::OutOfRange);
 }

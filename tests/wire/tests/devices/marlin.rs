@@ -2,13 +2,13 @@
 
 use std::time::{Duration, Instant};
 
-use taceva_core::{Deadline, DriverError, ErrorKind, Factory, Millimetre, Pose, Rig, Robot, Speed};
+use taceva_core::{Deadline, DriverError, ErrorKind, Factory, Rig, Robot};
 use taceva_drivers::MarlinFactory;
 use taceva_drivers::conformance::{self, Trial};
 use taceva_wire::marlin::{Emulator, Firmware};
 use taceva_wire::{Arm, ArmFault, BenchOptions, Device, Fault, FaultKind, WallBench};
 
-const PATIENCE: Deadline = Deadline::after(Duration::from_secs(10));
+use crate::support::{PATIENCE, lower, speed};
 
 struct Setup {
     bench: WallBench,
@@ -37,16 +37,6 @@ impl Setup {
     fn open(&self) -> Box<dyn Robot> {
         opened(&self.arguments()).expect("a printer")
     }
-}
-
-fn speed(mm_per_s: f64) -> Speed {
-    Speed::try_new(mm_per_s).expect("above 0")
-}
-
-fn lower(pose: Pose, mm: f64) -> Pose {
-    let mut lower = pose;
-    lower.position.z = Millimetre(pose.position.z.0 - mm);
-    lower
 }
 
 #[test]
