@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use taceva_core::{ErrorKind, ModelError};
+use taceva_core::{DriverError, ErrorKind, ModelError};
 use taceva_dataset::DatasetError;
 use taceva_drivers::OpenError;
 use taceva_metrics::{MetricError, UnknownMetric};
@@ -76,6 +76,9 @@ pub enum StudyError {
         /// Why.
         source: Box<OpenError>,
     },
+    /// A device of a rig that is set up failed.
+    #[error(transparent)]
+    Device(#[from] DriverError),
     /// A rig that stopped before its end; every press before is recorded, and the same study goes on from there.
     #[error("study `{study}`: {source}", study = taceva_core::shown(study))]
     Acquisition {
@@ -119,6 +122,7 @@ impl StudyError {
                 ErrorKind::Protocol
             }
             StudyError::Open { source, .. } => source.kind(),
+            StudyError::Device(error) => error.kind(),
             StudyError::Acquisition { source, .. } => match &source.cause {
                 StopCause::Cancelled => ErrorKind::Interrupted,
                 StopCause::Device(error) => error.kind(),
@@ -133,9 +137,15 @@ impl StudyError {
     /// Whether a device failed, rather than what was typed, read or written.
     pub fn is_of_device(&self) -> bool {
         match self {
+            StudyError::Device(_) => true,
             StudyError::Open { source, .. } => matches!(**source, OpenError::Device(_)),
             StudyError::Acquisition { source, .. } => {
-                !matches!(source.cause, StopCause::Cancelled | StopCause::Log(_))
+                let cause = &source.cause;
+                // A rig file that is wrong is a file that is wrong.
+                !matches!(
+                    cause,
+                    StopCause::Cancelled | StopCause::Log(_) | StopCause::Rig(_)
+                )
             }
             _ => false,
         }

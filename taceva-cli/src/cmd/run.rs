@@ -1,7 +1,6 @@
 //! `taceva run`.
 
 pub(super) mod bench;
-mod operator;
 mod stages;
 
 use std::path::{Path, PathBuf};
@@ -9,10 +8,15 @@ use std::sync::Mutex;
 use taceva_core::shown;
 
 use anyhow::Context as _;
+use taceva_drivers::Drivers;
+use taceva_models::Models;
 use taceva_report::escape_csv;
-use taceva_study::{EvaluationReport, Existing, PlannedScene, RunFolder, Workshop, run_scene};
+use taceva_study::{
+    AIR_MM, EvaluationReport, Existing, PlannedScene, RunFolder, Workshop, rehearse_scene,
+    run_scene,
+};
 
-use super::{Context, Usage, cache, scene};
+use super::{Context, Usage, cache, operator, scene};
 use crate::args::{Format, Run};
 use crate::{exit, output, progress, report};
 
@@ -38,6 +42,9 @@ pub(crate) fn run(args: &Run, context: &Context) -> anyhow::Result<u8> {
             planned.studies.len()
         )));
     }
+    if args.air {
+        return rehearse(&planned, (&drivers, &models), terminal.as_ref(), context);
+    }
     let existing = match (args.resume, args.force) {
         (true, _) => Existing::Resume,
         (_, true) => Existing::Replace,
@@ -48,6 +55,7 @@ pub(crate) fn run(args: &Run, context: &Context) -> anyhow::Result<u8> {
         .clone()
         .unwrap_or_else(|| RunFolder::numbered(Path::new(RUNS), &planned.scene.name, existing));
     scene::print_cost(&planned, &path, context)?;
+    scene::print_rigs(&planned, &drivers, context);
     let _held = planned.hold_rigs()?;
     let folder = RunFolder::open(&path, &planned, existing)?;
     context.say(format_args!("run in {}", shown(&path)));
@@ -95,6 +103,33 @@ pub(crate) fn run(args: &Run, context: &Context) -> anyhow::Result<u8> {
     })?;
     context.say(format_args!("reports are in {}", shown(&folder.reports())));
     context.say(format_args!("look at    {}", shown(&page)));
+    Ok(exit::DONE)
+}
+
+/// `taceva run --air`.
+fn rehearse(
+    planned: &PlannedScene,
+    (drivers, models): (&Drivers, &Models),
+    terminal: Option<&Mutex<operator::AtTerminal>>,
+    context: &Context,
+) -> anyhow::Result<u8> {
+    scene::print_rigs(planned, drivers, context);
+    let _held = planned.hold_rigs()?;
+    let workshop = Workshop {
+        drivers,
+        models,
+        surroundings: &bench::surroundings,
+        cache: None,
+        progress: &context.progress,
+        operator: match terminal {
+            Some(terminal) => Some(terminal),
+            None => None,
+        },
+    };
+    let visited = rehearse_scene(planned, workshop)?;
+    context.say(format_args!(
+        "visited {visited} places, {AIR_MM} mm above the height of travel; nothing was pressed or recorded"
+    ));
     Ok(exit::DONE)
 }
 

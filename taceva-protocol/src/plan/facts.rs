@@ -123,7 +123,7 @@ impl<'a> Gather<'a> {
         let sensor = rig.sensor.as_ref().and_then(Descriptor::sensor);
         let axes = rig.force.as_ref().and_then(Descriptor::force).map(|force| {
             match study.rig.as_ref().and_then(|rig| rig.force.as_ref()) {
-                Some(mounted) => mounted.axes.measured(force.axes),
+                Some(mounted) => mounted.axes.value.measured(force.axes),
                 None => force.axes,
             }
         });
@@ -138,6 +138,7 @@ impl<'a> Gather<'a> {
             sensor.and_then(|sensor| sensor.markers),
         )?;
         let footprint = self.footprint(sensor.and_then(|sensor| sensor.footprint))?;
+        self.is_mapped(rig)?;
         // Without a robot nothing is pressed, so there is nothing to limit.
         let limits = match rig.robot {
             Some(_) => Some(limits(scene, study, rig)?),

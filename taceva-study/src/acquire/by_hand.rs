@@ -3,7 +3,7 @@
 use std::sync::PoisonError;
 
 use taceva_drivers::Drivers;
-use taceva_protocol::{Answer, Cancel, Left, Plan, Question, RunError, StopCause};
+use taceva_protocol::{Answer, Cancel, Left, Plan, Question, RigFile, RunError, StopCause};
 
 use super::workshop::Workshop;
 use crate::error::StudyError;
@@ -30,9 +30,7 @@ impl Changes {
                 specimens += mounted.len();
             }
             if is_lit_by_hand {
-                let mut lit: Vec<_> = of_unit
-                    .filter_map(|press| press.light.as_ref())
-                    .collect();
+                let mut lit: Vec<_> = of_unit.filter_map(|press| press.light.as_ref()).collect();
                 lit.dedup();
                 lights += lit.len();
             }
@@ -55,27 +53,17 @@ impl PlannedScene {
     /// # Errors
     /// [`StudyError::Request`], with how many changes there are.
     pub fn check_unattended(&self, drivers: &Drivers) -> Result<(), StudyError> {
-        let real = self.studies.iter().filter_map(|study| match &study.source {
-            StudySource::Rig(rig) if !rig.is_simulated(drivers) => Some((study, rig)),
-            _ => None,
+        let real = self.studies.iter().filter(|study| match &study.source {
+            StudySource::Rig(rig) => !rig.is_simulated(drivers),
+            StudySource::Recording(_) => false,
         });
-        for (study, rig) in real {
-            let is_lit_by_hand = is_lit_by_hand(study, rig, drivers);
-            let Changes {
-                specimens,
-                lights,
-                units,
-            } = Changes::of(&study.plan, is_lit_by_hand);
-            let counted = [
-                (specimens, "specimens"),
-                (lights, "lights"),
-                (units, "units of the sensor"),
-            ];
-            let needed: Vec<String> = counted
-                .into_iter()
-                .filter(|(count, _)| *count > 0)
-                .map(|(count, what)| format!("{count} {what} are changed by hand"))
-                .collect();
+        for study in real {
+            let mut needed = study.by_hand(drivers);
+            let rig = study.rig().filter(|rig| !rig.simulated);
+            if let Some(robot) = rig.and_then(|rig| rig.robot.as_ref()) {
+                let robot = taceva_core::shown(&robot.driver.value);
+                needed.insert(0, format!("somebody lets `{robot}` move"));
+            }
             if !needed.is_empty() {
                 return Err(StudyError::Request(format!(
                     "study `{}`: this rig needs a person: {}; run it from a terminal, where somebody can be asked",
@@ -95,6 +83,34 @@ fn is_lit_by_hand(study: &PlannedStudy, rig: &RigSpec, drivers: &Drivers) -> boo
         let own = info.sensor.as_ref().and_then(|sensor| sensor.sensor());
         info.lighting.is_none() && own.is_none_or(|own| own.scenes.is_empty())
     })
+}
+
+impl PlannedStudy {
+    /// What hands change on a real rig of `drivers`, with how often; nothing where nothing is changed.
+    pub fn by_hand(&self, drivers: &Drivers) -> Vec<String> {
+        let is_lit_by_hand = match &self.source {
+            StudySource::Rig(rig) => is_lit_by_hand(self, rig, drivers),
+            StudySource::Recording(_) => false,
+        };
+        let Changes {
+            specimens,
+            lights,
+            units,
+        } = Changes::of(&self.plan, is_lit_by_hand);
+        let counted = [
+            (specimens, "specimens"),
+            (lights, "lights"),
+            (units, "units of the sensor"),
+        ];
+        let needed = counted.into_iter().filter(|(count, _)| *count > 0);
+        let needed = needed.map(|(count, what)| format!("{count} {what} are changed by hand"));
+        needed.collect()
+    }
+
+    /// The rig file that it is carried out on, if one names its devices.
+    pub fn rig(&self) -> Option<&RigFile> {
+        self.study.rig.as_deref()
+    }
 }
 
 /// Whether `unit` is under the robot: of several units of a real rig somebody says so, or skips it.
