@@ -192,7 +192,8 @@ impl Tally {
                 return;
             }
             if is_well {
-                self.broken.extend(lacks(&on.recording(RUN), presses_of(times)));
+                self.broken
+                    .extend(lacks(&on.recording(RUN), presses_of(times)));
                 return;
             }
             ends += 1;
@@ -284,7 +285,12 @@ pub fn play_kills(times: usize, seed: u64) -> Result<usize, String> {
         kills += 1;
     }
     let (is_well, said) = UnderWay::begin(on.study()).end();
-    match (is_well, is_well.then(|| lacks(&on.recording(RUN), presses)).flatten()) {
+    match (
+        is_well,
+        is_well
+            .then(|| lacks(&on.recording(RUN), presses))
+            .flatten(),
+    ) {
         (false, _) => Err(said),
         (true, Some(lack)) => Err(lack),
         (true, None) => Ok(presses),
