@@ -26,8 +26,11 @@ pub struct Version {
 }
 
 impl Version {
-    /// What this crate writes.
-    pub const CURRENT: Version = Version { major: 1, minor: 4 };
+    /// The latest that this crate writes: of each header, the earliest that knows all its keys.
+    pub const CURRENT: Version = Version { major: 1, minor: 5 };
+
+    /// The version of headers that say nothing of a stream.
+    pub(crate) const WITHOUT_STREAM: Version = Version { major: 1, minor: 4 };
 
     /// The first version whose headers are sealed.
     pub const SEALED: Version = Version { major: 1, minor: 3 };

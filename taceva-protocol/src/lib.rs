@@ -25,7 +25,7 @@ pub use rig_file::{Carried, Registration, RigFile, RigForce, RigRobot, RigSensor
 pub use run::{
     Answer, Cancel, Controls, Devices, Event, Left, Mode, MotionStage, Observation, Operator,
     PressLog, PressRecord, Question, RunError, RunReport, RunSpec, SharedSupervisor,
-    SpecimenChanger, StopCause, Supervisor, Timekeeper, Trip, run, run_guarded,
+    SpecimenChanger, StopCause, Supervisor, Timekeeper, Trip, run, run_guarded, wrench_between,
 };
 pub use scene::{
     BuiltinScene, Calibration, Contact, DeviceSpec, FootprintSpec, GREATEST_SCENE,

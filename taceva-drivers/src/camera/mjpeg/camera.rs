@@ -26,6 +26,8 @@ pub(super) struct Camera {
     is_running: bool,
     /// The number of the last picture that was given.
     last: u64,
+    /// The picture that was given last, once one was.
+    given: Option<Arc<[u8]>>,
     /// Pictures that came while nobody asked, or too late.
     missed: u64,
 }
@@ -62,6 +64,7 @@ impl Camera {
             info,
             is_running: false,
             last: first.number,
+            given: None,
             missed: 0,
         })
     }
@@ -132,6 +135,7 @@ impl Sensor for Camera {
         let seen = next(&self.pictures, self.last, deadline.remaining())?;
         self.missed += seen.number - self.last - 1;
         self.last = seen.number;
+        self.given = None;
         let mut into = into;
         decode(whole(&seen.what.bytes), &mut into).map_err(|mismatch| {
             let (missed, broken) = (self.missed, seen.what.broken);
@@ -146,7 +150,16 @@ impl Sensor for Camera {
             };
             failed(ErrorKind::Protocol, CAPTURE, why)
         })?;
+        self.given = Some(seen.what.bytes);
         Ok(Stamp::new(seen.what.began, Some(seen.at)))
+    }
+
+    fn sequence(&self) -> Option<u64> {
+        Some(self.last)
+    }
+
+    fn sent(&self) -> Option<&[u8]> {
+        self.given.as_deref().map(whole)
     }
 
     fn stop(&mut self) -> Result<(), DriverError> {
