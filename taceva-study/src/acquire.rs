@@ -7,9 +7,11 @@ mod held;
 mod key;
 mod latency;
 mod log;
+mod opened;
 mod registered;
 pub(crate) mod retried;
 mod schedule;
+mod seen;
 mod workshop;
 
 use std::path::Path;
@@ -19,7 +21,7 @@ use taceva_dataset::{
     Dataset, DatasetError, Footprint, Known, Recorder, RecordingFacts, RecordingSpec, SensorFacts,
     Source,
 };
-use taceva_protocol::{Cancel, Event, Mode, Plan, RunSpec, StopCause};
+use taceva_protocol::{Cancel, Event, Mode, Plan, PressLog, RunSpec, StopCause};
 
 use crate::error::StudyError;
 use crate::scene::{PlannedStudy, RigSpec};
@@ -28,6 +30,8 @@ use devices::OpenRig;
 pub use held::HeldRigs;
 pub(crate) use key::key;
 use log::RecordedPresses;
+pub(crate) use opened::Opened;
+pub(crate) use registered::Turned;
 use schedule::Schedule;
 pub use workshop::{Surroundings, SurroundingsOf, Upcoming, Workshop};
 
@@ -105,9 +109,15 @@ fn acquire_unit(
         log.relive(plan, unit);
     }
     let schedule = Schedule::of(plan);
+    if let Some(viewer) = workshop.viewer {
+        viewer.begins(plan, unit, &|press| log.is_finished(press));
+    }
     let mut retried = 0_u64;
     let mut upcoming = open.surroundings.upcoming.take();
     let mut events = |event: &Event| {
+        if let Some(viewer) = workshop.viewer {
+            viewer.event(event);
+        }
         match event {
             Event::Started { finished, .. } => progress.advance(*finished as u64),
             Event::Approaching { press, number } => {

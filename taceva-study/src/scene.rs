@@ -25,7 +25,7 @@ pub use instead::Instead;
 pub(crate) use rig::RigSpec;
 pub(crate) use settings::settings_of;
 pub use text::SceneText;
-use text::read_rig;
+pub(crate) use text::read_rig;
 
 /// A scene with the plan of each of its studies.
 #[derive(Debug)]

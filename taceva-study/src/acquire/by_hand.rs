@@ -59,7 +59,7 @@ impl PlannedScene {
                 .collect();
             if !needed.is_empty() {
                 return Err(StudyError::Request(format!(
-                    "study `{}`: this rig needs a person: {}; run it from a terminal, where somebody can be asked",
+                    "study `{}`: this rig needs a person: {}; run it from a terminal, or with a page, where somebody can be asked",
                     taceva_core::shown(&study.plan.name),
                     needed.join(", ")
                 )));

@@ -39,6 +39,16 @@ impl PlannedScene {
                 devices.insert(device.value.clone(), rig.name().to_owned());
             }
         }
+        HeldRigs::of(folder, devices)
+    }
+}
+
+impl HeldRigs {
+    /// Takes each of `devices`, named by what opens it, with who names it.
+    pub(crate) fn of(
+        folder: &Path,
+        devices: impl IntoIterator<Item = (String, String)>,
+    ) -> Result<HeldRigs, StudyError> {
         let locks = devices.into_iter().map(|(device, rig)| {
             let path = lock_path(folder, &device);
             take(&path, (&device, &rig))

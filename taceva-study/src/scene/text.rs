@@ -59,7 +59,7 @@ impl SceneText {
 ///
 /// # Errors
 /// [`StudyError::Scene`] if it cannot be read or is none.
-pub(super) fn read_rig(path: &Path) -> Result<Arc<RigFile>, StudyError> {
+pub(crate) fn read_rig(path: &Path) -> Result<Arc<RigFile>, StudyError> {
     let text = read_text(path)?;
     let rig = RigFile::parse(&path.display().to_string(), &text)?;
     Ok(Arc::new(rig))

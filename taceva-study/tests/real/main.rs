@@ -66,6 +66,7 @@ fn record_by_hand(
         cache: None,
         progress,
         operator,
+        viewer: None,
     };
     run_scene(&planned, &run, workshop, NonZeroUsize::MIN)?;
     Ok(Dataset::open(&run.recording(0, "wall"))?)
