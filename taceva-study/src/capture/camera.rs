@@ -93,8 +93,12 @@ impl Camera<'_> {
                     ErrorKind::Interrupted => return Ok(None),
                     _ => false,
                 };
-                match is_passing && was_whole.elapsed() < PATIENCE {
-                    true => Ok(None),
+                match is_passing {
+                    true if was_whole.elapsed() < PATIENCE => Ok(None),
+                    true => {
+                        let why = format!("no whole frame for {PATIENCE:?}; at last: {error}");
+                        Err(self.failed(error.kind(), why))
+                    }
                     false => Err(error),
                 }
             }
@@ -102,7 +106,7 @@ impl Camera<'_> {
     }
 
     fn failed(&self, kind: ErrorKind, why: String) -> DriverError {
-        device_error(kind, self.driver, "take a frame", why)
+        device_error(kind, self.driver, "capture a frame", why)
     }
 
     /// Whether somebody still takes frames. Those of a device come when they come; a bench or a recording waits until there is room.

@@ -6,8 +6,8 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
 use taceva_core::{
-    Axis, Deadline, DriverError, DriverKey, DriverSource, ErrorKind, Facts, Frame, FrameInfo,
-    FrameMut, Rig, Sensor, SensorFacts, Wrench,
+    Axis, Deadline, Descriptor, DriverError, DriverKey, DriverSource, ErrorKind, Facts, Frame,
+    FrameInfo, FrameMut, Rig, Sensor, SensorFacts, Wrench,
 };
 use taceva_drivers::{Drivers, OpenError, Selector};
 use taceva_protocol::{RigFile, SignedAxes};
@@ -97,17 +97,27 @@ impl LiveSpec {
         &self.sensor.selector
     }
 
+    /// The devices that are real, which one command at a time may have.
+    fn real(&self, drivers: &Drivers) -> Vec<(String, String)> {
+        let sensor = drivers.sensors.get(self.sensor.selector.driver());
+        let is_real = |descriptor: &Descriptor| descriptor.source() == DriverSource::Real;
+        let mut real = Vec::new();
+        let mut take = |named: &Named| real.push((named.selector.to_string(), named.by.clone()));
+        if sensor.is_ok_and(|sensor| is_real(sensor.descriptor())) {
+            take(&self.sensor);
+        }
+        // One that is not real is refused when it is opened.
+        self.force.iter().for_each(take);
+        real
+    }
+
     /// Opens the devices, which nobody else has.
     ///
     /// # Errors
     /// [`StudyError::OpenLive`] if one does not open, [`StudyError::RigTaken`] if another command has one, [`StudyError::Request`] if a
     /// transducer is to be read whose clock is not that of the sensor.
     pub fn open(&self, drivers: &Drivers) -> Result<LiveDevices, StudyError> {
-        let named = std::iter::once(&self.sensor).chain(&self.force);
-        let held = HeldRigs::of(
-            &std::env::temp_dir(),
-            named.map(|named| (named.selector.to_string(), named.by.clone())),
-        )?;
+        let held = HeldRigs::of(&std::env::temp_dir(), self.real(drivers))?;
         let failed = |source: OpenError| StudyError::OpenLive(Box::new(source));
         let mut shared = Rig::new();
         let selector = || self.sensor.selector.clone();

@@ -93,10 +93,12 @@ impl Transducer {
                     );
                     match error.kind() {
                         ErrorKind::Interrupted => {}
-                        _ if is_passing && was_new.elapsed() < PATIENCE => {
-                            std::thread::sleep(REST);
+                        _ if !is_passing => return Err(error),
+                        _ if was_new.elapsed() < PATIENCE => std::thread::sleep(REST),
+                        kind => {
+                            let why = format!("no reading for {PATIENCE:?}; at last: {error}");
+                            return Err(self.failed(kind, why));
                         }
-                        _ => return Err(error),
                     }
                 }
             }
@@ -114,7 +116,11 @@ impl Transducer {
         let why = format!(
             "its readings have been equal to the last bit for {PATIENCE:?}: the signal is frozen; look at the transducer, its cable and its box"
         );
-        device_error(ErrorKind::DeviceFault, &self.driver, "read the force", why)
+        self.failed(ErrorKind::DeviceFault, why)
+    }
+
+    fn failed(&self, kind: ErrorKind, why: String) -> DriverError {
+        device_error(kind, &self.driver, "read the force", why)
     }
 }
 
