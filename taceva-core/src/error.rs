@@ -2,7 +2,8 @@
 
 use std::fmt;
 
-/// What kind of failure it was, whatever failed; numerically the status of the C boundary, negated.
+/// What kind of failure it was, whatever failed; numerically the status of the C boundary, negated. It gets no further variant before the
+/// next major version of that boundary, whose list it is.
 ///
 /// ```
 /// use taceva_core::ErrorKind;

@@ -2,7 +2,8 @@
 
 use std::fmt;
 
-/// The relief of a grating; both have one period in each direction they repeat in.
+/// The relief of a grating; both have one period in each direction they repeat in. It gets no further variant in a compatible version: spatial
+/// resolution is defined for these two, and another relief is another metric.
 ///
 /// ```
 /// use taceva_core::GratingKind;

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-/// The branch of a press.
+/// The branch of a press. It gets no further variant: an indenter that is not at rest moves in or out, and samples at rest have none.
 ///
 /// ```
 /// use taceva_core::Phase;

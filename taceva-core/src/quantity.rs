@@ -1,4 +1,4 @@
-//! Numbers that carry their unit in their type, for public signatures where a bare `f64` would be guessed at.
+//! Numbers that carry their unit in their type, for public signatures where a bare `f64` would be guessed at. None gets a further field.
 
 use std::fmt;
 

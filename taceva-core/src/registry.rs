@@ -130,9 +130,7 @@ mod tests {
                 DriverKey::fixed(key),
                 title,
                 DriverSource::Simulated,
-                Facts::Lighting(LightingFacts {
-                    scenes: vec!["normal".to_owned()],
-                }),
+                Facts::Lighting(LightingFacts::default().with_scenes(vec!["normal".to_owned()])),
             );
             Box::new(Lamp(spec.check().expect("no contradiction")))
         }

@@ -5,7 +5,8 @@ use std::fmt;
 use crate::grating::GratingKind;
 use crate::nanometre::Nanometre;
 
-/// What the robot carries.
+/// What the robot carries. It gets no further variant in a compatible version: what touches the gel decides every label and the identity of a
+/// press, so every reader must say what it makes of each.
 ///
 /// ```
 /// use taceva_core::{GratingKind, Nanometre, Specimen};

@@ -14,10 +14,7 @@ impl Idle {
             DriverKey::fixed("test/idle"),
             "a transducer that nothing touches",
             DriverSource::Simulated,
-            Facts::Force(ForceFacts {
-                axes: Axes::NORMAL,
-                ..ForceFacts::default()
-            }),
+            Facts::Force(ForceFacts::default().with_axes(Axes::NORMAL)),
         );
         Ok(Box::new(Idle(spec.check()?)))
     }

@@ -36,7 +36,7 @@ pub use score::{BootstrapEnds, ClusteredBy, Count, Interval, Parameter, Scale, S
 pub use stats::{
     ClusterSum, ClusterSums, Clusters, ComparisonError, Difference, DifferenceTest, Estimate,
     HASHED_CLUSTERS, IntervalMethod, NAMED_CLUSTERS, PoissonBootstrap, Question, Repeats, Side,
-    Sides, SignFlip, Verdict, decide, holm, welch,
+    Sides, SignFlip, StatedInterval, Verdict, by_intervals, decide, holm,
 };
 // What signatures here name, so that a caller needs no other crate.
 pub use taceva_core::{

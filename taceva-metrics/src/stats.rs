@@ -1,11 +1,13 @@
 //! Pure statistics: how far a score would move with other contact locations, and whether two scores differ.
 
 mod bootstrap;
+mod by_intervals;
 mod cluster_sums;
 pub(crate) mod clusters;
 mod difference;
 mod ends;
 mod error;
+mod estimate;
 mod exponential;
 mod holm;
 pub(crate) mod jackknife;
@@ -22,19 +24,19 @@ mod signed_sums;
 pub(crate) mod spread;
 mod student;
 mod verdict;
-mod welch;
 pub(crate) mod wilson;
 
 pub use bootstrap::PoissonBootstrap;
+pub use by_intervals::by_intervals;
 pub use cluster_sums::{ClusterSum, ClusterSums};
 pub use clusters::{Clusters, HASHED_CLUSTERS, NAMED_CLUSTERS};
 pub use difference::{Difference, DifferenceTest, decide};
 pub(crate) use ends::Estimated;
 pub use error::ComparisonError;
+pub use estimate::{Estimate, StatedInterval};
 pub use holm::holm;
 pub use method::IntervalMethod;
 pub use repeats::Repeats;
 pub use sides::{Side, Sides};
 pub use sign_flip::SignFlip;
 pub use verdict::{Question, Verdict};
-pub use welch::{Estimate, welch};

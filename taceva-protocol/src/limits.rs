@@ -289,17 +289,11 @@ mod tests {
 
     #[test]
     fn what_an_arm_states_of_how_it_stops_counts_in_the_place_of_what_is_assumed() {
-        let brakes = RobotFacts {
-            deceleration_mm_s2: Some(100.0),
-            ..RobotFacts::default()
-        };
+        let brakes = RobotFacts::default().with_deceleration_mm_s2(100.0);
         // 2²/(2·100) = 0.02 mm.
         let overshoot = Overshoot::at(2.0, &brakes, 0.0);
         assert!(shown(overshoot).iter().eq(&[30_000.0, 50_000.0, 260_000.0]));
-        let stops = RobotFacts {
-            stop_ms: Some(30.0),
-            ..brakes
-        };
+        let stops = brakes.with_stop_ms(30.0);
         // 2 mm/s for 30 ms.
         let overshoot = Overshoot::at(2.0, &stops, 0.0);
         assert!(shown(overshoot).iter().eq(&[30_000.0, 90_000.0, 300_000.0]));

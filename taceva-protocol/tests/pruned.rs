@@ -36,29 +36,27 @@ fn device(key: &'static str, facts: Facts) -> Option<Descriptor> {
 }
 
 fn rig() -> RigInfo {
-    let sensor = SensorFacts {
-        frame: Some(FrameInfo {
+    let sensor = SensorFacts::default()
+        .with_frame(FrameInfo {
             width: 4,
             height: 3,
             format: PixelFormat::Gray8,
-        }),
-        rate: Some(Hertz(25.0)),
-        opaque: Some(false),
-        markers: Some(true),
-        footprint: Some(Footprint::rectangle(8.0, 10.0, Some(1.0)).expect("lengths")),
-        force_max: Some(Newton(1.8)),
-        ..SensorFacts::default()
-    };
-    let force = ForceFacts {
-        axes: Axes::FORCE,
-        ..ForceFacts::default()
-    };
+        })
+        .with_rate(Hertz(25.0))
+        .with_opaque(false)
+        .with_markers(true)
+        .with_footprint(Footprint::rectangle(8.0, 10.0, Some(1.0)).expect("lengths"))
+        .with_force_max(Newton(1.8));
+    let force = ForceFacts::default().with_axes(Axes::FORCE);
     let scenes = ["normal", "S1", "S2"].map(str::to_owned).to_vec();
     RigInfo {
         sensor: device("test/gel", Facts::Sensor(Box::new(sensor))),
         robot: device("test/robot", Facts::Robot(RobotFacts::default())),
         force: device("test/force", Facts::Force(force)),
-        lighting: device("test/light", Facts::Lighting(LightingFacts { scenes })),
+        lighting: device(
+            "test/light",
+            Facts::Lighting(LightingFacts::default().with_scenes(scenes)),
+        ),
     }
 }
 

@@ -17,7 +17,8 @@ use std::collections::BTreeMap;
 
 use taceva_core::Unit;
 use taceva_metrics::{
-    Better, ComparisonError, Difference, Question, Side, Sides, Standing, Verdict, decide, welch,
+    Better, ComparisonError, Difference, Question, Side, Sides, Standing, Verdict, by_intervals,
+    decide,
 };
 
 use crate::results::{Score, Study};
@@ -123,7 +124,7 @@ struct Pair<'a> {
 /// Compares every pair of `studies`.
 ///
 /// The mean absolute error is compared sample by sample where both studies predict the same samples (the sign-flip test, by contact point);
-/// everything else by Welch's test on the standard errors behind the intervals. The pairs and channels of one metric are a family, about which
+/// everything else by the intervals of both, on their own scales. The pairs and channels of one metric are a family, about which
 /// Holm's procedure decides: verdict, p value and interval of an answer come from that one decision.
 pub fn compare(studies: &[Study], request: &CompareRequest) -> Comparison {
     let names = crate::figures::names(studies);
@@ -235,7 +236,7 @@ fn difference(
         return paired.map_err(|error| error.to_string());
     }
     let estimates = estimate::of_both(scores)?;
-    welch(estimates).map_err(|error| error.to_string())
+    by_intervals(estimates).map_err(|error| error.to_string())
 }
 
 /// Decides about those pairs that were tested.

@@ -25,7 +25,7 @@ use crate::samples::Samples;
 /// Since 1.2 they are sealed.
 pub const EVALUATION_SCHEMA: &str = "taceva.evaluation/1.2";
 /// The schema of the evaluations of a scene, in versions as [`EVALUATION_SCHEMA`].
-pub const RUN_SCHEMA: &str = "taceva.run/1.2";
+pub const RUN_SCHEMA: &str = "taceva.run/1.3";
 
 /// The results of one sensor: what was evaluated, every score, what was left out, and where it all comes from.
 #[derive(Clone, Debug, Default, PartialEq)]

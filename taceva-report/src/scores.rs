@@ -16,6 +16,8 @@ use crate::results::{Interval, Score, Study, Value};
 pub struct ScoreTable {
     /// What the studies are called.
     pub names: Vec<String>,
+    /// Where the samples of each come from: `recorded`, `simulated`, `synthetic`, `published`, `unknown` or `several`.
+    pub sources: Vec<String>,
     /// The rows, in the order of the catalogue.
     pub rows: Vec<ScoreRow>,
     /// How each score compares between each two studies.
@@ -50,6 +52,8 @@ pub struct ScoreCell {
     pub ends: Option<[f64; 2]>,
     /// How the interval was found.
     pub method: Option<String>,
+    /// Degrees of freedom of Student's t that the ends were made with, where the result says so.
+    pub degrees_of_freedom: Option<f64>,
     /// Samples it is made of.
     pub n: u64,
     /// Samples left out because a value was no usable number.
@@ -86,6 +90,7 @@ impl ScoreTable {
         }
         ScoreTable {
             names: crate::figures::names(studies),
+            sources: studies.iter().map(|study| study.source.clone()).collect(),
             spread: spread(studies, &rows),
             rows,
             answers,
@@ -109,6 +114,7 @@ impl ScoreTable {
         };
         ScoreTable {
             names: self.names.clone(),
+            sources: self.sources.clone(),
             rows: self.rows.iter().filter(is_kept).cloned().collect(),
             answers: self.answers.clone(),
             spread: self.spread.clone(),
@@ -180,6 +186,7 @@ impl Line<'_> {
             formatted: FormattedValue::of(self.value, self.interval),
             ends: self.interval.and_then(Interval::ends),
             method: self.interval.and_then(Interval::method).map(str::to_owned),
+            degrees_of_freedom: self.interval.and_then(Interval::degrees_of_freedom),
             n: self.score.n,
             n_invalid: self.score.n_invalid,
             standing: self.score.standing,

@@ -190,7 +190,7 @@ fn pairs_of_the_same_samples_are_compared_one_by_one() {
             .expect("tested")
             .test
             .to_string()
-            .starts_with("Welch")
+            .starts_with("by the intervals")
     );
 }
 

@@ -11,7 +11,7 @@ use crate::samples::Samples;
 use crate::subject::Subject;
 
 /// The schema of [`EvaluationReport`] as JSON.
-pub const EVALUATION_SCHEMA: &str = "taceva.evaluation/1.2";
+pub const EVALUATION_SCHEMA: &str = "taceva.evaluation/1.3";
 
 /// A finished evaluation. Its JSON follows [`EVALUATION_SCHEMA`].
 #[derive(Clone, Debug, Serialize)]

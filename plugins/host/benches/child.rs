@@ -36,10 +36,7 @@ const LONG: Deadline = Deadline::after(Duration::from_secs(10));
 
 fn served() -> Result<BuiltIn, taceva_core::RegistryError> {
     let mut served = BuiltIn::new()?;
-    let facts = SensorFacts {
-        frame: Some(FRAME),
-        ..SensorFacts::default()
-    };
+    let facts = SensorFacts::default().with_frame(FRAME);
     let facts = Facts::Sensor(Box::new(facts));
     let descriptor = DescriptorSpec::new(KEY, "a camera", DriverSource::Simulated, facts)
         .arguments(arguments())

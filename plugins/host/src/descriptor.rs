@@ -78,10 +78,7 @@ mod tests {
     use taceva_core::{DescriptorSpec, DriverKey, DriverSource, Hertz, SensorFacts};
 
     fn sensor(rate_hz: f64, title: &str) -> Descriptor {
-        let facts = SensorFacts {
-            rate: Some(Hertz(rate_hz)),
-            ..SensorFacts::default()
-        };
+        let facts = SensorFacts::default().with_rate(Hertz(rate_hz));
         let spec = DescriptorSpec::new(
             DriverKey::fixed("org.example/eye"),
             title,
@@ -94,10 +91,7 @@ mod tests {
     #[test]
     fn facts_may_differ_where_an_argument_is_set_that_changes_them_and_nothing_else_may() {
         let with = |rate_hz: f64, source: DriverSource| {
-            let facts = SensorFacts {
-                rate: Some(Hertz(rate_hz)),
-                ..SensorFacts::default()
-            };
+            let facts = SensorFacts::default().with_rate(Hertz(rate_hz));
             let key = DriverKey::fixed("org.example/eye");
             let facts = Facts::Sensor(Box::new(facts));
             let speed = ArgSpec::whole("speed", 1, 9).optional().changes_facts();

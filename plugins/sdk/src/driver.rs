@@ -17,7 +17,7 @@ use crate::estimator::EstimatorFactory;
 /// #     fn open(&self, _: &Args, _: &mut Rig) -> Result<Box<dyn ForceTransducer>, DriverError> { unreachable!("nothing is opened") }
 /// # }
 /// fn make() -> Result<Box<dyn Factory<dyn ForceTransducer>>, DescriptorError> {
-///     let facts = Facts::Force(ForceFacts { axes: Axes::NORMAL, ..ForceFacts::default() });
+///     let facts = Facts::Force(ForceFacts::default().with_axes(Axes::NORMAL));
 ///     let key = DriverKey::fixed("org.example.scale/scale");
 ///     Ok(Box::new(Scale(DescriptorSpec::new(key, "a scale", DriverSource::Real, facts).check()?)))
 /// }
@@ -68,7 +68,7 @@ pub type MakeEstimator = fn() -> Box<dyn EstimatorFactory>;
 /// #     fn open(&self, _: &Args, _: &mut Rig) -> Result<Box<dyn ForceTransducer>, DriverError> { unreachable!("nothing is opened") }
 /// # }
 /// fn make() -> Result<Box<dyn Factory<dyn ForceTransducer>>, DescriptorError> {
-///     let facts = Facts::Force(ForceFacts { axes: Axes::NORMAL, ..ForceFacts::default() });
+///     let facts = Facts::Force(ForceFacts::default().with_axes(Axes::NORMAL));
 ///     let key = DriverKey::fixed("org.example.scale/scale");
 ///     Ok(Box::new(Scale(DescriptorSpec::new(key, "a scale", DriverSource::Real, facts).check()?)))
 /// }
@@ -95,7 +95,7 @@ pub trait Provide {
 /// #     fn open(&self, _: &Args, _: &mut Rig) -> Result<Box<dyn ForceTransducer>, DriverError> { unreachable!("nothing is opened") }
 /// # }
 /// fn make() -> Result<Box<dyn Factory<dyn ForceTransducer>>, DescriptorError> {
-///     let facts = Facts::Force(ForceFacts { axes: Axes::NORMAL, ..ForceFacts::default() });
+///     let facts = Facts::Force(ForceFacts::default().with_axes(Axes::NORMAL));
 ///     let key = DriverKey::fixed("org.example.scale/scale");
 ///     Ok(Box::new(Scale(DescriptorSpec::new(key, "a scale", DriverSource::Real, facts).check()?)))
 /// }

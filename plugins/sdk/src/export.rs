@@ -44,7 +44,7 @@ pub trait Export {
 /// # struct ScaleFactory(Descriptor);
 /// # impl ScaleFactory {
 /// #     fn make() -> Result<Box<dyn Factory<dyn ForceTransducer>>, DescriptorError> {
-/// #         let facts = Facts::Force(ForceFacts { axes: Axes::NORMAL, ..ForceFacts::default() });
+/// #         let facts = Facts::Force(ForceFacts::default().with_axes(Axes::NORMAL));
 /// #         let spec = DescriptorSpec::new(DriverKey::fixed("org.example.scale/scale"), "a scale", DriverSource::Real, facts);
 /// #         Ok(Box::new(ScaleFactory(spec.check()?)))
 /// #     }

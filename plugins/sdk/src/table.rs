@@ -18,7 +18,7 @@ use crate::EstimatorFactory;
 ///
 /// ```
 /// use taceva_core::{Axes, DescriptorSpec, DriverKey, DriverSource, Facts, ForceFacts};
-/// let facts = ForceFacts { axes: Axes::NORMAL, tare: true, ..ForceFacts::default() };
+/// let facts = ForceFacts::default().with_axes(Axes::NORMAL).with_tare(true);
 /// let key = DriverKey::fixed("org.example.scale/scale");
 /// let spec = DescriptorSpec::new(key, "a kitchen scale", DriverSource::Real, Facts::Force(facts));
 /// assert_eq!(
@@ -253,10 +253,11 @@ impl Table {
         match &argument.presence {
             Presence::Required => {}
             Presence::Optional => self.line("optional", &true),
-            Presence::Default(ArgValue::Text(text)) => self.line("default", &Text(text)),
             Presence::Default(ArgValue::Whole(value)) => self.line("default", value),
             Presence::Default(ArgValue::Number(value)) => self.line("default", &Number(*value)),
             Presence::Default(ArgValue::Flag(value)) => self.line("default", value),
+            // A text, or what is written like one.
+            Presence::Default(value) => self.line("default", &Text(&value.to_string())),
         }
         if !argument.help.is_empty() {
             self.line("help", &Text(&argument.help));

@@ -228,7 +228,7 @@ fn boards_and_balls_are_mounted_in_the_air_and_only_those_there_are() {
 fn a_guarded_motion_stops_at_its_force() {
     let mut station = Station::new(Model::MagicTac, "");
     station.go(0.0, 0.0, -1.0);
-    let guard = Guard { force: Newton(0.3) };
+    let guard = Guard::at(Newton(0.3));
     let speed = Speed::try_new(1.0).expect("positive");
     let guarded = station.robot.guarded_motion().expect("can");
     let stop = guarded
@@ -314,7 +314,7 @@ fn what_the_devices_say_lies_on_the_grid_of_the_plugin_boundary() {
     let (stands, at) = station.robot.pose(DEADLINE).expect("stands");
     assert_eq!(stands, crooked.on_grid());
     assert_eq!(Some(stands), SiPose::from(stands).to_pose());
-    let guard = Guard { force: Newton(0.3) };
+    let guard = Guard::at(Newton(0.3));
     let guarded = station.robot.guarded_motion().expect("can");
     let stop = guarded.move_guarded(pose(0.1, 0.1, 3.0), speed, guard, DEADLINE);
     let Ok(GuardedStop::Guarded { pose: stopped, .. }) = stop else {

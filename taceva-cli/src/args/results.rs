@@ -9,7 +9,7 @@ use super::{Output, PageArgs, SeedArgs};
 
 /// Results are JSON files of `evaluate` and `score`, folders of runs (or their results.json), or names of the catalogue. Where two of them
 /// predict the same samples, mean absolute errors are compared sample by sample: the samples are read from `<name>.samples.csv` beside
-/// `<name>.json` (`--samples-out` writes it) and from `reports/` of a run. Other scores are compared by Welch's test, with Holm's adjustment.
+/// `<name>.json` (`--samples-out` writes it) and from `reports/` of a run. Other scores are compared by the intervals of both, with Holm's adjustment.
 #[derive(Debug, Args)]
 pub(crate) struct Compare {
     /// The results to compare

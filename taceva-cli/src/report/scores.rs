@@ -20,22 +20,24 @@ pub(super) fn every_number(report: &EvaluationReport) -> Table {
         "ci95_low",
         "ci95_high",
         "method",
+        "degrees_of_freedom",
         "n",
         "n_invalid",
         "definition",
         "reason",
         "standing",
         "bounded_share",
+        "source",
     ];
     let columns = [Column::of_metrics()].into_iter();
     let mut table = Table::new("Scores", columns.chain(names.map(Column::new)));
     for line in lines(&report.evaluation) {
-        table.push(numbers(&line));
+        table.push(numbers(&line, &report.subject.source));
     }
     table
 }
 
-fn numbers(line: &Line<'_>) -> [Cell; 13] {
+fn numbers(line: &Line<'_>, source: &str) -> [Cell; 15] {
     let number = |value: Option<f64>| {
         Cell::Number(value.map_or_else(String::new, |value| format!("{value:?}")))
     };
@@ -56,12 +58,14 @@ fn numbers(line: &Line<'_>) -> [Cell; 13] {
         number(ends.map(|ends| ends[0])),
         number(ends.map(|ends| ends[1])),
         Cell::text(method.unwrap_or_default()),
+        number(line.interval.and_then(Interval::freedom)),
         Cell::Number(line.score.n.to_string()),
         Cell::Number(line.score.n_invalid.to_string()),
         Cell::text(line.score.definition),
         Cell::text(why),
         Cell::text(line.score.standing.words().unwrap_or_default()),
         number(line.score.bounded_share),
+        Cell::text(source),
     ]
 }
 

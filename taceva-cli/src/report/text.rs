@@ -189,6 +189,7 @@ pub(super) fn presses(report: &EvaluationReport) -> Option<String> {
         PressOutcome::Complete => format!("{count} complete"),
         PressOutcome::Limited(limit) => format!("{count} ended by the limit of {}", words(*limit)),
         PressOutcome::NoContact => format!("{count} without contact"),
+        other => format!("{count} {}", other.name()),
     });
     let ways: Vec<String> = ways.collect();
     (all > 0).then(|| format!("{all}: {}", ways.join(", ")))
@@ -199,6 +200,7 @@ fn words(limit: Limit) -> &'static str {
         Limit::Depth => "depth",
         Limit::NormalForce => "normal force",
         Limit::ShearForce => "shear",
+        other => other.name(),
     }
 }
 

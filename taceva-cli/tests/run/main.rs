@@ -62,7 +62,7 @@ fn dataset_of(folder: &Path) -> String {
 fn a_scene_gives_scores_of_every_part_and_says_that_nothing_was_measured() {
     let bench = with_small();
     let run = bench.json("run small.toml");
-    assert_eq!(run["schema"], "taceva.run/1.2");
+    assert_eq!(run["schema"], "taceva.run/1.3");
     let report = &run["studies"][0];
     assert_eq!(report["subject"]["source"], "simulated");
     let gel = report["subject"]["gel"].as_str().expect("a name");

@@ -39,7 +39,7 @@ pub enum ArgKind {
     Flag,
 }
 
-/// Whether an argument must be given.
+/// Whether an argument must be given. It gets no further variant: it must be given, or something or nothing stands in its place.
 ///
 /// ```
 /// use taceva_core::{ArgSpec, Args, Presence};

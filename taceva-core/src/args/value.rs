@@ -10,6 +10,7 @@ use std::fmt;
 /// assert_eq!(ArgValue::Text("left".to_owned()).as_text(), Some("left"));
 /// ```
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum ArgValue {
     /// A text, a path or one of some choices.
     Text(String),

@@ -36,7 +36,7 @@ use crate::stamp::Stamp;
 ///
 /// let mut target = Pose::default();
 /// target.position.z = Millimetre(1.0);
-/// let guard = Guard { force: Newton(0.5) };
+/// let guard = Guard::at(Newton(0.5));
 /// let stop = OverGel.move_guarded(target, Speed::try_new(1.0)?, guard, Deadline::PASSED)?;
 /// assert!(matches!(stop, GuardedStop::Guarded { pose, .. } if pose.position.z == Millimetre(0.25)));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -59,15 +59,23 @@ pub trait GuardedMotion {
 ///
 /// ```
 /// use taceva_core::{Guard, Newton};
-/// assert_eq!(Guard { force: Newton(0.5) }.force.to_string(), "0.5 N");
+/// assert_eq!(Guard::at(Newton(0.5)).force.to_string(), "0.5 N");
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Guard {
     /// The magnitude of the force at which the robot stops.
     pub force: Newton,
 }
 
-/// How a guarded motion ended.
+impl Guard {
+    /// The guard that ends a motion at `force` alone.
+    pub const fn at(force: Newton) -> Guard {
+        Guard { force }
+    }
+}
+
+/// How a guarded motion ended. It gets no further variant: what ends it otherwise is an error.
 ///
 /// ```
 /// use std::time::Duration;

@@ -6,7 +6,8 @@ use taceva_core::FrameInfo;
 use crate::decode::ChannelOrder;
 use crate::digest::Digest;
 
-/// Where the samples come from; carried into every report. Exhaustive, because every reader must say what it makes of each.
+/// Where the samples come from; carried into every report. It gets no further variant in a compatible version, because every reader must say
+/// what it makes of each.
 ///
 /// ```
 /// use taceva_dataset::Source;
@@ -25,7 +26,7 @@ pub enum Source {
     Synthetic,
 }
 
-/// A fact that a lab may not know.
+/// A fact that a lab may not know. It gets no further variant: a fact is known or it is not.
 ///
 /// ```
 /// use taceva_dataset::Known;

@@ -261,9 +261,7 @@ fn guards_as_declared(bench: &Subject<'_>) -> Result<(), Unmet> {
         (Some(_), false) => return Err(broken("can, yet does not declare it")),
         (Some(guarded), true) => {
             for force in [f64::NAN, 0.0, -1.0] {
-                let guard = Guard {
-                    force: Newton(force),
-                };
+                let guard = Guard::at(Newton(force));
                 let moved =
                     guarded.move_guarded(course.away, course.speed, guard, bench.trial.deadline);
                 let doing = format!("moving with a guard of {force} N");

@@ -14,11 +14,9 @@ struct Cameras {
 
 impl Cameras {
     fn boxed(key: &'static str, can_look: bool) -> Box<Cameras> {
-        let facts = SensorFacts {
-            opaque: Some(true),
-            depth_max: Some(Millimetre(1.5)),
-            ..SensorFacts::default()
-        };
+        let facts = SensorFacts::default()
+            .with_opaque(true)
+            .with_depth_max(Millimetre(1.5));
         let facts = Facts::Sensor(Box::new(facts));
         let key = DriverKey::fixed(key);
         let spec = DescriptorSpec::new(key, "cameras", DriverSource::Real, facts);

@@ -69,22 +69,18 @@ impl ToyFactory {
             Flaw::DeclaresNoLight => Vec::new(),
             _ => scenes(),
         };
-        let facts = SensorFacts {
-            frame: Some(FRAME),
-            rate: Some(Hertz(10.0)),
-            scenes,
-            ..SensorFacts::default()
-        };
+        let facts = SensorFacts::default()
+            .with_frame(FRAME)
+            .with_rate(Hertz(10.0))
+            .with_scenes(scenes);
         ToyFactory::new(Facts::Sensor(Box::new(facts)), flaw)
     }
 
     pub(crate) fn force(flaw: Flaw) -> ToyFactory {
-        let facts = ForceFacts {
-            axes: Axes::FORCE,
-            force_max: Some(FULL_SCALE),
-            tare: true,
-            ..ForceFacts::default()
-        };
+        let facts = ForceFacts::default()
+            .with_axes(Axes::FORCE)
+            .with_force_max(FULL_SCALE)
+            .with_tare(true);
         ToyFactory::new(Facts::Force(facts), flaw)
     }
 
@@ -94,21 +90,19 @@ impl ToyFactory {
             y: Millimetre(side),
             z: Millimetre(side),
         };
-        let facts = RobotFacts {
-            workspace: Some(Workspace {
+        let facts = RobotFacts::default()
+            .with_workspace(Workspace {
                 least: corner(-20.0),
                 greatest: corner(20.0),
-            }),
-            speed_max: Some(Speed::try_new(10.0).expect("positive")),
-            repeatability: Some(Millimetre(0.0)),
-            guarded_motion: true,
-            ..RobotFacts::default()
-        };
+            })
+            .with_speed_max(Speed::try_new(10.0).expect("positive"))
+            .with_repeatability(Millimetre(0.0))
+            .with_guarded_motion(true);
         ToyFactory::new(Facts::Robot(facts), flaw)
     }
 
     pub(crate) fn lighting(flaw: Flaw) -> ToyFactory {
-        let facts = LightingFacts { scenes: scenes() };
+        let facts = LightingFacts::default().with_scenes(scenes());
         ToyFactory::new(Facts::Lighting(facts), flaw)
     }
 }

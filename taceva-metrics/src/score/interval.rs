@@ -57,6 +57,8 @@ pub enum Interval {
         high: f64,
         /// The root of the jackknife's variance, on the score's own scale.
         standard_error: f64,
+        /// Degrees of freedom of Student's t that the ends were made with.
+        freedom: f64,
         /// Number of clusters with samples.
         clusters: usize,
         /// On which scale the ends lie about the value.
@@ -72,6 +74,8 @@ pub enum Interval {
         high: f64,
         /// The standard deviation of the replicates, on the score's own scale.
         standard_error: f64,
+        /// One degree of freedom less than there are clusters.
+        freedom: f64,
         /// On which scale the ends lie about the value; percentiles need none.
         scale: Scale,
         /// How the ends were read off the replicates.
@@ -95,6 +99,8 @@ pub enum Interval {
         high: f64,
         /// The root of the variance, on the score's own scale.
         standard_error: f64,
+        /// Degrees of freedom of Student's t that the ends were made with.
+        freedom: f64,
         /// Number of clusters with samples, of the part that has the fewest.
         clusters: usize,
         /// On which scale the ends lie about the value.
@@ -137,12 +143,33 @@ impl Interval {
     }
 
     /// The standard error that it was made from, in the unit of the score and on its own scale, whichever scale the ends were
-    /// formed on: what comparisons are made of. None where samples are taken as independent.
+    /// formed on. None where samples are taken as independent.
     pub fn standard_error(&self) -> Option<f64> {
         match *self {
             Interval::Jackknife { standard_error, .. }
             | Interval::Bootstrap { standard_error, .. }
             | Interval::Delta { standard_error, .. } => Some(standard_error),
+            Interval::Wilson { .. } | Interval::Undefined(_) => None,
+        }
+    }
+
+    /// Degrees of freedom of Student's t that it was made with, on the scale of its ends: by how many normal numbers its standard error is
+    /// as well known. None where samples are taken as independent.
+    pub fn freedom(&self) -> Option<f64> {
+        match *self {
+            Interval::Jackknife { freedom, .. }
+            | Interval::Bootstrap { freedom, .. }
+            | Interval::Delta { freedom, .. } => Some(freedom),
+            Interval::Wilson { .. } | Interval::Undefined(_) => None,
+        }
+    }
+
+    /// On which scale its ends lie about the value.
+    pub fn scale(&self) -> Option<Scale> {
+        match *self {
+            Interval::Jackknife { scale, .. }
+            | Interval::Bootstrap { scale, .. }
+            | Interval::Delta { scale, .. } => Some(scale),
             Interval::Wilson { .. } | Interval::Undefined(_) => None,
         }
     }

@@ -116,11 +116,16 @@ impl PoissonBootstrap {
         // A scale changes no percentile, and replicates lie in the range; where none differs from the value, its end is asked.
         let ends = match self.ends {
             BootstrapEnds::Percentile if standard_error > 0.0 => {
-                Ok(estimated.within(percentiles(&mut replicates), Scale::Own))
+                Ok(estimated.within(percentiles(&mut replicates), Scale::Own, freedom))
             }
             _ => estimated.ends(&moved),
         };
-        let Ends { low, high, scale } = match ends {
+        let Ends {
+            low,
+            high,
+            scale,
+            freedom,
+        } = match ends {
             Ok(ends) => ends,
             Err(reason) => return Interval::Undefined(reason),
         };
@@ -131,6 +136,7 @@ impl PoissonBootstrap {
             low,
             high,
             standard_error,
+            freedom,
             scale,
             ends: self.ends,
             clusters: clusters.len(),

@@ -16,7 +16,8 @@ pub const HASHED_CLUSTERS: usize = 32;
 ///
 /// The kinds are stages that are only ever climbed, and which one is reached depends on the set of samples alone: locations
 /// are kept by name until there are more than [`NAMED_CLUSTERS`], then by a hash of the name, and once a sample names no
-/// location there are no clusters at all.
+/// location there are no clusters at all. It gets no further variant in a compatible version: states hold it, and another stage would be
+/// another state.
 ///
 /// ```
 /// use taceva_metrics::{Channel, Clusters, Evaluator, Rows};

@@ -2,11 +2,11 @@
 
 use std::fmt;
 
+use super::by_intervals::Pair;
 use super::error::ComparisonError;
 use super::holm::{LEVEL, Step, steps};
 use super::sides::Sides;
-use super::student::{quantile, two_sided, upper};
-use crate::score::value::UndefinedReason;
+use super::student::upper;
 
 /// The score of A less that of B.
 ///
@@ -14,9 +14,9 @@ use crate::score::value::UndefinedReason;
 /// is a family of its own.
 ///
 /// ```
-/// use taceva_metrics::{Estimate, Sides, welch};
+/// use taceva_metrics::{Estimate, Sides, by_intervals};
 /// let (a, b) = (Estimate::try_new(0.041, 0.003, 32)?, Estimate::try_new(0.053, 0.004, 32)?);
-/// let difference = welch(Sides { a, b })?;
+/// let difference = by_intervals(Sides { a, b })?;
 /// assert!(difference.is_shown && difference.interval[1] < 0.0);
 /// # Ok::<(), taceva_metrics::ComparisonError>(())
 /// ```
@@ -29,8 +29,6 @@ pub struct Difference {
     pub scores: Sides<f64>,
     /// How far the difference would move with other clusters.
     pub standard_error: f64,
-    /// Degrees of freedom of the standard error.
-    pub freedom: f64,
     /// The differences that the test at `1 − confidence` does not reject: 0 is none of them exactly where a difference is shown. An end is
     /// infinite where so few clusters reject none on that side.
     pub interval: [f64; 2],
@@ -51,8 +49,8 @@ pub struct Difference {
 /// What a test says of any difference.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Inverse {
-    /// Value ± t × standard error.
-    Student,
+    /// The intervals of both scores, at any level.
+    Intervals(Pair),
     /// The differences from which on each pattern of signs counts, to either side.
     Flips(Flips),
 }
@@ -63,6 +61,8 @@ pub(super) enum Inverse {
 pub(super) struct Flips {
     pub(super) from_below: Vec<f64>,
     pub(super) from_above: Vec<f64>,
+    /// Degrees of freedom of the standard error.
+    pub(super) freedom: f64,
 }
 
 impl Flips {
@@ -86,10 +86,10 @@ impl Flips {
 /// By Holm's procedure the i-th smallest of m p values is decided at 0.05 / (m − i + 1), and all from the first that is kept at the level of that one.
 ///
 /// ```
-/// use taceva_metrics::{Estimate, Sides, decide, welch};
+/// use taceva_metrics::{Estimate, Sides, by_intervals, decide};
 /// let apart = |b| {
 ///     let a = Estimate::try_new(0.041, 0.003, 32)?;
-///     welch(Sides { a, b: Estimate::try_new(b, 0.004, 32)? })
+///     by_intervals(Sides { a, b: Estimate::try_new(b, 0.004, 32)? })
 /// };
 /// let mut family = [apart(0.053)?, apart(0.041)?];
 /// decide(&mut family);
@@ -114,12 +114,13 @@ pub fn decide(family: &mut [Difference]) {
 /// A test of whether two scores differ.
 ///
 /// ```
-/// use taceva_metrics::{DifferenceTest, Estimate, Sides, welch};
+/// use taceva_metrics::{DifferenceTest, Estimate, Sides, by_intervals};
 /// let same = Estimate::try_new(0.041, 0.003, 32)?;
-/// assert_eq!(welch(Sides { a: same, b: same })?.test, DifferenceTest::Welch);
+/// let freedom = Sides { a: 31.0, b: 31.0 };
+/// assert_eq!(by_intervals(Sides { a: same, b: same })?.test, DifferenceTest::Intervals { freedom });
 /// # Ok::<(), taceva_metrics::ComparisonError>(())
 /// ```
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum DifferenceTest {
     /// On the same samples: the signs of the clusters' differences are exchanged.
@@ -131,58 +132,46 @@ pub enum DifferenceTest {
         /// Whether these are all there are.
         exhaustive: bool,
     },
-    /// On different samples: Welch's, by the standard errors of both.
-    Welch,
+    /// On different samples: by the intervals of both.
+    Intervals {
+        /// Degrees of freedom of the interval of each.
+        freedom: Sides<f64>,
+    },
 }
 
-/// What a difference and its standard error are known from, before it is tested.
+/// A difference and the test of it, before it has an interval.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Spread {
+pub(super) struct Tested {
     pub(super) value: f64,
     pub(super) scores: Sides<f64>,
     pub(super) standard_error: f64,
-    pub(super) freedom: f64,
+    pub(super) p: f64,
+    pub(super) test: DifferenceTest,
 }
 
-impl Spread {
-    /// The p value of t = value / standard error; 1 if both are 0.
-    pub(super) fn p(&self) -> f64 {
-        if self.value.abs() > 0.0 {
-            two_sided(self.value / self.standard_error, self.freedom)
-        } else {
-            1.0
-        }
-    }
-
-    pub(super) fn tested(
-        self,
-        test: DifferenceTest,
-        p: f64,
-        inverse: Inverse,
-    ) -> Result<Difference, ComparisonError> {
+impl Tested {
+    /// The difference, as a family of its own.
+    pub(super) fn with(self, inverse: Inverse) -> Difference {
+        let Tested { p, .. } = self;
+        let step = Step {
+            adjusted_p: p,
+            is_rejected: p <= LEVEL,
+            level: LEVEL,
+        };
         let mut difference = Difference {
             value: self.value,
             scores: self.scores,
             standard_error: self.standard_error,
-            freedom: self.freedom,
             interval: [self.value; 2],
             confidence: 1.0 - LEVEL,
             p,
             adjusted_p: p,
-            is_shown: p <= LEVEL,
-            test,
+            is_shown: step.is_rejected,
+            test: self.test,
             inverse,
         };
-        let half = quantile(difference.confidence, self.freedom) * self.standard_error;
-        if !(self.value - half).is_finite() || !(self.value + half).is_finite() {
-            return Err(ComparisonError::NoInterval(UndefinedReason::Overflow));
-        }
-        difference.take(Step {
-            adjusted_p: p,
-            is_rejected: p <= LEVEL,
-            level: LEVEL,
-        });
-        Ok(difference)
+        difference.take(step);
+        difference
     }
 }
 
@@ -193,9 +182,9 @@ impl Difference {
         self.is_shown = step.is_rejected;
         self.confidence = 1.0 - step.level;
         let [low, high] = match &self.inverse {
-            Inverse::Student => {
-                let half = quantile(self.confidence, self.freedom) * self.standard_error;
-                [self.value - half, self.value + half]
+            Inverse::Intervals(pair) => {
+                let [below, above] = pair.distances(step.level);
+                [self.value - below, self.value + above]
             }
             Inverse::Flips(flips) => flips.interval(step.level),
         };
@@ -238,14 +227,18 @@ impl Difference {
         if !(margin > 0.0 && margin.is_finite()) {
             return Err(ComparisonError::Margin(margin));
         }
+        // Of the two tests that of the nearer bound has the larger p. On the bound it is a half, whatever the standard error.
         let inside = margin - self.value.abs();
-        // Of the two tests that of the nearer bound has the larger p. On the bound t is 0, whatever the standard error.
-        let t = if inside.abs() > 0.0 {
-            inside / self.standard_error
-        } else {
-            0.0
-        };
-        Ok(upper(t, self.freedom))
+        if inside.abs() <= 0.0 {
+            return Ok(0.5);
+        }
+        Ok(match &self.inverse {
+            Inverse::Flips(flips) => upper(inside / self.standard_error, flips.freedom),
+            Inverse::Intervals(pair) => {
+                let beyond = pair.p(margin.copysign(self.value)) / 2.0;
+                if inside > 0.0 { beyond } else { 1.0 - beyond }
+            }
+        })
     }
 }
 
@@ -263,7 +256,11 @@ impl fmt::Display for DifferenceTest {
                     "paired sign flip by cluster, G={clusters}, {how}{flips} flips"
                 )
             }
-            DifferenceTest::Welch => f.write_str("Welch by standard errors of clusters"),
+            DifferenceTest::Intervals { freedom } => write!(
+                f,
+                "by the intervals of both, {:.1} and {:.1} degrees of freedom",
+                freedom.a, freedom.b
+            ),
         }
     }
 }

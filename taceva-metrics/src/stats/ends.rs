@@ -39,6 +39,14 @@ impl Moved {
         let [error, freedom] = self.carried.unwrap_or_else(first_order);
         quantile(COVERAGE, freedom) * error
     }
+
+    /// Degrees of freedom of ends that were found on `scale`.
+    fn freedom_on(&self, scale: Scale) -> f64 {
+        match (scale, self.carried) {
+            (Scale::Logarithm | Scale::Logit, Some([_, freedom])) => freedom,
+            _ => self.freedom,
+        }
+    }
 }
 
 /// Both ends, and on which scale they were found.
@@ -47,6 +55,8 @@ pub(crate) struct Ends {
     pub(crate) low: f64,
     pub(crate) high: f64,
     pub(crate) scale: Scale,
+    /// Degrees of freedom of Student's t that they were found with.
+    pub(crate) freedom: f64,
 }
 
 /// The share of a distance below which its logarithm goes on along its tangent.
@@ -71,7 +81,11 @@ impl Estimated {
     /// and 13.6, for scales.
     pub(crate) fn ends(&self, moved: &Moved) -> Result<Ends, UndefinedReason> {
         if self.range == Range::Share {
-            return Ok(self.within(wilson(self.value, self.samples, moved), Scale::Wilson));
+            return Ok(self.within(
+                wilson(self.value, self.samples, moved),
+                Scale::Wilson,
+                moved.freedom,
+            ));
         }
         let value = self.value;
         let [least, greatest] = self.range.ends();
@@ -104,7 +118,7 @@ impl Estimated {
             }
             _ => ([value - half, value + half], Scale::Cut),
         };
-        let ends = self.within(ends, scale);
+        let ends = self.within(ends, scale, moved.freedom_on(scale));
         if ends.low.is_finite() && ends.high.is_finite() {
             Ok(ends)
         } else {
@@ -137,12 +151,13 @@ impl Estimated {
     }
 
     /// The ends, where rounding or a cut may not leave the range nor the value outside.
-    pub(crate) fn within(&self, [low, high]: [f64; 2], scale: Scale) -> Ends {
+    pub(crate) fn within(&self, [low, high]: [f64; 2], scale: Scale, freedom: f64) -> Ends {
         let [least, greatest] = self.range.ends();
         Ends {
             low: low.max(least).min(self.value),
             high: high.min(greatest).max(self.value),
             scale,
+            freedom,
         }
     }
 }

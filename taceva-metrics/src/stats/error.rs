@@ -67,6 +67,15 @@ pub enum ComparisonError {
     Score(f64),
     /// A standard error that is no number from 0 on.
     StandardError(f64),
+    /// Degrees of freedom that are no number from 1 on.
+    Freedom(f64),
+    /// An interval that does not hold its score.
+    Ends {
+        /// The score.
+        value: f64,
+        /// Lower and upper end.
+        ends: [f64; 2],
+    },
     /// No cluster moves either score, so that nothing can be said about others.
     NoSpread,
     /// A margin of equivalence that is not above 0 and finite.
@@ -127,6 +136,17 @@ impl fmt::Display for ComparisonError {
                     "standard error {value}, expected a finite number from 0 on"
                 )
             }
+            ComparisonError::Freedom(value) => write!(
+                f,
+                "{value} degrees of freedom, expected a finite number from 1 on"
+            ),
+            ComparisonError::Ends {
+                value,
+                ends: [low, high],
+            } => write!(
+                f,
+                "interval {low}…{high} of score {value}, expected finite ends that hold it"
+            ),
             ComparisonError::NoSpread => f.write_str("no cluster moves either score"),
             ComparisonError::Margin(value) => {
                 write!(f, "margin {value}, expected a finite number above 0")

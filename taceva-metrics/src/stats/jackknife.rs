@@ -35,10 +35,16 @@ pub(crate) fn interval(value: f64, range: Range, left_out: &[LeftOut]) -> Interv
         Err(reason) => return Interval::Undefined(reason),
     };
     match estimated.ends(&moved) {
-        Ok(Ends { low, high, scale }) => Interval::Jackknife {
+        Ok(Ends {
+            low,
+            high,
+            scale,
+            freedom,
+        }) => Interval::Jackknife {
             low,
             high,
             standard_error: moved.standard_error,
+            freedom,
             clusters: moved.clusters,
             scale,
             by: ClusteredBy::default(),
@@ -142,10 +148,16 @@ pub(crate) fn delta_interval(value: f64, range: Range, variance: f64, clusters: 
         samples: 0,
     };
     match estimated.ends(&moved) {
-        Ok(Ends { low, high, scale }) => Interval::Delta {
+        Ok(Ends {
+            low,
+            high,
+            scale,
+            freedom,
+        }) => Interval::Delta {
             low,
             high,
             standard_error: moved.standard_error,
+            freedom,
             clusters,
             scale,
             by: ClusteredBy::default(),

@@ -1,13 +1,21 @@
 //! The same samples on both sides, cluster by cluster.
 
 use super::cluster_sums::{ClusterSum, ClusterSums};
-use super::difference::Spread;
 use super::error::ComparisonError;
 use super::jackknife::{self, LeftOut};
 use super::least::LEAST_CLUSTERS;
 use super::sides::{Side, Sides};
 use crate::exact::{Dyadic, ExactSum};
 use crate::score::value::UndefinedReason;
+
+/// A difference of means, and how far it would move with other clusters.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct MeanDifference {
+    pub(super) value: f64,
+    pub(super) scores: Sides<f64>,
+    pub(super) standard_error: f64,
+    pub(super) freedom: f64,
+}
 
 /// The clusters that have samples, side by side.
 pub(super) struct PairedClusters {
@@ -64,7 +72,7 @@ impl PairedClusters {
     }
 
     /// The difference of the means over all samples, and how far it would move with other clusters.
-    pub(super) fn spread(&self) -> Result<Spread, ComparisonError> {
+    pub(super) fn mean_difference(&self) -> Result<MeanDifference, ComparisonError> {
         let clusters = self.counts.len();
         if clusters < LEAST_CLUSTERS {
             return Err(ComparisonError::TooFewClusters { have: clusters });
@@ -97,7 +105,7 @@ impl PairedClusters {
         })?;
         let standard_error = jackknife::standard_error(value, &left_out.collect::<Vec<_>>())
             .map_err(ComparisonError::NoInterval)?;
-        Ok(Spread {
+        Ok(MeanDifference {
             value,
             scores,
             standard_error,

@@ -30,7 +30,7 @@ impl<T> Sides<T> {
     }
 }
 
-/// One of the two that are compared.
+/// One of the two that are compared. It gets no further variant: a comparison has two sides.
 ///
 /// ```
 /// assert_eq!(taceva_metrics::Side::A.to_string(), "A");

@@ -1,7 +1,7 @@
 //! Two models on the same samples: the paired sign-flip permutation test.
 
 use super::cluster_sums::ClusterSums;
-use super::difference::{Difference, DifferenceTest, Flips, Inverse};
+use super::difference::{Difference, DifferenceTest, Flips, Inverse, Tested};
 use super::error::ComparisonError;
 use super::paired_clusters::PairedClusters;
 use super::random::bits;
@@ -83,12 +83,19 @@ impl SignFlip {
     /// [`ComparisonError::NoInterval`] if a number is beyond the range of binary64.
     pub fn test(&self, sums: Sides<&ClusterSums>) -> Result<Difference, ComparisonError> {
         let pairs = PairedClusters::of(sums)?;
-        let spread = pairs.spread()?;
-        let Tried { test, p, flips } = self.tried(&pairs);
-        spread.tested(test, p, Inverse::Flips(flips))
+        let mean = pairs.mean_difference()?;
+        let Tried { test, p, flips } = self.tried(&pairs, mean.freedom);
+        let tested = Tested {
+            value: mean.value,
+            scores: mean.scores,
+            standard_error: mean.standard_error,
+            p,
+            test,
+        };
+        Ok(tested.with(Inverse::Flips(flips)))
     }
 
-    fn tried(&self, pairs: &PairedClusters) -> Tried {
+    fn tried(&self, pairs: &PairedClusters, freedom: f64) -> Tried {
         let sums = SignedSums::new(pairs.differences());
         let observed = sums.magnitude(|_| false);
         let halves = Halves::of(pairs);
@@ -97,6 +104,7 @@ impl SignFlip {
         let mut flips = Flips {
             from_below: Vec::new(),
             from_above: Vec::new(),
+            freedom,
         };
         let mut try_pattern = |is_negated: &dyn Fn(usize) -> bool| {
             if sums.magnitude(is_negated) >= observed {

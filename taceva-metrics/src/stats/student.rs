@@ -7,14 +7,26 @@ use std::f64::consts::{FRAC_2_SQRT_PI, PI};
 
 /// The t within which, to both sides of 0, lies `central` of the distribution.
 ///
-/// Newton's steps from 0 climb towards it, because the probability is concave there; the first that no longer climbs ends
+/// Newton's steps climb towards it, because the probability is concave there; the first that no longer climbs ends
 /// them. `central` is in 0..1 and `freedom` above 0.
 pub(super) fn quantile(central: f64, freedom: f64) -> f64 {
+    climb(freedom, |split| central - split.within)
+}
+
+/// The t beyond which, to both sides of 0, lies `level` of the distribution: a quantile that keeps its digits where `level` is small.
+///
+/// `level` is above 0 and at most 1.
+pub(super) fn beyond(level: f64, freedom: f64) -> f64 {
+    climb(freedom, |split| split.beyond - level)
+}
+
+/// Newton's steps from 0, as long as they climb.
+fn climb(freedom: f64, missing: impl Fn(&Split) -> f64) -> f64 {
     /// Far more than 95 % needs, which takes about ten.
     const MOST_STEPS: usize = 200;
     let mut t = 0.0;
     for _ in 0..MOST_STEPS {
-        let missing = central - Split::at(t, freedom).within;
+        let missing = missing(&Split::at(t, freedom));
         let next = t + missing / (2.0 * density(t, freedom));
         if next <= t {
             break;
@@ -22,11 +34,6 @@ pub(super) fn quantile(central: f64, freedom: f64) -> f64 {
         t = next;
     }
     t
-}
-
-/// P(|T| ≥ |t|): the p value of a test that looks to both sides.
-pub(super) fn two_sided(t: f64, freedom: f64) -> f64 {
-    Split::at(t.abs(), freedom).beyond
 }
 
 /// P(T ≥ t): the p value of a test that looks upwards.
@@ -160,6 +167,27 @@ fn power(base: f64, exponent: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// P(|T| ≥ |t|).
+    fn two_sided(t: f64, freedom: f64) -> f64 {
+        Split::at(t.abs(), freedom).beyond
+    }
+
+    #[test]
+    fn what_lies_beyond_keeps_its_digits() {
+        for freedom in [1.0, 3.0, 7.5, 31.0, 400.0] {
+            for level in [1.0, 0.5, 0.05, 1e-3, 1e-6, 1e-9, 1e-12, 1.2e-16] {
+                let found = two_sided(beyond(level, freedom), freedom);
+                // Just inside 4 standard deviations it is what 1 − within leaves of it.
+                assert!(
+                    (found / level - 1.0).abs() < 1e-10,
+                    "{freedom} {level}: {found}"
+                );
+            }
+            let near = beyond(0.05, freedom) / quantile(0.95, freedom);
+            assert!((near - 1.0).abs() < 1e-13, "{freedom}: {near}");
+        }
+    }
 
     #[test]
     fn quantiles_agree_with_published_tables() {

@@ -51,14 +51,14 @@ impl Question {
 ///
 /// ```
 /// use taceva_core::Unit;
-/// use taceva_metrics::{Better, Estimate, Question, Side, Sides, Verdict, welch};
-/// let difference = welch(Sides {
+/// use taceva_metrics::{Better, Estimate, Question, Side, Sides, Verdict, by_intervals};
+/// let difference = by_intervals(Sides {
 ///     a: Estimate::try_new(0.041, 0.0024, 32)?,
 ///     b: Estimate::try_new(0.053, 0.0032, 32)?,
 /// });
 /// let question = Question::new(Unit::Newton, Better::Lower);
 /// let verdict = Verdict::of(difference, question);
-/// assert_eq!(verdict.to_string(), "A better by 0.012 N (95 % 0.004…0.020, p = 0.004)");
+/// assert_eq!(verdict.to_string(), "A better by 0.012 N (95 % 0.004…0.020, p = 0.005)");
 /// assert_eq!(verdict.better(), Some(Side::A));
 /// # Ok::<(), taceva_metrics::ComparisonError>(())
 /// ```

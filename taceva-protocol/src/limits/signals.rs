@@ -197,10 +197,7 @@ mod tests {
     }
 
     fn rig(source: DriverSource, robot: RobotFacts, force: ForceFacts) -> RigInfo {
-        let force = ForceFacts {
-            axes: Axes::FORCE,
-            ..force
-        };
+        let force = force.with_axes(Axes::FORCE);
         RigInfo {
             robot: device(source, Facts::Robot(robot)),
             force: device(source, Facts::Force(force)),
@@ -217,14 +214,8 @@ mod tests {
 
     #[test]
     fn a_real_arm_reports_as_well_as_it_comes_back_and_a_simulated_one_where_it_was_sent() {
-        let returns = RobotFacts {
-            repeatability: Some(Millimetre(0.02)),
-            ..RobotFacts::default()
-        };
-        let states = RobotFacts {
-            pose_noise: Some(Millimetre(0.05)),
-            ..returns
-        };
+        let returns = RobotFacts::default().with_repeatability(Millimetre(0.02));
+        let states = returns.with_pose_noise(Millimetre(0.05));
         for (source, facts, expected_mm) in [
             (DriverSource::Real, returns, 0.02),
             (DriverSource::Simulated, returns, 0.0),
@@ -268,10 +259,7 @@ mod tests {
     #[test]
     fn a_slow_transducer_may_be_silent_for_three_readings_if_the_tip_is_as_slow() {
         let slow = |rate| {
-            let force = ForceFacts {
-                rate: Some(Hertz(rate)),
-                ..ForceFacts::default()
-            };
+            let force = ForceFacts::default().with_rate(Hertz(rate));
             rig(DriverSource::Simulated, RobotFacts::default(), force)
         };
         let stale_s = |rate, speed| signals(&slow(rate), speed).map(|signals| signals.stale_s);
@@ -290,14 +278,8 @@ mod tests {
     #[test]
     fn a_robot_that_stops_later_than_a_guard_may_take_is_refused() {
         let with = |rate, stop_ms| {
-            let robot = RobotFacts {
-                stop_ms: Some(stop_ms),
-                ..RobotFacts::default()
-            };
-            let force = ForceFacts {
-                rate: Some(Hertz(rate)),
-                ..ForceFacts::default()
-            };
+            let robot = RobotFacts::default().with_stop_ms(stop_ms);
+            let force = ForceFacts::default().with_rate(Hertz(rate));
             signals(&rig(DriverSource::Real, robot, force), 0.1)
         };
         assert!(with(200.0, 43.0).is_ok(), "5 + 2 + 43 ms");
@@ -312,12 +294,10 @@ mod tests {
     #[test]
     fn equal_readings_betray_a_frozen_signal_only_where_steps_are_finer_than_noise() {
         let of = |noise: Option<f64>, resolution: Option<f64>, numbered| {
-            let force = ForceFacts {
-                noise: noise.map(Newton),
-                resolution: resolution.map(Newton),
-                numbered,
-                ..ForceFacts::default()
-            };
+            let force = ForceFacts::default()
+                .with_noise(noise.map(Newton))
+                .with_resolution(resolution.map(Newton))
+                .with_numbered(numbered);
             let rig = rig(DriverSource::Simulated, RobotFacts::default(), force);
             signals(&rig, 1.0).map(|signals| signals.equality_is_frozen)
         };

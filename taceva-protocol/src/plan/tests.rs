@@ -5,7 +5,7 @@ mod explained;
 mod reached;
 mod skipped;
 
-use taceva_core::{Axes, FieldSet, Millimetre, SensorFacts};
+use taceva_core::{Axes, FieldSet, Millimetre};
 use taceva_core::{Channel, Channels, Field};
 
 use super::*;
@@ -75,11 +75,7 @@ fn every_reason_has_its_golden_line_in_the_text_of_a_plan() {
 
 #[test]
 fn planning_twice_changes_nothing() {
-    let opaque = SensorFacts {
-        opaque: Some(true),
-        markers: Some(false),
-        ..sensor()
-    };
+    let opaque = sensor().with_opaque(true).with_markers(false);
     for (facts, axes) in [(sensor(), Axes::FORCE), (opaque, Axes::NORMAL)] {
         let scene = Scene::parse("small", SMALL).expect("a scene");
         let source = SourceInfo::Rig(Box::new(rig_of(facts, axes)));

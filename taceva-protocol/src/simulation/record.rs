@@ -104,7 +104,7 @@ impl Found {
             PressOutcome::Complete => whole && limited.count() == 0,
             // Without a sample the limit was reached in the search.
             PressOutcome::Limited(_) => samples == 0 || limited.count() > 0,
-            PressOutcome::NoContact => false,
+            _ => false,
         };
         let numbers = entry.samples.iter().map(|sample| sample.number);
         let in_order = match entry.outcome {

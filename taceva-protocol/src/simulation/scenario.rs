@@ -255,22 +255,21 @@ pub(super) fn planned_scene(text: &str, seed: u64, gel: &Gel) -> Result<Plan, Sc
     ];
     let footprint = Footprint::rectangle(8.0, 10.0, Some(0.8)).ok();
     let source = SourceInfo::Rig(Box::new(RigInfo {
-        sensor: described(Facts::Sensor(Box::new(SensorFacts {
-            frame: Some(FRAME),
-            rate: Some(Hertz(50.0)),
-            footprint,
-            force_max: Some(Newton(gel.normal_max_n)),
-            ..SensorFacts::default()
-        }))),
-        robot: described(Facts::Robot(RobotFacts {
-            pose_noise: Some(Millimetre(gel.pose_deviation_mm())),
-            ..RobotFacts::default()
-        })),
-        force: described(Facts::Force(ForceFacts {
-            axes: Axes::FORCE,
-            force_max: Some(Newton(gel.saturation_n)),
-            ..ForceFacts::default()
-        })),
+        sensor: described(Facts::Sensor(Box::new(
+            SensorFacts::default()
+                .with_frame(FRAME)
+                .with_rate(Hertz(50.0))
+                .with_footprint(footprint)
+                .with_force_max(Newton(gel.normal_max_n)),
+        ))),
+        robot: described(Facts::Robot(
+            RobotFacts::default().with_pose_noise(Millimetre(gel.pose_deviation_mm())),
+        )),
+        force: described(Facts::Force(
+            ForceFacts::default()
+                .with_axes(Axes::FORCE)
+                .with_force_max(Newton(gel.saturation_n)),
+        )),
         lighting: None,
     }));
     plan_study(&scene, &scene.studies[0], &source, &needs)

@@ -39,28 +39,27 @@ fn rig() -> RigInfo {
     RigInfo {
         sensor: Some(descriptor(
             "sim/gelsight",
-            Facts::Sensor(Box::new(SensorFacts {
-                opaque: Some(true),
-                markers: Some(true),
-                footprint: Some(Footprint::rectangle(8.0, 10.0, Some(1.0)).expect("lengths")),
-                force_max: Some(Newton(1.83)),
-                ..SensorFacts::default()
-            })),
+            Facts::Sensor(Box::new(
+                SensorFacts::default()
+                    .with_opaque(true)
+                    .with_markers(true)
+                    .with_footprint(Footprint::rectangle(8.0, 10.0, Some(1.0)).expect("lengths"))
+                    .with_force_max(Newton(1.83)),
+            )),
         )),
         robot: Some(descriptor(
             "sim/robot",
-            Facts::Robot(RobotFacts {
-                speed_max: Some(Speed::try_new(100.0).expect("a speed")),
-                ..RobotFacts::default()
-            }),
+            Facts::Robot(
+                RobotFacts::default().with_speed_max(Speed::try_new(100.0).expect("a speed")),
+            ),
         )),
         force: Some(descriptor(
             "sim/force-transducer",
-            Facts::Force(ForceFacts {
-                axes: Axes::FORCE,
-                force_max: Some(Newton(5.0)),
-                ..ForceFacts::default()
-            }),
+            Facts::Force(
+                ForceFacts::default()
+                    .with_axes(Axes::FORCE)
+                    .with_force_max(Newton(5.0)),
+            ),
         )),
         lighting: None,
     }

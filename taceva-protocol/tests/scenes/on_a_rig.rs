@@ -67,21 +67,18 @@ fn devices() -> RigInfo {
         sensor: Some(descriptor("lab/camera", Facts::Sensor(Box::default()))),
         robot: Some(descriptor(
             "lab/arm",
-            Facts::Robot(RobotFacts {
-                workspace: Some(Workspace {
-                    least: corner(200.0, -100.0, 150.0),
-                    greatest: corner(500.0, 100.0, 300.0),
-                }),
-                speed_max: Some(Speed::try_new(100.0).expect("a speed")),
-                ..RobotFacts::default()
-            }),
+            Facts::Robot(
+                RobotFacts::default()
+                    .with_workspace(Workspace {
+                        least: corner(200.0, -100.0, 150.0),
+                        greatest: corner(500.0, 100.0, 300.0),
+                    })
+                    .with_speed_max(Speed::try_new(100.0).expect("a speed")),
+            ),
         )),
         force: Some(descriptor(
             "lab/box",
-            Facts::Force(ForceFacts {
-                axes: Axes::NORMAL,
-                ..ForceFacts::default()
-            }),
+            Facts::Force(ForceFacts::default().with_axes(Axes::NORMAL)),
         )),
         lighting: None,
     }

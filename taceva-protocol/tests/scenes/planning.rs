@@ -101,9 +101,7 @@ fn a_light_that_nobody_can_set_is_refused() {
     let mut lit = rig();
     lit.lighting = Some(descriptor(
         "sim/lighting",
-        Facts::Lighting(LightingFacts {
-            scenes: vec!["normal".into(), "ring".into()],
-        }),
+        Facts::Lighting(LightingFacts::default().with_scenes(vec!["normal".into(), "ring".into()])),
     ));
     let lines = "[lighting]\ndriver = \"sim/lighting\"\nscenes = [\"normal\", \"rnig\"]";
     let error = planned(lines, lit);

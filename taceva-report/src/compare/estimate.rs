@@ -1,6 +1,6 @@
 //! Scores as they are read back, as estimates that can be tested.
 
-use taceva_metrics::{Estimate, Sides, welch};
+use taceva_metrics::{Estimate, Sides, StatedInterval};
 
 use crate::results::{Interval, Score};
 
@@ -31,8 +31,8 @@ pub(super) fn of_both(scores: Sides<&Score>) -> Result<Sides<Estimate>, String> 
     })
 }
 
-/// A score with the standard error that its interval was made from; where an older result does not say it, the half width of the interval
-/// over the quantile of Student's t.
+/// A score with the interval that is stated of it; of one degree of freedom less than there are clusters where an older result does not say
+/// with how many it was made.
 fn estimate(score: &Score) -> Result<Estimate, String> {
     let Some(value) = score.value.number() else {
         let reason = score.value.reason();
@@ -41,13 +41,14 @@ fn estimate(score: &Score) -> Result<Estimate, String> {
     let Some(interval) = &score.interval else {
         return Err("no interval".to_owned());
     };
-    let (ends, method, stated) = match interval {
+    let (ends, method, standard_error, freedom) = match interval {
         Interval::Ends {
             ends,
             method,
             standard_error,
+            degrees_of_freedom,
             ..
-        } => (ends, method, *standard_error),
+        } => (ends, method, *standard_error, *degrees_of_freedom),
         Interval::Absent(reason) => return Err(format!("no interval: {reason}")),
     };
     let Some(clusters) = interval.clusters() else {
@@ -55,32 +56,22 @@ fn estimate(score: &Score) -> Result<Estimate, String> {
             "an interval by `{method}` has no number of clusters"
         ));
     };
-    let standard_error = match stated {
-        Some(stated) => stated,
-        None => (ends[1] - ends[0]) / 2.0 / quantile(clusters).ok_or("too few clusters")?,
-    };
-    Estimate::try_new(value, standard_error, clusters).map_err(|error| error.to_string())
-}
-
-/// t of 95 % with one degree of freedom less than there are clusters, read off the interval of a score that moves by 1 beside one that
-/// does not move.
-fn quantile(clusters: usize) -> Option<f64> {
-    let moving = Estimate::try_new(0.0, 1.0, clusters).ok()?;
-    let still = Estimate::try_new(0.0, 0.0, clusters).ok()?;
-    let difference = welch(Sides {
-        a: moving,
-        b: still,
-    });
-    Some(difference.ok()?.interval[1])
+    let others = u32::try_from(clusters).map_or(0, |clusters| clusters.saturating_sub(1));
+    let freedom = freedom.unwrap_or_else(|| f64::from(others));
+    let stated = StatedInterval::new(*ends, freedom, clusters).on(interval.scale());
+    let stated = stated.with_standard_error(standard_error);
+    Estimate::try_from_interval(value, stated).map_err(|error| error.to_string())
 }
 
 #[cfg(test)]
 mod tests {
+    use taceva_metrics::Scale;
+
     use super::*;
     use crate::results::Study;
 
     #[test]
-    fn the_standard_error_that_is_stated_is_taken_as_it_is() {
+    fn the_interval_that_is_stated_is_taken_as_it_is() {
         let read = |more: &str| {
             let text = format!(
                 r#"{{"schema": "taceva.evaluation/1.1", "subject": {{"sensor": "x"}}, "metrics": {{"mae": {{"Fz":
@@ -89,24 +80,31 @@ mod tests {
             let study = Study::read(&text).expect("a result").remove(0);
             estimate(&study.scores[0]).expect("an estimate")
         };
-        let stated = 0.044_204_709_301_234_5;
-        let exact = read(&format!(
-            r#", "standard_error": {stated:?}, "clusters": 12"#
-        ));
-        let expected = Estimate::try_new(0.5, stated, 12).expect("an estimate");
-        assert_eq!(exact, expected);
-        let from_width = (0.6 - 0.4) / 2.0 / quantile(10).expect("enough clusters");
-        let expected = Estimate::try_new(0.5, from_width, 10).expect("an estimate");
-        assert_eq!(read(""), expected);
+        let stated = |freedom, clusters| StatedInterval::new([0.4, 0.6], freedom, clusters);
+        let read_as = |stated| Estimate::try_from_interval(0.5, stated).expect("an estimate");
+        let exact =
+            read(r#", "standard_error": 0.0442, "clusters": 12, "degrees_of_freedom": 7.25"#);
+        let expected = stated(7.25, 12).with_standard_error(0.0442);
+        assert_eq!(exact, read_as(expected));
+        assert_eq!(read(""), read_as(stated(9.0, 10)));
     }
 
     #[test]
-    fn the_quantile_is_student_s() {
-        // Tables: t of 0.975 with 9 and with 31 degrees of freedom.
-        for (clusters, expected) in [(10, 2.262_157_163), (32, 2.039_513_446)] {
-            let quantile = quantile(clusters).expect("enough clusters");
-            assert!((quantile - expected).abs() < 1e-8, "{quantile}");
-        }
-        assert_eq!(quantile(4), None);
+    fn the_scale_of_an_interval_is_read_off_its_method() {
+        let scale = |method: &str| {
+            let interval = Interval::Ends {
+                ends: [0.4, 0.6],
+                method: method.to_owned(),
+                standard_error: None,
+                clusters: None,
+                degrees_of_freedom: None,
+            };
+            interval.scale()
+        };
+        assert_eq!(scale("jackknife by point_id, G=10"), Scale::Own);
+        let logarithmic = "jackknife by point_id, G=10, logarithmic";
+        assert_eq!(scale(logarithmic), Scale::Logarithm);
+        let share = "jackknife by point_id, G=10, Wilson with effective samples";
+        assert_eq!(scale(share), Scale::Wilson);
     }
 }

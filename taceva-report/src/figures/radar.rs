@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use taceva_metrics::Better;
+use taceva_metrics::{Better, Standing};
 
 use crate::catalogue::PUBLISHED;
 use crate::figure::{Anchor, Canvas, Figure, Ink, Label, Points, SERIES, Stroke, short};
@@ -100,25 +100,34 @@ fn one(studies: &[Study], axes: &[Axis], (id, title): (&str, &str)) -> Option<Fi
     if shares.iter().all(|axis| axis.iter().all(Option::is_none)) {
         return None;
     }
+    let is_drawn = |at: &usize| shares.iter().any(|axis| axis[*at].is_some());
+    let drawn: Vec<usize> = (0..studies.len()).filter(is_drawn).collect();
     let mut canvas = Canvas::new(WIDTH, 400.0);
-    let legend: Vec<(usize, String)> = names.iter().cloned().enumerate().collect();
+    let legend = drawn.iter().map(|&at| (at, names[at].clone()));
+    let legend: Vec<(usize, String)> = legend.collect();
     canvas.legend([12.0, 18.0], &legend);
     let centre = [WIDTH / 2.0, 226.0];
     web(axes, centre, &mut canvas);
-    for (at, name) in names.iter().enumerate() {
+    for &at in &drawn {
         let of_one: Vec<Option<(f64, f64)>> = shares.iter().map(|axis| axis[at]).collect();
-        outline(&of_one, (axes, centre), (at, name), &mut canvas);
+        outline(&of_one, (axes, centre), (at, &names[at]), &mut canvas);
     }
-    let barred: Vec<String> = axes
+    let barred: Vec<Barred> = axes.iter().flat_map(|axis| axis.barred(studies)).collect();
+    let of_drawn = barred.iter().filter(|barred| drawn.contains(&barred.study));
+    let open = shares.iter().map(|axis| {
+        let gaps = drawn.iter().filter(|&&at| axis[at].is_none());
+        gaps.count()
+    });
+    let gaps = open.sum::<usize>().saturating_sub(of_drawn.count());
+    let barred: Vec<String> = barred
         .iter()
-        .flat_map(|axis| axis.barred(studies, &names))
+        .map(|barred| {
+            format!(
+                "{} of {} ({})",
+                barred.axis, names[barred.study], barred.reason
+            )
+        })
         .collect();
-    let gaps = shares
-        .iter()
-        .flatten()
-        .filter(|share| share.is_none())
-        .count()
-        .saturating_sub(barred.len());
     let gaps = match gaps {
         0 => String::new(),
         1 => " One value is missing and left open.".to_owned(),
@@ -135,7 +144,9 @@ fn one(studies: &[Study], axes: &[Axis], (id, title): (&str, &str)) -> Option<Fi
         id: id.to_owned(),
         title: title.to_owned(),
         caption: format!(
-            "Each axis shows the share of the best sensor shown: value over best where more is better (↑), best over value where less is (↓). The rim is the best value, which no test need have shown to be better.{gaps}{barred}"
+            "Each axis shows the share of the best sensor shown: value over best where more is better (↑), best over value where less is (↓). The rim is the best value, which no test need have shown to be better.{gaps}{barred}{}{}",
+            without_value(studies, axes),
+            unproven(studies, axes)
         ),
         description: format!(
             "A radar of {} for {}.",
@@ -143,21 +154,67 @@ fn one(studies: &[Study], axes: &[Axis], (id, title): (&str, &str)) -> Option<Fi
                 .map(|axis| axis.name)
                 .collect::<Vec<_>>()
                 .join(", "),
-            super::listed(&names)
+            super::listed(&legend.into_iter().map(|(_, name)| name).collect::<Vec<_>>())
         ),
         canvas,
     })
 }
 
+/// A value that is not drawn because it takes no part in verdicts.
+struct Barred {
+    axis: &'static str,
+    study: usize,
+    reason: &'static str,
+}
+
+/// How many studies have a value on no axis, and are therefore not named.
+fn without_value(studies: &[Study], axes: &[Axis]) -> String {
+    let has_none = |study: &&Study| {
+        let mut scores = axes
+            .iter()
+            .map(|axis| study.score(axis.metric, axis.channel));
+        scores.all(|score| score.is_none_or(|score| score.value.number().is_none()))
+    };
+    match studies.iter().filter(has_none).count() {
+        0 => String::new(),
+        1 => " One more has none of these values.".to_owned(),
+        more => format!(" {more} more have none of these values."),
+    }
+}
+
+/// What is said where a place rests on published values.
+fn unproven(studies: &[Study], axes: &[Axis]) -> String {
+    let drawn = |study| axes.iter().filter_map(move |axis| axis.drawn(study));
+    let any = |of: fn(&Score) -> bool| studies.iter().flat_map(drawn).any(of);
+    let mut out = String::new();
+    if any(|score| score.definition == PUBLISHED) {
+        out += " Nobody tested how published values differ.";
+    }
+    if any(|score| score.standing == Standing::SkillUnknown) {
+        out += " Of some it is not known whether the model has skill.";
+    }
+    out
+}
+
 impl Axis {
+    /// The score of `study` that has a place here.
+    fn drawn<'a>(&self, study: &'a Study) -> Option<&'a Score> {
+        let score = study.score(self.metric, self.channel)?;
+        (score.value.number().is_some() && self.without_place(score).is_none()).then_some(score)
+    }
+
     /// Values that are not drawn because they take no part in verdicts: `spatial Pz of GelSightWM (no skill)`.
-    fn barred(&self, studies: &[Study], names: &[String]) -> Vec<String> {
-        let of_one = |(study, name): (&Study, &String)| {
+    fn barred(&self, studies: &[Study]) -> Vec<Barred> {
+        let of_one = |(at, study): (usize, &Study)| {
             let score = study.score(self.metric, self.channel)?;
             let reason = self.without_place(score)?;
-            Some(format!("{} of {name} ({reason})", self.name))
+            Some(Barred {
+                axis: self.name,
+                study: at,
+                reason,
+            })
         };
-        studies.iter().zip(names).filter_map(of_one).collect()
+        studies.iter().enumerate().filter_map(of_one).collect()
     }
 
     /// Why `score` has no place on the axis, which is a verdict: it takes no part in any, or nobody knows how sure it is. Published values have no interval and a place.

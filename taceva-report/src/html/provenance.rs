@@ -21,7 +21,12 @@ pub(super) fn section(studies: &[Study], table: &ScoreTable) -> String {
             out += &entry(term, text);
         }
         for (term, text) in &study.provenance {
-            out += &entry(term, text);
+            // Of a run's recording other metrics are formed from the presses of the other parts.
+            let text = match term.as_str() {
+                "samples" => text.replace("left_out ", "of other parts of the protocol "),
+                _ => text.clone(),
+            };
+            out += &entry(term, &text);
         }
         out += "</dl>\n";
     }

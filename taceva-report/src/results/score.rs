@@ -1,7 +1,7 @@
 //! A score as it is read back.
 
 use taceva_core::Unit;
-use taceva_metrics::{Better, Curve, Map, Matrix, Standing, catalogue};
+use taceva_metrics::{Better, Curve, Map, Matrix, Scale, Standing, catalogue};
 
 /// A metric of a channel or plane.
 #[derive(Clone, Debug, PartialEq)]
@@ -82,6 +82,8 @@ pub enum Interval {
         standard_error: Option<f64>,
         /// The number of clusters behind them; not known of results of schema 1.0.
         clusters: Option<u64>,
+        /// Degrees of freedom of Student's t behind them; not known of results before schema 1.3.
+        degrees_of_freedom: Option<f64>,
     },
     /// There is none: why.
     Absent(String),
@@ -133,6 +135,24 @@ impl Interval {
             Interval::Ends { method, .. } => Some(method),
             Interval::Absent(_) => None,
         }
+    }
+
+    /// Degrees of freedom of Student's t behind it, if the result says so.
+    pub fn degrees_of_freedom(&self) -> Option<f64> {
+        match self {
+            Interval::Ends {
+                degrees_of_freedom, ..
+            } => *degrees_of_freedom,
+            Interval::Absent(_) => None,
+        }
+    }
+
+    /// On which scale its ends lie about the value, by the words of its method.
+    pub fn scale(&self) -> Scale {
+        const SCALES: [Scale; 4] = [Scale::Logarithm, Scale::Logit, Scale::Cut, Scale::Wilson];
+        let method = self.method().unwrap_or_default();
+        let is_said = |scale: &Scale| method.contains(&scale.to_string());
+        SCALES.into_iter().find(is_said).unwrap_or(Scale::Own)
     }
 
     /// The number of clusters that it was found from, if the result or its method says so.

@@ -42,17 +42,20 @@ impl ScoreTable {
             Column::new("ci95_low"),
             Column::new("ci95_high"),
             Column::new("method"),
+            Column::new("degrees_of_freedom"),
             Column::new("n"),
             Column::new("n_invalid"),
             Column::new("reason"),
             Column::new("standing"),
             Column::new("bounded_share"),
+            Column::new("source"),
         ];
         let mut table = Table::new("Scores", columns);
         for row in &self.rows {
-            for (name, cell) in self.names.iter().zip(&row.cells) {
+            let studies = self.names.iter().zip(&self.sources);
+            for (study, cell) in studies.zip(&row.cells) {
                 if let Some(cell) = cell {
-                    table.push(row.numbers(name, cell));
+                    table.push(row.numbers(study, cell));
                 }
             }
         }
@@ -175,12 +178,12 @@ impl ScoreTable {
 
 impl ScoreRow {
     /// The numbers of the study `name`, in the order of the columns for programs.
-    fn numbers(&self, name: &str, cell: &ScoreCell) -> [Cell; 13] {
+    fn numbers(&self, (name, source): (&String, &String), cell: &ScoreCell) -> [Cell; 15] {
         let number = |value: Option<f64>| {
             Cell::Number(value.map_or_else(String::new, |value| format!("{value:?}")))
         };
         [
-            Cell::text(name),
+            Cell::text(name.as_str()),
             Cell::text(self.metric.as_str()),
             Cell::text(self.channel.as_str()),
             number(cell.value),
@@ -188,11 +191,13 @@ impl ScoreRow {
             number(cell.ends.map(|ends| ends[0])),
             number(cell.ends.map(|ends| ends[1])),
             Cell::text(cell.method.as_deref().unwrap_or_default()),
+            number(cell.degrees_of_freedom),
             Cell::Number(cell.n.to_string()),
             Cell::Number(cell.n_invalid.to_string()),
             Cell::text(cell.formatted.reason.as_deref().unwrap_or_default()),
             Cell::text(cell.standing.words().unwrap_or_default()),
             number(cell.bounded_share),
+            Cell::text(source.as_str()),
         ]
     }
 }

@@ -23,24 +23,17 @@ const LATENCY_MS: f64 = 1.0;
 
 /// The drivers of `world`.
 pub(crate) fn drivers(world: &World) -> Drivers {
-    let robot = RobotFacts {
-        repeatability: Some(Millimetre(0.002)),
-        ..RobotFacts::default()
-    };
-    let force = ForceFacts {
-        axes: Axes::FORCE,
-        rate: Some(Hertz(1.0 / READING_S)),
-        force_max: Some(Newton(20.0)),
-        latency_ms: Some(LATENCY_MS),
-        numbered: true,
-        ..ForceFacts::default()
-    };
-    let sensor = SensorFacts {
-        frame: Some(FRAME),
-        footprint: Footprint::rectangle(4.0, 4.0, Some(1.0)).ok(),
-        force_max: Some(Newton(2.0)),
-        ..SensorFacts::default()
-    };
+    let robot = RobotFacts::default().with_repeatability(Millimetre(0.002));
+    let force = ForceFacts::default()
+        .with_axes(Axes::FORCE)
+        .with_rate(Hertz(1.0 / READING_S))
+        .with_force_max(Newton(20.0))
+        .with_latency_ms(LATENCY_MS)
+        .with_numbered(true);
+    let sensor = SensorFacts::default()
+        .with_frame(FRAME)
+        .with_footprint(Footprint::rectangle(4.0, 4.0, Some(1.0)).ok())
+        .with_force_max(Newton(2.0));
     let mut drivers = Drivers {
         sensors: Registry::empty(),
         robots: Registry::empty(),

@@ -25,6 +25,8 @@ impl ArgList {
                 ArgValue::Whole(whole) => (abi::Arg::WHOLE, whole, 0.0),
                 ArgValue::Number(number) => (abi::Arg::NUMBER, 0, number),
                 ArgValue::Flag(flag) => (abi::Arg::FLAG, i64::from(flag), 0.0),
+                // A value of a kind that the interface does not know crosses as it is written.
+                _ => (abi::Arg::TEXT, 0, 0.0),
             };
             items.push(abi::Arg {
                 key: abi::Text::from(key),

@@ -193,9 +193,7 @@ fn no_guards(subject: &Subject) -> Result<(), Ending> {
         ));
     };
     for force in [0.0, -1.0, f64::NAN] {
-        let guard = Guard {
-            force: Newton(force),
-        };
+        let guard = Guard::at(Newton(force));
         let answer = guarded.move_guarded(home, speed(1.0)?, guard, PATIENT);
         expect_failure(
             &format!("a guard of {force} N"),

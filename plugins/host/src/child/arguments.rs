@@ -9,10 +9,11 @@ pub(super) fn arguments(pairs: &[(String, ArgValue)]) -> Result<Args, Failure> {
     let specs: Vec<ArgSpec> = pairs
         .iter()
         .map(|(key, value)| match value {
-            ArgValue::Text(_) => ArgSpec::text(key),
             ArgValue::Whole(_) => ArgSpec::whole(key, i64::MIN, i64::MAX),
             ArgValue::Number(_) => ArgSpec::number(key, f64::NEG_INFINITY, f64::INFINITY),
             ArgValue::Flag(_) => ArgSpec::flag(key),
+            // A text; no other kind arrives, see `wire/value.rs`.
+            _ => ArgSpec::text(key),
         })
         .collect();
     let texts = pairs.iter().map(|(key, value)| (key, value.to_string()));

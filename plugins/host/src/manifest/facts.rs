@@ -17,9 +17,9 @@ impl WrittenProvides {
             Kind::Sensor => Ok(Facts::Sensor(Box::new(self.sensor()?))),
             Kind::Robot => Ok(Facts::Robot(self.robot()?)),
             Kind::Force => Ok(Facts::Force(self.force()?)),
-            Kind::Lighting => Ok(Facts::Lighting(LightingFacts {
-                scenes: value(&self.scenes).unwrap_or_default(),
-            })),
+            Kind::Lighting => Ok(Facts::Lighting(
+                LightingFacts::default().with_scenes(value(&self.scenes).unwrap_or_default()),
+            )),
             Kind::Estimator => {
                 let problem = "an estimator is no device";
                 Err(Refused::at(&self.key, problem))
@@ -30,30 +30,30 @@ impl WrittenProvides {
     fn sensor(&self) -> Result<SensorFacts, Refused> {
         let gel = self.gel.as_ref().map(Spanned::get_ref);
         let limits = self.limits.as_ref().map(Spanned::get_ref);
-        Ok(SensorFacts {
-            frame: self.frame.as_ref().map(|frame| {
+        Ok(SensorFacts::default()
+            .with_frame(self.frame.as_ref().map(|frame| {
                 let frame = frame.get_ref();
                 FrameInfo {
                     width: frame.width,
                     height: frame.height,
                     format: frame.format,
                 }
-            }),
-            rate: value(&self.rate_hz).map(Hertz),
-            opaque: gel.and_then(|gel| gel.opaque),
-            markers: gel.and_then(|gel| gel.markers),
-            scenes: value(&self.scenes).unwrap_or_default(),
-            footprint: self.footprint.as_ref().map(footprint).transpose()?,
-            depth_max: limits.and_then(|limits| limits.depth_mm).map(Millimetre),
-            force_max: limits.and_then(|limits| limits.force_n).map(Newton),
-            camera: self
-                .camera
-                .as_ref()
-                .map(|camera| [camera.get_ref().width, camera.get_ref().height]),
-            gel_thickness: gel.and_then(|gel| gel.thickness_mm).map(Millimetre),
-            field_of_view_mm2: value(&self.field_of_view_mm2),
-            latency_ms: value(&self.latency_ms),
-        })
+            }))
+            .with_rate(value(&self.rate_hz).map(Hertz))
+            .with_opaque(gel.and_then(|gel| gel.opaque))
+            .with_markers(gel.and_then(|gel| gel.markers))
+            .with_scenes(value(&self.scenes).unwrap_or_default())
+            .with_footprint(self.footprint.as_ref().map(footprint).transpose()?)
+            .with_depth_max(limits.and_then(|limits| limits.depth_mm).map(Millimetre))
+            .with_force_max(limits.and_then(|limits| limits.force_n).map(Newton))
+            .with_camera(
+                self.camera
+                    .as_ref()
+                    .map(|camera| [camera.get_ref().width, camera.get_ref().height]),
+            )
+            .with_gel_thickness(gel.and_then(|gel| gel.thickness_mm).map(Millimetre))
+            .with_field_of_view_mm2(value(&self.field_of_view_mm2))
+            .with_latency_ms(value(&self.latency_ms)))
     }
 
     fn robot(&self) -> Result<RobotFacts, Refused> {
@@ -64,24 +64,26 @@ impl WrittenProvides {
         };
         let limits = self.limits.as_ref();
         let speed = limits.and_then(|limits| Some((limits, limits.get_ref().speed_max_mm_s?)));
-        Ok(RobotFacts {
-            workspace: self.workspace.as_ref().map(|workspace| Workspace {
+        Ok(RobotFacts::default()
+            .with_workspace(self.workspace.as_ref().map(|workspace| Workspace {
                 least: corner(workspace.get_ref().least_mm),
                 greatest: corner(workspace.get_ref().greatest_mm),
-            }),
-            speed_max: speed
-                .map(|(limits, speed)| {
-                    Speed::try_new(speed)
-                        .map_err(|error| Refused::at(limits, format!("`speed_max_mm_s`: {error}")))
-                })
-                .transpose()?,
-            repeatability: value(&self.repeatability_mm).map(Millimetre),
-            pose_noise: value(&self.pose_noise_mm).map(Millimetre),
-            deceleration_mm_s2: value(&self.deceleration_mm_s2),
-            stop_ms: value(&self.stop_ms),
-            latency_ms: value(&self.latency_ms),
-            guarded_motion: value(&self.guarded_motion).unwrap_or(false),
-        })
+            }))
+            .with_speed_max(
+                speed
+                    .map(|(limits, speed)| {
+                        Speed::try_new(speed).map_err(|error| {
+                            Refused::at(limits, format!("`speed_max_mm_s`: {error}"))
+                        })
+                    })
+                    .transpose()?,
+            )
+            .with_repeatability(value(&self.repeatability_mm).map(Millimetre))
+            .with_pose_noise(value(&self.pose_noise_mm).map(Millimetre))
+            .with_deceleration_mm_s2(value(&self.deceleration_mm_s2))
+            .with_stop_ms(value(&self.stop_ms))
+            .with_latency_ms(value(&self.latency_ms))
+            .with_guarded_motion(value(&self.guarded_motion).unwrap_or(false)))
     }
 
     fn force(&self) -> Result<ForceFacts, Refused> {
@@ -90,17 +92,16 @@ impl WrittenProvides {
             Some(axes) => axes.get_ref().iter().try_fold(Axes::NONE, with_axis)?,
             None => Axes::NONE,
         };
-        Ok(ForceFacts {
-            axes,
-            rate: value(&self.rate_hz).map(Hertz),
-            force_max: limits.and_then(|limits| limits.force_n).map(Newton),
-            noise: value(&self.noise_n).map(Newton),
-            resolution: value(&self.resolution_n).map(Newton),
-            latency_ms: value(&self.latency_ms),
+        Ok(ForceFacts::default()
+            .with_axes(axes)
+            .with_rate(value(&self.rate_hz).map(Hertz))
+            .with_force_max(limits.and_then(|limits| limits.force_n).map(Newton))
+            .with_noise(value(&self.noise_n).map(Newton))
+            .with_resolution(value(&self.resolution_n).map(Newton))
+            .with_latency_ms(value(&self.latency_ms))
             // Numbers of readings do not cross the boundary.
-            numbered: false,
-            tare: value(&self.tare).unwrap_or(false),
-        })
+            .with_numbered(false)
+            .with_tare(value(&self.tare).unwrap_or(false)))
     }
 }
 

@@ -124,7 +124,7 @@ fn press(session: &dyn Session, sensor: &str) -> String {
         note(&bytes);
     }
     if let Some(motion) = robot.guarded_motion() {
-        let guard = Guard { force: Newton(0.1) };
+        let guard = Guard::at(Newton(0.1));
         note(
             &motion
                 .move_guarded(place(0.1, 0.4), speed, guard, LONG)

@@ -24,10 +24,7 @@ pub(crate) struct OddSensorFactory(Descriptor);
 
 impl OddSensorFactory {
     pub(crate) fn new() -> OddSensorFactory {
-        let facts = SensorFacts {
-            frame: Some(FRAME),
-            ..SensorFacts::default()
-        };
+        let facts = SensorFacts::default().with_frame(FRAME);
         let facts = Facts::Sensor(Box::new(facts));
         let ways = [
             "counts", "waits", "hangs", "panics", "exits", "aborts", "lies",

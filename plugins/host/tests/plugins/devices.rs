@@ -183,9 +183,7 @@ fn a_guarded_motion_stops_at_the_force_and_a_guard_of_nothing_is_refused() {
     let mut arm = session.robot(&ARM, &Args::default()).expect("opens");
     let fast = Speed::try_new(100.0).expect("above 0");
     let guarded = arm.guarded_motion().expect("it can");
-    let guard = |force| Guard {
-        force: Newton(force),
-    };
+    let guard = |force| Guard::at(Newton(force));
     let stop = guarded.move_guarded(at(0.0, 0.0, 2.0), fast, guard(1.25), SECOND);
     match stop.expect("moves") {
         GuardedStop::Guarded { pose, .. } => assert_eq!(pose, at(0.0, 0.0, 1.25)),

@@ -196,9 +196,7 @@ unsafe extern "C" fn move_guarded(
             let message = format!("a guard of {guard_n} N, expected a number above 0");
             return Err(Failure::argument(message));
         }
-        let guard = Guard {
-            force: Newton(guard_n),
-        };
+        let guard = Guard::at(Newton(guard_n));
         let robot = opened.robot.guarded_motion().ok_or_else(|| {
             Failure::new(ErrorKind::Unsupported, "the robot does not watch the force")
         })?;

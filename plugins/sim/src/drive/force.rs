@@ -31,13 +31,11 @@ impl ForceTransducerFactory {
     /// # Errors
     /// [`DescriptorError`] if its description contradicts itself.
     pub fn new() -> Result<ForceTransducerFactory, DescriptorError> {
-        let facts = ForceFacts {
-            axes: Axes::FORCE,
-            rate: Some(Hertz(RATE_HZ)),
-            force_max: Some(Newton(Model::GelSight.parameters().transducer.range_n)),
-            tare: true,
-            ..ForceFacts::default()
-        };
+        let facts = ForceFacts::default()
+            .with_axes(Axes::FORCE)
+            .with_rate(Hertz(RATE_HZ))
+            .with_force_max(Newton(Model::GelSight.parameters().transducer.range_n))
+            .with_tare(true);
         let spec = DescriptorSpec::new(
             KEY,
             "simulated force transducer",

@@ -23,7 +23,7 @@ impl LightingFactory {
     /// # Errors
     /// [`DescriptorError`] if its description contradicts itself.
     pub fn new() -> Result<LightingFactory, DescriptorError> {
-        let facts = LightingFacts { scenes: scenes() };
+        let facts = LightingFacts::default().with_scenes(scenes());
         let spec = DescriptorSpec::new(
             KEY,
             "simulated lamps",

@@ -32,15 +32,13 @@ impl RobotFactory {
     /// # Errors
     /// [`DescriptorError`] if its description contradicts itself.
     pub fn new() -> Result<RobotFactory, DescriptorError> {
-        let facts = RobotFacts {
-            workspace: Some(workspace()),
-            speed_max: Speed::try_new(SPEED_MAX_MM_PER_S).ok(),
-            repeatability: Some(Millimetre(
+        let facts = RobotFacts::default()
+            .with_workspace(workspace())
+            .with_speed_max(Speed::try_new(SPEED_MAX_MM_PER_S).ok())
+            .with_repeatability(Millimetre(
                 Model::GelSight.parameters().robot.positioning_mm,
-            )),
-            guarded_motion: true,
-            ..RobotFacts::default()
-        };
+            ))
+            .with_guarded_motion(true);
         let spec = DescriptorSpec::new(
             KEY,
             "simulated robot",

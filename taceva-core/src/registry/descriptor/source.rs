@@ -2,7 +2,8 @@
 
 use std::fmt;
 
-/// Where the readings of a driver come from; every output that rests on them says so.
+/// Where the readings of a driver come from; every output that rests on them says so. It gets no further variant in a compatible version,
+/// because every reader must say what it makes of each.
 ///
 /// ```
 /// use taceva_core::DriverSource;

@@ -22,20 +22,16 @@ fn sensor(facts: SensorFacts) -> Result<Descriptor, String> {
 
 #[test]
 fn facts_that_contradict_each_other_are_refused_when_built() {
-    let opaque = SensorFacts {
-        opaque: Some(true),
-        scenes: vec!["S1".to_owned()],
-        ..SensorFacts::default()
-    };
+    let opaque = SensorFacts::default()
+        .with_opaque(true)
+        .with_scenes(vec!["S1".to_owned()]);
     assert_eq!(
         sensor(opaque).expect_err("opaque"),
         "the driver `test/device` contradicts itself: an opaque gel, yet the light around it can be set to `S1`"
     );
-    let deep = SensorFacts {
-        footprint: Some(Footprint::disc(17.0, Some(3.5)).expect("lengths")),
-        depth_max: Some(Millimetre(4.0)),
-        ..SensorFacts::default()
-    };
+    let deep = SensorFacts::default()
+        .with_footprint(Footprint::disc(17.0, Some(3.5)).expect("lengths"))
+        .with_depth_max(Millimetre(4.0));
     assert_eq!(
         sensor(deep).expect_err("deep"),
         "the driver `test/device` contradicts itself: a depth limit of 4 mm, yet the footprint is 3.5 mm deep"
@@ -54,30 +50,12 @@ fn facts_that_no_device_has_are_refused_when_built() {
         })
     };
     let impossible = [
-        SensorFacts {
-            frame: frame(0),
-            ..Default::default()
-        },
-        SensorFacts {
-            rate: Some(Hertz(0.0)),
-            ..Default::default()
-        },
-        SensorFacts {
-            rate: Some(Hertz(f64::NAN)),
-            ..Default::default()
-        },
-        SensorFacts {
-            force_max: Some(Newton(-1.0)),
-            ..Default::default()
-        },
-        SensorFacts {
-            camera: Some([640, 0]),
-            ..Default::default()
-        },
-        SensorFacts {
-            scenes: vec!["a".into(), "a".into()],
-            ..Default::default()
-        },
+        SensorFacts::default().with_frame(frame(0)),
+        SensorFacts::default().with_rate(Hertz(0.0)),
+        SensorFacts::default().with_rate(Hertz(f64::NAN)),
+        SensorFacts::default().with_force_max(Newton(-1.0)),
+        SensorFacts::default().with_camera([640, 0]),
+        SensorFacts::default().with_scenes(vec!["a".into(), "a".into()]),
     ];
     for facts in impossible {
         assert!(sensor(facts.clone()).is_err(), "{facts:?}");
@@ -86,13 +64,10 @@ fn facts_that_no_device_has_are_refused_when_built() {
         x: Millimetre(side),
         ..Point::default()
     };
-    let inside_out = RobotFacts {
-        workspace: Some(Workspace {
-            least: corner(1.0),
-            greatest: corner(-1.0),
-        }),
-        ..RobotFacts::default()
-    };
+    let inside_out = RobotFacts::default().with_workspace(Workspace {
+        least: corner(1.0),
+        greatest: corner(-1.0),
+    });
     assert!(check(DriverSource::Real, Facts::Robot(inside_out)).is_err());
     assert!(check(DriverSource::Real, Facts::Force(ForceFacts::default())).is_err());
     assert!(
@@ -102,10 +77,7 @@ fn facts_that_no_device_has_are_refused_when_built() {
         )
         .is_err()
     );
-    let good = ForceFacts {
-        axes: Axes::NORMAL,
-        ..ForceFacts::default()
-    };
+    let good = ForceFacts::default().with_axes(Axes::NORMAL);
     assert!(check(DriverSource::Real, Facts::Force(good)).is_ok());
 }
 
@@ -125,10 +97,7 @@ fn an_argument_declared_twice_is_refused() {
 #[test]
 fn the_depth_limit_is_that_of_the_footprint_unless_it_is_tighter() {
     let footprint = Footprint::disc(17.0, Some(3.5)).expect("lengths");
-    let mut facts = SensorFacts {
-        footprint: Some(footprint),
-        ..Default::default()
-    };
+    let mut facts = SensorFacts::default().with_footprint(footprint);
     assert_eq!(facts.depth_limit(), Some(Millimetre(3.5)));
     facts.depth_max = Some(Millimetre(3.0));
     assert_eq!(facts.depth_limit(), Some(Millimetre(3.0)));

@@ -60,12 +60,12 @@ impl NetftFactory {
                 .help("the least of the ranges of its forces, in N, from its certificate")
                 .changes_facts(),
         ];
-        let facts = Facts::Force(ForceFacts {
-            axes: Axes::SIX,
-            tare: true,
-            numbered: true,
-            ..ForceFacts::default()
-        });
+        let facts = Facts::Force(
+            ForceFacts::default()
+                .with_axes(Axes::SIX)
+                .with_tare(true)
+                .with_numbered(true),
+        );
         let title = "a force transducer behind a Net F/T box of ATI";
         let spec = DescriptorSpec::new(KEY, title, DriverSource::Real, facts);
         Ok(NetftFactory {

@@ -59,13 +59,12 @@ impl Factory<dyn Sensor> for ReplayFactory {
 
     fn describe(&self, args: &Args) -> Result<Descriptor, DescriptorError> {
         let mut spec = self.descriptor.to_spec();
-        spec.facts = Facts::Sensor(Box::new(SensorFacts {
-            rate: match timing(args) {
+        spec.facts = Facts::Sensor(Box::new(SensorFacts::default().with_rate(
+            match timing(args) {
                 Timing::Rate(rate) => Some(rate),
                 Timing::Table(_) => None,
             },
-            ..SensorFacts::default()
-        }));
+        )));
         spec.check()
     }
 

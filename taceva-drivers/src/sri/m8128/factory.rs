@@ -70,12 +70,12 @@ impl M8128Factory {
                 .default(ArgValue::Text("host".to_owned()))
                 .help("who calls a load zero: this program, or the box, which takes seconds"),
         ];
-        let facts = Facts::Force(ForceFacts {
-            axes: Axes::SIX,
-            tare: true,
-            numbered: true,
-            ..ForceFacts::default()
-        });
+        let facts = Facts::Force(
+            ForceFacts::default()
+                .with_axes(Axes::SIX)
+                .with_tare(true)
+                .with_numbered(true),
+        );
         let title = "a force transducer behind a box of SRI";
         let spec = DescriptorSpec::new(KEY, title, DriverSource::Real, facts);
         Ok(M8128Factory {

@@ -50,11 +50,9 @@ impl XarmOptions {
 
     /// What is known of the arm before it is opened.
     pub(super) fn facts(&self) -> RobotFacts {
-        RobotFacts {
-            workspace: self.workspace,
-            speed_max: Some(self.speed_max),
-            ..RobotFacts::default()
-        }
+        RobotFacts::default()
+            .with_workspace(self.workspace)
+            .with_speed_max(self.speed_max)
     }
 }
 

@@ -168,6 +168,9 @@ fn serialize_interval<M: SerializeMap>(
     if let Some(clusters) = interval.clusters() {
         into.serialize_entry("clusters", &clusters)?;
     }
+    if let Some(freedom) = interval.freedom() {
+        into.serialize_entry("degrees_of_freedom", &freedom)?;
+    }
     Ok(())
 }
 

@@ -11,6 +11,7 @@ use std::ops::BitOr;
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[repr(u8)]
+#[non_exhaustive]
 pub enum Stream {
     /// |d|.
     Absolute,

@@ -16,19 +16,17 @@ fn descriptor(key: &'static str, facts: Facts) -> Descriptor {
 }
 
 pub(crate) fn sensor() -> SensorFacts {
-    SensorFacts {
-        frame: Some(FrameInfo {
+    SensorFacts::default()
+        .with_frame(FrameInfo {
             width: 64,
             height: 48,
             format: PixelFormat::Rgb8,
-        }),
-        rate: Some(Hertz(25.0)),
-        opaque: Some(false),
-        markers: Some(true),
-        footprint: Some(Footprint::rectangle(8.0, 10.0, Some(1.0)).expect("lengths")),
-        force_max: Some(Newton(1.83)),
-        ..SensorFacts::default()
-    }
+        })
+        .with_rate(Hertz(25.0))
+        .with_opaque(false)
+        .with_markers(true)
+        .with_footprint(Footprint::rectangle(8.0, 10.0, Some(1.0)).expect("lengths"))
+        .with_force_max(Newton(1.83))
 }
 
 pub(crate) fn rig_of(sensor: SensorFacts, axes: Axes) -> RigInfo {
@@ -40,17 +38,18 @@ pub(crate) fn rig_of(sensor: SensorFacts, axes: Axes) -> RigInfo {
         )),
         force: Some(descriptor(
             "test/force",
-            Facts::Force(ForceFacts {
-                axes,
-                force_max: Some(Newton(20.0)),
-                ..ForceFacts::default()
-            }),
+            Facts::Force(
+                ForceFacts::default()
+                    .with_axes(axes)
+                    .with_force_max(Newton(20.0)),
+            ),
         )),
         lighting: Some(descriptor(
             "test/light",
-            Facts::Lighting(LightingFacts {
-                scenes: ["normal", "S1", "S2"].map(str::to_owned).to_vec(),
-            }),
+            Facts::Lighting(
+                LightingFacts::default()
+                    .with_scenes(["normal", "S1", "S2"].map(str::to_owned).to_vec()),
+            ),
         )),
     }
 }

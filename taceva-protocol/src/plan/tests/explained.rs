@@ -18,10 +18,7 @@ fn whole() -> SourceInfo {
 
 #[test]
 fn a_metric_that_is_named_and_cannot_be_is_refused_though_others_can() {
-    let opaque = SensorFacts {
-        opaque: Some(true),
-        ..sensor()
-    };
+    let opaque = sensor().with_opaque(true);
     let refusal = |want: &str, sensor: &SensorFacts| {
         let text = format!("{SMALL}[metrics]\nwant = {want}\n");
         let scene = Scene::parse("small", &text).expect("a scene");
@@ -73,10 +70,7 @@ fn pictures_are_counted_where_some_are_taken_and_not_spoken_of_where_none_is() {
 /// A robot whose tip may be in `workspace`.
 fn reaching(workspace: Workspace) -> Option<Descriptor> {
     let key = DriverKey::fixed("test/robot");
-    let facts = Facts::Robot(RobotFacts {
-        workspace: Some(workspace),
-        ..RobotFacts::default()
-    });
+    let facts = Facts::Robot(RobotFacts::default().with_workspace(workspace));
     let spec = DescriptorSpec::new(key, "a robot", DriverSource::Simulated, facts);
     Some(spec.check().expect("no contradiction"))
 }

@@ -93,27 +93,21 @@ fn scenes() -> Vec<(Plan, Subject, PlanReason)> {
     vec![
         (few(&wanted), metric("hysteresis"), Skip(NotWanted)),
         (
-            with_sensor(SensorFacts {
-                opaque: Some(true),
-                ..sensor()
-            }),
+            with_sensor(sensor().with_opaque(true)),
             metric("r_light"),
             Skip(GelIsOpaque),
         ),
         (
-            with_sensor(SensorFacts {
-                markers: Some(false),
-                ..sensor()
-            }),
+            with_sensor(sensor().with_markers(false)),
             metric("repeatability (Fx, Fy)"),
             NoMarkers,
         ),
         (
-            with_sensor(SensorFacts {
-                footprint: None,
-                depth_max: Some(Millimetre(1.0)),
-                ..sensor()
-            }),
+            with_sensor(
+                sensor()
+                    .with_footprint(None)
+                    .with_depth_max(Millimetre(1.0)),
+            ),
             metric("mae"),
             Skip(FactAbsent("footprint")),
         ),

@@ -4,10 +4,7 @@ use super::*;
 
 #[test]
 fn an_opaque_gel_skips_lighting_and_says_why() {
-    let opaque = SensorFacts {
-        opaque: Some(true),
-        ..sensor()
-    };
+    let opaque = sensor().with_opaque(true);
     let plan = planned(SMALL, rig_of(opaque, Axes::FORCE));
     assert_eq!(
         reason(&plan, "r_light"),
@@ -24,10 +21,7 @@ fn an_opaque_gel_skips_lighting_and_says_why() {
 
 #[test]
 fn a_gel_without_markers_skips_the_repeatability_of_shear() {
-    let bare = SensorFacts {
-        markers: Some(false),
-        ..sensor()
-    };
+    let bare = sensor().with_markers(false);
     let plan = planned(SMALL, rig_of(bare, Axes::FORCE));
     let metric = plan
         .metrics
@@ -143,11 +137,9 @@ fn one_unit_has_nobody_to_differ_from() {
 
 #[test]
 fn a_sensor_without_a_footprint_is_not_pressed() {
-    let bare = SensorFacts {
-        footprint: None,
-        depth_max: Some(Millimetre(1.0)),
-        ..sensor()
-    };
+    let bare = sensor()
+        .with_footprint(None)
+        .with_depth_max(Millimetre(1.0));
     let plan = planned(SMALL, rig_of(bare, Axes::FORCE));
     assert!(plan.presses.is_empty());
     assert_eq!(

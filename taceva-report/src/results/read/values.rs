@@ -8,7 +8,7 @@ use super::super::{Interval, ResultsError, Score, Value, Variant};
 use super::place::Place;
 
 /// Keys of a score that are no variants.
-const OWN: [&str; 24] = [
+const OWN: [&str; 25] = [
     "value",
     "unit",
     "undefined",
@@ -20,6 +20,7 @@ const OWN: [&str; 24] = [
     "method",
     "standard_error",
     "clusters",
+    "degrees_of_freedom",
     "definition",
     "parameters",
     "counts",
@@ -165,11 +166,13 @@ fn interval(place: &Place<'_>) -> Result<Option<Interval>, ResultsError> {
     };
     let standard_error = place.optional("standard_error");
     let clusters = place.optional("clusters");
+    let freedom = place.optional("degrees_of_freedom");
     Ok(Some(Interval::Ends {
         ends,
         method,
         standard_error: standard_error.map(|at| at.number()).transpose()?,
         clusters: clusters.map(|at| at.count()).transpose()?,
+        degrees_of_freedom: freedom.map(|at| at.number()).transpose()?,
     }))
 }
 

@@ -12,8 +12,31 @@ listed! {
     DriverSource, [DriverSource::Real, DriverSource::Simulated, DriverSource::Recorded], "where readings come from";
 }
 
+/// Writes and reads a struct that can grow, as [`fields`] does one that cannot. The compiler does not say which field is missing here;
+/// `facts_that_can_grow_cross_with_every_field` does.
+macro_rules! growing {
+    ($type:ident { $($field:ident),* $(,)? }) => {
+        impl Wire for $type {
+            fn write(&self, into: &mut Vec<u8>) {
+                $(self.$field.write(into);)*
+            }
+
+            fn read(from: &mut Reader<'_>) -> Result<$type, Malformed> {
+                let mut facts = $type::default();
+                $(facts.$field = Wire::read(from)?;)*
+                Ok(facts)
+            }
+        }
+
+        #[cfg(test)]
+        impl tests::Growing for $type {
+            const FIELDS: &'static [&'static str] = &[$(stringify!($field)),*];
+        }
+    };
+}
+
 fields!(Workspace { least, greatest });
-fields!(RobotFacts {
+growing!(RobotFacts {
     workspace,
     speed_max,
     repeatability,
@@ -23,7 +46,7 @@ fields!(RobotFacts {
     latency_ms,
     guarded_motion
 });
-fields!(ForceFacts {
+growing!(ForceFacts {
     axes,
     rate,
     force_max,
@@ -33,8 +56,8 @@ fields!(ForceFacts {
     numbered,
     tare
 });
-fields!(LightingFacts { scenes });
-fields!(SensorFacts {
+growing!(LightingFacts { scenes });
+growing!(SensorFacts {
     frame,
     rate,
     opaque,
@@ -224,6 +247,32 @@ mod tests {
     use crate::child::wire::{decode, encode};
     use taceva_core::{Device, ForceTransducer, Lighting, Registry, Robot, Sensor};
     use taceva_sim as _;
+
+    /// Facts that cross field by field.
+    pub(super) trait Growing: Default + std::fmt::Debug {
+        /// The fields that cross, in their order.
+        const FIELDS: &'static [&'static str];
+    }
+
+    /// The fields that the struct has, in the order of its declaration: `Debug` writes one a line, four spaces in.
+    fn declared<T: Growing>() -> Vec<String> {
+        let shown = format!("{:#?}", T::default());
+        let fields = shown.lines().filter_map(|line| {
+            let field = line.strip_prefix("    ")?;
+            field
+                .starts_with(|letter: char| letter.is_alphabetic())
+                .then(|| field.split(':').next())?
+        });
+        fields.map(str::to_owned).collect()
+    }
+
+    #[test]
+    fn facts_that_can_grow_cross_with_every_field() {
+        assert_eq!(declared::<SensorFacts>(), SensorFacts::FIELDS);
+        assert_eq!(declared::<RobotFacts>(), RobotFacts::FIELDS);
+        assert_eq!(declared::<ForceFacts>(), ForceFacts::FIELDS);
+        assert_eq!(declared::<LightingFacts>(), LightingFacts::FIELDS);
+    }
 
     fn survive<D: Device + ?Sized + 'static>(registry: &Registry<D>) {
         assert!(!registry.is_empty(), "{:?}", D::KIND);

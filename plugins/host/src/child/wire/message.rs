@@ -149,9 +149,7 @@ mod tests {
         survives(Call::MoveGuarded {
             target: Pose::default(),
             speed,
-            guard: Guard {
-                force: taceva_core::Newton(1.5),
-            },
+            guard: Guard::at(taceva_core::Newton(1.5)),
             deadline,
         });
         survives(OrderAnswer::Opened {

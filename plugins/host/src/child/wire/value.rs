@@ -44,7 +44,15 @@ fields!(FrameInfo {
     height,
     format
 });
-fields!(Guard { force });
+impl Wire for Guard {
+    fn write(&self, into: &mut Vec<u8>) {
+        self.force.write(into);
+    }
+
+    fn read(from: &mut Reader<'_>) -> Result<Guard, Malformed> {
+        Ok(Guard::at(Wire::read(from)?))
+    }
+}
 
 variants!(GuardedStop, "how a guarded motion ended" {
     0 => Arrived { stamp },
@@ -127,6 +135,8 @@ impl Wire for ArgValue {
             ArgValue::Whole(whole) => (1_u8, *whole).write(into),
             ArgValue::Number(number) => (2_u8, *number).write(into),
             ArgValue::Flag(flag) => (3_u8, *flag).write(into),
+            // A value of a kind that is not known here is written as one that no reader takes.
+            _ => u8::MAX.write(into),
         }
     }
 

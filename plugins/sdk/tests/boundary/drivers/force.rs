@@ -14,11 +14,7 @@ pub(super) struct ForceMaker(Descriptor);
 
 impl ForceMaker {
     pub(super) fn new() -> Result<ForceMaker, DescriptorError> {
-        let facts = ForceFacts {
-            axes: Axes::SIX,
-            tare: true,
-            ..ForceFacts::default()
-        };
+        let facts = ForceFacts::default().with_axes(Axes::SIX).with_tare(true);
         Ok(ForceMaker(descriptor("wrist", Facts::Force(facts), way())?))
     }
 }

@@ -11,9 +11,7 @@ pub(super) struct LightingMaker(Descriptor);
 
 impl LightingMaker {
     pub(super) fn new() -> Result<LightingMaker, DescriptorError> {
-        let facts = LightingFacts {
-            scenes: vec!["dark".to_owned()],
-        };
+        let facts = LightingFacts::default().with_scenes(vec!["dark".to_owned()]);
         Ok(LightingMaker(descriptor(
             "lamp",
             Facts::Lighting(facts),
@@ -23,9 +21,7 @@ impl LightingMaker {
 
     /// A lamp on a port that must be named.
     pub(super) fn on_a_port() -> Result<LightingMaker, DescriptorError> {
-        let facts = LightingFacts {
-            scenes: vec!["dark".to_owned()],
-        };
+        let facts = LightingFacts::default().with_scenes(vec!["dark".to_owned()]);
         let port = ArgSpec::text("port");
         let descriptor = descriptor("street", Facts::Lighting(facts), vec![port])?;
         Ok(LightingMaker(descriptor))

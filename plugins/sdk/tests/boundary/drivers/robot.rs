@@ -32,14 +32,12 @@ fn limits() -> RobotFacts {
         y: Millimetre(side),
         z: Millimetre(side),
     };
-    RobotFacts {
-        workspace: Some(Workspace {
+    RobotFacts::default()
+        .with_workspace(Workspace {
             least: corner(-500.0),
             greatest: corner(500.0),
-        }),
-        speed_max: Speed::try_new(100.0).ok(),
-        ..RobotFacts::default()
-    }
+        })
+        .with_speed_max(Speed::try_new(100.0).ok())
 }
 
 impl Factory<dyn Robot> for RobotMaker {

@@ -14,10 +14,7 @@ pub(super) struct SensorMaker(Descriptor);
 
 impl SensorMaker {
     pub(super) fn new() -> Result<SensorMaker, DescriptorError> {
-        let facts = SensorFacts {
-            frame: Some(FRAME),
-            ..SensorFacts::default()
-        };
+        let facts = SensorFacts::default().with_frame(FRAME);
         Ok(SensorMaker(descriptor(
             "palm",
             Facts::Sensor(Box::new(facts)),

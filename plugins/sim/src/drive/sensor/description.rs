@@ -33,26 +33,24 @@ pub(super) fn describe(
     };
     let surface = &parameters.surface;
     let is_transparent = parameters.camera.transparency > 0.5;
-    let facts = SensorFacts {
-        frame,
-        rate: Some(Hertz(parameters.camera.rate_hz)),
-        opaque: Some(!is_transparent),
-        markers: Some(parameters.markers.is_some() || parameters.lattice.is_some()),
-        scenes: if is_transparent { scenes() } else { Vec::new() },
-        footprint: footprint.ok(),
-        depth_max: Some(Millimetre(depth_max_mm)),
-        force_max: Some(Newton(parameters.probing.force_max_n)),
-        camera: Some([parameters.camera.width_px, parameters.camera.height_px].map(pixels)),
-        gel_thickness: match parameters.body {
+    let facts = SensorFacts::default()
+        .with_frame(frame)
+        .with_rate(Hertz(parameters.camera.rate_hz))
+        .with_opaque(!is_transparent)
+        .with_markers(parameters.markers.is_some() || parameters.lattice.is_some())
+        .with_scenes(if is_transparent { scenes() } else { Vec::new() })
+        .with_footprint(footprint.ok())
+        .with_depth_max(Millimetre(depth_max_mm))
+        .with_force_max(Newton(parameters.probing.force_max_n))
+        .with_camera([parameters.camera.width_px, parameters.camera.height_px].map(pixels))
+        .with_gel_thickness(match parameters.body {
             Body::Layer(layer) => Some(Millimetre(layer.thickness_mm)),
             Body::Dome(_) => None,
-        },
-        field_of_view_mm2: Some(match parameters.body {
+        })
+        .with_field_of_view_mm2(match parameters.body {
             Body::Layer(_) => surface.width_mm * surface.height_mm,
             Body::Dome(_) => std::f64::consts::FRAC_PI_4 * surface.width_mm * surface.height_mm,
-        }),
-        ..SensorFacts::default()
-    };
+        });
     DescriptorSpec::new(
         key(model),
         format!("simulated {}", parameters.name),

@@ -1,0 +1,104 @@
+//! What is known about a force transducer before it is opened.
+
+use crate::driver::Axes;
+use crate::quantity::{Hertz, Newton};
+
+/// What is known about a force transducer.
+///
+/// ```
+/// use taceva_core::{Axes, ForceFacts, Hertz};
+/// let facts = ForceFacts::default().with_axes(Axes::SIX).with_rate(Hertz(1000.0));
+/// assert_eq!(facts.force_max, None);
+/// ```
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[non_exhaustive]
+pub struct ForceFacts {
+    /// Which components it measures.
+    pub axes: Axes,
+    /// Readings a second.
+    pub rate: Option<Hertz>,
+    /// The greatest magnitude of each force it can measure.
+    pub force_max: Option<Newton>,
+    /// How far readings of a load that rests scatter: one standard deviation a component.
+    pub noise: Option<Newton>,
+    /// The step between two neighbouring readings of a force. Equal readings betray a signal that froze only where it is below the noise.
+    pub resolution: Option<Newton>,
+    /// How long after it was true a reading is stamped, in ms; whoever conducts a run takes it off the stamps. 0 where stamps are true.
+    pub latency_ms: Option<f64>,
+    /// Whether it numbers its readings, see [`ForceTransducer::sequence`](crate::ForceTransducer::sequence).
+    pub numbered: bool,
+    /// Whether it can call the present load zero.
+    pub tare: bool,
+}
+
+impl ForceFacts {
+    /// The same facts with another [`axes`](ForceFacts::axes).
+    #[must_use]
+    pub fn with_axes(mut self, axes: Axes) -> ForceFacts {
+        self.axes = axes;
+        self
+    }
+
+    /// The same facts with another [`rate`](ForceFacts::rate).
+    #[must_use]
+    pub fn with_rate(mut self, rate: impl Into<Option<Hertz>>) -> ForceFacts {
+        self.rate = rate.into();
+        self
+    }
+
+    /// The same facts with another [`force_max`](ForceFacts::force_max).
+    #[must_use]
+    pub fn with_force_max(mut self, force_max: impl Into<Option<Newton>>) -> ForceFacts {
+        self.force_max = force_max.into();
+        self
+    }
+
+    /// The same facts with another [`noise`](ForceFacts::noise).
+    #[must_use]
+    pub fn with_noise(mut self, noise: impl Into<Option<Newton>>) -> ForceFacts {
+        self.noise = noise.into();
+        self
+    }
+
+    /// The same facts with another [`resolution`](ForceFacts::resolution).
+    #[must_use]
+    pub fn with_resolution(mut self, resolution: impl Into<Option<Newton>>) -> ForceFacts {
+        self.resolution = resolution.into();
+        self
+    }
+
+    /// The same facts with another [`latency_ms`](ForceFacts::latency_ms).
+    #[must_use]
+    pub fn with_latency_ms(mut self, latency_ms: impl Into<Option<f64>>) -> ForceFacts {
+        self.latency_ms = latency_ms.into();
+        self
+    }
+
+    /// The same facts with another [`numbered`](ForceFacts::numbered).
+    #[must_use]
+    pub fn with_numbered(mut self, numbered: bool) -> ForceFacts {
+        self.numbered = numbered;
+        self
+    }
+
+    /// The same facts with another [`tare`](ForceFacts::tare).
+    #[must_use]
+    pub fn with_tare(mut self, tare: bool) -> ForceFacts {
+        self.tare = tare;
+        self
+    }
+
+    /// Whether two readings of a live transducer are hardly ever equal to the last bit: its step, if one is stated, is below its noise.
+    ///
+    /// ```
+    /// use taceva_core::{ForceFacts, Newton};
+    /// let mut scale = ForceFacts::default();
+    /// assert!(scale.seldom_repeats());
+    /// scale.resolution = Some(Newton(0.01));
+    /// assert!(!scale.seldom_repeats());
+    /// ```
+    pub fn seldom_repeats(&self) -> bool {
+        self.resolution
+            .is_none_or(|step| self.noise.is_some_and(|noise| step.0 < noise.0))
+    }
+}

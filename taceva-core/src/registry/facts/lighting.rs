@@ -1,0 +1,24 @@
+//! What is known about a lighting before it is opened.
+
+/// What is known about a lighting.
+///
+/// ```
+/// use taceva_core::LightingFacts;
+/// let facts = LightingFacts::default().with_scenes(vec!["normal".to_owned(), "dark".to_owned()]);
+/// assert_eq!(facts.scenes[0], "normal");
+/// ```
+#[derive(Clone, Debug, Default, PartialEq)]
+#[non_exhaustive]
+pub struct LightingFacts {
+    /// The names of its scenes, the one of the calibration first.
+    pub scenes: Vec<String>,
+}
+
+impl LightingFacts {
+    /// The same facts with another [`scenes`](LightingFacts::scenes).
+    #[must_use]
+    pub fn with_scenes(mut self, scenes: Vec<String>) -> LightingFacts {
+        self.scenes = scenes;
+        self
+    }
+}

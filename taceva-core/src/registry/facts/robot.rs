@@ -1,0 +1,99 @@
+//! What is known about a robot before it is opened.
+
+use super::workspace::Workspace;
+use crate::driver::Speed;
+use crate::quantity::Millimetre;
+
+/// What is known about a robot.
+///
+/// ```
+/// use taceva_core::{RobotFacts, Speed};
+/// let facts = RobotFacts::default().with_speed_max(Speed::try_new(100.0)?);
+/// assert_eq!((facts.workspace, facts.guarded_motion), (None, false));
+/// # Ok::<(), taceva_core::SpeedError>(())
+/// ```
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[non_exhaustive]
+pub struct RobotFacts {
+    /// Where its tip may be.
+    pub workspace: Option<Workspace>,
+    /// How fast it may move.
+    pub speed_max: Option<Speed>,
+    /// How well it comes back to a pose: one standard deviation an axis.
+    pub repeatability: Option<Millimetre>,
+    /// How far a pose that it reports scatters about where it was sent: one standard deviation an axis. Where it is not known, a real robot
+    /// is taken to report as well as it comes back, and a simulated one to report where it was sent.
+    pub pose_noise: Option<Millimetre>,
+    /// How fast it slows down when it is halted, in mm/s².
+    pub deceleration_mm_s2: Option<f64>,
+    /// How long it moves on after a halt has reached it, in ms.
+    pub stop_ms: Option<f64>,
+    /// How long after it was true a pose is stamped, in ms; whoever conducts a run takes it off the stamps. 0 where stamps are true.
+    pub latency_ms: Option<f64>,
+    /// Whether it can stop by itself at a force.
+    pub guarded_motion: bool,
+}
+
+impl RobotFacts {
+    /// The same facts with another [`workspace`](RobotFacts::workspace).
+    #[must_use]
+    pub fn with_workspace(mut self, workspace: impl Into<Option<Workspace>>) -> RobotFacts {
+        self.workspace = workspace.into();
+        self
+    }
+
+    /// The same facts with another [`speed_max`](RobotFacts::speed_max).
+    #[must_use]
+    pub fn with_speed_max(mut self, speed_max: impl Into<Option<Speed>>) -> RobotFacts {
+        self.speed_max = speed_max.into();
+        self
+    }
+
+    /// The same facts with another [`repeatability`](RobotFacts::repeatability).
+    #[must_use]
+    pub fn with_repeatability(
+        mut self,
+        repeatability: impl Into<Option<Millimetre>>,
+    ) -> RobotFacts {
+        self.repeatability = repeatability.into();
+        self
+    }
+
+    /// The same facts with another [`pose_noise`](RobotFacts::pose_noise).
+    #[must_use]
+    pub fn with_pose_noise(mut self, pose_noise: impl Into<Option<Millimetre>>) -> RobotFacts {
+        self.pose_noise = pose_noise.into();
+        self
+    }
+
+    /// The same facts with another [`deceleration_mm_s2`](RobotFacts::deceleration_mm_s2).
+    #[must_use]
+    pub fn with_deceleration_mm_s2(
+        mut self,
+        deceleration_mm_s2: impl Into<Option<f64>>,
+    ) -> RobotFacts {
+        self.deceleration_mm_s2 = deceleration_mm_s2.into();
+        self
+    }
+
+    /// The same facts with another [`stop_ms`](RobotFacts::stop_ms).
+    #[must_use]
+    pub fn with_stop_ms(mut self, stop_ms: impl Into<Option<f64>>) -> RobotFacts {
+        self.stop_ms = stop_ms.into();
+        self
+    }
+
+    /// The same facts with another [`latency_ms`](RobotFacts::latency_ms).
+    #[must_use]
+    pub fn with_latency_ms(mut self, latency_ms: impl Into<Option<f64>>) -> RobotFacts {
+        self.latency_ms = latency_ms.into();
+        self
+    }
+
+    /// The same facts with another [`guarded_motion`](RobotFacts::guarded_motion).
+    #[must_use]
+    pub fn with_guarded_motion(mut self, guarded_motion: bool) -> RobotFacts {
+        self.guarded_motion = guarded_motion;
+        self
+    }
+}

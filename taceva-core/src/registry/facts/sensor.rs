@@ -1,0 +1,141 @@
+//! What is known about a sensor before it is opened.
+
+use crate::footprint::Footprint;
+use crate::frame::FrameInfo;
+use crate::quantity::{Hertz, Millimetre, Newton};
+
+/// What is known about a sensor.
+///
+/// ```
+/// use taceva_core::{Footprint, Millimetre, SensorFacts};
+/// let facts = SensorFacts::default().with_footprint(Footprint::disc(17.0, Some(3.5))?);
+/// assert_eq!(facts.depth_limit(), Some(Millimetre(3.5)));
+/// # Ok::<(), taceva_core::FootprintError>(())
+/// ```
+#[derive(Clone, Debug, Default, PartialEq)]
+#[non_exhaustive]
+pub struct SensorFacts {
+    /// Size and format of the frames it gives; `None` where only its arguments or a recording decide.
+    pub frame: Option<FrameInfo>,
+    /// Frames a second.
+    pub rate: Option<Hertz>,
+    /// Whether the gel keeps the light of the room from the camera.
+    pub opaque: Option<bool>,
+    /// Whether markers in the gel show how it shears.
+    pub markers: Option<bool>,
+    /// The scenes of the light around it that it can set itself; an opaque gel has none.
+    pub scenes: Vec<String>,
+    /// Where it senses, and how deep it may be pressed.
+    pub footprint: Option<Footprint>,
+    /// How deep it may be pressed; never deeper than the footprint says.
+    pub depth_max: Option<Millimetre>,
+    /// How hard it may be pressed.
+    pub force_max: Option<Newton>,
+    /// Pixels along x and y of its camera, before anything is scaled.
+    pub camera: Option<[u32; 2]>,
+    /// How thick the gel is.
+    pub gel_thickness: Option<Millimetre>,
+    /// The area that the camera sees, in mm².
+    pub field_of_view_mm2: Option<f64>,
+    /// How long after it was true a frame is stamped, in ms; whoever conducts a run takes it off the stamps. 0 where stamps are true.
+    pub latency_ms: Option<f64>,
+}
+
+impl SensorFacts {
+    /// The same facts with another [`frame`](SensorFacts::frame).
+    #[must_use]
+    pub fn with_frame(mut self, frame: impl Into<Option<FrameInfo>>) -> SensorFacts {
+        self.frame = frame.into();
+        self
+    }
+
+    /// The same facts with another [`rate`](SensorFacts::rate).
+    #[must_use]
+    pub fn with_rate(mut self, rate: impl Into<Option<Hertz>>) -> SensorFacts {
+        self.rate = rate.into();
+        self
+    }
+
+    /// The same facts with another [`opaque`](SensorFacts::opaque).
+    #[must_use]
+    pub fn with_opaque(mut self, opaque: impl Into<Option<bool>>) -> SensorFacts {
+        self.opaque = opaque.into();
+        self
+    }
+
+    /// The same facts with another [`markers`](SensorFacts::markers).
+    #[must_use]
+    pub fn with_markers(mut self, markers: impl Into<Option<bool>>) -> SensorFacts {
+        self.markers = markers.into();
+        self
+    }
+
+    /// The same facts with another [`scenes`](SensorFacts::scenes).
+    #[must_use]
+    pub fn with_scenes(mut self, scenes: Vec<String>) -> SensorFacts {
+        self.scenes = scenes;
+        self
+    }
+
+    /// The same facts with another [`footprint`](SensorFacts::footprint).
+    #[must_use]
+    pub fn with_footprint(mut self, footprint: impl Into<Option<Footprint>>) -> SensorFacts {
+        self.footprint = footprint.into();
+        self
+    }
+
+    /// The same facts with another [`depth_max`](SensorFacts::depth_max).
+    #[must_use]
+    pub fn with_depth_max(mut self, depth_max: impl Into<Option<Millimetre>>) -> SensorFacts {
+        self.depth_max = depth_max.into();
+        self
+    }
+
+    /// The same facts with another [`force_max`](SensorFacts::force_max).
+    #[must_use]
+    pub fn with_force_max(mut self, force_max: impl Into<Option<Newton>>) -> SensorFacts {
+        self.force_max = force_max.into();
+        self
+    }
+
+    /// The same facts with another [`camera`](SensorFacts::camera).
+    #[must_use]
+    pub fn with_camera(mut self, camera: impl Into<Option<[u32; 2]>>) -> SensorFacts {
+        self.camera = camera.into();
+        self
+    }
+
+    /// The same facts with another [`gel_thickness`](SensorFacts::gel_thickness).
+    #[must_use]
+    pub fn with_gel_thickness(
+        mut self,
+        gel_thickness: impl Into<Option<Millimetre>>,
+    ) -> SensorFacts {
+        self.gel_thickness = gel_thickness.into();
+        self
+    }
+
+    /// The same facts with another [`field_of_view_mm2`](SensorFacts::field_of_view_mm2).
+    #[must_use]
+    pub fn with_field_of_view_mm2(
+        mut self,
+        field_of_view_mm2: impl Into<Option<f64>>,
+    ) -> SensorFacts {
+        self.field_of_view_mm2 = field_of_view_mm2.into();
+        self
+    }
+
+    /// The same facts with another [`latency_ms`](SensorFacts::latency_ms).
+    #[must_use]
+    pub fn with_latency_ms(mut self, latency_ms: impl Into<Option<f64>>) -> SensorFacts {
+        self.latency_ms = latency_ms.into();
+        self
+    }
+
+    /// How deep it may be pressed, by the limit or, without one, by the footprint.
+    pub fn depth_limit(&self) -> Option<Millimetre> {
+        let footprint = self.footprint.and_then(|footprint| footprint.depth_max());
+        self.depth_max
+            .or(footprint.map(|depth| Millimetre(depth.to_millimetres())))
+    }
+}

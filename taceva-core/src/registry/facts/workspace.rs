@@ -1,0 +1,36 @@
+//! Where the tip of a robot may be.
+
+use crate::geometry::Point;
+
+/// The box in which a tip may be, its faces included, in the sensor's frame. It gets no further field: two corners are a box.
+///
+/// ```
+/// use taceva_core::{Millimetre, Point, Workspace};
+/// let corner = |side: f64| Point { x: Millimetre(side), y: Millimetre(side), z: Millimetre(side) };
+/// let workspace = Workspace { least: corner(-10.0), greatest: corner(10.0) };
+/// assert!(workspace.contains(&corner(10.0)) && !workspace.contains(&corner(10.5)));
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Workspace {
+    /// The corner of the least coordinates.
+    pub least: Point,
+    /// The corner of the greatest coordinates.
+    pub greatest: Point,
+}
+
+impl Workspace {
+    /// Whether `point` lies in it.
+    pub fn contains(&self, point: &Point) -> bool {
+        self.sides(point)
+            .iter()
+            .all(|(least, value, greatest)| least <= value && value <= greatest)
+    }
+
+    fn sides(&self, point: &Point) -> [(f64, f64, f64); 3] {
+        [
+            (self.least.x.0, point.x.0, self.greatest.x.0),
+            (self.least.y.0, point.y.0, self.greatest.y.0),
+            (self.least.z.0, point.z.0, self.greatest.z.0),
+        ]
+    }
+}
