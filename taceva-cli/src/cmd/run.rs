@@ -9,12 +9,15 @@ use std::sync::Mutex;
 use taceva_core::shown;
 
 use anyhow::Context as _;
+use taceva_live::PageOperator;
+use taceva_protocol::Operator;
 use taceva_report::escape_csv;
 use taceva_study::{EvaluationReport, Existing, PlannedScene, RunFolder, Workshop, run_scene};
 
+use super::on_page::OnPage;
 use super::{Context, Usage, cache, scene};
 use crate::args::{Format, Run};
-use crate::{exit, output, progress, report};
+use crate::{exit, output, progress, report, stderr};
 
 /// The folder in which runs are numbered.
 const RUNS: &str = "runs";
@@ -27,8 +30,7 @@ pub(crate) fn run(args: &Run, context: &Context) -> anyhow::Result<u8> {
     let (drivers, models) = context.equipment(Path::new(&args.scene.scene))?;
     let planned = scene::to_run(args, &drivers)?;
     planned.check_models(&models)?;
-    let terminal = operator::terminal().map(Mutex::new);
-    if terminal.is_none() {
+    if !args.page && operator::terminal(None).is_none() {
         planned.check_unattended(&drivers)?;
     }
     let formats = formats(&planned)?;
@@ -52,18 +54,41 @@ pub(crate) fn run(args: &Run, context: &Context) -> anyhow::Result<u8> {
     let folder = RunFolder::open(&path, &planned, existing)?;
     context.say(format_args!("run in {}", shown(&path)));
     let cache = cache::of(&args.cache);
+    let page = args
+        .page
+        .then(|| OnPage::open(&format!("run of {}", planned.scene.name), args.port))
+        .transpose()?;
+    if let Some(page) = &page {
+        // Even if nothing else is to be said: without it nobody finds the page.
+        stderr::say(format_args!("page: {}", page.url()));
+    }
+    let live = page.as_ref().map(OnPage::live);
+    let operator: Option<Box<Mutex<dyn Operator + Send>>> =
+        match (operator::terminal(live.clone()), live.clone()) {
+            (Some(terminal), _) => Some(Box::new(Mutex::new(terminal))),
+            (None, Some(live)) => Some(Box::new(Mutex::new(PageOperator::new(live)))),
+            (None, None) => None,
+        };
+    let viewer = page.as_ref().map(OnPage::viewer);
     let workshop = Workshop {
         drivers: &drivers,
         models: &models,
         surroundings: &bench::surroundings,
         cache: cache.as_ref(),
         progress: &context.progress,
-        operator: match &terminal {
-            Some(terminal) => Some(terminal),
-            None => None,
-        },
+        operator: operator.as_deref(),
+        viewer: viewer.as_ref(),
     };
     let reports = run_scene(&planned, &folder, workshop, context.jobs);
+    if let Some(live) = &live {
+        live.ended(&match &reports {
+            Ok(_) => "finished: its report is being written".to_owned(),
+            Err(_) if progress::is_stopped() => {
+                "stopped; the terminal says how to go on".to_owned()
+            }
+            Err(error) => error.to_string(),
+        });
+    }
     let mut reports = reports.with_context(|| match progress::is_stopped() {
         true => format!(
             "stopped; continue with taceva run {} --resume --out {}",

@@ -1,7 +1,9 @@
 //! The person at a rig, asked at the terminal.
 
 use std::io::{BufRead, BufReader, IsTerminal, Read, Stdin};
+use std::time::Duration;
 
+use taceva_live::Live;
 use taceva_protocol::{Answer, Cancel, Operator, Question};
 
 use crate::{progress, stderr};
@@ -11,15 +13,18 @@ pub(super) struct Terminal<I: Read> {
     input: BufReader<I>,
     say: fn(&str),
     is_stopped: fn() -> bool,
+    /// The page that shows each question too, whichever is answered first.
+    page: Option<Live>,
 }
 
-/// The terminal of this program, if there is somebody at it.
-pub(super) fn terminal() -> Option<Terminal<Stdin>> {
+/// The terminal of this program, if there is somebody at it; what it asks stands on `page` too.
+pub(super) fn terminal(page: Option<Live>) -> Option<Terminal<Stdin>> {
     let is_there = std::io::stdin().is_terminal() && std::io::stderr().is_terminal();
     is_there.then(|| Terminal {
         input: BufReader::new(std::io::stdin()),
         say: |words| stderr::say(format_args!("{words}")),
         is_stopped: progress::is_stopped,
+        page,
     })
 }
 
@@ -29,7 +34,14 @@ const KEYS: &str = "Enter: done, hands out of reach; s: skip; q or Esc: stop";
 impl<I: Read + Waits> Operator for Terminal<I> {
     fn ask(&mut self, question: &Question, cancel: &Cancel) -> Answer {
         (self.say)(&format!("{question} ({KEYS})"));
+        let asked = self.page.as_ref().map(|page| page.ask(question));
         loop {
+            if let Some(answer) = asked
+                .as_ref()
+                .and_then(|asked| asked.answer(Duration::ZERO))
+            {
+                return answer;
+            }
             if cancel.is_cancelled() || (self.is_stopped)() {
                 return Answer::Stop;
             }
@@ -109,6 +121,7 @@ mod tests {
             input: BufReader::new(input),
             say: |_| {},
             is_stopped: || false,
+            page: None,
         };
         let question = Question::Unit("b".to_owned());
         (0..count)
@@ -133,6 +146,7 @@ mod tests {
             input: BufReader::new(input),
             say: |_| {},
             is_stopped: || false,
+            page: None,
         };
         let cancel = Cancel::new();
         let answer = std::thread::scope(|scope| {
