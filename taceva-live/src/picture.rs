@@ -60,7 +60,7 @@ fn grating(kind: GratingKind, spacing_mm: f64) -> String {
     );
     // Nobody tells finer ones apart on a screen.
     let step = spacing_mm.max(0.4);
-    let count = ((half - 0.5) / step).floor();
+    let count = ((half - 1.0) / step).floor();
     let places = std::iter::successors(Some(-count), |at| (*at < count).then_some(at + 1.0));
     // A string takes whatever is written, so writing to it does not fail.
     for across in places.clone() {
@@ -113,8 +113,8 @@ mod tests {
             "{drawing}"
         );
         for (kind, mark, count) in [
-            (GratingKind::Line, "<path", 11),
-            (GratingKind::Dot, "<circle", 121),
+            (GratingKind::Line, "<path", 9),
+            (GratingKind::Dot, "<circle", 81),
         ] {
             let board = Question::Mount(Specimen::Grating {
                 kind,

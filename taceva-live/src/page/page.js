@@ -51,7 +51,8 @@
       const drawn = new DOMParser().parseFromString(asked.picture, 'image/svg+xml').documentElement;
       find('picture').append(document.importNode(drawn, true));
     }
-    find('done').focus({ preventScroll: true });
+    // Never the button: a key that was meant for something else must not say that hands are out of reach.
+    find('question').focus({ preventScroll: true });
   };
 
   const show = (state) => {
