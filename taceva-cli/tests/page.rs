@@ -35,30 +35,35 @@ impl Page {
         }
     }
 
-    fn asked(&self, first: &str) -> TcpStream {
+    fn asked(&self, first: &str, body: &str) -> TcpStream {
         let mut stream = TcpStream::connect(&self.address).expect("it listens");
         stream
             .set_read_timeout(Some(Duration::from_secs(20)))
             .expect("a socket");
         let Page { address, token } = self;
         let request = format!(
-            "{first} HTTP/1.1\r\nHost: {address}\r\nOrigin: http://{address}\r\nX-Taceva-Token: {token}\r\nContent-Length: 0\r\n\r\n"
+            "{first} HTTP/1.1\r\nHost: {address}\r\nOrigin: http://{address}\r\nX-Taceva-Token: {token}\r\nContent-Length: {}\r\n\r\n{body}",
+            body.len()
         );
         stream.write_all(request.as_bytes()).expect("sent");
         stream
     }
 
-    fn stop(&self) {
+    fn post(&self, path: &str, body: &str) {
         let mut answer = [0; 12];
-        self.asked("POST /stop")
+        self.asked(&format!("POST {path}"), body)
             .read_exact(&mut answer)
             .expect("answered");
         assert_eq!(&answer, b"HTTP/1.1 204");
     }
 
+    fn stop(&self) {
+        self.post("/stop", "");
+    }
+
     /// Reads a stream until `words` came.
     fn until(&self, path: &str, words: &[u8]) -> Vec<u8> {
-        let mut stream = self.asked(&format!("GET {path}"));
+        let mut stream = self.asked(&format!("GET {path}"), "");
         let began = Instant::now();
         let mut read = Vec::new();
         while !read.windows(words.len()).any(|part| part == words) {
@@ -120,9 +125,12 @@ fn the_button_of_a_run_stops_the_arm_and_the_run_goes_on_from_there() {
         let resume = if number == 0 { "" } else { " --resume" };
         let running = Running::start(&bench, &format!("{run}{resume}"));
         let page = Page::of(&running);
+        // What the arm carries is asked for once a sitting.
+        page.until("/events", b"mount the sphere of radius 2 mm");
+        page.post("/answer", "{\"question\": 1, \"answer\": \"done\"}");
         if number == 0 {
             page.until("/events", b"event: places");
-            page.until("/events", b"\"Pz_mm\":");
+            page.until("/events", b"\"Fz_N\":");
             page.until("/frames", b"\xff\xd8\xff");
         }
         in_a_long_motion(&emulated, &running);

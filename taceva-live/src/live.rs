@@ -76,9 +76,8 @@ impl Live {
                 inside.recent.pop_front();
             }
         }
-        if self.shared.viewers.load(Ordering::Acquire) > 0 {
-            self.shared.frames.offer(frame);
-        }
+        // Even if nobody looks: who comes later sees the last one, which may be all there is for a while.
+        self.shared.frames.offer(frame);
     }
 
     /// The transducer read this, its zero taken off.

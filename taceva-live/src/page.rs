@@ -61,7 +61,10 @@ impl Page {
         let encoded = Arc::clone(&shared);
         let encoder = move || {
             while !encoded.is_over.load(Ordering::Acquire) {
-                encoded.frames.encode_next(LOOK);
+                match encoded.viewers.load(Ordering::Acquire) {
+                    0 => std::thread::sleep(LOOK),
+                    _ => encoded.frames.encode_next(LOOK),
+                }
             }
         };
         let counted = Arc::clone(&connections);

@@ -340,6 +340,14 @@ fn pictures_come_as_jpeg_and_the_newest_first() {
 }
 
 #[test]
+fn who_comes_late_sees_the_last_frame() {
+    let opened = Opened::new();
+    opened.live.frame(&frame(90, 16));
+    let mut frames = opened.stream("/frames");
+    until(&mut frames, "image/jpeg");
+}
+
+#[test]
 fn a_slow_browser_and_one_that_vanished_delay_nobody() {
     let opened = Opened::new();
     // One that takes nothing at all, and one that is gone.

@@ -141,7 +141,7 @@ fn a_camera_that_changes_its_size_ends_it_by_name() {
     ));
     assert_eq!(ran.code, 4, "{}", ran.err);
     assert!(
-        ran.err.contains("the camera changed to frames of 48 × 24"),
+        ran.err.contains("the camera changed to frames of 48×24"),
         "{}",
         ran.err
     );

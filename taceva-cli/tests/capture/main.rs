@@ -66,7 +66,7 @@ fn presses_become_points_that_models_are_fitted_and_evaluated_on() {
     assert!(checked.out.contains("TAC008"), "{}", checked.out);
     bench.ok("fit presses --model ridge --set size=8x6 --out m.taceva -q");
     let scores = bench.json("evaluate presses --model ridge --set size=8x6");
-    assert_eq!(scores["model"]["name"], "ridge", "{scores}");
+    assert_eq!(scores["provenance"]["model"]["name"], "ridge", "{scores}");
 }
 
 #[test]
