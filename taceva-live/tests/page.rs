@@ -302,8 +302,10 @@ fn events_say_what_is_known_ten_times_a_second() {
     let opened = Opened::new();
     let mut events = opened.stream("/events");
     opened.live.limits(Limits::none().with_forces(2.0, 1.0));
-    let mut wrench = Wrench::default();
-    wrench.force = [Newton(0.3), Newton(0.4), Newton(1.25)];
+    let wrench = Wrench {
+        force: [Newton(0.3), Newton(0.4), Newton(1.25)],
+        ..Wrench::default()
+    };
     opened.live.force(&wrench);
     opened.live.lost(3, 1, true);
     let said = until(&mut events, "\"Fz_N\":1.25");

@@ -34,6 +34,7 @@ fn header() -> Header {
             channel_order: ChannelOrder::Bgr,
             reference: None,
         }),
+        stream: None,
         presses: BTreeMap::from([
             (PressOutcome::Complete, 2),
             (PressOutcome::Limited(Limit::NormalForce), 1),

@@ -143,7 +143,7 @@ impl LiveSpec {
             }
             let driver = opened.descriptor.key().clone();
             let facts = match opened.descriptor.facts() {
-                Facts::Force(facts) => facts.clone(),
+                Facts::Force(facts) => *facts,
                 _ => taceva_core::ForceFacts::default(),
             };
             let latency_ms = named.latency_ms;
