@@ -8,6 +8,7 @@ mod model;
 mod plugin;
 mod renamed;
 mod results;
+mod rig;
 mod shared;
 mod study;
 
@@ -20,11 +21,12 @@ pub(crate) use self::live::{Capture, LiveArgs, Preview};
 pub(crate) use self::model::{Evaluate, Fit, Merge, Predict, Score};
 pub(crate) use self::plugin::{
     Plugin, PluginAllow, PluginArgs, PluginCheck, PluginDeny, PluginHeaders, PluginInfo,
-    PluginInstall, PluginList, PluginNew, PluginRelease,
+    PluginInstall, PluginList, PluginManifest, PluginNew, PluginPack, PluginRelease,
 };
 pub(crate) use self::results::{
     Accept, CatalogueArgs, CatalogueShow, CatalogueSite, CatalogueSubject, Choose, Compare,
 };
+pub(crate) use self::rig::{RigCheckArgs, RigCommand, RigSubject, RigTeachArgs};
 pub(crate) use self::shared::{
     CacheArgs, ExplainArgs, Format, ListFormat, ModelArgs, OptionalModelArgs, Output, PageArgs,
     PartArg, PartArgs, ScoringArgs, SeedArgs, SettingArgs, SplitArgs, SplitOutArgs,
@@ -105,6 +107,8 @@ pub(crate) enum Command {
     Run(Run),
     /// Print what `run` would do with a scene, keep and skip, and why; opens no device
     Plan(PlanArgs),
+    /// Set up a rig: learn where its robot stands, and see whether its devices do what a run needs
+    Rig(RigCommand),
     /// List every driver, what it can do, its arguments, and the devices that are present
     Devices(Output<ListFormat>),
     /// List, inspect, check or create plugins

@@ -2,6 +2,7 @@
 
 pub(crate) mod accept;
 mod attachments;
+mod attended;
 pub(crate) mod bench;
 pub(crate) mod cache;
 pub(crate) mod capture;
@@ -19,6 +20,7 @@ pub(crate) mod fit;
 pub(crate) mod import;
 pub(crate) mod merge;
 mod on_page;
+mod operator;
 pub(crate) mod plan;
 pub(crate) mod plugin;
 mod plugins;
@@ -26,6 +28,7 @@ pub(crate) mod predict;
 pub(crate) mod preview;
 pub(crate) mod reseal;
 mod results;
+pub(crate) mod rig;
 pub(crate) mod run;
 mod scene;
 pub(crate) mod score;

@@ -72,6 +72,7 @@ fn run(command: &Command, context: &Context) -> anyhow::Result<u8> {
         Command::Preview(args) => cmd::preview::run(args, context),
         Command::Run(args) => cmd::run::run(args, context),
         Command::Plan(args) => cmd::plan::run(args, context),
+        Command::Rig(args) => cmd::rig::run(args, context),
         Command::Devices(args) => cmd::devices::run(args, context),
         Command::Plugin(which) => cmd::plugin::run(which, context),
         Command::Doctor(args) => cmd::doctor::run(args, context),

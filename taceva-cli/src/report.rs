@@ -12,6 +12,7 @@ pub(crate) mod plan;
 pub(crate) mod plugin;
 pub(crate) mod plugin_check;
 mod profile;
+pub(crate) mod rig;
 mod scores;
 mod text;
 mod thumbnail;

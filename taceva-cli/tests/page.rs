@@ -16,6 +16,7 @@ use emulated::{Emulated, Running};
 use support::Bench;
 
 /// The page of a program that runs: where, and its token.
+#[derive(Clone)]
 struct Page {
     address: String,
     token: String,
@@ -59,6 +60,29 @@ impl Page {
 
     fn stop(&self) {
         self.post("/stop", "");
+    }
+
+    /// Answers whatever is asked, from a thread that ends with the page.
+    fn answer_everything(&self) {
+        let page = self.clone();
+        let mut events = page.asked("GET /events", "");
+        std::thread::spawn(move || {
+            let (mut read, mut answered) = (String::new(), 0);
+            let mut bytes = [0; 8192];
+            while let Ok(count @ 1..) = events.read(&mut bytes) {
+                read.push_str(&String::from_utf8_lossy(&bytes[..count]));
+                let asked = read.rsplit_once("\"question\":{\"number\":");
+                let number = asked.and_then(|(_, rest)| rest.split_once(',')?.0.parse().ok());
+                if let Some(number) = number.filter(|number: &u64| *number > answered) {
+                    answered = number;
+                    let body = format!("{{\"question\": {number}, \"answer\": \"done\"}}");
+                    page.post("/answer", &body);
+                }
+                let kept = read.len().saturating_sub(64);
+                let kept = (kept..=read.len()).find(|at| read.is_char_boundary(*at));
+                read = read.split_off(kept.unwrap_or(0));
+            }
+        });
     }
 
     /// Reads a stream until `words` came.
@@ -121,19 +145,23 @@ fn the_button_of_a_run_stops_the_arm_and_the_run_goes_on_from_there() {
     let scene = Path::new(env!("CARGO_MANIFEST_DIR")).join("../examples/scenes/wire.toml");
     let run = format!("run {} --rig lab.toml --out r --page", scene.display());
     let mut took_ms: Vec<f64> = Vec::new();
-    for number in 0..stops {
-        let resume = if number == 0 { "" } else { " --resume" };
-        let running = Running::start(&bench, &format!("{run}{resume}"));
+    let mut sittings = 0;
+    while took_ms.len() < stops {
+        sittings += 1;
+        assert!(sittings <= 2 * stops + 3, "{took_ms:?}");
+        let resume = if sittings == 1 { "" } else { " --resume" };
+        let mut running = Running::start(&bench, &format!("{run}{resume}"));
         let page = Page::of(&running);
-        // What the arm carries is asked for once a sitting.
-        page.until("/events", b"mount the sphere of radius 2 mm");
-        page.post("/answer", "{\"question\": 1, \"answer\": \"done\"}");
-        if number == 0 {
+        page.answer_everything();
+        if sittings == 1 {
             page.until("/events", b"event: places");
             page.until("/events", b"\"Fz_N\":");
             page.until("/frames", b"\xff\xd8\xff");
         }
-        in_a_long_motion(&emulated, &running);
+        if !in_a_long_motion(&emulated, &mut running) {
+            // On a machine that is too busy the guard ends a run by itself.
+            continue;
+        }
         let pressed = Instant::now();
         page.stop();
         while emulated.bench.truth().is_moving {
@@ -149,7 +177,7 @@ fn the_button_of_a_run_stops_the_arm_and_the_run_goes_on_from_there() {
     let last = took_ms.len() - 1;
     let within = took_ms.iter().filter(|took| **took <= STOPPED_MS).count();
     print(&format!(
-        "{stops} stops: pressed to arm stopped, median {:.1} ms, 90 % {:.1} ms, most {:.1} ms; {within} within {STOPPED_MS} ms",
+        "{stops} stops in {sittings} sittings: pressed to arm stopped, median {:.1} ms, 90 % {:.1} ms, most {:.1} ms; {within} within {STOPPED_MS} ms",
         took_ms[last / 2],
         took_ms[last * 9 / 10],
         took_ms[last]
@@ -163,8 +191,8 @@ fn print(words: &str) {
     eprintln!("{words}");
 }
 
-/// Waits until the arm has been moving for a while: short ways end by themselves.
-fn in_a_long_motion(emulated: &Emulated, running: &Running) {
+/// Waits until the arm has been moving for a while, since short ways end by themselves; whether the run goes on that long.
+fn in_a_long_motion(emulated: &Emulated, running: &mut Running) -> bool {
     const LONG: Duration = Duration::from_millis(80);
     let began = Instant::now();
     let mut moving = None;
@@ -173,10 +201,13 @@ fn in_a_long_motion(emulated: &Emulated, running: &Running) {
             true => {
                 let since: Instant = *moving.get_or_insert_with(Instant::now);
                 if since.elapsed() > LONG {
-                    return;
+                    return true;
                 }
             }
             false => moving = None,
+        }
+        if running.has_ended() {
+            return false;
         }
         assert!(
             began.elapsed() < Duration::from_secs(120),

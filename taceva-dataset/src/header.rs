@@ -63,6 +63,8 @@ pub struct Header {
     pub sensor: SensorFacts,
     /// Where the sensor senses, if it is known.
     pub footprint: Option<Footprint>,
+    /// What was set of the camera and read back, by name: `exposure_ms` is `15.7`; empty where nobody knows, and before format 1.5.
+    pub settings: BTreeMap<String, String>,
     /// What was measured beside the frames.
     pub channels: Channels,
     /// The names of the text columns kept for splits.
@@ -96,6 +98,8 @@ struct Written {
     sensor: SensorFacts,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     footprint: Option<Footprint>,
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    settings: BTreeMap<String, String>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     frames: Option<FramesInfo>,
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
@@ -153,6 +157,7 @@ impl Header {
             clock: written.clock,
             sensor: written.sensor,
             footprint: written.footprint,
+            settings: written.settings,
             channels,
             attributes: written.attributes,
             unmentioned_columns: written.unmentioned_columns,
@@ -181,6 +186,7 @@ impl Header {
             digest: self.digest,
             sensor: self.sensor.clone(),
             footprint: self.footprint,
+            settings: self.settings.clone(),
             frames: self.frames.clone(),
             presses: self.presses.clone(),
             stream: self.stream,

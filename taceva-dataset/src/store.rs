@@ -35,6 +35,8 @@ pub struct RecordingFacts {
     pub sensor: SensorFacts,
     /// Where the sensor senses, if it is known.
     pub footprint: Option<Footprint>,
+    /// What was set of the camera and read back, by name: `exposure_ms` is `15.7`; empty where nobody knows.
+    pub settings: BTreeMap<String, String>,
 }
 
 impl RecordingFacts {
@@ -45,7 +47,14 @@ impl RecordingFacts {
             clock,
             sensor,
             footprint: None,
+            settings: BTreeMap::new(),
         }
+    }
+
+    /// The same with what was set of the camera and read back.
+    #[must_use]
+    pub fn with_settings(self, settings: BTreeMap<String, String>) -> RecordingFacts {
+        RecordingFacts { settings, ..self }
     }
 
     /// The same with the part of the gel that the sensor senses with.
@@ -84,14 +93,15 @@ pub(crate) fn write_table_and_header(
     write_durable(samples, &bytes)?;
     let table_digest = table.digest();
     let mut written = Header {
-        format: match beside.stream {
-            Some(_) => Version::CURRENT,
-            None => Version::WITHOUT_STREAM,
+        format: match facts.settings.is_empty() && beside.stream.is_none() {
+            true => Version::WITHOUT_SETTINGS,
+            false => Version::CURRENT,
         },
         source: facts.source,
         clock: facts.clock,
         sensor: facts.sensor.clone(),
         footprint: facts.footprint,
+        settings: facts.settings.clone(),
         channels: table.channels().clone(),
         attributes: table.attribute_names().to_vec(),
         unmentioned_columns: beside.unmentioned_columns,

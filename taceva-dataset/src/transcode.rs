@@ -86,6 +86,7 @@ pub fn write_as_jpeg(
         clock: header.clock,
         sensor: header.sensor.clone(),
         footprint: header.footprint,
+        settings: header.settings.clone(),
     };
     let table = dataset.table().clone().with_frames(entries);
     let written = write_table_and_header(

@@ -113,6 +113,10 @@ pub(crate) struct Asked {
     /// Its number: an answer to another is none to this.
     pub(crate) number: u64,
     pub(crate) text: String,
+    /// What the button says that lets it go on.
+    pub(crate) done: String,
+    /// Whether it can be left out.
+    pub(crate) can_skip: bool,
     /// A picture of what to mount, as SVG.
     pub(crate) picture: Option<String>,
     #[serde(skip)]
@@ -124,6 +128,12 @@ impl Asked {
         Asked {
             number,
             text: question.to_string(),
+            done: match question {
+                Question::Enable(robot) => format!("Let {robot} move"),
+                Question::Resume(_) => "Go on all the same".to_owned(),
+                _ => "Done, hands out of reach".to_owned(),
+            },
+            can_skip: !matches!(question, Question::Enable(_) | Question::Resume(_)),
             picture: crate::picture::of(question),
             answer: None,
         }

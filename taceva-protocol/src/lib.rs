@@ -21,11 +21,15 @@ pub use plan::{
     Cause, Cost, Fit, Plan, PlanReason, PlanSkip, PlannedMetric, PlannedPress, Subject, plan,
 };
 pub use press::{Motion, Press, Waypoint};
-pub use rig_file::{Carried, Registration, RigFile, RigForce, RigRobot, RigSensor, SignedAxes};
+pub use rig_file::{
+    Carried, Jogged, Registration, RigFile, RigForce, RigRobot, RigSensor, SignedAxes, Taught,
+    TeachError,
+};
 pub use run::{
-    Answer, Cancel, Controls, Devices, Event, Left, Mode, MotionStage, Observation, Operator,
-    PressLog, PressRecord, Question, RunError, RunReport, RunSpec, SharedSupervisor,
-    SpecimenChanger, StopCause, Supervisor, Timekeeper, Trip, run, run_guarded, wrench_between,
+    Answer, Cancel, ChangedTouch, Controls, Devices, Event, Left, Mode, MotionStage, Observation,
+    Operator, PressLog, PressRecord, Question, ReferenceTouch, RunError, RunReport, RunSpec,
+    SessionRecord, SessionSpec, SharedSupervisor, SpecimenChanger, Spot, StopCause, Supervisor,
+    Timekeeper, TouchFault, Trip, run, run_guarded, run_session, wrench_between,
 };
 pub use scene::{
     BuiltinScene, Calibration, Contact, DeviceSpec, FootprintSpec, GREATEST_SCENE,

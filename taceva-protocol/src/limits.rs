@@ -84,7 +84,7 @@ impl Overshoot {
             Some(stop_ms) => speed_mm_s * stop_ms * 1e-3,
             None => speed_mm_s * speed_mm_s / (2.0 * deceleration_mm_s2),
         };
-        let margin_mm = NOISE_SPREAD * std::f64::consts::SQRT_2 * pose_noise_mm;
+        let margin_mm = margin_mm(pose_noise_mm);
         Overshoot {
             segment_mm,
             healthy_mm: segment_mm + braking_mm + margin_mm,
@@ -93,7 +93,22 @@ impl Overshoot {
     }
 }
 
+/// What the noise of a reported pose hides of a depth, which is the difference of two poses, in mm.
+fn margin_mm(pose_noise_mm: f64) -> f64 {
+    NOISE_SPREAD * std::f64::consts::SQRT_2 * pose_noise_mm
+}
+
 impl RigLimits {
+    /// The way in which the robot stops once it is halted, in mm.
+    pub(crate) fn braking_mm(&self) -> f64 {
+        let Overshoot {
+            segment_mm,
+            healthy_mm,
+            ..
+        } = self.overshoot;
+        (healthy_mm - segment_mm - margin_mm(self.signals.pose_noise_mm)).max(0.0)
+    }
+
     /// Whether a tip may rest at this depth under this force.
     pub(crate) fn hold(&self, depth_mm: f64, wrench: &Wrench) -> bool {
         let [x, y, z] = wrench.force.map(|force| force.0);

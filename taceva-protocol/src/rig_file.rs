@@ -2,9 +2,11 @@
 
 mod axes;
 mod registration;
+mod teach;
 
 pub use axes::SignedAxes;
 pub use registration::Registration;
+pub use teach::{Jogged, Taught, TeachError};
 
 use serde::Deserialize;
 
@@ -56,9 +58,9 @@ pub struct RigRobot {
     /// What it moves.
     pub carries: Carried,
     /// Where it stands in its base frame when the tip is at the middle of the untouched gel, in mm.
-    pub origin_mm: [f64; 3],
+    pub origin_mm: Setting<[f64; 3]>,
     /// Which axis of the base each axis of the sensor is.
-    pub axes: SignedAxes,
+    pub axes: Setting<SignedAxes>,
     /// How its tool is turned in the base frame when the tip counts as not turned: about x, y and z, in degrees. Where it is not written, as
     /// it stands when it is opened.
     pub turned_deg: Option<[f64; 3]>,
@@ -80,7 +82,7 @@ pub struct RigForce {
     /// The selector of its driver.
     pub driver: Setting<String>,
     /// Which of its axes each axis of the sensor is: Fz above 0 presses into the gel.
-    pub axes: SignedAxes,
+    pub axes: Setting<SignedAxes>,
     /// How long after it was true a reading is stamped, in ms; what its driver states where it is not written.
     pub latency_ms: Option<f64>,
 }
@@ -250,7 +252,7 @@ impl Check<'_> {
         Ok(RigRobot {
             driver,
             carries,
-            origin_mm: origin_mm.value,
+            origin_mm,
             axes: self.axes(axes)?,
             turned_deg: turned_deg.map(|turned| turned.value),
         })
@@ -264,9 +266,12 @@ impl Check<'_> {
         })
     }
 
-    fn axes(&self, axes: Setting<[String; 3]>) -> Result<SignedAxes, SceneError> {
+    fn axes(&self, axes: Setting<[String; 3]>) -> Result<Setting<SignedAxes>, SceneError> {
         let at = axes.at();
-        SignedAxes::read(axes.value).or_else(|problem| self.refuse(at, problem))
+        match SignedAxes::read(axes.value.clone()) {
+            Ok(read) => Ok(axes.map(|_| read)),
+            Err(problem) => self.refuse(at, problem),
+        }
     }
 
     fn within(

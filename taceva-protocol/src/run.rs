@@ -6,6 +6,7 @@
 //! reports no fault of its own, and the same call resumes the run.
 
 mod align;
+mod begin;
 mod bounds;
 mod by_hand;
 mod camera;
@@ -28,6 +29,7 @@ mod supervisor;
 mod tests;
 mod time;
 mod tip;
+mod touched;
 mod trip;
 mod way;
 mod zero;
@@ -37,9 +39,10 @@ pub use devices::{Devices, SpecimenChanger};
 pub use error::{Left, RunError, StopCause};
 pub use event::Event;
 pub use log::{PressLog, PressRecord};
-pub use operator::{Answer, Operator, Question};
+pub use operator::{Answer, ChangedTouch, Operator, Question, Spot};
 pub use supervisor::{MotionStage, Observation, SharedSupervisor, Supervisor};
 pub use time::{Cancel, Timekeeper};
+pub use touched::{ReferenceTouch, SessionRecord, SessionSpec, TouchFault};
 pub use trip::Trip;
 
 use taceva_core::Millimetre;
@@ -113,7 +116,7 @@ pub fn run<'a>(
     log: &mut dyn PressLog,
     controls: Controls<'a>,
 ) -> Result<RunReport, RunError> {
-    run_under(spec, devices, log, (controls, None))
+    run_under(spec, devices, log, (controls, None, None))
 }
 
 /// The same under a guard: `supervisor` is shown every reading of force by whoever reads them in a thread of its own, and poses under way by
@@ -127,21 +130,41 @@ pub fn run_guarded<'a>(
     log: &mut dyn PressLog,
     (controls, supervisor): (Controls<'a>, SharedSupervisor),
 ) -> Result<RunReport, RunError> {
-    run_under(spec, devices, log, (controls, Some(supervisor)))
+    run_under(spec, devices, log, (controls, Some(supervisor), None))
+}
+
+/// The same on the rig of a rig file, as a session: before the first press somebody enables the robot, the tip passes through the air and
+/// touches the gel gently, and the touch is compared with what the rig file says and with earlier sessions of the recording.
+///
+/// # Errors
+/// As [`run`]; [`StopCause::Rig`], [`StopCause::SlowGuard`] and [`StopCause::Touch`] where the rig is not as it should be. Then nothing was
+/// pressed.
+pub fn run_session<'a>(
+    spec: &RunSpec<'a>,
+    devices: Devices<'a>,
+    log: &mut dyn PressLog,
+    (controls, supervisor, session): (Controls<'a>, SharedSupervisor, SessionSpec<'a>),
+) -> Result<RunReport, RunError> {
+    let guard = Some(supervisor);
+    run_under(spec, devices, log, (controls, guard, Some(session)))
 }
 
 fn run_under<'a>(
     spec: &RunSpec<'a>,
     devices: Devices<'a>,
     log: &mut dyn PressLog,
-    (controls, guard): (Controls<'a>, Option<SharedSupervisor>),
+    (controls, guard, session): (
+        Controls<'a>,
+        Option<SharedSupervisor>,
+        Option<SessionSpec<'a>>,
+    ),
 ) -> Result<RunReport, RunError> {
     let stopped = |cause| RunError {
         press: None,
         cause,
         left: Left::Clear,
     };
-    let mut run = Run::new(spec, devices, controls, guard).map_err(stopped)?;
+    let mut run = Run::new(spec, devices, (controls, session), guard).map_err(stopped)?;
     let done = run.all(spec, log);
     let stopping = run.stop();
     match done {

@@ -7,11 +7,14 @@ mod held;
 mod key;
 mod latency;
 mod log;
+mod of_file;
 mod opened;
 mod registered;
+mod rehearse;
 pub(crate) mod retried;
 mod schedule;
 mod seen;
+pub(crate) mod sessions;
 mod workshop;
 
 use std::path::Path;
@@ -26,13 +29,17 @@ use taceva_protocol::{Cancel, Event, Mode, Plan, PressLog, RunSpec, StopCause};
 use crate::error::StudyError;
 use crate::scene::{PlannedStudy, RigSpec};
 use by_hand::{acquisition, presses_skipped, unit_is_there};
-use devices::OpenRig;
+use devices::{OpenRig, Sitting};
 pub use held::HeldRigs;
 pub(crate) use key::key;
 use log::RecordedPresses;
+pub(crate) use of_file::{FileDevices, FileOpener};
 pub(crate) use opened::Opened;
 pub(crate) use registered::Turned;
+pub use rehearse::{AIR_MM, rehearse_scene};
 use schedule::Schedule;
+pub use sessions::RecordedSessions;
+use sessions::Sessions;
 pub use workshop::{Surroundings, SurroundingsOf, Upcoming, Workshop};
 
 /// The recording of `study` at `path`, whole: begun, continued or found there. Presses that are finished advance the progress.
@@ -63,6 +70,7 @@ pub(crate) fn acquire(
     }
     let mut log: Option<RecordedPresses> = None;
     let mut left = 0;
+    let mut is_enabled = false;
     for unit in &plan.units {
         if !unit_is_there(study, rig, unit, (workshop, cancel))? {
             left += plan
@@ -79,10 +87,20 @@ pub(crate) fn acquire(
                 let is_emulated = study.study.rig.as_ref().is_some_and(|rig| rig.simulated);
                 let is_simulated = is_emulated || rig.is_simulated(workshop.drivers);
                 let spec = recording_spec(study, &open, is_simulated);
-                log.insert(RecordedPresses::new(Recorder::open(path, &spec)?))
+                log.insert(RecordedPresses::new(
+                    Recorder::open(path, &spec)?,
+                    Sessions::of(path)?,
+                ))
             }
         };
-        let done = acquire_unit(study, (unit, &mut open, path), log, (workshop, cancel));
+        let touched = log.sessions().touched(plan);
+        let sitting = Sitting {
+            is_enabled,
+            touched: &touched,
+        };
+        let whereabouts = (unit.as_str(), &mut open, path);
+        let done = acquire_unit(study, whereabouts, log, (workshop, cancel, sitting));
+        is_enabled = true;
         if let Err(error) = done {
             left += presses_skipped(error)?;
         }
@@ -102,7 +120,7 @@ fn acquire_unit(
     study: &PlannedStudy,
     (unit, open, path): (&str, &mut OpenRig, &Path),
     log: &mut RecordedPresses,
-    (workshop, cancel): (Workshop<'_>, &Cancel),
+    (workshop, cancel, sitting): (Workshop<'_>, &Cancel, Sitting<'_>),
 ) -> Result<(), StudyError> {
     let (plan, progress) = (&study.plan, workshop.progress);
     if open.surroundings.begins_anew {
@@ -145,7 +163,7 @@ fn acquire_unit(
         study: plan.name.clone(),
         source: Box::new(source),
     };
-    let done = open.conduct(&spec, log, (cancel, workshop), &mut events);
+    let done = open.conduct(&spec, log, (cancel, workshop, sitting), &mut events);
     let done = done.map(drop).map_err(failed);
     // A count that cannot be written is no reason to lose a recording.
     drop(retried::add(path, retried));
@@ -167,6 +185,7 @@ fn recording_spec(study: &PlannedStudy, open: &OpenRig, is_simulated: bool) -> R
     }
     let mut facts = RecordingFacts::new(source, taceva_core::Clock::Monotonic, sensor);
     facts.footprint = footprint(plan);
+    facts.settings = open.settings_of_sensor();
     RecordingSpec::new(facts, plan.truth_channels())
 }
 

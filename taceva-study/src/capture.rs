@@ -91,7 +91,7 @@ pub struct Captured {
 /// `on_stage` hears what is done, some times a second at most.
 ///
 /// # Errors
-/// [`StudyError::LiveDevice`] if a device failed before there was anything to keep; [`StudyError::CaptureEnded`] if one failed later: what was
+/// [`StudyError::Device`] if a device failed before there was anything to keep; [`StudyError::CaptureEnded`] if one failed later: what was
 /// recorded before is a whole recording then. [`StudyError::CaptureBroken`] if it cannot be written; [`StudyError::Dataset`] if the folder
 /// is taken.
 pub fn capture(
@@ -107,11 +107,12 @@ pub fn capture(
         .into());
     }
     on_stage(CaptureStage::Zeroing);
-    let failed = |error| StudyError::LiveDevice(Box::new(error));
+    let failed = StudyError::Device;
     live.begin().map_err(failed)?;
     let untouched = live.untouched().map_err(failed)?;
     let channels = channels(live);
-    let facts = RecordingFacts::new(source(live), Clock::Monotonic, request.sensor.clone());
+    let facts = RecordingFacts::new(source(live), Clock::Monotonic, request.sensor.clone())
+        .with_settings(live.settings());
     let mut recorder =
         Recorder::create(&request.path, &RecordingSpec::new(facts, channels.clone()))?;
     recorder.append_reference(&untouched)?;

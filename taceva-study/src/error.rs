@@ -76,6 +76,9 @@ pub enum StudyError {
         /// Why.
         source: Box<OpenError>,
     },
+    /// A device failed while a rig was set up or looked at, or before a capture had kept anything.
+    #[error(transparent)]
+    Device(#[from] DriverError),
     /// A rig that stopped before its end; every press before is recorded, and the same study goes on from there.
     #[error("study `{study}`: {source}", study = taceva_core::shown(study))]
     Acquisition {
@@ -87,9 +90,6 @@ pub enum StudyError {
     /// A device of a capture or a preview that did not open.
     #[error(transparent)]
     OpenLive(Box<OpenError>),
-    /// A device of a capture or a preview that failed before anything was kept.
-    #[error(transparent)]
-    LiveDevice(Box<DriverError>),
     /// A device that failed while a capture was recorded; what came before is whole.
     #[error(
         "{source}; the {frames} frames before are a whole recording in {}",
@@ -161,9 +161,8 @@ impl StudyError {
                 ErrorKind::Protocol
             }
             StudyError::Open { source, .. } | StudyError::OpenLive(source) => source.kind(),
-            StudyError::LiveDevice(source) | StudyError::CaptureEnded { source, .. } => {
-                source.kind()
-            }
+            StudyError::Device(error) => error.kind(),
+            StudyError::CaptureEnded { source, .. } => source.kind(),
             StudyError::CaptureBroken { source, .. } => source.kind(),
             StudyError::Acquisition { source, .. } => match &source.cause {
                 StopCause::Cancelled => ErrorKind::Interrupted,
@@ -182,9 +181,14 @@ impl StudyError {
             StudyError::Open { source, .. } | StudyError::OpenLive(source) => {
                 matches!(**source, OpenError::Device(_))
             }
-            StudyError::LiveDevice(_) | StudyError::CaptureEnded { .. } => true,
+            StudyError::Device(_) | StudyError::CaptureEnded { .. } => true,
             StudyError::Acquisition { source, .. } => {
-                !matches!(source.cause, StopCause::Cancelled | StopCause::Log(_))
+                let cause = &source.cause;
+                // A rig file that is wrong is a file that is wrong.
+                !matches!(
+                    cause,
+                    StopCause::Cancelled | StopCause::Log(_) | StopCause::Rig(_)
+                )
             }
             _ => false,
         }

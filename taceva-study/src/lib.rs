@@ -21,6 +21,7 @@ mod planned_rows;
 mod predict;
 mod provenance;
 mod report;
+mod rig;
 mod rows;
 mod run;
 mod samples;
@@ -34,7 +35,10 @@ mod taken_rows;
 mod viewer;
 mod work;
 
-pub use acquire::{HeldRigs, Surroundings, SurroundingsOf, Upcoming, Workshop};
+pub use acquire::{
+    AIR_MM, HeldRigs, RecordedSessions, Surroundings, SurroundingsOf, Upcoming, Workshop,
+    rehearse_scene,
+};
 pub use cache::{
     Cache, CacheEntry, CachedStage, Pruning, StageRecord, cache_entries, pruned, remove_entry,
 };
@@ -52,6 +56,7 @@ pub use plan::{Plan, Step};
 pub use predict::{Predicted, predict};
 pub use provenance::{ModelProvenance, Provenance};
 pub use report::{EVALUATION_SCHEMA, EvaluationReport};
+pub use rig::{HaltTrip, RigCheck, RigProblem, Stream, check_rig, read_rig, teach_rig};
 pub use rows::{DataPart, Divided};
 pub use run::{Existing, RunFolder, run_scene};
 pub use samples::Samples;

@@ -6,6 +6,7 @@ mod settings;
 mod text;
 
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use serde::ser::{Serialize, SerializeStruct, Serializer};
 use taceva_core::FieldSet;
@@ -25,7 +26,7 @@ pub use instead::Instead;
 pub(crate) use rig::RigSpec;
 pub(crate) use settings::settings_of;
 pub use text::SceneText;
-pub(crate) use text::read_rig;
+pub(crate) use text::read_rig_file;
 
 /// A scene with the plan of each of its studies.
 #[derive(Debug)]
@@ -94,7 +95,10 @@ impl PlannedScene {
         let written = scene.rig.as_ref();
         let written = written.map(|rig| text.folder.join(&rig.value));
         let rig = instead.rig.clone().or(written);
-        let rig = rig.map(|path| read_rig(&path)).transpose()?;
+        let rig = rig
+            .map(|path| read_rig_file(&path))
+            .transpose()?
+            .map(Arc::new);
         if let Some(rig) = &rig {
             scene.put_on(rig)?;
         }

@@ -10,7 +10,7 @@ use taceva_metrics::Evaluation;
 use taceva_models::{Checkpoints, Model};
 use taceva_protocol::PhaseKind;
 
-use crate::acquire::retried;
+use crate::acquire::{retried, sessions};
 use crate::cache::{CachedStage, Key};
 use crate::calibration::calibration_note;
 use crate::error::StudyError;
@@ -81,6 +81,7 @@ pub(crate) fn assess(
     });
     notes.extend(spacings.as_ref().map(|_| classifier.note().to_owned()));
     notes.extend(phase_rows.shortfall());
+    notes.extend(sessions::note(dataset.path()));
     notes.extend(retried::note(dataset.path()));
     if let Some((predicted, rows)) = &predicted {
         notes.extend(predicted.bounded_note());

@@ -51,8 +51,17 @@ impl Recording {
     }
 
     fn check(self, request: &str) -> CheckReport {
+        self.check_beside(request, None)
+    }
+
+    /// The same with this table of sessions beside the recording.
+    fn check_beside(self, request: &str, sessions: Option<&str>) -> CheckReport {
         let folder = tempfile::tempdir().expect("a folder");
         let dataset = self.write(&folder.path().join("data"));
+        if let Some(sessions) = sessions {
+            let table = folder.path().join("data.sessions.csv");
+            std::fs::write(table, sessions).expect("written");
+        }
         let request = CheckRequest {
             only: Vec::new(),
             split: (!request.is_empty()).then(|| request.to_owned()),
@@ -261,6 +270,36 @@ fn times_that_repeat_run_backwards_or_are_whole_seconds_are_noticed() {
         Severity::Warning,
     );
     found(with_times(f64::from), "TAC008", Severity::Warning);
+}
+
+#[test]
+fn a_clock_that_begins_anew_is_noticed_unless_the_machine_was_started_again_between_two_sessions() {
+    let begun_anew = || {
+        let mut recording = Recording::sound();
+        for (number, sample) in (0..SAMPLES).zip(&mut recording.samples) {
+            sample.stamp = Some(Stamp {
+                valid_s: 0.031 * f64::from(number % 100) + 0.013,
+                received_s: None,
+            });
+        }
+        recording
+    };
+    let warns = |report: &CheckReport| codes(report).contains(&("TAC008", Severity::Warning));
+    let header = "boot_id,begun_s,unit,specimen,height_mm,depth_mm,Fz_N,zero_Fx_N,zero_Fy_N,zero_Fz_N,x_felt,y_felt,picture_changed,reaction_ms,overshoot_mm";
+    let row = "1.5,1,sphere of radius 4 mm,0.1,0.2,0.06,0.0,0.0,0.3,true,true,true,6.5,0.02";
+    let sessions = |boots: [&str; 2]| {
+        let [one, other] = boots;
+        begun_anew().check_beside("", Some(&format!("{header}\n{one},{row}\n{other},{row}\n")))
+    };
+    assert!(warns(&begun_anew().check("")));
+    assert!(warns(&sessions(["b7", "b7"])));
+    let report = sessions(["b7", "c1"]);
+    assert!(!warns(&report), "{:?}", report.findings);
+    let said = report
+        .findings
+        .iter()
+        .any(|finding| finding.message.contains("2 sessions"));
+    assert!(said, "{:?}", report.findings);
 }
 
 #[test]

@@ -36,6 +36,10 @@ pub(crate) struct Run {
     /// same; reports are those of the first seed, with means and intervals over all of them
     #[arg(long, value_name = "SEEDS", value_parser = Seeds::read)]
     pub(crate) seeds: Option<Seeds>,
+    /// Visit every place in the air, 10 mm above the height of travel, with the guard of a run: nothing is pressed or recorded. Worth doing
+    /// on a real rig before the first press
+    #[arg(long, conflicts_with_all = ["resume", "force", "folder"])]
+    pub(crate) air: bool,
     /// The folder of the run [default: runs/SCENE-NUMBER, a new one]
     #[arg(long = "out", value_name = "FOLDER")]
     pub(crate) folder: Option<PathBuf>,

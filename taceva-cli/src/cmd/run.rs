@@ -1,23 +1,24 @@
 //! `taceva run`.
 
 pub(super) mod bench;
-mod operator;
 mod stages;
 
 use std::path::{Path, PathBuf};
-use std::sync::Mutex;
 use taceva_core::shown;
 
 use anyhow::Context as _;
-use taceva_live::PageOperator;
-use taceva_protocol::Operator;
+use taceva_drivers::Drivers;
+use taceva_models::Models;
 use taceva_report::escape_csv;
-use taceva_study::{EvaluationReport, Existing, PlannedScene, RunFolder, Workshop, run_scene};
+use taceva_study::{
+    AIR_MM, EvaluationReport, Existing, PlannedScene, RunFolder, Workshop, rehearse_scene,
+    run_scene,
+};
 
-use super::on_page::OnPage;
+use super::attended::Attended;
 use super::{Context, Usage, cache, scene};
 use crate::args::{Format, Run};
-use crate::{exit, output, progress, report, stderr};
+use crate::{exit, output, progress, report};
 
 /// The folder in which runs are numbered.
 const RUNS: &str = "runs";
@@ -30,7 +31,8 @@ pub(crate) fn run(args: &Run, context: &Context) -> anyhow::Result<u8> {
     let (drivers, models) = context.equipment(Path::new(&args.scene.scene))?;
     let planned = scene::to_run(args, &drivers)?;
     planned.check_models(&models)?;
-    if !args.page && operator::terminal(None).is_none() {
+    let attended = Attended::open(args, &planned.scene.name)?;
+    if attended.operator().is_none() {
         planned.check_unattended(&drivers)?;
     }
     let formats = formats(&planned)?;
@@ -39,6 +41,9 @@ pub(crate) fn run(args: &Run, context: &Context) -> anyhow::Result<u8> {
             "--format csv: one table cannot hold the rows of {} sensors; write `formats = [\"csv\"]` under [report] of the scene for a file for each sensor, or use --format json",
             planned.studies.len()
         )));
+    }
+    if args.air {
+        return rehearse(&planned, (&drivers, &models), &attended, context);
     }
     let existing = match (args.resume, args.force) {
         (true, _) => Existing::Resume,
@@ -50,45 +55,26 @@ pub(crate) fn run(args: &Run, context: &Context) -> anyhow::Result<u8> {
         .clone()
         .unwrap_or_else(|| RunFolder::numbered(Path::new(RUNS), &planned.scene.name, existing));
     scene::print_cost(&planned, &path, context)?;
+    scene::print_rigs(&planned, &drivers, context);
     let _held = planned.hold_rigs()?;
     let folder = RunFolder::open(&path, &planned, existing)?;
     context.say(format_args!("run in {}", shown(&path)));
     let cache = cache::of(&args.cache);
-    let page = args
-        .page
-        .then(|| OnPage::open(&format!("run of {}", planned.scene.name), args.port))
-        .transpose()?;
-    if let Some(page) = &page {
-        // Even if nothing else is to be said: without it nobody finds the page.
-        stderr::say(format_args!("page: {}", page.url()));
-    }
-    let live = page.as_ref().map(OnPage::live);
-    let operator: Option<Box<Mutex<dyn Operator + Send>>> =
-        match (operator::terminal(live.clone()), live.clone()) {
-            (Some(terminal), _) => Some(Box::new(Mutex::new(terminal))),
-            (None, Some(live)) => Some(Box::new(Mutex::new(PageOperator::new(live)))),
-            (None, None) => None,
-        };
-    let viewer = page.as_ref().map(OnPage::viewer);
     let workshop = Workshop {
         drivers: &drivers,
         models: &models,
         surroundings: &bench::surroundings,
         cache: cache.as_ref(),
         progress: &context.progress,
-        operator: operator.as_deref(),
-        viewer: viewer.as_ref(),
+        operator: attended.operator(),
+        viewer: attended.viewer(),
     };
     let reports = run_scene(&planned, &folder, workshop, context.jobs);
-    if let Some(live) = &live {
-        live.ended(&match &reports {
-            Ok(_) => "finished: its report is being written".to_owned(),
-            Err(_) if progress::is_stopped() => {
-                "stopped; the terminal says how to go on".to_owned()
-            }
-            Err(error) => error.to_string(),
-        });
-    }
+    attended.ended(&match &reports {
+        Ok(_) => "finished: its report is being written".to_owned(),
+        Err(_) if progress::is_stopped() => "stopped; the terminal says how to go on".to_owned(),
+        Err(error) => error.to_string(),
+    });
     let mut reports = reports.with_context(|| match progress::is_stopped() {
         true => format!(
             "stopped; continue with taceva run {} --resume --out {}",
@@ -120,6 +106,36 @@ pub(crate) fn run(args: &Run, context: &Context) -> anyhow::Result<u8> {
     })?;
     context.say(format_args!("reports are in {}", shown(&folder.reports())));
     context.say(format_args!("look at    {}", shown(&page)));
+    Ok(exit::DONE)
+}
+
+/// `taceva run --air`.
+fn rehearse(
+    planned: &PlannedScene,
+    (drivers, models): (&Drivers, &Models),
+    attended: &Attended,
+    context: &Context,
+) -> anyhow::Result<u8> {
+    scene::print_rigs(planned, drivers, context);
+    let _held = planned.hold_rigs()?;
+    let workshop = Workshop {
+        drivers,
+        models,
+        surroundings: &bench::surroundings,
+        cache: None,
+        progress: &context.progress,
+        operator: attended.operator(),
+        viewer: attended.viewer(),
+    };
+    let visited = rehearse_scene(planned, workshop);
+    attended.ended(&match &visited {
+        Ok(_) => "finished: nothing was pressed".to_owned(),
+        Err(error) => error.to_string(),
+    });
+    let visited = visited?;
+    context.say(format_args!(
+        "visited {visited} places, {AIR_MM} mm above the height of travel; nothing was pressed or recorded"
+    ));
     Ok(exit::DONE)
 }
 

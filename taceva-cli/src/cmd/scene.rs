@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use taceva_core::shown;
 use taceva_drivers::Drivers;
 use taceva_protocol::BuiltinScene;
 use taceva_study::{Instead, PlannedScene, SceneText};
@@ -64,6 +65,31 @@ pub(super) fn print_cost(
         context.say(format_args!("disk: {room}"));
     }
     Ok(())
+}
+
+/// Prints what a person at a real rig should know before anything moves: the limits that hold there, and what hands are needed for.
+pub(super) fn print_rigs(planned: &PlannedScene, drivers: &Drivers, context: &Context) {
+    for study in &planned.studies {
+        let (Some(rig), Some(limits)) = (study.rig(), &study.plan.limits) else {
+            continue;
+        };
+        context.say(format_args!(
+            "rig: {}: at most {} mm deep, {} N normal and {} N shear, {} mm/s in the air and {} mm/s in contact, where the tip may go on by {:.3} mm",
+            shown(rig.name()),
+            limits.depth_max.0,
+            limits.normal_max.0,
+            limits.shear_max.0,
+            limits.speed_max_mm_s,
+            study.plan.contact.speed_mm_s.value,
+            limits.overshoot.healthy_mm,
+        ));
+        for change in study.by_hand(drivers) {
+            context.say(format_args!("rig: {change}"));
+        }
+        context.say(format_args!(
+            "rig: taceva is no safety function; the emergency stop and the guards of the site must hold without it (docs/rig.md)"
+        ));
+    }
 }
 
 /// A file of that name comes first, so that a built-in scene never hides it.

@@ -13,8 +13,7 @@ use std::time::{Duration, Instant};
 
 use taceva_core::{Deadline, Millimetre, Rig, Robot, Speed};
 use taceva_drivers::{Drivers, open};
-use taceva_wire::control::Control;
-use taceva_wire::{Arm, BenchOptions, RigFile, WallBench, mjpeg, sri, xarm};
+use taceva_wire::{Arm, Base, BenchOptions, WallBench, mjpeg, sri, xarm};
 
 use crate::support::{Bench, Ran};
 
@@ -26,7 +25,6 @@ pub(crate) struct Emulated {
     arm: xarm::Emulator,
     force: sri::Emulator,
     camera: mjpeg::Emulator,
-    control: Control,
 }
 
 impl Emulated {
@@ -37,7 +35,6 @@ impl Emulated {
             arm: xarm::Emulator::start(&bench, xarm::Ports::ANY).expect("an arm"),
             force: sri::Emulator::start(&bench, host, 0).expect("a box"),
             camera: mjpeg::Emulator::start(&bench, host, 0, mjpeg::Style::Usual).expect("a camera"),
-            control: Control::start(&bench, None, host, 0).expect("a port"),
             bench,
         }
     }
@@ -57,23 +54,23 @@ impl Emulated {
 
     /// The rig file of a bench without a robot.
     pub(crate) fn rig(&self) -> String {
-        self.rig_with(None)
+        let axes = Base::AXES;
+        format!(
+            "rig_version = 1\nsimulated = true\n\n[force]\ndriver = {:?}\naxes = {axes:?}\nlatency_ms = 0.0\n\n[sensor]\ndriver = {:?}\nlatency_ms = 0.0\n",
+            self.force(),
+            self.sensor()
+        )
     }
 
     /// That of a bench with its robot.
     pub(crate) fn rig_with_robot(&self) -> String {
-        self.rig_with(Some(self.arm.selector()))
-    }
-
-    fn rig_with(&self, robot: Option<String>) -> String {
-        RigFile {
-            bench: &self.bench,
-            robot,
-            force: Some(self.force()),
-            sensor: Some(self.sensor()),
-            control: &self.control,
-        }
-        .text()
+        format!(
+            "{}\n[robot]\ndriver = {:?}\ncarries = \"indenter\"\norigin_mm = {:?}\naxes = {:?}\n\n[limits]\nspeed_max_mm_s = 20.0\n",
+            self.rig(),
+            self.arm.selector(),
+            Base::ORIGIN_MM,
+            Base::AXES
+        )
     }
 
     /// What presses in the place of a hand.
@@ -170,6 +167,10 @@ impl Running {
 
     pub(crate) fn interrupt(&self) {
         self.signal("INT");
+    }
+
+    pub(crate) fn has_ended(&mut self) -> bool {
+        self.child.try_wait().expect("it is a child").is_some()
     }
 
     pub(crate) fn ended(mut self) -> Ran {

@@ -1,5 +1,6 @@
 //! A tactile sensor with a camera behind its gel.
 
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use super::{Deadline, DriverError, Interrupt, Lighting};
@@ -81,6 +82,12 @@ pub trait Sensor: Send {
     /// What ends a pending call from another thread; without it a call lasts until its deadline.
     fn interrupt_handle(&self) -> Option<Arc<dyn Interrupt>> {
         None
+    }
+
+    /// What was set of the camera and read back, by name: `exposure_ms` is `15.7`. What a recording says of its pictures; empty where nothing
+    /// is known.
+    fn settings(&self) -> BTreeMap<String, String> {
+        BTreeMap::new()
     }
 
     /// The light around this sensor, where it can be set.

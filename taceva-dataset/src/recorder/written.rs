@@ -25,6 +25,8 @@ pub(super) struct WrittenStart {
     sensor: SensorFacts,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     footprint: Option<Footprint>,
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    settings: BTreeMap<String, String>,
     channels: BTreeMap<String, Unit>,
 }
 
@@ -35,6 +37,7 @@ impl WrittenStart {
             clock: spec.facts.clock,
             sensor: spec.facts.sensor.clone(),
             footprint: spec.facts.footprint,
+            settings: spec.facts.settings.clone(),
             channels: spec
                 .channels
                 .iter()
@@ -64,6 +67,7 @@ impl WrittenStart {
                 clock: written.clock,
                 sensor: written.sensor,
                 footprint: written.footprint,
+                settings: written.settings,
             },
             channels,
         })

@@ -47,6 +47,8 @@
     find('picture').replaceChildren();
     if (!asked) return;
     find('asked').textContent = asked.text;
+    find('done').textContent = asked.done;
+    find('skip').hidden = !asked.can_skip;
     if (asked.picture) {
       const drawn = new DOMParser().parseFromString(asked.picture, 'image/svg+xml').documentElement;
       find('picture').append(document.importNode(drawn, true));

@@ -3,7 +3,8 @@
 mod surface;
 
 use taceva_core::{
-    Axes, Axis, Channel, Descriptor, Field, FieldSet, Footprint, FrameInfo, Nanometre, SkipReason,
+    Axes, Axis, Channel, Descriptor, DriverSource, Field, FieldSet, Footprint, FrameInfo,
+    Nanometre, SkipReason,
 };
 use taceva_metrics::Fact;
 
@@ -122,7 +123,7 @@ impl<'a> Gather<'a> {
         let sensor = rig.sensor.as_ref().and_then(Descriptor::sensor);
         let axes = rig.force.as_ref().and_then(Descriptor::force).map(|force| {
             match study.rig.as_ref().and_then(|rig| rig.force.as_ref()) {
-                Some(mounted) => mounted.axes.measured(force.axes),
+                Some(mounted) => mounted.axes.value.measured(force.axes),
                 None => force.axes,
             }
         });
@@ -137,6 +138,7 @@ impl<'a> Gather<'a> {
             sensor.and_then(|sensor| sensor.markers),
         )?;
         let footprint = self.footprint(sensor.and_then(|sensor| sensor.footprint))?;
+        self.is_mapped(rig)?;
         // Without a robot nothing is pressed, so there is nothing to limit.
         let limits = match rig.robot {
             Some(_) => Some(limits(scene, study, rig)?),
@@ -299,6 +301,18 @@ pub(crate) fn lights(
     let Some(written) = written else {
         return Ok(known);
     };
+    if known.is_empty() && rig.lighting.is_none() {
+        // Nothing sets it but hands, and those belong to a rig that exists.
+        let is_real = |robot: &taceva_core::Descriptor| robot.source() == DriverSource::Real;
+        return match rig.robot.as_ref().is_some_and(is_real) {
+            true => Ok(written.value.clone()),
+            false => {
+                let problem = "`scenes` of a light without `driver` are set by hand, which needs a real robot; expected `driver`";
+                let problem = SceneProblem::Contradiction(problem.to_owned());
+                Err(scene.text.error(written.at(), problem))
+            }
+        };
+    }
     match written.value.iter().find(|name| !known.contains(name)) {
         Some(stranger) => {
             let known = known.iter().map(String::as_str).collect();

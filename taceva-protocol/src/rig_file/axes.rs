@@ -1,5 +1,7 @@
 //! How the axes of a device lie to those of the sensor.
 
+use std::fmt;
+
 use taceva_core::{Axes, Axis};
 
 /// Which axis of a device each axis of the sensor is, with its sign: a turn by right angles.
@@ -93,6 +95,17 @@ impl SignedAxes {
         measured
     }
 
+    /// The axes that would let three forces be felt along x, y and z of the sensor which, with these, were felt along those of `felt`: each
+    /// the number of an axis, and 1 or −1. `None` if no turn explains them.
+    pub(crate) fn as_felt(self, felt: [(usize, f64); 3]) -> Option<SignedAxes> {
+        let along = felt.map(|(axis, sign)| Along {
+            axis: self.0[axis].axis,
+            sign: sign * self.0[axis].sign,
+        });
+        let axes = SignedAxes(along);
+        (axes.determinant() > 0.5).then_some(axes)
+    }
+
     /// 1 where they are right-handed, −1 where they are left-handed, 0 where one axis is named twice.
     fn determinant(self) -> f64 {
         let [x, y, z] = [0, 1, 2].map(|axis| {
@@ -102,6 +115,17 @@ impl SignedAxes {
         });
         x[0] * (y[1] * z[2] - y[2] * z[1]) - x[1] * (y[0] * z[2] - y[2] * z[0])
             + x[2] * (y[0] * z[1] - y[1] * z[0])
+    }
+}
+
+/// As a rig file writes them.
+impl fmt::Display for SignedAxes {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let words = self.0.map(|along| {
+            let sign = if along.sign < 0.0 { "-" } else { "" };
+            format!("\"{sign}{}\"", ["x", "y", "z"][along.axis])
+        });
+        write!(f, "[{}]", words.join(", "))
     }
 }
 
@@ -124,6 +148,7 @@ mod tests {
                         continue;
                     };
                     accepted += 1;
+                    assert_eq!(axes.to_string(), format!("[{:?}, {:?}, {:?}]", x, y, z));
                     let there = axes.to_sensor([1.0, 2.0, 3.0]);
                     assert!(
                         axes.to_device(there).iter().eq(&[1.0, 2.0, 3.0]),

@@ -29,8 +29,8 @@ impl Registration {
     pub fn new(robot: &RigRobot, turned: Rotation) -> Registration {
         Registration {
             carries: robot.carries,
-            origin_mm: robot.origin_mm,
-            axes: robot.axes,
+            origin_mm: robot.origin_mm.value,
+            axes: robot.axes.value,
             turned,
         }
     }

@@ -70,11 +70,15 @@ impl Run<'_> {
         }
     }
 
-    /// Asks while the robot is halted, and lets it move again only if hands are out of reach.
-    fn ask(&mut self, question: &Question) -> Step<Answer> {
+    /// Asks while the robot is halted at the height of travel or above it, and lets it move again only if hands are out of reach.
+    pub(super) fn ask(&mut self, question: &Question) -> Step<Answer> {
         let Some(operator) = &mut self.operator else {
             return Ok(Answer::Stop);
         };
+        let height_mm = -self.tip.pace.clearance_mm;
+        if self.tip.here().position.z.0 > height_mm {
+            self.tip.retreat()?;
+        }
         self.tip.robot.halt()?;
         let answer = operator.ask(question, self.tip.cancel);
         if answer == Answer::Done {
@@ -97,5 +101,78 @@ impl Run<'_> {
         let press = error.press;
         let found = self.tip.find();
         found.map_err(|cause| self.abandoned(press, cause))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::run::operator::Operator;
+    use crate::run::rig::{CONTACT_MM, Rig, plan};
+    use crate::run::time::Cancel;
+    use crate::run::{Controls, Devices, Mode, RunSpec};
+
+    /// Notes where the tip stands, and whether it is halted, when asked and when answering.
+    struct Person(Rig, Answer, Vec<(f64, bool)>);
+
+    impl Operator for Person {
+        fn ask(&mut self, _: &Question, _: &Cancel) -> Answer {
+            let state = self.0.state();
+            self.2.push((state.height_mm, state.halted));
+            self.1
+        }
+    }
+
+    #[test]
+    fn a_tip_that_is_low_is_raised_before_hands_are_asked_for_and_does_not_move_before_their_yes() {
+        for answer in [Answer::Done, Answer::Skip, Answer::Stop] {
+            // The gel pushes back below the contact; readings differ.
+            let mut rig = Rig::new(CONTACT_MM + 0.5, |question, height_mm| {
+                let pressed_mm = (height_mm - CONTACT_MM).max(0.0);
+                Some(0.5 * pressed_mm + f64::from(question) * 1e-6)
+            });
+            let mut plan = plan();
+            for press in &mut plan.presses {
+                press.frames = false;
+            }
+            let (mut force, mut clock) = (rig.clone(), rig.clone());
+            let mut person = Person(rig.clone(), answer, Vec::new());
+            let cancel = Cancel::new();
+            let spec = RunSpec {
+                plan: &plan,
+                unit: &plan.presses[0].press.unit,
+                mode: Mode::Rehearse {
+                    height: taceva_core::Millimetre(0.0),
+                },
+            };
+            let seen = rig.clone();
+            let devices = Devices {
+                robot: &mut rig,
+                force: &mut force,
+                sensor: None,
+                lighting: None,
+                specimens: None,
+            };
+            let controls = Controls {
+                clock: &mut clock,
+                cancel: &cancel,
+                events: &mut |_| {},
+                operator: Some(&mut person),
+            };
+            let mut run = Run::new(&spec, devices, (controls, None), None).expect("it begins");
+            run.tip.release().expect("free");
+            run.tip.find_pose().expect("it stands low");
+            run.tip.contact_mm = Some(CONTACT_MM);
+            let said = run.ask(&Question::Light("S1".to_owned())).expect("asked");
+            assert_eq!(said, answer);
+            drop(run);
+            assert_eq!(person.2, [(-2.0, true)]);
+            let raised = seen.motions();
+            assert!(
+                raised.iter().all(|motion| motion.to_mm < motion.from_mm),
+                "{raised:?}"
+            );
+            assert_eq!(seen.state().halted, answer != Answer::Done);
+        }
     }
 }

@@ -4,8 +4,10 @@ use std::fmt;
 
 use taceva_core::{DriverError, Fault, SinkError};
 
+use super::touched::TouchFault;
 use super::trip::Trip;
 use crate::content_id::ContentId;
+use crate::scene::SceneError;
 
 /// A run that stopped before its end. Everything finished is durable, and the same call resumes it.
 #[derive(Debug)]
@@ -56,6 +58,26 @@ pub enum StopCause {
         /// The target, in mm.
         place: String,
     },
+    /// The rig file says what the rig contradicts.
+    #[error("{0}")]
+    Rig(Box<SceneError>),
+    /// The machine looks on so late that a limit would be passed too far.
+    #[error(
+        "readings of force come up to {reaction_ms:.0} ms late on this machine, in which the tip goes on by {overshoot_mm:.3} mm: expected at most {greatest_mm:.3} mm, a part of the depth; leave the machine to the run, start it by `chrt -f 10 taceva run …`, or lower `speed_mm_s` of the scene to {speed_mm_s:.2}"
+    )]
+    SlowGuard {
+        /// From a limit to the halt, in ms; 999 of 1,000 are sooner.
+        reaction_ms: f64,
+        /// How far the tip goes on until it rests, in mm.
+        overshoot_mm: f64,
+        /// The most that is allowed, in mm.
+        greatest_mm: f64,
+        /// The speed in contact at which it would be allowed, in mm/s.
+        speed_mm_s: f64,
+    },
+    /// A gentle touch that the rig answered otherwise than a gel does.
+    #[error("{0}")]
+    Touch(TouchFault),
     /// The plan needs something that the run was not given.
     #[error("the plan needs {0}")]
     Missing(String),
@@ -88,6 +110,8 @@ fn of_last(last: &Option<String>) -> String {
 /// Where the tip was left.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Left {
+    /// Where it was found: nothing was moved.
+    Untouched,
     /// Above the gel.
     Clear,
     /// Halted where it was: the force could not be trusted, or the robot did not obey, and nobody moves blind.

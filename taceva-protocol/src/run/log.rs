@@ -2,6 +2,7 @@
 
 use taceva_core::{Frame, PressOutcome, Sample, SinkError};
 
+use super::touched::SessionRecord;
 use crate::content_id::ContentId;
 
 /// A record of finished presses that outlives the process.
@@ -21,6 +22,15 @@ pub trait PressLog {
     /// # Errors
     /// Whatever keeps it from being durable; the run stops.
     fn untouched(&mut self, frame: &Frame) -> Result<(), SinkError>;
+
+    /// Takes how a session on the rig of a rig file began, before its first press.
+    ///
+    /// # Errors
+    /// Whatever keeps it from being durable; the run stops.
+    fn session(&mut self, record: &SessionRecord) -> Result<(), SinkError> {
+        let _ = record;
+        Ok(())
+    }
 }
 
 /// A finished press.

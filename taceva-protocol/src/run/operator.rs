@@ -13,9 +13,11 @@ pub trait Operator {
 }
 
 /// What somebody is asked for. [`Display`](fmt::Display) says it in words.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Question {
+    /// Let this robot move: its name must be typed, or a button pressed that says it.
+    Enable(String),
     /// Mount this specimen on the robot, turned straight.
     Mount(Specimen),
     /// Put this unit of the sensor under the robot.
@@ -24,6 +26,30 @@ pub enum Question {
     Light(String),
     /// Look what happened, and acknowledge this fault at the robot, which then moves again.
     Acknowledge(Fault),
+    /// Jog the tip to this place with the robot's own tool.
+    Jog(Spot),
+    /// Go on although the gel is not touched as in an earlier session of this recording.
+    Resume(ChangedTouch),
+}
+
+/// A place over a gel to which a robot is jogged.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Spot {
+    /// Its middle.
+    Middle,
+    /// Along x of the sensor from there.
+    AlongX,
+    /// Along y of the sensor from the middle.
+    AlongY,
+}
+
+/// How a touch differs from that of an earlier session.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ChangedTouch {
+    /// How much deeper the gel begins, in mm.
+    pub height_mm: f64,
+    /// How much harder it presses at the same depth, as a part of what it did.
+    pub force_part: f64,
 }
 
 /// What somebody answered.
@@ -40,6 +66,28 @@ pub enum Answer {
 impl fmt::Display for Question {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
+            Question::Enable(robot) => write!(
+                f,
+                "`{}` is going to move: hands out of reach, the emergency stop within it",
+                taceva_core::shown(robot)
+            ),
+            Question::Jog(Spot::Middle) => f.write_str(
+                "jog the tip, by the robot's own tool, until it just touches the middle of the gel, and let go of it",
+            ),
+            Question::Jog(Spot::AlongX) => f.write_str(
+                "jog it a little off the gel, then by 5 to 10 mm along x of the sensor and nothing else: it stays within half a millimetre of the height of the middle",
+            ),
+            Question::Jog(Spot::AlongY) => f.write_str(
+                "the same from the middle along y of the sensor: with x and y so, z points into the gel",
+            ),
+            Question::Resume(ChangedTouch {
+                height_mm,
+                force_part,
+            }) => write!(
+                f,
+                "the gel begins {height_mm:+.3} mm deeper than in the session before and presses by {:+.1} % harder at one depth: go on with this recording if it is the same gel, and stop if it was moved or exchanged",
+                100.0 * force_part
+            ),
             Question::Mount(specimen) => write!(f, "mount the {specimen}, turned straight"),
             Question::Unit(unit) => write!(f, "put unit {} in place", taceva_core::shown(unit)),
             Question::Light(light) => write!(f, "set the light `{}`", taceva_core::shown(light)),
@@ -68,6 +116,17 @@ mod tests {
             (Question::Unit("b".to_owned()), "unit b"),
             (Question::Light("S1".to_owned()), "`S1`"),
             (Question::Acknowledge(Fault::Collision), "collision"),
+            (
+                Question::Enable("lab/arm".to_owned()),
+                "`lab/arm` is going to move",
+            ),
+            (
+                Question::Resume(ChangedTouch {
+                    height_mm: -0.25,
+                    force_part: 0.125,
+                }),
+                "-0.250 mm deeper than in the session before and presses by +12.5 %",
+            ),
         ] {
             let text = question.to_string();
             assert!(text.contains(word), "{text}");

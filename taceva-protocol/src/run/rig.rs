@@ -41,7 +41,7 @@ pub(super) struct Motion {
 
 pub(super) struct State {
     pub(super) now_s: f64,
-    height_mm: f64,
+    pub(super) height_mm: f64,
     pub(super) halted: bool,
     /// Whether the robot says it moved and stays where it is.
     pub(super) stuck: bool,

@@ -1,6 +1,6 @@
 //! A run from its start to its end: which presses are made, in which order, and how it stops.
 
-use taceva_core::{Lighting, PressOutcome, Sensor, Specimen};
+use taceva_core::{Lighting, Nanometre, PressOutcome, Sensor, Specimen};
 
 use super::bounds::Bounds;
 use super::camera::Camera;
@@ -11,6 +11,7 @@ use super::log::{PressLog, PressRecord};
 use super::operator::{Operator, Question};
 use super::supervisor::{SharedSupervisor, Supervisor};
 use super::tip::{DEADLINE, Pace, Step, Tip};
+use super::touched::SessionSpec;
 use super::{Controls, Mode, RunReport, RunSpec};
 use crate::content_id::ContentId;
 use crate::plan::{Plan, PlannedPress};
@@ -30,6 +31,8 @@ pub(super) struct Run<'a> {
     silences: u32,
     /// What somebody skipped.
     pub(super) skipped: Vec<Question>,
+    /// The session that has not begun yet; `None` of a rig without a rig file, and from the first press on.
+    pub(super) session: Option<SessionSpec<'a>>,
 }
 
 /// A press that silence breaks off so many times ends the run.
@@ -41,7 +44,7 @@ impl<'a> Run<'a> {
     pub(super) fn new(
         spec: &RunSpec<'a>,
         devices: Devices<'a>,
-        controls: Controls<'a>,
+        (controls, session): (Controls<'a>, Option<SessionSpec<'a>>),
         guard: Option<SharedSupervisor>,
     ) -> Step<Run<'a>> {
         let plan = spec.plan;
@@ -91,6 +94,7 @@ impl<'a> Run<'a> {
             lit: None,
             silences: 0,
             skipped: Vec::new(),
+            session,
         })
     }
 
@@ -125,9 +129,16 @@ impl<'a> Run<'a> {
             presses: presses.len(),
             finished: report.resumed,
         });
+        let is_finished = |press: &&PlannedPress| log.is_finished(press.id);
+        if self.session.is_some() && spec.mode == Mode::Acquire && presses.iter().all(is_finished) {
+            // Nothing moves that nobody enabled.
+            return Ok(report);
+        }
+        self.enable()?;
         self.tip
             .find()
             .map_err(|cause| self.abandoned(None, cause))?;
+        let places: Vec<[Nanometre; 2]> = presses.iter().map(|press| press.press.place).collect();
         for (position, planned) in presses.into_iter().enumerate() {
             match spec.mode {
                 Mode::Rehearse { height } => {
@@ -141,6 +152,7 @@ impl<'a> Run<'a> {
                     report.skipped += 1;
                 }
                 Mode::Acquire => {
+                    self.begin(&places, planned, log)?;
                     (self.events)(&Event::Approaching {
                         press: planned.id,
                         number: position + 1,

@@ -3,9 +3,12 @@
 //! It is no safety function: the emergency stop, the collision sensitivity of the robot and the guards are the site's duty.
 
 mod observation;
+mod reaction;
 
 pub use observation::{MotionStage, Observation};
 
+#[cfg(feature = "simulation")]
+use std::sync::TryLockError;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use taceva_core::{
@@ -16,6 +19,7 @@ use super::align::Look;
 use super::trip::Trip;
 use super::way::{distance, distance_from_way};
 use crate::limits::{FROZEN_READINGS, RigLimits};
+use reaction::Lateness;
 
 /// Farther from where it was sent, or from the way there, the tip has gone astray, in mm.
 const DIVERGED_MM: f64 = 0.5;
@@ -45,6 +49,16 @@ impl SharedSupervisor {
     pub fn lock(&self) -> MutexGuard<'_, Supervisor> {
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
+
+    /// The same, or `None` while somebody else has it: what a simulated thread cannot wait for.
+    #[cfg(feature = "simulation")]
+    pub(crate) fn try_lock(&self) -> Option<MutexGuard<'_, Supervisor>> {
+        match self.0.try_lock() {
+            Ok(held) => Some(held),
+            Err(TryLockError::Poisoned(poisoned)) => Some(poisoned.into_inner()),
+            Err(TryLockError::WouldBlock) => None,
+        }
+    }
 }
 
 /// Halts a robot as soon as a reading says so, and holds it halted until somebody asks for another stage.
@@ -68,6 +82,8 @@ pub struct Supervisor {
     equal: u32,
     moved: bool,
     tripped: Option<Trip>,
+    /// How late readings come, while somebody measures that.
+    lateness: Option<Lateness>,
 }
 
 impl Supervisor {
@@ -90,6 +106,7 @@ impl Supervisor {
             equal: 0,
             moved: false,
             tripped: None,
+            lateness: None,
         }
     }
 
@@ -154,6 +171,11 @@ impl Supervisor {
         self.zero = zero;
     }
 
+    /// What is taken off every force.
+    pub(super) fn zero(&self) -> Wrench {
+        self.zero
+    }
+
     /// What presses on the gel by what the transducer said.
     pub fn zeroed(&self, said: &Wrench) -> Wrench {
         let axes = [0, 1, 2];
@@ -167,10 +189,22 @@ impl Supervisor {
     /// Whether two looks at a tip that rests differ as those at a live transducer do.
     pub(super) fn is_live(&self, one: &Look, other: &Look) -> bool {
         match (one.number, other.number) {
-            (Some(one), Some(other)) => one != other,
+            (Some(one), Some(other)) if one == other => false,
             _ if self.limits.signals.equality_is_frozen => one.wrench != other.wrench,
+            (Some(_), Some(_)) => true,
             _ => one.wrench_s < other.wrench_s,
         }
+    }
+
+    /// Begins to measure how late readings come.
+    pub(super) fn time_readings(&mut self) {
+        self.lateness = Some(Lateness::default());
+    }
+
+    /// From a limit that is passed to a halt that is sent, in s, by the readings since
+    /// [`time_readings`](Supervisor::time_readings): 999 of 1,000 come sooner. `None` of fewer than two readings.
+    pub(super) fn reaction_s(&mut self) -> Option<f64> {
+        self.lateness.take()?.reaction_s()
     }
 
     /// Whether the tip may rest at this depth under this force.
@@ -233,6 +267,9 @@ impl Supervisor {
             return Some(Trip::NotFinite);
         }
         let age_s = now_s - stamp.valid_s;
+        if let Some(lateness) = &mut self.lateness {
+            lateness.add(stamp.valid_s, age_s);
+        }
         if age_s > self.limits.signals.stale_s {
             return Some(Trip::StaleForce { age_s });
         }
@@ -244,8 +281,9 @@ impl Supervisor {
         self.heard_s = stamp.valid_s;
         // A signal counts as frozen only against motion: at rest, equal readings are news from a quiet gel.
         let is_equal = match (std::mem::replace(&mut self.number, number), number) {
-            (Some(last), Some(number)) => last == number,
-            _ if number.is_some() || !self.limits.signals.equality_is_frozen => false,
+            (Some(last), Some(number)) if last == number => true,
+            // A box may count on while what it counts has stopped.
+            _ if !self.limits.signals.equality_is_frozen => false,
             _ => before.is_some_and(|(last, _)| last == *wrench),
         };
         self.equal = match (is_equal, std::mem::take(&mut self.moved)) {

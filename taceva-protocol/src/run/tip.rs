@@ -66,13 +66,13 @@ pub(super) struct Pace {
     contact: Speed,
     pub(super) travel: Speed,
     pub(super) segment_mm: f64,
-    step_mm: f64,
-    search_mm: f64,
+    pub(super) step_mm: f64,
+    pub(super) search_mm: f64,
     settle: Duration,
     threshold_n: f64,
     /// The force above which something is touched at rest in the air: that of contact, or what noise is not.
-    air_n: f64,
-    normal_max_n: f64,
+    pub(super) air_n: f64,
+    pub(super) normal_max_n: f64,
     pub(super) clearance_mm: f64,
     /// A pose within this of where the tip was sent is there, along each axis.
     pub(super) slack_mm: f64,
@@ -266,7 +266,8 @@ impl<'a> Tip<'a> {
 
     fn clear_halt(&mut self) -> Step<()> {
         self.robot.clear_halt(DEADLINE).map_err(|error| {
-            self.robot_failed = true;
+            // One that says nothing may yet; everything else is a matter for a person.
+            self.robot_failed |= error.kind() != ErrorKind::Timeout || error.fault().is_some();
             StopCause::Device(error)
         })
     }
@@ -297,12 +298,14 @@ impl<'a> Tip<'a> {
             None => error,
         };
         self.robot_failed |= is_grave || error.fault().is_some();
-        if error.kind() != ErrorKind::Interrupted || error.fault().is_some() {
+        let may_be_halted = [ErrorKind::Interrupted, ErrorKind::Timeout].contains(&error.kind());
+        if !may_be_halted || error.fault().is_some() {
             return StopCause::Device(error);
         }
-        // Somebody who looked on halted it.
+        // Somebody who looked on halted it, or saw before the robot did that nothing comes from it.
         match tripped {
             Some(trip) => StopCause::Tripped(trip),
+            None if error.kind() == ErrorKind::Timeout => StopCause::Device(error),
             None if self.cancel.is_cancelled() => StopCause::Cancelled,
             None => match self.force.read(Deadline::after(READ_DEADLINE)) {
                 Err(silent) if silent.kind() != ErrorKind::Timeout => StopCause::Device(silent),

@@ -155,6 +155,32 @@ pub enum SceneProblem {
         /// The real one.
         real: String,
     },
+    /// A robot that is moved in its base frame, of which nobody says how it lies to the sensor's.
+    #[error(
+        "the robot `{robot}` moves in its base frame, and nothing says how that lies to the gel: write a rig file with `origin_mm` and `axes` under [robot] and name it by `rig = \"lab.toml\"` or --rig (docs/rig.md)"
+    )]
+    Unmapped {
+        /// The robot.
+        robot: String,
+    },
+    /// A rig file whose robot went down to the gel and touched nothing.
+    #[error(
+        "nothing was touched down to {search_mm} mm below the height that `origin_mm` says: mend `origin_mm` or `axes` of [robot], or see whether the force transducer feels a finger"
+    )]
+    NothingTouched {
+        /// How far below it was searched, in mm.
+        search_mm: f64,
+    },
+    /// A rig file whose axes are not those along which forces were felt.
+    #[error("`axes` of [force]: {felt}{}", mended(.expected, *.may_be_robot))]
+    AxesContradicted {
+        /// What was pushed, and what was felt.
+        felt: String,
+        /// What would agree with it, where a turn does.
+        expected: Option<String>,
+        /// Whether the robot may as well have gone another way than it was sent.
+        may_be_robot: bool,
+    },
     /// A robot that rests too late after a limit was passed.
     #[error(
         "`{robot}` moves on for {stop_ms} ms after a halt, so that it rests {needed_ms:.0} ms after a limit was passed: expected at most {greatest_ms:.0} ms"
@@ -217,6 +243,19 @@ pub enum SceneProblem {
         /// The most that is planned.
         greatest: u64,
     },
+}
+
+fn mended(expected: &Option<String>, may_be_robot: bool) -> String {
+    let force = expected.as_ref().map_or_else(
+        || "no turn by right angles explains that: see how the transducer is mounted".to_owned(),
+        |expected| format!("write axes = {expected}"),
+    );
+    match may_be_robot {
+        true => format!(
+            "; if the tip moved as it was sent, {force}; if it went another way, mend `axes` of [robot]"
+        ),
+        false => format!("; {force}"),
+    }
 }
 
 fn did_you_mean(nearest: &Option<String>) -> String {

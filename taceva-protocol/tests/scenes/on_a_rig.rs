@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use taceva_core::{Millimetre, Point, Workspace};
-use taceva_protocol::{Carried, RigFile};
+use taceva_protocol::{Carried, RigFile, SceneProblem};
 
 use super::*;
 
@@ -266,4 +266,31 @@ fn a_rig_says_whether_it_is_emulated_and_is_real_where_it_says_nothing() {
         1,
     );
     assert!(parse(&emulated).simulated);
+}
+
+#[test]
+fn a_robot_that_moves_in_its_base_frame_is_refused_without_a_rig_file_that_maps_it() {
+    let mut devices = devices();
+    let in_base = RobotFacts::default().with_base_frame(true);
+    devices.robot = Some(descriptor("lab/arm", Facts::Robot(in_base)));
+    let text = SCENE.replacen(
+        "rig = \"lab.toml\"\n",
+        "robot = { driver = \"lab/arm\" }\nforce = { driver = \"lab/box\" }\n",
+        1,
+    );
+    let text = text.replacen("[sensor]\n", "[sensor]\ndriver = \"lab/camera\"\n", 1);
+    let scene = Scene::parse("s.toml", &text).expect("reads");
+    let planned =
+        |scene: &Scene| plan(scene, |_| SourceInfo::Rig(Box::new(devices.clone()))).map(drop);
+    let error = planned(&scene).expect_err("nothing says how its base lies to the gel");
+    assert_eq!(error.line, Some(3), "{error}");
+    let robot = "lab/arm".to_owned();
+    assert_eq!(*error.problem, SceneProblem::Unmapped { robot });
+    let said = error.to_string();
+    assert!(
+        said.contains("`origin_mm` and `axes`") && said.contains("--rig"),
+        "{said}"
+    );
+    // A rig file maps it.
+    planned(&put_on(SCENE, RIG)).expect("it is mapped");
 }

@@ -1,5 +1,6 @@
 //! The devices of a rig, opened for one unit of the sensor and lent to a run.
 
+use std::collections::BTreeMap;
 use std::sync::{Arc, PoisonError};
 use std::time::Duration;
 
@@ -9,8 +10,8 @@ use taceva_core::{
 };
 use taceva_drivers::{Drivers, OnBench, OpenError, Selector};
 use taceva_protocol::{
-    Cancel, Controls, Devices, Event, PressLog, RunError, RunReport, RunSpec, Setting,
-    SharedSupervisor, StopCause, run, run_guarded,
+    Cancel, Controls, Devices, Event, PressLog, ReferenceTouch, RigFile, RunError, RunReport,
+    RunSpec, SessionSpec, Setting, SharedSupervisor, StopCause, run, run_guarded, run_session,
 };
 
 use super::guardian::Guarded;
@@ -22,7 +23,7 @@ use crate::error::StudyError;
 use crate::scene::{PlannedStudy, RigSpec};
 
 /// How long a robot may take to say for the first time where it stands.
-const FIRST_POSE: Duration = Duration::from_secs(2);
+pub(super) const FIRST_POSE: Duration = Duration::from_secs(2);
 
 /// Devices that are open.
 pub(super) struct OpenRig {
@@ -34,6 +35,17 @@ pub(super) struct OpenRig {
     force_driver: DriverKey,
     /// Whether its time passes by itself: then threads look on while it moves.
     is_real: bool,
+    /// The rig file that says how a real rig stands: then a session begins by trying that.
+    rig_file: Option<Arc<RigFile>>,
+}
+
+/// What a session of a real rig goes on from.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Sitting<'a> {
+    /// Whether somebody has enabled the robot since this process has it.
+    pub(super) is_enabled: bool,
+    /// What earlier sessions of the recording touched.
+    pub(super) touched: &'a [ReferenceTouch],
 }
 
 impl OpenRig {
@@ -103,17 +115,24 @@ impl OpenRig {
         }
         let mut force = force.timely(|facts| force_latency.or(facts.force()?.latency_ms));
         if let Some(mounted) = rig_file.and_then(|rig| rig.force.as_ref()) {
-            force = Box::new(Turned::new(force, mounted.axes));
+            force = Box::new(Turned::new(force, mounted.axes.value));
         }
         Ok(OpenRig {
             force_driver,
             is_real,
+            rig_file: study.study.rig.clone(),
             sensor,
             robot,
             force,
             lighting: lighting.map(|lighting| lighting.device),
             surroundings,
         })
+    }
+
+    /// What was set of the camera and read back.
+    pub(super) fn settings_of_sensor(&self) -> BTreeMap<String, String> {
+        let sensor = self.sensor.as_ref();
+        sensor.map(|sensor| sensor.settings()).unwrap_or_default()
     }
 
     /// Makes the presses of `spec`, under a guard where the rig is real.
@@ -124,7 +143,7 @@ impl OpenRig {
         &mut self,
         spec: &RunSpec<'_>,
         log: &mut dyn PressLog,
-        (cancel, workshop): (&Cancel, Workshop<'_>),
+        (cancel, workshop, sitting): (&Cancel, Workshop<'_>, Sitting<'_>),
         events: &mut dyn FnMut(&Event),
     ) -> Result<RunReport, RunError> {
         let operator = workshop.operator.filter(|_| self.is_real);
@@ -138,7 +157,17 @@ impl OpenRig {
             surroundings,
             force_driver,
             is_real,
+            rig_file,
         } = self;
+        let session = rig_file.as_deref().map(|rig| {
+            let robot = rig.robot.as_ref();
+            let named = robot.filter(|_| !rig.simulated && !sitting.is_enabled);
+            SessionSpec {
+                rig,
+                robot: named.map(|robot| key_of(&robot.driver.value)),
+                touched: sitting.touched,
+            }
+        });
         let mut act = |robot: &mut dyn Robot,
                        force: &mut dyn ForceTransducer,
                        guard: Option<SharedSupervisor>| {
@@ -167,9 +196,12 @@ impl OpenRig {
                     None => None,
                 },
             };
-            match guard {
-                Some(guard) => run_guarded(spec, devices, log, (controls, guard)),
-                None => run(spec, devices, log, controls),
+            match (guard, session.clone()) {
+                (Some(guard), Some(session)) => {
+                    run_session(spec, devices, log, (controls, guard, session))
+                }
+                (Some(guard), None) => run_guarded(spec, devices, log, (controls, guard)),
+                (None, _) => run(spec, devices, log, controls),
             }
         };
         match spec.plan.limits.clone().filter(|_| *is_real) {
@@ -189,13 +221,13 @@ impl OpenRig {
 }
 
 /// Opens devices for one unit.
-struct Opener<'a> {
-    rig: &'a RigSpec,
-    unit: &'a str,
+pub(super) struct Opener<'a> {
+    pub(super) rig: &'a RigSpec,
+    pub(super) unit: &'a str,
 }
 
 impl Opener<'_> {
-    fn open<D: Device + ?Sized>(
+    pub(super) fn open<D: Device + ?Sized>(
         &self,
         registry: &Registry<D>,
         device: Option<&Setting<String>>,
@@ -244,6 +276,11 @@ impl RigSpec {
         .into_iter()
         .flatten()
     }
+}
+
+/// What a person calls a device: what stands before the arguments of its selector.
+fn key_of(selector: &str) -> &str {
+    selector.split_once(':').map_or(selector, |(key, _)| key)
 }
 
 /// A rig cannot run without the clock of its stamps.

@@ -1,10 +1,11 @@
 //! One run on one rig: its devices are held by locks that end with the process, however it ends.
 
+use std::collections::BTreeMap;
 use std::fs::{File, OpenOptions, TryLockError};
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
-use taceva_protocol::ContentId;
+use taceva_protocol::{ContentId, RigFile};
 
 use crate::error::StudyError;
 use crate::scene::{PlannedScene, StudySource};
@@ -29,7 +30,7 @@ impl PlannedScene {
     }
 
     fn hold_rigs_in(&self, folder: &Path) -> Result<HeldRigs, StudyError> {
-        let mut devices = std::collections::BTreeMap::new();
+        let mut devices = BTreeMap::new();
         for study in &self.studies {
             let (StudySource::Rig(spec), Some(rig)) = (&study.source, &study.study.rig) else {
                 continue;
@@ -39,15 +40,30 @@ impl PlannedScene {
                 devices.insert(device.value.clone(), rig.name().to_owned());
             }
         }
-        HeldRigs::of(folder, devices)
+        HeldRigs::take(folder, devices)
     }
 }
 
 impl HeldRigs {
-    /// Takes each of `devices`, named by what opens it, with who names it.
-    pub(crate) fn of(
+    /// Takes every device of `rig`, for whoever sets it up.
+    ///
+    /// # Errors
+    /// As [`PlannedScene::hold_rigs`].
+    pub fn of_file(rig: &RigFile) -> Result<HeldRigs, StudyError> {
+        let drivers = [
+            rig.sensor.as_ref().map(|sensor| &sensor.driver),
+            rig.robot.as_ref().map(|robot| &robot.driver),
+            rig.force.as_ref().map(|force| &force.driver),
+        ];
+        let devices = drivers.into_iter().flatten();
+        let devices = devices.map(|driver| (driver.value.clone(), rig.name().to_owned()));
+        HeldRigs::take(&std::env::temp_dir(), devices.collect())
+    }
+
+    /// Takes `devices`, each with the rig file or the option that names it.
+    pub(crate) fn take(
         folder: &Path,
-        devices: impl IntoIterator<Item = (String, String)>,
+        devices: BTreeMap<String, String>,
     ) -> Result<HeldRigs, StudyError> {
         let locks = devices.into_iter().map(|(device, rig)| {
             let path = lock_path(folder, &device);

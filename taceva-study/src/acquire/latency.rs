@@ -1,5 +1,6 @@
 //! Devices whose stamps come late, with stamps of when observations were true.
 
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use taceva_core::{
@@ -174,6 +175,10 @@ impl Sensor for Late<dyn Sensor> {
         self.device.interrupt_handle()
     }
 
+    fn settings(&self) -> BTreeMap<String, String> {
+        self.device.settings()
+    }
+
     fn lighting(&mut self) -> Option<&mut dyn Lighting> {
         self.device.lighting()
     }
@@ -223,6 +228,76 @@ mod tests {
 
         fn sequence(&self) -> Option<u64> {
             Some(5)
+        }
+    }
+
+    /// Stops by itself at any force, or arrives, at 7 s.
+    struct Stops {
+        is_felt: bool,
+    }
+
+    const AT_SEVEN: Stamp = Stamp {
+        valid_s: 7.0,
+        received_s: None,
+    };
+
+    impl Halt for Stops {
+        fn halt(&self) -> Result<(), DriverError> {
+            Ok(())
+        }
+    }
+
+    impl Robot for Stops {
+        fn pose(&mut self, _: Deadline) -> Result<(Pose, Stamp), DriverError> {
+            Ok((Pose::default(), AT_SEVEN))
+        }
+
+        fn move_to(&mut self, _: Pose, _: Speed, _: Deadline) -> Result<Stamp, DriverError> {
+            Ok(AT_SEVEN)
+        }
+
+        fn halt_handle(&self) -> Arc<dyn Halt> {
+            Arc::new(Stops { is_felt: false })
+        }
+
+        fn clear_halt(&mut self, _: Deadline) -> Result<(), DriverError> {
+            Ok(())
+        }
+
+        fn guarded_motion(&mut self) -> Option<&mut dyn GuardedMotion> {
+            Some(self)
+        }
+    }
+
+    impl GuardedMotion for Stops {
+        fn move_guarded(
+            &mut self,
+            pose: Pose,
+            _: Speed,
+            _: Guard,
+            _: Deadline,
+        ) -> Result<GuardedStop, DriverError> {
+            let stamp = AT_SEVEN;
+            Ok(match self.is_felt {
+                true => GuardedStop::Guarded { pose, stamp },
+                false => GuardedStop::Arrived { stamp },
+            })
+        }
+    }
+
+    #[test]
+    fn the_stamps_of_a_guarded_motion_lose_the_latency_however_it_ends() {
+        for is_felt in [true, false] {
+            let stops: Box<dyn Robot> = Box::new(Stops { is_felt });
+            let mut late = Late::new(stops, 4.0);
+            let guarded = late.guarded_motion().expect("it has it");
+            let guard = Guard::at(taceva_core::Newton(0.5));
+            let speed = Speed::try_new(1.0).expect("a speed");
+            let stop = guarded.move_guarded(Pose::default(), speed, guard, Deadline::PASSED);
+            let (GuardedStop::Guarded { stamp, .. } | GuardedStop::Arrived { stamp }) =
+                stop.expect("it stops");
+            assert!((stamp.valid_s - 6.996).abs() < 1e-12, "{stamp:?}");
+            assert_eq!(stamp.received_s, Some(7.0));
         }
     }
 

@@ -4,7 +4,9 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use taceva_core::{Frame, Nanometre, Sample, SinkError};
 use taceva_dataset::Recorder;
-use taceva_protocol::{ContentId, Plan, PlannedPress, PressLog, PressRecord};
+use taceva_protocol::{ContentId, Plan, PlannedPress, PressLog, PressRecord, SessionRecord};
+
+use super::sessions::Sessions;
 
 /// The presses of a recording that is being made.
 pub(super) struct RecordedPresses {
@@ -13,13 +15,15 @@ pub(super) struct RecordedPresses {
     relived: BTreeSet<ContentId>,
     /// The rows of their samples, by name.
     rows: BTreeMap<String, usize>,
+    sessions: Sessions,
 }
 
 impl RecordedPresses {
-    /// Goes on with what `recorder` holds.
-    pub(super) fn new(recorder: Recorder) -> RecordedPresses {
+    /// Goes on with what `recorder` and `sessions` hold.
+    pub(super) fn new(recorder: Recorder, sessions: Sessions) -> RecordedPresses {
         RecordedPresses {
             recorder,
+            sessions,
             relived: BTreeSet::new(),
             rows: BTreeMap::new(),
         }
@@ -43,6 +47,10 @@ impl RecordedPresses {
             self.rows = names.zip(0..).collect();
         }
         self.relived = relived;
+    }
+
+    pub(super) fn sessions(&self) -> &Sessions {
+        &self.sessions
     }
 
     pub(super) fn into_recorder(self) -> Recorder {
@@ -98,5 +106,9 @@ impl PressLog for RecordedPresses {
             self.recorder.append_reference(frame)?;
         }
         Ok(())
+    }
+
+    fn session(&mut self, record: &SessionRecord) -> Result<(), SinkError> {
+        Ok(self.sessions.add(record)?)
     }
 }

@@ -1,5 +1,6 @@
 //! A sensor whose frames somebody looks at.
 
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use taceva_core::{
@@ -50,6 +51,10 @@ impl Sensor for Seen {
 
     fn sent(&self) -> Option<&[u8]> {
         self.sensor.sent()
+    }
+
+    fn settings(&self) -> BTreeMap<String, String> {
+        self.sensor.settings()
     }
 
     fn stop(&mut self) -> Result<(), DriverError> {

@@ -1,5 +1,6 @@
 //! The sensor and the transducer of a capture or a preview: which, opened, and started.
 
+use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::mpsc::sync_channel;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -19,7 +20,7 @@ use super::track::Track;
 use super::transducer::Transducer;
 use crate::acquire::{HeldRigs, Opened, Turned};
 use crate::error::StudyError;
-use crate::scene::read_rig;
+use crate::scene::read_rig_file;
 
 /// How long a sensor may take to start and to give its first frame.
 const FIRST: Duration = Duration::from_secs(5);
@@ -54,8 +55,8 @@ impl LiveSpec {
         force: Option<&str>,
         rig: Option<&Path>,
     ) -> Result<LiveSpec, StudyError> {
-        let rig = rig.map(read_rig).transpose()?;
-        let rig: Option<&RigFile> = rig.as_deref();
+        let rig = rig.map(read_rig_file).transpose()?;
+        let rig: Option<&RigFile> = rig.as_ref();
         let of_rig = |driver: &str, latency_ms: Option<f64>| Wanted {
             text: driver.to_owned(),
             latency_ms,
@@ -87,7 +88,7 @@ impl LiveSpec {
             force: wanted_force.map(Wanted::read).transpose()?,
             axes: rig_force
                 .filter(|_| force.is_none())
-                .map(|force| force.axes),
+                .map(|force| force.axes.value),
             is_emulated: rig.is_some_and(|rig| rig.simulated),
         })
     }
@@ -98,11 +99,12 @@ impl LiveSpec {
     }
 
     /// The devices that are real, which one command at a time may have.
-    fn real(&self, drivers: &Drivers) -> Vec<(String, String)> {
+    fn real(&self, drivers: &Drivers) -> BTreeMap<String, String> {
         let sensor = drivers.sensors.get(self.sensor.selector.driver());
         let is_real = |descriptor: &Descriptor| descriptor.source() == DriverSource::Real;
-        let mut real = Vec::new();
-        let mut take = |named: &Named| real.push((named.selector.to_string(), named.by.clone()));
+        let mut real = BTreeMap::new();
+        let mut take =
+            |named: &Named| drop(real.insert(named.selector.to_string(), named.by.clone()));
         if sensor.is_ok_and(|sensor| is_real(sensor.descriptor())) {
             take(&self.sensor);
         }
@@ -117,7 +119,7 @@ impl LiveSpec {
     /// [`StudyError::OpenLive`] if one does not open, [`StudyError::RigTaken`] if another command has one, [`StudyError::Request`] if a
     /// transducer is to be read whose clock is not that of the sensor.
     pub fn open(&self, drivers: &Drivers) -> Result<LiveDevices, StudyError> {
-        let held = HeldRigs::of(&std::env::temp_dir(), self.real(drivers))?;
+        let held = HeldRigs::take(&std::env::temp_dir(), self.real(drivers))?;
         let failed = |source: OpenError| StudyError::OpenLive(Box::new(source));
         let mut shared = Rig::new();
         let selector = || self.sensor.selector.clone();
@@ -216,6 +218,11 @@ impl LiveDevices {
     pub fn measures(&self, axis: Axis) -> bool {
         let force = self.force.as_ref();
         force.is_some_and(|force| force.device.axes().contains(axis))
+    }
+
+    /// What is set of the camera, read back.
+    pub(super) fn settings(&self) -> BTreeMap<String, String> {
+        self.sensor.settings()
     }
 
     pub(super) fn sensor_source(&self) -> DriverSource {

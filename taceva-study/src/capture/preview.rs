@@ -9,13 +9,13 @@ use crate::viewer::Viewer;
 /// Shows `viewer` what `live` sees until somebody cancels.
 ///
 /// # Errors
-/// [`StudyError::LiveDevice`] if a device failed.
+/// [`StudyError::Device`] if a device failed.
 pub fn preview(
     live: &mut LiveDevices,
     viewer: &dyn Viewer,
     progress: &dyn Progress,
 ) -> Result<(), StudyError> {
-    let failed = |error| StudyError::LiveDevice(Box::new(error));
+    let failed = StudyError::Device;
     live.begin().map_err(failed)?;
     let ((), device) = live.stream(|streams| {
         let mut is_over = false;

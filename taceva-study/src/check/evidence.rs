@@ -4,6 +4,8 @@ use taceva_core::{Frame, PixelFormat};
 use taceva_dataset::{Header, Table};
 use taceva_models::Split;
 
+use crate::acquire::RecordedSessions;
+
 /// A recording as checks see it.
 #[derive(Debug)]
 pub struct Evidence<'a> {
@@ -19,6 +21,8 @@ pub struct Evidence<'a> {
     pub reference: Option<&'a FrameFacts>,
     /// The rows whose pictures are damaged inside although they decode, and how.
     pub damaged: &'a [(usize, String)],
+    /// The sessions on a real rig in which it was made, if it was.
+    pub sessions: Option<&'a RecordedSessions>,
 }
 
 impl Evidence<'_> {

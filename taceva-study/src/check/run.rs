@@ -11,6 +11,7 @@ use super::damaged_frames;
 use super::evidence::{Evidence, FrameFacts};
 use super::finding::{Check, CheckReport, Finding};
 use super::leakage;
+use crate::acquire::sessions::recorded_in;
 use crate::error::StudyError;
 use crate::plan::Plan;
 use crate::rows::{Divided, require_samples};
@@ -105,6 +106,7 @@ pub fn check(
         true => damaged(dataset, request.jobs, progress)?,
         false => Vec::new(),
     };
+    let sessions = recorded_in(dataset.path());
     let evidence = Evidence {
         header: dataset.header(),
         table: dataset.table(),
@@ -112,6 +114,7 @@ pub fn check(
         frames: &frames,
         reference: reference.as_ref(),
         damaged: &damaged,
+        sessions: sessions.as_ref(),
     };
     let mut findings: Vec<Finding> = wanted
         .iter()

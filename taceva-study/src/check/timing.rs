@@ -59,7 +59,12 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
             evidence.names(rows),
         )
     };
-    if !backwards.is_empty() {
+    if let Some(sessions) = evidence.sessions {
+        found.push(Found::overall(Severity::Note, sessions.note.clone()));
+    }
+    // The clock of a machine begins anew with every boot.
+    let boots = evidence.sessions.map_or(1, |sessions| sessions.boots);
+    if backwards.len() >= boots {
         found.push(warn(
             "samples are older than the one before them",
             &backwards,

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use taceva_core::{ArgKind, ArgSpec, Descriptor, Device, DriverKind, Registry};
 use taceva_drivers::{Drivers, Selector};
-use taceva_protocol::{RigInfo, Scene, SceneError, SceneProblem, Setting, Study};
+use taceva_protocol::{RigFile, RigInfo, Scene, SceneError, SceneProblem, Setting, Study};
 
 /// What is wrong, and at which byte of the scene.
 pub(crate) type Refused = (Option<usize>, SceneProblem);
@@ -31,8 +31,23 @@ impl RigSpec {
             sensor: study.sensor.driver.clone(),
             robot: driver(&study.robot),
             force: driver(&study.force),
-            lighting: lighting.map(|lighting| lighting.driver.clone()),
+            lighting: lighting.and_then(|lighting| lighting.driver.clone()),
             seed,
+            folder: folder.to_owned(),
+        }
+    }
+
+    /// Those of a rig file, without a scene; paths in it are relative to `folder`.
+    pub(crate) fn of_file(rig: &RigFile, folder: &Path) -> RigSpec {
+        let sensor = rig.sensor.as_ref();
+        let robot = rig.robot.as_ref();
+        let force = rig.force.as_ref();
+        RigSpec {
+            sensor: sensor.map(|sensor| sensor.driver.clone()),
+            robot: robot.map(|robot| robot.driver.clone()),
+            force: force.map(|force| force.driver.clone()),
+            lighting: None,
+            seed: 0,
             folder: folder.to_owned(),
         }
     }

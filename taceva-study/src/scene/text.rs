@@ -3,7 +3,6 @@
 use std::fs::File;
 use std::io::Read;
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
 
 use taceva_protocol::{BuiltinScene, GREATEST_SCENE, RigFile, SceneError, SceneProblem};
 
@@ -59,10 +58,9 @@ impl SceneText {
 ///
 /// # Errors
 /// [`StudyError::Scene`] if it cannot be read or is none.
-pub(crate) fn read_rig(path: &Path) -> Result<Arc<RigFile>, StudyError> {
+pub(crate) fn read_rig_file(path: &Path) -> Result<RigFile, StudyError> {
     let text = read_text(path)?;
-    let rig = RigFile::parse(&path.display().to_string(), &text)?;
-    Ok(Arc::new(rig))
+    Ok(RigFile::parse(&path.display().to_string(), &text)?)
 }
 
 fn read_text(path: &Path) -> Result<String, StudyError> {

@@ -202,14 +202,19 @@ const FRAME: FrameInfo = FrameInfo {
     format: PixelFormat::Gray8,
 };
 
-struct Gel(#[expect(dead_code, reason = "it shows nothing of the world")] World);
+/// Shows whether it is touched.
+struct Gel(World);
 
 impl Sensor for Gel {
     fn frame_info(&self) -> FrameInfo {
         FRAME
     }
 
-    fn capture(&mut self, _: FrameMut<'_>, _: Deadline) -> Result<Stamp, DriverError> {
-        Ok(Stamp::at(MonotonicClock.now()))
+    fn capture(&mut self, mut into: FrameMut<'_>, _: Deadline) -> Result<Stamp, DriverError> {
+        let now = MonotonicClock.now();
+        let [_, _, z] = self.0.state().tip(now.as_secs_f64());
+        let touched = if z > 0.0 { 90 } else { 60 };
+        into.bytes_mut().copy_from_slice(&[60, 60, touched, 60]);
+        Ok(Stamp::at(now))
     }
 }

@@ -3,6 +3,8 @@
 mod devices;
 mod guard;
 mod operator;
+mod rig;
+mod session;
 mod world;
 
 use std::num::NonZeroUsize;
@@ -14,7 +16,8 @@ use taceva_dataset::{Dataset, Source};
 use taceva_models::Models;
 use taceva_protocol::Operator;
 use taceva_study::{
-    Existing, PlannedScene, RunFolder, SceneText, StudyError, Surroundings, Workshop, run_scene,
+    Existing, Instead, PlannedScene, RunFolder, SceneText, StudyError, Surroundings, Workshop,
+    run_scene,
 };
 
 use devices::drivers;
@@ -45,13 +48,27 @@ fn record_by_hand(
     progress: &dyn Progress,
     (scene, operator): (&str, Option<&Mutex<dyn Operator + Send>>),
 ) -> Result<Dataset, StudyError> {
+    record_on(world, folder, progress, (scene, None, operator))
+}
+
+/// The same on the rig of a rig file, where there is one.
+fn record_on(
+    world: &World,
+    folder: &Path,
+    progress: &dyn Progress,
+    (scene, rig, operator): (&str, Option<&Path>, Option<&Mutex<dyn Operator + Send>>),
+) -> Result<Dataset, StudyError> {
     let drivers = drivers(world);
     let text = SceneText {
         name: "wall".to_owned(),
         text: scene.to_owned(),
         folder: PathBuf::from("."),
     };
-    let planned = PlannedScene::new(text, &drivers, None)?;
+    let instead = Instead {
+        rig: rig.map(Path::to_owned),
+        ..Instead::default()
+    };
+    let planned = PlannedScene::with(text, &drivers, &instead)?;
     let existing = match folder.join("plans.json").exists() {
         true => Existing::Resume,
         false => Existing::Refuse,

@@ -32,6 +32,8 @@ pub struct RobotFacts {
     pub latency_ms: Option<f64>,
     /// Whether it can stop by itself at a force.
     pub guarded_motion: bool,
+    /// Whether its poses are in a base frame of its own, which somebody must map to that of the sensor before it is moved over a gel.
+    pub base_frame: bool,
 }
 
 impl RobotFacts {
@@ -94,6 +96,13 @@ impl RobotFacts {
     #[must_use]
     pub fn with_guarded_motion(mut self, guarded_motion: bool) -> RobotFacts {
         self.guarded_motion = guarded_motion;
+        self
+    }
+
+    /// The same facts with another [`base_frame`](RobotFacts::base_frame).
+    #[must_use]
+    pub fn with_base_frame(mut self, base_frame: bool) -> RobotFacts {
+        self.base_frame = base_frame;
         self
     }
 }

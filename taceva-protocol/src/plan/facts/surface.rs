@@ -43,6 +43,21 @@ impl Gather<'_> {
         Ok(Some(footprint))
     }
 
+    /// Refuses a robot that moves in its base frame where no rig file says how that lies to the sensor's.
+    pub(super) fn is_mapped(&self, rig: &RigInfo) -> Result<(), SceneError> {
+        let robot = rig.robot.as_ref().filter(|robot| {
+            let facts = robot.robot();
+            self.study.rig.is_none() && facts.is_some_and(|facts| facts.base_frame)
+        });
+        let Some(robot) = robot else {
+            return Ok(());
+        };
+        let written = self.study.robot.as_ref();
+        let at = written.and_then(|robot| robot.driver.at());
+        let robot = robot.key().to_string();
+        Err(self.refusal(at, SceneProblem::Unmapped { robot }))
+    }
+
     /// Refuses a surface that the robot does not reach from the height of travel down to the end of the search.
     pub(super) fn workspace(&self, rig: &RigInfo, footprint: &Footprint) -> Result<(), SceneError> {
         let robot = rig.robot.as_ref();

@@ -44,7 +44,8 @@ growing!(RobotFacts {
     deceleration_mm_s2,
     stop_ms,
     latency_ms,
-    guarded_motion
+    guarded_motion,
+    base_frame
 });
 growing!(ForceFacts {
     axes,

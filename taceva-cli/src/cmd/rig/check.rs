@@ -1,0 +1,36 @@
+//! `taceva rig check`.
+
+use taceva_drivers::Drivers;
+use taceva_protocol::Operator;
+use taceva_study::{HeldRigs, check_rig, read_rig};
+
+use crate::args::RigCheckArgs;
+use crate::cmd::{Context, operator};
+use crate::{exit, output, report};
+
+pub(super) fn run(args: &RigCheckArgs, context: &Context) -> anyhow::Result<u8> {
+    if let Some(path) = args.output.path.as_deref() {
+        output::check_free(path, args.output.force)?;
+    }
+    let host = context.plugins(None)?;
+    let drivers = Drivers::builtin()?.with_plugins(&host)?;
+    let rig = read_rig(&args.rig)?;
+    let _held = HeldRigs::of_file(&rig)?;
+    let mut terminal = operator::terminal(None);
+    if terminal.is_none() && !rig.simulated && rig.robot.is_some() {
+        context.say(format_args!(
+            "nobody is at a terminal to let the robot move: it is not halted on its way"
+        ));
+    }
+    let asked = terminal
+        .as_mut()
+        .map(|terminal| terminal as &mut dyn Operator);
+    let check = check_rig(&rig, &drivers, asked)?;
+    output::write_as(args.output.format, args.output.path.as_deref(), |out| {
+        report::rig::check(&check, args.output.format, out)
+    })?;
+    Ok(match check.problems.is_empty() {
+        true => exit::DONE,
+        false => exit::CHECK_FAILED,
+    })
+}

@@ -1,0 +1,281 @@
+//! How a robot lies to a sensor, from three places to which somebody jogged it.
+
+use taceva_core::{Point, Pose};
+
+use super::{Carried, RigFile, SignedAxes};
+
+/// Shorter ways tell no direction, in mm.
+const SHORTEST_MM: f64 = 5.0;
+/// A way may end so far beside an axis of the base, in mm.
+const RESIDUAL_MM: f64 = 0.5;
+/// The tool may be turned by so much between two places, in degrees.
+const TURN_DEG: f64 = 0.5;
+
+/// Where a robot stood in its base frame when its tip was over three places of the gel.
+///
+/// ```
+/// use taceva_core::{Millimetre, Pose};
+/// use taceva_protocol::{Carried, Jogged};
+/// let at = |x: f64, y: f64| {
+///     let mut pose = Pose::default();
+///     (pose.position.x, pose.position.y) = (Millimetre(x), Millimetre(y));
+///     pose
+/// };
+/// let jogged = Jogged { middle: at(300.0, 0.0), along_x: at(310.0, 0.1), along_y: at(300.0, -8.0) };
+/// let taught = jogged.taught(Carried::Indenter)?;
+/// assert_eq!(taught.axes.to_string(), r#"["x", "-y", "-z"]"#);
+/// # Ok::<(), taceva_protocol::TeachError>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Jogged {
+    /// Just touching the middle of the gel.
+    pub middle: Pose,
+    /// From there along x of the sensor.
+    pub along_x: Pose,
+    /// From the middle along y of the sensor.
+    pub along_y: Pose,
+}
+
+/// What three places say.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Taught {
+    /// `origin_mm` of the rig file.
+    pub origin_mm: [f64; 3],
+    /// `axes` of its robot.
+    pub axes: SignedAxes,
+    /// How far the worse of both ways ended beside its axis, in mm.
+    pub residual_mm: f64,
+}
+
+/// Why three places say nothing.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+pub enum TeachError {
+    /// A way that is too short.
+    #[error(
+        "the way along {axis} is {way_mm:.2} mm long, expected at least {SHORTEST_MM} mm: jog farther"
+    )]
+    Short {
+        /// Along which axis of the sensor.
+        axis: char,
+        /// Its length, in mm.
+        way_mm: f64,
+    },
+    /// A way that lies along no axis of the base.
+    #[error(
+        "the way along {axis} ends {residual_mm:.2} mm beside the nearest axis of the base, expected at most {RESIDUAL_MM} mm: turn the sensor until it lies along the base, or jog along one axis of it alone"
+    )]
+    Askew {
+        /// Along which axis of the sensor.
+        axis: char,
+        /// How far beside, in mm.
+        residual_mm: f64,
+    },
+    /// Both ways along one line.
+    #[error(
+        "both ways lie along one line of the base: no frame; jog along x of the sensor first, and then from the middle along y"
+    )]
+    OneLine,
+    /// A tool that was turned on the way.
+    #[error(
+        "the tool was turned by {turn_deg:.1} degrees on the way along {axis}: jog without turning it"
+    )]
+    Turned {
+        /// Along which axis of the sensor.
+        axis: char,
+        /// By how much, in degrees.
+        turn_deg: f64,
+    },
+}
+
+impl Jogged {
+    /// The origin and the axes of a robot that carries this.
+    ///
+    /// # Errors
+    /// [`TeachError`] where the places are no turn by right angles, within half a millimetre.
+    pub fn taught(&self, carries: Carried) -> Result<Taught, TeachError> {
+        let (x, beside_x) = way(&self.middle, &self.along_x, 'x')?;
+        let (y, beside_y) = way(&self.middle, &self.along_y, 'y')?;
+        let side = match carries {
+            Carried::Indenter => 1.0,
+            // The tip goes along the sensor the other way.
+            Carried::Sensor => -1.0,
+        };
+        let (x, y) = ((x.0, side * x.1), (y.0, side * y.1));
+        let z = match (3 + y.0 - x.0) % 3 {
+            1 => ((x.0 + 2) % 3, x.1 * y.1),
+            2 => ((x.0 + 1) % 3, -x.1 * y.1),
+            _ => return Err(TeachError::OneLine),
+        };
+        let word = |(axis, sign): (usize, f64)| {
+            let sign = if sign < 0.0 { "-" } else { "" };
+            format!("{sign}{}", ["x", "y", "z"][axis])
+        };
+        let axes = SignedAxes::read([x, y, z].map(word));
+        let Point { x, y, z } = self.middle.position;
+        Ok(Taught {
+            // Whole micrometres: no arm shows more.
+            origin_mm: [x.0, y.0, z.0].map(|side| (side * 1e3).round() / 1e3),
+            axes: axes.expect("the third is at right angles to both others"),
+            residual_mm: beside_x.max(beside_y),
+        })
+    }
+}
+
+/// Along which axis of the base a way leads, with its sign, and how far it ends beside it.
+fn way(from: &Pose, to: &Pose, axis: char) -> Result<((usize, f64), f64), TeachError> {
+    let (one, other) = (&from.position, &to.position);
+    let way = [
+        other.x.0 - one.x.0,
+        other.y.0 - one.y.0,
+        other.z.0 - one.z.0,
+    ];
+    let (one, other) = (&from.rotation, &to.rotation);
+    let turns = [
+        other.x.0 - one.x.0,
+        other.y.0 - one.y.0,
+        other.z.0 - one.z.0,
+    ];
+    let whole = |turn: f64| (turn - 360.0 * (turn / 360.0).round()).abs();
+    let turn_deg = turns.map(whole).into_iter().fold(0.0, f64::max);
+    if turn_deg > TURN_DEG {
+        return Err(TeachError::Turned { axis, turn_deg });
+    }
+    let way_mm = way.iter().map(|side| side * side).sum::<f64>().sqrt();
+    // What is no number is no way either.
+    if way_mm.is_nan() || way_mm < SHORTEST_MM {
+        return Err(TeachError::Short { axis, way_mm });
+    }
+    let longest = (0..3).max_by(|one, other| way[*one].abs().total_cmp(&way[*other].abs()));
+    let longest = longest.expect("there are three");
+    let others = (0..3).filter(|side| *side != longest);
+    let residual_mm = others.map(|side| way[side].powi(2)).sum::<f64>().sqrt();
+    if residual_mm > RESIDUAL_MM {
+        return Err(TeachError::Askew { axis, residual_mm });
+    }
+    Ok(((longest, way[longest].signum()), residual_mm))
+}
+
+impl RigFile {
+    /// Its text with the origin and the axes of `taught`; `None` if it names no robot. Everything else stays as it is written.
+    pub fn with_taught(&self, taught: &Taught) -> Option<String> {
+        let robot = self.robot.as_ref()?;
+        let text = self.text.whole();
+        let [x, y, z] = taught.origin_mm;
+        let mut written = [
+            (robot.origin_mm.at()?, format!("[{x:?}, {y:?}, {z:?}]")),
+            (robot.axes.at()?, taught.axes.to_string()),
+        ];
+        // From behind, so that places before stay where they are.
+        written.sort_by_key(|(at, _)| std::cmp::Reverse(*at));
+        let mut text = text.to_owned();
+        for (at, value) in written {
+            // An array of numbers or of names of axes holds no other bracket, but a comment in it may.
+            let end = at + end_of_array(text.get(at..)?)?;
+            text.replace_range(at..end, &value);
+        }
+        Some(text)
+    }
+}
+
+/// Where the array ends with which `text` begins.
+fn end_of_array(text: &str) -> Option<usize> {
+    let mut is_comment = false;
+    for (at, letter) in text.char_indices() {
+        match letter {
+            '#' => is_comment = true,
+            '\n' => is_comment = false,
+            ']' if !is_comment => return Some(at + 1),
+            _ => {}
+        }
+    }
+    None
+}
+
+#[cfg(test)]
+mod tests {
+    use taceva_core::Millimetre;
+
+    use super::*;
+    use crate::rig_file::Registration;
+
+    fn at([x, y, z]: [f64; 3]) -> Pose {
+        let [x, y, z] = [x, y, z].map(Millimetre);
+        Pose {
+            position: Point { x, y, z },
+            ..Pose::default()
+        }
+    }
+
+    const TEXT: &str = "rig_version = 1\n[robot]\ndriver = \"lab/arm\"\ncarries = \"indenter\"\norigin_mm = [ # x ]\n  0.0, 0.0, 0.0] # old\naxes = [\"x\", \"y\", \"z\"]\n[limits]\nspeed_max_mm_s = 20.0\n";
+
+    #[test]
+    fn of_every_way_to_stand_three_places_find_the_axes_and_the_file_that_is_written_maps_them_back()
+     {
+        let words = ["x", "y", "z", "-x", "-y", "-z"];
+        for carries in ["indenter", "sensor"] {
+            let text = TEXT.replacen("\"indenter\"", &format!("\"{carries}\""), 1);
+            let mut found = 0;
+            for x in words {
+                for y in words {
+                    for z in words {
+                        let Ok(axes) = SignedAxes::read([x, y, z]) else {
+                            continue;
+                        };
+                        let stands = text
+                            .replacen("[ # x ]\n  0.0, 0.0, 0.0]", "[300.0, -20.0, 251.25]", 1)
+                            .replacen("[\"x\", \"y\", \"z\"]", &axes.to_string(), 1);
+                        let stands = RigFile::parse("true.toml", &stands).expect("a rig");
+                        let robot = stands.robot.as_ref().expect("a robot");
+                        let truth = Registration::new(robot, Default::default());
+                        let base = |tip: [f64; 3]| truth.to_base(&at(tip));
+                        let jogged = Jogged {
+                            middle: base([0.0; 3]),
+                            along_x: base([8.0, 0.1, -0.2]),
+                            along_y: base([0.3, 9.0, 0.1]),
+                        };
+                        let taught = jogged.taught(robot.carries).expect("a frame");
+                        assert_eq!(taught.axes, axes, "{carries}");
+                        assert!((taught.residual_mm - 0.1_f64.hypot(0.3)).abs() < 1e-6);
+                        let old = RigFile::parse("lab.toml", &text).expect("a rig");
+                        let new = old.with_taught(&taught).expect("a robot");
+                        assert!(new.contains("[300.0, -20.0, 251.25] # old\n"), "{new}");
+                        let new = RigFile::parse("lab.toml", &new).expect("a rig");
+                        assert_eq!(new.robot, stands.robot);
+                        assert_eq!(new.limits, stands.limits);
+                        found += 1;
+                    }
+                }
+            }
+            assert_eq!(found, 24);
+        }
+    }
+
+    #[test]
+    fn ways_that_are_short_askew_turned_or_one_line_are_refused_with_what_is_to_be_done() {
+        let jogged = |along_x: [f64; 3], along_y: [f64; 3]| Jogged {
+            middle: at([0.0; 3]),
+            along_x: at(along_x),
+            along_y: at(along_y),
+        };
+        let refused = |jogged: Jogged| jogged.taught(Carried::Indenter).expect_err("no frame");
+        let short = refused(jogged([4.9, 0.0, 0.0], [0.0, 9.0, 0.0]));
+        assert!(short.to_string().contains("jog farther"), "{short}");
+        let askew = refused(jogged([9.0, 0.0, 0.0], [0.4, 9.0, 0.4]));
+        assert_eq!(
+            askew.to_string().split(" mm").next(),
+            Some("the way along y ends 0.57")
+        );
+        assert_eq!(
+            refused(jogged([9.0, 0.0, 0.0], [-9.0, 0.0, 0.0])),
+            TeachError::OneLine
+        );
+        let nowhere = refused(jogged([f64::NAN, 0.0, 0.0], [0.0, 9.0, 0.0]));
+        assert!(matches!(nowhere, TeachError::Short { axis: 'x', .. }));
+        let mut turned = jogged([9.0, 0.0, 0.0], [0.0, 9.0, 0.0]);
+        turned.along_y.rotation.z.0 = 359.0;
+        assert!(matches!(
+            refused(turned),
+            TeachError::Turned { axis: 'y', .. }
+        ));
+    }
+}

@@ -1,0 +1,198 @@
+//! The beginning of a session on the rig of a rig file: somebody enables the robot, the tip passes through the air and touches gently, and
+//! what is felt and seen is held against what the rig file and earlier sessions say. Only then is anything pressed.
+
+mod picture;
+mod signs;
+mod touch;
+
+use std::time::Duration;
+
+use taceva_core::{Degree, Nanometre, Speed};
+
+use super::error::{Left, RunError, StopCause};
+use super::log::PressLog;
+use super::operator::{Answer, Question};
+use super::session::Run;
+use super::tip::Step;
+use super::touched::{SessionRecord, SessionSpec};
+use crate::limits::RigLimits;
+use crate::plan::PlannedPress;
+
+/// How long readings are timed.
+const TIMED: Duration = Duration::from_secs(2);
+/// Of the depth that is allowed, so much may be passed by a machine that reacts late.
+const OVERSHOOT_PART: f64 = 0.3;
+/// How fast the tip passes through the air for the first time, in mm/s.
+const AIR_MM_S: f64 = 10.0;
+/// Times that silence may break the beginning off.
+const TRIES: u32 = 3;
+
+/// What the machine makes of readings.
+#[derive(Clone, Copy, Debug)]
+struct Reaction {
+    reaction_ms: f64,
+    overshoot_mm: f64,
+}
+
+impl Run<'_> {
+    /// Has the robot enabled by whoever must, before it moves for the first time.
+    pub(super) fn enable(&mut self) -> Result<(), RunError> {
+        let robot = self.session.as_ref().and_then(|session| session.robot);
+        let Some(robot) = robot else {
+            return Ok(());
+        };
+        // Nothing has moved: where the tip stands is where somebody left it.
+        let unmoved = |cause| RunError {
+            press: None,
+            cause,
+            left: Left::Untouched,
+        };
+        let Some(operator) = &mut self.operator else {
+            let needed = format!("somebody who lets `{robot}` move");
+            return Err(unmoved(StopCause::Missing(needed)));
+        };
+        match operator.ask(&Question::Enable(robot.to_owned()), self.tip.cancel) {
+            Answer::Done => Ok(()),
+            Answer::Skip | Answer::Stop => Err(unmoved(StopCause::Cancelled)),
+        }
+    }
+
+    /// Begins the session, if it has not begun: at the first press that is going to be made, with what it is pressed with.
+    pub(super) fn begin(
+        &mut self,
+        places: &[[Nanometre; 2]],
+        first: &PlannedPress,
+        log: &mut dyn PressLog,
+    ) -> Result<(), RunError> {
+        let Some(session) = self.session.take() else {
+            return Ok(());
+        };
+        for times in 1.. {
+            let cause = match self.try_to_begin(&session, places, first) {
+                Ok(record) => {
+                    return log.session(&record).map_err(|error| RunError {
+                        press: None,
+                        cause: StopCause::Log(error),
+                        left: Left::Clear,
+                    });
+                }
+                Err(cause) => cause,
+            };
+            let is_silence = cause.is_silence();
+            let error = self.abandoned(None, cause);
+            if !is_silence || error.left != Left::Clear || times == TRIES {
+                return Err(error);
+            }
+        }
+        Ok(())
+    }
+
+    fn try_to_begin(
+        &mut self,
+        session: &SessionSpec<'_>,
+        places: &[[Nanometre; 2]],
+        first: &PlannedPress,
+    ) -> Step<SessionRecord> {
+        let reaction = self.time_readings()?;
+        self.pass_through_the_air(places)?;
+        let record = self.touch_gently(session, first, reaction)?;
+        let earlier = session.touched.iter().rev().find(|earlier| {
+            earlier.unit == record.touch.unit && earlier.specimen == record.touch.specimen
+        });
+        if let Some(changed) = earlier.and_then(|earlier| record.touch.changed_since(earlier)) {
+            let question = Question::Resume(changed);
+            if self.operator.is_none() {
+                let needed = format!("somebody who judges this: {question}");
+                return Err(StopCause::Missing(needed));
+            }
+            match self.ask(&question)? {
+                Answer::Done => {}
+                Answer::Skip | Answer::Stop => return Err(StopCause::Cancelled),
+            }
+        }
+        Ok(record)
+    }
+
+    /// Measures how late readings come on this machine, and refuses one on which the tip would go on too far.
+    fn time_readings(&mut self) -> Step<Reaction> {
+        let supervisor = self.tip.supervisor.clone();
+        supervisor.lock().time_readings();
+        let until_s = self.tip.clock.now_s() + TIMED.as_secs_f64();
+        while self.tip.clock.now_s() < until_s {
+            // Threads read meanwhile; that they still do is seen here.
+            self.tip.look()?;
+            if self.tip.cancel.is_cancelled() {
+                return Err(StopCause::Cancelled);
+            }
+        }
+        let reaction_s = supervisor.lock().reaction_s();
+        let limits = self.plan.limits.as_ref();
+        let (Some(reaction_s), Some(limits)) = (reaction_s, limits) else {
+            let nothing = "readings of force and limits";
+            return Err(StopCause::Missing(nothing.to_owned()));
+        };
+        allowed(reaction_s, limits, self.plan.contact.speed_mm_s.value)
+    }
+
+    /// Goes over three of the places slowly, so that whoever looks on sees where the robot is going to move.
+    fn pass_through_the_air(&mut self, places: &[[Nanometre; 2]]) -> Step<()> {
+        let usual = self.tip.pace;
+        self.tip.pace.travel = slowly(usual.travel);
+        let height_mm = -usual.clearance_mm;
+        let passed = farthest(places).into_iter().try_for_each(|place| {
+            let place = place.map(Nanometre::to_millimetres);
+            self.tip.travel(place, Degree(0.0), height_mm)
+        });
+        self.tip.pace = usual;
+        passed
+    }
+}
+
+/// At most as fast as somebody with a hand on the stop can follow.
+fn slowly(travel: Speed) -> Speed {
+    match Speed::try_new(AIR_MM_S) {
+        Ok(slow) if slow.mm_per_s() < travel.mm_per_s() => slow,
+        _ => travel,
+    }
+}
+
+/// Lets a guard pass that halts `reaction_s` after a limit was passed.
+fn allowed(reaction_s: f64, limits: &RigLimits, speed_mm_s: f64) -> Step<Reaction> {
+    let overshoot_mm = speed_mm_s * reaction_s + limits.braking_mm();
+    let greatest_mm = OVERSHOOT_PART * limits.depth_max.0;
+    let reaction_ms = reaction_s * 1e3;
+    if overshoot_mm <= greatest_mm {
+        return Ok(Reaction {
+            reaction_ms,
+            overshoot_mm,
+        });
+    }
+    Err(StopCause::SlowGuard {
+        reaction_ms,
+        overshoot_mm,
+        greatest_mm,
+        speed_mm_s: speed_mm_s * greatest_mm / overshoot_mm,
+    })
+}
+
+/// Up to three places that lie far apart: the first along x, the last, and the one farthest from both.
+fn farthest(places: &[[Nanometre; 2]]) -> Vec<[Nanometre; 2]> {
+    let (Some(first), Some(last)) = (places.iter().min(), places.iter().max()) else {
+        return Vec::new();
+    };
+    let distance_mm = |one: &[Nanometre; 2], other: &[Nanometre; 2]| {
+        let side = |axis: usize| (one[axis].to_millimetres() - other[axis].to_millimetres()).abs();
+        side(0).hypot(side(1))
+    };
+    let apart = |place: &[Nanometre; 2]| distance_mm(place, first).min(distance_mm(place, last));
+    let third = places
+        .iter()
+        .max_by(|one, other| apart(one).total_cmp(&apart(other)))
+        .expect("there is a first");
+    let mut farthest = vec![*first, *third, *last];
+    farthest.dedup();
+    farthest
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,184 @@
+//! Along which axes a gentle touch was felt, and which axes of a rig file would agree with it.
+
+use crate::rig_file::SignedAxes;
+use crate::scene::SceneProblem;
+
+const NAMES: [&str; 3] = ["x", "y", "z"];
+
+/// What was felt when the tip pressed the gel and pushed it sideways, in N along the axes that the rig file says.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Felt {
+    /// Of the press along +z.
+    pub(super) press: [f64; 3],
+    /// Of a push to +x and of one to +y, against one the other way; `None` of those that the noise hides, and of a transducer that does not
+    /// measure shear.
+    pub(super) pushes: [Option<[f64; 3]>; 2],
+}
+
+impl Felt {
+    /// Lets through what `axes` say: each force was felt the way that the tip went.
+    ///
+    /// # Errors
+    /// What was felt instead, and the axes with which it would have been felt as it should.
+    pub(super) fn check(&self, axes: SignedAxes) -> Result<(), SceneProblem> {
+        let [to_x, to_y] = self.pushes;
+        let forces = [to_x, to_y, Some(self.press)];
+        let along = forces.map(|force| force.map(|force| greatest(&force)));
+        let mut wrong = Vec::new();
+        for (went, felt) in along.iter().enumerate() {
+            if let Some(felt) = felt
+                && *felt != (went, 1.0)
+            {
+                let did = if went == 2 { "pressed" } else { "pushed" };
+                wrong.push(format!(
+                    "{did} along +{}, the gel was felt along {}",
+                    NAMES[went],
+                    name(*felt)
+                ));
+            }
+        }
+        if wrong.is_empty() {
+            return Ok(());
+        }
+        let expected = whole(along).and_then(|along| axes.as_felt(along));
+        Err(SceneProblem::AxesContradicted {
+            felt: wrong.join("; "),
+            expected: expected.map(|axes| axes.to_string()),
+            // A robot that went elsewhere than down would have touched nothing.
+            may_be_robot: along[2] == Some((2, 1.0)),
+        })
+    }
+}
+
+fn name((axis, sign): (usize, f64)) -> String {
+    let sign = if sign < 0.0 { '-' } else { '+' };
+    format!("{sign}{}", NAMES[axis])
+}
+
+/// The axis along which a force is greatest, and its sign there.
+fn greatest(force: &[f64; 3]) -> (usize, f64) {
+    let mut found = (0, force[0]);
+    for (axis, component) in force.iter().enumerate().skip(1) {
+        if component.abs() > found.1.abs() {
+            found = (axis, *component);
+        }
+    }
+    (found.0, found.1.signum())
+}
+
+/// All three, where at most one is not known: that is at right angles to both others.
+fn whole(along: [Option<(usize, f64)>; 3]) -> Option<[(usize, f64); 3]> {
+    let missing: Vec<usize> = (0..3).filter(|axis| along[*axis].is_none()).collect();
+    match missing[..] {
+        [] => Some(along.map(|along| along.unwrap_or_default())),
+        [axis] => {
+            let [next, last] = [along[(axis + 1) % 3]?, along[(axis + 2) % 3]?];
+            let mut whole = along.map(|along| along.unwrap_or_default());
+            whole[axis] = cross(next, last)?;
+            Some(whole)
+        }
+        _ => None,
+    }
+}
+
+/// The product of two signed axes; `None` of one with itself.
+fn cross(one: (usize, f64), other: (usize, f64)) -> Option<(usize, f64)> {
+    let sign = one.1 * other.1;
+    match (3 + other.0 - one.0) % 3 {
+        1 => Some(((one.0 + 2) % 3, sign)),
+        2 => Some(((one.0 + 1) % 3, -sign)),
+        _ => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const TRUE: [&str; 3] = ["x", "-y", "-z"];
+
+    /// What is felt with `written` in the rig file of a transducer that lies as [`TRUE`] says.
+    fn felt(written: SignedAxes, hidden: Option<usize>) -> Felt {
+        let mounted = SignedAxes::read(TRUE).expect("axes");
+        let felt = |force: [f64; 3]| written.to_sensor(mounted.to_device(force));
+        let push = |axis: usize| {
+            let mut force = [0.001, -0.002, 0.003];
+            force[axis] = 0.03;
+            (hidden != Some(axis)).then(|| felt(force))
+        };
+        Felt {
+            press: felt([0.002, -0.001, 0.06]),
+            pushes: [push(0), push(1)],
+        }
+    }
+
+    fn every_axes() -> Vec<SignedAxes> {
+        const WORDS: [&str; 6] = ["x", "y", "z", "-x", "-y", "-z"];
+        let mut every = Vec::new();
+        for x in WORDS {
+            for y in WORDS {
+                every.extend(WORDS.map(|z| SignedAxes::read([x, y, z])));
+            }
+        }
+        every.into_iter().flatten().collect()
+    }
+
+    #[test]
+    fn of_the_24_ways_to_write_axes_23_are_refused_with_the_24th() {
+        let mounted = SignedAxes::read(TRUE).expect("axes");
+        let all = every_axes();
+        assert_eq!(all.len(), 24);
+        for hidden in [None, Some(0), Some(1)] {
+            for written in &all {
+                let found = felt(*written, hidden).check(*written);
+                if *written == mounted {
+                    found.expect("they are right");
+                    continue;
+                }
+                let wrong = found.expect_err("they are wrong");
+                let SceneProblem::AxesContradicted { expected, .. } = &wrong else {
+                    panic!("{wrong}");
+                };
+                assert_eq!(
+                    expected.as_deref(),
+                    Some("[\"x\", \"-y\", \"-z\"]"),
+                    "{written}"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn a_scale_that_is_upside_down_is_refused_without_a_word_of_the_axes_it_does_not_measure() {
+        let axes = SignedAxes::read(["x", "y", "z"]).expect("axes");
+        let upside_down = Felt {
+            press: [0.0, 0.0, -0.06],
+            pushes: [None, None],
+        };
+        let wrong = upside_down.check(axes).expect_err("pressed, it pulls");
+        let said = wrong.to_string();
+        assert!(
+            said.contains("pressed along +z, the gel was felt along -z"),
+            "{said}"
+        );
+        assert!(!said.contains("write axes"), "{said}");
+    }
+
+    #[test]
+    fn a_push_that_was_felt_the_other_way_may_be_the_robots_as_well() {
+        let axes = SignedAxes::read(TRUE).expect("axes");
+        let turned = Felt {
+            press: [0.0, 0.0, 0.06],
+            pushes: [Some([-0.03, 0.0, 0.0]), Some([0.0, -0.03, 0.0])],
+        };
+        let said = turned
+            .check(axes)
+            .expect_err("turned by 180 degrees")
+            .to_string();
+        assert!(
+            said.contains("write axes = [\"-x\", \"y\", \"-z\"]"),
+            "{said}"
+        );
+        assert!(said.contains("mend `axes` of [robot]"), "{said}");
+    }
+}

@@ -1,0 +1,354 @@
+//! A gel with an arm, a transducer and a camera in simulated time, what may be wrong with it, and a session on it.
+
+use std::sync::{Arc, Mutex, MutexGuard};
+use std::time::Duration;
+
+use taceva_core::{
+    Axes, Deadline, DriverError, DriverKey, ErrorKind, ForceTransducer, Frame, FrameInfo, FrameMut,
+    Halt, Newton, PixelFormat, Pose, Robot, Sensor, SinkError, Speed, Stamp, Wrench,
+};
+
+use crate::content_id::ContentId;
+use crate::plan::Plan;
+use crate::press::Motion;
+use crate::rig_file::{RigFile, SignedAxes};
+use crate::run::rig::plan;
+use crate::run::{
+    Answer, Cancel, Controls, Devices, Mode, Observation, Operator, PressLog, PressRecord,
+    Question, ReferenceTouch, RunError, RunSpec, SessionRecord, SessionSpec, SharedSupervisor,
+    Supervisor, Timekeeper, run_session,
+};
+
+/// How the transducer of the bench is mounted.
+pub(super) const MOUNTED: [&str; 3] = ["x", "-y", "-z"];
+/// Where its gel begins, in mm, and how stiff it is against presses and pushes, in N/mm.
+pub(super) const SURFACE_MM: f64 = 0.13;
+const STIFFNESS_N_MM: [f64; 3] = [0.1, 0.1, 0.5];
+
+pub(super) fn rig_file(force_axes: [&str; 3]) -> RigFile {
+    let axes = SignedAxes::read(force_axes).expect("right-handed");
+    let text = format!(
+        "rig_version = 1\n[robot]\ndriver = \"lab/arm\"\ncarries = \"indenter\"\norigin_mm = [0.0, 0.0, 0.0]\naxes = [\"x\", \"y\", \"z\"]\n[force]\ndriver = \"lab/box\"\naxes = {axes}\n"
+    );
+    RigFile::parse("lab.toml", &text).expect("a rig")
+}
+
+/// A gel of three stiffnesses with an arm, a transducer and a camera, in simulated time.
+#[derive(Clone)]
+pub(super) struct Bench(Arc<Mutex<State>>);
+
+pub(super) struct State {
+    now_s: f64,
+    pose: Pose,
+    /// Where the tip touched the gel.
+    touched: Option<[f64; 2]>,
+    axes: SignedAxes,
+    readings: u32,
+    pub(super) motions: u32,
+    is_halted: bool,
+    supervisor: Option<SharedSupervisor>,
+    // What may be wrong with it.
+    pub(super) surface_mm: f64,
+    pub(super) stiffness: f64,
+    pub(super) latency_s: f64,
+    pub(super) clings_n: f64,
+    pub(super) sees: Sees,
+}
+
+#[derive(Clone, Copy, PartialEq)]
+pub(super) enum Sees {
+    Touches,
+    Nothing,
+    /// What it saw once it shows for ever.
+    Afterwards,
+}
+
+impl Bench {
+    pub(super) fn new(axes: [&str; 3]) -> Bench {
+        let mut pose = Pose::default();
+        pose.position.z.0 = -5.0;
+        Bench(Arc::new(Mutex::new(State {
+            now_s: 10.0,
+            pose,
+            touched: None,
+            axes: SignedAxes::read(axes).expect("right-handed"),
+            readings: 0,
+            motions: 0,
+            is_halted: false,
+            supervisor: None,
+            surface_mm: SURFACE_MM,
+            stiffness: 1.0,
+            latency_s: 0.0,
+            clings_n: 0.0,
+            sees: Sees::Touches,
+        })))
+    }
+
+    pub(super) fn state(&self) -> MutexGuard<'_, State> {
+        self.0.lock().expect("whole")
+    }
+}
+
+impl State {
+    fn stamp(&self) -> Stamp {
+        Stamp {
+            valid_s: self.now_s,
+            received_s: None,
+        }
+    }
+
+    fn depth_mm(&self) -> f64 {
+        (self.pose.position.z.0 - self.surface_mm).max(0.0)
+    }
+
+    /// What the tip does to the gel, along the axes of the sensor.
+    fn force_n(&mut self) -> [f64; 3] {
+        let depth_mm = self.depth_mm();
+        if depth_mm <= 0.0 {
+            let is_new = self.touched.take().is_none();
+            return [0.0, 0.0, if is_new { 0.0 } else { self.clings_n }];
+        }
+        let here = [self.pose.position.x.0, self.pose.position.y.0];
+        let touched = *self.touched.get_or_insert(here);
+        let [x, y, z] = STIFFNESS_N_MM.map(|stiffness| stiffness * self.stiffness);
+        [
+            x * (here[0] - touched[0]),
+            y * (here[1] - touched[1]),
+            z * depth_mm,
+        ]
+    }
+}
+
+impl Halt for Bench {
+    fn halt(&self) -> Result<(), DriverError> {
+        self.state().is_halted = true;
+        Ok(())
+    }
+}
+
+impl Robot for Bench {
+    fn pose(&mut self, _: Deadline) -> Result<(Pose, Stamp), DriverError> {
+        let state = self.state();
+        Ok((state.pose, state.stamp()))
+    }
+
+    fn move_to(&mut self, target: Pose, speed: Speed, _: Deadline) -> Result<Stamp, DriverError> {
+        let mut state = self.state();
+        if state.is_halted {
+            let key = DriverKey::fixed("lab/arm");
+            return Err(DriverError::new(ErrorKind::Interrupted, &key, "move"));
+        }
+        let (from, to) = (state.pose.position, target.position);
+        let way_mm = (to.x.0 - from.x.0)
+            .hypot(to.y.0 - from.y.0)
+            .hypot(to.z.0 - from.z.0);
+        state.now_s += way_mm / speed.mm_per_s();
+        state.pose = target;
+        state.motions += 1;
+        state.force_n();
+        Ok(state.stamp())
+    }
+
+    fn halt_handle(&self) -> Arc<dyn Halt> {
+        Arc::new(self.clone())
+    }
+
+    fn clear_halt(&mut self, _: Deadline) -> Result<(), DriverError> {
+        self.state().is_halted = false;
+        Ok(())
+    }
+}
+
+struct Transducer(Bench);
+
+impl ForceTransducer for Transducer {
+    fn axes(&self) -> Axes {
+        Axes::FORCE
+    }
+
+    /// As it is mounted, turned as the rig file says, and shown to the supervisor as a thread of the guard would.
+    fn read(&mut self, _: Deadline) -> Result<(Wrench, Stamp), DriverError> {
+        let mut state = self.0.state();
+        state.readings += 1;
+        state.now_s += 0.002;
+        let mounted = SignedAxes::read(MOUNTED).expect("right-handed");
+        let hiss = f64::from(state.readings % 3) * 1e-4;
+        let force = state.force_n();
+        let force = state.axes.to_sensor(mounted.to_device(force));
+        let wrench = Wrench {
+            force: force.map(|force_n| Newton(force_n + 0.2 + hiss)),
+            ..Wrench::default()
+        };
+        let stamp = state.stamp();
+        let now_s = state.now_s + state.latency_s;
+        state.now_s = now_s;
+        let supervisor = state.supervisor.clone().expect("it is guarded");
+        let seen = Observation::Numbered(wrench, stamp, u64::from(state.readings));
+        drop(state);
+        let _ = supervisor.lock().observe(&seen, now_s);
+        // The next question is asked once the reading is here: it was true when this one was.
+        Ok((
+            wrench,
+            Stamp {
+                valid_s: now_s,
+                ..stamp
+            },
+        ))
+    }
+
+    fn sequence(&self) -> Option<u64> {
+        Some(u64::from(self.0.state().readings))
+    }
+}
+
+const FRAME: FrameInfo = FrameInfo {
+    width: 16,
+    height: 16,
+    format: PixelFormat::Gray8,
+};
+
+struct Camera(Bench);
+
+impl Sensor for Camera {
+    fn frame_info(&self) -> FrameInfo {
+        FRAME
+    }
+
+    fn capture(&mut self, mut into: FrameMut<'_>, _: Deadline) -> Result<Stamp, DriverError> {
+        let mut state = self.0.state();
+        state.now_s += 0.01;
+        let is_seen = match state.sees {
+            Sees::Nothing => false,
+            Sees::Touches => state.depth_mm() > 0.0,
+            Sees::Afterwards => state.readings > 0 && state.deepest() > 0.0,
+        };
+        for (place, byte) in into.bytes_mut().iter_mut().enumerate() {
+            *byte = if is_seen && place < 32 { 90 } else { 60 };
+        }
+        Ok(state.stamp())
+    }
+}
+
+impl State {
+    /// The way below the surface, for a picture that keeps what it saw.
+    fn deepest(&mut self) -> f64 {
+        if self.depth_mm() > 0.0 {
+            self.clings_n = self.clings_n.max(f64::MIN_POSITIVE);
+        }
+        self.clings_n
+    }
+}
+
+impl Timekeeper for Bench {
+    fn now_s(&self) -> f64 {
+        self.state().now_s
+    }
+
+    fn rest(&mut self, rest: Duration) {
+        self.state().now_s += rest.as_secs_f64();
+    }
+}
+
+/// What a session wrote.
+#[derive(Default)]
+pub(super) struct Memory {
+    pub(super) presses: usize,
+    pub(super) sessions: Vec<SessionRecord>,
+}
+
+impl PressLog for Memory {
+    fn is_finished(&self, _: ContentId) -> bool {
+        false
+    }
+    fn append(&mut self, _: &PressRecord) -> Result<(), SinkError> {
+        self.presses += 1;
+        Ok(())
+    }
+    fn untouched(&mut self, _: &Frame) -> Result<(), SinkError> {
+        Ok(())
+    }
+    fn session(&mut self, record: &SessionRecord) -> Result<(), SinkError> {
+        assert_eq!(self.presses, 0, "it comes before the first press");
+        self.sessions.push(record.clone());
+        Ok(())
+    }
+}
+
+/// Answers, and notes how high the tip stood and how often it had moved.
+pub(super) struct Person {
+    bench: Bench,
+    answer: Answer,
+    pub(super) asked: Vec<(Question, f64, u32)>,
+}
+
+impl Operator for Person {
+    fn ask(&mut self, question: &Question, _: &Cancel) -> Answer {
+        let state = self.bench.state();
+        let asked = (question.clone(), state.pose.position.z.0, state.motions);
+        self.asked.push(asked);
+        self.answer
+    }
+}
+
+pub(super) struct Session<'a> {
+    pub(super) rig: &'a RigFile,
+    pub(super) robot: Option<&'a str>,
+    pub(super) touched: &'a [ReferenceTouch],
+    pub(super) answer: Option<Answer>,
+}
+
+/// One touch of the surface, with a picture.
+fn one_press() -> Plan {
+    let mut plan = plan();
+    plan.presses.truncate(1);
+    let planned = &mut plan.presses[0];
+    planned.press.motion = Motion::Touch;
+    planned.press.light = None;
+    planned.frames = true;
+    plan.contact.threshold_n.value = 0.02;
+    plan.limits.as_mut().expect("it moves").signals.host_zero = true;
+    plan
+}
+
+pub(super) fn begun(bench: &Bench, session: Session<'_>) -> (Result<(), RunError>, Memory, Person) {
+    let plan = one_press();
+    let mut log = Memory::default();
+    let mut person = Person {
+        bench: bench.clone(),
+        answer: session.answer.unwrap_or(Answer::Done),
+        asked: Vec::new(),
+    };
+    let limits = plan.limits.clone().expect("it moves");
+    let supervisor = Supervisor::new(limits, Arc::new(bench.clone()));
+    let supervisor = SharedSupervisor::new(supervisor);
+    bench.state().supervisor = Some(supervisor.clone());
+    let (mut robot, mut clock) = (bench.clone(), bench.clone());
+    let (mut force, mut camera) = (Transducer(bench.clone()), Camera(bench.clone()));
+    let devices = Devices {
+        robot: &mut robot,
+        force: &mut force,
+        sensor: Some(&mut camera),
+        lighting: None,
+        specimens: None,
+    };
+    let cancel = Cancel::new();
+    let has_person = session.answer.is_some();
+    let controls = Controls {
+        clock: &mut clock,
+        cancel: &cancel,
+        events: &mut |_| {},
+        operator: has_person.then_some(&mut person as &mut dyn Operator),
+    };
+    let spec = RunSpec {
+        plan: &plan,
+        unit: &plan.presses[0].press.unit,
+        mode: Mode::Acquire,
+    };
+    let session = SessionSpec {
+        rig: session.rig,
+        robot: session.robot,
+        touched: session.touched,
+    };
+    let done = run_session(&spec, devices, &mut log, (controls, supervisor, session));
+    (done.map(drop), log, person)
+}

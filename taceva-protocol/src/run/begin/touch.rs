@@ -1,0 +1,298 @@
+//! A gentle touch at the middle of the gel: down to the first force, on to three times that, sideways a little, and out again.
+
+use taceva_core::{Axis, Degree, Frame};
+
+use super::Reaction;
+use super::picture::{change, shows};
+use super::signs::Felt;
+use crate::plan::PlannedPress;
+use crate::run::align::Look;
+use crate::run::error::StopCause;
+use crate::run::session::Run;
+use crate::run::supervisor::MotionStage;
+use crate::run::tip::{Step, Tip};
+use crate::run::touched::{ReferenceTouch, SessionRecord, SessionSpec, TouchFault};
+use crate::scene::SceneProblem;
+
+/// Readings whose mean is one force.
+const READINGS: u32 = 8;
+/// A push this many standard errors above nothing was felt.
+const ERRORS: f64 = 4.0;
+/// The force of the touch is so many times that which counts as contact.
+const RISE: f64 = 3.0;
+/// But no more than this part of the greatest force.
+const FORCE_PART: f64 = 0.5;
+/// Nor deeper than this part of the greatest depth.
+const DEPTH_PART: f64 = 0.5;
+/// How far the tip is pushed to each side, in mm.
+const PUSH_MM: f64 = 0.2;
+
+impl Run<'_> {
+    /// Touches the gel, and holds what is felt and seen against the rig file.
+    pub(super) fn touch_gently(
+        &mut self,
+        session: &SessionSpec<'_>,
+        first: &PlannedPress,
+        reaction: Reaction,
+    ) -> Step<SessionRecord> {
+        let pace = self.tip.pace;
+        self.tip.travel([0.0; 2], Degree(0.0), -pace.clearance_mm)?;
+        let zero = self.tip.supervisor.lock().zero();
+        let in_air = [self.picture()?, self.picture()?];
+        let unit = &first.press.unit;
+        let specimen = first.press.specimen;
+        let earlier = session.touched.iter().rev();
+        let earlier = earlier
+            .clone()
+            .find(|earlier| earlier.unit == *unit && earlier.specimen == specimen);
+        let Some(height_mm) = self.tip.feel_down(pace.air_n)? else {
+            let problem = SceneProblem::NothingTouched {
+                search_mm: self.plan.contact.search_mm.value,
+            };
+            let robot = session.rig.robot.as_ref();
+            let at = robot.and_then(|robot| robot.origin_mm.at());
+            return Err(StopCause::Rig(Box::new(session.rig.error(at, problem))));
+        };
+        let press = self.press_on(height_mm, earlier.map(|earlier| earlier.depth_mm))?;
+        let pushes = self.push_aside()?;
+        let felt = Felt {
+            press: press.mean_n,
+            pushes,
+        };
+        if let Some(force) = &session.rig.force
+            && let Err(problem) = felt.check(force.axes.value)
+        {
+            let problem = session.rig.error(force.axes.at(), problem);
+            return Err(StopCause::Rig(Box::new(problem)));
+        }
+        let depth_mm = self.tip.target.position.z.0 - height_mm;
+        let picture = self.show_touch(height_mm, &in_air)?;
+        self.tip.retreat()?;
+        let left_n = self.tip.feel()?.magnitude_n();
+        if left_n >= pace.air_n {
+            return Err(StopCause::Touch(TouchFault::Clings { force_n: left_n }));
+        }
+        if let ([Some(before), _], Some(in_contact)) = (&in_air, picture)
+            && let Some(later) = self.picture()?
+        {
+            let after = change(before, &later);
+            // Gels come back slowly, and never quite: half of the change is gone.
+            if 2.0 * after > in_contact {
+                return Err(StopCause::Touch(TouchFault::Stays { in_contact, after }));
+            }
+        }
+        Ok(SessionRecord {
+            touch: ReferenceTouch {
+                unit: unit.clone(),
+                specimen,
+                height_mm,
+                depth_mm,
+                force_n: press.mean_n[2],
+            },
+            zero,
+            pushes_felt: pushes.map(|push| push.is_some()),
+            picture_changed: picture.is_some(),
+            reaction_ms: reaction.reaction_ms,
+            overshoot_mm: reaction.overshoot_mm,
+        })
+    }
+
+    /// Goes on from the first contact at `height_mm` until the force is three times that of contact, or to the depth of an earlier session.
+    fn press_on(&mut self, height_mm: f64, depth_mm: Option<f64>) -> Step<Force> {
+        let wanted_n = (RISE * self.tip.pace.air_n).min(FORCE_PART * self.tip.pace.normal_max_n);
+        let deepest_mm = self.deepest_mm(height_mm);
+        if let Some(depth_mm) = depth_mm {
+            self.tip.deepen_to((height_mm + depth_mm).min(deepest_mm))?;
+            return self.tip.feel();
+        }
+        loop {
+            let force = self.tip.feel()?;
+            if force.magnitude_n() >= wanted_n {
+                return Ok(force);
+            }
+            let here_mm = self.tip.target.position.z.0;
+            if here_mm >= deepest_mm {
+                return Err(StopCause::Touch(TouchFault::Weak {
+                    force_n: force.magnitude_n(),
+                    wanted_n,
+                    depth_mm: here_mm - height_mm,
+                }));
+            }
+            self.tip.deepen(deepest_mm)?;
+        }
+    }
+
+    fn deepest_mm(&self, height_mm: f64) -> f64 {
+        let depth_max = self
+            .plan
+            .limits
+            .as_ref()
+            .map_or(0.0, |limits| limits.depth_max.0);
+        height_mm + DEPTH_PART * depth_max
+    }
+
+    /// What a push to +x and one to +y is felt as, each against one the other way.
+    fn push_aside(&mut self) -> Step<[Option<[f64; 3]>; 2]> {
+        let measured = self.tip.force.axes();
+        let measures_shear = measured.contains(Axis::Fx) && measured.contains(Axis::Fy);
+        let mut pushes = [None, None];
+        if !measures_shear {
+            return Ok(pushes);
+        }
+        let middle = self.tip.target.position;
+        for (axis, push) in pushes.iter_mut().enumerate() {
+            let mut forces = [Force::default(); 2];
+            for (force, side_mm) in forces.iter_mut().zip([PUSH_MM, -PUSH_MM]) {
+                let mut place = [middle.x.0, middle.y.0, middle.z.0];
+                place[axis] += side_mm;
+                self.tip.approach(place)?;
+                *force = self.tip.feel()?;
+            }
+            self.tip.approach([middle.x.0, middle.y.0, middle.z.0])?;
+            let [there, back] = forces;
+            let half_n = [0, 1, 2].map(|axis| (there.mean_n[axis] - back.mean_n[axis]) / 2.0);
+            let error_n = (there.error_n + back.error_n) / 2.0;
+            let is_felt = half_n
+                .iter()
+                .any(|force_n| force_n.abs() > ERRORS * error_n);
+            *push = is_felt.then_some(half_n);
+        }
+        Ok(pushes)
+    }
+
+    /// Presses on until the picture shows it; the change that it shows, or `None` where no picture is taken.
+    fn show_touch(&mut self, height_mm: f64, in_air: &[Option<Frame>; 2]) -> Step<Option<f64>> {
+        let [Some(one), Some(other)] = in_air else {
+            return Ok(None);
+        };
+        let in_air = change(one, other);
+        let deepest_mm = self.deepest_mm(height_mm);
+        let greatest_n = FORCE_PART * self.tip.pace.normal_max_n;
+        loop {
+            let Some(frame) = self.picture()? else {
+                return Ok(None);
+            };
+            let in_contact = change(one, &frame);
+            if shows(in_contact, in_air) {
+                return Ok(Some(in_contact));
+            }
+            let is_deep = self.tip.target.position.z.0 >= deepest_mm;
+            if is_deep || self.tip.feel()?.magnitude_n() >= greatest_n {
+                return Err(StopCause::Touch(TouchFault::Unseen { in_contact, in_air }));
+            }
+            self.tip.deepen(deepest_mm)?;
+        }
+    }
+
+    /// A picture from now on, where pictures are taken.
+    fn picture(&mut self) -> Step<Option<Frame>> {
+        let now_s = self.tip.clock.now_s();
+        let Some(camera) = &mut self.camera else {
+            return Ok(None);
+        };
+        let (frame, _) = camera.frame(now_s, &self.tip, self.events)?;
+        // The force has been silent for as long as the picture took.
+        self.tip.look()?;
+        Ok(Some(frame))
+    }
+}
+
+impl Tip<'_> {
+    /// Goes down step by step until the gel is felt along whatever axis; where it begins, by the line between the last step without and the
+    /// first with the force that counts, or `None` at the end of the search.
+    fn feel_down(&mut self, threshold_n: f64) -> Step<Option<f64>> {
+        self.watch(MotionStage::Search);
+        let start_mm = self.target.position.z.0;
+        self.contact_mm = Some(start_mm);
+        let mut before_n = [0.0; 3];
+        for step in 1_u32.. {
+            let z_mm = start_mm + f64::from(step) * self.pace.step_mm;
+            if z_mm > self.pace.search_mm {
+                break;
+            }
+            let middle = self.target.position;
+            self.approach([middle.x.0, middle.y.0, z_mm])?;
+            let seen = self.settle()?;
+            let seen_n = forces(&seen);
+            if magnitude(&seen_n) < threshold_n {
+                before_n = seen_n;
+                continue;
+            }
+            let force = self.feel()?;
+            let felt_n = force.magnitude_n();
+            if felt_n < threshold_n {
+                before_n = force.mean_n;
+                continue;
+            }
+            // Along the way that the force points now, so that noise across it does not count.
+            let before_n = dot(&before_n, &force.mean_n) / felt_n;
+            let part = ((threshold_n - before_n) / (felt_n - before_n)).clamp(0.0, 1.0);
+            let height_mm = z_mm - self.pace.step_mm * (1.0 - part);
+            self.contact_mm = Some(height_mm);
+            self.watch(MotionStage::Press { height_mm });
+            return Ok(Some(height_mm));
+        }
+        Ok(None)
+    }
+
+    /// Goes a quarter of a step deeper, at most to `deepest_mm`.
+    fn deepen(&mut self, deepest_mm: f64) -> Step<()> {
+        let z_mm = self.target.position.z.0 + 0.25 * self.pace.step_mm;
+        self.deepen_to(z_mm.min(deepest_mm))
+    }
+
+    fn deepen_to(&mut self, z_mm: f64) -> Step<()> {
+        let middle = self.target.position;
+        self.approach([middle.x.0, middle.y.0, z_mm])
+    }
+
+    /// The force on a tip that rests.
+    fn feel(&mut self) -> Step<Force> {
+        let mut sum = [0.0; 3];
+        let mut squares = [0.0; 3];
+        let mut look = self.settle()?;
+        for reading in 1..=READINGS {
+            for (axis, force_n) in forces(&look).into_iter().enumerate() {
+                sum[axis] += force_n;
+                squares[axis] += force_n * force_n;
+            }
+            if reading < READINGS {
+                look = self.look()?;
+            }
+        }
+        let count = f64::from(READINGS);
+        let mean_n = sum.map(|sum| sum / count);
+        let variances = [0, 1, 2].map(|axis| squares[axis] / count - mean_n[axis].powi(2));
+        let variance = variances.into_iter().fold(0.0, f64::max);
+        Ok(Force {
+            mean_n,
+            error_n: (variance / (count - 1.0)).sqrt(),
+        })
+    }
+}
+
+/// The mean of a few readings.
+#[derive(Clone, Copy, Debug, Default)]
+struct Force {
+    mean_n: [f64; 3],
+    /// The standard error of the component that errs most.
+    error_n: f64,
+}
+
+impl Force {
+    fn magnitude_n(&self) -> f64 {
+        magnitude(&self.mean_n)
+    }
+}
+
+fn forces(look: &Look) -> [f64; 3] {
+    look.wrench.force.map(|force| force.0)
+}
+
+fn magnitude(force: &[f64; 3]) -> f64 {
+    dot(force, force).sqrt()
+}
+
+fn dot(one: &[f64; 3], other: &[f64; 3]) -> f64 {
+    one.iter().zip(other).map(|(one, other)| one * other).sum()
+}

@@ -1,0 +1,126 @@
+//! The devices of a rig file by themselves, without a scene: for whoever sets up a rig or looks whether it works.
+
+use std::path::Path;
+
+use taceva_core::{
+    Deadline, Descriptor, Device, DriverSource, ForceTransducer, Registry, Rig, Robot, Sensor,
+};
+use taceva_drivers::{Drivers, OpenError};
+use taceva_protocol::{RigFile, SceneProblem, Setting};
+
+use super::devices::{FIRST_POSE, Opener};
+use super::opened::Opened;
+use super::registered::{Registered, Turned};
+use crate::error::StudyError;
+use crate::scene::RigSpec;
+
+/// Devices of a rig file that are open, in the frame of the sensor.
+pub(crate) struct FileDevices {
+    pub(crate) robot: Option<(Box<dyn Robot>, Descriptor)>,
+    pub(crate) force: Option<(Box<dyn ForceTransducer>, Descriptor)>,
+    pub(crate) sensor: Option<(Box<dyn Sensor>, Descriptor)>,
+}
+
+/// Opens devices that a rig file names.
+pub(crate) struct FileOpener<'a> {
+    rig: &'a RigFile,
+    spec: RigSpec,
+    drivers: &'a Drivers,
+}
+
+impl<'a> FileOpener<'a> {
+    /// Those of `rig`.
+    pub(crate) fn new(rig: &'a RigFile, drivers: &'a Drivers) -> FileOpener<'a> {
+        let folder = Path::new(rig.name()).parent().unwrap_or(Path::new(""));
+        let spec = RigSpec::of_file(rig, folder);
+        FileOpener { rig, spec, drivers }
+    }
+
+    /// Every device, mapped into the frame of the sensor.
+    ///
+    /// # Errors
+    /// [`StudyError::Scene`] for a driver or an argument that is none, [`StudyError::Open`] if a device does not open.
+    pub(crate) fn all(&self) -> Result<FileDevices, StudyError> {
+        let sensor = self.rig.sensor.as_ref();
+        let latency_ms = sensor.and_then(|sensor| sensor.latency_ms);
+        let sensor = self.open(&self.drivers.sensors, self.spec.sensor.as_ref())?;
+        let sensor = sensor.map(|sensor| {
+            let descriptor = sensor.descriptor.clone();
+            let of_facts = |facts: &Descriptor| latency_ms.or(facts.sensor()?.latency_ms);
+            (sensor.timely(of_facts), descriptor)
+        });
+        let robot = match (self.base_robot()?, &self.rig.robot) {
+            (Some((robot, descriptor)), Some(registered)) => {
+                let deadline = Deadline::after(FIRST_POSE);
+                let mapped = Registered::new(robot, registered, deadline);
+                let mapped = mapped.map_err(|error| self.failed(OpenError::Device(error)))?;
+                let mapped: Box<dyn Robot> = Box::new(mapped);
+                Some((mapped, descriptor))
+            }
+            _ => None,
+        };
+        let mounted = self.rig.force.as_ref();
+        let latency_ms = mounted.and_then(|force| force.latency_ms);
+        let force = self.open(&self.drivers.forces, self.spec.force.as_ref())?;
+        let force = force.zip(mounted).map(|(force, mounted)| {
+            let descriptor = force.descriptor.clone();
+            let of_facts = |facts: &Descriptor| latency_ms.or(facts.force()?.latency_ms);
+            let turned = Turned::new(force.timely(of_facts), mounted.axes.value);
+            let turned: Box<dyn ForceTransducer> = Box::new(turned);
+            (turned, descriptor)
+        });
+        Ok(FileDevices {
+            robot,
+            force,
+            sensor,
+        })
+    }
+
+    /// The robot in its base frame.
+    ///
+    /// # Errors
+    /// As [`all`](FileOpener::all).
+    pub(crate) fn base_robot(&self) -> Result<Option<(Box<dyn Robot>, Descriptor)>, StudyError> {
+        let robot = self.open(&self.drivers.robots, self.spec.robot.as_ref())?;
+        Ok(robot.map(|robot| {
+            let descriptor = robot.descriptor.clone();
+            (robot.timely(|facts| facts.robot()?.latency_ms), descriptor)
+        }))
+    }
+
+    fn open<D: Device + ?Sized>(
+        &self,
+        registry: &Registry<D>,
+        device: Option<&Setting<String>>,
+    ) -> Result<Option<Opened<D>>, StudyError> {
+        let Some(device) = device else {
+            return Ok(None);
+        };
+        let refused = |(at, problem): (Option<usize>, SceneProblem)| {
+            StudyError::from(self.rig.error(at, problem))
+        };
+        let selector = self.spec.selector(registry, device, "1").map_err(refused)?;
+        let factory = registry.get(selector.driver());
+        let source = factory.map(|factory| factory.descriptor().source());
+        if source.is_ok_and(|source| source != DriverSource::Real) {
+            let problem = format!(
+                "`{}` is simulated in the program: there is nothing to set up",
+                taceva_core::shown(&device.value)
+            );
+            return Err(refused((device.at(), SceneProblem::Contradiction(problem))));
+        }
+        let opener = Opener {
+            rig: &self.spec,
+            unit: "1",
+        };
+        let opened = opener.open(registry, Some(device), &mut Rig::new());
+        opened.map_err(|error| self.failed(error))
+    }
+
+    fn failed(&self, source: OpenError) -> StudyError {
+        StudyError::Open {
+            study: self.rig.name().to_owned(),
+            source: Box::new(source),
+        }
+    }
+}

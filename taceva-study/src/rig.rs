@@ -1,0 +1,22 @@
+//! A rig that is set up: where its robot stands, and whether its devices do what a run needs of them.
+
+mod check;
+mod stream;
+mod teach;
+
+use std::path::Path;
+
+use taceva_protocol::RigFile;
+
+use crate::error::StudyError;
+pub use check::{HaltTrip, RigCheck, RigProblem, check_rig};
+pub use stream::Stream;
+pub use teach::teach_rig;
+
+/// The rig file at `path`.
+///
+/// # Errors
+/// [`StudyError::Scene`] if it cannot be read or is none, with its line.
+pub fn read_rig(path: &Path) -> Result<RigFile, StudyError> {
+    crate::scene::read_rig_file(path)
+}

@@ -1,0 +1,9 @@
+//! Every driver of a robot and of a force transducer against its emulated device, through sockets and a pseudo-terminal.
+
+#[cfg(unix)]
+mod grbl;
+mod netft;
+mod sri;
+mod support;
+mod ur;
+mod xarm;
