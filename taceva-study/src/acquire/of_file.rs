@@ -14,6 +14,9 @@ use super::registered::{Registered, Turned};
 use crate::error::StudyError;
 use crate::scene::RigSpec;
 
+/// A robot that moves in its base frame, and what is known of it.
+pub(crate) type BaseRobot = (Box<dyn Robot>, Descriptor);
+
 /// Devices of a rig file that are open, in the frame of the sensor.
 pub(crate) struct FileDevices {
     pub(crate) robot: Option<(Box<dyn Robot>, Descriptor)>,
@@ -80,7 +83,7 @@ impl<'a> FileOpener<'a> {
     ///
     /// # Errors
     /// As [`all`](FileOpener::all).
-    pub(crate) fn base_robot(&self) -> Result<Option<(Box<dyn Robot>, Descriptor)>, StudyError> {
+    pub(crate) fn base_robot(&self) -> Result<Option<BaseRobot>, StudyError> {
         let robot = self.open(&self.drivers.robots, self.spec.robot.as_ref())?;
         Ok(robot.map(|robot| {
             let descriptor = robot.descriptor.clone();
