@@ -48,7 +48,7 @@ mod tests {
     }
 
     #[test]
-    fn one_button_of_a_pad_whose_sticks_rest_in_the_middle_is_told_by_its_bit() {
+    fn one_button_of_a_pad_whose_sticks_rest_in_the_middle_is_known_by_its_bit() {
         let pad = Bits {
             report: Some(1),
             byte: Some(2),
