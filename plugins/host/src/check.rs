@@ -237,7 +237,8 @@ impl PluginHost {
                     // that the plugin noticed.
                     CheckOutcome::Failed(why) | CheckOutcome::Skipped(why)
                         if grant.lacks_bound()
-                            && (why.starts_with(subject::NO_DEVICE) || why.contains(NOT_OPENED)) =>
+                            && (why.starts_with(subject::NO_DEVICE)
+                                || why.contains(NOT_OPENED)) =>
                     {
                         CheckOutcome::Failed(format!("{}; {}", grant::NOT_ALLOWED, grant.withheld))
                     }
