@@ -15,6 +15,8 @@ use taceva_wire::{Arm, BenchOptions, RigFile, WallBench, mjpeg, sri, xarm};
 const SEED: u64 = 20_261_123;
 const KILLS: usize = 5;
 const PRESSES: usize = 6;
+/// Times that a run is started again on a busy machine.
+const PATIENCE: usize = 5;
 
 const SCENE: &str = r#"scene_version = 1
 name = "wire"
@@ -93,6 +95,20 @@ impl Wire {
     }
 }
 
+impl Wire {
+    /// The same to its end; again where the machine was so busy that readings came late, which a run does not bear.
+    fn finished(&self, more: &[&str]) -> Output {
+        let mut output = self.run(more).output().expect("it starts");
+        for _ in 0..PATIENCE {
+            if !said(&output).contains("ms old") {
+                break;
+            }
+            output = self.run(more).output().expect("it starts");
+        }
+        output
+    }
+}
+
 fn said(output: &Output) -> String {
     String::from_utf8_lossy(&output.stderr).into_owned()
 }
@@ -113,10 +129,7 @@ fn wrong_axes_of_the_transducer_end_a_session_with_their_line_before_anything_is
         let wrong = format!("axes = {wrong}");
         let turned = force.replacen(right, &wrong, 1);
         fs::write(wire.path("wrong.toml"), format!("{robot}[force]{turned}")).expect("written");
-        let output = wire
-            .run(&["--rig", "wrong.toml"])
-            .output()
-            .expect("it starts");
+        let output = wire.finished(&["--rig", "wrong.toml"]);
         let said = said(&output);
         assert_eq!(output.status.code(), Some(3), "{said}");
         let line = 1 + robot.lines().count();
@@ -176,10 +189,7 @@ fn a_run_that_is_killed_again_and_again_loses_no_press_and_doubles_none() {
             .wait()
             .unwrap_or_else(|error| panic!("kill {kill}: {error}"));
     }
-    let whole = wire
-        .run(&["--rig", "rig.toml", "--out", "run", "--resume"])
-        .output()
-        .expect("it starts");
+    let whole = wire.finished(&["--rig", "rig.toml", "--out", "run", "--resume"]);
     assert!(whole.status.success(), "{}", said(&whole));
     let dataset = Dataset::open(wire.path("run/recordings/1-wire")).expect("whole");
     let mut presses: Vec<String> = dataset
