@@ -123,7 +123,9 @@ fn a_plugin_in_cpp_is_made_as_the_guide_says() {
     }
     let folder = tempfile::tempdir().expect("a folder");
     let project = follow("## In C++\n", folder.path());
-    assert!(is_listed(&project, "org.example.my-skin"));
+    assert!(is_listed(&project, "org.example.my-wrist"));
+    let first = project.with_file_name("my-skin");
+    assert!(is_listed(&first, "org.example.my-skin"));
 }
 
 #[test]

@@ -213,3 +213,21 @@ fn settings_with_a_mistake_name_their_line() {
         ran.out
     );
 }
+
+#[test]
+fn the_robot_of_the_template_reaches_what_the_example_scenes_press() {
+    let bench = Bench::new();
+    bench.ok("plugin new robot my-arm");
+    // The plan opens nothing.
+    for library in ["libmy_arm.so", "libmy_arm.dylib", "my_arm.dll"] {
+        bench.write(&format!("my-arm/target/release/{library}"), "never opened");
+    }
+    let scenes = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../examples/scenes");
+    for scene in ["accuracy", "compare", "lighting", "sensitivity", "wire"] {
+        let text = fs::read_to_string(scenes.join(scene).with_extension("toml")).expect("there");
+        let replaced = text.replace("\"sim/robot\"", "\"org.example.my-arm/my-arm\"");
+        assert_ne!(text, replaced, "{scene}");
+        bench.write("scene.toml", &replaced);
+        bench.ok("plan scene.toml --plugin-dir my-arm");
+    }
+}

@@ -6,10 +6,8 @@ mod support;
 
 use std::fs;
 use std::net::TcpListener;
-use std::path::Path;
-use std::process::Command;
 
-use support::{Bench, Ran};
+use support::Bench;
 
 /// The sensor of the template, with a connection to a machine that it holds while it is open.
 fn connecting_sensor(bench: &Bench) {
@@ -52,30 +50,6 @@ fn needs(bench: &Bench, need: &str) {
     fs::write(&path, needs).expect("written");
 }
 
-/// The line that `text` says allows what was refused, carried out by a shell as a person would paste it.
-fn paste(bench: &Bench, text: &str) -> Ran {
-    let (_, line) = text.rsplit_once("allow it: ").expect(text);
-    let line = line.lines().next().expect("a line").trim();
-    let program = Path::new(env!("CARGO_BIN_EXE_taceva"));
-    let mut path = program.parent().expect("a folder").as_os_str().to_owned();
-    path.push(":");
-    path.push(std::env::var_os("PATH").unwrap_or_default());
-    // With the folders of this bench, which `command` sets.
-    let ours = bench.command("");
-    let variables = ours
-        .get_envs()
-        .filter_map(|(key, value)| Some((key, value?)));
-    let mut shell = Command::new("sh");
-    shell.args(["-c", line]).envs(variables).env("PATH", path);
-    let output = shell.output().expect("a shell");
-    let text = |bytes: Vec<u8>| String::from_utf8(bytes).expect("UTF-8");
-    Ran {
-        code: output.status.code().expect("it ended"),
-        out: text(output.stdout),
-        err: text(output.stderr),
-    }
-}
-
 #[test]
 fn the_line_that_a_refusal_prints_makes_the_next_run_pass() {
     let bench = Bench::new();
@@ -99,7 +73,7 @@ fn the_line_that_a_refusal_prints_makes_the_next_run_pass() {
         "{}",
         looked.out
     );
-    let allowed = paste(&bench, &refused.out);
+    let allowed = bench.paste(&refused.out);
     assert_eq!(allowed.code, 0, "{}{}", allowed.out, allowed.err);
     assert!(
         allowed
@@ -130,7 +104,7 @@ fn the_line_that_a_refusal_prints_makes_the_next_run_pass() {
     let check_installed = check.replace(" --plugin-dir my-eye", "");
     let refused = bench.run(&check_installed);
     assert_eq!(refused.code, 1, "{}{}", refused.out, refused.err);
-    assert_eq!(paste(&bench, &refused.out).code, 0);
+    assert_eq!(bench.paste(&refused.out).code, 0);
     bench.ok(&check_installed);
     bench.ok("plugin deny org.example.my-eye");
     fs::remove_dir_all(&installed).expect("removed");
@@ -165,9 +139,22 @@ metrics = {{ want = ["mae"] }}
         "{}",
         refused.err
     );
-    let allowed = paste(&bench, &refused.err);
+    let allowed = bench.paste(&refused.err);
     assert_eq!(allowed.code, 0, "{}{}", allowed.out, allowed.err);
     bench.ok("run eye.toml --plugin-dir my-eye --out second");
+    let by_name = check.replace("host=127.0.0.1", "host=localhost");
+    bench.ok(&by_name);
+    bench.ok("plugin deny org.example.my-eye");
+    let refused = bench.run(&by_name);
+    assert_eq!(refused.code, 1, "{}", refused.out);
+    assert_eq!(
+        refused.out.matches("allow it: ").count(),
+        1,
+        "{}",
+        refused.out
+    );
+    assert_eq!(bench.paste(&refused.out).code, 0);
+    bench.ok(&by_name);
     // Another port is another permission.
     let other = port.wrapping_add(1).max(1);
     bench.write(

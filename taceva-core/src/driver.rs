@@ -11,8 +11,8 @@
 //! [`ErrorKind::Timeout`](crate::ErrorKind::Timeout) and leaves the device usable.
 //!
 //! # Threads
-//! One call at a time a device. The exceptions are [`Halt`], [`RobotWatch`] and [`Interrupt`]: they may be called from any thread beside any
-//! other call.
+//! One call at a time a device. The exceptions are [`Halt`], [`RobotWatch`], [`EnablingSwitch`] and [`Interrupt`]: they may be called from any
+//! thread beside any other call.
 //!
 //! # Values
 //! mm, degrees, N and N·mm in the sensor's frame. A value that is not finite is refused on the way in
@@ -21,6 +21,7 @@
 
 mod bench;
 mod deadline;
+mod enabling;
 mod error;
 mod fault;
 mod finite;
@@ -37,6 +38,7 @@ mod speed;
 
 pub use bench::SimulatedBench;
 pub use deadline::Deadline;
+pub use enabling::EnablingSwitch;
 pub use error::DriverError;
 pub use fault::Fault;
 pub use finite::{NotFinite, check_pose, check_wrench};

@@ -2,6 +2,7 @@
 
 mod facts;
 mod footprint;
+mod stream;
 #[cfg(test)]
 mod tests;
 
@@ -22,6 +23,7 @@ use taceva_seal::{Opened, SealError};
 
 pub use facts::{FramesInfo, Known, ReferenceInfo, SensorFacts, Source, TableInfo};
 pub use footprint::{Footprint, Shape};
+pub use stream::StreamFacts;
 
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 struct ChannelInfo {
@@ -61,6 +63,8 @@ pub struct Header {
     pub sensor: SensorFacts,
     /// Where the sensor senses, if it is known.
     pub footprint: Option<Footprint>,
+    /// What was set of the camera and read back, by name: `exposure_ms` is `15.7`; empty where nobody knows, and before format 1.5.
+    pub settings: BTreeMap<String, String>,
     /// What was measured beside the frames.
     pub channels: Channels,
     /// The names of the text columns kept for splits.
@@ -71,6 +75,8 @@ pub struct Header {
     pub frames: Option<FramesInfo>,
     /// How many presses ended in which way, those without a sample too; empty where no protocol pressed, and before format 1.2.
     pub presses: BTreeMap<PressOutcome, u64>,
+    /// What was lost of a stream that was recorded as it came; `None` of anything else, and before format 1.5.
+    pub stream: Option<StreamFacts>,
     /// What the table must be.
     pub table: TableInfo,
     /// The digest of the dataset.
@@ -92,10 +98,14 @@ struct Written {
     sensor: SensorFacts,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     footprint: Option<Footprint>,
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    settings: BTreeMap<String, String>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     frames: Option<FramesInfo>,
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     presses: BTreeMap<PressOutcome, u64>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    stream: Option<StreamFacts>,
     table: TableInfo,
     channels: Vec<ChannelInfo>,
 }
@@ -147,11 +157,13 @@ impl Header {
             clock: written.clock,
             sensor: written.sensor,
             footprint: written.footprint,
+            settings: written.settings,
             channels,
             attributes: written.attributes,
             unmentioned_columns: written.unmentioned_columns,
             frames: written.frames,
             presses: written.presses,
+            stream: written.stream,
             table: written.table,
             digest: written.digest,
             seal,
@@ -174,8 +186,10 @@ impl Header {
             digest: self.digest,
             sensor: self.sensor.clone(),
             footprint: self.footprint,
+            settings: self.settings.clone(),
             frames: self.frames.clone(),
             presses: self.presses.clone(),
+            stream: self.stream,
             table: self.table,
             channels: self
                 .channels

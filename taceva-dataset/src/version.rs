@@ -26,8 +26,11 @@ pub struct Version {
 }
 
 impl Version {
-    /// What this crate writes.
-    pub const CURRENT: Version = Version { major: 1, minor: 4 };
+    /// The newest that this crate writes.
+    pub const CURRENT: Version = Version { major: 1, minor: 5 };
+
+    /// The version of a header that says nothing of what was set of the camera or of a stream, so that it is what it was before 1.5.
+    pub(crate) const WITHOUT_SETTINGS: Version = Version { major: 1, minor: 4 };
 
     /// The first version whose headers are sealed.
     pub const SEALED: Version = Version { major: 1, minor: 3 };

@@ -17,12 +17,18 @@ pub use machine::Machine;
 pub use plugins::examine_plugins;
 pub use usb::UsbDevice;
 
-use crate::devices::devices;
+use crate::devices::{Devices, devices};
 use crate::drivers::Drivers;
 
 /// Looks at the drivers of the program and at `machine`; findings come in a fixed order.
 pub fn examine(drivers: &Drivers, machine: &Machine) -> Vec<Finding> {
-    let mut findings = of_drivers(drivers);
+    let listed = devices(drivers);
+    let keys: Vec<&str> = listed
+        .drivers
+        .iter()
+        .map(|driver| driver.key.as_str())
+        .collect();
+    let mut findings = of_drivers(&listed, &keys);
     let user = machine.user();
     if user.is_none() {
         findings.push(Finding {
@@ -34,19 +40,13 @@ pub fn examine(drivers: &Drivers, machine: &Machine) -> Vec<Finding> {
         });
     }
     for kind in ports::KINDS {
-        findings.extend(ports::examine(machine, user.as_ref(), kind));
+        findings.extend(ports::examine(machine, user.as_ref(), kind, &keys));
     }
     findings.extend(usb::examine(machine));
     findings
 }
 
-fn of_drivers(drivers: &Drivers) -> Vec<Finding> {
-    let listed = devices(drivers);
-    let keys: Vec<&str> = listed
-        .drivers
-        .iter()
-        .map(|driver| driver.key.as_str())
-        .collect();
+fn of_drivers(listed: &Devices, keys: &[&str]) -> Vec<Finding> {
     let mut findings = vec![Finding {
         code: "drivers",
         state: State::Good,

@@ -1,8 +1,10 @@
 #![doc = include_str!("../README.md")]
 
+#[cfg(feature = "link")]
+mod arguments;
 #[cfg(feature = "netft")]
 mod ati;
-#[cfg(feature = "mjpeg")]
+#[cfg(feature = "camera")]
 mod camera;
 mod clock;
 pub mod conformance;
@@ -10,14 +12,18 @@ mod devices;
 pub mod doctor;
 mod drivers;
 pub mod fault;
-#[cfg(all(feature = "grbl", unix))]
+#[cfg(all(feature = "gcode", unix))]
 mod gcode;
 mod guard;
+#[cfg(all(feature = "hid", target_os = "linux"))]
+mod hid;
 #[cfg(feature = "link")]
 mod link;
 mod name_order;
 mod on_bench;
 mod pace;
+#[cfg(all(any(feature = "gcode", feature = "hid", feature = "v4l2"), unix))]
+mod present;
 mod random;
 mod selector;
 mod sensor;
@@ -29,18 +35,29 @@ mod text;
 mod ufactory;
 #[cfg(feature = "ur")]
 mod ur;
-#[cfg(any(feature = "netft", feature = "sri"))]
+#[cfg(any(feature = "hid", feature = "netft", feature = "sri"))]
 mod zero;
 
 #[cfg(feature = "netft")]
 pub use ati::NetftFactory;
 #[cfg(feature = "mjpeg")]
 pub use camera::MjpegFactory;
+#[cfg(all(
+    feature = "v4l2",
+    target_os = "linux",
+    target_pointer_width = "64",
+    target_endian = "little"
+))]
+pub use camera::V4l2Factory;
 pub use clock::MonotonicClock;
 pub use devices::{Devices, ListedArgument, ListedDevice, ListedDriver, devices};
 pub use drivers::{Drivers, OpenError, open};
 #[cfg(all(feature = "grbl", unix))]
 pub use gcode::GrblFactory;
+#[cfg(all(feature = "marlin", unix))]
+pub use gcode::MarlinFactory;
+#[cfg(all(feature = "hid", target_os = "linux"))]
+pub use hid::{Pedal, ScaleFactory};
 pub use on_bench::OnBench;
 pub use pace::{Pace, RealPace, VirtualPace};
 pub use selector::{Selector, SelectorError};

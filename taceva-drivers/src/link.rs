@@ -6,12 +6,23 @@ mod connect;
 #[cfg(feature = "tcp")]
 mod error;
 pub(crate) mod mailbox;
+#[cfg(any(feature = "ur", feature = "xarm"))]
+pub(crate) mod watch;
 
 #[cfg(feature = "tcp")]
 pub(crate) use connect::connect;
 #[cfg(feature = "tcp")]
 pub(crate) use error::LinkError;
-pub(crate) use mailbox::{Mailbox, NoNews, Seen};
+pub(crate) use mailbox::Mailbox;
+#[cfg(any(
+    feature = "camera",
+    feature = "gcode",
+    feature = "netft",
+    feature = "sri",
+    feature = "ur",
+    feature = "xarm"
+))]
+pub(crate) use mailbox::Seen;
 
 /// The bytes that `text` writes in hexadecimal, white space between them.
 #[cfg(all(

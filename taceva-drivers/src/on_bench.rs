@@ -1,5 +1,6 @@
 //! A sensor with a clock of its own over a simulated bench.
 
+use std::collections::BTreeMap;
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -55,6 +56,10 @@ impl Sensor for OnBench {
 
     fn interrupt_handle(&self) -> Option<Arc<dyn Interrupt>> {
         self.sensor.interrupt_handle()
+    }
+
+    fn settings(&self) -> BTreeMap<String, String> {
+        self.sensor.settings()
     }
 
     fn lighting(&mut self) -> Option<&mut dyn Lighting> {

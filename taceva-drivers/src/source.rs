@@ -6,7 +6,7 @@ mod folder;
 mod limits;
 mod times;
 
-#[cfg(feature = "mjpeg")]
+#[cfg(feature = "camera")]
 pub(crate) use decode::{Mismatch, decode, info as frame_info};
 pub use error::SourceError;
 pub use folder::{FolderSource, Timing};

@@ -2,18 +2,24 @@
 
 use std::time::Duration;
 
-use taceva_core::{Deadline, DriverError, ErrorKind, Newton, NewtonMillimetre, Wrench};
+use taceva_core::{Deadline, DriverError, DriverKey, ErrorKind, Newton, NewtonMillimetre, Wrench};
 
 use crate::link::monotonic;
 
 /// The zero and the range of one transducer.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub(crate) struct HostZero {
+    /// The driver, which errors name.
+    driver: DriverKey,
     zero: Wrench,
     /// What it measures is clipped at this force, in N.
     force_max_n: Option<f64>,
 }
 
+/// What a transducer does when a reading is no force.
+pub(crate) const READ: &str = "read the force";
+/// What it does when a load cannot be called zero.
+pub(crate) const ZERO: &str = "call the load zero";
 /// The time whose mean becomes zero.
 const MEAN_OVER: Duration = Duration::from_millis(250);
 /// The greatest part of the range that may be called zero: what is left must hold what comes.
@@ -21,8 +27,9 @@ const ZERO_MAX: f64 = 0.5;
 
 impl HostZero {
     /// No load is called zero yet.
-    pub(crate) fn new(force_max_n: Option<f64>) -> HostZero {
+    pub(crate) fn new(driver: DriverKey, force_max_n: Option<f64>) -> HostZero {
         HostZero {
+            driver,
             zero: Wrench::default(),
             force_max_n,
         }
@@ -31,22 +38,29 @@ impl HostZero {
     /// Refuses a force that is beyond the range.
     ///
     /// # Errors
-    /// A sentence that names the force and the range.
-    pub(crate) fn check(&self, wrench: &Wrench) -> Result<(), String> {
+    /// `OutOfRange`, with a sentence that names the force and the range.
+    pub(crate) fn check(&self, wrench: &Wrench) -> Result<(), DriverError> {
         let Some(most) = self.force_max_n else {
             return Ok(());
         };
         match wrench.force.iter().find(|force| force.0.abs() >= most) {
-            Some(beyond) => Err(format!(
-                "{beyond}, expected less than {most} N: a clipped force is no force"
-            )),
+            Some(beyond) => {
+                let why =
+                    format!("{beyond}, expected less than {most} N: a clipped force is no force");
+                Err(DriverError::new(ErrorKind::OutOfRange, &self.driver, READ).because(why))
+            }
             None => Ok(()),
         }
     }
 
     /// `wrench` without what is called zero.
-    pub(crate) fn taken_off(&self, wrench: &Wrench) -> Wrench {
-        sum(wrench, &times(&self.zero, -1.0))
+    ///
+    /// # Errors
+    /// As [`check`](HostZero::check): nobody is given a force at or beyond the end of the range.
+    pub(crate) fn taken_off(&self, wrench: &Wrench) -> Result<Wrench, DriverError> {
+        let left = sum(wrench, &times(&self.zero, -1.0));
+        self.check(&left)?;
+        Ok(left)
     }
 
     /// Forgets what is called zero, once the box itself has a new one.
@@ -55,7 +69,7 @@ impl HostZero {
         self.zero = Wrench::default();
     }
 
-    /// Calls the mean of 0.25 s zero; `next` gives the readings, and `failed` makes an error of a kind and a sentence.
+    /// Calls the mean of 0.25 s zero; `next` gives the readings.
     ///
     /// # Errors
     /// Those of `next`, `Timeout` if the deadline is too near, `OutOfRange` for a load of more than half the range.
@@ -63,8 +77,8 @@ impl HostZero {
         &mut self,
         deadline: Deadline,
         mut next: impl FnMut(Duration) -> Result<Wrench, DriverError>,
-        failed: impl Fn(ErrorKind, String) -> DriverError,
     ) -> Result<(), DriverError> {
+        let failed = |kind, why: String| DriverError::new(kind, &self.driver, ZERO).because(why);
         let began = monotonic();
         let (mut total, mut count) = (Wrench::default(), 0.0);
         loop {
@@ -129,30 +143,33 @@ mod tests {
             std::thread::sleep(Duration::from_millis(5));
             Ok(load(fz))
         };
-        let failed = |kind, why: String| DriverError::new(kind, &KEY, "zero").because(why);
-        zero.take(deadline, next, failed)
+        zero.take(deadline, next)
+    }
+
+    fn fz_left(zero: &HostZero, fz: f64) -> f64 {
+        zero.taken_off(&load(fz)).expect("within its range").force[2].0
     }
 
     #[test]
     fn a_load_that_is_called_zero_is_taken_off_and_a_great_one_is_not() {
-        let mut zero = HostZero::new(Some(10.0));
+        let mut zero = HostZero::new(KEY, Some(10.0));
         let patience = Deadline::after(Duration::from_secs(20));
         taken(&mut zero, 2.0, patience).expect("a small load");
-        assert!((zero.taken_off(&load(5.0)).force[2].0 - 3.0).abs() < 1e-9);
+        assert!((fz_left(&zero, 5.0) - 3.0).abs() < 1e-9);
         let refused = taken(&mut zero, 5.1, patience).expect_err("more than half");
         assert_eq!(refused.kind(), ErrorKind::OutOfRange);
         let hasty = taken(&mut zero, 0.0, Deadline::PASSED).expect_err("no time");
         assert_eq!(hasty.kind(), ErrorKind::Timeout);
-        assert!((zero.taken_off(&load(5.0)).force[2].0 - 3.0).abs() < 1e-9);
+        assert!((fz_left(&zero, 5.0) - 3.0).abs() < 1e-9);
     }
 
     #[test]
     fn a_force_at_the_end_of_the_range_is_none() {
-        let zero = HostZero::new(Some(10.0));
+        let zero = HostZero::new(KEY, Some(10.0));
         assert!(zero.check(&load(9.99)).is_ok());
         for beyond in [10.0, -10.0, 11.0] {
             assert!(zero.check(&load(beyond)).is_err());
         }
-        assert!(HostZero::new(None).check(&load(1e9)).is_ok());
+        assert!(HostZero::new(KEY, None).check(&load(1e9)).is_ok());
     }
 }

@@ -5,8 +5,8 @@ mod support;
 use support::{Row, evaluate};
 use taceva_core::Unit;
 use taceva_metrics::{
-    Better, ClusterSums, ComparisonError, Difference, Estimate, Question, Scale, Side, Sides,
-    SignFlip, StatedInterval, Verdict, by_intervals, decide,
+    Better, ClusterSums, ComparisonError, Difference, DifferenceTest, Estimate, Question, Scale,
+    Side, Sides, SignFlip, StatedInterval, Verdict, by_intervals, decide,
 };
 
 /// Hours of sleep that ten patients gained with each of two drugs (Student 1908, after Cushny and Peebles).
@@ -60,11 +60,9 @@ fn intervals_of_two_means_give_the_interval_and_p_of_their_difference() {
     near(difference.p, 0.095_689_32);
     near(difference.interval[0], -3.500_777_33);
     near(difference.interval[1], 0.340_777_33);
-    let test = difference.test.to_string();
-    assert_eq!(
-        test,
-        "by the intervals of both, 9.0 and 9.0 degrees of freedom"
-    );
+    let freedom = Sides { a: 9.0, b: 9.0 };
+    assert_eq!(difference.test, DifferenceTest::Intervals { freedom });
+    assert_eq!(difference.test.to_string(), "by the intervals of both");
 }
 
 #[test]

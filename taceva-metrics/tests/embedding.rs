@@ -77,6 +77,49 @@ fn samples_taken_as_independent_give_the_same_in_any_order_and_split() {
 }
 
 #[test]
+fn many_pairs_are_summed_block_by_block_to_the_same_bits() {
+    let truth: Vec<f64> = (0..10_000_u32)
+        .map(|row| f64::from(row * 7919 % 10_007) / 1e3)
+        .collect();
+    let prediction: Vec<f64> = truth.iter().map(|y| y + y.sin() / 10.0).collect();
+    let of = |update: &dyn Fn(&mut Evaluator)| {
+        let mut evaluator = evaluator();
+        update(&mut evaluator);
+        said(&evaluator.finish().expect("scores"))
+    };
+    let at_once = of(&|evaluator| {
+        let rows = Rows::new().pairs(Channel::FZ, &truth, &prediction);
+        evaluator.update_rows(rows).expect("as many");
+    });
+    let in_blocks = of(&|evaluator| {
+        let updated = evaluator.update_pairs(Channel::FZ, &truth, &prediction);
+        updated.expect("as many");
+    });
+    // Nobody knows beforehand how many pass a filter.
+    let of_unknown_length = of(&|evaluator| {
+        let (some, others) = (
+            truth.iter().filter(|_| true),
+            prediction.iter().filter(|_| true),
+        );
+        let updated = evaluator.update_pairs(Channel::FZ, some, others);
+        updated.expect("as many");
+    });
+    assert_eq!(in_blocks, at_once);
+    assert_eq!(of_unknown_length, at_once);
+    let mut evaluator = evaluator();
+    for channel in [Channel::FZ, Channel::PX] {
+        let short = if channel == Channel::FZ {
+            9_999
+        } else {
+            10_000
+        };
+        let refused = evaluator.update_pairs(channel, &truth, &prediction[..short]);
+        refused.expect_err("one is missing, and no such channel");
+    }
+    assert_eq!(said(&evaluator.finish().expect("scores")), of(&|_| {}));
+}
+
+#[test]
 fn samples_taken_as_independent_merge_with_no_others() {
     let mut by_sample = evaluator().independent_samples();
     let by_point = evaluator();

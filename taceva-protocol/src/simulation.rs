@@ -15,6 +15,7 @@ mod devices;
 mod disk;
 mod fault;
 mod gel;
+mod guard;
 mod journal;
 mod oracle;
 mod record;

@@ -35,6 +35,8 @@ pub struct Choice {
     pub spread: Option<String>,
     /// Whether samples behind the numbers are simulated.
     pub simulated: bool,
+    /// Those of which a need asks what they stand, which is of the catalogue and not of their results.
+    pub limits_of_catalogue: Vec<String>,
 }
 
 /// A sensor that meets every hard need, as far as is known.
@@ -110,6 +112,7 @@ pub fn choose(sensors: &[Sensor], needs: &[Need]) -> Choice {
         evidence: None,
         spread: None,
         simulated: false,
+        limits_of_catalogue: Vec::new(),
     };
     let mut remaining: Vec<&Sensor> = Vec::new();
     for sensor in sensors.iter().filter(|entry| entry.kind == Kind::Sensor) {
@@ -313,6 +316,31 @@ mod tests {
             "{:?}",
             choice.open
         );
+    }
+
+    #[test]
+    fn what_a_real_sensor_stands_is_not_known_of_a_simulated_one_and_said_to_be_of_the_catalogue() {
+        let study = |source: &str| crate::Study {
+            sensor: "MagicTac".to_owned(),
+            source: source.to_owned(),
+            scores: catalogue::find("MagicTac")
+                .expect("there")
+                .as_study()
+                .scores,
+            ..crate::Study::default()
+        };
+        let needs = Need::parse("normal force, force 1 N, even surface").expect("needs");
+        let simulated = choose_results(&[study("simulated")], &needs);
+        assert_eq!(simulated.open.len(), 1, "{simulated:?}");
+        assert!(simulated.limits_of_catalogue.is_empty());
+        let mut measured = study("recorded");
+        measured.scores.retain(|score| score.metric != "uniformity");
+        let measured = choose_results(&[measured], &needs).table().text();
+        let limits =
+            "Greatest depth and force are of the catalogue, not of these results: MagicTac.";
+        assert!(measured.contains(limits), "{measured}");
+        let unknown = "Counted as a share of 0, since it is not known: uniformity of MagicTac.";
+        assert!(measured.contains(unknown), "{measured}");
     }
 
     #[test]

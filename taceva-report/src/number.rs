@@ -130,9 +130,13 @@ pub(crate) fn significant(number: f64) -> String {
     let text = if !(SMALL..1e5).contains(&size) {
         format!("{number:.2e}")
     } else {
-        let decimals = (0..8).find(|&decimals| size * 10_f64.powi(decimals) >= 99.5);
+        let decimals = (0..8).find(|&decimals| size * 10_f64.powi(decimals) >= 100.0);
         let text = fixed(number, decimals.map_or(8, i32_to_usize));
-        match text.contains('.') {
+        // Zeros that rounding made say how exact the number is: 0.9997 is 1.000, and 1 is 1.
+        let is_exact = text
+            .parse::<f64>()
+            .is_ok_and(|shown| (shown - number).abs() <= size * 1e-9);
+        match is_exact && text.contains('.') {
             true => text.trim_end_matches('0').trim_end_matches('.').to_owned(),
             false => text,
         }
@@ -141,6 +145,19 @@ pub(crate) fn significant(number: f64) -> String {
         Some(size) => format!("−{size}"),
         None => text,
     }
+}
+
+/// A probability of at least 0.0001 with three digits, rounded up: never less than it is.
+pub(crate) fn at_most(probability: f64) -> String {
+    let decimals = (0..8).find(|&decimals| probability * 10_f64.powi(decimals) >= 100.0);
+    let steps = 10_f64.powi(decimals.unwrap_or(8));
+    let scaled = probability * steps;
+    let near = scaled.round();
+    let whole = match (near - scaled).abs() <= scaled * 1e-9 {
+        true => near,
+        false => scaled.ceil(),
+    };
+    significant(whole / steps)
 }
 
 /// With a true minus for a reader's eye.
@@ -268,6 +285,14 @@ mod tests {
         assert_eq!(
             formatted,
             ["0", "12", "0.5", "−0.0123", "1234", "1.00e-5", "−2.50e5"]
+        );
+        assert_eq!(
+            [0.9961, 0.9997, 1.0, 9.96].map(numeral),
+            ["0.996", "1.000", "1", "9.96"]
+        );
+        assert_eq!(
+            [0.004_690_6, 0.014_432, 0.05].map(at_most),
+            ["0.0047", "0.0145", "0.05"]
         );
         assert_eq!(significant(3e-20), "3.00e-20");
     }

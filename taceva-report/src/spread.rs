@@ -6,7 +6,7 @@ use crate::number::{numeral, spaced};
 use crate::results::Study;
 
 /// Metrics whose values follow the spread of the labels.
-const OF_LABELS: [&str; 8] = [
+const OF_LABELS: [&str; 9] = [
     "mae",
     "mae_euclid",
     "rmse",
@@ -15,6 +15,7 @@ const OF_LABELS: [&str; 8] = [
     "r_spatial",
     "repeatability",
     "minimum_detectable_force",
+    "hysteresis",
 ];
 /// Spreads that differ by a greater factor are reported.
 const ALIKE: f64 = 2.0;

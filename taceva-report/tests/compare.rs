@@ -313,6 +313,17 @@ fn errors_are_compared_sample_by_sample_if_both_tables_are_of_the_same_samples_a
         other_truth.contains("by the intervals of both"),
         "{other_truth}"
     );
+    // Two sensors that press one plan have ids and commanded places in common.
+    let of = |name: &str, error, dataset: &str| {
+        let mut study = sampled(name, 0.0, error);
+        let entry = ("dataset".to_owned(), dataset.to_owned());
+        study.provenance.push(entry);
+        study
+    };
+    let same_plan = test(of("a", 0.25, "sha256:1"), of("b", 0.5, "sha256:2"));
+    assert_eq!(same_plan, other_truth);
+    let same_dataset = test(of("a", 0.25, "sha256:1"), of("b", 0.5, "sha256:1"));
+    assert_eq!(same_dataset, same);
     // A table whose errors have another mean than the score belongs to something else.
     let mut stranger = sampled("b", 0.0, 0.5);
     stranger.samples = sampled("b", 0.0, 0.75).samples;

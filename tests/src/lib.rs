@@ -13,6 +13,7 @@ pub mod recorded;
 pub mod renew;
 pub mod source;
 pub mod toy;
+pub mod wire;
 
 pub use binary::{example, library, taceva};
 pub use drawn::{Form, Lab, picture, scratch};

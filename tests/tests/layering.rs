@@ -115,8 +115,7 @@ fn every_crate_states_the_oldest_compiler_it_promises() {
 }
 
 #[test]
-fn lints_are_never_switched_off_and_unsafe_code_stands_in_simd_folders_and_at_the_plugin_boundary_alone()
- {
+fn lints_are_never_switched_off_and_unsafe_code_stands_where_the_architecture_says_alone() {
     for package in metadata().packages {
         let folder = package
             .manifest_path
@@ -151,11 +150,12 @@ fn lints_are_never_switched_off_and_unsafe_code_stands_in_simd_folders_and_at_th
             let may_hold_it = match package.name.as_str() {
                 "taceva-abi" | "taceva-plugin" | "taceva-host" => true,
                 "taceva-metrics" | "taceva-network" | "taceva-sim" => is_simd,
+                "taceva-v4l2" => source.ends_with("kernel.rs") || source.ends_with("mapped.rs"),
                 _ => false,
             };
             assert!(
                 !unsafe_code || may_hold_it || source.ends_with("layering.rs"),
-                "{}: unsafe code stands in files of a folder simd/ and at the plugin boundary alone",
+                "{}: unsafe code stands in files of a folder simd/, at the plugin boundary and in two files of taceva-v4l2 alone",
                 source.display()
             );
         }

@@ -29,17 +29,51 @@ pub struct Error {
     pub vendor_code: i32,
     /// Out: UTF-8, ends with a NUL, cut where it does not fit.
     pub message: [c_char; MESSAGE_SIZE],
+    /// Out, since minor 1: the [`FaultNumber`] for which the device stopped by itself; a plugin writes it only where `size` covers it.
+    pub fault: FaultNumber,
+}
+
+/// `taceva_fault`: why a device stopped by itself. Nothing moves after it until a person has looked.
+///
+/// A number rather than an enum: a plugin may write any. Of those that begin as these do one that is not listed counts as
+/// [`SERVO`](FaultNumber::SERVO), never as none. No text begins so: a message of an old plugin that ran on into this field is no fault.
+///
+/// ```
+/// use taceva_abi::{Error, FaultNumber};
+/// assert_eq!(Error::new().fault, FaultNumber::NONE);
+/// ```
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[repr(transparent)]
+pub struct FaultNumber(pub u32);
+
+impl FaultNumber {
+    /// It did not.
+    pub const NONE: FaultNumber = FaultNumber(0);
+    /// Somebody pressed an emergency stop, or a guard opened.
+    pub const EMERGENCY_STOP: FaultNumber = FaultNumber(0xfa17_0001);
+    /// It struck something.
+    pub const COLLISION: FaultNumber = FaultNumber(0xfa17_0002);
+    /// It came to the border of where it may move.
+    pub const BOUNDARY: FaultNumber = FaultNumber(0xfa17_0003);
+    /// A servo, a brake or its controller failed.
+    pub const SERVO: FaultNumber = FaultNumber(0xfa17_0004);
+
+    /// Whether it says that there was a fault, listed or not.
+    pub const fn is_fault(self) -> bool {
+        self.0 >> 16 == FaultNumber::SERVO.0 >> 16
+    }
 }
 
 impl Error {
     /// One without a message.
     pub const fn new() -> Error {
-        #[expect(clippy::cast_possible_truncation, reason = "512")]
+        #[expect(clippy::cast_possible_truncation, reason = "516")]
         let size = size_of::<Error>() as u32;
         Error {
             size,
             vendor_code: 0,
             message: [0; MESSAGE_SIZE],
+            fault: FaultNumber::NONE,
         }
     }
 

@@ -2,10 +2,12 @@
 
 mod bench;
 mod guarded_motion;
+mod numbered;
 mod sensor_lighting;
 mod tare;
 
 pub use bench::{BENCH, BenchCalls, Specimen};
 pub use guarded_motion::{GUARDED_MOTION, GuardedMotionCalls, GuardedStop};
+pub use numbered::{NUMBERED, NumberedCalls};
 pub use sensor_lighting::{SENSOR_LIGHTING, SensorLightingCalls};
 pub use tare::{TARE, TareCalls};

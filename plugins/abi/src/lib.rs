@@ -17,7 +17,7 @@ mod text;
 
 pub use args::{Arg, Args};
 pub use device::{Device, DeviceCalls, Factory, Rig, Stamp};
-pub use error::{Error, MESSAGE_SIZE};
+pub use error::{Error, FaultNumber, MESSAGE_SIZE};
 pub use estimator::{EstimatorFactory, Progress, Regressor, RegressorCalls, TrainingSet};
 pub use force::{ForceCalls, Wrench};
 pub use host::{Host, Level};

@@ -13,7 +13,7 @@ pub const MAGIC: u32 = 0x3145_4154;
 /// Equal on both sides, or the library is refused.
 pub const ABI_MAJOR: u32 = 1;
 /// May differ either way.
-pub const ABI_MINOR: u32 = 0;
+pub const ABI_MINOR: u32 = 1;
 /// The name of the one exported symbol.
 pub const ENTRY_SYMBOL: &CStr = c"taceva_plugin_v1";
 
@@ -48,6 +48,7 @@ pub const ESTIMATOR_FACTORY: &str = "taceva.estimator/1";
 ///     open_rig: None,
 ///     close_rig: None,
 ///     rig_extension: None,
+///     needs: Text::from("usb"),
 /// };
 /// assert_eq!(PLUGIN.magic, MAGIC);
 /// ```
@@ -78,4 +79,6 @@ pub struct Plugin {
     pub close_rig: Option<unsafe extern "C" fn(*mut Rig)>,
     /// `[owner]` A table of calls on the rig, or NULL.
     pub rig_extension: Option<unsafe extern "C" fn(*mut Rig, id: Text) -> *const c_void>,
+    /// Since minor 1: what it must reach outside itself, a need of the manifest a line; nothing where it does not say.
+    pub needs: Text,
 }

@@ -13,12 +13,12 @@ use std::process::Command;
 use taceva_needs::{Need, skip};
 
 use taceva_abi::ext::{
-    BENCH, BenchCalls, GUARDED_MOTION, GuardedMotionCalls, GuardedStop, SENSOR_LIGHTING,
-    SensorLightingCalls, Specimen, TARE, TareCalls,
+    BENCH, BenchCalls, GUARDED_MOTION, GuardedMotionCalls, GuardedStop, NUMBERED, NumberedCalls,
+    SENSOR_LIGHTING, SensorLightingCalls, Specimen, TARE, TareCalls,
 };
 use taceva_abi::{
     ABI_MAJOR, ABI_MINOR, Arg, Args, Device, DeviceCalls, ENTRY_SYMBOL, ESTIMATOR_FACTORY, Error,
-    EstimatorFactory, FORCE_FACTORY, FRAME_DROPPED, Factory, ForceCalls, Frame, Host,
+    EstimatorFactory, FORCE_FACTORY, FRAME_DROPPED, Factory, FaultNumber, ForceCalls, Frame, Host,
     LIGHTING_FACTORY, Level, LightingCalls, MAGIC, MESSAGE_SIZE, Motion, PixelFormat, Plugin, Pose,
     ROBOT_FACTORY, Regressor, RegressorCalls, RobotCalls, SENSOR_FACTORY, SensorCalls, Stamp,
     Status, Text, TrainingSet, Wrench,
@@ -52,7 +52,7 @@ macro_rules! structs {
 fn sizes_and_offsets() -> Vec<Line> {
     structs! {
         taceva_text = Text { data, length }
-        taceva_error = Error { size, vendor_code, message }
+        taceva_error = Error { size, vendor_code, message, fault }
         taceva_arg = Arg { key, text, whole, number, kind, reserved }
         taceva_args = Args { items, count }
         taceva_host = Host { size, abi_minor, context, log, now_ns }
@@ -62,6 +62,7 @@ fn sizes_and_offsets() -> Vec<Line> {
         taceva_factory = Factory { size, drivers, describe, discover, open }
         taceva_plugin = Plugin {
             magic, size, abi_major, abi_minor, id, version, init, deinit, factory, open_rig, close_rig, rig_extension,
+            needs,
         }
         taceva_frame = Frame {
             size, format, width, height, flags, reserved, sequence, stamp, buffer, buffer_length, data, length, release,
@@ -81,6 +82,7 @@ fn sizes_and_offsets() -> Vec<Line> {
         taceva_regressor = Regressor { handle, calls }
         taceva_estimator_factory = EstimatorFactory { size, estimators, describe, fit, load }
         taceva_tare_calls = TareCalls { size, reserved, zero }
+        taceva_numbered_calls = NumberedCalls { size, reserved, sequence }
         taceva_guarded_stop = GuardedStop { size, is_guarded, pose, stamp }
         taceva_guarded_motion_calls = GuardedMotionCalls { size, reserved, move_guarded }
         taceva_sensor_lighting_calls = SensorLightingCalls { size, reserved, set }
@@ -121,6 +123,20 @@ fn constants() -> Vec<Line> {
     );
     lines.extend(
         [
+            ("TACEVA_FAULT_NONE", FaultNumber::NONE),
+            ("TACEVA_FAULT_EMERGENCY_STOP", FaultNumber::EMERGENCY_STOP),
+            ("TACEVA_FAULT_COLLISION", FaultNumber::COLLISION),
+            ("TACEVA_FAULT_BOUNDARY", FaultNumber::BOUNDARY),
+            ("TACEVA_FAULT_SERVO", FaultNumber::SERVO),
+        ]
+        .map(|(c, rust)| line(c.to_owned(), rust.0)),
+    );
+    lines.push(line(
+        "TACEVA_ERROR_SIZE".to_owned(),
+        offset_of!(Error, fault),
+    ));
+    lines.extend(
+        [
             ("TACEVA_OK", Status::OK),
             ("TACEVA_NOT_FOUND", Status::NOT_FOUND),
             ("TACEVA_PERMISSION_DENIED", Status::PERMISSION_DENIED),
@@ -152,6 +168,7 @@ fn texts() -> Vec<(&'static str, &'static str)> {
         ("TACEVA_LIGHTING_FACTORY", LIGHTING_FACTORY),
         ("TACEVA_ESTIMATOR_FACTORY", ESTIMATOR_FACTORY),
         ("TACEVA_TARE", TARE),
+        ("TACEVA_NUMBERED", NUMBERED),
         ("TACEVA_GUARDED_MOTION", GUARDED_MOTION),
         ("TACEVA_SENSOR_LIGHTING", SENSOR_LIGHTING),
         ("TACEVA_BENCH", BENCH),

@@ -58,5 +58,5 @@ static const void *factory(taceva_text id) {
 TACEVA_EXPORT extern const taceva_plugin taceva_plugin_v1;
 const taceva_plugin taceva_plugin_v1 = {
     TACEVA_MAGIC, sizeof taceva_plugin_v1, TACEVA_ABI_MAJOR, TACEVA_ABI_MINOR,
-    TEXT("org.example.bar"), TEXT("1.0.0"), init, NULL, factory, NULL, NULL, NULL,
+    TEXT("org.example.bar"), TEXT("1.0.0"), init, NULL, factory, NULL, NULL, NULL, {NULL, 0},
 };

@@ -11,7 +11,7 @@ pub(crate) use self::taken::{Taken, take};
 use std::fmt;
 
 use taceva_abi as abi;
-use taceva_core::{Deadline, DriverError, DriverKey, ErrorKind};
+use taceva_core::{Deadline, DriverError, DriverKey, ErrorKind, Fault};
 
 use crate::shown::shown;
 
@@ -20,6 +20,7 @@ use crate::shown::shown;
 pub struct Failure {
     kind: ErrorKind,
     message: String,
+    fault: Option<Fault>,
 }
 
 impl Failure {
@@ -28,6 +29,7 @@ impl Failure {
         Failure {
             kind,
             message: message.into(),
+            fault: None,
         }
     }
 
@@ -38,7 +40,13 @@ impl Failure {
 
     /// The same, as the failure of `driver` while it was `doing`.
     pub(crate) fn of(self, driver: &DriverKey, doing: &'static str) -> DriverError {
-        DriverError::new(self.kind, driver, doing).because(self.message)
+        let error = DriverError::new(self.kind, driver, doing);
+        match self.fault {
+            None => error.because(self.message),
+            // The fault stands in the message of the error already.
+            Some(fault) if self.message.is_empty() => error.with_fault(fault),
+            Some(fault) => error.with_fault(fault).because(self.message),
+        }
     }
 
     pub(crate) fn message(self) -> String {
@@ -70,14 +78,31 @@ pub(crate) fn call(run: impl FnOnce(&mut abi::Error) -> abi::Status) -> Result<(
         return Err(Failure::new(ErrorKind::Abi, message));
     };
     let bytes: Vec<u8> = error.bytes().collect();
+    let fault = fault(error.fault);
     let mut message = match bytes.as_slice() {
+        [] if fault.is_some() => String::new(),
         [] => kind.to_string(),
         bytes => shown(&String::from_utf8_lossy(bytes)),
     };
     if error.vendor_code != 0 {
         message.push_str(&format!(" (code {} of the device)", error.vendor_code));
     }
-    Err(Failure { kind, message })
+    Err(Failure {
+        kind,
+        message: message.trim_start().to_owned(),
+        fault,
+    })
+}
+
+/// The fault of that number; one that is not listed is one after which nothing moves either.
+fn fault(number: abi::FaultNumber) -> Option<Fault> {
+    match number {
+        number if !number.is_fault() => None,
+        abi::FaultNumber::EMERGENCY_STOP => Some(Fault::EmergencyStop),
+        abi::FaultNumber::COLLISION => Some(Fault::Collision),
+        abi::FaultNumber::BOUNDARY => Some(Fault::Boundary),
+        _ => Some(Fault::Servo),
+    }
 }
 
 /// The deadline in the interface's unit.
@@ -119,5 +144,37 @@ mod tests {
             abi::Status::TIMEOUT
         });
         assert!(all.expect_err("failed").to_string().starts_with('\u{fffd}'));
+    }
+
+    #[test]
+    fn a_fault_is_kept_and_one_that_nobody_knows_is_one_too() {
+        let arm = DriverKey::fixed("org.example.arm/arm");
+        for (number, expected) in [
+            (0, None),
+            // The end of a message that ran on.
+            (u32::from_le_bytes(*b"end\0"), None),
+            (
+                abi::FaultNumber::EMERGENCY_STOP.0,
+                Some(Fault::EmergencyStop),
+            ),
+            (abi::FaultNumber::COLLISION.0, Some(Fault::Collision)),
+            (abi::FaultNumber::BOUNDARY.0, Some(Fault::Boundary)),
+            (abi::FaultNumber::SERVO.0, Some(Fault::Servo)),
+            (abi::FaultNumber::SERVO.0 + 1, Some(Fault::Servo)),
+        ] {
+            let failure = call(|error| {
+                error.fault = abi::FaultNumber(number);
+                abi::Status::DEVICE_FAULT
+            });
+            let error = failure.expect_err("failed").of(&arm, "move");
+            assert_eq!(error.fault(), expected, "{number}");
+            let words = expected.map_or(ErrorKind::DeviceFault.to_string(), |fault| {
+                fault.to_string()
+            });
+            assert_eq!(
+                error.to_string(),
+                format!("org.example.arm/arm: cannot move: {words}")
+            );
+        }
     }
 }

@@ -18,6 +18,7 @@ mod subject;
 mod surroundings;
 
 use std::collections::BTreeMap;
+use std::collections::btree_map::Entry;
 use std::os::fd::OwnedFd;
 use std::time::{Duration, Instant};
 
@@ -28,7 +29,7 @@ use self::probe::Probe;
 pub(crate) use self::run::run;
 use self::subject::{Ending, Subject};
 use crate::child::{Child, ChildError, ChildSpec};
-use crate::grant::Grant;
+use crate::grant::{self, Grant};
 use crate::host::PluginHost;
 use crate::library::Image;
 use crate::manifest::Provided;
@@ -151,7 +152,7 @@ impl PluginHost {
             let mut only = request.only.iter();
             request.only.is_empty() || only.any(|begin| check.name.starts_with(begin))
         };
-        // Of each driver, why a check failed and which one did so first: a cause is told once.
+        // Of each driver, why a check failed or could not be made, and which one was the first: a cause is told once.
         let mut causes: BTreeMap<(Option<String>, String), &'static str> = BTreeMap::new();
         for check in checks().filter(is_wanted) {
             for key in subjects(check, plugin) {
@@ -167,15 +168,19 @@ impl PluginHost {
                 };
                 let begun = Instant::now();
                 let mut outcome = self.made(plugin, (&image, &probe), request.limit);
-                if let CheckOutcome::Failed(why) = &outcome {
-                    let cause = (key.map(ToString::to_string), why.clone());
-                    match causes.get(&cause) {
-                        Some(first) => {
-                            let why = format!("for the reason why `{first}` failed");
+                let cause = match &outcome {
+                    CheckOutcome::Failed(why) => Some((why.clone(), "failed")),
+                    CheckOutcome::Skipped(why) => Some((why.clone(), "was skipped")),
+                    CheckOutcome::Passed => None,
+                };
+                if let Some((why, how)) = cause {
+                    match causes.entry((key.map(ToString::to_string), why)) {
+                        Entry::Occupied(first) => {
+                            let why = format!("for the reason why `{}` {how}", first.get());
                             outcome = CheckOutcome::Skipped(why);
                         }
-                        None => {
-                            causes.insert(cause, check.name);
+                        Entry::Vacant(first) => {
+                            first.insert(check.name);
                         }
                     }
                 }
@@ -197,6 +202,14 @@ impl PluginHost {
         (image, probe): (&Image, &Probe),
         limit: Duration,
     ) -> CheckOutcome {
+        let (grant, arguments) = match self.grant_of(plugin, &probe.driver, &probe.arguments) {
+            Ok(granted) => granted,
+            Err(error) => return CheckOutcome::Failed(error.to_string()),
+        };
+        let probe = &Probe {
+            arguments,
+            ..probe.clone()
+        };
         let files = probe.sealed().map(|probe| -> Vec<OwnedFd> { vec![probe] });
         let spec = ChildSpec::of_plugin(image, &plugin.manifest, &plugin.text, None);
         let (mut spec, files) = match (spec, files) {
@@ -205,21 +218,29 @@ impl PluginHost {
         };
         spec.files.extend(files);
         spec.program = self.children().program.clone();
-        let grant = match self.grant_of(plugin, &probe.driver, &probe.arguments) {
-            Ok(grant) => grant,
-            Err(error) => return CheckOutcome::Failed(error.to_string()),
-        };
         spec.confinement.needs = grant.reached.iter().cloned().collect();
         spec.confinement.is_trusted = self.config().trust(plugin).is_some();
         spec.patience.start = limit;
         let child = match Child::start(spec) {
             Ok(child) => child,
             Err(error) => {
-                return match ended(error) {
-                    CheckOutcome::Failed(why) => {
-                        CheckOutcome::Failed(grant.withheld.explain(&why).unwrap_or(why))
+                let outcome = ended(error);
+                // A plugin may take what it may not reach for what is not there, which would be no failure.
+                return match &outcome {
+                    // What its arguments name is not allowed, so the name of a machine was not looked up for it either.
+                    CheckOutcome::Failed(why) if grant.lacks_bound() => {
+                        CheckOutcome::Failed(format!("{why}; {}", grant.withheld))
                     }
-                    other => other,
+                    CheckOutcome::Skipped(why)
+                        if grant.lacks_bound() && why.starts_with(subject::NO_DEVICE) =>
+                    {
+                        CheckOutcome::Failed(format!("{why}; {}", grant.withheld))
+                    }
+                    CheckOutcome::Failed(why) | CheckOutcome::Skipped(why) => {
+                        let explained = grant.withheld.explain(why);
+                        explained.map_or(outcome, CheckOutcome::Failed)
+                    }
+                    CheckOutcome::Passed => outcome,
                 };
             }
         };
@@ -234,24 +255,35 @@ impl PluginHost {
 }
 
 impl PluginHost {
-    /// What a check of `driver` may reach: what a device may that is opened with `arguments`.
+    /// What a check of `driver` may reach: what a device may that is opened with `arguments`; and these, with addresses for names of machines.
     fn grant_of(
         &self,
         plugin: &Plugin,
         driver: &str,
         arguments: &str,
-    ) -> Result<Grant, DriverError> {
+    ) -> Result<(Grant, String), DriverError> {
         let mut drivers = plugin.manifest.drivers();
         let descriptor = drivers.find(|descriptor| descriptor.key().as_str() == driver);
         let args = descriptor.and_then(|descriptor| {
             let args = Args::parse(descriptor.arguments(), arguments).ok()?;
-            Some((descriptor.key(), args))
+            Some((descriptor, args))
         });
-        match args {
-            Some((key, args)) => self.config().grant_for(plugin, key, &args),
+        let Some((descriptor, args)) = args else {
             // The check itself says which arguments it lacks.
-            None => Ok(self.config().grant(plugin)),
+            return Ok((self.config().grant(plugin), arguments.to_owned()));
+        };
+        let (key, specs) = (descriptor.key(), descriptor.arguments());
+        let grant = self.config().grant_for(plugin, key, &args)?;
+        let is_trusted = self.config().trust(plugin).is_some();
+        if is_trusted || !grant.is_bound || grant.lacks_bound() {
+            return Ok((grant, arguments.to_owned()));
         }
+        let args = grant::resolved(plugin, key, specs, &args)?;
+        let given = specs.iter().filter_map(|spec| {
+            let value = args.get(&spec.key)?.to_string();
+            Some(format!("{}={}", spec.key, value.replace(';', ";;")))
+        });
+        Ok((grant, given.collect::<Vec<_>>().join(";")))
     }
 }
 

@@ -68,6 +68,14 @@ fn facts(manifest: &Facts, library: &Facts) -> Option<[String; 3]> {
             .or_else(|| differ("limits.Pz_max_mm", [one.depth_max, other.depth_max]))
             .or_else(|| differ("limits.Fz_max_N", [one.force_max, other.force_max]))
             .or_else(|| differ("facts", [one, other])),
+        (Facts::Force(one), Facts::Force(other)) => differ("axes", [one.axes, other.axes])
+            .or_else(|| differ("rate_hz", [one.rate, other.rate]))
+            .or_else(|| differ("limits.Fz_max_N", [one.force_max, other.force_max]))
+            .or_else(|| differ("noise_N", [one.noise, other.noise]))
+            .or_else(|| differ("resolution_N", [one.resolution, other.resolution]))
+            .or_else(|| differ("numbered", [one.numbered, other.numbered]))
+            .or_else(|| differ("tare", [one.tare, other.tare]))
+            .or_else(|| differ("facts", [one, other])),
         (one, other) => differ("facts", [one, other]),
     }
 }

@@ -22,6 +22,13 @@ pub(crate) struct Grant {
     pub(crate) is_bound: bool,
 }
 
+impl Grant {
+    /// Whether something is not allowed that may be what the arguments of the device name.
+    pub(crate) fn lacks_bound(&self) -> bool {
+        self.is_bound && !self.withheld.needs().is_empty()
+    }
+}
+
 /// What a plugin declares, and its user does not allow.
 ///
 /// It is shown as what a person types to allow it.

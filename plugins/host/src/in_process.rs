@@ -13,7 +13,7 @@ use crate::device::{
     open,
 };
 use crate::estimator;
-use crate::library::{Library, Place};
+use crate::library::{Library, Offer, Place};
 use crate::session::{FitRequest, Saved, SavedRegressor, Session};
 
 /// A session in this process: one rig of a loaded library.
@@ -71,6 +71,16 @@ fn other_kind(said: &Descriptor) -> DriverError {
 }
 
 impl Session for InProcess {
+    fn offer(&self) -> Result<Offer, DriverError> {
+        let library = self.rig.library();
+        let offer = library.offer();
+        offer.map_err(|problem| {
+            let doing = "say what it offers";
+            let whole = library.id().as_driver();
+            DriverError::new(problem.kind(), &whole, doing).because(problem.to_string())
+        })
+    }
+
     fn describe(&self, driver: &DriverKey, args: &Args) -> Result<Descriptor, DriverError> {
         const DOING: &str = "describe the device";
         let library = self.rig.library();

@@ -11,6 +11,7 @@ mod error;
 mod host;
 mod image;
 mod mapped;
+mod offer;
 
 use std::collections::BTreeMap;
 use std::ffi::c_void;
@@ -30,7 +31,9 @@ pub(crate) use self::entry::{Entry, Place};
 pub use self::error::{LoadError, LoadProblem};
 pub use self::host::{Level, Log};
 pub use self::image::Image;
+pub(crate) use self::image::LENGTH_MAX;
 use self::mapped::Mapped;
+pub use self::offer::Offer;
 use crate::call::{call, table};
 use crate::id::PluginId;
 use crate::manifest::Manifest;
@@ -70,11 +73,27 @@ impl Library {
     /// # Errors
     /// [`LoadError`]: not loadable, no plugin, of another version, or another plugin than the manifest says.
     pub fn load(image: &Image, manifest: &Manifest, log: Log) -> Result<Arc<Library>, LoadError> {
+        Library::begin(image, Some(manifest), log)
+    }
+
+    /// Loads `image`, of which no manifest says anything, to hear what it offers.
+    ///
+    /// # Errors
+    /// As [`load`](Library::load).
+    pub(crate) fn load_unpromised(image: &Image, log: Log) -> Result<Arc<Library>, LoadError> {
+        Library::begin(image, None, log)
+    }
+
+    fn begin(
+        image: &Image,
+        manifest: Option<&Manifest>,
+        log: Log,
+    ) -> Result<Arc<Library>, LoadError> {
         let failed = |problem: LoadProblem| problem.of(image.path());
         let symbol = open(image).map_err(failed)?;
         let mapped = Mapped::now().ok();
         let plugin = read(symbol, mapped.as_ref()).map_err(failed)?;
-        compare(&plugin, manifest, mapped.as_ref()).map_err(failed)?;
+        let id = identity(&plugin, manifest, mapped.as_ref()).map_err(failed)?;
         if let Some(init) = plugin.init {
             let host = host::table(log);
             // SAFETY: [once, first], with a host and an error that outlive the call.
@@ -82,7 +101,7 @@ impl Library {
                 .map_err(|failure| failed(LoadProblem::Init(failure)))?;
         }
         let mut library = Library {
-            id: manifest.id.clone(),
+            id,
             path: image.path().to_owned(),
             plugin,
             entries: BTreeMap::new(),
@@ -262,23 +281,23 @@ fn read(symbol: *const abi::Plugin, mapped: Option<&Mapped>) -> Result<abi::Plug
     Ok(unsafe { copy.assume_init() })
 }
 
-/// Whether the library says it is the plugin that the manifest is of.
-fn compare(
+/// The plugin that the library says it is, which is the one that the manifest is of.
+fn identity(
     plugin: &abi::Plugin,
-    manifest: &Manifest,
+    manifest: Option<&Manifest>,
     mapped: Option<&Mapped>,
-) -> Result<(), LoadProblem> {
+) -> Result<PluginId, LoadProblem> {
+    let id = text("`id`", plugin.id, mapped)?;
+    let version = text("`version`", plugin.version, mapped)?;
+    let Some(manifest) = manifest else {
+        return id
+            .parse()
+            .map_err(|error| LoadProblem::Table(format!("its `id`, {error}")));
+    };
     for (what, said, expected) in [
-        ("`id`", plugin.id, manifest.id.as_str()),
-        ("`version`", plugin.version, manifest.version.as_str()),
+        ("`id`", id, manifest.id.as_str()),
+        ("`version`", version, manifest.version.as_str()),
     ] {
-        let is_readable = mapped.is_none_or(|mapped| mapped.holds(said.data.addr(), said.length));
-        if said.length > 0 && (said.data.is_null() || !is_readable) {
-            return Err(LoadProblem::Address { what });
-        }
-        // SAFETY: mapped as far as it says, in constants of a library that is never unloaded.
-        let said = unsafe { said.to_str() };
-        let said = said.map_err(|_| LoadProblem::Text { what })?;
         if said != expected {
             return Err(LoadProblem::Differs {
                 what: what.to_owned(),
@@ -287,5 +306,19 @@ fn compare(
             });
         }
     }
-    Ok(())
+    Ok(manifest.id.clone())
+}
+
+/// A text of the exported symbol.
+fn text(
+    what: &'static str,
+    said: abi::Text,
+    mapped: Option<&Mapped>,
+) -> Result<&'static str, LoadProblem> {
+    let is_readable = mapped.is_none_or(|mapped| mapped.holds(said.data.addr(), said.length));
+    if said.length > 0 && (said.data.is_null() || !is_readable) {
+        return Err(LoadProblem::Address { what });
+    }
+    // SAFETY: mapped as far as it says, in constants of a library that is never unloaded.
+    unsafe { said.to_str() }.map_err(|_| LoadProblem::Text { what })
 }

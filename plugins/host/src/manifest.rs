@@ -1,6 +1,7 @@
 //! The manifest of a plugin: everything that listing and planning need, as data. No code of the plugin runs for it.
 
 mod argument;
+mod edit;
 mod error;
 mod facts;
 mod library;
@@ -17,8 +18,9 @@ use taceva_core::{Descriptor, DriverKey};
 use toml::Spanned;
 
 pub use self::error::ManifestError;
+use self::library::PLATFORMS;
+pub(crate) use self::library::path_fault;
 pub use self::library::{LibraryFile, Sha256Digest, platform};
-use self::library::{PLATFORMS, path_fault};
 pub(crate) use self::need::matches;
 pub use self::need::{DeclaredNeed, Need, NeedError};
 pub use self::provides::{EstimatorInfo, Provided};

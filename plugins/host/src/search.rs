@@ -20,7 +20,7 @@ use crate::manifest::{self, LibraryFile, Manifest};
 use crate::shown::suggestion;
 
 /// The name of every manifest.
-const MANIFEST: &str = "plugin.toml";
+pub(crate) const MANIFEST: &str = "plugin.toml";
 
 /// A plugin that was found: its manifest, and where it lies.
 #[derive(Clone, Debug, PartialEq)]
@@ -184,7 +184,12 @@ impl Searching {
         }
         let mut manifests = Vec::new();
         for entry in fs::read_dir(&folder).map_err(Reason::Unreadable)? {
-            let manifest = entry.map_err(Reason::Unreadable)?.path().join(MANIFEST);
+            let entry = entry.map_err(Reason::Unreadable)?;
+            // An installation that is under way, or was cut off, is none yet.
+            if entry.file_name().as_encoded_bytes().starts_with(b".") {
+                continue;
+            }
+            let manifest = entry.path().join(MANIFEST);
             if manifest.symlink_metadata().is_ok() {
                 manifests.push(manifest);
             }

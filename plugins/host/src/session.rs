@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use crate::library::Offer;
 use taceva_core::{
     Args, Descriptor, DriverError, DriverKey, ForceTransducer, Found, Lighting, ModelError, Robot,
     Sensor, SimulatedBench,
@@ -12,6 +13,12 @@ pub use taceva_core::{FitRequest, Saved, SavedRegressor};
 ///
 /// Drivers and estimators are named by their whole keys. Devices keep what they need alive: a session may be dropped before them.
 pub trait Session: Send + Sync {
+    /// What the library offers and needs, as a manifest would say it.
+    ///
+    /// # Errors
+    /// [`DriverError`] where what answers is no library, or says what no manifest can.
+    fn offer(&self) -> Result<Offer, DriverError>;
+
     /// What the library says of `driver` when it is opened with `args`; no device is touched.
     ///
     /// # Errors

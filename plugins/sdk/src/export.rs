@@ -22,12 +22,16 @@ pub trait Export {
     const ID: &'static str;
     /// Its version, as in the manifest.
     const VERSION: &'static str;
+    /// What it must reach outside itself, a need a line, as `needs` of the manifest lists them: `taceva plugin manifest --write` writes them there.
+    const NEEDS: &'static str = "";
 
     /// What it provides.
     fn drivers() -> Vec<Driver>;
 }
 
 /// Exports the drivers of a crate of type `cdylib` as the plugin `id`; its version is that of the crate.
+///
+/// `needs: ["usb"],` may follow the id: what the plugin must reach outside itself, as the manifest lists it.
 ///
 /// Each line is a kind of device and a `fn` that makes a factory, as `taceva_core::submit_builtin!` takes them too.
 ///
@@ -61,7 +65,7 @@ pub trait Export {
 /// ```
 #[macro_export]
 macro_rules! export_plugin {
-    (id: $id:expr, drivers: [$($device:ty => $make:expr),+ $(,)?] $(,)?) => {
+    (id: $id:expr, $(needs: [$($need:literal),* $(,)?],)? drivers: [$($device:ty => $make:expr),+ $(,)?] $(,)?) => {
         const _: () = {
             #[cfg(not(panic = "unwind"))]
             ::core::compile_error!("a plugin is built with `panic = \"unwind\"`, so that a panic ends a call and not the program");
@@ -71,6 +75,7 @@ macro_rules! export_plugin {
             impl $crate::Export for Exported {
                 const ID: &'static str = $id;
                 const VERSION: &'static str = ::core::env!("CARGO_PKG_VERSION");
+                $(const NEEDS: &'static str = ::core::concat!($($need, "\n"),*);)?
 
                 fn drivers() -> ::std::vec::Vec<$crate::Driver> {
                     ::std::vec![$(<$device as $crate::Provide>::provide($make)),+]

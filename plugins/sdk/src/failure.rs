@@ -1,13 +1,14 @@
 //! Why a call across the boundary did not do what it was asked.
 
-use taceva_abi::Status;
-use taceva_core::{DriverError, ErrorKind, ModelError};
+use taceva_abi::{FaultNumber, Status};
+use taceva_core::{DriverError, ErrorKind, Fault, ModelError};
 
 /// A failure on its way to the host: a status, and a message that needs no context but the call.
 #[derive(Debug)]
 pub(crate) struct Failure {
     pub(crate) status: Status,
     pub(crate) message: String,
+    pub(crate) fault: FaultNumber,
 }
 
 impl Failure {
@@ -16,6 +17,7 @@ impl Failure {
             // The numbers of the kinds are those of the statuses, negated: a test of core holds them to it.
             status: Status(-(kind as i32)),
             message: message.into(),
+            fault: FaultNumber::NONE,
         }
     }
 
@@ -35,9 +37,24 @@ impl From<DriverError> for Failure {
     fn from(error: DriverError) -> Failure {
         let message = match std::error::Error::source(&error) {
             Some(reason) => reason.to_string(),
+            // The fault is said beside the message.
+            None if error.fault().is_some() => String::new(),
             None => error.kind().to_string(),
         };
-        Failure::new(error.kind(), message)
+        Failure {
+            fault: error.fault().map_or(FaultNumber::NONE, number),
+            ..Failure::new(error.kind(), message)
+        }
+    }
+}
+
+fn number(fault: Fault) -> FaultNumber {
+    match fault {
+        Fault::EmergencyStop => FaultNumber::EMERGENCY_STOP,
+        Fault::Collision => FaultNumber::COLLISION,
+        Fault::Boundary => FaultNumber::BOUNDARY,
+        // One that is newer than this crate is still a fault.
+        _ => FaultNumber::SERVO,
     }
 }
 

@@ -6,7 +6,7 @@ use std::any::Any;
 use std::mem::offset_of;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
-use taceva_abi::{Error, Status};
+use taceva_abi::{Error, FaultNumber, MESSAGE_SIZE, Status};
 use taceva_core::ErrorKind;
 
 use crate::failure::Failure;
@@ -25,7 +25,10 @@ pub(crate) unsafe fn guard(
         Err(panicked) => panicked,
     };
     // SAFETY: promised by the caller.
-    unsafe { write_message(error, &failure.message) };
+    unsafe {
+        write_message(error, &failure.message);
+        write_fault(error, failure.fault);
+    }
     failure.status
 }
 
@@ -65,7 +68,7 @@ unsafe fn write_message(error: *mut Error, message: &str) {
     if room <= HEAD {
         return;
     }
-    let mut end = message.len().min(room - HEAD - 1);
+    let mut end = message.len().min((room - HEAD).min(MESSAGE_SIZE) - 1);
     while !message.is_char_boundary(end) {
         end -= 1;
     }
@@ -74,6 +77,20 @@ unsafe fn write_message(error: *mut Error, message: &str) {
         let place = (&raw mut (*error).message).cast::<u8>();
         place.copy_from_nonoverlapping(message.as_ptr(), end);
         place.add(end).write(0);
+    }
+}
+
+/// Leaves `fault` in the caller's error, where that has room for one.
+unsafe fn write_fault(error: *mut Error, fault: FaultNumber) {
+    const END: usize = offset_of!(Error, fault) + size_of::<FaultNumber>();
+    if error.is_null() || !error.is_aligned() {
+        return;
+    }
+    // SAFETY: promised by the caller of `guard`; every error begins with its size.
+    let size = unsafe { (&raw const (*error).size).read() };
+    if usize::try_from(size).is_ok_and(|size| size >= END) {
+        // SAFETY: it lies within the size that the error states.
+        unsafe { (&raw mut (*error).fault).write(fault) };
     }
 }
 
@@ -121,7 +138,7 @@ mod tests {
 
     #[test]
     fn no_message_is_written_further_than_the_size_says() {
-        for size in [0_u32, 4, 8, 9, 10, 12, 511, 512, 4096] {
+        for size in [0_u32, 4, 8, 9, 10, 12, 511, 512, 516, 4096] {
             let mut error = Error::new();
             error.message.fill(1);
             error.size = size;
@@ -132,6 +149,20 @@ mod tests {
             let room = usize::try_from(size).expect("small").clamp(8, 512) - 8;
             assert!(written <= room, "{size}: {written}");
             assert!(room < 3 || written + 1 >= room, "{size}: {written}");
+        }
+    }
+
+    #[test]
+    fn a_fault_is_written_where_the_error_has_room_for_it_and_nowhere_else() {
+        for (size, expected) in [(512, FaultNumber::NONE), (516, FaultNumber::COLLISION)] {
+            let mut error = Error::new();
+            error.size = size;
+            let arm = taceva_core::DriverKey::fixed("org.example.arm/arm");
+            let struck = taceva_core::DriverError::new(ErrorKind::DeviceFault, &arm, "move")
+                .with_fault(taceva_core::Fault::Collision);
+            // SAFETY: the error is ours, and as long as it says.
+            let status = unsafe { guard(&raw mut error, || Err(struck.into())) };
+            assert_eq!((status, error.fault), (Status::DEVICE_FAULT, expected));
         }
     }
 }

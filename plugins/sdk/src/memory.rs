@@ -70,6 +70,7 @@ fn long_enough<T>(name: &str, size: u32) -> Result<(), Failure> {
         return Err(Failure {
             status: taceva_abi::Status::ABI,
             message: format!("`{name}` has {size} bytes, expected at least {expected}"),
+            fault: taceva_abi::FaultNumber::NONE,
         });
     }
     Ok(())

@@ -22,5 +22,6 @@ pub const fn plugin<E: Export>() -> Plugin {
         open_rig: Some(rig::open),
         close_rig: Some(rig::close),
         rig_extension: Some(rig::extension),
+        needs: Text::from(E::NEEDS),
     }
 }

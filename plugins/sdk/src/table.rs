@@ -197,6 +197,9 @@ impl Table {
         self.number("noise_N", facts.noise.map(|noise| noise.0));
         self.number("resolution_N", facts.resolution.map(|step| step.0));
         self.number("latency_ms", facts.latency_ms);
+        if facts.numbered {
+            self.line("numbered", &true);
+        }
         self.line("tare", &facts.tare);
     }
 

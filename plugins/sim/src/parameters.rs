@@ -7,6 +7,7 @@ mod digest;
 mod error;
 mod model;
 mod outline;
+mod quiet;
 mod read;
 mod section;
 mod sections;

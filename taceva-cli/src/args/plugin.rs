@@ -33,7 +33,11 @@ pub(crate) enum Plugin {
     Headers(PluginHeaders),
     /// Check a plugin against its interface, each check in a process of its own with a time limit
     Check(PluginCheck),
-    /// Copy a plugin to where every command finds it: ~/.local/share/taceva/plugins
+    /// Write plugin.toml from what the library says of itself
+    Manifest(PluginManifest),
+    /// Pack a plugin into one file, to be handed on: its manifest, libraries, licences and their digests
+    Pack(PluginPack),
+    /// Copy or unpack a plugin to where every command finds it: ~/.local/share/taceva/plugins
     Install(PluginInstall),
     /// Let a plugin reach what its manifest needs: a camera, a port, a machine, a file
     Allow(PluginAllow),
@@ -129,11 +133,48 @@ pub(crate) struct PluginCheck {
 
 /// Its manifest is read first, and its library loaded in a sandboxed process: one that is not what its manifest says is not installed.
 /// The manifest, the library for this machine and the licences beside them are copied.
+///
+/// Of a file that `taceva plugin pack` wrote every part is compared with its digest, and whatever its manifest does not name is refused.
 #[derive(Debug, Args)]
 pub(crate) struct PluginInstall {
-    /// The folder of its plugin.toml
-    pub(crate) folder: PathBuf,
+    /// The folder of its plugin.toml, or the file into which it was packed
+    #[arg(value_name = "DIR|FILE.tar")]
+    pub(crate) plugin: PathBuf,
     /// Replace a plugin of that id that is installed already
+    #[arg(long)]
+    pub(crate) force: bool,
+}
+
+/// The library is loaded in a sandboxed process that reaches nothing, and asked for its id, its version, its drivers and what it needs.
+/// Comments stay, and so does `usb`. Without --write the manifest is printed, and the exit code is 1 if the file says
+/// otherwise.
+#[derive(Debug, Args)]
+pub(crate) struct PluginManifest {
+    /// The folder of plugin.toml
+    #[arg(default_value = ".", value_name = "DIR")]
+    pub(crate) folder: PathBuf,
+    /// The library, below that folder; as plugin.toml names it unless it is given
+    #[arg(long, value_name = "FILE")]
+    pub(crate) library: Option<PathBuf>,
+    /// The licence of a manifest that is new, such as MIT
+    #[arg(long, value_name = "SPDX")]
+    pub(crate) license: Option<String>,
+    /// Write plugin.toml instead of printing it
+    #[arg(long)]
+    pub(crate) write: bool,
+}
+
+/// The library is loaded in a sandboxed process first: one that is not what its manifest says is not packed. Whatever the manifest does not
+/// name is left out, but for licences. The same plugin gives the same bytes.
+#[derive(Debug, Args)]
+pub(crate) struct PluginPack {
+    /// The folder of its plugin.toml
+    #[arg(value_name = "DIR")]
+    pub(crate) folder: PathBuf,
+    /// The file to write [default: ID-VERSION.tar]
+    #[arg(long, value_name = "FILE")]
+    pub(crate) out: Option<PathBuf>,
+    /// Replace a file that is there
     #[arg(long)]
     pub(crate) force: bool,
 }

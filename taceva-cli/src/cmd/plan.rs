@@ -20,7 +20,7 @@ pub(crate) fn run(args: &PlanArgs, context: &Context) -> anyhow::Result<u8> {
     let drivers = Drivers::builtin()?.with_plugins(&host)?;
     let planned = scene::planned(&args.scene, &drivers)?;
     scene::print_cost(&planned, Path::new("."), context)?;
-    scene::print_rigs(&planned, context);
+    scene::print_rigs(&planned, &drivers, context);
     output::write_as(to.format, to.path.as_deref(), |out| {
         report::plan::write(&planned, to.format, out)
     })?;

@@ -3,7 +3,9 @@
 mod allow;
 mod check;
 mod install;
+mod manifest;
 mod new;
+mod pack;
 
 use super::Context;
 use crate::args::{Plugin, PluginInfo, PluginList, PluginRelease};
@@ -16,6 +18,8 @@ pub(crate) fn run(which: &Plugin, context: &Context) -> anyhow::Result<u8> {
         Plugin::New(args) => new::project(args, context),
         Plugin::Headers(args) => new::headers(args, context),
         Plugin::Check(args) => check::run(args, context),
+        Plugin::Manifest(args) => manifest::run(args),
+        Plugin::Pack(args) => pack::run(args, context),
         Plugin::Install(args) => install::run(args, context),
         Plugin::Allow(args) => allow::allow(args, context),
         Plugin::Deny(args) => allow::deny(args),

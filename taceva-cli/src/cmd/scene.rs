@@ -68,7 +68,7 @@ pub(super) fn print_cost(
 }
 
 /// Prints what a person at a real rig should know before anything moves: the limits that hold there, and what hands are needed for.
-pub(super) fn print_rigs(planned: &PlannedScene, context: &Context) {
+pub(super) fn print_rigs(planned: &PlannedScene, drivers: &Drivers, context: &Context) {
     for study in &planned.studies {
         let (Some(rig), Some(limits)) = (study.rig(), &study.plan.limits) else {
             continue;
@@ -83,7 +83,7 @@ pub(super) fn print_rigs(planned: &PlannedScene, context: &Context) {
             study.plan.contact.speed_mm_s.value,
             limits.overshoot.healthy_mm,
         ));
-        for change in study.by_hand() {
+        for change in study.by_hand(drivers) {
             context.say(format_args!("rig: {change}"));
         }
         context.say(format_args!(

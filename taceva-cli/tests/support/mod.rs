@@ -112,9 +112,44 @@ impl Bench {
         assert_eq!(ran.out, "", "taceva {words}");
     }
 
+    /// The line that `text` says allows what was refused, carried out by a shell as a person would paste it.
+    pub(crate) fn paste(&self, text: &str) -> Ran {
+        let (_, line) = text.rsplit_once("allow it: ").expect(text);
+        let line = line.lines().next().expect("a line").trim();
+        let program = Path::new(env!("CARGO_BIN_EXE_taceva"));
+        let mut path = program.parent().expect("a folder").as_os_str().to_owned();
+        path.push(":");
+        path.push(std::env::var_os("PATH").unwrap_or_default());
+        // With the folders of this bench, which `command` sets.
+        let ours = self.command("");
+        let variables = ours
+            .get_envs()
+            .filter_map(|(key, value)| Some((key, value?)));
+        let mut shell = Command::new("sh");
+        shell.args(["-c", line]).envs(variables).env("PATH", path);
+        let output = shell.output().expect("a shell");
+        let text = |bytes: Vec<u8>| String::from_utf8(bytes).expect("UTF-8");
+        Ran {
+            code: output.status.code().expect("it ended"),
+            out: text(output.stdout),
+            err: text(output.stderr),
+        }
+    }
+
     /// Begins a plugin called `name` that provides one `kind`, and builds it.
     pub(crate) fn make_plugin(&self, kind: &str, name: &str) {
         self.ok(&format!("plugin new {kind} {name}"));
+        self.build_plugin(name);
+    }
+
+    /// The plugin in `examples/plugins/NAME`, built as its README says.
+    pub(crate) fn make_example(&self, kind: &str, name: &str) {
+        self.ok(&format!("plugin new {kind} {name}"));
+        let examples = Path::new(env!("CARGO_MANIFEST_DIR")).join("../examples/plugins");
+        for file in ["plugin.toml", "src/lib.rs", &format!("src/{kind}.rs")] {
+            let to = self.path(name).join(file);
+            fs::copy(examples.join(name).join(file), to).expect(file);
+        }
         self.build_plugin(name);
     }
 

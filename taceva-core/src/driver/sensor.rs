@@ -1,5 +1,6 @@
 //! A tactile sensor with a camera behind its gel.
 
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use super::{Deadline, DriverError, Interrupt, Lighting};
@@ -58,6 +59,18 @@ pub trait Sensor: Send {
     /// - `Disconnected` or `EndOfStream` if none will come any more.
     fn capture(&mut self, into: FrameMut<'_>, deadline: Deadline) -> Result<Stamp, DriverError>;
 
+    /// The number of the last frame, where the device or its link counts them from anywhere: frames whose numbers are missing between two came,
+    /// and nobody took them in time.
+    fn sequence(&self) -> Option<u64> {
+        None
+    }
+
+    /// The file, PNG or JPEG, that the last frame was sent as and decoded from, where the device sends files: whoever keeps frames may keep it
+    /// as it is.
+    fn sent(&self) -> Option<&[u8]> {
+        None
+    }
+
     /// Ends what [`start`](Sensor::start) began; may be called in every state.
     ///
     /// # Errors
@@ -69,6 +82,12 @@ pub trait Sensor: Send {
     /// What ends a pending call from another thread; without it a call lasts until its deadline.
     fn interrupt_handle(&self) -> Option<Arc<dyn Interrupt>> {
         None
+    }
+
+    /// What was set of the camera and read back, by name: `exposure_ms` is `15.7`. What a recording says of its pictures; empty where nothing
+    /// is known.
+    fn settings(&self) -> BTreeMap<String, String> {
+        BTreeMap::new()
     }
 
     /// The light around this sensor, where it can be set.

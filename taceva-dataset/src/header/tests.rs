@@ -21,6 +21,7 @@ fn header() -> Header {
             half_y_mm: None,
             depth_max_mm: Some(2.5),
         }),
+        settings: BTreeMap::from([("exposure_ms".to_owned(), "15.7".to_owned())]),
         channels: Channels::new([Channel::FZ, Channel::PZ]).expect("distinct"),
         attributes: vec!["video".to_owned()],
         unmentioned_columns: vec!["quality_flags".to_owned()],
@@ -34,6 +35,7 @@ fn header() -> Header {
             channel_order: ChannelOrder::Bgr,
             reference: None,
         }),
+        stream: None,
         presses: BTreeMap::from([
             (PressOutcome::Complete, 2),
             (PressOutcome::Limited(Limit::NormalForce), 1),

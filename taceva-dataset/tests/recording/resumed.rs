@@ -95,3 +95,34 @@ fn mutated_journals_are_refused_or_lose_only_a_tail() {
         }
     }
 }
+
+#[test]
+fn what_was_set_of_the_camera_is_kept_and_a_recording_goes_on_with_the_same_alone() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("set");
+    let with = |exposure_ms: &str| {
+        let mut spec = spec();
+        let settings = [("exposure_ms".to_owned(), exposure_ms.to_owned())];
+        spec.facts = spec.facts.with_settings(settings.into());
+        spec
+    };
+    let mut recorder = Recorder::create(&path, &with("15.7")).expect("created");
+    recorder.append(&sample(1)).expect("recorded");
+    drop(recorder);
+    let other = Recorder::open(&path, &with("20.0")).map(drop);
+    assert!(other.is_err(), "pictures of two exposures are no recording");
+    let mut recorder = Recorder::open(&path, &with("15.7")).expect("resumed");
+    recorder.append(&sample(2)).expect("recorded");
+    let written = recorder.close().expect("closed");
+    assert_eq!(written.format.to_string(), "1.5");
+    let header = Dataset::open(&path).expect("whole").header().clone();
+    assert_eq!(
+        header.settings.get("exposure_ms").map(String::as_str),
+        Some("15.7")
+    );
+    // One that says nothing of a camera is what it was before.
+    let plain = folder.path().join("plain");
+    let mut recorder = Recorder::create(&plain, &spec()).expect("created");
+    recorder.append(&sample(1)).expect("recorded");
+    assert_eq!(recorder.close().expect("closed").format.to_string(), "1.4");
+}

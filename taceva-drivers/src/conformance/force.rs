@@ -42,6 +42,10 @@ const TESTS: &[Test<dyn ForceTransducer>] = &[
         "calls the load zero if it declares that it can",
         tares_as_declared,
     ),
+    (
+        "numbers its readings if it declares that it does",
+        numbers_as_declared,
+    ),
 ];
 
 /// How many readings a check looks at.
@@ -153,6 +157,30 @@ fn tares_as_declared(bench: &Subject<'_>) -> Result<(), Unmet> {
             Ok(())
         }
     }
+}
+
+fn numbers_as_declared(bench: &Subject<'_>) -> Result<(), Unmet> {
+    let declared = facts(bench)?.numbered;
+    let mut transducer = started(bench)?;
+    let mut before = None;
+    for _ in 0..READINGS {
+        bench.reading(transducer.read(bench.trial.deadline))?;
+        let number = transducer.sequence();
+        match (number, declared) {
+            (None, true) => return Err(broken("a reading has no number, yet it declares them")),
+            (Some(_), false) => return Err(broken("numbers readings, yet does not declare it")),
+            (None, false) => return Err(Unmet::Inapplicable("it does not".to_owned())),
+            (Some(_), true) => {}
+        }
+        expect(number != before, || {
+            format!(
+                "two readings have the number {}",
+                number.unwrap_or_default()
+            )
+        })?;
+        before = number;
+    }
+    Ok(())
 }
 
 fn facts<'a>(bench: &'a Subject<'_>) -> Result<&'a ForceFacts, Unmet> {

@@ -6,7 +6,8 @@ use std::thread;
 use std::time::Instant;
 
 use taceva_core::{
-    Deadline, ErrorKind, Factory, Guard, Millimetre, Newton, Pose, Robot, RobotFacts, Speed,
+    Deadline, DriverError, ErrorKind, Factory, Guard, Millimetre, Newton, Pose, Robot, RobotFacts,
+    Speed,
 };
 
 use super::bench::{Bench, Test, Unmet, broken, expect, in_order, refused, run};
@@ -177,6 +178,11 @@ fn latches_halt(bench: &Subject<'_>) -> Result<(), Unmet> {
     }
     for _ in 0..2 {
         let moved = robot.move_to(course.away, course.speed, deadline);
+        // A halt that was asked for is acknowledged by nobody; a fault would be.
+        let fault = moved.as_ref().err().and_then(DriverError::fault);
+        expect(fault.is_none(), || {
+            "moving after a halt names a fault, expected one of the device alone".to_owned()
+        })?;
         refused("moving after a halt", moved, &[ErrorKind::Interrupted])?;
     }
     course.still_home(bench, robot.as_mut())?;

@@ -1,5 +1,7 @@
 //! A sensor that goes wrong.
 
+use std::collections::BTreeMap;
+
 use taceva_core::{Deadline, DriverError, DriverKey, FrameInfo, FrameMut, Lighting, Sensor, Stamp};
 
 use super::link::Link;
@@ -73,6 +75,10 @@ impl Sensor for FaultySensor {
 
     fn stop(&mut self) -> Result<(), DriverError> {
         self.inner.stop()
+    }
+
+    fn settings(&self) -> BTreeMap<String, String> {
+        self.inner.settings()
     }
 
     fn lighting(&mut self) -> Option<&mut dyn Lighting> {

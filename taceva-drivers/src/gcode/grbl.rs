@@ -2,10 +2,8 @@
 
 mod factory;
 mod line;
-mod link;
 mod machine;
 mod motion;
-mod port;
 
 pub use factory::GrblFactory;
 

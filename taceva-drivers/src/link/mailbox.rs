@@ -3,7 +3,7 @@
 use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
-use taceva_core::{ErrorKind, Interrupt};
+use taceva_core::{DriverError, DriverKey, ErrorKind, Interrupt};
 
 /// The newest of what came, and why nothing comes any more. Older things are not kept: who comes late gets what is true now.
 #[derive(Debug)]
@@ -48,6 +48,23 @@ pub(crate) enum NoNews {
     Ended(Ending),
 }
 
+impl NoNews {
+    /// The error of `driver` that waited while it was `doing` something; `silence` says what did not come, and for how long.
+    pub(crate) fn while_waiting(
+        self,
+        driver: &DriverKey,
+        doing: &'static str,
+        silence: impl FnOnce() -> String,
+    ) -> DriverError {
+        let (kind, why) = match self {
+            NoNews::Silent => (ErrorKind::Timeout, silence()),
+            NoNews::Interrupted => (ErrorKind::Interrupted, "it was interrupted".to_owned()),
+            NoNews::Ended(ending) => (ending.kind, ending.why),
+        };
+        DriverError::new(kind, driver, doing).because(why)
+    }
+}
+
 impl<T> Default for Mailbox<T> {
     fn default() -> Mailbox<T> {
         Mailbox {
@@ -81,13 +98,13 @@ impl<T: Clone> Mailbox<T> {
     }
 
     /// Whether nothing comes any more.
-    #[cfg(any(feature = "mjpeg", feature = "netft"))]
+    #[cfg(any(feature = "camera", feature = "netft"))]
     pub(crate) fn has_ended(&self) -> bool {
         self.inside().ended.is_some()
     }
 
     /// Takes things again, from a link that was made anew; what came before is not given any more.
-    #[cfg(any(feature = "mjpeg", feature = "netft"))]
+    #[cfg(any(feature = "camera", feature = "netft"))]
     pub(crate) fn begin_again(&self) {
         let mut inside = self.inside();
         (inside.ended, inside.newest) = (None, None);
@@ -102,8 +119,9 @@ impl<T: Clone> Mailbox<T> {
 
     /// How many came so far.
     #[cfg(any(
-        feature = "grbl",
-        feature = "mjpeg",
+        feature = "camera",
+        feature = "gcode",
+        feature = "hid",
         feature = "netft",
         feature = "sri"
     ))]

@@ -12,7 +12,6 @@ mod motion;
 mod observe;
 mod options;
 mod report;
-mod reported;
 mod stop;
 mod watch;
 

@@ -94,7 +94,11 @@ fn a_camera_that_is_not_permitted_says_which_group_to_join() {
             ("/dev/video10", "camera"),
         ]
     );
-    assert_eq!(found[1].detail, "DIGIT: DIGIT\\u{1b}[2J");
+    let expected = match cfg!(all(feature = "v4l2", target_os = "linux")) {
+        true => "DIGIT: DIGIT\\u{1b}[2J; opened by `camera/v4l2:device=/dev/video0`",
+        false => "DIGIT: DIGIT\\u{1b}[2J",
+    };
+    assert_eq!(found[1].detail, expected);
     let remedy = |finding: &Finding| finding.remedy.clone().unwrap_or_default();
     assert!(
         remedy(&found[1]).starts_with("join the group `video`"),
@@ -151,6 +155,47 @@ fn a_known_sensor_on_the_usb_without_a_device_file_lacks_its_driver() {
     assert_eq!(without.detail, "DIGIT tactile sensor, serial number D20042");
     assert!(without.remedy.expect("known").contains("modprobe uvcvideo"));
     assert_eq!(found("dev/video3").code, "usb");
+}
+
+#[cfg(all(
+    feature = "hid",
+    feature = "marlin",
+    feature = "grbl",
+    target_os = "linux"
+))]
+#[test]
+fn scales_and_serial_lines_are_named_with_what_opens_them() {
+    let root = machine(&[
+        ("proc/self/status", STRANGER),
+        ("dev/hidraw0", ""),
+        ("dev/hidraw1", ""),
+        ("dev/ttyACM0", ""),
+        (
+            "sys/class/hidraw/hidraw0/device/uevent",
+            "HID_NAME=Keyboard\n",
+        ),
+        (
+            "sys/class/hidraw/hidraw1/device/uevent",
+            "HID_NAME=Dymo M5\n",
+        ),
+    ]);
+    let descriptor = root
+        .path()
+        .join("sys/class/hidraw/hidraw1/device/report_descriptor");
+    fs::write(descriptor, [0x05, 0x8d, 0x09, 0x20, 0xa1, 0x01]).expect("written");
+    let found = findings(root.path());
+    let details: Vec<&str> = found[2..]
+        .iter()
+        .map(|finding| finding.detail.as_str())
+        .collect();
+    assert_eq!(
+        details,
+        [
+            "serial port; opened by `gcode/grbl:port=/dev/ttyACM0` or `gcode/marlin:port=/dev/ttyACM0`",
+            "Keyboard",
+            "Dymo M5; opened by `hid/scale:device=/dev/hidraw1`",
+        ]
+    );
 }
 
 #[test]

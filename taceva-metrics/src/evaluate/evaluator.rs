@@ -17,6 +17,9 @@ use crate::evaluate::state::State;
 
 /// Samples that are collected before they are summed: small enough for the columns to stay in the fastest cache.
 const BATCH_ROWS: usize = 1024;
+/// Pairs of one channel that are summed at once: two columns of 32 KiB. Measured from 1,024 to all of a million: fewer cost more in allocations,
+/// more in memory that is touched for the first time.
+const PAIR_ROWS: usize = 4096;
 
 /// Takes samples, one by one or in batches, and finishes a plan's scores.
 ///
@@ -109,7 +112,7 @@ impl Evaluator {
     ///
     /// # Errors
     /// [`MetricError::Lengths`] if there are not as many of both, [`MetricError::Channels`] if the plan has no such channel; nothing is taken in
-    /// then.
+    /// then, unless an iterator ends before the number of items that it stated.
     ///
     /// ```
     /// use taceva_metrics::{Channel, Evaluator};
@@ -125,6 +128,16 @@ impl Evaluator {
         truth: impl IntoIterator<Item = T>,
         prediction: impl IntoIterator<Item = P>,
     ) -> Result<(), MetricError> {
+        let (mut truth, mut prediction) = (truth.into_iter(), prediction.into_iter());
+        // Of equal lengths, a block after the other: its columns stay in the fastest cache, and no copy of all is made.
+        if let Some(mut rows) = certain(&truth).filter(|rows| certain(&prediction) == Some(*rows)) {
+            while rows > PAIR_ROWS {
+                let truth = truth.by_ref().take(PAIR_ROWS);
+                let prediction = prediction.by_ref().take(PAIR_ROWS);
+                self.update_rows(Rows::new().pairs(channel.clone(), truth, prediction))?;
+                rows -= PAIR_ROWS;
+            }
+        }
         self.update_rows(Rows::new().pairs(channel, truth, prediction))
     }
 
@@ -258,6 +271,12 @@ impl Evaluator {
         let batch = self.builder.take();
         self.update(&batch)
     }
+}
+
+/// How many items come, where that is known before they do.
+fn certain(items: &impl Iterator) -> Option<usize> {
+    let (least, most) = items.size_hint();
+    most.filter(|most| *most == least)
 }
 
 impl SampleSink for Evaluator {

@@ -14,8 +14,8 @@ pub struct Signals {
     pub force_noise_n: f64,
     /// The greatest age of a reading that still says something of now, in s.
     pub stale_s: f64,
-    /// Whether readings that are equal to the last bit although the tip moved betray a signal that froze. They do not where the transducer
-    /// numbers its readings, which is then asked, and where its steps are as coarse as its noise.
+    /// Whether readings that are equal to the last bit although the tip moved betray a signal that froze, whatever numbers they have. They do
+    /// not where the steps of the transducer are as coarse as its noise; then a number that comes again does.
     pub equality_is_frozen: bool,
     /// Whether the zero of the force is the mean of a quarter of a second on the host, and the transducer's own is set once a session.
     pub host_zero: bool,
@@ -71,7 +71,8 @@ impl Signals {
         if let Some((descriptor, facts)) = force {
             signals.force_noise_n = facts.noise.map_or(0.0, |noise| noise.0);
             signals.stale_s = stale_s(facts);
-            signals.equality_is_frozen = !facts.numbered && tells_equal(facts);
+            // One that states no step is taken to show it: a halt too many harms nobody.
+            signals.equality_is_frozen = facts.seldom_repeats();
             signals.host_zero = descriptor.source() == DriverSource::Real;
             let who = || format!("the force transducer `{}`", descriptor.key());
             if let (false, false, Some(step)) =
@@ -178,13 +179,6 @@ fn pose_noise_mm(robot: &Descriptor) -> f64 {
 fn stale_s(facts: &ForceFacts) -> f64 {
     let of_rate = facts.rate.map(|rate| STALE_READINGS / rate.0);
     of_rate.map_or(STALE_S, |stale_s| stale_s.max(STALE_S))
-}
-
-/// Whether two readings of a live transducer are hardly ever equal. One that states no step is taken to: a halt too many harms nobody.
-fn tells_equal(facts: &ForceFacts) -> bool {
-    facts
-        .resolution
-        .is_none_or(|step| facts.noise.is_some_and(|noise| step.0 < noise.0))
 }
 
 #[cfg(test)]
@@ -309,7 +303,8 @@ mod tests {
         };
         assert_eq!(of(None, None, false), Ok(true));
         assert_eq!(of(Some(0.003), Some(0.001), false), Ok(true));
-        assert_eq!(of(Some(0.003), Some(0.001), true), Ok(false));
+        assert_eq!(of(Some(0.003), Some(0.001), true), Ok(true));
+        assert_eq!(of(None, None, true), Ok(true));
         assert_eq!(of(Some(0.001), Some(0.01), true), Ok(false));
         for noise in [None, Some(0.001), Some(0.01)] {
             let refused = of(noise, Some(0.01), false).expect_err("nothing would tell");

@@ -3,7 +3,8 @@
 mod surface;
 
 use taceva_core::{
-    Axes, Axis, Channel, Descriptor, Field, FieldSet, Footprint, FrameInfo, Nanometre, SkipReason,
+    Axes, Axis, Channel, Descriptor, DriverSource, Field, FieldSet, Footprint, FrameInfo,
+    Nanometre, SkipReason,
 };
 use taceva_metrics::Fact;
 
@@ -300,6 +301,18 @@ pub(crate) fn lights(
     let Some(written) = written else {
         return Ok(known);
     };
+    if known.is_empty() && rig.lighting.is_none() {
+        // Nothing sets it but hands, and those belong to a rig that exists.
+        let is_real = |robot: &taceva_core::Descriptor| robot.source() == DriverSource::Real;
+        return match rig.robot.as_ref().is_some_and(is_real) {
+            true => Ok(written.value.clone()),
+            false => {
+                let problem = "`scenes` of a light without `driver` are set by hand, which needs a real robot; expected `driver`";
+                let problem = SceneProblem::Contradiction(problem.to_owned());
+                Err(scene.text.error(written.at(), problem))
+            }
+        };
+    }
     match written.value.iter().find(|name| !known.contains(name)) {
         Some(stranger) => {
             let known = known.iter().map(String::as_str).collect();

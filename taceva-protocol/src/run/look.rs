@@ -21,8 +21,14 @@ impl Tip<'_> {
     /// Reads force and pose and shows both to the supervisor.
     pub(super) fn look(&mut self) -> Step<Look> {
         let reading = self.read_force()?;
+        let asked_s = self.clock.now_s();
         let (pose, stamp) = match self.robot.pose(DEADLINE) {
             Ok(read) => read,
+            // A robot that says nothing is silent, as a transducer is.
+            Err(error) if error.kind() == ErrorKind::Timeout && error.fault().is_none() => {
+                let age_s = self.clock.now_s() - asked_s;
+                return Err(self.halt_for(Trip::StalePose { age_s }));
+            }
             Err(error) => return Err(self.failed(error)),
         };
         self.at = pose;

@@ -7,6 +7,8 @@ mod reaction;
 
 pub use observation::{MotionStage, Observation};
 
+#[cfg(feature = "simulation")]
+use std::sync::TryLockError;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use taceva_core::{
@@ -46,6 +48,16 @@ impl SharedSupervisor {
     /// can panic.
     pub fn lock(&self) -> MutexGuard<'_, Supervisor> {
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// The same, or `None` while somebody else has it: what a simulated thread cannot wait for.
+    #[cfg(feature = "simulation")]
+    pub(crate) fn try_lock(&self) -> Option<MutexGuard<'_, Supervisor>> {
+        match self.0.try_lock() {
+            Ok(held) => Some(held),
+            Err(TryLockError::Poisoned(poisoned)) => Some(poisoned.into_inner()),
+            Err(TryLockError::WouldBlock) => None,
+        }
     }
 }
 
@@ -177,8 +189,9 @@ impl Supervisor {
     /// Whether two looks at a tip that rests differ as those at a live transducer do.
     pub(super) fn is_live(&self, one: &Look, other: &Look) -> bool {
         match (one.number, other.number) {
-            (Some(one), Some(other)) => one != other,
+            (Some(one), Some(other)) if one == other => false,
             _ if self.limits.signals.equality_is_frozen => one.wrench != other.wrench,
+            (Some(_), Some(_)) => true,
             _ => one.wrench_s < other.wrench_s,
         }
     }
@@ -268,8 +281,9 @@ impl Supervisor {
         self.heard_s = stamp.valid_s;
         // A signal counts as frozen only against motion: at rest, equal readings are news from a quiet gel.
         let is_equal = match (std::mem::replace(&mut self.number, number), number) {
-            (Some(last), Some(number)) => last == number,
-            _ if number.is_some() || !self.limits.signals.equality_is_frozen => false,
+            (Some(last), Some(number)) if last == number => true,
+            // A box may count on while what it counts has stopped.
+            _ if !self.limits.signals.equality_is_frozen => false,
             _ => before.is_some_and(|(last, _)| last == *wrench),
         };
         self.equal = match (is_equal, std::mem::take(&mut self.moved)) {

@@ -266,7 +266,8 @@ impl<'a> Tip<'a> {
 
     fn clear_halt(&mut self) -> Step<()> {
         self.robot.clear_halt(DEADLINE).map_err(|error| {
-            self.robot_failed = true;
+            // One that says nothing may yet; everything else is a matter for a person.
+            self.robot_failed |= error.kind() != ErrorKind::Timeout || error.fault().is_some();
             StopCause::Device(error)
         })
     }
@@ -297,12 +298,14 @@ impl<'a> Tip<'a> {
             None => error,
         };
         self.robot_failed |= is_grave || error.fault().is_some();
-        if error.kind() != ErrorKind::Interrupted || error.fault().is_some() {
+        let may_be_halted = [ErrorKind::Interrupted, ErrorKind::Timeout].contains(&error.kind());
+        if !may_be_halted || error.fault().is_some() {
             return StopCause::Device(error);
         }
-        // Somebody who looked on halted it.
+        // Somebody who looked on halted it, or saw before the robot did that nothing comes from it.
         match tripped {
             Some(trip) => StopCause::Tripped(trip),
+            None if error.kind() == ErrorKind::Timeout => StopCause::Device(error),
             None if self.cancel.is_cancelled() => StopCause::Cancelled,
             None => match self.force.read(Deadline::after(READ_DEADLINE)) {
                 Err(silent) if silent.kind() != ErrorKind::Timeout => StopCause::Device(silent),

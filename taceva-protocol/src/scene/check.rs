@@ -179,6 +179,13 @@ impl Check<'_> {
         let lighting = study.lighting.as_ref().or(scene.lighting.as_ref());
         let scenes = lighting.and_then(|lighting| lighting.scenes.as_ref());
         self.distinct("scenes of light", scenes)?;
+        if lighting.is_some_and(|lighting| lighting.driver.is_none()) && scenes.is_none() {
+            let problem = format!(
+                "`{}` has a light that nobody knows: expected [lighting] with `driver`, or with `scenes` that are set by hand",
+                study.name.value
+            );
+            return self.refuse(study.name.at(), SceneProblem::Incomplete(problem));
+        }
         let model = study.model.as_ref().or(scene.model.as_ref());
         if let Some(model) = model {
             self.one_of(

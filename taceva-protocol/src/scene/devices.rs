@@ -17,11 +17,12 @@ pub struct DeviceSpec {
 
 /// The light around a sensor.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
-#[serde(deny_unknown_fields, expecting = "a table with `driver`")]
+#[serde(deny_unknown_fields, expecting = "a table with `driver` or `scenes`")]
 pub struct LightingSpec {
-    /// A selector, as of every device.
-    pub driver: Setting<String>,
-    /// The scenes of light to visit; all that the driver has when absent. The first is the one of calibration.
+    /// A selector, as of every device; without one the sensor's own light is set, and where that has none somebody sets it by hand.
+    pub driver: Option<Setting<String>>,
+    /// The scenes of light to visit; all that the driver has when absent, which light that is set by hand must not. The first is the one of
+    /// calibration.
     pub scenes: Option<Setting<Vec<String>>>,
 }
 

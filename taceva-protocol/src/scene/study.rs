@@ -55,7 +55,9 @@ impl Study {
             ),
             (
                 DriverKind::Lighting,
-                self.lighting.as_ref().map(|lighting| &lighting.driver),
+                self.lighting
+                    .as_ref()
+                    .and_then(|lighting| lighting.driver.as_ref()),
             ),
         ]
         .into_iter()

@@ -8,8 +8,8 @@ use taceva_core::{
     Tare, Wrench,
 };
 
-use super::world::{Sabotage, Shared, World};
-use crate::run::{Observation, SharedSupervisor};
+use super::guard::Guard;
+use super::world::{Sabotage, Shared};
 
 const ROBOT: DriverKey = DriverKey::fixed("faults/robot");
 const FORCE: DriverKey = DriverKey::fixed("faults/force");
@@ -45,6 +45,7 @@ impl Halt for SimulatedHalt {
 impl Robot for SimulatedRobot {
     fn pose(&mut self, _: Deadline) -> Result<(Pose, Stamp), DriverError> {
         self.0.survive();
+        self.0.look_on();
         let mut world = self.0.world();
         world.link();
         let (tip, valid_s) = (world.reported(), world.now_s);
@@ -66,6 +67,7 @@ impl Robot for SimulatedRobot {
 
     fn move_to(&mut self, target: Pose, speed: Speed, _: Deadline) -> Result<Stamp, DriverError> {
         self.0.survive();
+        self.0.look_on();
         let mut world = self.0.world();
         world.link();
         world
@@ -76,13 +78,16 @@ impl Robot for SimulatedRobot {
         }
         let Point { x, y, z } = target.position;
         let (to, speed_mm_s) = ([x.0, y.0, z.0], speed.mm_per_s());
-        match world.guard.clone() {
-            None => world.glide(to, speed_mm_s),
-            Some(guard) => {
-                drop(world);
-                self.0.glide_under_guard(to, speed_mm_s, &guard)?;
-                world = self.0.world();
-            }
+        if world.guard.is_some() {
+            world.set_out();
+            drop(world);
+            self.0.is_moving(true);
+            let moved = self.0.glide_under_guard(to, speed_mm_s);
+            self.0.is_moving(false);
+            moved?;
+            world = self.0.world();
+        } else {
+            world.glide(to, speed_mm_s);
         }
         let valid_s = world.now_s;
         world.link();
@@ -113,27 +118,40 @@ fn faulty(doing: &'static str, fault: Fault) -> DriverError {
 }
 
 impl Shared {
-    /// Moves the tip from reading to reading, each shown to `guard` with the pose, as threads do on a real rig.
-    fn glide_under_guard(
-        &self,
-        to: [f64; 3],
-        speed_mm_s: f64,
-        guard: &SharedSupervisor,
-    ) -> Result<(), DriverError> {
+    /// Whether the robot makes a motion from now on.
+    fn is_moving(&self, is_moving: bool) {
+        if let Some(guard) = &mut self.world().guard {
+            guard.is_moving = is_moving;
+        }
+    }
+
+    /// Moves the tip while threads look on, which may halt it wherever it is.
+    fn glide_under_guard(&self, to: [f64; 3], speed_mm_s: f64) -> Result<(), DriverError> {
         // One that is stuck says after the time of its motion that it arrived.
         let until_s = self.world().arrival_s(to, speed_mm_s);
         loop {
-            let (seen, now_s, is_end) = {
-                let mut world = self.world();
-                let next = world.next_on_way(to, speed_mm_s);
-                world.glide(next, speed_mm_s);
-                let now_s = world.now_s;
-                (overheard(&mut world), now_s, now_s >= until_s)
+            let mut world = self.world();
+            let next_s = world.guard.as_ref().map_or(until_s, Guard::next_s);
+            let at_s = next_s.clamp(world.now_s, until_s.max(world.now_s));
+            let is_end = at_s >= until_s - INSTANT_S;
+            let next = match is_end {
+                true => world.on_way(to, speed_mm_s, until_s + INSTANT_S),
+                false => world.on_way(to, speed_mm_s, at_s),
             };
-            for observation in seen {
-                let _ = guard.lock().observe(&observation, now_s);
+            if is_end || at_s > world.now_s {
+                world.glide(next, speed_mm_s);
+                // A way that binary64 does not see takes its time all the same.
+                let left_s = at_s - world.now_s;
+                world.pass(left_s.max(0.0));
             }
-            if self.world().halted {
+            drop(world);
+            self.look_on();
+            let mut world = self.world();
+            if world.is_stopped() {
+                let stopped = world.obey("a motion");
+                return stopped.map_err(|fault| faulty("move", fault));
+            }
+            if world.halted {
                 return Err(DriverError::new(ErrorKind::Interrupted, &ROBOT, "move"));
             }
             if is_end {
@@ -143,34 +161,45 @@ impl Shared {
     }
 }
 
-/// What both threads see now.
-fn overheard(world: &mut World) -> [Observation; 2] {
-    let now_s = world.now_s;
-    let at = |valid_s| Stamp {
-        valid_s,
-        received_s: Some(now_s),
-    };
-    let force = match world.overhear() {
-        Some((force, valid_s)) => {
-            let wrench = Wrench {
-                force: force.map(Newton),
-                ..Wrench::default()
-            };
-            Observation::Force(wrench, at(valid_s))
-        }
-        None => Observation::Silence,
-    };
-    let [x, y, z] = world.reported().map(Millimetre);
-    let pose = Pose {
-        position: Point { x, y, z },
-        ..Pose::default()
-    };
-    let stamp = at(now_s);
-    [force, Observation::UnderWay { pose, stamp }]
-}
+/// What binary64 makes of times, in s.
+const INSTANT_S: f64 = 1e-9;
 
 /// Measures the force.
-pub(super) struct SimulatedForce(pub(super) Shared);
+pub(super) struct SimulatedForce {
+    shared: Shared,
+    /// How many readings of the thread that reads were there when one was taken last.
+    taken: u64,
+}
+
+impl SimulatedForce {
+    pub(super) fn new(shared: Shared) -> SimulatedForce {
+        SimulatedForce { shared, taken: 0 }
+    }
+
+    /// The newest reading that a thread has left and nobody has taken, as a run under guard finds it.
+    fn take(&mut self, deadline_s: f64) -> Option<(Wrench, Stamp)> {
+        let began_s = self.shared.world().now_s;
+        let until_s = began_s + deadline_s;
+        loop {
+            self.shared.look_on();
+            let latest = {
+                let world = self.shared.world();
+                world.guard.as_ref().and_then(|guard| guard.latest)
+            };
+            if let Some(heard) = latest.filter(|heard| heard.count > self.taken) {
+                self.taken = heard.count;
+                return Some((heard.wrench, heard.stamp));
+            }
+            let mut world = self.shared.world();
+            if world.now_s >= until_s {
+                world.missed(began_s);
+                return None;
+            }
+            drop(world);
+            self.shared.step(until_s);
+        }
+    }
+}
 
 impl ForceTransducer for SimulatedForce {
     fn axes(&self) -> Axes {
@@ -178,30 +207,27 @@ impl ForceTransducer for SimulatedForce {
     }
 
     fn read(&mut self, deadline: Deadline) -> Result<(Wrench, Stamp), DriverError> {
-        self.0.survive();
-        let mut world = self.0.world();
-        let reading = world.read_force(deadline.remaining().as_secs_f64());
-        let (force, valid_s) =
-            reading.ok_or_else(|| DriverError::new(ErrorKind::Timeout, &FORCE, "read"))?;
+        self.shared.survive();
+        let deadline_s = deadline.remaining().as_secs_f64();
+        let silent = || DriverError::new(ErrorKind::Timeout, &FORCE, "read");
+        if self.shared.world().guard.is_some() {
+            return self.take(deadline_s).ok_or_else(silent);
+        }
+        let mut world = self.shared.world();
+        let (force, valid_s) = world.read_force(deadline_s).ok_or_else(silent)?;
         world.link();
         let wrench = Wrench {
             force: force.map(Newton),
             ..Wrench::default()
         };
-        let now_s = world.now_s;
-        let stamp = Stamp {
-            valid_s,
-            received_s: Some(now_s),
-        };
-        let guard = world.guard.clone();
-        drop(world);
-        if let Some(guard) = guard {
-            // What it halts for, the run learns from the supervisor.
-            let _ = guard
-                .lock()
-                .observe(&Observation::Force(wrench, stamp), now_s);
-        }
-        Ok((wrench, stamp))
+        let received_s = Some(world.now_s);
+        Ok((
+            wrench,
+            Stamp {
+                valid_s,
+                received_s,
+            },
+        ))
     }
 
     fn tare(&mut self) -> Option<&mut dyn Tare> {
@@ -211,7 +237,7 @@ impl ForceTransducer for SimulatedForce {
 
 impl Tare for SimulatedForce {
     fn zero(&mut self, _: Deadline) -> Result<(), DriverError> {
-        let mut world = self.0.world();
+        let mut world = self.shared.world();
         world.link();
         world.tare();
         Ok(())
@@ -232,8 +258,10 @@ impl Sensor for SimulatedSensor {
         deadline: Deadline,
     ) -> Result<Stamp, DriverError> {
         self.0.survive();
+        self.0.look_on();
+        let (wait_s, exposed) = self.0.world().expose(deadline.remaining().as_secs_f64());
+        self.0.elapse(wait_s);
         let mut world = self.0.world();
-        let exposed = world.expose(deadline.remaining().as_secs_f64());
         let valid_s = exposed
             .ok_or_else(|| DriverError::new(ErrorKind::Timeout, &SENSOR, "capture a frame"))?;
         let force = world.force(world.tip);

@@ -31,11 +31,13 @@ pub enum FaultKind {
     Cancel,
     /// Somebody presses the emergency stop, and the robot moves no more until a person acknowledged it.
     EmergencyStop,
+    /// The robot's reports stay away from the thread that looks at it; it is still asked and answers.
+    NoReports,
 }
 
 impl FaultKind {
     /// Every kind.
-    pub const ALL: [FaultKind; 12] = [
+    pub const ALL: [FaultKind; 13] = [
         FaultKind::Silence,
         FaultKind::Freeze,
         FaultKind::NotANumber,
@@ -48,6 +50,7 @@ impl FaultKind {
         FaultKind::Kill,
         FaultKind::Cancel,
         FaultKind::EmergencyStop,
+        FaultKind::NoReports,
     ];
     /// How many of them every scenario draws from; those after them come beside.
     const DRAWN: i64 = 11;
@@ -67,6 +70,7 @@ impl FaultKind {
             FaultKind::Kill => "kill",
             FaultKind::Cancel => "cancel",
             FaultKind::EmergencyStop => "emergency stop",
+            FaultKind::NoReports => "no reports",
         }
     }
 }
@@ -109,6 +113,8 @@ struct Fault {
 
 /// What the emergency stop of a scenario is drawn under.
 const STOP: u64 = 90;
+/// What missing reports are drawn under.
+const NO_REPORTS: u64 = 91;
 
 /// The faults of a scenario.
 #[derive(Clone, Debug)]
@@ -149,8 +155,16 @@ impl Faults {
             from_s: fraction(draws, [STOP, 1]) * span_s,
             until_s: f64::INFINITY,
         });
+        let unreported = (whole(0, 3, [NO_REPORTS, 0]) == 0).then(|| {
+            let from_s = fraction(draws, [NO_REPORTS, 1]) * span_s;
+            Fault {
+                kind: FaultKind::NoReports,
+                from_s,
+                until_s: from_s + 0.02 * 100_f64.powf(fraction(draws, [NO_REPORTS, 2])),
+            }
+        });
         Faults {
-            faults: faults.chain(stop).collect(),
+            faults: faults.chain(stop).chain(unreported).collect(),
             struck: FaultCounts::default(),
         }
     }

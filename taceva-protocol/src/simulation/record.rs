@@ -144,7 +144,7 @@ impl Found {
                     ));
                 }
             }
-            if sample.is_limited && sample.force_n > gel.normal_max_n + gel.noise_n {
+            if sample.is_limited && sample.force_n > gel.normal_max_n + gel.force_error_n() {
                 untrue(format!(
                     "{name}/{place} rests at {} N, beyond the limit",
                     sample.force_n
@@ -159,7 +159,7 @@ impl Found {
             if (sample.stamp_s - exposed_s).abs() > 1e-9 {
                 untrue(format!("{name}/{place} shows a frame of another time"));
             }
-            if (sample.force_n - force_n).abs() > gel.noise_n + 1e-9 {
+            if (sample.force_n - force_n).abs() > gel.force_error_n() + 1e-9 {
                 untrue(format!(
                     "{name}/{place} has {} N, its frame {force_n} N",
                     sample.force_n

@@ -10,6 +10,7 @@ use taceva_core::{
 use super::devices::{FRAME, SimulatedForce, SimulatedRobot, SimulatedSensor};
 use super::disk::Disk;
 use super::fault::{FaultCounts, Faults, fraction};
+use super::guard::Guard;
 use super::journal::{Journal, entries};
 use super::oracle::{Checks, Oracle, Stated, Violation};
 use super::record::{judge_log, missing};
@@ -60,9 +61,12 @@ pub fn simulate(seed: u64) -> SimulationReport {
 pub(super) fn simulate_with(seed: u64, sabotage: Sabotage) -> SimulationReport {
     let draws = Draws::new(seed, "faults");
     let part = |purpose| fraction(draws, [purpose, 1]);
+    let noise_n = 0.002 + 0.004 * part(101);
     let gel = Gel {
         stiffness_n_mm: 0.3 + 2.5 * part(100),
-        noise_n: 0.002 + 0.004 * part(101),
+        noise_n,
+        // Where threads look on the rig is a real one, on which the host finds the zero.
+        zero_noise_n: if is_guarded(seed) { noise_n } else { 0.0 },
         saturation_n: 20.0,
         normal_max_n: 0.6 + 1.5 * part(102),
         // Every other robot reports where it sent the tip, the others up to 0.05 mm beside it.
@@ -79,7 +83,7 @@ pub(super) fn simulate_with(seed: u64, sabotage: Sabotage) -> SimulationReport {
     let stated = Stated::new(
         limits,
         gel.stiffness_n_mm,
-        gel.noise_n,
+        gel.force_error_n(),
         step_mm,
         threshold_n,
     )
@@ -112,10 +116,10 @@ pub(super) fn simulate_with(seed: u64, sabotage: Sabotage) -> SimulationReport {
     while !finished && processes < MOST_PROCESSES {
         processes += 1;
         finished = match process(
-            &plan,
+            (&plan, seed),
             &shared,
             (&mut disk, &mut acknowledged),
-            (&mut redone, is_guarded(seed)),
+            &mut redone,
         ) {
             Ended::Done => true,
             Ended::Stopped(error) => {
@@ -175,19 +179,24 @@ enum Ended {
 
 /// One process: it opens the log, runs what is missing, and ends one way or another.
 fn process(
-    plan: &Plan,
+    (plan, seed): (&Plan, u64),
     shared: &Shared,
     (disk, acknowledged): (&mut Disk, &mut Vec<crate::ContentId>),
-    (redone, is_guarded): (&mut u64, bool),
+    redone: &mut u64,
 ) -> Ended {
     let cancel = Cancel::new();
     shared.world().cancel = cancel.clone();
     let mut robot = SimulatedRobot(shared.clone());
-    let limits = plan.limits.clone().filter(|_| is_guarded);
+    let limits = plan.limits.clone().filter(|_| is_guarded(seed));
     let guard =
         limits.map(|limits| SharedSupervisor::new(Supervisor::new(limits, robot.halt_handle())));
-    shared.world().guard.clone_from(&guard);
-    let mut force = SimulatedForce(shared.clone());
+    let looking = guard.clone();
+    let looking = looking.map(|guard| {
+        let threads = (Draws::new(seed, "threads"), seed % 8 == 7);
+        Guard::new((guard, cancel.clone()), threads, shared.world().now_s)
+    });
+    shared.world().guard = looking;
+    let mut force = SimulatedForce::new(shared.clone());
     let mut sensor = SimulatedSensor(shared.clone());
     let mut clock = shared.clone();
     let mut log = Journal::open(disk, acknowledged);
@@ -215,6 +224,8 @@ fn process(
             None => run(&spec, devices, &mut log, controls),
         }
     }));
+    // The threads end with the process.
+    shared.world().guard = None;
     match ended {
         Ok(Ok(_)) => Ended::Done,
         Ok(Err(error)) => Ended::Stopped(Box::new(error)),
@@ -236,11 +247,20 @@ fn repair(shared: &Shared, left: Left) {
 }
 
 pub(super) fn scenario_plan(seed: u64, gel: &Gel) -> Result<Plan, SceneError> {
-    planned_scene(SCENE, seed, gel)
+    let source = match is_guarded(seed) {
+        true => DriverSource::Real,
+        false => DriverSource::Simulated,
+    };
+    planned(SCENE, seed, (gel, source))
 }
 
-/// The plan of a scene that is written as `text`.
+/// The plan of a scene that is written as `text`, on a simulated rig.
+#[cfg(test)]
 pub(super) fn planned_scene(text: &str, seed: u64, gel: &Gel) -> Result<Plan, SceneError> {
+    planned(text, seed, (gel, DriverSource::Simulated))
+}
+
+fn planned(text: &str, seed: u64, (gel, source): (&Gel, DriverSource)) -> Result<Plan, SceneError> {
     let scene = Scene::parse("faults", text)?;
     let scene = Scene { seed, ..scene };
     let truth = FieldSet::EMPTY.with(Field::Truth);
@@ -254,6 +274,7 @@ pub(super) fn planned_scene(text: &str, seed: u64, gel: &Gel) -> Result<Plan, Sc
         ),
     ];
     let footprint = Footprint::rectangle(8.0, 10.0, Some(0.8)).ok();
+    let described = |facts| described(source, facts);
     let source = SourceInfo::Rig(Box::new(RigInfo {
         sensor: described(Facts::Sensor(Box::new(
             SensorFacts::default()
@@ -275,9 +296,9 @@ pub(super) fn planned_scene(text: &str, seed: u64, gel: &Gel) -> Result<Plan, Sc
     plan_study(&scene, &scene.studies[0], &source, &needs)
 }
 
-fn described(facts: Facts) -> Option<Descriptor> {
+fn described(source: DriverSource, facts: Facts) -> Option<Descriptor> {
     let key = DriverKey::fixed("faults/device");
-    let spec = DescriptorSpec::new(key, "a simulated device", DriverSource::Simulated, facts);
+    let spec = DescriptorSpec::new(key, "a simulated device", source, facts);
     spec.check().ok()
 }
 

@@ -231,7 +231,7 @@ fn a_plan_with_pictures_is_not_run_without_a_sensor() {
     let bench = Bench::new(SOFT);
     let (mut robot, mut force) = (
         SimulatedRobot(bench.shared.clone()),
-        SimulatedForce(bench.shared.clone()),
+        SimulatedForce::new(bench.shared.clone()),
     );
     let mut clock = bench.shared.clone();
     let spec = RunSpec {
@@ -302,7 +302,7 @@ fn a_specimen_that_cannot_be_mounted_stops_the_run_in_the_air() {
     let bench = Bench::new(SOFT);
     let (mut robot, mut force, mut sensor) = (
         SimulatedRobot(bench.shared.clone()),
-        SimulatedForce(bench.shared.clone()),
+        SimulatedForce::new(bench.shared.clone()),
         SimulatedSensor(bench.shared.clone()),
     );
     let mut clock = bench.shared.clone();

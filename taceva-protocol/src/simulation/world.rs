@@ -7,9 +7,10 @@ use taceva_core::Fault;
 pub(super) use super::gel::Gel;
 
 use super::fault::{FaultKind, Faults, fraction};
+use super::guard::Guard;
 use super::oracle::{Ended, Oracle, SILENCE, TOO_HARD};
 use crate::draw::Draws;
-use crate::run::{Cancel, SharedSupervisor, Timekeeper};
+use crate::run::{Cancel, Timekeeper};
 
 /// How a call to a device travels, in s each way.
 const LINK_S: f64 = 0.000_5;
@@ -62,7 +63,7 @@ pub(super) struct World {
     pub(super) faults: Faults,
     pub(super) cancel: Cancel,
     /// Who is shown every reading in a motion, where threads look on.
-    pub(super) guard: Option<SharedSupervisor>,
+    pub(super) guard: Option<Guard>,
     draws: Draws,
     readings: u64,
     poses: u64,
@@ -148,7 +149,8 @@ impl Shared {
             // Unlike a panic it is not reported: nothing went wrong in the program.
             std::panic::resume_unwind(Box::new(Killed));
         }
-        if world.faults.strike_once(FaultKind::Cancel, now_s) {
+        // Where threads look on, one of them hears of the wish.
+        if world.guard.is_none() && world.faults.strike_once(FaultKind::Cancel, now_s) {
             world.cancel.cancel();
         }
     }
@@ -156,11 +158,12 @@ impl Shared {
 
 impl Timekeeper for Shared {
     fn now_s(&self) -> f64 {
+        self.look_on();
         self.world().now_s
     }
 
     fn rest(&mut self, rest: std::time::Duration) {
-        self.world().pass(rest.as_secs_f64());
+        self.elapse(rest.as_secs_f64());
         self.survive();
     }
 }
@@ -180,10 +183,7 @@ impl World {
 
     /// Refuses what moves or releases the robot while the emergency stop holds. Who asks again after being told defies it.
     pub(super) fn obey(&mut self, asked: &'static str) -> Result<(), Fault> {
-        self.stopped |= self
-            .faults
-            .strike_once(FaultKind::EmergencyStop, self.now_s);
-        if !self.stopped {
+        if !self.is_stopped() {
             return Ok(());
         }
         if std::mem::replace(&mut self.has_noted_stop, true) {
@@ -222,7 +222,7 @@ impl World {
     }
 
     /// From `since_s` on the robot must be halted; one that is halted already needs no halt.
-    fn hazard(&mut self, hazard: &'static str, since_s: f64) {
+    pub(super) fn hazard(&mut self, hazard: &'static str, since_s: f64) {
         if !self.halted {
             self.oracle.hazard(hazard, since_s);
         }
@@ -259,7 +259,7 @@ impl World {
         if !stuck {
             let (before, after) = (self.force(from), self.force(target));
             // Beyond the noise the next reading cannot but show it.
-            let bound = self.gel.normal_max_n + self.gel.noise_n;
+            let bound = self.gel.normal_max_n + self.gel.force_error_n();
             let passes = after > before && after > bound;
             if passes && self.frozen {
                 self.oracle.overlooked();
@@ -303,6 +303,13 @@ impl World {
         Some(self.sense())
     }
 
+    /// Nobody has heard anything since `listening_s`, and the tip may not go on for longer than a silence.
+    pub(super) fn missed(&mut self, since_s: f64) {
+        let listening_s = *self.listening_s.get_or_insert(since_s);
+        self.oracle.blinded();
+        self.hazard(SILENCE, listening_s + STALE_AFTER_S);
+    }
+
     /// What the transducer says now, and when that was true.
     fn sense(&mut self) -> ([f64; 3], f64) {
         self.listening_s = None;
@@ -341,26 +348,41 @@ impl World {
         (force, valid_s)
     }
 
-    /// What a thread that reads the transducer gets in the middle of a motion; `None` of one that is silent.
-    pub(super) fn overhear(&mut self) -> Option<([f64; 3], f64)> {
+    /// What a thread that reads the transducer gets; `None` of one that is silent. While the tip moves, silence is a hazard.
+    pub(super) fn overhear(&mut self, is_moving: bool) -> Option<([f64; 3], f64)> {
         if self.faults.strike(FaultKind::Silence, self.now_s) {
-            let listening_s = *self.listening_s.get_or_insert(self.now_s);
             self.oracle.blinded();
-            self.hazard(SILENCE, listening_s + STALE_AFTER_S);
+            if is_moving {
+                let listening_s = *self.listening_s.get_or_insert(self.now_s);
+                self.hazard(SILENCE, listening_s + STALE_AFTER_S);
+            }
             return None;
         }
         Some(self.sense())
     }
 
-    /// When a motion to `target` ends that begins now, but for what binary64 makes of the sum of its parts.
-    pub(super) fn arrival_s(&self, target: [f64; 3], speed_mm_s: f64) -> f64 {
-        self.now_s + self.way_to(target) / speed_mm_s - 1e-9
+    /// A motion begins: how long nothing was heard counts from here on.
+    pub(super) fn set_out(&mut self) {
+        self.listening_s = None;
     }
 
-    /// Where a motion to `target` is after the time of one reading, at most at its end.
-    pub(super) fn next_on_way(&self, target: [f64; 3], speed_mm_s: f64) -> [f64; 3] {
+    /// Whether somebody has pressed the emergency stop by now.
+    pub(super) fn is_stopped(&mut self) -> bool {
+        self.stopped |= self
+            .faults
+            .strike_once(FaultKind::EmergencyStop, self.now_s);
+        self.stopped
+    }
+
+    /// When a motion to `target` ends that begins now.
+    pub(super) fn arrival_s(&self, target: [f64; 3], speed_mm_s: f64) -> f64 {
+        self.now_s + self.way_to(target) / speed_mm_s
+    }
+
+    /// Where a motion to `target` is at `at_s`, at most at its end.
+    pub(super) fn on_way(&self, target: [f64; 3], speed_mm_s: f64, at_s: f64) -> [f64; 3] {
         let length_mm = self.way_to(target);
-        let step_mm = speed_mm_s * READING_S;
+        let step_mm = speed_mm_s * (at_s - self.now_s).max(0.0);
         if length_mm <= step_mm {
             return target;
         }
@@ -378,21 +400,18 @@ impl World {
         self.zero_n = self.force(self.tip);
     }
 
-    /// Waits for the next frame: when it was exposed, and whether it came in time.
-    pub(super) fn expose(&mut self, deadline_s: f64) -> Option<f64> {
+    /// The next frame: how long it takes to come, and when it is exposed; `None` of one that does not come in time.
+    pub(super) fn expose(&mut self, deadline_s: f64) -> (f64, Option<f64>) {
         if self.faults.strike(FaultKind::DroppedFrames, self.now_s) {
             // Every other one comes, and is the one before.
-            if self.readings.is_multiple_of(2) {
-                self.pass(FRAME_S);
-                return Some(self.last_frame_s);
-            }
-            self.pass(deadline_s);
-            return None;
+            return match self.readings.is_multiple_of(2) {
+                true => (FRAME_S, Some(self.last_frame_s)),
+                false => (deadline_s, None),
+            };
         }
         let next_s = ((self.now_s / FRAME_S).floor() + 1.0) * FRAME_S;
-        self.pass(next_s - self.now_s);
-        self.last_frame_s = self.now_s;
-        Some(self.now_s)
+        self.last_frame_s = next_s;
+        (next_s - self.now_s, Some(next_s))
     }
 }
 

@@ -117,6 +117,21 @@ fn a_light_that_nobody_can_set_is_refused() {
 }
 
 #[test]
+fn a_light_without_a_driver_is_set_by_hand_on_real_rigs_alone() {
+    let error = planned("[lighting]\nscenes = [\"dark\", \"lamp\"]", rig());
+    assert!(error.starts_with("s.toml, line 10: "), "{error}");
+    assert!(
+        error.contains("set by hand, which needs a real robot"),
+        "{error}"
+    );
+    let nothing = with("[lighting]");
+    assert!(
+        nothing.contains("expected [lighting] with `driver`"),
+        "{nothing}"
+    );
+}
+
+#[test]
 fn a_metric_that_can_never_apply_is_refused_by_its_line_if_it_was_named_by_itself() {
     let error = planned("[metrics]\nwant = [\"mae\"]", rig());
     assert_eq!(

@@ -15,7 +15,7 @@ pub(crate) const PUBLISHED: &str = "published";
 
 impl Sensor {
     /// Results as a sensor that can be chosen: its numbers, and whether light is kept out as far as the results say. What a sensor stands is no
-    /// result; it is taken from the sensor of that name in the catalogue, if there is one.
+    /// result; it is taken from the sensor of that name in the catalogue, if there is one, and not known of a sensor that was simulated.
     pub fn of_study(study: &Study) -> Sensor {
         let result = |score: &Score| {
             Some(Published {
@@ -45,7 +45,9 @@ impl Sensor {
             opaque: (skips || has_light).then_some(skips),
             markers: None,
             intrinsic: None,
-            limits: super::find(&study.sensor).and_then(|known| known.limits),
+            limits: super::find(&study.sensor)
+                .filter(|_| !study.is_simulated())
+                .and_then(|known| known.limits),
             sources: Vec::new(),
             results: study.scores.iter().filter_map(result).collect(),
             missing: Vec::new(),

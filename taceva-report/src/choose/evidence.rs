@@ -46,6 +46,12 @@ pub fn choose_results(studies: &[Study], needs: &[Need]) -> Choice {
     choice.evidence = Some(evidence(studies, needs, &choice));
     choice.spread = spread(studies, &names, &choice);
     choice.simulated = studies.iter().any(Study::is_simulated);
+    let mut asked = needs.iter().flat_map(Need::properties);
+    let of_limits = [Property::GreatestDepth, Property::GreatestForce];
+    if asked.any(|property| of_limits.contains(&property)) {
+        let known = sensors.iter().filter(|sensor| sensor.limits.is_some());
+        choice.limits_of_catalogue = known.map(|sensor| sensor.name.clone()).collect();
+    }
     choice
 }
 
@@ -148,16 +154,21 @@ impl Choice {
         let Some(evidence) = &self.evidence else {
             return ", by published values, whose differences nobody tested".to_owned();
         };
-        let is_shown = |better: &str, than: &str| {
-            let mut evidence = evidence.iter();
-            evidence.any(|of| of.better == better && of.than == than)
+        let in_what = |better: &str, than: &str| -> Vec<String> {
+            let shown = evidence.iter();
+            let shown = shown.filter(|of| of.better == better && of.than == than);
+            shown.map(|of| of.property.to_string()).collect()
         };
+        let is_shown = |better: &str, than: &str| !in_what(better, than).is_empty();
         let mut against: Vec<String> = Vec::new();
         for (at, higher) in self.ranked.iter().enumerate() {
             for lower in &self.ranked[at + 1..] {
                 let [higher, lower] = [&higher.name, &lower.name];
                 if is_shown(lower, higher) && !is_shown(higher, lower) {
-                    against.push(format!("{lower} is shown to be better than {higher}"));
+                    against.push(format!(
+                        "{lower} is shown to be better than {higher} in {}",
+                        listed(&in_what(lower, higher))
+                    ));
                 }
             }
         }

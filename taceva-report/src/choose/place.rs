@@ -94,6 +94,7 @@ mod tests {
             evidence: Some(Vec::new()),
             spread: None,
             simulated: false,
+            limits_of_catalogue: Vec::new(),
         }
     }
 

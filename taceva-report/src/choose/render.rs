@@ -11,7 +11,8 @@ use crate::table::{Column, Direction, Table};
 
 /// The schema of a choice as JSON. 1.1: `open` lists those of which it is not known whether they meet a hard need. 1.2: each step
 /// says which numbers are good. 1.3: each that is ranked has a place, and says whether it is tied. 1.4: intervals, and the differences that are shown.
-pub const CHOICE_SCHEMA: &str = "taceva.choice/1.4";
+/// 1.5: whose limits are of the catalogue.
+pub const CHOICE_SCHEMA: &str = "taceva.choice/1.5";
 
 impl Choice {
     /// A row a sensor, need and number; the best sensor first, those that were dropped last.
@@ -59,6 +60,24 @@ impl Choice {
                 ));
             }
         }
+        let unknown = self.ranked.iter().flat_map(|candidate| {
+            let steps = candidate.steps.iter();
+            let unknown = steps.filter(|step| !step.is_bound && step.share.is_none());
+            unknown.map(move |step| format!("{} of {}", step.property, candidate.name))
+        });
+        let unknown: Vec<String> = unknown.collect();
+        if !unknown.is_empty() {
+            table.note(format!(
+                "Counted as a share of 0, since it is not known: {}.",
+                unknown.join(", ")
+            ));
+        }
+        if !self.limits_of_catalogue.is_empty() {
+            table.note(format!(
+                "Greatest depth and force are of the catalogue, not of these results: {}.",
+                self.limits_of_catalogue.join(", ")
+            ));
+        }
         for sentence in self.tested() {
             table.note(format!("Tests: {sentence}."));
         }
@@ -79,7 +98,7 @@ impl Choice {
         }
         if !self.unknown.is_empty() {
             table.note(format!(
-                "Not known of any sensor: {}.",
+                "Nothing that is asked for is known of: {}.",
                 self.unknown.join(", ")
             ));
         }
@@ -141,7 +160,7 @@ impl Choice {
             all.map(|of| json!({"better": of.better, "than": of.than, "looked_at": of.property.to_string(), "p_holm": of.p}))
                 .collect::<Vec<_>>()
         });
-        let whole = json!({"schema": CHOICE_SCHEMA, "ranked": ranked, "open": open, "dropped": dropped, "barred": barred, "unknown": self.unknown, "evidence": evidence, "simulated": self.simulated});
+        let whole = json!({"schema": CHOICE_SCHEMA, "ranked": ranked, "open": open, "dropped": dropped, "barred": barred, "unknown": self.unknown, "evidence": evidence, "simulated": self.simulated, "limits_of_catalogue": self.limits_of_catalogue});
         format!("{whole:#}\n")
     }
 

@@ -5,7 +5,7 @@ use taceva_metrics::Better;
 use super::{Answer, Comparison, Remarks};
 use crate::figures::listed;
 use crate::html::QUESTIONS;
-use crate::number::{numeral, significant, spaced};
+use crate::number::{at_most, numeral, spaced};
 use crate::tie::best;
 
 /// Lines of the first screen.
@@ -241,7 +241,7 @@ fn p_words(p: f64) -> String {
     if p < 0.001 {
         "p < 0.001".to_owned()
     } else {
-        format!("p ≤ {}", significant(p))
+        format!("p ≤ {}", at_most(p))
     }
 }
 

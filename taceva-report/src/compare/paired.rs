@@ -9,13 +9,17 @@ use crate::samples::{SampleChannel, Samples};
 
 /// The difference of both mean absolute errors; `None` if the two do not predict the same samples of one recording.
 ///
-/// They do if each has the ids of the other with the same truth, bit by bit, and if the errors of the samples have the mean that the score
-/// says: otherwise the table belongs to something else.
+/// They do if their results name the same dataset, or none, if each has the ids of the other with the same truth, bit by bit, and if the errors of
+/// the samples have the mean that the score says: otherwise the table belongs to something else. Two sensors that press the same plan have ids and
+/// commanded places in common, and are not the same samples.
 pub(super) fn difference(
     scores: Sides<&Score>,
     studies: Sides<&Study>,
     seed: u64,
 ) -> Option<Result<Difference, ComparisonError>> {
+    if dataset(studies.a) != dataset(studies.b) {
+        return None;
+    }
     let a = Errors::of(studies.a, scores.a)?;
     let b = Errors::of(studies.b, scores.b)?;
     let is_same = a.truths.len() == b.truths.len()
@@ -31,6 +35,13 @@ pub(super) fn difference(
         a: &a.sums,
         b: &b.sums,
     }))
+}
+
+/// The digest of the dataset whose samples were predicted, where the result says so.
+fn dataset(study: &Study) -> Option<&str> {
+    let mut provenance = study.provenance.iter();
+    let dataset = provenance.find(|(term, _)| term == "dataset");
+    dataset.map(|(_, digest)| digest.as_str())
 }
 
 /// |truth − prediction| of each sample, by contact point.

@@ -1,7 +1,7 @@
 //! Comparisons as rows, as text and as JSON.
 
 use serde_json::json;
-use taceva_metrics::Difference;
+use taceva_metrics::{Difference, DifferenceTest};
 
 use super::overview::OVERVIEW_WIDTH;
 use super::{Answer, Comparison, Decision};
@@ -147,6 +147,7 @@ impl Comparison {
                     "p_holm": difference.adjusted_p,
                     "shown": difference.is_shown,
                     "test": difference.test.to_string(),
+                    "degrees_of_freedom": freedom(difference.test),
                 })
             });
             json!({
@@ -213,4 +214,12 @@ fn wrapped(text: &str) -> String {
         line += word;
     }
     out + line.trim_end() + "\n"
+}
+
+/// Degrees of freedom of the intervals of both, where the test is by them.
+fn freedom(test: DifferenceTest) -> Option<[f64; 2]> {
+    match test {
+        DifferenceTest::Intervals { freedom } => Some([freedom.a, freedom.b]),
+        _ => None,
+    }
 }

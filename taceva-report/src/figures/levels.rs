@@ -34,6 +34,11 @@ pub(super) fn sheets(
     (x, y): (&str, &str),
     ways: Ways,
 ) -> Vec<Sheet> {
+    // A level has the bias itself, which is good near zero; the metric has the greatest of them.
+    let directed_by = match metric {
+        "bias_level" => "bias",
+        other => other,
+    };
     let mut sheets = Vec::new();
     for channel in SIX {
         let (mut lines, mut units) = (Vec::new(), [Unit::One; 2]);
@@ -54,7 +59,7 @@ pub(super) fn sheets(
             sheets.push(Sheet {
                 title: channel.to_owned(),
                 x: axis_label(x, units[0]),
-                y: directed(&axis_label(y, units[1]), metric),
+                y: directed(&axis_label(y, units[1]), directed_by),
                 y_unit: units[1],
                 least: Some([0.0, 0.0]),
                 ways,

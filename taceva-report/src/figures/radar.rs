@@ -177,8 +177,8 @@ fn without_value(studies: &[Study], axes: &[Axis]) -> String {
     };
     match studies.iter().filter(has_none).count() {
         0 => String::new(),
-        1 => " One more has none of these values.".to_owned(),
-        more => format!(" {more} more have none of these values."),
+        1 => " One more result has none of these values.".to_owned(),
+        more => format!(" {more} more results have none of these values."),
     }
 }
 

@@ -13,29 +13,37 @@ use crate::scene::{PlannedScene, PlannedStudy, RigSpec, StudySource};
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 struct Changes {
     specimens: usize,
+    lights: usize,
     units: usize,
 }
 
 impl Changes {
     /// Of a plan: units come one after the other, and specimens within a unit. What is mounted at the beginning and stays is no change.
-    fn of(plan: &Plan) -> Changes {
-        let mut specimens = 0;
+    fn of(plan: &Plan, is_lit_by_hand: bool) -> Changes {
+        let (mut specimens, mut lights) = (0, 0);
         for unit in &plan.units {
-            let of_unit = plan
-                .presses
-                .iter()
-                .filter(|press| press.press.unit == *unit);
-            let mut mounted: Vec<_> = of_unit.map(|press| press.press.specimen).collect();
+            let presses = plan.presses.iter().map(|planned| &planned.press);
+            let of_unit = presses.filter(|press| press.unit == *unit);
+            let mut mounted: Vec<_> = of_unit.clone().map(|press| press.specimen).collect();
             mounted.dedup();
             if mounted.len() > 1 {
                 specimens += mounted.len();
+            }
+            if is_lit_by_hand {
+                let mut lit: Vec<_> = of_unit.filter_map(|press| press.light.as_ref()).collect();
+                lit.dedup();
+                lights += lit.len();
             }
         }
         let units = match plan.units.len() {
             0 | 1 => 0,
             units => units,
         };
-        Changes { specimens, units }
+        Changes {
+            specimens,
+            lights,
+            units,
+        }
     }
 }
 
@@ -50,7 +58,7 @@ impl PlannedScene {
             StudySource::Recording(_) => false,
         });
         for study in real {
-            let mut needed = study.by_hand();
+            let mut needed = study.by_hand(drivers);
             let rig = study.rig().filter(|rig| !rig.simulated);
             if let Some(robot) = rig.and_then(|rig| rig.robot.as_ref()) {
                 let robot = taceva_core::shown(&robot.driver.value);
@@ -58,7 +66,7 @@ impl PlannedScene {
             }
             if !needed.is_empty() {
                 return Err(StudyError::Request(format!(
-                    "study `{}`: this rig needs a person: {}; run it from a terminal, where somebody can be asked",
+                    "study `{}`: this rig needs a person: {}; run it from a terminal, or with a page, where somebody can be asked",
                     taceva_core::shown(&study.plan.name),
                     needed.join(", ")
                 )));
@@ -70,12 +78,31 @@ impl PlannedScene {
 
 impl PlannedStudy {
     /// What hands change on a real rig, with how often; nothing where nothing is changed.
-    pub fn by_hand(&self) -> Vec<String> {
-        let Changes { specimens, units } = Changes::of(&self.plan);
-        let counted = [(specimens, "specimens"), (units, "units of the sensor")];
+    pub fn by_hand(&self, drivers: &Drivers) -> Vec<String> {
+        let Changes {
+            specimens,
+            lights,
+            units,
+        } = Changes::of(&self.plan, self.is_lit_by_hand(drivers));
+        let counted = [
+            (specimens, "specimens"),
+            (lights, "lights"),
+            (units, "units of the sensor"),
+        ];
         let needed = counted.into_iter().filter(|(count, _)| *count > 0);
         let needed = needed.map(|(count, what)| format!("{count} {what} are changed by hand"));
         needed.collect()
+    }
+
+    /// Whether no device of the rig sets its light: neither one for that, nor the sensor.
+    fn is_lit_by_hand(&self, drivers: &Drivers) -> bool {
+        let StudySource::Rig(rig) = &self.source else {
+            return false;
+        };
+        rig.info(&self.study, drivers).is_ok_and(|info| {
+            let own = info.sensor.as_ref().and_then(|sensor| sensor.sensor());
+            info.lighting.is_none() && own.is_none_or(|own| own.scenes.is_empty())
+        })
     }
 
     /// The rig file that it is carried out on, if one names its devices.

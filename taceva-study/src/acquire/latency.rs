@@ -1,5 +1,6 @@
 //! Devices whose stamps come late, with stamps of when observations were true.
 
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use taceva_core::{
@@ -9,7 +10,7 @@ use taceva_core::{
 };
 
 /// A device that stamps what was true so long before.
-pub(super) struct Late<D: ?Sized> {
+pub(crate) struct Late<D: ?Sized> {
     latency_s: f64,
     device: Box<D>,
 }
@@ -158,6 +159,14 @@ impl Sensor for Late<dyn Sensor> {
         Ok(self.true_stamp(stamp))
     }
 
+    fn sequence(&self) -> Option<u64> {
+        self.device.sequence()
+    }
+
+    fn sent(&self) -> Option<&[u8]> {
+        self.device.sent()
+    }
+
     fn stop(&mut self) -> Result<(), DriverError> {
         self.device.stop()
     }
@@ -166,13 +175,17 @@ impl Sensor for Late<dyn Sensor> {
         self.device.interrupt_handle()
     }
 
+    fn settings(&self) -> BTreeMap<String, String> {
+        self.device.settings()
+    }
+
     fn lighting(&mut self) -> Option<&mut dyn Lighting> {
         self.device.lighting()
     }
 }
 
 /// A device of its own kind again.
-pub(super) trait IntoDevice<D: ?Sized> {
+pub(crate) trait IntoDevice<D: ?Sized> {
     fn boxed(self) -> Box<D>;
 }
 

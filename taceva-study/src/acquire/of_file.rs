@@ -8,7 +8,8 @@ use taceva_core::{
 use taceva_drivers::{Drivers, OpenError};
 use taceva_protocol::{RigFile, SceneProblem, Setting};
 
-use super::devices::{FIRST_POSE, Opened, Opener};
+use super::devices::{FIRST_POSE, Opener};
+use super::opened::Opened;
 use super::registered::{Registered, Turned};
 use crate::error::StudyError;
 use crate::scene::RigSpec;

@@ -31,7 +31,7 @@ impl RigSpec {
             sensor: study.sensor.driver.clone(),
             robot: driver(&study.robot),
             force: driver(&study.force),
-            lighting: lighting.map(|lighting| lighting.driver.clone()),
+            lighting: lighting.and_then(|lighting| lighting.driver.clone()),
             seed,
             folder: folder.to_owned(),
         }

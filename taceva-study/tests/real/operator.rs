@@ -85,3 +85,46 @@ fn each_unit_is_asked_for_and_one_that_is_skipped_is_left_for_the_next_call() {
     let whole = whole.expect("unit b too");
     assert_eq!(whole.table().samples().len(), 4);
 }
+
+/// One unit under two lights, which no device sets.
+const LIGHTS: &str = r#"
+scene_version = 1
+name = "wall"
+robot = { driver = "wall/robot" }
+force = { driver = "wall/force" }
+sensor = { driver = "wall/gel", opaque = false }
+lighting = { scenes = ["dark", "lamp"] }
+model = { name = "ridge" }
+[metrics]
+want = ["r_light"]
+[protocol]
+contact = { clearance_mm = 0.3, search_mm = 0.5, speed_mm_s = 5.0, travel_mm_s = 50.0, settle_s = 0.01 }
+calibration = { points = 2, indentations = 1, shear_mm = 0.0 }
+lighting = { points = 2 }
+"#;
+
+#[test]
+fn a_light_without_a_driver_is_set_by_hand_and_asked_for_by_its_name() {
+    let (world, folder) = (World::new(), tempfile::tempdir().expect("a folder"));
+    let path = folder.path().join("run");
+    let refused = record_by_hand(&world, &path, &SilentProgress, (LIGHTS, None));
+    let text = refused.expect_err("nobody is there").to_string();
+    assert!(text.contains("2 lights are changed by hand"), "{text}");
+    assert_eq!(world.state().readings, 0);
+
+    let hands = Mutex::new(ScriptedOperator {
+        asked: Vec::new(),
+        answer: |_| Answer::Done,
+    });
+    let whole = record_by_hand(&world, &path, &SilentProgress, (LIGHTS, Some(&hands)));
+    let whole = whole.expect("somebody sets the light");
+    let held = hands.lock().expect("whole");
+    let lights: Vec<&Question> = held
+        .asked
+        .iter()
+        .filter(|question| matches!(question, Question::Light(_)))
+        .collect();
+    let light = |name: &str| Question::Light(name.to_owned());
+    assert_eq!(lights, [&light("dark"), &light("lamp")]);
+    assert!(!whole.table().samples().is_empty());
+}

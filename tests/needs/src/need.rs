@@ -38,6 +38,12 @@ pub enum Need {
     PublicClients,
     /// `ffmpeg`, which serves a stream of pictures.
     Ffmpeg,
+    /// QEMU, a static busybox and a kernel with its modules: a virtual machine for devices that only a kernel can emulate.
+    Kernel,
+    /// Python with OctoPrint, whose virtual printer speaks as Marlin does.
+    VirtualPrinter,
+    /// The right to make device files, which stand for cameras and scales that are not there.
+    DeviceFiles,
     /// An example that is built where a whole package is tested, and not by a single test of it.
     Example,
 }
@@ -51,7 +57,7 @@ pub struct UnknownNeed(
 
 impl Need {
     /// Every need.
-    pub const ALL: [Need; 16] = [
+    pub const ALL: [Need; 19] = [
         Need::Browser,
         Need::Axe,
         Need::Latex,
@@ -67,6 +73,9 @@ impl Need {
         Need::Gpu,
         Need::PublicClients,
         Need::Ffmpeg,
+        Need::Kernel,
+        Need::VirtualPrinter,
+        Need::DeviceFiles,
         Need::Example,
     ];
 
@@ -88,6 +97,9 @@ impl Need {
             Need::Gpu => "gpu",
             Need::PublicClients => "public-clients",
             Need::Ffmpeg => "ffmpeg",
+            Need::Kernel => "kernel",
+            Need::VirtualPrinter => "virtual-printer",
+            Need::DeviceFiles => "device-files",
             Need::Example => "example",
         }
     }

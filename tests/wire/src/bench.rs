@@ -36,12 +36,22 @@ pub struct Truth {
     pub force_n: [f64; 3],
     /// Whether the tip moves.
     pub is_moving: bool,
+    /// How far the tip has gone since the start of the bench, in mm.
+    pub way_mm: f64,
+    /// For how long it has moved since then.
+    pub in_motion: Duration,
+    /// When it was last seen to have moved, since the start of the bench.
+    pub moved: Duration,
+    /// When it was looked at last.
+    looked: Duration,
     /// The greatest z of the tip since it was last forgotten, in mm.
     pub deepest_mm: f64,
     /// The normal force that is watched, in N.
     pub limit_n: Option<f64>,
     /// When that force was first passed, since the start of the bench.
     pub passed: Option<Duration>,
+    /// How deep the tip was then, in mm.
+    pub passed_mm: Option<f64>,
     /// When the tip first stood after that.
     pub stopped: Option<Duration>,
 }
@@ -140,6 +150,11 @@ impl WallBench {
         self.inner.rig.tare_now(TARE_READINGS);
     }
 
+    /// What the transducer measures along each axis at most, in N.
+    pub fn force_range_n(&self) -> f64 {
+        self.inner.options.model.parameters().transducer.range_n
+    }
+
     /// The size and the format of the camera's frames.
     pub fn frame_info(&self) -> FrameInfo {
         self.camera().frame_info()
@@ -204,7 +219,7 @@ impl WallBench {
         let mut truth = self.inner.truth();
         truth.deepest_mm = f64::NEG_INFINITY;
         truth.limit_n = limit_n;
-        (truth.passed, truth.stopped) = (None, None);
+        (truth.passed, truth.passed_mm, truth.stopped) = (None, None, None);
     }
 
     fn camera(&self) -> MutexGuard<'_, Camera> {
@@ -228,13 +243,24 @@ impl Inner {
         let now = self.began.elapsed();
         let mut truth = self.truth();
         self.rig.advance(now);
-        truth.tip_mm = self.rig.tip_mm();
+        let before = std::mem::replace(&mut truth.tip_mm, self.rig.tip_mm());
+        let squares = [0, 1, 2].map(|axis| (truth.tip_mm[axis] - before[axis]).powi(2));
+        let step_mm = squares.iter().sum::<f64>().sqrt();
+        if step_mm > 0.0 {
+            truth.way_mm += step_mm;
+            truth.moved = now;
+        }
+        let since = std::mem::replace(&mut truth.looked, now);
+        if truth.is_moving {
+            truth.in_motion += now.saturating_sub(since);
+        }
         truth.is_moving = self.rig.is_moving();
         truth.force_n = self.rig.truth().map_or([0.0; 3], |contact| contact.force_n);
         truth.deepest_mm = truth.deepest_mm.max(truth.tip_mm[2]);
         let is_beyond = truth.limit_n.is_some_and(|limit| truth.force_n[2] > limit);
         if is_beyond && truth.passed.is_none() {
             truth.passed = Some(now);
+            truth.passed_mm = Some(truth.tip_mm[2]);
         }
         if truth.passed.is_some() && truth.stopped.is_none() && !truth.is_moving {
             truth.stopped = Some(now);
@@ -279,6 +305,9 @@ mod tests {
             truth.force_n[2] > 0.2 && truth.deepest_mm > 0.0,
             "{truth:?}"
         );
+        assert!(truth.way_mm > 20.0 && truth.moved >= truth.passed.unwrap_or_default());
+        std::thread::sleep(TICK);
+        assert_eq!(bench.truth().moved, truth.moved, "it stands");
         bench.watch(None);
         assert_eq!(bench.truth().passed, None);
     }

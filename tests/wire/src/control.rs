@@ -167,6 +167,8 @@ fn answer(line: &[u8], bench: &WallBench, arm: Option<&dyn Arm>) -> Result<Value
                 "tip_mm": truth.tip_mm,
                 "force_N": truth.force_n,
                 "moving": truth.is_moving,
+                "way_mm": truth.way_mm,
+                "moved_s": truth.moved.as_secs_f64(),
                 "deepest_mm": truth.deepest_mm,
                 "passed_s": seconds(truth.passed),
                 "stopped_s": seconds(truth.stopped),

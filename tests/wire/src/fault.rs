@@ -29,6 +29,18 @@ pub enum FaultKind {
     Frozen,
     /// A number is none.
     NotANumber,
+    /// Messages come in pieces.
+    Split,
+    /// Several messages come at once.
+    Merged,
+    /// Bytes of another protocol stand before each message.
+    Foreign,
+    /// Before each message stands the beginning of one that nobody could hold.
+    Hostile,
+    /// Numbers of messages are left out, though no message is.
+    Gap,
+    /// The transducer is at the end of its range.
+    Saturated,
 }
 
 /// What can happen to an arm.
@@ -76,12 +88,18 @@ impl Device {
 
 impl FaultKind {
     /// Every kind.
-    pub const ALL: [FaultKind; 5] = [
+    pub const ALL: [FaultKind; 11] = [
         FaultKind::Drop,
         FaultKind::Late,
         FaultKind::Silent,
         FaultKind::Frozen,
         FaultKind::NotANumber,
+        FaultKind::Split,
+        FaultKind::Merged,
+        FaultKind::Foreign,
+        FaultKind::Hostile,
+        FaultKind::Gap,
+        FaultKind::Saturated,
     ];
 
     /// How it is written on the control port.
@@ -92,6 +110,12 @@ impl FaultKind {
             FaultKind::Silent => "silent",
             FaultKind::Frozen => "frozen",
             FaultKind::NotANumber => "nan",
+            FaultKind::Split => "split",
+            FaultKind::Merged => "merged",
+            FaultKind::Foreign => "foreign",
+            FaultKind::Hostile => "hostile",
+            FaultKind::Gap => "gap",
+            FaultKind::Saturated => "saturated",
         }
     }
 }

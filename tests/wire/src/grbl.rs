@@ -8,9 +8,6 @@ use std::io::{self, Read, Write};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
-use rustix::fs::OFlags;
-use rustix::pty::{OpenptFlags, grantpt, openpt, ptsname, unlockpt};
-use rustix::termios::{OptionalActions, tcgetattr, tcsetattr};
 use taceva_core::Speed;
 
 use crate::base::Base;
@@ -18,6 +15,7 @@ use crate::bench::WallBench;
 use crate::error::WireError;
 use crate::fault::{Arm, ArmFault, Device, FaultKind};
 use crate::server::End;
+use crate::terminal::pseudo_terminal;
 
 /// An emulated machine, which is unplugged once this is dropped.
 #[derive(Debug)]
@@ -117,20 +115,6 @@ impl Drop for Emulator {
             let _ = thread.join();
         }
     }
-}
-
-/// The machine's end of a raw line, and the path of the other.
-fn pseudo_terminal() -> io::Result<(File, String)> {
-    let end = openpt(OpenptFlags::RDWR | OpenptFlags::NOCTTY)?;
-    grantpt(&end)?;
-    unlockpt(&end)?;
-    let path = ptsname(&end, Vec::new())?;
-    let mut settings = tcgetattr(&end)?;
-    settings.make_raw();
-    tcsetattr(&end, OptionalActions::Now, &settings)?;
-    rustix::fs::fcntl_setfl(&end, OFlags::NONBLOCK)?;
-    let path = path.to_string_lossy().into_owned();
-    Ok((File::from(end), path))
 }
 
 fn serve(mut file: File, machine: &Machine, end: &End) {

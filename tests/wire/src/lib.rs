@@ -20,16 +20,24 @@ mod base;
 mod bench;
 mod error;
 mod fault;
+mod link;
 mod options;
 mod rig_file;
+mod served;
 mod server;
+#[cfg(unix)]
+mod terminal;
 
 pub mod control;
 #[cfg(unix)]
 pub mod grbl;
+#[cfg(unix)]
+pub mod marlin;
 pub mod mjpeg;
 pub mod netft;
 pub mod sri;
+#[cfg(target_os = "linux")]
+pub mod uhid;
 pub mod ur;
 pub mod xarm;
 
@@ -38,4 +46,4 @@ pub use bench::{Truth, WallBench};
 pub use error::WireError;
 pub use fault::{Arm, ArmFault, Device, Fault, FaultKind};
 pub use options::BenchOptions;
-pub use rig_file::RigFile;
+pub use served::{ForceKind, RobotKind, ServeOptions, Served};

@@ -4,26 +4,22 @@ use std::io::Read;
 use std::net::Ipv4Addr;
 use std::path::PathBuf;
 use std::process::ExitCode;
-use std::sync::Arc;
 
-use clap::{Parser, ValueEnum};
+use clap::Parser;
 use taceva_sim::Model;
-use taceva_wire::control::Control;
-use taceva_wire::{Arm, BenchOptions, RigFile, WallBench, WireError, mjpeg, netft, sri, ur, xarm};
+use taceva_wire::{BenchOptions, ForceKind, RobotKind, ServeOptions, Served, WireError};
 
-/// Serves a simulated gel behind the sockets of devices that exist. Nothing is real; everything listens on loopback alone.
+/// Serves a simulated gel behind the sockets of devices that exist: a robot, a force transducer and a camera. Nothing is real; everything
+/// listens on loopback alone.
 #[derive(Debug, Parser)]
 #[command(name = "taceva-wire", version)]
 struct Arguments {
     /// The robot over the gel.
-    #[arg(long)]
-    robot: Option<RobotKind>,
+    #[arg(long, value_enum, default_value_t = RobotKind::Xarm)]
+    robot: RobotKind,
     /// What measures the force.
-    #[arg(long)]
-    force: Option<ForceKind>,
-    /// The camera behind the gel.
-    #[arg(long)]
-    camera: Option<CameraKind>,
+    #[arg(long, value_enum, default_value_t = ForceKind::Sri)]
+    force: ForceKind,
     /// The gel: vitactip, magictac, gelsight or gelsight-wm.
     #[arg(long, default_value = "gelsight", value_parser = model)]
     model: Model,
@@ -33,7 +29,8 @@ struct Arguments {
     /// Pixels of the camera, along x and along y, that make one of a frame.
     #[arg(long, default_value_t = 20, value_parser = clap::value_parser!(u32).range(1..=64))]
     reduction: u32,
-    /// No error of the robot, no drift, no relaxation: for comparisons with a study that is simulated in the program.
+    /// Nothing errs, drifts or relaxes, as with `quiet` of the simulated sensors, and pictures lose nothing: for comparisons with a study that is
+    /// simulated in the program.
     #[arg(long)]
     quiet: bool,
     /// Stream PNG, which loses nothing.
@@ -51,31 +48,6 @@ struct Arguments {
     /// Where to write the rig file.
     #[arg(long)]
     write: Option<PathBuf>,
-}
-
-#[derive(Clone, Copy, Debug, ValueEnum)]
-enum RobotKind {
-    /// An arm of UFACTORY.
-    Xarm,
-    /// An arm of Universal Robots.
-    Ur,
-    /// A machine with GRBL, on a pseudo-terminal.
-    #[cfg(unix)]
-    Grbl,
-}
-
-#[derive(Clone, Copy, Debug, ValueEnum)]
-enum ForceKind {
-    /// A box of SRI.
-    Sri,
-    /// A Net F/T box of ATI.
-    Netft,
-}
-
-#[derive(Clone, Copy, Debug, ValueEnum)]
-enum CameraKind {
-    /// A camera that streams over HTTP.
-    Mjpeg,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -107,72 +79,23 @@ fn main() -> ExitCode {
 
 #[expect(clippy::print_stdout, reason = "a program says where it listens")]
 fn serve(arguments: &Arguments) -> Result<(), WireError> {
-    let bench = WallBench::start(&BenchOptions {
-        model: arguments.model,
-        seed: arguments.seed,
-        is_quiet: arguments.quiet,
-        reduction: arguments.reduction,
-    })?;
-    let host = arguments.host;
-    let usual = arguments.usual_ports;
-    let ports = xarm::Ports {
-        host,
+    let served = Served::start(&ServeOptions {
+        bench: BenchOptions {
+            model: arguments.model,
+            seed: arguments.seed,
+            is_quiet: arguments.quiet,
+            reduction: arguments.reduction,
+        },
+        robot: arguments.robot,
+        force: arguments.force,
+        host: arguments.host,
+        uses_usual_ports: arguments.usual_ports,
         firmware: arguments.firmware.0,
-        ..if usual {
-            xarm::Ports::USUAL
-        } else {
-            xarm::Ports::ANY
-        }
-    };
-    let robot: Option<Arc<dyn Arm>> = match arguments.robot {
-        Some(RobotKind::Xarm) => Some(Arc::new(xarm::Emulator::start(&bench, ports)?)),
-        Some(RobotKind::Ur) => {
-            let ports = if usual { ur::USUAL_PORTS } else { [0, 0] };
-            Some(Arc::new(ur::Emulator::start(&bench, host, ports)?))
-        }
-        #[cfg(unix)]
-        Some(RobotKind::Grbl) => Some(Arc::new(taceva_wire::grbl::Emulator::start(&bench)?)),
-        None => None,
-    };
-    // Kept until the end: a device that is dropped is unplugged.
-    let (sri, netft) = match arguments.force {
-        Some(ForceKind::Sri) => {
-            let port = if usual { sri::USUAL_PORT } else { 0 };
-            (Some(sri::Emulator::start(&bench, host, port)?), None)
-        }
-        Some(ForceKind::Netft) => {
-            let port = if usual { netft::USUAL_PORT } else { 0 };
-            (None, Some(netft::Emulator::start(&bench, host, port, 0)?))
-        }
-        None => (None, None),
-    };
-    let camera = match arguments.camera {
-        Some(CameraKind::Mjpeg) => {
-            let style = mjpeg::Style::Usual;
-            Some(mjpeg::Emulator::start(&bench, host, 0, style)?)
-        }
-        None => None,
-    };
-    let control = Control::start(&bench, robot.clone(), host, 0)?;
-    let url = |camera: &mjpeg::Emulator| match arguments.png {
-        true => camera.png_url(),
-        false => camera.url(),
-    };
-    let rig = RigFile {
-        bench: &bench,
-        robot: robot.as_ref().map(|arm| arm.selector()),
-        force: sri
-            .as_ref()
-            .map(sri::Emulator::selector)
-            .or(netft.as_ref().map(netft::Emulator::selector)),
-        sensor: camera
-            .as_ref()
-            .map(|camera| format!("camera/mjpeg:url={}", url(camera))),
-        control: &control,
-    };
-    print!("{}", rig.text());
+        is_lossless: arguments.png || arguments.quiet,
+    })?;
+    print!("{}", served.rig_file());
     if let Some(path) = &arguments.write {
-        rig.write(path)?;
+        served.write_rig_file(path)?;
         println!("\n# written to {}", path.display());
     }
     println!("# It runs until it is interrupted, or its standard input ends.");

@@ -14,6 +14,7 @@ use taceva_core::{FrameInfo, PixelFormat};
 use crate::bench::WallBench;
 use crate::error::WireError;
 use crate::fault::{Device, FaultKind};
+use crate::link::Link;
 use crate::server::{End, Server, read};
 
 /// An emulated camera that listens until this is dropped.
@@ -35,6 +36,9 @@ pub enum Style {
 
 /// What stands between two parts.
 const BOUNDARY: &str = "taceva-frame";
+/// A part that is longer than any memory.
+const HOSTILE: &[u8] =
+    b"--taceva-frame\r\nContent-type: image/jpeg\r\nContent-length: 18446744073709551615\r\n\r\n";
 /// What the JPEG loses: little.
 const QUALITY: u8 = 95;
 /// A longer request is none.
@@ -93,6 +97,7 @@ fn serve(mut stream: TcpStream, bench: &WallBench, style: Style, end: &End) -> i
     let info = bench.frame_info();
     let mut due = bench.now();
     let mut shown = Vec::new();
+    let mut link = Link::new(Device::Camera, HOSTILE);
     while !end.has_come() {
         let now = bench.now();
         if due > now {
@@ -105,11 +110,8 @@ fn serve(mut stream: TcpStream, bench: &WallBench, style: Style, end: &End) -> i
             let pixels = bench.picture().map_err(io::Error::other)?;
             shown = encode(&pixels, info, is_png).map_err(io::Error::other)?;
         }
-        std::thread::sleep(bench.delay(Device::Camera));
-        if bench.withholds(Device::Camera) {
-            continue;
-        }
-        stream.write_all(&part(&shown, kind, style))?;
+        let part = part(&shown, kind, style);
+        link.send(bench, &part, |bytes| stream.write_all(bytes))?;
     }
     Ok(())
 }

@@ -27,7 +27,7 @@ pub const USUAL_PORT: u16 = 49_152;
 /// Readings a second.
 const RATE_HZ: u32 = 500;
 /// Counts a N, and a N·m.
-const COUNTS: f64 = 1_000_000.0;
+const COUNTS: f64 = 10_000_000.0;
 
 impl Emulator {
     /// Starts a box whose transducer measures what presses on the gel of `bench`; 0 for any free port.
@@ -121,6 +121,7 @@ fn stream_records(socket: &UdpSocket, bench: &WallBench, end: &End) {
     let mut number: u32 = 0;
     let mut due = bench.now();
     let mut shown = [0.0; 3];
+    let range_n = bench.force_range_n();
     let mut request = [0; 64];
     while !end.has_come() {
         if let Ok((8, from)) = socket.recv_from(&mut request)
@@ -146,7 +147,10 @@ fn stream_records(socket: &UdpSocket, bench: &WallBench, end: &End) {
             continue;
         }
         due += Duration::from_secs(1) / RATE_HZ;
-        number = number.wrapping_add(1);
+        number = number.wrapping_add(match bench.is_faulty(Device::Force, FaultKind::Gap) {
+            true => SKIPPED,
+            false => 1,
+        });
         if !bench.is_faulty(Device::Force, FaultKind::Frozen) {
             shown = Base::turn(bench.reading_n());
         }
@@ -155,13 +159,33 @@ fn stream_records(socket: &UdpSocket, bench: &WallBench, end: &End) {
             continue;
         }
         // Whole numbers cannot be none: a broken gage is an error in the status.
-        let status = match bench.is_faulty(Device::Force, FaultKind::NotANumber) {
-            true => 0x8000_0000,
+        let mut status = match bench.is_faulty(Device::Force, FaultKind::NotANumber) {
+            true => ERROR,
             false => 0,
         };
-        let _ = socket.send_to(&record(number, status, shown), to);
+        let mut values = shown;
+        if bench.is_faulty(Device::Force, FaultKind::Saturated) {
+            values[2] = -range_n;
+            status = ERROR | SATURATED;
+        }
+        for (kind, datagram) in [(FaultKind::Foreign, FOREIGN), (FaultKind::Hostile, HOSTILE)] {
+            if bench.is_faulty(Device::Force, kind) {
+                let _ = socket.send_to(datagram, to);
+            }
+        }
+        let _ = socket.send_to(&record(number, status, values), to);
     }
 }
+
+/// Bits of the status: something is wrong, and a gage is at the end of its range.
+const ERROR: u32 = 1 << 31;
+const SATURATED: u32 = 1 << 17;
+/// From one number to the next where some are left out.
+const SKIPPED: u32 = 7;
+/// A datagram of another protocol.
+const FOREIGN: &[u8] = b"HTTP/1.1 400 Bad Request\r\nContent-Length: 0\r\n";
+/// A record that breaks off.
+const HOSTILE: &[u8] = &[0xff; 35];
 
 fn record(number: u32, status: u32, force_n: [f64; 3]) -> Vec<u8> {
     #[expect(

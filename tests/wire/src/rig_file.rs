@@ -1,77 +1,56 @@
 //! The rig file of a bench: which driver reaches which device, and how they stand to each other.
 
 use std::fmt::Write as _;
-use std::path::Path;
 
 use crate::base::Base;
 use crate::bench::WallBench;
 use crate::control::Control;
-use crate::error::WireError;
 
 /// What is to be written: the drivers with their arguments.
 #[derive(Clone, Debug)]
-pub struct RigFile<'a> {
-    /// The gel.
-    pub bench: &'a WallBench,
-    /// That of the arm over it, if there is one.
-    pub robot: Option<String>,
-    /// That of the transducer, if there is one.
-    pub force: Option<String>,
-    /// That of the camera, if there is one.
-    pub sensor: Option<String>,
+pub(crate) struct RigFile<'a> {
+    pub(crate) bench: &'a WallBench,
+    /// That of the arm over the gel.
+    pub(crate) robot: String,
+    /// That of the transducer.
+    pub(crate) force: String,
+    /// That of the camera.
+    pub(crate) sensor: String,
     /// Where faults are injected.
-    pub control: &'a Control,
+    pub(crate) control: &'a Control,
 }
 
 impl RigFile<'_> {
     /// The text of the file.
-    pub fn text(&self) -> String {
+    pub(crate) fn text(&self) -> String {
         let mut text = format!(
             "# Everything here is simulated: {}. Faults and truth: JSON lines on {}.\nrig_version = 1\nsimulated = true\n",
             self.bench.serial(),
             self.control.address()
         );
         let axes = toml::Value::from(Base::AXES.to_vec());
-        // A string takes whatever is written, so writing to it does not fail.
-        let mut section = |name: &str, lines: &[String]| {
-            let _ = write!(text, "\n[{name}]\n{}\n", lines.join("\n"));
-        };
+        let origin = toml::Value::from(Base::ORIGIN_MM.to_vec());
         let driver = |selector: &str| format!("driver = {}", toml::Value::from(selector));
         let latency = || "latency_ms = 0.0".to_owned();
-        if let Some(selector) = &self.robot {
-            let origin = toml::Value::from(Base::ORIGIN_MM.to_vec());
-            section(
-                "robot",
-                &[
-                    driver(selector),
-                    "carries = \"indenter\"".to_owned(),
-                    format!("origin_mm = {origin}"),
-                    format!("axes = {axes}"),
-                ],
-            );
+        let robot = [
+            driver(&self.robot),
+            "carries = \"indenter\"".to_owned(),
+            format!("origin_mm = {origin}"),
+            format!("axes = {axes}"),
+        ];
+        let force = [driver(&self.force), format!("axes = {axes}"), latency()];
+        let sensor = [driver(&self.sensor), latency()];
+        let limits = ["speed_max_mm_s = 20.0".to_owned()];
+        for (name, lines) in [
+            ("robot", &robot[..]),
+            ("force", &force),
+            ("sensor", &sensor),
+            ("limits", &limits),
+        ] {
+            // A string takes whatever is written, so writing to it does not fail.
+            let _ = write!(text, "\n[{name}]\n{}\n", lines.join("\n"));
         }
-        if let Some(selector) = &self.force {
-            section(
-                "force",
-                &[driver(selector), format!("axes = {axes}"), latency()],
-            );
-        }
-        if let Some(selector) = &self.sensor {
-            section("sensor", &[driver(selector), latency()]);
-        }
-        section("limits", &["speed_max_mm_s = 20.0".to_owned()]);
         text
-    }
-
-    /// Writes the file.
-    ///
-    /// # Errors
-    /// [`WireError::Write`].
-    pub fn write(&self, path: &Path) -> Result<(), WireError> {
-        std::fs::write(path, self.text()).map_err(|source| WireError::Write {
-            path: path.to_owned(),
-            source,
-        })
     }
 }
 
@@ -88,9 +67,9 @@ mod tests {
         let control = Control::start(&bench, None, Ipv4Addr::LOCALHOST, 0).expect("a port");
         let text = RigFile {
             bench: &bench,
-            robot: Some("ufactory/xarm:host=127.0.0.1;port=502".to_owned()),
-            force: Some("sri/m8128:host=127.0.0.1".to_owned()),
-            sensor: Some("camera/mjpeg:url=http://127.0.0.1:80/\"x\"".to_owned()),
+            robot: "ufactory/xarm:host=127.0.0.1;port=502".to_owned(),
+            force: "sri/m8128:host=127.0.0.1".to_owned(),
+            sensor: "camera/mjpeg:url=http://127.0.0.1:80/\"x\"".to_owned(),
             control: &control,
         }
         .text();

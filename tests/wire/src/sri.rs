@@ -1,7 +1,7 @@
 //! An emulated interface box of SRI: commands and a stream of frames on one port.
 //!
-//! What it does: rate, check by sum, engineering units, start, stop, zero (which it does not answer while it streams, as public drivers
-//! report). What it does not: CRC32, counts, several readings a frame, settings that last.
+//! What it does: rate, checks by sum and CRC32, engineering units, start, stop, zero (which it does not answer while it streams, as public drivers
+//! report). What it does not: counts, several readings a frame, settings that last.
 
 mod session;
 
@@ -15,6 +15,7 @@ use crate::server::{End, Server};
 #[derive(Debug)]
 pub struct Emulator {
     server: Server,
+    force_max_n: f64,
 }
 
 /// The port that clients expect.
@@ -31,13 +32,21 @@ impl Emulator {
         let server = Server::start(host, port, &end, move |stream| {
             session::serve(stream, &serving.0, &serving.1);
         })?;
-        Ok(Emulator { server })
+        Ok(Emulator {
+            server,
+            force_max_n: bench.force_range_n(),
+        })
     }
 
     /// The driver that reaches it, with its arguments.
     pub fn selector(&self) -> String {
         let address = self.address();
-        format!("sri/m8128:host={};port={}", address.ip(), address.port())
+        format!(
+            "sri/m8128:host={};port={};force_max_n={}",
+            address.ip(),
+            address.port(),
+            self.force_max_n
+        )
     }
 
     /// Where it listens.

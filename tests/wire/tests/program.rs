@@ -31,8 +31,7 @@ fn its_rig_file_opens_every_device_its_control_port_breaks_them_and_it_ends_with
     let folder = tempfile::tempdir().expect("a folder");
     let file = folder.path().join("rig.toml");
     let mut program = Command::new(env!("CARGO_BIN_EXE_taceva-wire"))
-        .args(["--robot", "xarm", "--force", "sri", "--camera", "mjpeg"])
-        .args(["--seed", "7", "--quiet", "--png", "--write"])
+        .args(["--quiet", "--seed", "7", "--write"])
         .arg(&file)
         .stdin(Stdio::piped())
         .stdout(Stdio::piped())

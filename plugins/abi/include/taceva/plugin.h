@@ -36,7 +36,7 @@ extern "C" {
 
 #define TACEVA_MAGIC 0x31454154u /* "TAE1", little-endian */
 #define TACEVA_ABI_MAJOR 1u      /* equal, or the library is refused */
-#define TACEVA_ABI_MINOR 0u      /* may differ either way */
+#define TACEVA_ABI_MINOR 1u      /* may differ either way */
 
 /* ---- status: the closed list of failures, 0 and below ---- */
 
@@ -68,11 +68,23 @@ typedef struct taceva_text {
 
 #define TACEVA_MESSAGE_SIZE 504
 
-/* The caller's; a plugin writes no further than `size`. */
+/* Why a device stopped by itself: nothing moves after it until a person has looked. They begin as no text does, so that a message that ran on
+ * is none; of those that begin so, one that is not listed counts as SERVO. */
+typedef uint32_t taceva_fault;
+
+#define TACEVA_FAULT_NONE 0u
+#define TACEVA_FAULT_EMERGENCY_STOP 0xfa170001u /* somebody pressed it, or a guard opened */
+#define TACEVA_FAULT_COLLISION 0xfa170002u      /* it struck something */
+#define TACEVA_FAULT_BOUNDARY 0xfa170003u       /* it came to the border of where it may move */
+#define TACEVA_FAULT_SERVO 0xfa170004u          /* a servo, a brake or the controller failed */
+
+/* The caller's; a plugin writes no further than `size`. Hosts of minor 0 end before `fault`: TACEVA_ERROR_SIZE bytes. */
+#define TACEVA_ERROR_SIZE 512
 typedef struct taceva_error {
   uint32_t size;                     /* in: of this struct */
   int32_t vendor_code;               /* out: the device's own number, 0 for none */
   char message[TACEVA_MESSAGE_SIZE]; /* out: UTF-8, ends with a NUL, cut where it does not fit */
+  taceva_fault fault;                /* out, since minor 1: only where `size` covers it */
 } taceva_error;
 
 /* Takes what a function lists or writes; `text` is borrowed for the call. */
@@ -178,6 +190,10 @@ typedef struct taceva_plugin {
   taceva_status (*open_rig)(taceva_rig **rig, taceva_error *error);      /* [any] */
   void (*close_rig)(taceva_rig *rig);                                    /* [owner] after the last device of the rig */
   const void *(*rig_extension)(taceva_rig *rig, taceva_text id);         /* [owner] a table of calls on the rig, or NULL */
+
+  /* Since minor 1: what it must reach outside itself, a need of the manifest a line: "usb\ntcp:{host}:{port}". Only `taceva plugin manifest`
+   * reads it; what is given to a plugin is what its manifest says and its user allows. Left out: it does not say. */
+  taceva_text needs;
 } taceva_plugin;
 
 #define TACEVA_SENSOR_FACTORY "taceva.sensor/1"

@@ -40,6 +40,7 @@ tables! {
     abi::LightingCalls => "taceva_lighting_calls",
     abi::RegressorCalls => "taceva_regressor_calls",
     abi::ext::TareCalls => "taceva_tare_calls",
+    abi::ext::NumberedCalls => "taceva_numbered_calls",
     abi::ext::GuardedMotionCalls => "taceva_guarded_motion_calls",
     abi::ext::SensorLightingCalls => "taceva_sensor_lighting_calls",
     abi::ext::BenchCalls => "taceva_bench_calls",

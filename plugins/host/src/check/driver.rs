@@ -267,6 +267,15 @@ fn keeps_to_error(subject: &Subject) -> Result<(), Ending> {
     let written = error.message[ROOM..].iter().any(|byte| *byte != CANARY);
     ensure(!written, || {
         format!("a message went beyond the {ROOM} bytes that its `taceva_error` had")
+    })?;
+    // A host of minor 0 has no room for a fault.
+    const NONE: abi::FaultNumber = abi::FaultNumber(0x5a5a);
+    let mut error = abi::Error::new();
+    error.size = u32::try_from(offset_of!(abi::Error, fault)).expect("small");
+    error.fault = NONE;
+    raw_open(subject, drivers, &list.args(), &raw mut error)?;
+    ensure(error.fault == NONE, || {
+        "a fault was written to a `taceva_error` that ends before it".to_owned()
     })
 }
 

@@ -34,6 +34,7 @@ pub(super) const CHECKS: &[Check] = &[
         streaming::interrupt::<Transducer>,
     ),
     check("force/tares", tares),
+    check("force/numbers-its-readings", numbers),
     check(
         "force/dropped-in-any-state",
         streaming::dropped::<Transducer>,
@@ -104,5 +105,30 @@ fn tares(subject: &Subject) -> Result<(), Ending> {
     tare.zero(PATIENT)?;
     tare.zero(PATIENT)?;
     force.read(PATIENT)?;
+    Ok(())
+}
+
+/// Each reading has a number of its own, if it says so; and none if it does not.
+fn numbers(subject: &Subject) -> Result<(), Ending> {
+    let mut force = Transducer::started(subject)?;
+    let said = subject.said()?;
+    let is_numbered = said.force().is_some_and(|facts| facts.numbered);
+    if !is_numbered {
+        let why = "it does not number its readings";
+        return Err(Ending::Skipped(why.to_owned()));
+    }
+    let mut before = None;
+    for _ in 0..Transducer::COUNT {
+        force.read(PATIENT)?;
+        let number = force.sequence();
+        ensure(number.is_some(), || "a reading without a number".to_owned())?;
+        ensure(number != before, || {
+            format!(
+                "two readings have the number {}",
+                number.unwrap_or_default()
+            )
+        })?;
+        before = number;
+    }
     Ok(())
 }

@@ -20,6 +20,7 @@ pub(super) const CHECKS: &[Check] = &[
     check("library/loads", |_| Ok(())),
     check("library/loads-twice", loads_twice),
     check("library/ends", ends),
+    check("library/needs-what-its-manifest-says", needs),
     check("library/unknown-factory", unknown_factory),
     check("library/stable-factories", stable_factories),
     check("library/rigs", rigs),
@@ -55,6 +56,24 @@ fn ends(subject: &Subject) -> Result<(), Ending> {
     drop(load(subject)?);
     drop(load(subject)?);
     Ok(())
+}
+
+/// What it says it needs stands in its manifest, which alone counts.
+fn needs(subject: &Subject) -> Result<(), Ending> {
+    let offer = subject.library.offer();
+    let offer = offer.map_err(|problem| Ending::Broken(problem.to_string()))?;
+    if offer.needs.is_empty() {
+        let why = "it does not say what it needs";
+        return Err(Ending::Skipped(why.to_owned()));
+    }
+    let written = &subject.manifest.needs;
+    let is_missing = |need: &&String| !written.iter().any(|written| written.to_string() == **need);
+    match offer.needs.iter().find(is_missing) {
+        None => Ok(()),
+        Some(need) => Err(Ending::Broken(format!(
+            "it needs {need:?}, and its manifest does not say so; `taceva plugin manifest --write` writes it there"
+        ))),
+    }
 }
 
 fn factory(subject: &Subject, id: abi::Text) -> Result<usize, Ending> {

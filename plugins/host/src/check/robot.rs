@@ -7,7 +7,8 @@ use std::time::{Duration, Instant};
 
 use taceva_abi as abi;
 use taceva_core::{
-    Deadline, DriverKind, ErrorKind, Guard, Millimetre, Newton, Pose, Robot, RobotFacts, Speed,
+    Deadline, DriverError, DriverKind, ErrorKind, Guard, Millimetre, Newton, Pose, Robot,
+    RobotFacts, Speed,
 };
 
 use self::bare::{Bare, bare_move, bare_pose, no_speeds, no_targets, outside, wait_without};
@@ -98,6 +99,10 @@ fn latches(subject: &Subject) -> Result<(), Ending> {
     robot.halt()?;
     robot.halt()?;
     let answer = robot.move_to(above(home, 0.1), speed(5.0)?, PATIENT);
+    let fault = answer.as_ref().err().and_then(DriverError::fault);
+    ensure(fault.is_none(), || {
+        "a move after a halt names a fault, expected one of the device alone".to_owned()
+    })?;
     expect_failure("a move after a halt", answer, &[ErrorKind::Interrupted])?;
     here(&mut *robot)?;
     robot.clear_halt(PATIENT)?;

@@ -60,6 +60,9 @@ pub(super) const AT_ONCE: Duration = Duration::from_millis(50);
 /// Within which whatever should return at once does, on a busy machine.
 pub(super) const SOON: Duration = Duration::from_millis(500);
 
+/// How the reason begins for which a check was skipped that needs a device.
+pub(super) const NO_DEVICE: &str = "no device is there";
+
 /// How often one check opens a real device.
 const REAL_OPENINGS: usize = 3;
 
@@ -148,7 +151,7 @@ impl Subject {
         if is_absent {
             let key = &self.probe.driver;
             return Ending::Skipped(format!(
-                "no device is there: {error}; `--with {key}:…` says where one is"
+                "{NO_DEVICE}: {error}; `--with {key}:…` says where one is"
             ));
         }
         error.into()

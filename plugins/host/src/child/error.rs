@@ -120,6 +120,7 @@ impl Failure {
             kind: error.kind(),
             doing: cut(error.doing()),
             cause: std::error::Error::source(error).map(|cause| cut(&cause.to_string())),
+            fault: error.fault(),
         }
     }
 
@@ -129,12 +130,16 @@ impl Failure {
             kind,
             doing: doing.to_owned(),
             cause: Some(cut(why)),
+            fault: None,
         }
     }
 
     /// The error that `driver` would have given without a child between; its text is shown with control characters escaped.
     pub(crate) fn to_error(&self, driver: &DriverKey) -> DriverError {
-        let error = DriverError::new(self.kind, driver, plain(&cut(&self.doing)));
+        let mut error = DriverError::new(self.kind, driver, plain(&cut(&self.doing)));
+        if let Some(fault) = self.fault {
+            error = error.with_fault(fault);
+        }
         match &self.cause {
             Some(cause) => error.because(plain(&cut(cause))),
             None => error,
@@ -178,6 +183,15 @@ mod tests {
         let copy = Failure::of(&caused).to_error(&DRIVER);
         assert_eq!(copy.to_string(), caused.to_string());
         assert_eq!(copy.kind(), ErrorKind::Timeout);
+        for fault in taceva_core::Fault::ALL {
+            let stopped = DriverError::new(ErrorKind::DeviceFault, &DRIVER, "move");
+            let stopped = stopped.with_fault(fault);
+            let copy = Failure::of(&stopped).to_error(&DRIVER);
+            assert_eq!(
+                (copy.fault(), copy.to_string()),
+                (Some(fault), stopped.to_string())
+            );
+        }
     }
 
     #[test]

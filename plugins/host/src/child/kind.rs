@@ -65,5 +65,6 @@ fn unsupported() -> Failure {
         kind: ErrorKind::Unsupported,
         doing: "answer a call of another kind of device".to_owned(),
         cause: None,
+        fault: None,
     }
 }

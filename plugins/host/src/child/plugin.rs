@@ -26,7 +26,8 @@ use crate::session::Session;
 struct Label {
     path: Vec<u8>,
     digest: String,
-    manifest: String,
+    /// Without one, the library is only asked what it offers.
+    manifest: Option<String>,
 }
 
 fields!(Label {
@@ -50,12 +51,29 @@ impl ChildSpec {
         let label = Label {
             path: image.path().as_os_str().as_bytes().to_vec(),
             digest: image.digest().to_string(),
-            manifest: text.to_owned(),
+            manifest: Some(text.to_owned()),
         };
         let files = vec![image.as_fd().try_clone_to_owned()?, sealed(&label)?];
         let mut spec = ChildSpec::new(manifest.id.to_string(), files);
         spec.quarantine = quarantine.map(|quarantine| (quarantine, image.digest()));
         Ok(spec)
+    }
+}
+
+impl ChildSpec {
+    /// A child that loads `image`, of which no manifest says anything, and reaches nothing outside.
+    ///
+    /// # Errors
+    /// As [`of_plugin`](ChildSpec::of_plugin).
+    pub(crate) fn of_library(image: &Image) -> io::Result<ChildSpec> {
+        let label = Label {
+            path: image.path().as_os_str().as_bytes().to_vec(),
+            digest: image.digest().to_string(),
+            manifest: None,
+        };
+        let files = vec![image.as_fd().try_clone_to_owned()?, sealed(&label)?];
+        let name = image.path().file_name().unwrap_or_default();
+        Ok(ChildSpec::new(name.to_string_lossy(), files))
     }
 }
 
@@ -98,15 +116,20 @@ fn load(files: Vec<File>) -> Result<Arc<dyn Session>, (ErrorKind, String)> {
     };
     let label = read(label).map_err(|error| broken(&error.to_string()))?;
     let digest = Sha256Digest::from_hex(&label.digest).ok_or_else(|| broken("no digest"))?;
-    let manifest = Manifest::parse(&label.manifest)
-        .map_err(|error| (ErrorKind::Protocol, error.to_string()))?;
     let path = PathBuf::from(OsString::from_vec(label.path));
     let image = Image::from_sealed(library.into(), digest, path);
-    if let Some(probe) = probe {
-        return Ok(Arc::new(crate::check::run(probe, &image, &manifest)?));
-    }
-    let library = Library::load(&image, &manifest, Box::new(log))
-        .map_err(|error| (error.problem().kind(), error.to_string()))?;
+    let loaded = match label.manifest {
+        None => Library::load_unpromised(&image, Box::new(log)),
+        Some(text) => {
+            let manifest =
+                Manifest::parse(&text).map_err(|error| (ErrorKind::Protocol, error.to_string()))?;
+            if let Some(probe) = probe {
+                return Ok(Arc::new(crate::check::run(probe, &image, &manifest)?));
+            }
+            Library::load(&image, &manifest, Box::new(log))
+        }
+    };
+    let library = loaded.map_err(|error| (error.problem().kind(), error.to_string()))?;
     let session = InProcess::open(&library).map_err(|error| (error.kind(), error.to_string()))?;
     Ok(Arc::new(session))
 }

@@ -16,6 +16,14 @@ pub(super) trait Reply: Sized {
     fn check(&self) -> Result<(), String>;
 }
 
+/// What a transducer read, and the number that it gave it.
+#[derive(Clone, Copy)]
+pub(super) struct Reading {
+    pub(super) wrench: Wrench,
+    pub(super) stamp: Stamp,
+    pub(super) sequence: Option<u64>,
+}
+
 /// A row for each type: the value by its parts, the answer that carries them, and their check.
 macro_rules! replies {
     ($($type:ty: $value:pat_param = $parts:expr => $answer:ident { $($part:ident),* }, $check:expr;)*) => {$(
@@ -44,7 +52,7 @@ replies! {
     (): () = () => Done {}, |()| Ok(());
     Stamp: stamp = stamp => Stamped { stamp }, is_time;
     (Pose, Stamp): (pose, stamp) = (pose, stamp) => At { pose, stamp }, is_pose;
-    (Wrench, Stamp): (wrench, stamp) = (wrench, stamp) => Load { wrench, stamp }, is_load;
+    Reading: Reading { wrench, stamp, sequence } = Reading { wrench, stamp, sequence } => Load { wrench, stamp, sequence }, is_load;
     GuardedStop: stop = stop => Stopped { stop }, is_stop;
 }
 
@@ -61,9 +69,9 @@ fn is_pose((pose, stamp): &(Pose, Stamp)) -> Result<(), String> {
     is_time(stamp)
 }
 
-fn is_load((wrench, stamp): &(Wrench, Stamp)) -> Result<(), String> {
-    check_wrench(wrench).map_err(|error| error.to_string())?;
-    is_time(stamp)
+fn is_load(reading: &Reading) -> Result<(), String> {
+    check_wrench(&reading.wrench).map_err(|error| error.to_string())?;
+    is_time(&reading.stamp)
 }
 
 fn is_stop(stop: &GuardedStop) -> Result<(), String> {

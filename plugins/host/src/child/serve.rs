@@ -76,6 +76,10 @@ fn obey(
             }
             Ok(OrderAnswer::Bench { is_there })
         }
+        Order::Offer {} => {
+            let offer = called("say what it offers", || session.offer())?;
+            Ok(OrderAnswer::Offered { offer })
+        }
         Order::Model { order } => {
             model::serve(Arc::clone(session), order, files)?;
             Ok(OrderAnswer::Making {})

@@ -22,6 +22,7 @@ use super::socket::{LinkError, Socket};
 use super::spec::ChildSpec;
 use super::start::Child;
 use super::wire::{Failure, ModelOrder, Order, OrderAnswer};
+use crate::library::Offer;
 use crate::manifest::Manifest;
 use crate::session::{FitRequest, Saved, SavedRegressor, Session};
 
@@ -107,6 +108,16 @@ impl ChildSession {
 }
 
 impl Session for ChildSession {
+    fn offer(&self) -> Result<Offer, DriverError> {
+        let doing = "say what it offers";
+        let answer = self.child.order(&Order::Offer {}, &[], doing);
+        match answer.map_err(|error| error.of(&self.plugin, doing))? {
+            OrderAnswer::Offered { offer } => Ok(offer),
+            OrderAnswer::Failed { failure } => Err(failure.to_error(&self.plugin)),
+            _ => Err(self.other_answer(&self.plugin, doing)),
+        }
+    }
+
     fn describe(&self, driver: &DriverKey, args: &Args) -> Result<Descriptor, DriverError> {
         let doing = "describe itself";
         let order = Order::Describe {

@@ -6,7 +6,7 @@ use std::ffi::c_void;
 use std::sync::Arc;
 
 use taceva_abi as abi;
-use taceva_abi::ext::{TARE, TareCalls};
+use taceva_abi::ext::{NUMBERED, NumberedCalls, TARE, TareCalls};
 use taceva_core::{
     Axes, Axis, Deadline, DriverError, DriverKind, ErrorKind, Facts, ForceFacts, ForceTransducer,
     Interrupt, Stamp, Tare, Wrench, check_wrench,
@@ -23,7 +23,12 @@ pub(crate) struct PluginForce {
     read: Read,
     axes: Axes,
     tare: Option<TareAbility>,
+    numbers: Option<Sequence>,
+    /// Of the last reading.
+    sequence: Option<u64>,
 }
+
+type Sequence = unsafe extern "C" fn(*mut c_void, *mut u64, *mut abi::Error) -> abi::Status;
 
 type Read = unsafe extern "C" fn(
     *mut c_void,
@@ -61,7 +66,16 @@ impl PluginDevice for PluginForce {
         } else {
             None
         };
+        let numbers = if facts.numbered {
+            let sequence = |table: NumberedCalls| table.sequence;
+            let what = "it says that it numbers its readings";
+            Some(handle.ability((NUMBERED, OPENING), what, sequence)?)
+        } else {
+            None
+        };
         Ok(PluginForce {
+            numbers,
+            sequence: None,
             handle,
             calls,
             read,
@@ -101,7 +115,19 @@ impl ForceTransducer for PluginForce {
             let why = error.to_string();
             self.handle.failed(ErrorKind::DeviceFault, DOING, why)
         })?;
+        if let Some(numbers) = self.numbers {
+            let mut sequence = 0;
+            self.handle.call("number the reading", |raw, error| {
+                // SAFETY: [owner & open] by `&mut self`, with a place for the number and an error that outlive the call.
+                unsafe { numbers(raw, &raw mut sequence, error) }
+            })?;
+            self.sequence = Some(sequence);
+        }
         Ok((measured(wrench, self.axes), stamp(when)))
+    }
+
+    fn sequence(&self) -> Option<u64> {
+        self.sequence
     }
 
     fn stop(&mut self) -> Result<(), DriverError> {

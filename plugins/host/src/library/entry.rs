@@ -25,10 +25,12 @@ pub(crate) struct Entry {
     pub(crate) factory: Option<abi::Factory>,
     pub(crate) estimators: Option<abi::EstimatorFactory>,
     pub(crate) provided: Provided,
+    /// The table that it was read from, as the library writes it.
+    pub(crate) text: String,
 }
 
 /// Which factory an entry is of.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Place {
     Driver(DriverKind),
     Estimator,
@@ -110,10 +112,10 @@ const FACTORIES: [(DriverKind, &str); 4] = [
 /// No factory has more drivers.
 const DRIVERS_MAX: u32 = 256;
 
-/// Everything that `library` has, which is everything that `manifest` says and nothing else.
+/// Everything that `library` has, which is everything that `manifest` says and nothing else, where there is one.
 pub(super) fn entries(
     library: &Library,
-    manifest: &Manifest,
+    manifest: Option<&Manifest>,
 ) -> Result<BTreeMap<DriverKey, Entry>, LoadProblem> {
     let mut said = BTreeMap::new();
     for (kind, id) in FACTORIES {
@@ -128,7 +130,7 @@ pub(super) fn entries(
             let place = Place::Driver(kind);
             // As it holds for whatever arguments.
             let args: *const abi::Args = std::ptr::null();
-            let provided = described(library, (place, number), |taken, error| {
+            let (provided, text) = described(library, (place, number), |taken, error| {
                 // SAFETY: [any], without arguments, with a context and an error that outlive the call.
                 unsafe { describe(number, args, Some(take), taken, error) }
             })?;
@@ -138,6 +140,7 @@ pub(super) fn entries(
                 factory: Some(factory),
                 estimators: None,
                 provided,
+                text,
             };
             insert(&mut said, entry)?;
         }
@@ -149,7 +152,7 @@ pub(super) fn entries(
         };
         for number in 0..count(factory.estimators)? {
             let place = Place::Estimator;
-            let provided = described(library, (place, number), |taken, error| {
+            let (provided, text) = described(library, (place, number), |taken, error| {
                 // SAFETY: [any], with a context and an error that outlive the call.
                 unsafe { describe(number, Some(take), taken, error) }
             })?;
@@ -159,11 +162,14 @@ pub(super) fn entries(
                 factory: None,
                 estimators: Some(factory),
                 provided,
+                text,
             };
             insert(&mut said, entry)?;
         }
     }
-    agree(&said, manifest)?;
+    if let Some(manifest) = manifest {
+        agree(&said, manifest)?;
+    }
     Ok(said)
 }
 
@@ -179,7 +185,7 @@ fn described(
     library: &Library,
     (place, number): (Place, u32),
     describe: impl FnOnce(*mut std::ffi::c_void, &mut abi::Error) -> abi::Status,
-) -> Result<Provided, LoadProblem> {
+) -> Result<(Provided, String), LoadProblem> {
     let mut taken = Taken::default();
     let context = taken.context();
     call(|error| describe(context, error)).map_err(LoadProblem::Describe)?;
@@ -198,7 +204,7 @@ fn described(
             library: said.to_string(),
         });
     }
-    Ok(provided)
+    Ok((provided, text))
 }
 
 fn place_of(provided: &Provided) -> Place {

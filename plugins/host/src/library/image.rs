@@ -13,7 +13,7 @@ use super::error::{LoadError, LoadProblem};
 use crate::manifest::{LibraryFile, Sha256Digest};
 
 /// No library is longer, in bytes.
-const LENGTH_MAX: u64 = 1 << 30;
+pub(crate) const LENGTH_MAX: u64 = 1 << 30;
 /// Bytes that are copied at a time.
 const BLOCK: usize = 1 << 16;
 

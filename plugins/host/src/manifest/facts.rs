@@ -99,8 +99,7 @@ impl WrittenProvides {
             .with_noise(value(&self.noise_n).map(Newton))
             .with_resolution(value(&self.resolution_n).map(Newton))
             .with_latency_ms(value(&self.latency_ms))
-            // Numbers of readings do not cross the boundary.
-            .with_numbered(false)
+            .with_numbered(value(&self.numbered).unwrap_or(false))
             .with_tare(value(&self.tare).unwrap_or(false)))
     }
 }

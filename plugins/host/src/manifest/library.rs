@@ -34,7 +34,7 @@ pub struct LibraryFile {
 }
 
 /// What is wrong with the path of a library, if anything is.
-pub(super) fn path_fault(path: &str) -> Option<&'static str> {
+pub(crate) fn path_fault(path: &str) -> Option<&'static str> {
     if path.is_empty() || path.contains(char::is_control) {
         return Some("expected the name of a file");
     }

@@ -101,7 +101,7 @@ impl WrittenProvides {
                 .map(Spanned::span)
         };
         type Key<'a> = (&'static str, Option<Range<usize>>, &'a [Kind]);
-        let table: [Key<'_>; 22] = [
+        let table: [Key<'_>; 23] = [
             ("source", span(&self.source), devices),
             ("frame", span(&self.frame), &[Sensor]),
             ("rate_hz", span(&self.rate_hz), &[Sensor, Force]),
@@ -133,6 +133,7 @@ impl WrittenProvides {
             ("guarded_motion", span(&self.guarded_motion), &[Robot]),
             ("axes", span(&self.axes), &[Force]),
             ("tare", span(&self.tare), &[Force]),
+            ("numbered", span(&self.numbered), &[Force]),
             (
                 "limits.Pz_max_mm",
                 limit(|limits| limits.depth_mm),

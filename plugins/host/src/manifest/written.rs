@@ -36,6 +36,7 @@ pub(super) struct WrittenProvides {
     pub(super) guarded_motion: Option<Spanned<bool>>,
     pub(super) axes: Option<Spanned<Vec<Spanned<String>>>>,
     pub(super) tare: Option<Spanned<bool>>,
+    pub(super) numbered: Option<Spanned<bool>>,
     #[serde(default)]
     pub(super) usb: Vec<UsbId>,
     #[serde(default)]

@@ -490,6 +490,6 @@ TACEVA_EXPORT const taceva_plugin taceva_plugin_v1 = {
 #else
     {CONSTANT("1.0.0")},
 #endif
-    init, deinit, factory, NULL, NULL, NULL};
+    init, deinit, factory, NULL, NULL, NULL, {NULL, 0}};
 #endif
 #endif

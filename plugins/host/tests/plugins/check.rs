@@ -44,7 +44,12 @@ fn a_good_plugin_passes_every_check() {
         .filter(skipped)
         .map(|result| result.check)
         .collect();
-    assert_eq!(skipped, ["library/unknown-rig-extension"]);
+    let expected = [
+        "library/needs-what-its-manifest-says",
+        "library/unknown-rig-extension",
+        "force/numbers-its-readings",
+    ];
+    assert_eq!(skipped, expected);
     assert!(results.len() > 100, "{} checks", results.len());
 }
 
@@ -109,5 +114,40 @@ fn every_kind_of_mistake_is_found_by_a_check() {
         (&["ANY_MODEL"], "estimator/refuses-hostile", "expected"),
     ] {
         finds(macros, check, words);
+    }
+}
+
+#[test]
+fn what_a_library_says_that_it_needs_stands_in_its_manifest() {
+    finds(&["NEEDS=\"hid\""], "library/needs", "it needs \"hid\"");
+    let Some(fixture) = Fixture::built(&["NEEDS=\"hid\\nlisten:5025\""]) else {
+        return;
+    };
+    let abi = "abi = { major = 1, minor = 0 }";
+    let needs = format!("{abi}\nneeds = [\"listen:5025\", \"hid\"]");
+    let fixture = fixture.with_manifest(abi, &needs);
+    let results = checked(&fixture, &["library/needs"]);
+    assert_eq!(results[0].outcome, CheckOutcome::Passed, "{results:#?}");
+}
+
+#[test]
+fn readings_with_one_number_are_found_frozen() {
+    for (macros, words) in [
+        (&["NUMBERED"][..], None),
+        (
+            &["NUMBERED", "FROZEN"],
+            Some("two readings have the number 7"),
+        ),
+    ] {
+        let Some(fixture) = Fixture::built(macros) else {
+            return;
+        };
+        let fixture = fixture.with_manifest("tare = true", "tare = true\nnumbered = true");
+        let results = checked(&fixture, &["force/numbers"]);
+        match (&results[0].outcome, words) {
+            (CheckOutcome::Passed, None) => {}
+            (CheckOutcome::Failed(why), Some(words)) if why.contains(words) => {}
+            (outcome, _) => panic!("{macros:?}: {outcome:?}"),
+        }
     }
 }

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
 
-use taceva_core::{Args, Factory, Sensor};
+use taceva_core::{Args, Deadline, Factory, Fault, ForceTransducer, Robot, Sensor};
 use taceva_host::{Children, Keeping, PluginConfig, PluginHost, Trust};
 
 use crate::fixture::Fixture;
@@ -61,6 +61,40 @@ fn what_a_plugin_logs_comes_while_it_runs_with_control_characters_written_out() 
     ];
     assert_eq!(told(&lines, 2), expected);
     drop(open);
+}
+
+#[test]
+fn numbers_of_readings_and_faults_of_a_robot_cross_to_the_host() {
+    const SECOND: Deadline = Deadline::after(Duration::from_secs(1));
+    let macros = [
+        "NUMBERED",
+        "FAULT=TACEVA_FAULT_COLLISION",
+        "FAULT_WORDS=\"\"",
+    ];
+    let Some(fixture) = Fixture::built(&macros) else {
+        return;
+    };
+    let fixture = fixture.with_manifest("tare = true", "tare = true\nnumbered = true");
+    let (host, _) = host(&fixture);
+    let mut rig = taceva_core::Rig::new();
+    let wrist = host.drivers::<dyn ForceTransducer>().swap_remove(0);
+    let mut wrist = wrist.open(&Args::default(), &mut rig).expect("opens");
+    assert_eq!(wrist.sequence(), None);
+    wrist.start(SECOND).expect("starts");
+    for number in 1..4 {
+        wrist.read(SECOND).expect("reads");
+        assert_eq!(wrist.sequence(), Some(number));
+    }
+    let arm = host.drivers::<dyn Robot>().swap_remove(0);
+    let mut arm = arm.open(&Args::default(), &mut rig).expect("opens");
+    let fast = taceva_core::Speed::try_new(100.0).expect("above 0");
+    let mut above = taceva_core::Pose::default();
+    above.position.z = taceva_core::Millimetre(1.0);
+    let error = arm
+        .move_to(above, fast, SECOND)
+        .expect_err("it struck something");
+    assert_eq!(error.fault(), Some(Fault::Collision), "{error}");
+    assert!(error.to_string().ends_with(": collision"), "{error}");
 }
 
 #[test]

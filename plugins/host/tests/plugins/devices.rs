@@ -5,8 +5,8 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 use taceva_core::{
-    Args, Deadline, Descriptor, DriverError, DriverKind, ErrorKind, FrameMut, Guard, GuardedStop,
-    Millimetre, Newton, Pose, Sensor, Speed,
+    Args, Deadline, Descriptor, DriverError, DriverKind, ErrorKind, Fault, FrameMut, Guard,
+    GuardedStop, Millimetre, Newton, Pose, Sensor, Speed,
 };
 use taceva_drivers::conformance::{self, Report, Trial};
 use taceva_host::{PluginSensor, Session};
@@ -214,6 +214,80 @@ fn a_force_is_what_is_measured_and_nothing_else() {
     assert_eq!(stamp.received_s, None);
     wrist.tare().expect("it can").zero(SECOND).expect("tares");
     assert_eq!(wrist.read(SECOND).expect("reads").0.force[2], Newton(0.0));
+}
+
+#[test]
+fn readings_have_the_numbers_that_the_device_gave_them_and_none_where_it_gives_none() {
+    let Some(fixture) = Fixture::built(&[]) else {
+        return;
+    };
+    let session = fixture.session();
+    let mut wrist = session.force(&WRIST, &Args::default()).expect("opens");
+    wrist.start(SECOND).expect("starts");
+    wrist.read(SECOND).expect("reads");
+    assert_eq!(wrist.sequence(), None);
+
+    let Some(fixture) = Fixture::built(&["NUMBERED"]) else {
+        return;
+    };
+    let fixture = fixture.with_manifest("tare = true", "tare = true\nnumbered = true");
+    let session = fixture.session();
+    let mut wrist = session.force(&WRIST, &Args::default()).expect("opens");
+    assert_eq!(wrist.sequence(), None);
+    wrist.start(SECOND).expect("starts");
+    for number in 1..4 {
+        wrist.read(SECOND).expect("reads");
+        assert_eq!(wrist.sequence(), Some(number));
+    }
+    let (host, _) = fixture.trusted();
+    for driver in host.drivers::<dyn taceva_core::ForceTransducer>() {
+        let report = conformance::force(&*driver, &Trial::default());
+        assert!(report.passed(), "{report}");
+    }
+}
+
+#[test]
+fn a_frozen_number_is_found_by_the_conformance_suite() {
+    let Some(fixture) = Fixture::built(&["NUMBERED", "FROZEN"]) else {
+        return;
+    };
+    let fixture = fixture.with_manifest("tare = true", "tare = true\nnumbered = true");
+    let (host, _) = fixture.trusted();
+    for driver in host.drivers::<dyn taceva_core::ForceTransducer>() {
+        let report = conformance::force(&*driver, &Trial::default());
+        assert!(!report.passed(), "{report}");
+        let said = report.to_string();
+        assert!(said.contains("two readings have the number 7"), "{said}");
+    }
+}
+
+#[test]
+fn the_fault_of_a_robot_crosses_with_its_kind_and_its_words() {
+    for (name, fault) in [
+        ("EMERGENCY_STOP", Fault::EmergencyStop),
+        ("COLLISION", Fault::Collision),
+        ("BOUNDARY", Fault::Boundary),
+        ("SERVO", Fault::Servo),
+    ] {
+        let macros = [
+            &format!("FAULT=TACEVA_FAULT_{name}"),
+            "FAULT_WORDS=\"axis 3\"",
+        ];
+        let Some(fixture) = Fixture::built(&macros) else {
+            return;
+        };
+        let session = fixture.session();
+        let mut arm = session.robot(&ARM, &Args::default()).expect("opens");
+        let fast = Speed::try_new(100.0).expect("above 0");
+        let error = arm.move_to(at(0.0, 0.0, 1.0), fast, SECOND);
+        let error = error.expect_err("it stopped");
+        assert_eq!(error.fault(), Some(fault));
+        assert_eq!(error.kind(), ErrorKind::DeviceFault);
+        assert!(
+            error.to_string().ends_with(&format!("{fault}: axis 3")),
+            "{error}"
+        );
+    }
 }
 
 #[test]

@@ -4,7 +4,11 @@
 mod check;
 #[cfg(target_os = "linux")]
 mod children;
+#[cfg(target_os = "linux")]
+mod cpp;
 mod devices;
 mod estimator;
 mod fixture;
+#[cfg(target_os = "linux")]
+mod reach;
 mod rejects;

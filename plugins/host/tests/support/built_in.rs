@@ -6,7 +6,7 @@ use taceva_core::{
     Args, Descriptor, Device, DriverError, DriverKey, ErrorKind, Factory, ForceTransducer, Found,
     Lighting, ModelError, Registry, RegistryError, Rig, Robot, Sensor, SimulatedBench,
 };
-use taceva_host::{FitRequest, Saved, SavedRegressor, Session};
+use taceva_host::{FitRequest, Offer, Saved, SavedRegressor, Session};
 
 /// The drivers that are linked into this program, and the one rig of this process.
 pub(crate) struct BuiltIn {
@@ -50,6 +50,15 @@ fn find<'a, D: Device + ?Sized>(
 }
 
 impl Session for BuiltIn {
+    fn offer(&self) -> Result<Offer, DriverError> {
+        let whole = DriverKey::fixed("built-in");
+        Err(DriverError::new(
+            ErrorKind::Unsupported,
+            &whole,
+            "say what it offers",
+        ))
+    }
+
     fn describe(&self, driver: &DriverKey, args: &Args) -> Result<Descriptor, DriverError> {
         let described = find(&self.sensors, driver)?.describe(args);
         described.map_err(|error| {

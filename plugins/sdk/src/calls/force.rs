@@ -4,7 +4,7 @@
 
 use std::ffi::c_void;
 
-use taceva_abi::ext::{TARE, TareCalls};
+use taceva_abi::ext::{NUMBERED, NumberedCalls, TARE, TareCalls};
 use taceva_abi::{Error, ForceCalls, Stamp, Status, Text, Wrench};
 use taceva_core::{ErrorKind, Facts, ForceTransducer};
 
@@ -15,7 +15,11 @@ use crate::loaded::{Drivers, Loaded};
 use crate::memory;
 use crate::open::Handle;
 
-type Opened = Box<dyn ForceTransducer>;
+/// A transducer, and whether it said that it numbers its readings.
+pub(crate) struct Opened {
+    force: Box<dyn ForceTransducer>,
+    is_numbered: bool,
+}
 
 impl Kind for dyn ForceTransducer {
     type Opened = Opened;
@@ -26,9 +30,10 @@ impl Kind for dyn ForceTransducer {
         &loaded.forces
     }
 
-    fn handle(device: Box<dyn ForceTransducer>, _: &Facts) -> Handle<Opened> {
-        let interrupt = device.interrupt_handle();
-        Handle::new(device).interrupted_by(interrupt)
+    fn handle(force: Box<dyn ForceTransducer>, facts: &Facts) -> Handle<Opened> {
+        let interrupt = force.interrupt_handle();
+        let is_numbered = matches!(facts, Facts::Force(facts) if facts.numbered);
+        Handle::new(Opened { force, is_numbered }).interrupted_by(interrupt)
     }
 }
 
@@ -46,21 +51,38 @@ static TARE_CALLS: TareCalls = TareCalls {
     zero: Some(zero),
 };
 
+static NUMBERED_CALLS: NumberedCalls = NumberedCalls {
+    #[expect(clippy::cast_possible_truncation, reason = "sixteen bytes")]
+    size: size_of::<NumberedCalls>() as u32,
+    reserved: 0,
+    sequence: Some(sequence),
+};
+
 unsafe extern "C" fn extension(handle: *mut c_void, id: Text) -> *const c_void {
-    let has = |force: &mut Opened| force.tare().is_some();
+    let tares = |opened: &mut Opened| opened.force.tare().is_some();
+    let numbers = |opened: &mut Opened| opened.is_numbered;
     // SAFETY: the host lends the text for the call.
-    unsafe { extended(handle, id, (TARE, &TARE_CALLS), has) }
+    let tare = unsafe { extended(handle, id, (TARE, &TARE_CALLS), tares) };
+    if !tare.is_null() {
+        return tare;
+    }
+    // SAFETY: as above.
+    unsafe { extended(handle, id, (NUMBERED, &NUMBERED_CALLS), numbers) }
 }
 
 unsafe extern "C" fn start(handle: *mut c_void, timeout_ns: u64, error: *mut Error) -> Status {
-    let work = |force: &mut Opened| Ok(force.start(deadline(timeout_ns))?);
+    let work = |opened: &mut Opened| Ok(opened.force.start(deadline(timeout_ns))?);
     // SAFETY: the host's own promise for `error`.
     unsafe { call(handle, error, work) }
 }
 
 unsafe extern "C" fn stop(handle: *mut c_void, error: *mut Error) -> Status {
     // SAFETY: the host's own promise for `error`.
-    unsafe { call(handle, error, |force: &mut Opened| Ok(force.stop()?)) }
+    unsafe {
+        call(handle, error, |opened: &mut Opened| {
+            Ok(opened.force.stop()?)
+        })
+    }
 }
 
 unsafe extern "C" fn read(
@@ -70,7 +92,7 @@ unsafe extern "C" fn read(
     timeout_ns: u64,
     error: *mut Error,
 ) -> Status {
-    let work = |force: &mut Opened| {
+    let work = |opened: &mut Opened| {
         // SAFETY: the host's places for the two.
         let (wrench, stamp) = unsafe {
             (
@@ -78,7 +100,7 @@ unsafe extern "C" fn read(
                 memory::place("stamp", stamp)?,
             )
         };
-        let (read, at) = force.read(deadline(timeout_ns))?;
+        let (read, at) = opened.force.read(deadline(timeout_ns))?;
         (*wrench, *stamp) = (convert::wrench(&read)?, convert::stamp(&at)?);
         Ok(())
     };
@@ -87,14 +109,30 @@ unsafe extern "C" fn read(
 }
 
 unsafe extern "C" fn zero(handle: *mut c_void, timeout_ns: u64, error: *mut Error) -> Status {
-    let work = |force: &mut Opened| {
-        let tare = force.tare().ok_or_else(|| {
+    let work = |opened: &mut Opened| {
+        let tare = opened.force.tare().ok_or_else(|| {
             Failure::new(
                 ErrorKind::Unsupported,
                 "the transducer cannot call a load zero",
             )
         })?;
         Ok(tare.zero(deadline(timeout_ns))?)
+    };
+    // SAFETY: the host's own promise for `error`.
+    unsafe { call(handle, error, work) }
+}
+
+unsafe extern "C" fn sequence(
+    handle: *mut c_void,
+    sequence: *mut u64,
+    error: *mut Error,
+) -> Status {
+    let work = |opened: &mut Opened| {
+        // SAFETY: the host's place for the number.
+        let place = unsafe { memory::place("sequence", sequence) }?;
+        let none = || Failure::new(ErrorKind::NotFound, "no reading has a number yet");
+        *place = opened.force.sequence().ok_or_else(none)?;
+        Ok(())
     };
     // SAFETY: the host's own promise for `error`.
     unsafe { call(handle, error, work) }

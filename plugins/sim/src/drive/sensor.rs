@@ -43,13 +43,15 @@ impl SensorFactory {
         })
     }
 
-    /// The parameters that `args` ask for: those of the model, or the table they hold.
+    /// The parameters that `args` ask for: those of the model, or the table they hold; quiet, if they say so.
     fn parameters(&self, args: &Args) -> Result<Parameters, String> {
-        match args.get("table").and_then(ArgValue::as_text) {
-            None => Ok(self.model.parameters()),
-            Some(table) => Parameters::parse(table)
-                .map_err(|error| format!("the table of parameters, {error}")),
-        }
+        let table = args.get("table").and_then(ArgValue::as_text);
+        let table = table.unwrap_or(self.model.table());
+        let parameters = match args.flag("quiet") {
+            true => Parameters::parse_quiet(table),
+            false => Parameters::parse(table),
+        };
+        parameters.map_err(|error| format!("the table of parameters, {error}"))
     }
 }
 

@@ -3,6 +3,7 @@
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use anyhow::{Context as _, bail};
 use taceva_core::shown;
@@ -16,19 +17,19 @@ use crate::{exit, output, report};
 const CHECKS: &str = "library/";
 
 pub(super) fn run(args: &PluginInstall, context: &Context) -> anyhow::Result<u8> {
-    let source =
-        std::path::absolute(&args.folder).with_context(|| shown(&args.folder).to_string())?;
-    let found = Plugins::search(SearchPath::empty().given([source.clone()]), &[]);
-    if let Some(rejection) = found.rejections.first() {
-        bail!("{rejection}");
-    }
-    let [plugin] = found.iter().collect::<Vec<_>>()[..] else {
-        bail!("{}: {} plugins, expected one", shown(&source), found.len());
-    };
-    let plugin = plugin.clone();
     let user = SearchPath::of_process();
     let user = user.folders().find(|(place, _)| *place == Place::User);
     let (_, user) = user.context("no folder for plugins: neither XDG_DATA_HOME nor HOME is set")?;
+    let user = user.to_owned();
+    let unpacked = match args.plugin.is_dir() {
+        true => None,
+        false => Some(Unpacked::of(&args.plugin, &user)?),
+    };
+    let source = match &unpacked {
+        Some(unpacked) => &unpacked.folder,
+        None => &args.plugin,
+    };
+    let (host, plugin) = checked(source, context)?;
     let target = user.join(plugin.id().as_str());
     if target.symlink_metadata().is_ok() && !args.force {
         bail!(
@@ -36,9 +37,6 @@ pub(super) fn run(args: &PluginInstall, context: &Context) -> anyhow::Result<u8>
             shown(&target)
         );
     }
-    let config = context.plugins(None)?.config().clone();
-    let host = PluginHost::new(found, config, std::sync::Arc::new(|_, _, _, _| {}));
-    check(&host, &plugin)?;
     replace(&plugin, &target).with_context(|| format!("cannot write {}", shown(&target)))?;
     let remedy = report::plugin::remedy(&host, &plugin);
     output::write(None, |out| {
@@ -58,6 +56,58 @@ pub(super) fn run(args: &PluginInstall, context: &Context) -> anyhow::Result<u8>
         }
     })?;
     Ok(exit::DONE)
+}
+
+/// The plugin in `folder`, whose library was loaded in a confined process and is what its manifest says.
+pub(super) fn checked(
+    folder: &Path,
+    context: &Context,
+) -> anyhow::Result<(Arc<PluginHost>, Plugin)> {
+    let folder = std::path::absolute(folder).with_context(|| shown(folder).to_string())?;
+    let found = Plugins::search(SearchPath::empty().given([folder.clone()]), &[]);
+    if let Some(rejection) = found.rejections.first() {
+        bail!("{rejection}");
+    }
+    let [plugin] = found.iter().collect::<Vec<_>>()[..] else {
+        bail!("{}: {} plugins, expected one", shown(&folder), found.len());
+    };
+    let plugin = plugin.clone();
+    let config = context.plugins(None)?.config().clone();
+    let host = PluginHost::new(found, config, Arc::new(|_, _, _, _| {}));
+    check(&host, &plugin)?;
+    Ok((host, plugin))
+}
+
+/// What was unpacked beside the plugins of the user, under a name that no search looks at; removed when it is dropped.
+struct Unpacked {
+    folder: PathBuf,
+}
+
+impl Unpacked {
+    fn of(file: &Path, user: &Path) -> anyhow::Result<Unpacked> {
+        let named = || shown(file).to_string();
+        // Asked before opening: opening a pipe would wait for whoever writes into it.
+        if !fs::metadata(file).with_context(named)?.is_file() {
+            bail!(
+                "{}: expected a folder, or a file that `taceva plugin pack` wrote",
+                shown(file)
+            );
+        }
+        let archive = fs::File::open(file).with_context(named)?;
+        let folder = user.join(format!(".unpacked.{}", std::process::id()));
+        fs::create_dir_all(user).with_context(|| shown(user).to_string())?;
+        fs::create_dir(&folder).with_context(|| shown(&folder).to_string())?;
+        let unpacked = Unpacked { folder };
+        taceva_host::unpack(io::BufReader::new(archive), &unpacked.folder).with_context(named)?;
+        Ok(unpacked)
+    }
+}
+
+impl Drop for Unpacked {
+    fn drop(&mut self) {
+        // What is left is of no use to anybody, and no search looks at it.
+        drop(fs::remove_dir_all(&self.folder));
+    }
 }
 
 /// Loads the library in a confined process.
@@ -102,21 +152,7 @@ fn replace(plugin: &Plugin, target: &Path) -> io::Result<()> {
 }
 
 fn copy(plugin: &Plugin, into: &Path) -> io::Result<()> {
-    let library = Path::new(&plugin.library.path);
-    let mut files = vec![PathBuf::from("plugin.toml"), library.to_owned()];
-    for entry in fs::read_dir(&plugin.folder)? {
-        let entry = entry?;
-        let name = entry.file_name();
-        let is_licence = name.to_str().is_some_and(|name| {
-            ["LICENSE", "LICENCE", "COPYING", "NOTICE"]
-                .iter()
-                .any(|word| name.starts_with(word))
-        });
-        if is_licence && entry.path().is_file() {
-            files.push(PathBuf::from(name));
-        }
-    }
-    for file in files {
+    for file in plugin.files()? {
         let to = into.join(&file);
         fs::create_dir_all(taceva_durable::parent_of(&to))?;
         fs::copy(plugin.folder.join(&file), &to)?;

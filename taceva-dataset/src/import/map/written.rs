@@ -126,6 +126,7 @@ pub(super) fn checked(path: &Path, text: &str) -> Result<ImportMap, DatasetError
             clock: written.time.clock,
             sensor: written.sensor,
             footprint: written.footprint.map(Spanned::into_inner),
+            settings: BTreeMap::new(),
         },
     })
 }

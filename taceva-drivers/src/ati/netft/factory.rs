@@ -1,12 +1,15 @@
 //! The built-in driver `ati/netft`.
 
 use taceva_core::{
-    ArgSpec, ArgValue, Args, Axes, Descriptor, DescriptorError, DescriptorSpec, DriverError,
-    DriverSource, Factory, Facts, ForceFacts, ForceTransducer, Hertz, Newton, Rig, submit_builtin,
+    ArgSpec, Args, Axes, Descriptor, DescriptorError, DescriptorSpec, DriverError, DriverSource,
+    Factory, Facts, ForceFacts, ForceTransducer, Hertz, Rig, submit_builtin,
 };
 
 use super::KEY;
 use super::transducer::{NetftOptions, Transducer};
+use crate::arguments::force::{FORCE_MAX, add_facts_of_force, force_facts};
+use crate::arguments::network::{port, port_of};
+use crate::arguments::optional_number;
 
 submit_builtin!(dyn ForceTransducer, || Ok(Box::new(NetftFactory::new()?)));
 
@@ -41,11 +44,6 @@ impl NetftFactory {
     /// # Errors
     /// [`DescriptorError`] if it contradicted itself, which its tests rule out.
     pub fn new() -> Result<NetftFactory, DescriptorError> {
-        let port = |key: &str, number: i64, help: &str| {
-            ArgSpec::whole(key, 1, 65_535)
-                .default(ArgValue::Whole(number))
-                .help(help)
-        };
         let arguments = [
             ArgSpec::text("host").help("name or address of the box"),
             port("port", 49_152, "the port of its records, UDP"),
@@ -54,10 +52,6 @@ impl NetftFactory {
                 .unit("Hz")
                 .optional()
                 .help("readings a second that the box is set to, where it is known")
-                .changes_facts(),
-            ArgSpec::number("force_max_n", 0.001, 100_000.0)
-                .optional()
-                .help("the least of the ranges of its forces, in N, from its certificate")
                 .changes_facts(),
         ];
         let facts = Facts::Force(
@@ -69,7 +63,7 @@ impl NetftFactory {
         let title = "a force transducer behind a Net F/T box of ATI";
         let spec = DescriptorSpec::new(KEY, title, DriverSource::Real, facts);
         Ok(NetftFactory {
-            descriptor: spec.arguments(arguments).check()?,
+            descriptor: spec.arguments(arguments).arguments(force_facts()).check()?,
         })
     }
 }
@@ -82,27 +76,19 @@ impl Factory<dyn ForceTransducer> for NetftFactory {
     fn describe(&self, args: &Args) -> Result<Descriptor, DescriptorError> {
         let mut spec = self.descriptor.to_spec();
         if let Facts::Force(facts) = &mut spec.facts {
-            facts.rate = number(args, "rate").map(Hertz);
-            facts.force_max = number(args, "force_max_n").map(Newton);
+            facts.rate = optional_number(args, "rate").map(Hertz);
+            add_facts_of_force(args, facts);
         }
         spec.check()
     }
 
     fn open(&self, args: &Args, _: &mut Rig) -> Result<Box<dyn ForceTransducer>, DriverError> {
-        let port = |key: &str| u16::try_from(args.whole(key)).unwrap_or(0);
         let options = NetftOptions {
             host: args.text("host").to_owned(),
-            port: port("port"),
-            page_port: port("page_port"),
-            force_max_n: number(args, "force_max_n"),
+            port: port_of(args, "port"),
+            page_port: port_of(args, "page_port"),
+            force_max_n: optional_number(args, FORCE_MAX),
         };
         Ok(Box::new(Transducer::open(options)?))
-    }
-}
-
-fn number(args: &Args, key: &str) -> Option<f64> {
-    match args.get(key) {
-        Some(&ArgValue::Number(number)) => Some(number),
-        _ => None,
     }
 }

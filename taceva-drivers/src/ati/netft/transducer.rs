@@ -12,8 +12,8 @@ use super::KEY;
 use super::calibration::Calibration;
 use super::record::{Record, Request, Status};
 use super::stream::{Counted, RecordStream};
-use crate::link::{LinkError, Mailbox, NoNews, Seen};
-use crate::zero::HostZero;
+use crate::link::{LinkError, Mailbox, Seen};
+use crate::zero::{HostZero, READ};
 
 /// How a box is reached.
 #[derive(Clone, Debug, PartialEq)]
@@ -40,8 +40,6 @@ pub(super) struct Transducer {
     last: u64,
 }
 
-const READ: &str = "read the force";
-
 fn failed(
     kind: ErrorKind,
     doing: &'static str,
@@ -60,7 +58,7 @@ impl Transducer {
         let stream = RecordStream::open(&options.host, options.port, &records)
             .map_err(|error| failed(error.kind(), doing, error))?;
         Ok(Transducer {
-            zero: HostZero::new(options.force_max_n),
+            zero: HostZero::new(KEY, options.force_max_n),
             options,
             calibration,
             records,
@@ -89,14 +87,11 @@ impl Transducer {
             return Err(failed(ErrorKind::InvalidArgument, READ, why));
         }
         let found = self.records.next(self.last, patience);
-        let seen = found.map_err(|none| match none {
-            NoNews::Silent => {
+        let seen = found.map_err(|none| {
+            none.while_waiting(&KEY, READ, || {
                 let missing = self.records.newest().map_or(0, |seen| seen.what.missing);
-                let why = format!("no reading within {patience:?}; {missing} were missing before");
-                failed(ErrorKind::Timeout, READ, why)
-            }
-            NoNews::Interrupted => failed(ErrorKind::Interrupted, READ, "it was interrupted"),
-            NoNews::Ended(ending) => failed(ending.kind, READ, ending.why),
+                format!("no reading within {patience:?}; {missing} were missing before")
+            })
         })?;
         self.last = seen.number;
         self.sequence = Some(u64::from(seen.what.record.number));
@@ -123,13 +118,8 @@ impl Transducer {
             force: [fx, fy, fz].map(|counts| Newton(counts * force_n)),
             torque: [tx, ty, tz].map(|counts| NewtonMillimetre(counts * torque_nmm)),
         };
-        self.check_range(&wrench)?;
+        self.zero.check(&wrench)?;
         Ok(wrench)
-    }
-
-    fn check_range(&self, wrench: &Wrench) -> Result<(), DriverError> {
-        let checked = self.zero.check(wrench);
-        checked.map_err(|why| failed(ErrorKind::OutOfRange, READ, why))
     }
 }
 
@@ -148,8 +138,7 @@ impl ForceTransducer for Transducer {
 
     fn read(&mut self, deadline: Deadline) -> Result<(Wrench, Stamp), DriverError> {
         let seen = self.next(deadline.remaining())?;
-        let wrench = self.zero.taken_off(&self.wrench(&seen.what.record)?);
-        self.check_range(&wrench)?;
+        let wrench = self.zero.taken_off(&self.wrench(&seen.what.record)?)?;
         Ok((wrench, Stamp::at(seen.at)))
     }
 
@@ -176,14 +165,12 @@ impl ForceTransducer for Transducer {
 
 impl Tare for Transducer {
     fn zero(&mut self, deadline: Deadline) -> Result<(), DriverError> {
-        let mut zero = self.zero;
+        let mut zero = self.zero.clone();
         let next = |patience| {
             let seen = self.next(patience)?;
             self.wrench(&seen.what.record)
         };
-        zero.take(deadline, next, |kind, why| {
-            failed(kind, "call the load zero", why)
-        })?;
+        zero.take(deadline, next)?;
         self.zero = zero;
         Ok(())
     }

@@ -10,9 +10,12 @@ use taceva_core::{
 use super::KEY;
 use super::stream::{Picture, Stream};
 use super::url::Url;
+use crate::camera::CAPTURE;
+use crate::camera::crop::Crop;
+use crate::camera::jpeg::Pictures;
+use crate::camera::preset::Preset;
 use crate::link::mailbox::Ending;
-use crate::link::{Mailbox, NoNews, Seen};
-use crate::source::{Mismatch, decode, frame_info};
+use crate::link::{Mailbox, Seen};
 
 /// A camera that streams.
 #[derive(Debug)]
@@ -22,15 +25,16 @@ pub(super) struct Camera {
     pictures: Arc<Mailbox<Picture>>,
     /// Ends with the sensor.
     stream: Stream,
-    info: FrameInfo,
+    frames: Pictures,
     is_running: bool,
     /// The number of the last picture that was given.
     last: u64,
+    /// The picture that was given last, once one was.
+    given: Option<Arc<[u8]>>,
     /// Pictures that came while nobody asked, or too late.
     missed: u64,
 }
 
-const CAPTURE: &str = "capture a frame";
 /// How long a camera may take to send its first picture, by which its size is known.
 const FIRST: Duration = Duration::from_secs(3);
 
@@ -49,19 +53,36 @@ fn connected(url: &Url, pictures: &Arc<Mailbox<Picture>>) -> Result<Stream, Driv
 
 impl Camera {
     /// Connects to a camera and looks at its first picture.
-    pub(super) fn open(url: Url) -> Result<Camera, DriverError> {
+    pub(super) fn open(url: Url, preset: Option<&Preset>) -> Result<Camera, DriverError> {
         let pictures = Arc::new(Mailbox::default());
         let stream = connected(&url, &pictures)?;
         let first = next(&pictures, 0, FIRST)?;
-        let info = frame_info(whole(&first.what.bytes))
-            .map_err(|why| failed(ErrorKind::Protocol, "look at its first picture", why))?;
+        let crop = preset.map_or(Crop::NONE, |preset| {
+            preset.crop(preset.width, preset.height)
+        });
+        let frames = Pictures::like(&first.what.bytes, crop, &KEY)?;
+        let sent = frames.sent();
+        if let Some(preset) =
+            preset.filter(|preset| [preset.width, preset.height] != [sent.width, sent.height])
+        {
+            let why = format!(
+                "the camera sends {sent}, expected {}×{} of {}",
+                preset.width, preset.height, preset.title
+            );
+            return Err(failed(
+                ErrorKind::Protocol,
+                "look at its first picture",
+                why,
+            ));
+        }
         Ok(Camera {
             url,
             pictures,
             stream,
-            info,
+            frames,
             is_running: false,
             last: first.number,
+            given: None,
             missed: 0,
         })
     }
@@ -74,26 +95,14 @@ fn next(
     patience: Duration,
 ) -> Result<Seen<Picture>, DriverError> {
     let found = pictures.next(after, patience);
-    found.map_err(|none| match none {
-        NoNews::Silent => {
-            let why = format!("no frame within {patience:?}");
-            failed(ErrorKind::Timeout, CAPTURE, why)
-        }
-        NoNews::Interrupted => failed(ErrorKind::Interrupted, CAPTURE, "it was interrupted"),
-        NoNews::Ended(ending) => failed(ending.kind, CAPTURE, ending.why),
+    found.map_err(|none| {
+        none.while_waiting(&KEY, CAPTURE, || format!("no frame within {patience:?}"))
     })
-}
-
-/// A picture without what some cameras put behind its end: zeros, and ends of lines.
-fn whole(picture: &[u8]) -> &[u8] {
-    let padding = |byte: &&u8| matches!(**byte, 0 | b'\r' | b'\n');
-    let behind = picture.iter().rev().take_while(padding).count();
-    &picture[..picture.len() - behind]
 }
 
 impl Sensor for Camera {
     fn frame_info(&self) -> FrameInfo {
-        self.info
+        self.frames.info()
     }
 
     fn start(&mut self, _: Deadline) -> Result<(), DriverError> {
@@ -121,8 +130,9 @@ impl Sensor for Camera {
     }
 
     fn capture(&mut self, into: FrameMut<'_>, deadline: Deadline) -> Result<Stamp, DriverError> {
-        if into.info() != self.info {
-            let why = format!("a buffer for {}, expected {}", into.info(), self.info);
+        let info = self.frame_info();
+        if into.info() != info {
+            let why = format!("a buffer for {}, expected {info}", into.info());
             return Err(failed(ErrorKind::InvalidArgument, CAPTURE, why));
         }
         if !self.is_running {
@@ -132,21 +142,21 @@ impl Sensor for Camera {
         let seen = next(&self.pictures, self.last, deadline.remaining())?;
         self.missed += seen.number - self.last - 1;
         self.last = seen.number;
-        let mut into = into;
-        decode(whole(&seen.what.bytes), &mut into).map_err(|mismatch| {
-            let (missed, broken) = (self.missed, seen.what.broken);
-            let why = match mismatch {
-                Mismatch::Size(found) => format!(
-                    "the camera changed to frames of {found}, it was opened with {}",
-                    self.info
-                ),
-                Mismatch::Damaged(why) => {
-                    format!("{why}; before, {missed} frames were missed and {broken} were broken")
-                }
-            };
-            failed(ErrorKind::Protocol, CAPTURE, why)
+        self.given = None;
+        let (missed, broken) = (self.missed, seen.what.broken);
+        self.frames.decode(&seen.what.bytes, into, || {
+            format!("{missed} frames were missed and {broken} were broken")
         })?;
+        self.given = Some(seen.what.bytes);
         Ok(Stamp::new(seen.what.began, Some(seen.at)))
+    }
+
+    fn sequence(&self) -> Option<u64> {
+        Some(self.last)
+    }
+
+    fn sent(&self) -> Option<&[u8]> {
+        self.frames.as_sent(self.given.as_deref()?)
     }
 
     fn stop(&mut self) -> Result<(), DriverError> {

@@ -8,6 +8,8 @@ use taceva_core::{
 use super::KEY;
 use super::camera::Camera;
 use super::url::Url;
+use crate::arguments::optional_number;
+use crate::camera::preset::Preset;
 
 submit_builtin!(dyn Sensor, || Ok(Box::new(MjpegFactory::new()?)));
 
@@ -46,6 +48,7 @@ impl MjpegFactory {
     pub fn new() -> Result<MjpegFactory, DescriptorError> {
         let arguments = [
             ArgSpec::text("url").help("where the stream is: http://host:port/path"),
+            Preset::argument(&KEY),
             ArgSpec::number("rate", 0.1, 10_000.0)
                 .unit("Hz")
                 .optional()
@@ -68,10 +71,11 @@ impl Factory<dyn Sensor> for MjpegFactory {
 
     fn describe(&self, args: &Args) -> Result<Descriptor, DescriptorError> {
         let mut spec = self.descriptor.to_spec();
-        if let (Facts::Sensor(facts), Some(&ArgValue::Number(rate_hz))) =
-            (&mut spec.facts, args.get("rate"))
-        {
-            facts.rate = Some(Hertz(rate_hz));
+        if let Facts::Sensor(facts) = &mut spec.facts {
+            let preset = preset(args);
+            let rate_hz = optional_number(args, "rate").or(preset.map(|preset| preset.rate_hz));
+            facts.rate = rate_hz.map(Hertz);
+            facts.camera = preset.map(|preset| [preset.width, preset.height]);
         }
         spec.check()
     }
@@ -81,6 +85,11 @@ impl Factory<dyn Sensor> for MjpegFactory {
             DriverError::new(ErrorKind::InvalidArgument, &KEY, "connect to the camera")
                 .because(error)
         })?;
-        Ok(Box::new(Camera::open(url)?))
+        Ok(Box::new(Camera::open(url, preset(args))?))
     }
+}
+
+fn preset(args: &Args) -> Option<&'static Preset> {
+    let name = args.get("preset").and_then(ArgValue::as_text)?;
+    Preset::named(&KEY, name)
 }

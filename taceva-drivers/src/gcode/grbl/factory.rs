@@ -1,12 +1,15 @@
 //! The built-in driver `gcode/grbl`.
 
 use taceva_core::{
-    ArgSpec, ArgValue, Args, Descriptor, DescriptorError, DescriptorSpec, DriverError,
-    DriverSource, ErrorKind, Factory, Facts, Rig, Robot, RobotFacts, Speed, submit_builtin,
+    Args, Descriptor, DescriptorError, DescriptorSpec, DriverError, DriverSource, ErrorKind,
+    Factory, Facts, Found, Rig, Robot, RobotFacts, submit_builtin,
 };
 
 use super::KEY;
-use super::machine::{GrblOptions, Machine, failed};
+use super::machine::{Machine, failed};
+use crate::arguments::robot::facts_of_robot;
+use crate::gcode::limits::SerialOptions;
+use crate::gcode::present::adapters;
 
 submit_builtin!(dyn Robot, || Ok(Box::new(GrblFactory::new()?)));
 
@@ -41,20 +44,10 @@ impl GrblFactory {
     /// # Errors
     /// [`DescriptorError`] if it contradicted itself, which its tests rule out.
     pub fn new() -> Result<GrblFactory, DescriptorError> {
-        let arguments = [
-            ArgSpec::path("port").help("the serial line, such as /dev/ttyUSB0"),
-            ArgSpec::whole("baud", 1_200, 4_000_000)
-                .default(ArgValue::Whole(115_200))
-                .help("its speed"),
-            ArgSpec::number("speed_max_mm_s", 0.01, 250.0)
-                .default(ArgValue::Number(20.0))
-                .help("the greatest speed of the tip, in mm/s")
-                .changes_facts(),
-        ];
         let facts = Facts::Robot(RobotFacts::default().with_base_frame(true));
         let spec = DescriptorSpec::new(KEY, "a machine with GRBL", DriverSource::Real, facts);
         Ok(GrblFactory {
-            descriptor: spec.arguments(arguments).check()?,
+            descriptor: spec.arguments(SerialOptions::arguments()).check()?,
         })
     }
 }
@@ -66,21 +59,17 @@ impl Factory<dyn Robot> for GrblFactory {
 
     fn describe(&self, args: &Args) -> Result<Descriptor, DescriptorError> {
         let mut spec = self.descriptor.to_spec();
-        if let Facts::Robot(facts) = &mut spec.facts {
-            facts.speed_max = Speed::try_new(args.number("speed_max_mm_s")).ok();
-        }
+        spec.facts = Facts::Robot(facts_of_robot(args));
         spec.check()
     }
 
     fn open(&self, args: &Args, _: &mut Rig) -> Result<Box<dyn Robot>, DriverError> {
-        let doing = "open the machine";
-        let speed_max = Speed::try_new(args.number("speed_max_mm_s"))
-            .map_err(|error| failed(ErrorKind::InvalidArgument, doing, error))?;
-        let options = GrblOptions {
-            port: args.text("port").to_owned(),
-            baud: u32::try_from(args.whole("baud")).unwrap_or(0),
-            speed_max,
-        };
+        let options = SerialOptions::of(args)
+            .map_err(|error| failed(ErrorKind::InvalidArgument, "open the machine", error))?;
         Ok(Box::new(Machine::open(options)?))
+    }
+
+    fn discover(&self) -> Result<Vec<Found>, DriverError> {
+        Ok(adapters(&KEY))
     }
 }

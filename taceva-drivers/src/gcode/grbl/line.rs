@@ -1,20 +1,6 @@
 //! What the machine says, a line each. Nothing here reads a port.
 
-/// A line of the machine.
-#[derive(Clone, Debug, PartialEq)]
-pub(super) enum Line {
-    /// A command was taken.
-    Ok,
-    /// A command was refused, by the number of the reason.
-    Error(u16),
-    /// It stopped and has to be looked at, by the number of the reason.
-    Alarm(u16),
-    /// It was reset.
-    Banner,
-    Status(Status),
-    /// Anything else.
-    Other,
-}
+use crate::gcode::link::{Answer, Heard};
 
 /// What the machine does at one moment.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -38,49 +24,20 @@ pub(super) enum State {
     Other,
 }
 
-/// A longer line is none.
-const LINE_MAX: usize = 256;
-
-/// Cuts what comes, in pieces of any size, into lines.
-#[derive(Debug, Default)]
-pub(super) struct Lines {
-    waiting: Vec<u8>,
-    /// Whether the present line is too long, and passed over.
-    is_endless: bool,
-}
-
-impl Lines {
-    /// Takes bytes, and hands over the lines that end in them.
-    pub(super) fn push(&mut self, bytes: &[u8], mut take: impl FnMut(Line)) {
-        for byte in bytes {
-            match byte {
-                b'\n' => {
-                    let line = std::mem::take(&mut self.waiting);
-                    if !std::mem::take(&mut self.is_endless) {
-                        take(Line::read(&String::from_utf8_lossy(&line)));
-                    }
-                }
-                _ if self.waiting.len() >= LINE_MAX => self.is_endless = true,
-                byte => self.waiting.push(*byte),
-            }
-        }
-    }
-}
-
-impl Line {
-    fn read(line: &str) -> Line {
-        let line = line.trim();
-        let number = |text: &str| text.parse().unwrap_or(0);
-        if line == "ok" {
-            Line::Ok
-        } else if let Some(code) = line.strip_prefix("error:") {
-            Line::Error(number(code))
-        } else if let Some(code) = line.strip_prefix("ALARM:") {
-            Line::Alarm(number(code))
-        } else if line.starts_with("Grbl ") {
-            Line::Banner
-        } else {
-            Status::read(line).map_or(Line::Other, Line::Status)
+/// What a line says.
+pub(super) fn read(line: &str) -> Heard<Status> {
+    let number = |text: &str| text.parse::<u16>().unwrap_or(0);
+    if line == "ok" {
+        Heard::answer(Answer::Ok)
+    } else if let Some(code) = line.strip_prefix("error:") {
+        let why = format!("error {}, see GRBL's list", number(code));
+        Heard::answer(Answer::Refused(why))
+    } else if let Some(code) = line.strip_prefix("ALARM:") {
+        Heard::answer(Answer::Fault(format!("ALARM {}", number(code))))
+    } else {
+        Heard {
+            answer: None,
+            status: Status::read(line),
         }
     }
 }
@@ -118,37 +75,36 @@ impl Status {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    fn read(text: &[u8], piece: usize) -> Vec<Line> {
-        let mut lines = Lines::default();
-        let mut found = Vec::new();
-        for part in text.chunks(piece) {
-            lines.push(part, |line| found.push(line));
-        }
-        found
-    }
+    use crate::gcode::link::understood;
 
     #[test]
     fn lines_of_the_machine_are_read_however_they_are_split() {
         let text = b"\r\nGrbl 1.1h ['$' for help]\r\nok\r\nerror:20\r\n<Run|MPos:1.500,-2.000,-3.250|FS:54,0|Ov:100,100,100>\r\n<Hold:1|MPos:0,0,0>\r\n<Hold:0|MPos:0,0,0,7>\r\nALARM:3\r\n[MSG:Reset to continue]\r\n<Alarm|MPos:0,0,0>\r\n<Idle|WPos:0,0,0>\r\n";
+        let refused = Answer::Refused("error 20, see GRBL's list".to_owned());
+        let status = |state, place_mm| Heard {
+            answer: None,
+            status: Some(Status { state, place_mm }),
+        };
+        let expected = [
+            Heard::NOTHING,
+            Heard::NOTHING,
+            Heard::answer(Answer::Ok),
+            Heard::answer(refused),
+            status(State::Running, [1.5, -2.0, -3.25]),
+            status(State::Slowing, [0.0; 3]),
+            status(State::Held, [0.0; 3]),
+            Heard::answer(Answer::Fault("ALARM 3".to_owned())),
+            Heard::NOTHING,
+            status(State::Alarm, [0.0; 3]),
+            // Places in another frame say nothing without its origin.
+            Heard::NOTHING,
+        ];
         for piece in [1, 2, 7, text.len()] {
-            let found = read(text, piece);
-            let status = |state, place_mm| Line::Status(Status { state, place_mm });
-            let expected = [
-                Line::Other,
-                Line::Banner,
-                Line::Ok,
-                Line::Error(20),
-                status(State::Running, [1.5, -2.0, -3.25]),
-                status(State::Slowing, [0.0; 3]),
-                status(State::Held, [0.0; 3]),
-                Line::Alarm(3),
-                Line::Other,
-                status(State::Alarm, [0.0; 3]),
-                // Places in another frame say nothing without its origin.
-                Line::Other,
-            ];
-            assert_eq!(found, expected, "in pieces of {piece}");
+            assert_eq!(
+                understood(text, piece, read),
+                expected,
+                "in pieces of {piece}"
+            );
         }
     }
 
@@ -159,9 +115,8 @@ mod tests {
             b"\nok\n<Idle|MPos:1,2>\n<Idle|MPos:a,b,c>\n<>\n",
         ]
         .concat();
-        assert_eq!(
-            read(&noise, 64),
-            [Line::Ok, Line::Other, Line::Other, Line::Other]
-        );
+        let found = understood(&noise, 64, read);
+        assert_eq!(found[0], Heard::answer(Answer::Ok));
+        assert_eq!(found[1..], [Heard::NOTHING, Heard::NOTHING, Heard::NOTHING]);
     }
 }

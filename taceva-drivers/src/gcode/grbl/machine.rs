@@ -1,61 +1,32 @@
 //! The machine as a robot.
 
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
 use taceva_core::{
-    Deadline, DriverError, ErrorKind, Halt, Millimetre, Point, Pose, Robot, Rotation, Speed, Stamp,
+    Deadline, DriverError, ErrorKind, Halt, Millimetre, Point, Pose, Robot, Speed, Stamp,
     check_pose,
 };
 
 use super::KEY;
-use super::line::{State, Status};
-use super::link::{ASK_STATUS, CommandError, GrblLink, HOLD, RESET, Writer};
-use super::port::open_line;
-use crate::link::{NoNews, Seen, monotonic};
-
-/// How a machine is reached, and within which limits it moves.
-#[derive(Clone, Debug, PartialEq)]
-pub(super) struct GrblOptions {
-    pub(super) port: String,
-    pub(super) baud: u32,
-    pub(super) speed_max: Speed,
-}
+use super::line::{State, Status, read};
+use crate::gcode::limits::SerialOptions;
+use crate::gcode::link::SerialLink;
+use crate::gcode::stop::Stop;
+use crate::link::{Seen, monotonic};
 
 /// A machine that is connected.
 #[derive(Debug)]
 pub(super) struct Machine {
-    pub(super) link: GrblLink,
+    pub(super) link: SerialLink<Status>,
     pub(super) stop: Arc<Stop>,
-    options: GrblOptions,
+    options: SerialOptions,
 }
 
-/// The means to stop the machine from any thread: a latch on this side, and the byte that holds it.
-#[derive(Debug)]
-pub(super) struct Stop {
-    is_halted: AtomicBool,
-    /// Set once the robot is dropped: there is nothing left to stop.
-    is_gone: AtomicBool,
-    writer: Writer,
-}
-
-impl Stop {
-    pub(super) fn is_halted(&self) -> bool {
-        self.is_halted.load(Ordering::Acquire)
-    }
-}
-
-impl Halt for Stop {
-    fn halt(&self) -> Result<(), DriverError> {
-        self.is_halted.store(true, Ordering::Release);
-        if self.is_gone.load(Ordering::Acquire) {
-            return Ok(());
-        }
-        let held = self.writer.send_byte(HOLD);
-        held.map_err(|error| failed(ErrorKind::Disconnected, "stop the machine", error))
-    }
-}
+/// Bytes that the machine takes at once.
+const ASK_STATUS: &[u8] = b"?";
+pub(super) const HOLD: &[u8] = b"!";
+const RESET: &[u8] = &[0x18];
 
 /// An error of the machine with its reason.
 pub(super) fn failed(
@@ -64,11 +35,6 @@ pub(super) fn failed(
     why: impl Into<Box<dyn std::error::Error + Send + Sync>>,
 ) -> DriverError {
     DriverError::new(kind, &KEY, doing).because(why)
-}
-
-/// What a command that failed was for.
-pub(super) fn refused(doing: &'static str) -> impl Fn(CommandError) -> DriverError {
-    move |error| failed(error.kind(), doing, error)
 }
 
 /// How long a machine may take after its line was opened, which resets many, until it answers.
@@ -82,17 +48,9 @@ const GLANCE: Duration = Duration::from_millis(50);
 
 impl Machine {
     /// Opens the line and waits until the machine answers; nothing moves.
-    pub(super) fn open(options: GrblOptions) -> Result<Machine, DriverError> {
-        let doing = "connect to the machine";
-        let file = open_line(&options.port, options.baud)
-            .map_err(|error| failed(error.kind(), doing, error))?;
-        let link =
-            GrblLink::new(file).map_err(|error| failed(ErrorKind::Internal, doing, error))?;
-        let stop = Arc::new(Stop {
-            is_halted: AtomicBool::new(false),
-            is_gone: AtomicBool::new(false),
-            writer: link.writer().clone(),
-        });
+    pub(super) fn open(options: SerialOptions) -> Result<Machine, DriverError> {
+        let link = SerialLink::open(&KEY, (&options.port, options.baud), read)?;
+        let stop = Arc::new(Stop::new(KEY, link.writer().clone(), HOLD));
         let mut machine = Machine {
             link,
             stop,
@@ -114,18 +72,16 @@ impl Machine {
         let after = statuses.posted();
         self.link
             .writer()
-            .send_byte(ASK_STATUS)
+            .send(ASK_STATUS)
             .map_err(|error| failed(ErrorKind::Disconnected, doing, error))?;
         // Whoever has no time left is answered all the same, if the machine answers at once.
-        statuses
-            .next(after, patience.max(GLANCE))
-            .map_err(|none| match none {
-                NoNews::Ended(ending) => failed(ending.kind, doing, ending.why),
-                NoNews::Silent | NoNews::Interrupted => {
-                    let why = format!("no status with `MPos:` within {patience:?}, as GRBL 1.1 with $10=1 gives it");
-                    failed(ErrorKind::Timeout, doing, why)
-                }
+        statuses.next(after, patience.max(GLANCE)).map_err(|none| {
+            none.while_waiting(&KEY, doing, || {
+                format!(
+                    "no status with `MPos:` within {patience:?}, as GRBL 1.1 with $10=1 gives it"
+                )
             })
+        })
     }
 
     /// Throws away what a machine at rest still has to do, so that it is idle.
@@ -137,7 +93,7 @@ impl Machine {
                 State::Idle => return Ok(()),
                 // At rest nothing is lost by a reset; on the way the place would be.
                 State::Held => {
-                    let reset = self.link.writer().send_byte(RESET);
+                    let reset = self.link.writer().send(RESET);
                     reset.map_err(|error| failed(ErrorKind::Disconnected, doing, error))?;
                 }
                 State::Slowing | State::Running if monotonic() < until => {}
@@ -175,17 +131,7 @@ impl Robot for Machine {
         speed: Speed,
         deadline: Deadline,
     ) -> Result<Stamp, DriverError> {
-        let doing = "move the machine";
-        check_pose(&target).map_err(|error| failed(ErrorKind::InvalidArgument, doing, error))?;
-        if target.rotation != Rotation::default() {
-            let why = format!("{:?}, expected no turn: it has three axes", target.rotation);
-            return Err(failed(ErrorKind::OutOfRange, doing, why));
-        }
-        let most = self.options.speed_max;
-        if speed > most {
-            let why = format!("{speed}, expected at most {most}");
-            return Err(failed(ErrorKind::OutOfRange, doing, why));
-        }
+        self.options.check(&KEY, &target, speed)?;
         self.go(target, speed, deadline)
     }
 
@@ -195,13 +141,13 @@ impl Robot for Machine {
 
     fn clear_halt(&mut self, _: Deadline) -> Result<(), DriverError> {
         // First, so that a halt which comes meanwhile stays.
-        self.stop.is_halted.store(false, Ordering::Release);
+        self.stop.release();
         self.empty("end the halt")
     }
 }
 
 impl Drop for Machine {
     fn drop(&mut self) {
-        self.stop.is_gone.store(true, Ordering::Release);
+        self.stop.retire();
     }
 }

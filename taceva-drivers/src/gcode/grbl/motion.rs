@@ -2,22 +2,20 @@
 
 use std::time::Duration;
 
-use taceva_core::{Deadline, DriverError, ErrorKind, Point, Pose, Speed, Stamp};
+use taceva_core::{Deadline, DriverError, ErrorKind, Pose, Speed, Stamp};
 
+use super::KEY;
 use super::line::State;
-use super::link::HOLD;
-use super::machine::{ANSWER, Machine, alarm, failed, refused};
+use super::machine::{ANSWER, HOLD, Machine, alarm, failed};
+use crate::gcode::limits::{MOVE, short_mm, straight};
 use crate::link::monotonic;
 
-const DOING: &str = "move the machine";
 /// How near the target a motion ends: a step of most machines is 0.01 mm or less.
 const NEAR_MM: f64 = 0.02;
 /// A motion that the machine took has begun after this time.
 const BEGUN: Duration = Duration::from_millis(100);
 /// How often the machine is asked while it moves; it is not made for more.
 const LOOK_EVERY: Duration = Duration::from_millis(20);
-/// Seconds in a minute, by which the machine counts speed.
-const SECONDS: f64 = 60.0;
 
 impl Machine {
     /// Moves the tip to `target` and returns once it rests there, or stands elsewhere and why.
@@ -29,27 +27,27 @@ impl Machine {
     ) -> Result<Stamp, DriverError> {
         let until = monotonic().saturating_add(deadline.remaining());
         if self.stop.is_halted() {
-            return Err(halted());
+            return Err(self.stop.halted());
         }
         if deadline.has_passed() {
-            return Err(failed(ErrorKind::Timeout, DOING, "no time to move at all"));
+            return Err(failed(ErrorKind::Timeout, MOVE, "no time to move at all"));
         }
         match self.look(ANSWER)?.what.state {
             State::Idle => {}
-            State::Alarm => return Err(alarm(DOING)),
+            State::Alarm => return Err(alarm(MOVE)),
             state => {
                 let why = format!("it is {state:?}, expected idle: end the halt to go on");
-                return Err(failed(ErrorKind::DeviceFault, DOING, why));
+                return Err(failed(ErrorKind::DeviceFault, MOVE, why));
             }
         }
         let ended = self.follow(&target, speed, until);
         if let Err(error) = &ended {
             // Held twice is held once; a stop that could not be sent says so by a line that is gone.
-            let _ = self.link.writer().send_byte(HOLD);
+            let _ = self.link.writer().send(HOLD);
             // A motion that was given up is no halt: the next one is accepted. A halt is ended by whoever made it.
             let given_up = error.kind() == ErrorKind::Timeout;
             let _ = match given_up && !self.stop.is_halted() {
-                true => self.empty(DOING),
+                true => self.empty(MOVE),
                 false => self.rest(),
             };
         }
@@ -62,30 +60,25 @@ impl Machine {
         speed: Speed,
         until: Duration,
     ) -> Result<Stamp, DriverError> {
-        let Point { x, y, z } = target.position;
-        let feed = speed.mm_per_s() * SECONDS;
         // In mm, to a place in the frame of the machine, at mm a minute.
-        let line = format!(
-            "G21 G90 G94 G53 G1 X{:.4} Y{:.4} Z{:.4} F{feed:.3}",
-            x.0, y.0, z.0
-        );
-        self.link.command(&line, ANSWER).map_err(refused(DOING))?;
+        let line = format!("G21 G90 G94 G53 {}", straight(&target.position, speed));
+        self.link
+            .command(&line, ANSWER, drop)
+            .map_err(|error| error.met(&KEY, MOVE))?;
         let sent = monotonic();
         loop {
             if self.stop.is_halted() {
-                return Err(halted());
+                return Err(self.stop.halted());
             }
             if monotonic() >= until {
                 let why = "it did not arrive within the deadline";
-                return Err(failed(ErrorKind::Timeout, DOING, why));
+                return Err(failed(ErrorKind::Timeout, MOVE, why));
             }
             let seen = self.look(ANSWER)?;
             match seen.what.state {
                 State::Running => {}
                 State::Idle => {
-                    let [a, b, c] = seen.what.place_mm;
-                    let sides = [a - x.0, b - y.0, c - z.0];
-                    let short_mm = sides.iter().map(|side| side * side).sum::<f64>().sqrt();
+                    let short_mm = short_mm(seen.what.place_mm, &target.position);
                     if short_mm <= NEAR_MM {
                         return Ok(Stamp::at(seen.at));
                     }
@@ -93,13 +86,13 @@ impl Machine {
                         let why = format!(
                             "it came to rest {short_mm:.3} mm from its target, expected at most {NEAR_MM} mm"
                         );
-                        return Err(failed(ErrorKind::DeviceFault, DOING, why));
+                        return Err(failed(ErrorKind::DeviceFault, MOVE, why));
                     }
                 }
-                State::Alarm => return Err(alarm(DOING)),
+                State::Alarm => return Err(alarm(MOVE)),
                 state if !self.stop.is_halted() => {
                     let why = format!("somebody else stopped it, it is {state:?}");
-                    return Err(failed(ErrorKind::DeviceFault, DOING, why));
+                    return Err(failed(ErrorKind::DeviceFault, MOVE, why));
                 }
                 _ => {}
             }
@@ -118,8 +111,4 @@ impl Machine {
         }
         Ok(())
     }
-}
-
-fn halted() -> DriverError {
-    failed(ErrorKind::Interrupted, DOING, "it was halted")
 }

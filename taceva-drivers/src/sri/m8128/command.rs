@@ -1,5 +1,7 @@
 //! Commands of the box: text with `AT+` before it. Nothing here reads or writes a socket.
 
+use super::frame::Check;
+
 /// What the box can be told.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Command {
@@ -7,8 +9,8 @@ pub(super) enum Command {
     Rate(u16),
     /// The same for boxes of before.
     OldRate(u16),
-    /// To check frames by the sum of their bytes.
-    Sum,
+    /// How frames are checked.
+    Check(Check),
     /// To send the six channels in engineering units, one reading a frame, not smoothed.
     Units,
     /// To begin to send.
@@ -25,7 +27,8 @@ impl Command {
         let text = match self {
             Command::Rate(hz) => format!("SMPF={hz}"),
             Command::OldRate(hz) => format!("SMPR={hz}"),
-            Command::Sum => "DCKMD=SUM".to_owned(),
+            Command::Check(Check::Sum) => "DCKMD=SUM".to_owned(),
+            Command::Check(Check::Crc32) => "DCKMD=CRC32".to_owned(),
             Command::Units => "SGDM=(A01,A02,A03,A04,A05,A06);E;1;(WMA:1)".to_owned(),
             Command::Start => "GSD".to_owned(),
             Command::Stop => "GSD=STOP".to_owned(),
@@ -39,7 +42,7 @@ impl Command {
         match self {
             Command::Rate(_) => "SMPF",
             Command::OldRate(_) => "SMPR",
-            Command::Sum => "DCKMD",
+            Command::Check(_) => "DCKMD",
             Command::Units => "SGDM",
             Command::Start | Command::Stop => "GSD",
             Command::Zero => "ADJZF",

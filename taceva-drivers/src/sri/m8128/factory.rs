@@ -2,11 +2,15 @@
 
 use taceva_core::{
     ArgSpec, ArgValue, Args, Axes, Descriptor, DescriptorError, DescriptorSpec, DriverError,
-    DriverSource, Factory, Facts, ForceFacts, ForceTransducer, Hertz, Newton, Rig, submit_builtin,
+    DriverSource, Factory, Facts, ForceFacts, ForceTransducer, Hertz, Rig, submit_builtin,
 };
 
 use super::KEY;
+use super::frame::Check;
 use super::transducer::{M8128Options, Transducer, Zero};
+use crate::arguments::force::{FORCE_MAX, add_facts_of_force, force_facts};
+use crate::arguments::network::{port, port_of};
+use crate::arguments::optional_number;
 
 submit_builtin!(dyn ForceTransducer, || Ok(Box::new(M8128Factory::new()?)));
 
@@ -16,15 +20,15 @@ submit_builtin!(dyn ForceTransducer, || Ok(Box::new(M8128Factory::new()?)));
 /// - Forces and torques are those of the transducer's own axes, in N and N·mm, as its certificate has them; which of them presses into the
 ///   gel is a matter of how it is mounted, and of the rig.
 /// - Opening changes nothing in the box; starting sets rate, check and units, and lets it send.
-/// - A reading is the newest that came. Frames are checked by their sum and their number: a damaged or repeated one is no reading; where the
-///   place is lost, two frames with numbers in order are needed to find it. A number that is none is a `DeviceFault` of that reading.
+/// - A reading is the newest that came. Frames are checked by their sum (`check=crc32`: by CRC32, with the polynomial of zlib) and their number: a
+///   damaged or repeated one is no reading; where the place is lost, two frames with numbers in order are needed to find it. A number that is none is a `DeviceFault` of that reading.
 /// - Zero is the mean of 0.25 s, taken off on this side; `zero=box` lets the box do it, which takes seconds.
 /// - `force_max_n` from the certificate makes a clipped force an error; without it none is known.
 ///
 /// # What confirmed it
 /// Two published frames, whose numbers and sums are a test here, and an emulated box on which the driver passes its suite; there is no public
 /// client. **Not verified without the device**: the answer to a stop, zero in the box, the unit of torque (N·m unless `torque=N mm`), and
-/// frames with CRC32, which are not asked for.
+/// frames with CRC32, whose polynomial and order of bytes one public driver alone tells.
 ///
 /// ```
 /// use taceva_core::Factory;
@@ -51,21 +55,18 @@ impl M8128Factory {
     pub fn new() -> Result<M8128Factory, DescriptorError> {
         let arguments = [
             ArgSpec::text("host").help("name or address of the box"),
-            ArgSpec::whole("port", 1, 65_535)
-                .default(ArgValue::Whole(4008))
-                .help("its port"),
+            port("port", 4008, "its port"),
             ArgSpec::number("rate", 1.0, 2_000.0)
                 .unit("Hz")
                 .default(ArgValue::Number(200.0))
                 .help("readings a second, a whole number")
                 .changes_facts(),
-            ArgSpec::number("force_max_n", 0.001, 100_000.0)
-                .optional()
-                .help("the least of the ranges of its forces, in N, from its certificate")
-                .changes_facts(),
             ArgSpec::choice("torque", TORQUES.map(|(name, _)| name))
                 .default(ArgValue::Text("N m".to_owned()))
                 .help("the unit of its torques, from its certificate"),
+            ArgSpec::choice("check", ["sum", "crc32"])
+                .default(ArgValue::Text("sum".to_owned()))
+                .help("how frames are checked: by the sum of their bytes, or by CRC32 where the box can"),
             ArgSpec::choice("zero", ["host", "box"])
                 .default(ArgValue::Text("host".to_owned()))
                 .help("who calls a load zero: this program, or the box, which takes seconds"),
@@ -79,7 +80,7 @@ impl M8128Factory {
         let title = "a force transducer behind a box of SRI";
         let spec = DescriptorSpec::new(KEY, title, DriverSource::Real, facts);
         Ok(M8128Factory {
-            descriptor: spec.arguments(arguments).check()?,
+            descriptor: spec.arguments(arguments).arguments(force_facts()).check()?,
         })
     }
 }
@@ -94,7 +95,7 @@ impl Factory<dyn ForceTransducer> for M8128Factory {
         let mut spec = self.descriptor.to_spec();
         if let Facts::Force(facts) = &mut spec.facts {
             facts.rate = Some(Hertz(f64::from(options.rate_hz)));
-            facts.force_max = options.force_max_n.map(Newton);
+            add_facts_of_force(args, facts);
         }
         spec.check()
     }
@@ -105,17 +106,17 @@ impl Factory<dyn ForceTransducer> for M8128Factory {
 }
 
 fn options(args: &Args) -> M8128Options {
-    let number = |key: &str| match args.get(key) {
-        Some(&ArgValue::Number(number)) => Some(number),
-        _ => None,
-    };
     let torque = args.text("torque");
     let unit = TORQUES.into_iter().find(|(name, _)| *name == torque);
     M8128Options {
         host: args.text("host").to_owned(),
-        port: u16::try_from(args.whole("port")).unwrap_or(0),
-        rate_hz: whole(number("rate").unwrap_or(1.0)),
-        force_max_n: number("force_max_n"),
+        port: port_of(args, "port"),
+        rate_hz: whole(args.number("rate")),
+        check: match args.text("check") {
+            "crc32" => Check::Crc32,
+            _ => Check::Sum,
+        },
+        force_max_n: optional_number(args, FORCE_MAX),
         torque_unit_nmm: unit.map_or(1000.0, |(_, unit)| unit),
         zero: match args.text("zero") {
             "box" => Zero::Box,

@@ -29,11 +29,50 @@ pub(super) struct Messages {
 }
 
 const MARK: [u8; 2] = [0xaa, 0x55];
-/// What the length says of a frame with one reading and a check of one byte: the number of the frame, six numbers, the check.
-const LENGTH: usize = 2 + DATA + 1;
+/// Bytes of six numbers.
 const DATA: usize = 24;
-/// Mark and length stand before what the length counts.
-const FRAME: usize = 4 + LENGTH;
+/// Mark, length and number stand before the numbers.
+const HEAD: usize = 6;
+/// How the numbers are checked, which the length of a frame tells.
+const CHECKS: [Check; 2] = [Check::Sum, Check::Crc32];
+
+/// What stands behind the numbers of a frame.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Check {
+    /// The sum of their bytes, which misses two that changed places.
+    Sum,
+    /// CRC-32 with the polynomial of zlib, the low byte first.
+    Crc32,
+}
+
+impl Check {
+    /// Its bytes.
+    const fn length(self) -> usize {
+        match self {
+            Check::Sum => 1,
+            Check::Crc32 => 4,
+        }
+    }
+
+    /// The bytes of a whole frame with one reading.
+    const fn frame(self) -> usize {
+        HEAD + DATA + self.length()
+    }
+
+    /// What the length says of such a frame: number, numbers and check.
+    fn stated(self) -> [u8; 2] {
+        let length = u16::try_from(self.frame() - 4).expect("a length of two bytes");
+        length.to_be_bytes()
+    }
+
+    /// Whether `check` is that of `data`.
+    fn holds(self, data: &[u8], check: &[u8]) -> bool {
+        match self {
+            Check::Sum => check == [data.iter().fold(0_u8, |sum, byte| sum.wrapping_add(*byte))],
+            Check::Crc32 => check == crc32fast::hash(data).to_le_bytes(),
+        }
+    }
+}
 /// How answers to commands begin.
 const ANSWER: &[u8] = b"ACK+";
 /// A longer line is none.
@@ -71,7 +110,7 @@ impl Messages {
                     break Some(message);
                 }
                 // Two frames are needed, and the second has not come.
-                Start::Whole(_, length) if self.waiting.len() < at + length + FRAME => break None,
+                Start::Whole(_, length) if self.waiting.len() < at + 2 * length => break None,
                 Start::Unfinished => break None,
                 Start::Whole(..) | Start::Foreign => {
                     self.is_in_place = false;
@@ -121,18 +160,18 @@ fn start_of(bytes: &[u8]) -> Start {
             None => Start::Foreign,
         };
     }
-    let [length_high, length_low] =
-        [LENGTH >> 8, LENGTH & 0xff].map(|byte| u8::try_from(byte).expect("a length of two bytes"));
-    let head = [MARK[0], MARK[1], length_high, length_low];
-    if !begins(bytes, &head) {
+    let fits = |check: &Check| {
+        let [high, low] = check.stated();
+        begins(bytes, &[MARK[0], MARK[1], high, low])
+    };
+    let Some(check) = CHECKS.into_iter().find(fits) else {
         return Start::Foreign;
-    }
-    let Some(frame) = bytes.first_chunk::<FRAME>() else {
+    };
+    let Some(frame) = bytes.get(..check.frame()) else {
         return Start::Unfinished;
     };
-    let data = &frame[6..6 + DATA];
-    let sum = data.iter().fold(0_u8, |sum, byte| sum.wrapping_add(*byte));
-    if sum != frame[6 + DATA] {
+    let (data, behind) = frame[HEAD..].split_at(DATA);
+    if !check.holds(data, behind) {
         return Start::Foreign;
     }
     let values = std::array::from_fn(|index| {
@@ -140,7 +179,7 @@ fn start_of(bytes: &[u8]) -> Start {
         f32::from_le_bytes([data[at], data[at + 1], data[at + 2], data[at + 3]])
     });
     let number = u16::from_be_bytes([frame[4], frame[5]]);
-    Start::Whole(Message::Reading(Reading { number, values }), FRAME)
+    Start::Whole(Message::Reading(Reading { number, values }), frame.len())
 }
 
 /// Whether `bytes` begin as `head` does, as far as they go.
@@ -162,6 +201,50 @@ mod tests {
         let sum = data.iter().fold(0_u8, |sum, byte| sum.wrapping_add(*byte));
         let head = [0xaa, 0x55, 0x00, 0x1b];
         [&head[..], &number.to_be_bytes()[..], &data[..], &[sum][..]].concat()
+    }
+
+    /// The same frame with a check of four bytes.
+    fn frame_crc32(number: u16, values: [f32; 6]) -> Vec<u8> {
+        let mut frame = frame(number, values);
+        frame.pop();
+        frame[3] = 0x1e;
+        let check = crc32fast::hash(&frame[6..]).to_le_bytes();
+        [&frame[..], &check[..]].concat()
+    }
+
+    #[test]
+    fn frames_with_crc32_are_read_beside_those_with_a_sum_and_two_bytes_that_changed_places_are_noticed()
+     {
+        // The check value of this CRC, as everybody publishes it.
+        assert!(Check::Crc32.holds(b"123456789", &[0x26, 0x39, 0xf4, 0xcb]));
+        let whole = [
+            frame_crc32(8, [1.0; 6]),
+            frame_crc32(9, [2.0; 6]),
+            frame(10, [3.0; 6]),
+        ]
+        .concat();
+        for piece in [1, 5, whole.len()] {
+            let mut messages = Messages::default();
+            let mut found = Vec::new();
+            for part in whole.chunks(piece) {
+                messages.push(part);
+                found.extend(numbers(&all(&mut messages)));
+            }
+            assert_eq!(found, [8, 9, 10], "in pieces of {piece}");
+        }
+        let mut swapped = frame_crc32(11, [1.0, 2.0, 3.0, 4.0, 5.0, 6.0]);
+        swapped.swap(8, 16);
+        let mut messages = Messages::default();
+        messages.push(&[frame_crc32(10, [0.0; 6]), frame_crc32(11, [0.0; 6])].concat());
+        messages.push(
+            &[
+                swapped,
+                frame_crc32(12, [0.0; 6]),
+                frame_crc32(13, [0.0; 6]),
+            ]
+            .concat(),
+        );
+        assert_eq!(numbers(&all(&mut messages)), [10, 11, 12, 13]);
     }
 
     fn all(messages: &mut Messages) -> Vec<Message> {
@@ -249,7 +332,7 @@ mod tests {
         let mut stream: Vec<u8> = (0..6)
             .flat_map(|number| frame(number, treacherous()))
             .collect();
-        stream[2 * FRAME + 9] ^= 0x10;
+        stream[2 * Check::Sum.frame() + 9] ^= 0x10;
         let mut messages = Messages::default();
         messages.push(&stream);
         assert_eq!(numbers(&all(&mut messages)), [0, 1, 3, 4, 5]);
@@ -277,7 +360,11 @@ mod tests {
         messages.push(&[b'x'; 2 * LINE_MAX]);
         messages.push(&[0x55; 100]);
         assert_eq!(messages.next(), None);
-        assert!(messages.waiting.len() < FRAME, "{}", messages.waiting.len());
+        assert!(
+            messages.waiting.len() < Check::Crc32.frame(),
+            "{}",
+            messages.waiting.len()
+        );
         messages.push(&[frame(4, [1.0; 6]), frame(5, [1.0; 6])].concat());
         assert_eq!(numbers(&all(&mut messages)), [4, 5]);
     }

@@ -11,9 +11,9 @@ use taceva_core::{
 use super::KEY;
 use super::box_link::{BoxLink, CommandError, Counted};
 use super::command::Command;
-use super::frame::Reading;
-use crate::link::{NoNews, Seen};
-use crate::zero::HostZero;
+use super::frame::{Check, Reading};
+use crate::link::Seen;
+use crate::zero::{HostZero, READ, ZERO};
 
 /// How a box is read.
 #[derive(Clone, Debug, PartialEq)]
@@ -21,6 +21,7 @@ pub(super) struct M8128Options {
     pub(super) host: String,
     pub(super) port: u16,
     pub(super) rate_hz: u16,
+    pub(super) check: Check,
     /// What it measures is clipped at this force, in N.
     pub(super) force_max_n: Option<f64>,
     /// N·mm a unit of torque of the box.
@@ -51,7 +52,6 @@ pub(super) struct Transducer {
     last: u64,
 }
 
-const READ: &str = "read the force";
 /// How long the box may take to answer a command.
 const ANSWER: Duration = Duration::from_millis(800);
 /// How long it is waited for the answer to a stop, which not every box gives.
@@ -74,7 +74,7 @@ impl Transducer {
             .map_err(|error| failed(error.kind(), "connect to the box", error))?;
         Ok(Transducer {
             link,
-            zero: HostZero::new(options.force_max_n),
+            zero: HostZero::new(KEY, options.force_max_n),
             options,
             is_running: false,
             sequence: None,
@@ -100,7 +100,8 @@ impl Transducer {
             }
             done => done?,
         }
-        self.link.command(Command::Sum, ANSWER)?;
+        self.link
+            .command(Command::Check(self.options.check), ANSWER)?;
         self.link.command(Command::Units, ANSWER)?;
         self.last = self.link.readings().posted();
         self.link.send(Command::Start)?;
@@ -114,13 +115,10 @@ impl Transducer {
             return Err(failed(ErrorKind::InvalidArgument, READ, why));
         }
         let found = self.link.readings().next(self.last, patience);
-        let seen = found.map_err(|none| match none {
-            NoNews::Silent => {
-                let why = format!("no reading within {patience:?}{}", self.losses());
-                failed(ErrorKind::Timeout, READ, why)
-            }
-            NoNews::Interrupted => failed(ErrorKind::Interrupted, READ, "it was interrupted"),
-            NoNews::Ended(ending) => failed(ending.kind, READ, ending.why),
+        let seen = found.map_err(|none| {
+            none.while_waiting(&KEY, READ, || {
+                format!("no reading within {patience:?}{}", self.losses())
+            })
         })?;
         self.last = seen.number;
         self.sequence = Some(u64::from(seen.what.reading.number));
@@ -150,13 +148,8 @@ impl Transducer {
             torque: [mx, my, mz].map(|torque| NewtonMillimetre(torque * unit)),
         };
         check_wrench(&wrench).map_err(|error| failed(ErrorKind::DeviceFault, READ, error))?;
-        self.check_range(&wrench)?;
+        self.zero.check(&wrench)?;
         Ok(wrench)
-    }
-
-    fn check_range(&self, wrench: &Wrench) -> Result<(), DriverError> {
-        let checked = self.zero.check(wrench);
-        checked.map_err(|why| failed(ErrorKind::OutOfRange, READ, why))
     }
 }
 
@@ -175,8 +168,7 @@ impl ForceTransducer for Transducer {
 
     fn read(&mut self, deadline: Deadline) -> Result<(Wrench, Stamp), DriverError> {
         let seen = self.next(deadline.remaining())?;
-        let wrench = self.zero.taken_off(&self.wrench(&seen.what.reading)?);
-        self.check_range(&wrench)?;
+        let wrench = self.zero.taken_off(&self.wrench(&seen.what.reading)?)?;
         Ok((wrench, Stamp::at(seen.at)))
     }
 
@@ -212,21 +204,18 @@ impl Tare for Transducer {
 
 impl Transducer {
     fn zero_here(&mut self, deadline: Deadline) -> Result<(), DriverError> {
-        let mut zero = self.zero;
+        let mut zero = self.zero.clone();
         let next = |patience| {
             let seen = self.next(patience)?;
             self.wrench(&seen.what.reading)
         };
-        zero.take(deadline, next, |kind, why| {
-            failed(kind, "call the load zero", why)
-        })?;
+        zero.take(deadline, next)?;
         self.zero = zero;
         Ok(())
     }
 
     fn zero_in_box(&mut self, deadline: Deadline) -> Result<(), DriverError> {
-        let doing = "call the load zero";
-        let refused = |error: CommandError| failed(error.kind(), doing, error);
+        let refused = |error: CommandError| failed(error.kind(), ZERO, error);
         let was_running = self.is_running;
         // While it sends, its answer is lost among readings.
         self.fall_silent().map_err(refused)?;

@@ -6,6 +6,7 @@ use taceva_core::{
     Deadline, DriverError, ErrorKind, Halt, Pose, Robot, RobotWatch, Speed, Stamp, check_pose,
 };
 
+use super::KEY;
 use super::command::{Command, TargetState};
 use super::error::{failed, unanswered};
 use super::exchange::Exchange;
@@ -13,9 +14,10 @@ use super::firmware::Firmware;
 use super::frame::Reply;
 use super::observe::{ANSWER, Observer, error_now};
 use super::options::XarmOptions;
-use super::reported::ReportedPose;
+use super::report::{Report, pose_of};
 use super::stop::{Keeper, Place, Stop};
 use crate::link::monotonic;
+use crate::link::watch::{LOOK, ReportedPose};
 
 /// An arm that is connected.
 #[derive(Debug)]
@@ -104,6 +106,13 @@ impl Arm {
     }
 }
 
+/// The pose of a report, if it is one.
+fn reported_pose(report: &Report) -> Result<Pose, DriverError> {
+    let pose = pose_of(report.pose);
+    check_pose(&pose).map_err(|error| failed(ErrorKind::DeviceFault, LOOK, error))?;
+    Ok(pose)
+}
+
 /// Ready, moving and paused are 0 to 3; what is above wants to be made ready.
 const LAST_GOOD_STATE: u8 = 3;
 
@@ -149,7 +158,11 @@ impl Robot for Arm {
 
     fn watch_handle(&self) -> Option<Arc<dyn RobotWatch>> {
         let reports = self.observer.reports()?;
-        Some(Arc::new(ReportedPose { reports }))
+        Some(Arc::new(ReportedPose {
+            driver: KEY,
+            reports,
+            pose: reported_pose,
+        }))
     }
 
     fn clear_halt(&mut self, _: Deadline) -> Result<(), DriverError> {

@@ -8,6 +8,8 @@ use taceva_core::{
 use super::KEY;
 use super::arm::Arm;
 use super::options::XarmOptions;
+use crate::arguments::network::port;
+use crate::arguments::robot::{deceleration, facts_of_robot, robot_facts, speed_limit};
 
 submit_builtin!(dyn Robot, || Ok(Box::new(XarmFactory::new()?)));
 
@@ -40,29 +42,18 @@ pub struct XarmFactory {
     descriptor: Descriptor,
 }
 
-/// The greatest port.
-const PORT_MAX: i64 = 65_535;
-
 impl XarmFactory {
     /// The driver.
     ///
     /// # Errors
     /// [`DescriptorError`] if it contradicted itself, which its tests rule out.
     pub fn new() -> Result<XarmFactory, DescriptorError> {
-        let port = |key: &str, number: i64, help: &str| {
-            ArgSpec::whole(key, 1, PORT_MAX)
-                .default(ArgValue::Whole(number))
-                .help(help)
-        };
         let arguments = [
             ArgSpec::text("host").help("name or address of the control box"),
             port("port", 502, "the port of commands"),
             port("pose_port", 30_003, "the port of 100 reports a second; polled where nobody listens there"),
             port("status_port", 30_001, "the port of reports with errors; polled where nobody listens there"),
-            ArgSpec::number("speed_max_mm_s", 0.1, 250.0)
-                .default(ArgValue::Number(100.0))
-                .help("the greatest speed of the tip, in mm/s")
-                .changes_facts(),
+            speed_limit(0.1, 100.0),
             ArgSpec::number("acceleration_mm_s2", 10.0, 5_000.0)
                 .default(ArgValue::Number(500.0))
                 .help("how fast the tip gains and loses speed, in mm/s²"),
@@ -74,7 +65,11 @@ impl XarmFactory {
         let facts = Facts::Robot(RobotFacts::default().with_base_frame(true));
         let spec = DescriptorSpec::new(KEY, "an arm of UFACTORY", DriverSource::Real, facts);
         Ok(XarmFactory {
-            descriptor: spec.arguments(arguments).check()?,
+            descriptor: spec
+                .arguments(arguments)
+                .arguments([deceleration()])
+                .arguments(robot_facts())
+                .check()?,
         })
     }
 }
@@ -88,7 +83,7 @@ impl Factory<dyn Robot> for XarmFactory {
         let mut spec = self.descriptor.to_spec();
         // Arguments that make no sense are refused when the arm is opened, in their own words.
         if let Ok(options) = XarmOptions::read(args) {
-            spec.facts = Facts::Robot(options.facts());
+            spec.facts = Facts::Robot(facts_of_robot(args).with_workspace(options.workspace));
         }
         spec.check()
     }

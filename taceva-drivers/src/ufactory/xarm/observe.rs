@@ -5,6 +5,7 @@ use std::time::Duration;
 
 use taceva_core::{DriverError, ErrorKind, NotFinite, Pose, check_pose};
 
+use super::KEY;
 use super::command::Command;
 use super::error::failed;
 use super::exchange::{Exchange, ExchangeError};
@@ -12,7 +13,7 @@ use super::fault::XarmFault;
 use super::frame::Reply;
 use super::report::{Report, ReportKind, State, pose_of};
 use super::watch::Watch;
-use crate::link::{LinkError, Mailbox, NoNews, monotonic};
+use crate::link::{LinkError, Mailbox, monotonic};
 
 /// Where the arm is and what it does, at one moment.
 #[derive(Clone, Copy, Debug)]
@@ -101,15 +102,10 @@ impl Observer {
             (None, Some(fresh)) => fresh.number - 1,
             (None, None) => poses.newest().map_or(0, |seen| seen.number),
         };
-        let seen = poses.next(after, patience).map_err(|error| {
-            let doing = "look where the arm is";
-            match error {
-                NoNews::Ended(ending) => failed(ending.kind, doing, ending.why),
-                NoNews::Silent | NoNews::Interrupted => {
-                    let why = format!("no report within {patience:?}");
-                    failed(ErrorKind::Timeout, doing, why)
-                }
-            }
+        let seen = poses.next(after, patience).map_err(|none| {
+            none.while_waiting(&KEY, "look where the arm is", || {
+                format!("no report within {patience:?}")
+            })
         })?;
         Ok(Observation {
             state: seen.what.state,

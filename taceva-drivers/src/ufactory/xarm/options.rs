@@ -1,8 +1,10 @@
 //! How an arm is opened, from the arguments.
 
-use taceva_core::{ArgValue, Args, Millimetre, Point, RobotFacts, Speed, Workspace};
+use taceva_core::{ArgValue, Args, Millimetre, Point, Speed, Workspace};
 use thiserror::Error;
 
+use crate::arguments::network::port_of;
+use crate::arguments::robot::speed_max;
 use crate::text::shown;
 
 /// Where the controller is, and within which limits the arm moves.
@@ -29,7 +31,6 @@ pub(super) enum OptionsError {
 impl XarmOptions {
     /// The options in `args`, which the declaration of the driver has checked.
     pub(super) fn read(args: &Args) -> Result<XarmOptions, OptionsError> {
-        let port = |key: &str| u16::try_from(args.whole(key)).unwrap_or(0);
         let workspace = match args.get("workspace").and_then(ArgValue::as_text) {
             None => None,
             Some(text) => Some(workspace(text).ok_or_else(|| OptionsError::Workspace {
@@ -38,22 +39,13 @@ impl XarmOptions {
         };
         Ok(XarmOptions {
             host: args.text("host").to_owned(),
-            port: port("port"),
-            pose_port: port("pose_port"),
-            status_port: port("status_port"),
-            speed_max: Speed::try_new(args.number("speed_max_mm_s"))
-                .map_err(|_| OptionsError::Speed)?,
+            port: port_of(args, "port"),
+            pose_port: port_of(args, "pose_port"),
+            status_port: port_of(args, "status_port"),
+            speed_max: speed_max(args).map_err(|_| OptionsError::Speed)?,
             acceleration_mm_s2: args.number("acceleration_mm_s2"),
             workspace,
         })
-    }
-
-    /// What is known of the arm before it is opened.
-    pub(super) fn facts(&self) -> RobotFacts {
-        RobotFacts::default()
-            .with_workspace(self.workspace)
-            .with_speed_max(self.speed_max)
-            .with_base_frame(true)
     }
 }
 

@@ -9,8 +9,8 @@ use std::time::Duration;
 use taceva_core::ErrorKind;
 
 use super::report::{Report, ReportKind, Reports};
-use crate::link::mailbox::Ending;
-use crate::link::{LinkError, Mailbox, NoNews, Seen, connect, monotonic};
+use crate::link::mailbox::{Ending, NoNews};
+use crate::link::{LinkError, Mailbox, Seen, connect, monotonic};
 
 /// The reports of one port.
 #[derive(Debug)]

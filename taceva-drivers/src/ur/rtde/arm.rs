@@ -4,7 +4,9 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
-use taceva_core::{Deadline, DriverError, ErrorKind, Halt, Pose, Robot, Speed, Stamp, check_pose};
+use taceva_core::{
+    Deadline, DriverError, ErrorKind, Halt, Pose, Robot, RobotWatch, Speed, Stamp, check_pose,
+};
 
 use super::KEY;
 use super::message::ArmState;
@@ -12,7 +14,8 @@ use super::rotation::pose_of;
 use super::safety::ArmFault;
 use super::script::{ScriptLine, stop};
 use super::states::States;
-use crate::link::{LinkError, NoNews, Seen, monotonic};
+use crate::link::watch::{LOOK, ReportedPose};
+use crate::link::{LinkError, Seen, monotonic};
 
 /// How an arm is reached, and within which limits it moves.
 #[derive(Clone, Debug, PartialEq)]
@@ -147,24 +150,32 @@ impl Arm {
                 false => seen.number,
             })
         });
-        mailbox.next(after, patience).map_err(|none| match none {
-            NoNews::Ended(ending) => failed(ending.kind, doing, ending.why),
-            NoNews::Silent | NoNews::Interrupted => failed(
-                ErrorKind::Timeout,
-                doing,
-                format!("no state within {patience:?}"),
-            ),
+        mailbox.next(after, patience).map_err(|none| {
+            none.while_waiting(&KEY, doing, || format!("no state within {patience:?}"))
         })
+    }
+}
+
+/// The pose of a state, if its numbers are one.
+fn numbered_pose(state: &ArmState, doing: &'static str) -> Result<Pose, DriverError> {
+    pose_of(state.pose).ok_or_else(|| {
+        let why = format!("{:?} is no pose, expected numbers", state.pose);
+        failed(ErrorKind::DeviceFault, doing, why)
+    })
+}
+
+/// The pose of a state, unless it says that the arm stopped by itself.
+fn watched_pose(state: &ArmState) -> Result<Pose, DriverError> {
+    match ArmFault::of(state).filter(|fault| fault.kind().is_some()) {
+        Some(fault) => Err(fault.met(LOOK)),
+        None => numbered_pose(state, LOOK),
     }
 }
 
 impl Robot for Arm {
     fn pose(&mut self, deadline: Deadline) -> Result<(Pose, Stamp), DriverError> {
         let seen = self.look(None, deadline.remaining())?;
-        let pose = pose_of(seen.what.pose).ok_or_else(|| {
-            let why = format!("{:?} is no pose, expected numbers", seen.what.pose);
-            failed(ErrorKind::DeviceFault, "look where the arm is", why)
-        })?;
+        let pose = numbered_pose(&seen.what, "look where the arm is")?;
         Ok((pose, Stamp::at(seen.at)))
     }
 
@@ -186,6 +197,14 @@ impl Robot for Arm {
 
     fn halt_handle(&self) -> Arc<dyn Halt> {
         Arc::clone(&self.stop) as Arc<dyn Halt>
+    }
+
+    fn watch_handle(&self) -> Option<Arc<dyn RobotWatch>> {
+        Some(Arc::new(ReportedPose {
+            driver: KEY,
+            reports: Arc::clone(self.states.mailbox()),
+            pose: watched_pose,
+        }))
     }
 
     fn clear_halt(&mut self, deadline: Deadline) -> Result<(), DriverError> {

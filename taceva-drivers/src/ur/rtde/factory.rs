@@ -2,11 +2,13 @@
 
 use taceva_core::{
     ArgSpec, ArgValue, Args, Descriptor, DescriptorError, DescriptorSpec, DriverError,
-    DriverSource, ErrorKind, Factory, Facts, Rig, Robot, RobotFacts, Speed, submit_builtin,
+    DriverSource, ErrorKind, Factory, Facts, Rig, Robot, RobotFacts, submit_builtin,
 };
 
 use super::KEY;
 use super::arm::{Arm, UrOptions, failed};
+use crate::arguments::network::{port, port_of};
+use crate::arguments::robot::{facts_of_robot, robot_facts, speed_limit, speed_max};
 
 submit_builtin!(dyn Robot, || Ok(Box::new(UrFactory::new()?)));
 
@@ -20,6 +22,7 @@ submit_builtin!(dyn Robot, || Ok(Box::new(UrFactory::new()?)));
 /// - A halt sends a program of one `stopl` over a connection of its own, which takes the place of the one that runs; the controller confirms
 ///   none. Without that connection no move begins.
 /// - Emergency, protective and safeguard stops end a move with `DeviceFault`.
+/// - It is watched while it moves by the states that it sends, which name these stops too.
 ///
 /// # What confirmed it
 /// An emulated controller on which the driver passes its suite; the public client `ur-rtde` 1.6.5 reads its poses too. **Not verified without
@@ -48,11 +51,6 @@ impl UrFactory {
                 .default(ArgValue::Number(usual))
                 .help(help)
         };
-        let port = |key: &str, number: i64, help: &str| {
-            ArgSpec::whole(key, 1, 65_535)
-                .default(ArgValue::Whole(number))
-                .help(help)
-        };
         let arguments = [
             ArgSpec::text("host").help("name or address of the controller"),
             port("port", 30_004, "the port of the real-time data exchange"),
@@ -63,12 +61,7 @@ impl UrFactory {
                 "states a second; a CB3 sends at most 125",
             )
             .unit("Hz"),
-            number(
-                "speed_max_mm_s",
-                [0.1, 250.0, 100.0],
-                "the greatest speed of the tip, in mm/s",
-            )
-            .changes_facts(),
+            speed_limit(0.1, 100.0),
             number(
                 "acceleration_mm_s2",
                 [10.0, 5_000.0, 500.0],
@@ -78,13 +71,14 @@ impl UrFactory {
                 "deceleration_mm_s2",
                 [100.0, 10_000.0, 2_000.0],
                 "how fast the tip brakes at a halt, in mm/s²",
-            ),
+            )
+            .changes_facts(),
         ];
         let facts = Facts::Robot(RobotFacts::default().with_base_frame(true));
         let spec =
             DescriptorSpec::new(KEY, "an arm of Universal Robots", DriverSource::Real, facts);
         Ok(UrFactory {
-            descriptor: spec.arguments(arguments).check()?,
+            descriptor: spec.arguments(arguments).arguments(robot_facts()).check()?,
         })
     }
 }
@@ -96,20 +90,18 @@ impl Factory<dyn Robot> for UrFactory {
 
     fn describe(&self, args: &Args) -> Result<Descriptor, DescriptorError> {
         let mut spec = self.descriptor.to_spec();
-        if let Facts::Robot(facts) = &mut spec.facts {
-            facts.speed_max = Speed::try_new(args.number("speed_max_mm_s")).ok();
-        }
+        // The deceleration is the one that the driver itself asks of the arm.
+        spec.facts = Facts::Robot(facts_of_robot(args));
         spec.check()
     }
 
     fn open(&self, args: &Args, _: &mut Rig) -> Result<Box<dyn Robot>, DriverError> {
-        let port = |key: &str| u16::try_from(args.whole(key)).unwrap_or(0);
-        let speed_max = Speed::try_new(args.number("speed_max_mm_s"))
+        let speed_max = speed_max(args)
             .map_err(|error| failed(ErrorKind::InvalidArgument, "open the arm", error))?;
         let options = UrOptions {
             host: args.text("host").to_owned(),
-            port: port("port"),
-            script_port: port("script_port"),
+            port: port_of(args, "port"),
+            script_port: port_of(args, "script_port"),
             rate_hz: args.number("rate"),
             speed_max,
             acceleration_mm_s2: args.number("acceleration_mm_s2"),

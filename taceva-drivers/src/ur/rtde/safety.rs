@@ -37,7 +37,7 @@ const RUNNING: i32 = 7;
 
 impl ArmFault {
     /// Of which kind it is, where only a person may go on from it.
-    fn kind(self) -> Option<Fault> {
+    pub(super) fn kind(self) -> Option<Fault> {
         match self {
             ArmFault::EmergencyStop => Some(Fault::EmergencyStop),
             ArmFault::ProtectiveStop => Some(Fault::Collision),

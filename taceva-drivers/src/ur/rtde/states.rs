@@ -89,7 +89,7 @@ impl States {
     }
 
     /// The states that come.
-    pub(super) fn mailbox(&self) -> &Mailbox<ArmState> {
+    pub(super) fn mailbox(&self) -> &Arc<Mailbox<ArmState>> {
         &self.states
     }
 }

@@ -97,7 +97,8 @@ fn suffix(unit: Unit) -> String {
     }
 }
 
-/// The fewest decimals, up to 12, whose last is at most a tenth of the width of an interval; of one without ends, of the value. Up to three
+/// The fewest decimals, up to 12, whose last is at most a tenth of the width of an interval, of one that reaches farther to one side twice the
+/// nearer distance; of one without ends, of the value. Up to three
 /// more where an end that is not 0 would print as 0: the interval would contradict what is shown.
 fn decimals(ends: &[f64; 2], value: f64) -> usize {
     let fewest = decimals_of_width(ends, value);
@@ -110,10 +111,11 @@ fn decimals(ends: &[f64; 2], value: f64) -> usize {
 }
 
 fn decimals_of_width([low, high]: &[f64; 2], value: f64) -> usize {
-    let width = if (high - low).is_finite() {
-        high - low
-    } else {
-        value.abs()
+    let nearer = 2.0 * (high - value).min(value - low);
+    let width = match (high - low).is_finite() {
+        true if nearer > 0.0 => nearer,
+        true => high - low,
+        false => value.abs(),
     };
     let mut place = 1.0;
     for decimals in 0..12 {
@@ -174,6 +176,7 @@ mod tests {
         assert_eq!(ends([-1.5, -0.004], -0.8), ["−1.500", "−0.004"]);
         assert_eq!(ends([-1e-7, 1.5], 0.8), ["−1e−7", "1.5"]);
         assert_eq!(ends([0.0, 1.5], 0.8), ["0.0", "1.5"]);
+        assert_eq!(ends([-0.9, 11.6], 0.487), ["−0.9", "11.6"]);
         assert_eq!(ends([0.02, f64::INFINITY], 0.8), ["0.02", "∞"]);
     }
 }

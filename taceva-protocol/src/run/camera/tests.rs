@@ -28,13 +28,32 @@ impl Sensor for Album {
     }
 }
 
+/// As an album, of pictures that came 10 ms after they were taken and were kept until somebody asked.
+struct Stream(Album);
+
+impl Sensor for Stream {
+    fn frame_info(&self) -> FrameInfo {
+        self.0.frame_info()
+    }
+    fn capture(&mut self, into: FrameMut<'_>, deadline: Deadline) -> Result<Stamp, DriverError> {
+        let stamp = self.0.capture(into, deadline)?;
+        Ok(Stamp {
+            received_s: Some(stamp.valid_s + 0.01),
+            ..stamp
+        })
+    }
+}
+
 /// The picture of a tip that has rested since 4.5 s, at 5 s; how often another one was asked for, and when it was taken.
 fn taken(times: &[f64]) -> (u32, Result<f64, StopCause>) {
-    let mut album = Album(times.to_vec());
+    taken_by(&mut Album(times.to_vec()))
+}
+
+fn taken_by(sensor: &mut dyn Sensor) -> (u32, Result<f64, StopCause>) {
     let mut retried = 0;
     let frame = with_tip(&Rig::new(-3.0, nothing), |tip| {
         let mut note = |event: &Event| retried += u32::from(matches!(event, Event::FrameRetried));
-        let mut camera = Camera::new(&mut album);
+        let mut camera = Camera::new(sensor);
         camera.frame(4.5, tip, &mut note)
     });
     (retried, frame.map(|(_, stamp)| stamp.valid_s))
@@ -54,4 +73,16 @@ fn a_sensor_that_gives_only_old_pictures_is_given_up() {
     assert_eq!(retried, FRAME_TRIES);
     let error = error.expect_err("no news").to_string();
     assert!(error.starts_with("10 frames in a row were lost"), "{error}");
+}
+
+#[test]
+fn a_picture_that_waited_for_whoever_asks_is_none_that_was_asked_for_again() {
+    let streamed = |times: &[f64]| {
+        let (retried, time_s) = taken_by(&mut Stream(Album(times.to_vec())));
+        (retried, time_s.ok())
+    };
+    assert_eq!(streamed(&[4.25, 4.75]), (0, Some(4.75)));
+    // What came after it was asked for, and was taken by another clock.
+    assert_eq!(streamed(&[4.25, 5.25, 4.75]), (1, Some(4.75)));
+    assert_eq!(streamed(&[4.0]), (0, None));
 }

@@ -18,6 +18,7 @@ use crate::simulation::world::{Gel, Shared};
 pub(super) const SOFT: Gel = Gel {
     stiffness_n_mm: 0.5,
     noise_n: 0.003,
+    zero_noise_n: 0.0,
     saturation_n: 20.0,
     normal_max_n: 1.5,
     pose_noise_mm: 0.0,
@@ -98,7 +99,7 @@ impl Bench {
     ) -> Result<RunReport, RunError> {
         let (mut robot, mut force, mut sensor) = (
             SimulatedRobot(self.shared.clone()),
-            SimulatedForce(self.shared.clone()),
+            SimulatedForce::new(self.shared.clone()),
             SimulatedSensor(self.shared.clone()),
         );
         let mut clock = self.shared.clone();

@@ -11,14 +11,14 @@ use crate::scores::ScoreTable;
 
 /// Intervals, tests and adjustment.
 pub(super) fn statistics(studies: &[Study], table: &ScoreTable) -> String {
-    let methods: BTreeSet<&str> = table
+    let methods: BTreeSet<String> = table
         .rows
         .iter()
         .flat_map(|row| row.cells.iter().flatten())
         .filter_map(|cell| cell.method.as_deref())
-        .map(|method| method.split(", G=").next().unwrap_or(method))
+        .map(without_count)
         .collect();
-    let methods: Vec<String> = methods.into_iter().map(str::to_owned).collect();
+    let methods: Vec<String> = methods.into_iter().collect();
     let mut out = match methods.is_empty() {
         true => String::new(),
         false => format!(" Intervals are of 95 % ({}).", methods.join("; ")),
@@ -40,6 +40,18 @@ pub(super) fn statistics(studies: &[Study], table: &ScoreTable) -> String {
     }
     out += &skill(studies);
     out + &seeds(studies)
+}
+
+/// The method of an interval without how many clusters, replicates and which seed it was of: `jackknife by point_id, logarithmic`.
+fn without_count(method: &str) -> String {
+    let is_kept = |part: &&str| {
+        let is_count = ["G=", "B=", "seed="]
+            .iter()
+            .any(|count| part.starts_with(count));
+        !is_count
+    };
+    let parts: Vec<&str> = method.split(", ").filter(is_kept).collect();
+    parts.join(", ")
 }
 
 /// Which scores are compared, and how the others are marked.

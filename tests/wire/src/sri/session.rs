@@ -1,6 +1,6 @@
 //! A client of the box.
 
-use std::io::Write;
+use std::io::{self, Write};
 use std::net::TcpStream;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
@@ -8,6 +8,7 @@ use std::time::Duration;
 use crate::base::Base;
 use crate::bench::WallBench;
 use crate::fault::{Device, FaultKind};
+use crate::link::Link;
 use crate::server::{End, read};
 
 /// What one client has set.
@@ -15,6 +16,7 @@ use crate::server::{End, read};
 struct Settings {
     rate_hz: u32,
     is_streaming: bool,
+    is_crc32: bool,
 }
 
 /// The stream of one client, and what it wants of it.
@@ -29,9 +31,9 @@ impl Session {
         self.settings.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    fn send(&self, bytes: &[u8]) -> bool {
+    fn send(&self, bytes: &[u8]) -> io::Result<()> {
         let mut stream = self.stream.lock().unwrap_or_else(PoisonError::into_inner);
-        stream.write_all(bytes).is_ok()
+        stream.write_all(bytes)
     }
 }
 
@@ -49,6 +51,7 @@ pub(super) fn serve(mut stream: TcpStream, bench: &WallBench, end: &End) {
         settings: Mutex::new(Settings {
             rate_hz: 200,
             is_streaming: false,
+            is_crc32: false,
         }),
         stream: Mutex::new(writing),
     });
@@ -69,7 +72,8 @@ pub(super) fn serve(mut stream: TcpStream, bench: &WallBench, end: &End) {
                 .and_then(|command| answer(command, &session, bench));
             waiting = rest.to_owned();
             if let Some(answer) = answer {
-                session.send(format!("ACK+{answer}\r\n").as_bytes());
+                // A client that goes ends its connection.
+                let _ = session.send(format!("ACK+{answer}\r\n").as_bytes());
             }
         }
     }
@@ -88,7 +92,13 @@ fn answer(command: &str, session: &Session, bench: &WallBench) -> Option<String>
             }
             _ => false,
         },
-        "DCKMD" => value == "SUM",
+        "DCKMD" => match value {
+            "SUM" | "CRC32" => {
+                session.settings().is_crc32 = value == "CRC32";
+                true
+            }
+            _ => false,
+        },
         "SGDM" => value == "(A01,A02,A03,A04,A05,A06);E;1;(WMA:1)",
         "GSD" if value == "STOP" => {
             session.settings().is_streaming = false;
@@ -110,6 +120,11 @@ fn answer(command: &str, session: &Session, bench: &WallBench) -> Option<String>
     Some(format!("{command}${outcome}"))
 }
 
+/// The beginning of a frame of 65535 bytes, with the mark of another in its middle.
+const HOSTILE: &[u8] = &[0xaa, 0x55, 0xff, 0xff, 0xaa, 0x55, 0x00];
+/// From one number to the next where some are left out.
+const SKIPPED: u16 = 7;
+
 /// Sends readings at even times, as long as the client wants any.
 fn stream_readings(session: &Session, bench: &WallBench, over: &End) {
     /// How often it is looked whether the client wants readings.
@@ -117,16 +132,17 @@ fn stream_readings(session: &Session, bench: &WallBench, over: &End) {
     let mut number: u16 = 0;
     let mut due = bench.now();
     let mut shown = [0.0; 3];
-    let mut held = Vec::new();
+    let mut link = Link::new(Device::Force, HOSTILE);
     while !over.has_come() {
         let Settings {
             rate_hz,
             is_streaming,
+            is_crc32,
         } = *session.settings();
         let now = bench.now();
         if !is_streaming {
             due = now;
-            held.clear();
+            link.forget();
             std::thread::sleep(LOOK);
             continue;
         }
@@ -135,29 +151,32 @@ fn stream_readings(session: &Session, bench: &WallBench, over: &End) {
             continue;
         }
         due += Duration::from_secs(1) / rate_hz;
-        number = number.wrapping_add(1);
+        number = number.wrapping_add(match bench.is_faulty(Device::Force, FaultKind::Gap) {
+            true => SKIPPED,
+            false => 1,
+        });
         if !bench.is_faulty(Device::Force, FaultKind::Frozen) {
             shown = Base::turn(bench.reading_n());
-        }
-        if bench.withholds(Device::Force) {
-            continue;
         }
         let mut values = [shown[0], shown[1], shown[2], 0.0, 0.0, 0.0];
         if bench.is_faulty(Device::Force, FaultKind::NotANumber) {
             values[2] = f64::NAN;
         }
-        held.extend(frame(number, values));
-        if bench.delay(Device::Force).is_zero() {
-            let frames = std::mem::take(&mut held);
-            if !session.send(&frames) {
-                return;
-            }
+        if bench.is_faulty(Device::Force, FaultKind::Saturated) {
+            values[2] = -bench.force_range_n();
+        }
+        let frame = frame(number, values, is_crc32);
+        if link
+            .send(bench, &frame, |bytes| session.send(bytes))
+            .is_err()
+        {
+            return;
         }
     }
 }
 
-/// A frame with six numbers, checked by the sum of their bytes.
-fn frame(number: u16, values: [f64; 6]) -> Vec<u8> {
+/// A frame with six numbers, checked by the sum of their bytes or by their CRC32.
+fn frame(number: u16, values: [f64; 6], is_crc32: bool) -> Vec<u8> {
     #[expect(
         clippy::cast_possible_truncation,
         reason = "the frame has no finer numbers; a cast rounds to the nearest"
@@ -168,11 +187,15 @@ fn frame(number: u16, values: [f64; 6]) -> Vec<u8> {
         .flat_map(|value| single(value).to_le_bytes())
         .collect();
     let sum = data.iter().fold(0_u8, |sum, byte| sum.wrapping_add(*byte));
-    let length: u16 = 27;
+    let check = match is_crc32 {
+        true => crc32fast::hash(&data).to_le_bytes().to_vec(),
+        false => vec![sum],
+    };
+    let length: u16 = if is_crc32 { 30 } else { 27 };
     let mut frame = vec![0xaa, 0x55];
     frame.extend(length.to_be_bytes());
     frame.extend(number.to_be_bytes());
     frame.extend(data);
-    frame.push(sum);
+    frame.extend(check);
     frame
 }

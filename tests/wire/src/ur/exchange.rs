@@ -6,6 +6,7 @@ use std::time::Duration;
 
 use super::Controller;
 use crate::fault::{ArmFault, Device, FaultKind};
+use crate::link::Link;
 use crate::server::{End, read};
 
 /// The outputs that public clients ask for, with their types; others do not exist here.
@@ -49,6 +50,9 @@ fn type_of(name: &str) -> &'static str {
     exact.or(alike).map_or("DOUBLE", |(_, kind)| kind)
 }
 
+/// A message that is shorter than its own head.
+const HOSTILE: &[u8] = &[0x00, 0x00, b'U'];
+
 /// Answers and sends states until the client goes.
 pub(super) fn serve(mut stream: TcpStream, controller: &Controller, end: &End) -> io::Result<()> {
     stream.set_read_timeout(Some(Duration::from_millis(1)))?;
@@ -62,6 +66,7 @@ pub(super) fn serve(mut stream: TcpStream, controller: &Controller, end: &End) -
     let mut bytes = [0; 4096];
     let mut due = bench.now();
     let mut shown = controller.pose();
+    let mut link = Link::new(Device::Robot, HOSTILE);
     loop {
         match read(&mut stream, &mut bytes, end) {
             None => {}
@@ -91,10 +96,7 @@ pub(super) fn serve(mut stream: TcpStream, controller: &Controller, end: &End) -
             pose[2] = f64::NAN;
         }
         let state = wanted.state(controller, pose);
-        std::thread::sleep(bench.delay(Device::Robot));
-        if !bench.withholds(Device::Robot) {
-            stream.write_all(&state)?;
-        }
+        link.send(bench, &state, |bytes| stream.write_all(bytes))?;
     }
 }
 

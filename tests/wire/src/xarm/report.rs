@@ -6,6 +6,7 @@ use std::time::Duration;
 
 use super::controller::{Controller, Snapshot};
 use crate::fault::{Device, FaultKind};
+use crate::link::Link;
 use crate::server::End;
 
 /// Which report.
@@ -33,11 +34,15 @@ impl ReportPort {
     }
 }
 
+/// The length of a report that nobody can hold.
+const HOSTILE: &[u8] = &[0xff, 0xff, 0xff, 0xff, 0x00];
+
 /// Reports until the client goes.
 pub(super) fn serve(mut stream: TcpStream, port: ReportPort, controller: &Controller, end: &End) {
     let bench = &controller.bench;
     let mut shown = controller.snapshot();
     let mut due = bench.now();
+    let mut link = Link::new(Device::Robot, HOSTILE);
     while !end.has_come() {
         if !bench.is_faulty(Device::Robot, FaultKind::Frozen) {
             shown = controller.snapshot();
@@ -46,8 +51,8 @@ pub(super) fn serve(mut stream: TcpStream, port: ReportPort, controller: &Contro
             shown.pose[2] = f32::NAN;
         }
         let report = write(port, &shown, controller.firmware);
-        std::thread::sleep(bench.delay(Device::Robot));
-        if !bench.withholds(Device::Robot) && stream.write_all(&report).is_err() {
+        let sent = link.send(bench, &report, |bytes| stream.write_all(bytes));
+        if sent.is_err() {
             return;
         }
         // Reports are made at even times, however long it takes to send one.

@@ -2,6 +2,7 @@
 
 mod ffmpeg;
 mod netft;
+mod printer;
 mod python;
 mod ur;
 mod xarm;

@@ -9,6 +9,7 @@ use taceva_core::{
 
 use super::{Kind, Server, answered, answered_if_able, unsupported};
 use crate::child::link::Link;
+use crate::child::reply::Reading;
 use crate::child::wire::{Answer, Call, Failure, OpenedDevice};
 
 struct ForceProxy {
@@ -16,6 +17,8 @@ struct ForceProxy {
     axes: Axes,
     interrupts: bool,
     tare: bool,
+    /// Of the last reading.
+    sequence: Option<u64>,
 }
 
 impl Kind for dyn ForceTransducer {
@@ -36,6 +39,7 @@ impl Kind for dyn ForceTransducer {
                 axes,
                 interrupts,
                 tare,
+                sequence: None,
             })),
             _ => Err(link.broke("it opened no force transducer")),
         }
@@ -58,7 +62,15 @@ impl Server for Box<dyn ForceTransducer> {
     fn answer(&mut self, call: Call, _: Vec<OwnedFd>) -> Result<Answer, Failure> {
         match call {
             Call::Start { deadline } => answered(self.start(deadline)),
-            Call::Read { deadline } => answered(self.read(deadline)),
+            Call::Read { deadline } => {
+                let read = self.read(deadline);
+                let sequence = self.sequence();
+                answered(read.map(|(wrench, stamp)| Reading {
+                    wrench,
+                    stamp,
+                    sequence,
+                }))
+            }
             Call::Zero { deadline } => {
                 answered_if_able(self.tare().map(|tare| tare.zero(deadline)))
             }
@@ -80,7 +92,13 @@ impl ForceTransducer for ForceProxy {
 
     fn read(&mut self, deadline: Deadline) -> Result<(Wrench, Stamp), DriverError> {
         let call = Call::Read { deadline };
-        self.link.ask(&call, "read the force", deadline)
+        let read: Reading = self.link.ask(&call, "read the force", deadline)?;
+        self.sequence = read.sequence;
+        Ok((read.wrench, read.stamp))
+    }
+
+    fn sequence(&self) -> Option<u64> {
+        self.sequence
     }
 
     fn stop(&mut self) -> Result<(), DriverError> {

@@ -4,10 +4,11 @@
 //! [`Call`](super::Call)s, which are answered one after another, and a second one for what is [`Urgent`](super::Urgent) and must not
 //! wait for a call. A simulated bench has a pair too.
 
-use taceva_core::{Access, ArgValue, Descriptor, DriverKey, DriverKind, ErrorKind, Found};
+use taceva_core::{Access, ArgValue, Descriptor, DriverKey, DriverKind, ErrorKind, Fault, Found};
 
 use super::{Malformed, ModelOrder, OpenedDevice, Reader, Wire, fields, messages};
 use crate::child::sandbox::{Confinement, Isolation};
+use crate::library::Offer;
 
 /// The first word: what the child must do before it loads anything. The files to serve come beside it.
 #[derive(Debug, PartialEq)]
@@ -47,6 +48,8 @@ messages! {
         4 => Shutdown {},
         /// Makes a model; a socket comes beside it, and memory.
         5 => Model { order: ModelOrder },
+        /// What the library offers and needs.
+        6 => Offer {},
     }
 
     /// The answer to an [`Order`].
@@ -59,6 +62,7 @@ messages! {
         4 => Failed { failure: Failure },
         /// It is being made; what comes of it is said by its own socket.
         5 => Making {},
+        6 => Offered { offer: Offer },
     }
 }
 
@@ -70,6 +74,8 @@ pub(crate) struct Failure {
     pub(crate) doing: String,
     /// What caused it, if that was said.
     pub(crate) cause: Option<String>,
+    /// Why the device stopped by itself, if it did.
+    pub(crate) fault: Option<Fault>,
 }
 
 fields!(Hello {
@@ -78,7 +84,18 @@ fields!(Hello {
     is_heard,
     loads
 });
-fields!(Failure { kind, doing, cause });
+fields!(Offer {
+    id,
+    version,
+    needs,
+    provides
+});
+fields!(Failure {
+    kind,
+    doing,
+    cause,
+    fault
+});
 
 impl Wire for Found {
     fn write(&self, into: &mut Vec<u8>) {
@@ -129,6 +146,7 @@ mod tests {
             kind: ErrorKind::Timeout,
             doing: "capture a frame".to_owned(),
             cause: Some("no frame within 40ms".to_owned()),
+            fault: Some(Fault::EmergencyStop),
         }
     }
 

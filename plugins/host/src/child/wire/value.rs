@@ -1,9 +1,9 @@
 //! The values of core as they cross: every number by its bits, so that a driver says the same through a child as without one.
 
 use taceva_core::{
-    ArgValue, Axes, Axis, Deadline, Degree, DriverKind, ErrorKind, FrameInfo, GratingKind, Guard,
-    GuardedStop, Hertz, Millimetre, Nanometre, Newton, NewtonMillimetre, PixelFormat, Point, Pose,
-    Rotation, Specimen, Speed, Stamp, Wrench,
+    ArgValue, Axes, Axis, Deadline, Degree, DriverKind, ErrorKind, Fault, FrameInfo, GratingKind,
+    Guard, GuardedStop, Hertz, Millimetre, Nanometre, Newton, NewtonMillimetre, PixelFormat, Point,
+    Pose, Rotation, Specimen, Speed, Stamp, Wrench,
 };
 
 use super::{Malformed, Reader, Wire, fields, variants};
@@ -125,6 +125,21 @@ impl Wire for ErrorKind {
             .into_iter()
             .find(|kind| *kind as i32 == number)
             .ok_or_else(|| from.malformed("a kind of error"))
+    }
+}
+
+impl Wire for Fault {
+    fn write(&self, into: &mut Vec<u8>) {
+        let number = Fault::ALL.iter().position(|fault| fault == self);
+        // One that this list lacks is still a fault: the last of it, of the controller.
+        let number = number.unwrap_or(Fault::ALL.len() - 1);
+        u32::try_from(number).unwrap_or(u32::MAX).write(into);
+    }
+
+    fn read(from: &mut Reader<'_>) -> Result<Fault, Malformed> {
+        let number = usize::try_from(u32::read(from)?).ok();
+        let fault = number.and_then(|number| Fault::ALL.get(number));
+        fault.copied().ok_or_else(|| from.malformed("a fault"))
     }
 }
 

@@ -77,6 +77,9 @@ pub(super) fn describe(
             .optional()
             .help("a table of parameters in the place of the compiled-in one, its whole text")
             .changes_facts(),
+        ArgSpec::flag("quiet")
+            .default(ArgValue::Flag(false))
+            .help("nothing on the bench errs, drifts or relaxes, so that what it shows is a function of where the tip stands"),
     ])
 }
 

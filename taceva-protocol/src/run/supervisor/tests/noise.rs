@@ -94,15 +94,21 @@ fn frozen(signals: Signals, reading: impl Fn(u32, Stamp) -> Observation) -> Opti
 }
 
 #[test]
-fn a_signal_with_numbers_is_frozen_when_they_stand_still_and_not_when_forces_do() {
+fn a_signal_with_numbers_is_frozen_when_they_stand_still_and_when_forces_do_in_fine_steps() {
     let numbered =
         |number: u32| move |_, stamp| Observation::Numbered(force(0.1), stamp, number.into());
     let equal = |number: u32, stamp| Observation::Numbered(force(0.1), stamp, number.into());
-    assert_eq!(frozen(Signals::default(), equal), None);
+    assert_eq!(frozen(Signals::default(), equal), Some(FROZEN_READINGS));
+    let coarse = Signals {
+        equality_is_frozen: false,
+        ..Signals::default()
+    };
+    assert_eq!(frozen(coarse, equal), None);
     // The force changes, the number does not.
     let repeated =
         |count: u32, stamp| Observation::Numbered(force(f64::from(count) * 1e-3), stamp, 7);
     assert_eq!(frozen(Signals::default(), repeated), Some(FROZEN_READINGS));
+    assert_eq!(frozen(coarse, repeated), Some(FROZEN_READINGS));
     assert_eq!(
         frozen(Signals::default(), numbered(7)),
         Some(FROZEN_READINGS)

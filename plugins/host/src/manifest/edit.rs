@@ -1,0 +1,453 @@
+//! The text of a manifest, changed to what its library says; comments and order stay.
+
+use toml::Value as Plain;
+use toml_edit::{Array, ArrayOfTables, DocumentMut, Item, Table, Value, value};
+
+use super::{LibraryFile, Manifest, ManifestError, Provided, platform};
+use crate::descriptor::{arguments, difference};
+use crate::library::Offer;
+
+/// What the manifest says and the library does not know.
+const OF_MANIFEST: [&str; 1] = ["usb"];
+
+impl Offer {
+    /// The manifest `text`, changed to what is offered here by `library`; a new one where `text` is empty, whose licence is `license`.
+    ///
+    /// Comments stay, and so does `usb`, of which a library knows nothing. `needs` stay where the library does not say any.
+    ///
+    /// # Errors
+    /// [`ManifestError`] for text that is no TOML, for what is offered and no manifest can say, and for a new one without a licence.
+    pub fn manifest(
+        &self,
+        text: &str,
+        library: &LibraryFile,
+        license: Option<&str>,
+    ) -> Result<String, ManifestError> {
+        let wrong = |error: toml_edit::TomlError| {
+            ManifestError::whole(error.to_string().trim_end().replace('\n', "; "))
+        };
+        let mut manifest: DocumentMut = text.parse().map_err(wrong)?;
+        self.head(&mut manifest, license)?;
+        if !self.needs.is_empty() {
+            needs(&mut manifest, &self.needs);
+        }
+        library_of(&mut manifest, library);
+        let offered: Result<Vec<Table>, ManifestError> = self
+            .provides
+            .iter()
+            .map(|table| table.parse::<DocumentMut>().map_err(wrong))
+            .map(|table| table.map(|table| table.as_table().clone()))
+            .collect();
+        provides(&mut manifest, offered?);
+        let written = manifest.to_string();
+        self.check(&written)?;
+        Ok(written)
+    }
+
+    fn head(&self, manifest: &mut DocumentMut, license: Option<&str>) -> Result<(), ManifestError> {
+        let is_new = manifest.get("license").is_none();
+        let name = self.id.rsplit('.').next().unwrap_or(&self.id);
+        let license = match (license, is_new) {
+            (Some(license), _) => license,
+            (None, false) => "",
+            (None, true) => {
+                let why =
+                    "the key `license` is missing, which no library says; expected `--license`";
+                return Err(ManifestError::whole(why));
+            }
+        };
+        let mut set = |key: &str, said: Value, always: bool| {
+            if always || manifest.get(key).is_none() {
+                put(manifest.as_table_mut(), key, &value(said));
+            }
+        };
+        set("manifest_version", 1.into(), false);
+        set("id", self.id.as_str().into(), true);
+        set("name", name.into(), false);
+        set("version", self.version.as_str().into(), true);
+        set("license", license.into(), false);
+        if manifest.get("abi").is_none() {
+            let abi = "{ major = 1, minor = 0 }".parse::<Value>();
+            let abi = abi.map_err(|error| ManifestError::whole(error.to_string()))?;
+            put(manifest.as_table_mut(), "abi", &value(abi));
+        }
+        Ok(())
+    }
+
+    /// Refuses a text that is no manifest, or says otherwise than the library.
+    fn check(&self, written: &str) -> Result<(), ManifestError> {
+        let manifest = Manifest::parse(written)?;
+        for table in &self.provides {
+            let offered = Provided::parse(table, &manifest.id)?;
+            let mut said = manifest.provides.iter();
+            let said = said.find(|said| said.key() == offered.key());
+            let differs = match (said, &offered) {
+                (
+                    Some(Provided::Driver { descriptor, .. }),
+                    Provided::Driver {
+                        descriptor: other, ..
+                    },
+                ) => difference(descriptor, other),
+                (Some(Provided::Estimator(one)), Provided::Estimator(other)) => {
+                    arguments([&one.settings, &other.settings])
+                }
+                _ => Some(["kind".to_owned(), String::new(), String::new()]),
+            };
+            if let Some([what, ..]) = differs {
+                let key = offered.key();
+                return Err(ManifestError::whole(format!(
+                    "`{key}`, {what}: written in a way that cannot be edited; write there by hand:\n[[provides]]\n{}",
+                    table.replace("[[args]]", "[[provides.args]]")
+                )));
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Sets `key` unless it says so already; what stands around the value stays.
+fn put(table: &mut Table, key: &str, said: &Item) {
+    match table.get_mut(key) {
+        Some(item) if is_same(item, said) => {}
+        Some(Item::Value(old)) => {
+            if let Some(new) = said.as_value() {
+                let decor = old.decor().clone();
+                *old = new.clone();
+                *old.decor_mut() = decor;
+            }
+        }
+        Some(item) => *item = said.clone(),
+        None => {
+            table.insert(key, said.clone());
+        }
+    }
+}
+
+/// Whether both say the same, however they are written: 60 is 60.0.
+fn is_same(one: &Item, other: &Item) -> bool {
+    fn plain(item: &Item) -> Option<Plain> {
+        let mut table = DocumentMut::new();
+        table.insert("it", item.clone());
+        let read: toml::Table = toml::from_str(&table.to_string()).ok()?;
+        read.get("it").cloned()
+    }
+    fn same(one: &Plain, other: &Plain) -> bool {
+        #[expect(
+            clippy::cast_precision_loss,
+            reason = "whoever writes a whole number for a number means the nearest"
+        )]
+        let number = |value: &Plain| match value {
+            Plain::Integer(whole) => Some(*whole as f64),
+            Plain::Float(number) => Some(*number),
+            _ => None,
+        };
+        match (one, other) {
+            (Plain::Array(one), Plain::Array(other)) => {
+                one.len() == other.len()
+                    && one.iter().zip(other).all(|(one, other)| same(one, other))
+            }
+            (Plain::Table(one), Plain::Table(other)) => {
+                let has = |(key, value): (&String, &Plain)| {
+                    other.get(key).is_some_and(|other| same(value, other))
+                };
+                one.len() == other.len() && one.iter().all(has)
+            }
+            _ => match number(one).zip(number(other)) {
+                Some((one, other)) => one.total_cmp(&other).is_eq(),
+                None => one == other,
+            },
+        }
+    }
+    plain(one)
+        .zip(plain(other))
+        .is_some_and(|(one, other)| same(&one, &other))
+}
+
+/// The needs that the library says; those that are written already keep their place and their comments.
+fn needs(manifest: &mut DocumentMut, said: &[String]) {
+    match manifest.get_mut("needs").and_then(Item::as_array_mut) {
+        Some(written) => {
+            written.retain(|need| {
+                need.as_str()
+                    .is_some_and(|need| said.iter().any(|said| said == need))
+            });
+            for need in said {
+                if !written.iter().any(|written| written.as_str() == Some(need)) {
+                    written.push(need.as_str());
+                }
+            }
+        }
+        None => {
+            let needs: Array = said.iter().map(String::as_str).collect();
+            manifest.insert("needs", value(needs));
+        }
+    }
+}
+
+/// The library of this platform, if none is named, and its digest, if one is.
+fn library_of(manifest: &mut DocumentMut, library: &LibraryFile) {
+    let platform = platform();
+    let tables = manifest
+        .entry("library")
+        .or_insert_with(|| Item::Table(Table::new()));
+    let Some(tables) = tables.as_table_like_mut() else {
+        return;
+    };
+    let Some(written) = tables.get_mut(&platform) else {
+        let mut file = toml_edit::InlineTable::new();
+        file.insert("path", library.path.as_str().into());
+        tables.insert(&platform, value(file));
+        return;
+    };
+    let digest = written
+        .as_table_like_mut()
+        .and_then(|file| file.get_mut("sha256"));
+    if let (Some(Item::Value(written)), Some(digest)) = (digest, library.sha256) {
+        let decor = written.decor().clone();
+        *written = digest.to_string().into();
+        *written.decor_mut() = decor;
+    }
+}
+
+/// The tables of drivers and estimators, in the order in which the library has them.
+fn provides(manifest: &mut DocumentMut, offered: Vec<Table>) {
+    let written = manifest
+        .get("provides")
+        .and_then(Item::as_array_of_tables)
+        .cloned();
+    let mut written: Vec<Table> = written.into_iter().flatten().collect();
+    let mut tables = ArrayOfTables::new();
+    // Those that stay do so in their order; others come behind them.
+    let key = |table: &Table| table.get("key").and_then(Item::as_str).map(str::to_owned);
+    let mut offered: Vec<Table> = offered;
+    offered.sort_by_key(|table| {
+        let place = written
+            .iter()
+            .position(|written| key(written) == key(table));
+        place.unwrap_or(usize::MAX)
+    });
+    for mut said in offered {
+        let place = written
+            .iter()
+            .position(|written| key(written) == key(&said));
+        let arguments = said.remove("args");
+        let mut table = match place {
+            Some(place) => updated(written.remove(place), &said),
+            None => said,
+        };
+        let arguments = arguments.and_then(|item| item.into_array_of_tables().ok());
+        args(&mut table, arguments.into_iter().flatten().collect());
+        table.set_position(None);
+        tables.push(table);
+    }
+    manifest.insert("provides", Item::ArrayOfTables(tables));
+}
+
+fn args(table: &mut Table, offered: Vec<Table>) {
+    let written = table
+        .remove("args")
+        .and_then(|item| item.into_array_of_tables().ok());
+    let mut written: Vec<Table> = written.into_iter().flatten().collect();
+    let mut tables = ArrayOfTables::new();
+    let key = |table: &Table| table.get("key").and_then(Item::as_str).map(str::to_owned);
+    for said in offered {
+        let place = written
+            .iter()
+            .position(|written| key(written) == key(&said));
+        let mut argument = match place {
+            Some(place) => updated(written.remove(place), &said),
+            None => said,
+        };
+        argument.set_position(None);
+        tables.push(argument);
+    }
+    if !tables.is_empty() {
+        table.insert("args", Item::ArrayOfTables(tables));
+    }
+}
+
+/// `written`, with what `said` says and nothing else that a library could say.
+fn updated(mut written: Table, said: &Table) -> Table {
+    let is_left = |key: &str| said.contains_key(key) || OF_MANIFEST.contains(&key) || key == "args";
+    written.retain(|key, _| is_left(key));
+    for (key, item) in said {
+        if !(OF_MANIFEST.contains(&key) && written.contains_key(key)) {
+            put(&mut written, key, item);
+        }
+    }
+    // In the order of the library, so that a text that was compared with what it writes still equals it.
+    let own = said.iter().map(|(key, _)| key.to_owned());
+    let left = written.iter().map(|(key, _)| key.to_owned());
+    let left = left.filter(|key| !said.contains_key(key));
+    let order: Vec<String> = own.chain(left.collect::<Vec<_>>()).collect();
+    for key in order {
+        if let Some((key, item)) = written.remove_entry(&key) {
+            written.insert_formatted(&key, item);
+        }
+    }
+    written
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn offer() -> Offer {
+        Offer {
+            id: "org.example.scale".to_owned(),
+            version: "0.2.0".to_owned(),
+            needs: vec!["hid".to_owned(), "tcp:{host}:502".to_owned()],
+            provides: vec![
+                "kind = \"force\"\nkey = \"scale\"\ntitle = \"scale\"\nsource = \"real\"\naxes = [\"Fz\"]\nrate_hz = 10.0\ntare = false\n\n[[args]]\nkey = \"host\"\ntype = \"text\"\n\n[[args]]\nkey = \"unit\"\ntype = \"choice\"\nchoices = [\"g\", \"oz\"]\n".to_owned(),
+                "kind = \"lighting\"\nkey = \"lamp\"\ntitle = \"lamp\"\nsource = \"real\"\nscenes = [\"dark\", \"room\"]\n".to_owned(),
+            ],
+        }
+    }
+
+    fn library() -> LibraryFile {
+        LibraryFile {
+            path: "target/release/libscale.so".to_owned(),
+            sha256: None,
+        }
+    }
+
+    #[test]
+    fn a_new_manifest_says_all_that_the_library_says_and_stays_as_it_is() {
+        let text = offer()
+            .manifest("", &library(), Some("MIT"))
+            .expect("a manifest");
+        let manifest = Manifest::parse(&text).expect("it reads");
+        assert_eq!(manifest.drivers().count(), 2);
+        assert_eq!(manifest.needs.len(), 2);
+        // As the tests of a new project compare it.
+        for table in &offer().provides {
+            let table = table.replace("[[args]]", "[[provides.args]]");
+            assert!(text.contains(&table), "{table} in:\n{text}");
+        }
+        assert_eq!(
+            offer().manifest(&text, &library(), None).as_ref(),
+            Ok(&text)
+        );
+        let error = offer()
+            .manifest("", &library(), None)
+            .expect_err("no licence");
+        assert!(error.to_string().contains("--license"), "{error}");
+    }
+
+    #[test]
+    fn comments_and_order_stay() {
+        let text = format!(
+            r#"# of our lab
+manifest_version = 1
+id = "org.example.scale" # the name
+name = "the scale"
+version = "0.1.0" # counted up
+license = "MIT"
+abi = {{ major = 1, minor = 0 }}
+needs = [
+  "usb", # before
+  "hid", # now
+]
+
+[library] # built
+{} = {{ path = "here/libscale.so" }}
+
+# gone with the next build
+[[provides]]
+kind = "lighting"
+key = "torch"
+title = "torch"
+source = "real"
+scenes = ["dark"]
+
+# the one on the bench
+[[provides]]
+kind = "force"
+key = "scale"
+title = "the scale on the bench" # ours
+source = "real"
+axes = ["Fz"]
+rate_hz = 10 # measured
+noise_N = 0.5
+usb = [{{ vendor = 1, product = 2 }}]
+
+# which unit
+[[provides.args]]
+key = "unit"
+type = "choice"
+choices = ["g"] # of weight
+"#,
+            platform()
+        );
+        let edited = offer().manifest(&text, &library(), None).expect("edited");
+        for kept in [
+            "# of our lab\n",
+            "id = \"org.example.scale\" # the name\n",
+            "name = \"the scale\"\n",
+            "version = \"0.2.0\" # counted up\n",
+            "[library] # built\n",
+            "path = \"here/libscale.so\"",
+            "# the one on the bench\n[[provides]]\n",
+            "title = \"scale\" # ours\n",
+            "rate_hz = 10 # measured\n",
+            "usb = [{ vendor = 1, product = 2 }]\n",
+            "# which unit\n[[provides.args]]\n",
+            "choices = [\"g\", \"oz\"] # of weight\n",
+            "# now",
+        ] {
+            assert!(edited.contains(kept), "{kept:?} in:\n{edited}");
+        }
+        for gone in ["torch", "noise_N", "\"usb\""] {
+            assert!(!edited.contains(gone), "{gone} in:\n{edited}");
+        }
+        assert_eq!(offer().manifest(&edited, &library(), None), Ok(edited));
+    }
+
+    #[test]
+    fn what_no_manifest_can_say_is_refused() {
+        let mut strange = offer();
+        strange.needs = vec!["everything".to_owned()];
+        let error = strange
+            .manifest("", &library(), Some("MIT"))
+            .expect_err("no need");
+        assert!(error.to_string().contains("`needs`"), "{error}");
+        let mut strange = offer();
+        strange.provides = vec!["kind = \"force\"\n[[provides]]\n".to_owned()];
+        assert!(strange.manifest("", &library(), Some("MIT")).is_err());
+        assert!(offer().manifest("a = [", &library(), Some("MIT")).is_err());
+    }
+
+    #[test]
+    fn a_digest_that_is_there_is_that_of_the_library() {
+        let digest = |byte: u8| crate::Sha256Digest([byte; 32]);
+        let of = |byte: u8| LibraryFile {
+            sha256: Some(digest(byte)),
+            ..library()
+        };
+        let text = offer()
+            .manifest("", &of(1), Some("MIT"))
+            .expect("a manifest");
+        assert!(!text.contains("sha256"), "nobody asked for one");
+        let with = text.replace(
+            "libscale.so\" }",
+            &format!("libscale.so\", sha256 = \"{}\" }}", digest(1)),
+        );
+        let edited = offer().manifest(&with, &of(2), None).expect("edited");
+        assert!(edited.contains(&digest(2).to_string()), "{edited}");
+    }
+
+    #[test]
+    fn what_is_new_stands_where_the_library_says_it() {
+        let text = offer()
+            .manifest("", &library(), Some("MIT"))
+            .expect("a manifest");
+        let mut numbered = offer();
+        numbered.provides[0] =
+            numbered.provides[0].replace("tare = false", "numbered = true\ntare = false");
+        let edited = numbered.manifest(&text, &library(), None).expect("edited");
+        assert!(
+            edited.contains("rate_hz = 10.0\nnumbered = true\ntare = false\n"),
+            "{edited}"
+        );
+    }
+}

@@ -1,0 +1,59 @@
+//! Packing.
+
+use std::collections::BTreeSet;
+use std::fs;
+use std::io::{self, Write};
+
+use sha2::{Digest, Sha256};
+use tar::{Builder, EntryType, Header};
+
+use super::{DIGESTS, PackageError, libraries, licences};
+use crate::manifest::Sha256Digest;
+use crate::search::{MANIFEST, Plugin};
+
+/// Writes `plugin` into an archive: its manifest, the digests, every library that the manifest names and that is there, and the licences.
+/// The same plugin gives the same bytes. Gives the names of what is in it.
+///
+/// # Errors
+/// [`PackageError`] for a file that cannot be read, and for one whose path does not fit a header of tar (256 bytes).
+pub fn pack(plugin: &Plugin, into: &mut dyn Write) -> Result<Vec<String>, PackageError> {
+    let mut names: BTreeSet<String> = BTreeSet::new();
+    for library in libraries(&plugin.manifest) {
+        if plugin.folder.join(library).is_file() {
+            names.insert(library.to_owned());
+        }
+    }
+    let licences =
+        licences(&plugin.folder).map_err(|error| PackageError::file(&plugin.folder, error))?;
+    names.extend(licences.iter().map(|name| name.display().to_string()));
+    // Read once, so that what is hashed is what is packed.
+    let mut files = Vec::with_capacity(names.len());
+    let mut digests = String::new();
+    for name in names {
+        let path = plugin.folder.join(&name);
+        let bytes = fs::read(&path).map_err(|error| PackageError::file(&path, error))?;
+        let digest = Sha256Digest(Sha256::digest(&bytes).into());
+        digests.push_str(&format!("{digest}  {name}\n"));
+        files.push((name, bytes));
+    }
+    files.insert(0, (DIGESTS.to_owned(), digests.into_bytes()));
+    files.insert(0, (MANIFEST.to_owned(), plugin.text.clone().into_bytes()));
+    let mut archive = Builder::new(into);
+    for (name, bytes) in &files {
+        append(&mut archive, name, bytes)
+            .map_err(|error| PackageError::entry(name, error.to_string()))?;
+    }
+    archive.finish().map_err(PackageError::Archive)?;
+    Ok(files.into_iter().map(|(name, _)| name).collect())
+}
+
+fn append(archive: &mut Builder<&mut dyn Write>, name: &str, bytes: &[u8]) -> io::Result<()> {
+    let mut header = Header::new_ustar();
+    header.set_path(name)?;
+    header.set_entry_type(EntryType::Regular);
+    header.set_size(bytes.len() as u64);
+    header.set_mode(0o644);
+    header.set_mtime(0);
+    header.set_cksum();
+    archive.append(&header, bytes)
+}

@@ -1,0 +1,86 @@
+//! A bench that errs nowhere, so that two ways of pressing one gel can be compared.
+
+use super::{ParameterError, Parameters};
+
+/// Numbers that are 0 on a quiet bench: what robot, transducer and camera get wrong, and what the gel forgets while it is held.
+const SILENCED: [(&str, &str); 8] = [
+    ("robot", "positioning_mm"),
+    ("transducer", "point_drift_n"),
+    ("transducer", "press_drift_n"),
+    ("transducer", "cross_talk"),
+    ("material", "relaxing_fraction"),
+    ("camera", "shot_gain"),
+    ("camera", "read_noise"),
+    ("camera", "flicker"),
+];
+/// What a quiet transducer hisses by, in N: one without any noise would be taken for one that froze.
+const HISS_N: f64 = 0.000_001;
+
+impl Parameters {
+    /// The parameters written in `text`, without what is drawn at random or depends on how long something took: a reading or a picture is a
+    /// function of where the tip stands, but for 1 µN. How units and places differ stays.
+    ///
+    /// ```
+    /// use taceva_sim::{Model, Parameters};
+    /// let quiet = Parameters::parse_quiet(Model::GelSight.table())?;
+    /// assert_eq!((quiet.camera.read_noise, quiet.robot.positioning_mm), (0.0, 0.0));
+    /// assert_eq!(quiet.body, Model::GelSight.parameters().body);
+    /// # Ok::<(), taceva_sim::ParameterError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// Those of [`Parameters::parse`].
+    pub fn parse_quiet(text: &str) -> Result<Parameters, ParameterError> {
+        Parameters::parse(text)?;
+        let mut table: toml::Table = text.parse().expect("it was parsed just now");
+        let mut set = |section: &str, key: &str, value: f64| {
+            let number = table
+                .get_mut(section)
+                .and_then(|section| section.get_mut(key))
+                .and_then(toml::Value::as_table_mut)
+                .expect("a table that was accepted has the numbers of robot, transducer, material and camera");
+            number.insert("value".to_owned(), value.into());
+        };
+        for (section, key) in SILENCED {
+            set(section, key, 0.0);
+        }
+        set("transducer", "noise_n", HISS_N);
+        Parameters::parse(&table.to_string())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::parameters::Model;
+
+    #[test]
+    fn every_gel_can_be_quiet_and_is_no_other_otherwise() {
+        for model in Model::ALL {
+            let quiet = Parameters::parse_quiet(model.table()).expect("a table that reads");
+            let usual = model.parameters();
+            for entry in quiet.entries() {
+                let place = (entry.section, entry.key);
+                let before = usual
+                    .entries()
+                    .iter()
+                    .find(|usual| (usual.section, usual.key) == place)
+                    .expect("the same numbers");
+                let expected = match place {
+                    place if SILENCED.contains(&place) => 0.0,
+                    ("transducer", "noise_n") => HISS_N,
+                    _ => before.value,
+                };
+                assert!((entry.value - expected).abs() < 1e-15, "{model}: {entry:?}");
+            }
+            assert_eq!(quiet.name, usual.name);
+        }
+    }
+
+    #[test]
+    fn a_table_that_does_not_read_is_refused_by_its_own_line() {
+        let text = Model::GelSight.table();
+        let broken = text.replace("thickness_mm", "thikness_mm");
+        assert_eq!(Parameters::parse_quiet(&broken), Parameters::parse(&broken));
+    }
+}

@@ -1,0 +1,220 @@
+//! Opening a camera, and which pictures it gives.
+
+use std::os::fd::{AsFd, BorrowedFd, OwnedFd};
+use std::path::Path;
+
+use rustix::fs::{Mode, OFlags, open};
+use rustix::io::Errno;
+
+use crate::error::V4l2Error;
+use crate::kernel::{self, Capability, Format, FormatName, Rate, Size};
+use crate::picture::{Coding, FourCc, GivenFormat, PictureFormat};
+use crate::stream::Stream;
+
+/// A camera that is open, and gives no pictures yet.
+#[derive(Debug)]
+pub struct Camera {
+    file: OwnedFd,
+    card: String,
+    bus: String,
+}
+
+const RATE_CAN_BE_SET: u32 = 0x1000;
+const FIELD_NONE: u32 = 1;
+/// No camera offers more formats or sizes; one that seems to has gone wrong.
+const OFFERS_MAX: u32 = 256;
+
+impl Camera {
+    /// Opens the camera whose file is `path`; nothing of it changes.
+    ///
+    /// # Errors
+    /// [`V4l2Error::Open`], or [`V4l2Error::NoCamera`] for a file that is none or gives no frames that can be shared.
+    pub fn open(path: impl AsRef<Path>) -> Result<Camera, V4l2Error> {
+        let path = path.as_ref();
+        let flags = OFlags::RDWR | OFlags::NONBLOCK | OFlags::CLOEXEC;
+        let file = open(path, flags, Mode::empty()).map_err(|source| V4l2Error::Open {
+            path: path.to_owned(),
+            source: source.into(),
+        })?;
+        let no_camera = |why: String| V4l2Error::NoCamera {
+            path: path.to_owned(),
+            why,
+        };
+        let mut found = Capability::default();
+        kernel::query_capability(file.as_fd(), &mut found)
+            .map_err(|source| no_camera(std::io::Error::from(source).to_string()))?;
+        let can = match found.all & kernel::TELLS_OF_ITSELF {
+            0 => found.all,
+            _ => found.own,
+        };
+        for (bit, what) in [
+            (
+                kernel::CAN_CAPTURE,
+                "it gives no pictures; a camera has several files, of which one does",
+            ),
+            (kernel::CAN_STREAM, "it does not stream"),
+        ] {
+            if can & bit == 0 {
+                return Err(no_camera(what.to_owned()));
+            }
+        }
+        Ok(Camera {
+            file,
+            card: text(&found.card),
+            bus: text(&found.bus),
+        })
+    }
+
+    /// What it calls itself.
+    pub fn card(&self) -> &str {
+        &self.card
+    }
+
+    /// Where it is plugged in.
+    pub fn bus(&self) -> &str {
+        &self.bus
+    }
+
+    /// Makes it give pictures of that size and kind.
+    ///
+    /// # Errors
+    /// [`V4l2Error::Format`], which says what it offers, where it would give others; [`V4l2Error::Busy`] where another program has it.
+    pub fn set_format(&mut self, wanted: &PictureFormat) -> Result<GivenFormat, V4l2Error> {
+        let mut format = Format {
+            width: wanted.width,
+            height: wanted.height,
+            pixels: wanted.pixels.number(),
+            ..Format::default()
+        };
+        kernel::set_format(self.fd(), &mut format)
+            .map_err(|source| V4l2Error::of("set the size of the pictures", source))?;
+        let found = PictureFormat {
+            width: format.width,
+            height: format.height,
+            pixels: FourCc::of(format.pixels),
+        };
+        if found != *wanted || format.field != FIELD_NONE {
+            return Err(V4l2Error::Format {
+                wanted: *wanted,
+                offered: self.offered(),
+            });
+        }
+        Ok(GivenFormat {
+            picture: found,
+            stride: format.stride,
+            bytes: format.bytes,
+            coding: Coding::of(&format),
+        })
+    }
+
+    /// Makes it give so many frames a second, if it can be told.
+    ///
+    /// # Errors
+    /// [`V4l2Error::Rate`] where it gives others: by more than a hundredth.
+    pub fn set_rate(&mut self, wanted_hz: f64) -> Result<(), V4l2Error> {
+        let doing = "set how many pictures it gives a second";
+        let refused = |source| V4l2Error::of(doing, source);
+        let mut rate = Rate::default();
+        kernel::get_rate(self.fd(), &mut rate).map_err(refused)?;
+        if rate.capability & RATE_CAN_BE_SET != 0 {
+            #[expect(
+                clippy::cast_possible_truncation,
+                clippy::cast_sign_loss,
+                reason = "a cast saturates, and the camera answers what it gives"
+            )]
+            let per_second = (wanted_hz * 1000.0).round() as u32;
+            rate.time = [1000, per_second.max(1)];
+            kernel::set_rate(self.fd(), &mut rate).map_err(refused)?;
+        }
+        let [numerator, denominator] = rate.time.map(f64::from);
+        let found = denominator / numerator;
+        // NaN, of a camera that says nothing, is no such rate either.
+        if (found / wanted_hz - 1.0).abs() <= 0.01 {
+            return Ok(());
+        }
+        Err(V4l2Error::Rate {
+            wanted: wanted_hz,
+            found,
+        })
+    }
+
+    /// Begins to give pictures. A camera that does not is given up; it can be opened anew.
+    ///
+    /// # Errors
+    /// [`V4l2Error::Busy`] where another program has it, [`V4l2Error::Gone`] where it was unplugged.
+    pub fn start(self) -> Result<Stream, V4l2Error> {
+        Stream::start(self)
+    }
+
+    pub(crate) fn fd(&self) -> BorrowedFd<'_> {
+        self.file.as_fd()
+    }
+
+    /// The formats and sizes that it offers, in words.
+    fn offered(&self) -> String {
+        let mut offered: Vec<String> = Vec::new();
+        for index in 0..OFFERS_MAX {
+            let mut name = FormatName {
+                index,
+                kind: kernel::CAPTURE,
+                ..FormatName::default()
+            };
+            if kernel::enumerate_formats(self.fd(), &mut name).is_err() {
+                break;
+            }
+            let sizes = self.sizes(name.pixels);
+            offered.push(format!("{} of {sizes}", FourCc::of(name.pixels)));
+        }
+        match offered.is_empty() {
+            true => "nothing that it names".to_owned(),
+            false => offered.join("; "),
+        }
+    }
+
+    fn sizes(&self, pixels: u32) -> String {
+        let mut sizes: Vec<String> = Vec::new();
+        for index in 0..OFFERS_MAX {
+            let mut size = Size {
+                index,
+                pixels,
+                ..Size::default()
+            };
+            match kernel::enumerate_sizes(self.fd(), &mut size) {
+                Err(Errno::INTR) => {}
+                Err(_) => break,
+                Ok(()) => {
+                    let [a, b, _, c, d, _] = size.numbers;
+                    sizes.push(match size.kind {
+                        1 => format!("{a}×{b}"),
+                        // Least and greatest width, their step, then of the height.
+                        _ => format!("{a} to {b} by {c} to {d}"),
+                    });
+                }
+            }
+        }
+        match sizes.is_empty() {
+            true => "sizes that it does not name".to_owned(),
+            false => sizes.join(", "),
+        }
+    }
+}
+
+/// A text that ends at its first zero.
+pub(crate) fn text(bytes: &[u8]) -> String {
+    let end = bytes.iter().position(|byte| *byte == 0);
+    String::from_utf8_lossy(&bytes[..end.unwrap_or(bytes.len())]).into_owned()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_no_camera_is_refused_by_name() {
+        let absent = Camera::open("/dev/no-such-camera").expect_err("absent");
+        assert!(matches!(absent, V4l2Error::Open { .. }), "{absent}");
+        let foreign = Camera::open("/dev/null").expect_err("foreign");
+        assert!(matches!(foreign, V4l2Error::NoCamera { .. }), "{foreign}");
+        assert!(foreign.to_string().contains("/dev/null"), "{foreign}");
+    }
+}

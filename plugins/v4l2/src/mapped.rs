@@ -1,0 +1,57 @@
+//! Memory of the kernel that pictures are put into.
+#![expect(
+    unsafe_code,
+    reason = "the kernel's memory is reached by an address that it gives"
+)]
+
+use std::os::fd::BorrowedFd;
+use std::ptr::NonNull;
+
+use rustix::io::Errno;
+use rustix::mm::{MapFlags, ProtFlags, mmap, munmap};
+
+/// The memory of one buffer, until it is dropped.
+#[derive(Debug)]
+pub(crate) struct Mapped {
+    start: NonNull<u8>,
+    length: usize,
+}
+
+// SAFETY: the memory belongs to the value alone, whichever thread has it; nothing of it is bound to a thread.
+unsafe impl Send for Mapped {}
+
+impl Mapped {
+    /// Maps the `length` bytes that the kernel has at `offset` of `camera`, to be read.
+    pub(crate) fn new(camera: BorrowedFd<'_>, offset: u64, length: usize) -> Result<Mapped, Errno> {
+        // SAFETY: the kernel chooses an address that nothing else has; the offset and the length are those that it gave of a buffer, and it refuses
+        // others.
+        let start = unsafe {
+            mmap(
+                std::ptr::null_mut(),
+                length,
+                ProtFlags::READ,
+                MapFlags::SHARED,
+                camera,
+                offset,
+            )
+        }?;
+        let start = NonNull::new(start.cast()).ok_or(Errno::NOMEM)?;
+        Ok(Mapped { start, length })
+    }
+
+    /// The first `used` bytes, or all there are. The caller has the buffer back from the kernel, which writes into it no more until it is queued
+    /// again: that takes the stream, which is borrowed as long as these bytes are.
+    pub(crate) fn bytes(&self, used: usize) -> &[u8] {
+        // SAFETY: the memory is mapped to be read until `self` is dropped, is at least so long, and every byte of it is a number. The kernel does not
+        // write meanwhile, as the caller sees to.
+        unsafe { std::slice::from_raw_parts(self.start.as_ptr(), used.min(self.length)) }
+    }
+}
+
+impl Drop for Mapped {
+    fn drop(&mut self) {
+        // SAFETY: what is given back is what was mapped, once, and no slice of it outlives `self`. It fails for an address that is none, which this is
+        // not.
+        let _ = unsafe { munmap(self.start.as_ptr().cast(), self.length) };
+    }
+}

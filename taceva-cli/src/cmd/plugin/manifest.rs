@@ -1,0 +1,101 @@
+//! `taceva plugin manifest`: `plugin.toml` from what a library says of itself.
+
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context as _, bail};
+use taceva_core::shown;
+use taceva_host::{Children, Image, LibraryFile, Manifest, Offer, platform};
+
+use crate::args::PluginManifest;
+use crate::{exit, output};
+
+pub(super) fn run(args: &PluginManifest) -> anyhow::Result<u8> {
+    let path = args.folder.join("plugin.toml");
+    let text = match fs::read_to_string(&path) {
+        Ok(text) => text,
+        Err(error) if error.kind() == io::ErrorKind::NotFound => String::new(),
+        Err(error) => return Err(error).with_context(|| shown(&path).to_string()),
+    };
+    let file = LibraryFile {
+        path: library(args, &text, &path)?,
+        sha256: None,
+    };
+    let image = Image::read(&args.folder, &file)?;
+    let offer = Offer::of(&image, &Children::of_user())?;
+    let library = LibraryFile {
+        sha256: Some(image.digest()),
+        ..file
+    };
+    let written = offer
+        .manifest(&text, &library, args.license.as_deref())
+        .with_context(|| shown(&path).to_string())?;
+    let is_same = written == text;
+    if !args.write {
+        output::write(None, |out| out.write_all(written.as_bytes()))?;
+        return Ok(if is_same {
+            exit::DONE
+        } else {
+            exit::CHECK_FAILED
+        });
+    }
+    if !is_same {
+        write(&path, &written).with_context(|| format!("cannot write {}", shown(&path)))?;
+    }
+    let what = match (is_same, text.is_empty()) {
+        (true, _) => "says what its library says",
+        (false, true) => "written",
+        (false, false) => "changed to what its library says",
+    };
+    output::write(None, |out| writeln!(out, "{}: {what}", shown(&path)))?;
+    Ok(exit::DONE)
+}
+
+/// Where the library lies, relative to the folder: as it was given, or as the manifest says.
+fn library(args: &PluginManifest, text: &str, manifest: &Path) -> anyhow::Result<String> {
+    if let Some(given) = &args.library {
+        let below = given.strip_prefix(&args.folder).unwrap_or(given);
+        let is_below = below.is_relative()
+            && below
+                .components()
+                .all(|part| matches!(part, std::path::Component::Normal(_)));
+        return match below.to_str().filter(|_| is_below) {
+            Some(below) => Ok(below.to_owned()),
+            None => bail!(
+                "--library {}: expected a file below {}",
+                shown(given),
+                shown(&args.folder)
+            ),
+        };
+    }
+    if text.is_empty() {
+        bail!(
+            "{}: not there yet; `--library` says which library to ask",
+            shown(manifest)
+        );
+    }
+    let read = Manifest::parse(text);
+    if let Ok(read) = &read
+        && let Some(library) = read.library(&platform())
+    {
+        return Ok(library.path.clone());
+    }
+    match read {
+        Err(error) => bail!(
+            "{}, {error}; `--library` says which library to ask",
+            shown(manifest)
+        ),
+        Ok(_) => bail!(
+            "{}: no library for {}; `--library` says which one to ask",
+            shown(manifest),
+            platform()
+        ),
+    }
+}
+
+fn write(path: &Path, text: &str) -> io::Result<()> {
+    let folder = taceva_durable::parent_of(path);
+    let beside: PathBuf = folder.join(format!(".plugin.toml.{}.partial", std::process::id()));
+    taceva_durable::replace(path, &beside, |beside| fs::write(beside, text))
+}

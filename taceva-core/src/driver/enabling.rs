@@ -1,0 +1,41 @@
+//! A switch that a person holds while a robot may move.
+
+use super::DriverError;
+
+/// An enabling switch: held, the robot may move; released, it is halted.
+///
+/// It is no safety function: what it says passes through an operating system and a program. The switch of the robot's own safety circuit
+/// stays in charge.
+///
+/// Whoever watches it asks at least as often as he wants to be told, and takes an error for released.
+///
+/// ```
+/// use std::sync::atomic::{AtomicBool, Ordering};
+/// use taceva_core::{DriverError, EnablingSwitch};
+///
+/// /// A switch on the screen.
+/// #[derive(Default)]
+/// struct Button {
+///     is_held: AtomicBool,
+/// }
+///
+/// impl EnablingSwitch for Button {
+///     fn is_held(&self) -> Result<bool, DriverError> {
+///         Ok(self.is_held.load(Ordering::Acquire))
+///     }
+/// }
+///
+/// /// Whether the robot may move on.
+/// fn may_move(switch: &dyn EnablingSwitch) -> bool {
+///     switch.is_held().unwrap_or(false)
+/// }
+/// assert!(!may_move(&Button::default()));
+/// ```
+pub trait EnablingSwitch: Send + Sync {
+    /// Whether it is held, and was held ever since it was asked last: a release counts once, however short it was. Never waits; a switch that
+    /// has said nothing yet counts as released.
+    ///
+    /// # Errors
+    /// [`DriverError`] of kind `Disconnected` once it is gone, or of the kind for which nothing of it can be known any more.
+    fn is_held(&self) -> Result<bool, DriverError>;
+}

@@ -1,0 +1,39 @@
+//! What the protocol of a force transducer does not tell of its range and its signal.
+
+use taceva_core::{ArgSpec, Args, ForceFacts, Newton};
+
+use super::{fact, optional_number};
+
+/// The argument that says how much a transducer measures, in N.
+pub(crate) const FORCE_MAX: &str = "force_max_n";
+const RESOLUTION: &str = "resolution_n";
+const NOISE: &str = "noise_n";
+
+/// Facts that no protocol of a transducer tells.
+pub(crate) fn force_facts() -> [ArgSpec; 3] {
+    [
+        fact(
+            FORCE_MAX,
+            [0.001, 100_000.0],
+            "the least of the ranges of its forces, in N, from its certificate",
+        ),
+        fact(
+            RESOLUTION,
+            [1e-9, 1_000.0],
+            "the step between two neighbouring readings of a force, in N",
+        ),
+        fact(
+            NOISE,
+            [1e-9, 1_000.0],
+            "how far readings of a load that rests scatter, in N: one standard deviation, as it was measured",
+        ),
+    ]
+}
+
+/// Adds the facts that arguments of [`force_facts`] give.
+pub(crate) fn add_facts_of_force(args: &Args, facts: &mut ForceFacts) {
+    let force = |key| optional_number(args, key).map(Newton);
+    facts.force_max = force(FORCE_MAX);
+    facts.resolution = force(RESOLUTION);
+    facts.noise = force(NOISE);
+}

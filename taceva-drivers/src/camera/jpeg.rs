@@ -1,0 +1,219 @@
+//! Pictures that a camera sends as files, JPEG or PNG.
+
+use std::borrow::Cow;
+
+use taceva_core::{DriverError, DriverKey, ErrorKind, FrameInfo, FrameMut};
+
+use super::CAPTURE;
+use super::crop::Crop;
+use crate::source::{Mismatch, decode, frame_info};
+
+/// A picture without what some cameras put behind its end: zeros, and ends of lines.
+pub(super) fn whole(picture: &[u8]) -> &[u8] {
+    let padding = |byte: &&u8| matches!(**byte, 0 | b'\r' | b'\n');
+    let behind = picture.iter().rev().take_while(padding).count();
+    &picture[..picture.len() - behind]
+}
+
+/// What makes a decoder take the usual tables of codes (ITU-T T.81, K.3): the segment by which pictures of an AVI file say that they leave them out.
+const USUAL_TABLES: [u8; 9] = [0xff, 0xe0, 0x00, 0x07, b'A', b'V', b'I', b'1', 0x00];
+const BEGIN: [u8; 2] = [0xff, 0xd8];
+const TABLES_OF_CODES: u8 = 0xc4;
+const SCAN: u8 = 0xda;
+
+/// A JPEG file with word of its tables of codes: many cameras send none and mean the usual ones, and do not say that either.
+fn completed(picture: &[u8]) -> Cow<'_, [u8]> {
+    if has_tables(picture) != Some(false) {
+        return Cow::Borrowed(picture);
+    }
+    let behind = &picture[BEGIN.len()..];
+    Cow::Owned([&BEGIN[..], &USUAL_TABLES, behind].concat())
+}
+
+/// Whether a JPEG file has a table of codes before its pixels; `None` for a file that is none.
+fn has_tables(picture: &[u8]) -> Option<bool> {
+    let mut rest = picture.strip_prefix(&BEGIN)?;
+    loop {
+        let (&[0xff, marker, high, low], _) = rest.split_first_chunk::<4>()? else {
+            return None;
+        };
+        match marker {
+            TABLES_OF_CODES => return Some(true),
+            SCAN => return Some(false),
+            // A length counts itself, and not its marker.
+            _ => rest = rest.get(2 + usize::from(u16::from_be_bytes([high, low]))..)?,
+        }
+    }
+}
+
+/// How a driver makes frames of the pictures of its camera.
+#[derive(Clone, Debug)]
+pub(super) struct Pictures {
+    driver: DriverKey,
+    /// Of the first picture, to which all others are alike.
+    sent: FrameInfo,
+    crop: Crop,
+    /// Room for a whole picture, where a part of it is kept.
+    room: Vec<u8>,
+}
+
+impl Pictures {
+    /// Pictures like `first`.
+    ///
+    /// # Errors
+    /// `Protocol` if it is none.
+    pub(super) fn like(
+        first: &[u8],
+        crop: Crop,
+        driver: &DriverKey,
+    ) -> Result<Pictures, DriverError> {
+        let sent = frame_info(whole(first)).map_err(|why| {
+            DriverError::new(ErrorKind::Protocol, driver, "look at its first picture").because(why)
+        })?;
+        let room = match crop == Crop::NONE {
+            true => Vec::new(),
+            false => vec![0; sent.byte_len().unwrap_or_default()],
+        };
+        Ok(Pictures {
+            driver: driver.clone(),
+            sent,
+            crop,
+            room,
+        })
+    }
+
+    /// Of the pictures that the camera sends.
+    pub(super) fn sent(&self) -> FrameInfo {
+        self.sent
+    }
+
+    /// Of the frames that are made of them.
+    pub(super) fn info(&self) -> FrameInfo {
+        self.crop.of(self.sent)
+    }
+
+    /// The file that stands for a frame by itself: none where a part of the picture is kept, or its tables of codes are left out.
+    pub(super) fn as_sent<'a>(&self, picture: &'a [u8]) -> Option<&'a [u8]> {
+        let is_frame = self.room.is_empty() && has_tables(picture) != Some(false);
+        is_frame.then(|| whole(picture))
+    }
+
+    /// Writes a picture into a frame of [`info`](Pictures::info); `losses` says what went wrong before.
+    ///
+    /// # Errors
+    /// `Protocol` for one that is damaged or of another size.
+    pub(super) fn decode(
+        &mut self,
+        picture: &[u8],
+        mut into: FrameMut<'_>,
+        losses: impl FnOnce() -> String,
+    ) -> Result<(), DriverError> {
+        let decoded = match self.room.is_empty() {
+            true => decode(&completed(whole(picture)), &mut into),
+            false => self.decode_part(picture, &mut into),
+        };
+        decoded.map_err(|mismatch| {
+            let why = match mismatch {
+                Mismatch::Size(found) => format!(
+                    "the camera changed to frames of {found}, it was opened with {}",
+                    self.sent
+                ),
+                Mismatch::Damaged(why) => format!("{why}; before, {}", losses()),
+            };
+            DriverError::new(ErrorKind::Protocol, &self.driver, CAPTURE).because(why)
+        })
+    }
+
+    fn decode_part(&mut self, picture: &[u8], into: &mut FrameMut<'_>) -> Result<(), Mismatch> {
+        let mut room = FrameMut::new(self.sent, &mut self.room)
+            .map_err(|error| Mismatch::Damaged(error.to_string()))?;
+        decode(&completed(whole(picture)), &mut room)?;
+        self.crop.copy(self.sent, &self.room, into.bytes_mut());
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use image::{ExtendedColorType, codecs::jpeg::JpegEncoder};
+
+    use super::*;
+
+    const DRIVER: DriverKey = DriverKey::fixed("test/camera");
+
+    /// A JPEG file of 24 by 16 pixels that are not all alike.
+    fn picture() -> Vec<u8> {
+        let pixels: Vec<u8> = (0..24_u32 * 16 * 3)
+            .map(|index| u8::try_from(index * 7 % 251).expect("below 251"))
+            .collect();
+        let mut file = Vec::new();
+        JpegEncoder::new_with_quality(&mut file, 90)
+            .encode(&pixels, 24, 16, ExtendedColorType::Rgb8)
+            .expect("encoded");
+        file
+    }
+
+    fn decoded(pictures: &mut Pictures, file: &[u8]) -> Result<Vec<u8>, DriverError> {
+        let info = pictures.info();
+        let mut pixels = vec![0; info.byte_len().expect("small")];
+        let frame = FrameMut::new(info, &mut pixels).expect("made for it");
+        pictures.decode(file, frame, || "nothing was missed".to_owned())?;
+        Ok(pixels)
+    }
+
+    /// The file without its tables of codes, as many cameras send it.
+    fn without_tables(file: &[u8]) -> Vec<u8> {
+        let mut kept = BEGIN.to_vec();
+        let mut at = 2;
+        while file[at + 1] != SCAN {
+            let length = 2 + usize::from(u16::from_be_bytes([file[at + 2], file[at + 3]]));
+            if file[at + 1] != TABLES_OF_CODES {
+                kept.extend(&file[at..at + length]);
+            }
+            at += length;
+        }
+        kept.extend(&file[at..]);
+        kept
+    }
+
+    #[test]
+    fn a_picture_without_tables_of_codes_is_read_by_the_usual_ones() {
+        let file = picture();
+        let bare = without_tables(&file);
+        assert!(bare.len() < file.len(), "it had tables");
+        let mut pictures = Pictures::like(&bare, Crop::NONE, &DRIVER).expect("a picture");
+        let found = decoded(&mut pictures, &bare).expect("read");
+        assert_eq!(found, decoded(&mut pictures, &file).expect("read"));
+        assert_eq!(
+            found,
+            decoded(&mut pictures, &[&bare[..], &[0; 5]].concat()).expect("padded")
+        );
+    }
+
+    #[test]
+    fn a_part_of_a_picture_is_that_of_the_whole() {
+        let file = picture();
+        let mut all = Pictures::like(&file, Crop::NONE, &DRIVER).expect("a picture");
+        let crop = Crop { left: 3, top: 2 };
+        let mut part = Pictures::like(&file, crop, &DRIVER).expect("a picture");
+        assert_eq!((part.info().width, part.info().height), (18, 12));
+        let (all, part) = (decoded(&mut all, &file), decoded(&mut part, &file));
+        let (all, part) = (all.expect("read"), part.expect("read"));
+        assert_eq!(part[..18 * 3], all[3 * (2 * 24 + 3)..][..18 * 3]);
+    }
+
+    #[test]
+    fn files_that_are_cut_off_or_noise_are_errors_and_never_a_panic() {
+        let file = without_tables(&picture());
+        let mut pictures = Pictures::like(&picture(), Crop::NONE, &DRIVER).expect("a picture");
+        for length in (0..file.len()).step_by(7) {
+            let error = decoded(&mut pictures, &file[..length]).expect_err("cut off");
+            assert_eq!(error.kind(), ErrorKind::Protocol, "{length} bytes");
+        }
+        for at in 0..file.len() {
+            let mut spoilt = file.clone();
+            spoilt[at] ^= 0x55;
+            let _ = decoded(&mut pictures, &spoilt);
+        }
+    }
+}

@@ -1,0 +1,219 @@
+//! A camera of this machine as a sensor.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+use std::time::Duration;
+
+use taceva_core::{
+    Deadline, DriverError, ErrorKind, FrameInfo, FrameMut, Interrupt, Sensor, Stamp,
+};
+use taceva_v4l2::{Camera, FourCc, GivenFormat, PictureFormat, V4l2Error};
+
+use super::KEY;
+use super::error::{START, failed, refused};
+use super::fixed::Fixed;
+use super::frames::Frames;
+use super::reader::{Picture, Reader};
+use crate::camera::CAPTURE;
+use crate::camera::crop::Crop;
+use crate::camera::jpeg::Pictures;
+use crate::link::{Mailbox, Seen};
+
+/// How a camera is opened.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct V4l2Options {
+    pub(super) device: String,
+    pub(super) width: u32,
+    pub(super) height: u32,
+    /// The ways in which pictures may be sent, the best first.
+    pub(super) pixels: Vec<FourCc>,
+    pub(super) rate_hz: Option<f64>,
+    pub(super) crop: Crop,
+    pub(super) fixed: Fixed,
+}
+
+/// A camera that is open.
+#[derive(Debug)]
+pub(super) struct LocalCamera {
+    options: V4l2Options,
+    pictures: Arc<Mailbox<Picture>>,
+    /// The camera while it gives no pictures; `None` once it is lost, and while it gives some.
+    camera: Option<Camera>,
+    reader: Option<Reader>,
+    frames: Frames,
+    settings: BTreeMap<String, String>,
+    /// The number of the last picture that was given.
+    last: u64,
+    /// Pictures that came while nobody asked, or that did not come at all.
+    missed: u64,
+}
+
+const OPEN: &str = "open the camera";
+/// How long a camera may take to send its first picture, by which the kind of a file is known.
+const FIRST: Duration = Duration::from_secs(3);
+
+impl LocalCamera {
+    /// Opens a camera, sets its format and fixes it; where pictures are files it looks at one.
+    pub(super) fn open(options: V4l2Options) -> Result<LocalCamera, DriverError> {
+        let (mut camera, given) = options.connect()?;
+        let settings = options.fixed.apply(&mut camera)?;
+        let pictures = Arc::new(Mailbox::default());
+        let (camera, frames) = match given.picture.pixels {
+            FourCc::MJPG => {
+                let (camera, first) = first_picture(camera)?;
+                let frames = Pictures::like(&first, options.crop, &KEY)?;
+                let sent = frames.sent();
+                if (sent.width, sent.height) != (options.width, options.height) {
+                    let why = format!(
+                        "the camera sends files of {sent}, expected {}×{}",
+                        options.width, options.height
+                    );
+                    return Err(failed(ErrorKind::Protocol, OPEN, why));
+                }
+                (camera, Frames::Files(frames))
+            }
+            _ => (camera, Frames::rows(given)),
+        };
+        Ok(LocalCamera {
+            options,
+            pictures,
+            camera: Some(camera),
+            reader: None,
+            frames,
+            settings,
+            last: 0,
+            missed: 0,
+        })
+    }
+
+    fn begin(&mut self) -> Result<(), DriverError> {
+        if self.pictures.has_ended() {
+            // The camera was gone, and may be back.
+            self.reader = None;
+            self.camera = None;
+            self.pictures.begin_again();
+        }
+        let mut camera = match self.camera.take() {
+            Some(camera) => camera,
+            None => {
+                let (camera, given) = self.options.connect()?;
+                self.frames.check(&given)?;
+                camera
+            }
+        };
+        // Another program may have turned them meanwhile.
+        self.settings = self.options.fixed.apply(&mut camera)?;
+        let stream = camera.start().map_err(refused(START))?;
+        (self.last, self.missed) = (self.pictures.posted(), 0);
+        let reader = Reader::start(stream, &self.pictures);
+        self.reader = Some(reader.map_err(|error| failed(ErrorKind::Internal, START, error))?);
+        Ok(())
+    }
+
+    fn next(&self, patience: Duration) -> Result<Seen<Picture>, DriverError> {
+        self.pictures.next(self.last, patience).map_err(|none| {
+            none.while_waiting(&KEY, CAPTURE, || format!("no picture within {patience:?}"))
+        })
+    }
+}
+
+impl V4l2Options {
+    /// The camera with the first of the ways to send pictures that it knows.
+    fn connect(&self) -> Result<(Camera, GivenFormat), DriverError> {
+        let mut camera = Camera::open(&self.device).map_err(refused(OPEN))?;
+        let mut unknown = None;
+        for pixels in &self.pixels {
+            let wanted = PictureFormat {
+                width: self.width,
+                height: self.height,
+                pixels: *pixels,
+            };
+            match camera.set_format(&wanted) {
+                Ok(given) => {
+                    if let Some(rate_hz) = self.rate_hz {
+                        camera.set_rate(rate_hz).map_err(refused(OPEN))?;
+                    }
+                    return Ok((camera, given));
+                }
+                Err(error @ V4l2Error::Format { .. }) => unknown = Some(error),
+                Err(error) => return Err(refused(OPEN)(error)),
+            }
+        }
+        match unknown {
+            Some(error) => Err(refused(OPEN)(error)),
+            None => Err(failed(
+                ErrorKind::InvalidArgument,
+                OPEN,
+                "no way to send pictures",
+            )),
+        }
+    }
+}
+
+/// The first picture that is whole, and the camera, which gives none any more.
+fn first_picture(camera: Camera) -> Result<(Camera, Vec<u8>), DriverError> {
+    let mut stream = camera.start().map_err(refused(OPEN))?;
+    let began = crate::link::monotonic();
+    loop {
+        let spent = crate::link::monotonic().saturating_sub(began);
+        let Some(left) = FIRST.checked_sub(spent) else {
+            let why = format!("no picture within {FIRST:?}");
+            return Err(failed(ErrorKind::Timeout, OPEN, why));
+        };
+        let taken = stream.next(left).map_err(refused(OPEN))?;
+        let first = taken.filter(|filled| !filled.is_damaged());
+        let first = first.map(|filled| filled.bytes().to_vec());
+        if let Some(first) = first {
+            return Ok((stream.stop(), first));
+        }
+    }
+}
+
+impl Sensor for LocalCamera {
+    fn frame_info(&self) -> FrameInfo {
+        self.frames.info(self.options.crop)
+    }
+
+    fn start(&mut self, _: Deadline) -> Result<(), DriverError> {
+        if self.reader.is_some() && !self.pictures.has_ended() {
+            return Ok(());
+        }
+        self.begin()
+    }
+
+    fn capture(&mut self, into: FrameMut<'_>, deadline: Deadline) -> Result<Stamp, DriverError> {
+        let info = self.frame_info();
+        if into.info() != info {
+            let why = format!("a buffer for {}, expected {info}", into.info());
+            return Err(failed(ErrorKind::InvalidArgument, CAPTURE, why));
+        }
+        if self.reader.is_none() {
+            let why = "it is not started";
+            return Err(failed(ErrorKind::InvalidArgument, CAPTURE, why));
+        }
+        let seen = self.next(deadline.remaining())?;
+        self.missed += seen.number - self.last - 1;
+        self.last = seen.number;
+        let Seen {
+            what: picture, at, ..
+        } = seen;
+        self.frames
+            .make(&picture, self.options.crop, self.missed, into)?;
+        Ok(Stamp::new(picture.taken.unwrap_or(at), Some(at)))
+    }
+
+    fn stop(&mut self) -> Result<(), DriverError> {
+        if let Some(reader) = self.reader.take() {
+            self.camera = reader.stop();
+        }
+        Ok(())
+    }
+
+    fn interrupt_handle(&self) -> Option<Arc<dyn Interrupt>> {
+        Some(Arc::clone(&self.pictures) as Arc<dyn Interrupt>)
+    }
+
+    fn settings(&self) -> BTreeMap<String, String> {
+        self.settings.clone()
+    }
+}

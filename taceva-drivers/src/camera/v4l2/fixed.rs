@@ -1,0 +1,231 @@
+//! What must not change while a sensor is measured: exposure, gain, white balance and focus, fixed and read back.
+
+use std::collections::BTreeMap;
+
+use taceva_core::{ArgSpec, ArgValue, Args, DriverError, ErrorKind};
+use taceva_v4l2::{Camera, Control, ControlId, V4l2Error};
+
+use super::error::{failed, refused};
+
+/// What the caller wants of a camera; what is absent stays as it is, and is read back.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct Fixed {
+    exposure_ms: Option<f64>,
+    gain: Option<i32>,
+    white_balance_k: Option<i32>,
+    focus: Option<i32>,
+    /// Whether a camera that sets something by itself may go on with it.
+    keeps_automatic: bool,
+}
+
+/// One of the four.
+struct Knob {
+    name: &'static str,
+    /// The control of the camera that sets it by itself, and the value with which it does not.
+    automatic: (ControlId, i32),
+    control: ControlId,
+    wanted: Option<i32>,
+    /// What the number that a caller reads is of the number that the camera counts.
+    unit: f64,
+}
+
+const FIX: &str = "fix the camera";
+/// ms of the unit in which a camera counts exposure.
+const EXPOSURE_MS: f64 = 0.1;
+
+impl Fixed {
+    /// The arguments that fix a camera.
+    pub(super) fn arguments() -> [ArgSpec; 5] {
+        let whole = |key: &str, help: &str| {
+            ArgSpec::whole(key, 0, i64::from(i32::MAX))
+                .optional()
+                .help(help)
+        };
+        [
+            ArgSpec::number("exposure_ms", 0.1, 100_000.0)
+                .optional()
+                .help("how long it looks for a picture, in ms, to a tenth; as it is, if it is not given"),
+            whole("gain", "its gain, in its own steps"),
+            whole("white_balance_k", "the light that white is balanced for, in K"),
+            whole("focus", "its focus, in its own steps"),
+            ArgSpec::choice("automatic", ["refuse", "keep"])
+                .default(ArgValue::Text("refuse".to_owned()))
+                .help("whether a camera may go on to set exposure, gain, white balance or focus by itself, which recordings say then"),
+        ]
+    }
+
+    /// What `args` ask for.
+    pub(super) fn of(args: &Args) -> Fixed {
+        let whole = |key| match args.get(key) {
+            Some(&ArgValue::Whole(number)) => i32::try_from(number).ok(),
+            _ => None,
+        };
+        Fixed {
+            exposure_ms: args.get("exposure_ms").and_then(ArgValue::as_number),
+            gain: whole("gain"),
+            white_balance_k: whole("white_balance_k"),
+            focus: whole("focus"),
+            keeps_automatic: args.text("automatic") == "keep",
+        }
+    }
+
+    fn knobs(&self) -> [Knob; 4] {
+        #[expect(
+            clippy::cast_possible_truncation,
+            reason = "the declaration keeps it below a million"
+        )]
+        let exposure = self.exposure_ms.map(|ms| (ms / EXPOSURE_MS).round() as i32);
+        [
+            Knob {
+                name: "exposure_ms",
+                automatic: (ControlId::EXPOSURE_AUTOMATIC, 1),
+                control: ControlId::EXPOSURE,
+                wanted: exposure,
+                unit: EXPOSURE_MS,
+            },
+            Knob {
+                name: "gain",
+                automatic: (ControlId::GAIN_AUTOMATIC, 0),
+                control: ControlId::GAIN,
+                wanted: self.gain,
+                unit: 1.0,
+            },
+            Knob {
+                name: "white_balance_k",
+                automatic: (ControlId::WHITE_BALANCE_AUTOMATIC, 0),
+                control: ControlId::WHITE_BALANCE,
+                wanted: self.white_balance_k,
+                unit: 1.0,
+            },
+            Knob {
+                name: "focus",
+                automatic: (ControlId::FOCUS_AUTOMATIC, 0),
+                control: ControlId::FOCUS,
+                wanted: self.focus,
+                unit: 1.0,
+            },
+        ]
+    }
+
+    /// Fixes what can be fixed, and returns how it is, as it was read back: `exposure_ms` = `15.7`.
+    ///
+    /// # Errors
+    /// `Unsupported` for what the camera does not have or does not let go of, `OutOfRange` for a value that it does not take, `DeviceFault` where
+    /// it takes another.
+    pub(super) fn apply(
+        &self,
+        camera: &mut Camera,
+    ) -> Result<BTreeMap<String, String>, DriverError> {
+        let mut found = BTreeMap::new();
+        for knob in self.knobs() {
+            knob.apply(camera, self.keeps_automatic, &mut found)?;
+        }
+        Ok(found)
+    }
+}
+
+impl Knob {
+    fn apply(
+        &self,
+        camera: &mut Camera,
+        keeps_automatic: bool,
+        found: &mut BTreeMap<String, String>,
+    ) -> Result<(), DriverError> {
+        let name = self.name;
+        if self.let_go(camera, keeps_automatic)? {
+            // What it is now says nothing of the next picture.
+            found.insert(format!("{name}_automatic"), "true".to_owned());
+            return match self.wanted {
+                None => Ok(()),
+                Some(wanted) => Err(failed(
+                    ErrorKind::InvalidArgument,
+                    FIX,
+                    format!(
+                        "`{name}` is to be {}, and `automatic=keep` leaves it to the camera: give one of them",
+                        self.shown(wanted)
+                    ),
+                )),
+            };
+        }
+        let control = camera.control(self.control).map_err(refused(FIX))?;
+        match (control, self.wanted) {
+            (None, None) => {}
+            (None, Some(_)) => {
+                return Err(failed(
+                    ErrorKind::Unsupported,
+                    FIX,
+                    format!("the camera has no `{name}` to set"),
+                ));
+            }
+            (Some(control), wanted) => {
+                if let Some(wanted) = wanted {
+                    self.set(camera, &control, wanted)?;
+                }
+                let value = camera.value(self.control).map_err(refused(FIX))?;
+                found.insert(name.to_owned(), self.shown(value));
+            }
+        }
+        Ok(())
+    }
+
+    /// Whether the camera sets it by itself, after it was told not to.
+    fn let_go(&self, camera: &mut Camera, keeps: bool) -> Result<bool, DriverError> {
+        let (automatic, off) = self.automatic;
+        if camera.control(automatic).map_err(refused(FIX))?.is_none() {
+            return Ok(false);
+        }
+        if keeps {
+            return Ok(camera.value(automatic).map_err(refused(FIX))? != off);
+        }
+        let why = match camera.set(automatic, off) {
+            Ok(value) if value == off => return Ok(false),
+            Ok(_) => "it does not let go".to_owned(),
+            Err(error @ (V4l2Error::Gone { .. } | V4l2Error::Busy { .. })) => {
+                return Err(refused(FIX)(error));
+            }
+            Err(error) => error.to_string(),
+        };
+        let name = self.name;
+        Err(failed(
+            ErrorKind::Unsupported,
+            FIX,
+            format!(
+                "the camera sets `{name}` by itself, {why}: pictures would change without a touch; `automatic=keep` records it all the same"
+            ),
+        ))
+    }
+
+    fn set(&self, camera: &mut Camera, control: &Control, wanted: i32) -> Result<(), DriverError> {
+        let Control {
+            least, greatest, ..
+        } = *control;
+        let name = self.name;
+        if !(least..=greatest).contains(&wanted) {
+            let why = format!(
+                "`{name}` is {}, expected {} to {}",
+                self.shown(wanted),
+                self.shown(least),
+                self.shown(greatest)
+            );
+            return Err(failed(ErrorKind::OutOfRange, FIX, why));
+        }
+        let value = camera.set(self.control, wanted).map_err(refused(FIX))?;
+        if value != wanted {
+            let why = format!(
+                "the camera made `{name}` {}, expected {}",
+                self.shown(value),
+                self.shown(wanted)
+            );
+            return Err(failed(ErrorKind::DeviceFault, FIX, why));
+        }
+        Ok(())
+    }
+
+    fn shown(&self, value: i32) -> String {
+        // Counted in tenths, so that 15.7 is not written as its nearest binary number.
+        match self.unit < 1.0 {
+            true => format!("{}.{}", value / 10, value % 10),
+            false => value.to_string(),
+        }
+    }
+}

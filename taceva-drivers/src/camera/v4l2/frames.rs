@@ -1,0 +1,205 @@
+//! How frames are made of the pictures of a camera: of rows of pixels, or of files.
+
+use taceva_core::{DriverError, ErrorKind, FrameInfo, FrameMut, PixelFormat};
+use taceva_v4l2::{FourCc, GivenFormat, PictureFormat};
+
+use super::error::{START, failed};
+use super::reader::Picture;
+use super::yuyv::Matrix;
+use crate::camera::CAPTURE;
+use crate::camera::crop::Crop;
+use crate::camera::jpeg::Pictures;
+
+/// How frames are made of pictures.
+#[derive(Debug)]
+pub(super) enum Frames {
+    /// Of rows of pixels.
+    Rows {
+        given: GivenFormat,
+        matrix: Matrix,
+        sent: FrameInfo,
+        /// A row of them, where a part of it is kept.
+        row: Vec<u8>,
+    },
+    /// Of files.
+    Files(Pictures),
+}
+
+impl Frames {
+    /// Rows of pixels, as the camera gives them.
+    pub(super) fn rows(given: GivenFormat) -> Frames {
+        let PictureFormat { width, height, .. } = given.picture;
+        let sent = FrameInfo {
+            width,
+            height,
+            format: PixelFormat::Rgb8,
+        };
+        Frames::Rows {
+            given,
+            matrix: Matrix::of(given.coding),
+            sent,
+            row: Vec::new(),
+        }
+    }
+
+    /// Of the frames, where `crop` is cut off.
+    pub(super) fn info(&self, crop: Crop) -> FrameInfo {
+        match self {
+            Frames::Rows { sent, .. } => crop.of(*sent),
+            Frames::Files(pictures) => pictures.info(),
+        }
+    }
+
+    /// Refuses a camera that sends its pictures otherwise than before.
+    pub(super) fn check(&self, found: &GivenFormat) -> Result<(), DriverError> {
+        let is_same = match self {
+            Frames::Rows { given, .. } => given == found,
+            Frames::Files(_) => found.picture.pixels == FourCc::MJPG,
+        };
+        if is_same {
+            return Ok(());
+        }
+        let why = format!(
+            "the camera came back with {}, expected what it gave before",
+            found.picture
+        );
+        Err(failed(ErrorKind::Protocol, START, why))
+    }
+
+    /// Writes a picture into a frame of [`info`](Frames::info); so many were missed before.
+    ///
+    /// # Errors
+    /// `Protocol` for a picture that is damaged, short or of another size.
+    pub(super) fn make(
+        &mut self,
+        picture: &Picture,
+        crop: Crop,
+        missed: u64,
+        mut into: FrameMut<'_>,
+    ) -> Result<(), DriverError> {
+        let damaged = picture.damaged;
+        let losses = || format!("{missed} pictures were missed and {damaged} were damaged");
+        match self {
+            Frames::Files(pictures) => pictures.decode(&picture.bytes, into, losses),
+            Frames::Rows {
+                given,
+                matrix,
+                sent,
+                row: room,
+            } => {
+                let size = |number: u32| usize::try_from(number).unwrap_or(usize::MAX);
+                let (stride, whole) = (size(given.stride), 3 * size(sent.width));
+                // The last row may end with its last pixel.
+                let least = stride * (size(sent.height) - 1) + 2 * size(sent.width);
+                if stride < 2 * size(sent.width) || picture.bytes.len() < least {
+                    let why = format!(
+                        "a picture of {} bytes, expected {least} of {}; before, {}",
+                        picture.bytes.len(),
+                        given.picture,
+                        losses()
+                    );
+                    return Err(failed(ErrorKind::Protocol, CAPTURE, why));
+                }
+                room.resize(whole, 0);
+                let kept = 3 * size(crop.of(*sent).width);
+                let begin = 3 * size(crop.left);
+                let rows = picture.bytes.chunks(stride).skip(size(crop.top));
+                for (row, into) in rows.zip(into.bytes_mut().chunks_exact_mut(kept.max(1))) {
+                    matrix.row(row, room);
+                    into.copy_from_slice(&room[begin..begin + kept]);
+                }
+                Ok(())
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use taceva_v4l2::Coding;
+
+    use super::*;
+
+    /// Pictures of 4 by 2 pixels whose rows are 12 bytes apart: 8 of pixels, 4 of nothing.
+    fn frames() -> Frames {
+        Frames::rows(GivenFormat {
+            picture: PictureFormat {
+                width: 4,
+                height: 2,
+                pixels: FourCc::YUYV,
+            },
+            stride: 12,
+            bytes: 24,
+            coding: Coding::Full601,
+        })
+    }
+
+    fn picture(bytes: &[u8]) -> Picture {
+        Picture {
+            bytes: bytes.into(),
+            taken: None,
+            damaged: 3,
+        }
+    }
+
+    fn made(frames: &mut Frames, bytes: &[u8], crop: Crop) -> Result<Vec<u8>, DriverError> {
+        let info = frames.info(crop);
+        let mut pixels = vec![0; info.byte_len().expect("small")];
+        let frame = FrameMut::new(info, &mut pixels).expect("made for it");
+        frames.make(&picture(bytes), crop, 5, frame)?;
+        Ok(pixels)
+    }
+
+    /// Grays 10 to 13 and 20 to 23, and what is none of them between the rows.
+    fn grays() -> Vec<u8> {
+        let row = |first: u8| [first, 128, first + 1, 128, first + 2, 128, first + 3, 128];
+        [&row(10)[..], &[255; 4], &row(20)[..]].concat()
+    }
+
+    #[test]
+    fn what_lies_between_the_rows_is_no_pixel() {
+        let whole = made(&mut frames(), &grays(), Crop::NONE).expect("a frame");
+        let expected: Vec<u8> = [10, 11, 12, 13, 20, 21, 22, 23]
+            .into_iter()
+            .flat_map(|gray| [gray; 3])
+            .collect();
+        assert_eq!(whole, expected);
+        let middle = Crop { left: 1, top: 0 };
+        let part = made(&mut frames(), &grays(), middle).expect("a frame");
+        assert_eq!(part, [[11; 3], [12; 3], [21; 3], [22; 3]].concat());
+    }
+
+    #[test]
+    fn a_picture_that_is_cut_off_is_an_error_that_says_what_was_lost_before() {
+        for length in [0, 1, 11, 12, 19] {
+            let short = made(&mut frames(), &grays()[..length], Crop::NONE);
+            let short = short.expect_err("cut off");
+            assert_eq!(short.kind(), ErrorKind::Protocol, "{length} bytes");
+            let message = short.to_string();
+            assert!(message.contains("expected 20 of 4×2 YUYV"), "{message}");
+            assert!(
+                message.ends_with("5 pictures were missed and 3 were damaged"),
+                "{message}"
+            );
+        }
+        // More than is needed is padding.
+        let long = [grays(), vec![0; 100]].concat();
+        assert!(made(&mut frames(), &long, Crop::NONE).is_ok());
+    }
+
+    #[test]
+    fn a_camera_whose_rows_overlap_gives_no_frame() {
+        let mut frames = Frames::rows(GivenFormat {
+            picture: PictureFormat {
+                width: 4,
+                height: 2,
+                pixels: FourCc::YUYV,
+            },
+            stride: 6,
+            bytes: 12,
+            coding: Coding::Full601,
+        });
+        let found = made(&mut frames, &grays(), Crop::NONE).expect_err("overlapping");
+        assert_eq!(found.kind(), ErrorKind::Protocol);
+    }
+}

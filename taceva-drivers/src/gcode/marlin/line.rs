@@ -1,0 +1,122 @@
+//! What the printer says, a line each. Nothing here reads a port.
+
+use crate::gcode::link::{Answer, Heard};
+
+/// Where the printer says that its tip is, or is going to be, in mm; not checked to be numbers.
+pub(super) type Place = [f64; 3];
+
+/// What a number begins with that the printer was told to say.
+pub(super) const MARK: &str = "taceva mark ";
+
+/// What a line says.
+pub(super) fn read(line: &str) -> Heard<Place> {
+    // Some give the place behind the `ok`, on one line.
+    if let Some(behind) = line.strip_prefix("ok")
+        && (behind.is_empty() || behind.starts_with(' '))
+    {
+        return Heard {
+            answer: Some(Answer::Ok),
+            status: place(behind.trim_start()),
+        };
+    }
+    let status = place(line);
+    Heard {
+        answer: match status {
+            Some(_) => None,
+            None => answer(line),
+        },
+        status,
+    }
+}
+
+fn answer(line: &str) -> Option<Answer> {
+    let said = line.strip_prefix("echo:").unwrap_or(line).trim();
+    if let Some(number) = said.strip_prefix(MARK) {
+        return number.parse().ok().map(Answer::Mark);
+    }
+    if said.starts_with("busy") {
+        return Some(Answer::Busy);
+    }
+    if said.starts_with("Unknown command") {
+        return Some(Answer::Refused(said.to_owned()));
+    }
+    if let Some(capability) = line.strip_prefix("Cap:") {
+        let (name, value) = capability.split_once(':')?;
+        return Some(Answer::Can(name.to_owned(), value == "1"));
+    }
+    // `Error:` and the `!!` of others: it was stopped, and says so once.
+    let why = line.strip_prefix("Error:").or(line.strip_prefix("!!"))?;
+    Some(Answer::Fault(format!("`{}`", why.trim())))
+}
+
+/// A place such as `X:1.00 Y:2.00 Z:-3.00 E:0.00 Count X:80 Y:160 Z:-1200`.
+fn place(line: &str) -> Option<Place> {
+    let number = |word: Option<&str>, axis: &str| -> Option<f64> {
+        word?.strip_prefix(axis)?.strip_prefix(':')?.parse().ok()
+    };
+    let mut words = line.split_whitespace();
+    Some([
+        number(words.next(), "X")?,
+        number(words.next(), "Y")?,
+        number(words.next(), "Z")?,
+    ])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::gcode::link::understood;
+
+    #[test]
+    fn lines_of_the_printer_are_read_however_they_are_split() {
+        let text = b"start\necho:Marlin 2.1.2\nFIRMWARE_NAME:Marlin 2.1.2 PROTOCOL_VERSION:1.0\nCap:EMERGENCY_PARSER:1\nCap:AUTOREPORT_POS:0\nok\nok P15 B3\nokay\nX:1.50 Y:-2.00 Z:3.25 E:0.00 Count X:120 Y:-160 Z:1300\nok X:0.0 Y:1.0 Z:2.0 E:0.0 Count: A:0 B:100 C:200\necho:busy: processing\necho:Unknown command: \"M999999\"\ntaceva mark 7\necho:taceva mark 8\nError:Printer halted. kill() called!\n T:21.3 /0.0\n";
+        let can = |name: &str, is| Heard::answer(Answer::Can(name.to_owned(), is));
+        let expected = [
+            Heard::NOTHING,
+            Heard::NOTHING,
+            Heard::NOTHING,
+            can("EMERGENCY_PARSER", true),
+            can("AUTOREPORT_POS", false),
+            Heard::answer(Answer::Ok),
+            Heard::answer(Answer::Ok),
+            Heard::NOTHING,
+            Heard {
+                answer: None,
+                status: Some([1.5, -2.0, 3.25]),
+            },
+            Heard {
+                answer: Some(Answer::Ok),
+                status: Some([0.0, 1.0, 2.0]),
+            },
+            Heard::answer(Answer::Busy),
+            Heard::answer(Answer::Refused("Unknown command: \"M999999\"".to_owned())),
+            Heard::answer(Answer::Mark(7)),
+            Heard::answer(Answer::Mark(8)),
+            Heard::answer(Answer::Fault("`Printer halted. kill() called!`".to_owned())),
+            Heard::NOTHING,
+        ];
+        for piece in [1, 3, 64, text.len()] {
+            assert_eq!(
+                understood(text, piece, read),
+                expected,
+                "in pieces of {piece}"
+            );
+        }
+    }
+
+    #[test]
+    fn torn_places_foreign_numbers_and_noise_say_nothing() {
+        for line in [
+            "",
+            "X:1.0 Y:2.0",
+            "X:1.0 Y:2.0 E:3.0",
+            "X:a Y:b Z:c",
+            "Cap:EMERGENCY_PARSER",
+            "taceva mark -1",
+            "taceva mark 99999999999",
+            "\u{fffd}\u{fffd}ok",
+        ] {
+            assert_eq!(read(line), Heard::NOTHING, "{line}");
+        }
+    }
+}

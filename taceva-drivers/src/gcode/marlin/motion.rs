@@ -1,0 +1,106 @@
+//! One straight motion, from the look before it to the rest after it.
+
+use std::time::Duration;
+
+use taceva_core::{Deadline, DriverError, ErrorKind, Pose, Speed, Stamp};
+
+use super::KEY;
+use super::machine::{ANSWER, Printer, QUICK_STOP};
+use crate::gcode::limits::{MOVE, short_mm, straight};
+use crate::gcode::link::{Answer, CommandError};
+use crate::link::monotonic;
+
+/// How near the target a motion ends: printers write places to 0.01 mm.
+const NEAR_MM: f64 = 0.02;
+/// How often it is looked whether a motion was halted.
+const LOOK_EVERY: Duration = Duration::from_millis(10);
+/// A printer that works on something says so every two seconds; one that says nothing for longer is gone.
+const SILENT: Duration = Duration::from_secs(5);
+/// Waits until the motion has ended.
+const WAIT: &str = "M400";
+
+fn failed(kind: ErrorKind, why: String) -> DriverError {
+    DriverError::new(kind, &KEY, MOVE).because(why)
+}
+
+impl Printer {
+    /// Moves the tip to `target` and returns once it rests there, or stands elsewhere and why.
+    pub(super) fn go(
+        &mut self,
+        target: Pose,
+        speed: Speed,
+        deadline: Deadline,
+    ) -> Result<Stamp, DriverError> {
+        let until = monotonic().saturating_add(deadline.remaining());
+        if self.stop.is_halted() {
+            return Err(self.stop.halted());
+        }
+        if deadline.has_passed() {
+            return Err(failed(
+                ErrorKind::Timeout,
+                "no time to move at all".to_owned(),
+            ));
+        }
+        let ended = self.follow(&target, speed, until);
+        if ended.is_err() {
+            // Stopped twice is stopped once; a stop that could not be sent says so by a line that is gone.
+            let _ = self.link.writer().send(QUICK_STOP);
+            // A motion that was given up is no halt: the next one is accepted, once what was said of this one has passed.
+            let _ = self.agree(ANSWER);
+        }
+        ended
+    }
+
+    fn follow(
+        &mut self,
+        target: &Pose,
+        speed: Speed,
+        until: Duration,
+    ) -> Result<Stamp, DriverError> {
+        let refused = |error: CommandError| error.met(&KEY, MOVE);
+        // In mm, to a place in the frame of the printer, at mm a minute.
+        for command in ["G21", "G90", &straight(&target.position, speed)] {
+            self.link.command(command, ANSWER, drop).map_err(refused)?;
+        }
+        self.link.send(WAIT).map_err(refused)?;
+        let mut heard = monotonic();
+        loop {
+            if self.stop.is_halted() {
+                return Err(self.stop.halted());
+            }
+            let now = monotonic();
+            if now >= until {
+                let why = "it did not arrive within the deadline".to_owned();
+                return Err(failed(ErrorKind::Timeout, why));
+            }
+            let answer = self.link.answer(LOOK_EVERY);
+            match answer {
+                Some(Answer::Ok) => break,
+                Some(Answer::Fault(why)) => return Err(refused(CommandError::Fault(why))),
+                Some(Answer::Refused(why)) => {
+                    let command = WAIT.to_owned();
+                    return Err(refused(CommandError::Refused { command, why }));
+                }
+                Some(_) => heard = now,
+                None if now.saturating_sub(heard) >= SILENT => {
+                    let why = format!("the printer has said nothing for {SILENT:?}");
+                    return Err(failed(ErrorKind::Timeout, why));
+                }
+                None => {}
+            }
+        }
+        let rests = self.look(ANSWER)?;
+        if self.stop.is_halted() {
+            return Err(self.stop.halted());
+        }
+        let short_mm = short_mm(rests.what, &target.position);
+        // NaN is no distance either.
+        if short_mm.is_nan() || short_mm > NEAR_MM {
+            let why = format!(
+                "it came to rest {short_mm:.3} mm from its target, expected at most {NEAR_MM} mm"
+            );
+            return Err(failed(ErrorKind::DeviceFault, why));
+        }
+        Ok(Stamp::at(rests.at))
+    }
+}

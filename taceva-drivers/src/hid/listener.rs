@@ -1,0 +1,76 @@
+//! A thread that takes the reports of a HID device as they come.
+
+use std::io;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::thread::JoinHandle;
+
+use hidapi::HidDevice;
+use taceva_core::ErrorKind;
+
+use crate::link::mailbox::Ending;
+use crate::link::{Mailbox, monotonic};
+
+/// Listens to a device until it is dropped.
+#[derive(Debug)]
+pub(super) struct Listener {
+    is_over: Arc<AtomicBool>,
+    reader: Option<JoinHandle<()>>,
+}
+
+/// How often the thread that reads looks whether it is over, in ms.
+const LOOK_MS: i32 = 50;
+/// No report of a HID device of full speed is longer; high speed allows more, which neither scales nor pedals send.
+const REPORT_MAX: usize = 1024;
+
+impl Listener {
+    /// Posts to `posting` what `read` makes of each report; a report of which it makes nothing is passed over.
+    pub(super) fn start<T: Clone + Send + 'static>(
+        device: HidDevice,
+        posting: &Arc<Mailbox<T>>,
+        mut read: impl FnMut(&[u8]) -> Option<T> + Send + 'static,
+    ) -> io::Result<Listener> {
+        let is_over = Arc::new(AtomicBool::new(false));
+        let (over, posting) = (Arc::clone(&is_over), Arc::clone(posting));
+        let reader = std::thread::Builder::new()
+            .name("hid reports".to_owned())
+            .spawn(move || {
+                let mut bytes = [0; REPORT_MAX];
+                while !over.load(Ordering::Acquire) {
+                    match device.read_timeout(&mut bytes, LOOK_MS) {
+                        Ok(0) => {}
+                        Ok(count) => {
+                            let at = monotonic();
+                            if let Some(report) = read(&bytes[..count]) {
+                                posting.post_last(1, report, at);
+                            }
+                        }
+                        Err(error) => {
+                            posting.end(Ending {
+                                kind: ErrorKind::Disconnected,
+                                why: format!("it was unplugged, or gave its place up: {error}"),
+                            });
+                            return;
+                        }
+                    }
+                }
+                posting.end(Ending {
+                    kind: ErrorKind::Disconnected,
+                    why: "it was closed".to_owned(),
+                });
+            })?;
+        Ok(Listener {
+            is_over,
+            reader: Some(reader),
+        })
+    }
+}
+
+impl Drop for Listener {
+    fn drop(&mut self) {
+        self.is_over.store(true, Ordering::Release);
+        if let Some(reader) = self.reader.take() {
+            let _ = reader.join();
+        }
+    }
+}

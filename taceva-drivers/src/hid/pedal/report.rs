@@ -1,0 +1,84 @@
+//! Whether a report says that the pedal is held. Nothing here reads a device.
+
+/// Which bits of a report are the pedal's.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Bits {
+    /// The number of the report, which is its first byte; `None` where reports have none.
+    pub(super) report: Option<u8>,
+    /// The byte, counted from 0 behind that number; `None` for any of them.
+    pub(super) byte: Option<usize>,
+    /// The bits of that byte.
+    pub(super) mask: u8,
+}
+
+impl Bits {
+    /// Whether a report says that the pedal is held: one of its bits is set. `None` for a report of something else, or one that is too short to
+    /// say it: a switch that is not understood is not held.
+    pub(super) fn held(self, report: &[u8]) -> Option<bool> {
+        let body = match self.report {
+            Some(number) => match report {
+                [first, body @ ..] if *first == number => body,
+                _ => return None,
+            },
+            None => report,
+        };
+        match self.byte {
+            Some(byte) => Some(body.get(byte).is_some_and(|byte| byte & self.mask != 0)),
+            None => Some(body.iter().any(|byte| byte & self.mask != 0)),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const ANY: Bits = Bits {
+        report: None,
+        byte: None,
+        mask: 0xff,
+    };
+
+    #[test]
+    fn a_pedal_that_types_a_letter_is_held_while_the_letter_is() {
+        // The boot report of a keyboard: modifiers, nothing, six keys; 5 is `b`.
+        assert_eq!(ANY.held(&[0, 0, 5, 0, 0, 0, 0, 0]), Some(true));
+        assert_eq!(ANY.held(&[2, 0, 0, 0, 0, 0, 0, 0]), Some(true));
+        assert_eq!(ANY.held(&[0; 8]), Some(false));
+    }
+
+    #[test]
+    fn one_button_of_a_pad_whose_sticks_rest_in_the_middle_is_told_by_its_bit() {
+        let pad = Bits {
+            report: Some(1),
+            byte: Some(2),
+            mask: 0b0001_0000,
+        };
+        assert_eq!(pad.held(&[1, 0x80, 0x80, 0x10]), Some(true));
+        assert_eq!(pad.held(&[1, 0x80, 0x80, 0x2f]), Some(false));
+        assert_eq!(pad.held(&[2, 0x80, 0x80, 0x10]), None);
+    }
+
+    #[test]
+    fn a_report_that_is_cut_off_holds_nothing() {
+        let pad = Bits {
+            byte: Some(2),
+            ..ANY
+        };
+        for length in 0..3 {
+            assert_eq!(
+                pad.held(&[0xff; 3][..length]),
+                Some(false),
+                "{length} bytes"
+            );
+        }
+        assert_eq!(
+            Bits {
+                report: Some(1),
+                ..ANY
+            }
+            .held(&[]),
+            None
+        );
+    }
+}

@@ -1,0 +1,170 @@
+//! What a scale says, as the usage page 0x8D of HID ("weighing devices") has it. Nothing here reads a device.
+
+use taceva_core::ErrorKind;
+use thiserror::Error;
+
+/// The number of the report that holds a weight: `03 status unit exponent low high`.
+const WEIGHT_REPORT: u8 = 3;
+/// A weight is never written with more zeros.
+const EXPONENT_MAX: i8 = 9;
+/// N a kilogram: the standard acceleration of free fall, by which scales are adjusted but for their place, up to 0.3 %.
+const N_KG: f64 = 9.806_65;
+const KG_G: f64 = 1e-3;
+/// Grams of the international pound, and of an ounce.
+const G_POUND: f64 = 453.592_37;
+const G_OUNCE: f64 = G_POUND / 16.0;
+
+/// A weight that a scale vouches for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Weight {
+    /// Below 0 where something pulls.
+    pub(super) grams: f64,
+}
+
+impl Weight {
+    /// The force with which it rests on the scale, in N.
+    pub(super) fn newtons(self) -> f64 {
+        self.grams * KG_G * N_KG
+    }
+}
+
+/// Why a report holds no weight that counts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+pub(super) enum WeightError {
+    #[error("the scale reports a fault")]
+    Fault,
+    #[error("the scale is loaded beyond what it weighs: a clipped force is no force")]
+    Overloaded,
+    #[error("the scale wants to be calibrated")]
+    Uncalibrated,
+    #[error("the scale has lost its zero: take everything off, and zero it by its own key")]
+    ZeroLost,
+    #[error("the scale reports status {0}, expected 1 to 8")]
+    Status(u8),
+    #[error(
+        "the scale weighs in unit {0}, expected mg, g, kg, oz or lb: choose one by its own key"
+    )]
+    Unit(u8),
+    #[error("the scale writes weights with 10^{0}, expected -9 to 9")]
+    Exponent(i8),
+    #[error("a report of {0} bytes, expected 6")]
+    Short(usize),
+}
+
+impl WeightError {
+    /// What kind of failure it is.
+    pub(super) fn kind(self) -> ErrorKind {
+        match self {
+            WeightError::Overloaded => ErrorKind::OutOfRange,
+            WeightError::Status(_)
+            | WeightError::Unit(_)
+            | WeightError::Exponent(_)
+            | WeightError::Short(_) => ErrorKind::Protocol,
+            WeightError::Fault | WeightError::Uncalibrated | WeightError::ZeroLost => {
+                ErrorKind::DeviceFault
+            }
+        }
+    }
+}
+
+/// The weight in a report; `None` for a report of something else.
+pub(super) fn read(report: &[u8]) -> Option<Result<Weight, WeightError>> {
+    match *report {
+        [WEIGHT_REPORT, status, unit, exponent, low, high, ..] => {
+            let count = u16::from_le_bytes([low, high]);
+            Some(weight(status, unit, exponent.cast_signed(), count))
+        }
+        [WEIGHT_REPORT, ..] => Some(Err(WeightError::Short(report.len()))),
+        _ => None,
+    }
+}
+
+fn weight(status: u8, unit: u8, exponent: i8, count: u16) -> Result<Weight, WeightError> {
+    // The sign stands in the status alone.
+    let sign = match status {
+        1 => return Err(WeightError::Fault),
+        // At zero, in motion, at rest.
+        2..=4 => 1.0,
+        5 => -1.0,
+        6 => return Err(WeightError::Overloaded),
+        7 => return Err(WeightError::Uncalibrated),
+        8 => return Err(WeightError::ZeroLost),
+        other => return Err(WeightError::Status(other)),
+    };
+    let grams = match unit {
+        1 => 1e-3,
+        2 => 1.0,
+        3 => 1e3,
+        11 => G_OUNCE,
+        12 => G_POUND,
+        other => return Err(WeightError::Unit(other)),
+    };
+    if exponent.unsigned_abs() > EXPONENT_MAX.unsigned_abs() {
+        return Err(WeightError::Exponent(exponent));
+    }
+    let count = f64::from(count);
+    // Divided, so that 12.4 is the number that people write.
+    let scaled = match exponent {
+        0.. => count * 10_f64.powi(i32::from(exponent)),
+        _ => count / 10_f64.powi(-i32::from(exponent)),
+    };
+    Ok(Weight {
+        grams: sign * scaled * grams,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn grams(report: [u8; 6]) -> f64 {
+        read(&report).expect("of a weight").expect("a weight").grams
+    }
+
+    #[test]
+    fn golden_reports_are_weights() {
+        // 124 g at rest; 12.4 g in motion; -2 g; 0.875 kg; 3.5 oz; 1.2 lb.
+        assert!((grams([3, 4, 2, 0, 124, 0]) - 124.0).abs() < 1e-12);
+        assert!((grams([3, 3, 2, 0xff, 124, 0]) - 12.4).abs() < 1e-12);
+        assert!((grams([3, 5, 2, 0, 2, 0]) + 2.0).abs() < 1e-12);
+        assert!((grams([3, 4, 3, 0xfd, 0x6b, 0x03]) - 875.0).abs() < 1e-9);
+        assert!((grams([3, 4, 11, 0xff, 35, 0]) - 99.223_330_9).abs() < 1e-6);
+        assert!((grams([3, 4, 12, 0xff, 12, 0]) - 544.310_844).abs() < 1e-6);
+        assert!(grams([3, 2, 2, 0, 0, 0]).abs() < 1e-12);
+        let force = Weight { grams: 1000.0 }.newtons();
+        assert!((force - 9.806_65).abs() < 1e-12);
+    }
+
+    #[test]
+    fn what_a_scale_does_not_vouch_for_is_no_weight() {
+        let found = |report: [u8; 6]| read(&report).expect("of a weight").expect_err("none");
+        assert_eq!(found([3, 1, 2, 0, 9, 0]), WeightError::Fault);
+        assert_eq!(found([3, 6, 2, 0, 9, 0]), WeightError::Overloaded);
+        assert_eq!(found([3, 7, 2, 0, 9, 0]), WeightError::Uncalibrated);
+        assert_eq!(found([3, 8, 2, 0, 9, 0]), WeightError::ZeroLost);
+        assert_eq!(found([3, 0, 2, 0, 9, 0]), WeightError::Status(0));
+        assert_eq!(found([3, 4, 7, 0, 9, 0]), WeightError::Unit(7));
+        assert_eq!(found([3, 4, 2, 10, 9, 0]), WeightError::Exponent(10));
+        assert_eq!(found([3, 4, 2, 0x80, 9, 0]), WeightError::Exponent(-128));
+        assert_eq!(read(&[3, 4, 2]), Some(Err(WeightError::Short(3))));
+    }
+
+    #[test]
+    fn reports_of_something_else_and_noise_are_passed_over() {
+        assert_eq!(read(&[]), None);
+        assert_eq!(read(&[1, 4, 2, 0, 124, 0]), None);
+        // Every report of up to seven bytes with each first four: never a panic, never a number that is none.
+        for seed in 0_u64..200_000 {
+            let mixed = seed.wrapping_mul(0x9e37_79b9_7f4a_7c15).rotate_left(29) ^ seed;
+            let bytes = mixed.to_le_bytes();
+            let length = usize::try_from(seed % 9).expect("small").min(bytes.len());
+            let mut report = bytes[..length].to_vec();
+            if let Some(first) = report.first_mut().filter(|_| seed % 2 == 0) {
+                *first = WEIGHT_REPORT;
+            }
+            if let Some(Ok(weight)) = read(&report) {
+                assert!(weight.grams.is_finite(), "{report:?}");
+            }
+        }
+    }
+}

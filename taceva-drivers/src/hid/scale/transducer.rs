@@ -1,0 +1,128 @@
+//! A scale as a force transducer.
+
+use std::sync::Arc;
+use std::time::Duration;
+
+use taceva_core::{
+    Axes, Deadline, DriverError, ErrorKind, ForceTransducer, Interrupt, Newton, Stamp, Tare, Wrench,
+};
+
+use super::KEY;
+use super::report::{self, Weight, WeightError};
+use crate::hid::listener::Listener;
+use crate::hid::selected::Selection;
+use crate::link::Mailbox;
+use crate::zero::{HostZero, READ};
+
+/// The usage of a scale, by its page.
+pub(super) const SCALE: (u16, u16) = (0x8d, 0x20);
+
+/// A scale that is open.
+#[derive(Debug)]
+pub(super) struct Transducer {
+    weights: Arc<Mailbox<Result<Weight, WeightError>>>,
+    _listener: Listener,
+    zero: HostZero,
+    is_running: bool,
+    /// The number of the last weight that was given.
+    last: u64,
+}
+
+fn failed(
+    kind: ErrorKind,
+    doing: &'static str,
+    why: impl Into<Box<dyn std::error::Error + Send + Sync>>,
+) -> DriverError {
+    DriverError::new(kind, &KEY, doing).because(why)
+}
+
+impl Transducer {
+    /// Opens the scale that is selected; nothing is sent to it.
+    pub(super) fn open(
+        selection: &Selection,
+        force_max_n: Option<f64>,
+    ) -> Result<Transducer, DriverError> {
+        let doing = "open the scale";
+        let device = selection
+            .open(Some(SCALE))
+            .map_err(|error| failed(error.kind(), doing, error))?;
+        let weights = Arc::new(Mailbox::default());
+        let listener = Listener::start(device, &weights, report::read)
+            .map_err(|error| failed(ErrorKind::Internal, doing, error))?;
+        Ok(Transducer {
+            weights,
+            _listener: listener,
+            zero: HostZero::new(KEY, force_max_n),
+            is_running: false,
+            last: 0,
+        })
+    }
+
+    /// The next load, and when it was heard of.
+    fn next(&mut self, patience: Duration) -> Result<(Wrench, Duration), DriverError> {
+        if !self.is_running {
+            return Err(failed(
+                ErrorKind::InvalidArgument,
+                READ,
+                "it is not started",
+            ));
+        }
+        let seen = self.weights.next(self.last, patience).map_err(|none| {
+            none.while_waiting(&KEY, READ, || {
+                format!("no weight within {patience:?}: is the scale switched on?")
+            })
+        })?;
+        self.last = seen.number;
+        let weight = seen
+            .what
+            .map_err(|error| failed(error.kind(), READ, error))?;
+        let force = [Newton(0.0), Newton(0.0), Newton(weight.newtons())];
+        let wrench = Wrench {
+            force,
+            ..Wrench::default()
+        };
+        self.zero.check(&wrench)?;
+        Ok((wrench, seen.at))
+    }
+}
+
+impl ForceTransducer for Transducer {
+    fn axes(&self) -> Axes {
+        Axes::NORMAL
+    }
+
+    fn start(&mut self, _: Deadline) -> Result<(), DriverError> {
+        if !self.is_running {
+            self.last = self.weights.posted();
+            self.is_running = true;
+        }
+        Ok(())
+    }
+
+    fn read(&mut self, deadline: Deadline) -> Result<(Wrench, Stamp), DriverError> {
+        let (wrench, at) = self.next(deadline.remaining())?;
+        Ok((self.zero.taken_off(&wrench)?, Stamp::at(at)))
+    }
+
+    fn stop(&mut self) -> Result<(), DriverError> {
+        self.is_running = false;
+        Ok(())
+    }
+
+    fn interrupt_handle(&self) -> Option<Arc<dyn Interrupt>> {
+        Some(Arc::clone(&self.weights) as Arc<dyn Interrupt>)
+    }
+
+    fn tare(&mut self) -> Option<&mut dyn Tare> {
+        Some(self)
+    }
+}
+
+impl Tare for Transducer {
+    fn zero(&mut self, deadline: Deadline) -> Result<(), DriverError> {
+        let mut zero = self.zero.clone();
+        zero.take(deadline, |patience| Ok(self.next(patience)?.0))?;
+        self.zero = zero;
+        Ok(())
+    }
+}

@@ -1,0 +1,168 @@
+//! Studies on emulated devices: the program on one side of the sockets, the truth on the other.
+
+mod compared;
+pub mod faults;
+
+pub use compared::{Compared, compare};
+
+use std::path::{Path, PathBuf};
+use std::process::{Child, Command, Stdio};
+use std::time::{Duration, Instant};
+
+use taceva_dataset::Dataset;
+use taceva_wire::{ServeOptions, Served};
+
+use crate::binary::taceva;
+use crate::drawn::scratch;
+use crate::workspace::read;
+
+/// Emulated devices, and a folder with a scene and the rig file that reaches them.
+pub struct OnTheWire {
+    /// The devices.
+    pub served: Served,
+    folder: tempfile::TempDir,
+}
+
+/// The name of the rig file in the folder.
+const RIG: &str = "rig.toml";
+/// The name of the scene.
+const SCENE: &str = "wire.toml";
+/// The folder of a run on the wire.
+pub const RUN: &str = "wire";
+
+/// The scene `examples/scenes/wire.toml` with so many presses.
+///
+/// # Panics
+/// If it cannot be read, which ends the test.
+pub fn scene_of(presses: usize) -> String {
+    let text = read("examples/scenes/wire.toml");
+    let changed = text.replace("points = 60", &format!("points = {presses}"));
+    assert!(presses == 60 || changed != text, "the scene has 60 presses");
+    changed
+}
+
+impl OnTheWire {
+    /// Serves devices and writes the rig file beside `scene`.
+    ///
+    /// # Panics
+    /// If a device cannot be served, which ends the test.
+    pub fn new(options: &ServeOptions, scene: &str) -> OnTheWire {
+        let served = Served::start(options).expect("devices on loopback");
+        let folder = scratch();
+        let rig = folder.path().join(RIG);
+        served.write_rig_file(&rig).expect("room for a rig file");
+        std::fs::write(folder.path().join(SCENE), scene).expect("room for a scene");
+        OnTheWire { served, folder }
+    }
+
+    /// The folder of the scene.
+    pub fn folder(&self) -> &Path {
+        self.folder.path()
+    }
+
+    /// The study on the emulated devices, begun or gone on with.
+    pub fn study(&self) -> Command {
+        let mut command = self.command(RUN);
+        command.args(["--rig", RIG]);
+        command
+    }
+
+    /// The same study on the bench that is simulated in the program, in the folder `simulated`.
+    pub fn simulated(&self) -> Command {
+        self.command("simulated")
+    }
+
+    fn command(&self, run: &str) -> Command {
+        let mut command = Command::new(taceva());
+        command
+            .current_dir(self.folder())
+            .args(["run", SCENE, "--out", run, "--no-cache", "--quiet"])
+            .stdin(Stdio::null())
+            .stdout(Stdio::null());
+        if self.folder().join(run).exists() {
+            command.arg("--resume");
+        }
+        command
+    }
+
+    /// The recording in the folder `run`.
+    ///
+    /// # Panics
+    /// If there is none that is closed, which ends the test.
+    pub fn recording(&self, run: &str) -> Dataset {
+        let path = self.folder().join(run).join("recordings/1-wire");
+        Dataset::open(&path).unwrap_or_else(|error| panic!("{error}"))
+    }
+
+    /// What is written of the results in the folder `run`.
+    pub fn results(&self, run: &str) -> PathBuf {
+        self.folder().join(run).join("results.json")
+    }
+}
+
+/// Runs a study to its end: how long it took.
+///
+/// # Errors
+/// What it said.
+pub fn finished(mut study: Command) -> Result<Duration, String> {
+    let began = Instant::now();
+    let output = study.stderr(Stdio::piped()).output();
+    let output = output.map_err(|error| error.to_string())?;
+    match output.status.success() {
+        true => Ok(began.elapsed()),
+        false => Err(String::from_utf8_lossy(&output.stderr).into_owned()),
+    }
+}
+
+/// A study that is under way, which is ended with this.
+#[derive(Debug)]
+pub struct UnderWay(Child);
+
+impl UnderWay {
+    /// Starts a study.
+    ///
+    /// # Panics
+    /// If the program does not start, which ends the test.
+    pub fn begin(mut study: Command) -> UnderWay {
+        let child = study.stderr(Stdio::piped()).spawn();
+        UnderWay(child.expect("the program was built"))
+    }
+
+    /// Whether it ended by itself, and whether well; `None` while it goes on.
+    ///
+    /// # Panics
+    /// If the system does not say, which ends the test.
+    pub fn ended(&mut self) -> Option<bool> {
+        let status = self.0.try_wait().expect("a child that was started here");
+        status.map(|status| status.success())
+    }
+
+    /// Kills it, as `kill -9` does.
+    ///
+    /// # Panics
+    /// If the system does not say that it ended, which ends the test.
+    pub fn kill(&mut self) {
+        // It may have ended by itself.
+        let _ = self.0.kill();
+        self.0.wait().expect("a child that was started here");
+    }
+
+    /// Waits until it ends: whether well, and what it said.
+    ///
+    /// # Panics
+    /// If it cannot be read, which ends the test.
+    pub fn end(&mut self) -> (bool, String) {
+        let mut said = String::new();
+        if let Some(mut errors) = self.0.stderr.take() {
+            std::io::Read::read_to_string(&mut errors, &mut said).expect("text");
+        }
+        let status = self.0.wait().expect("a child that was started here");
+        (status.success(), said)
+    }
+}
+
+impl Drop for UnderWay {
+    fn drop(&mut self) {
+        self.kill();
+    }
+}

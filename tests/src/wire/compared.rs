@@ -1,0 +1,110 @@
+//! How far a study over sockets is from the same study on the bench that is simulated in the program.
+
+use std::collections::BTreeMap;
+
+use serde_json::Value;
+use taceva_dataset::Dataset;
+
+use super::OnTheWire;
+
+/// The greatest differences between two recordings of the same presses, and between the scores of both.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Compared {
+    /// Samples of both.
+    pub samples: usize,
+    /// Of depths, in mm.
+    pub depth_mm: f64,
+    /// Of a component of the force, in N.
+    pub force_n: f64,
+    /// Of a sample of a picture, in steps of its 8 bits.
+    pub shade: u8,
+    /// Scores of both.
+    pub scores: usize,
+    /// Of scores, as a part: of the errors `mae` and `smape`; of `r2` and `skill`, of what they leave unexplained, 1 − the score.
+    pub score_part: f64,
+    /// Which score that was.
+    pub score: String,
+}
+
+/// Compares the run on the wire with the simulated one.
+///
+/// # Panics
+/// If a recording cannot be read or they are of different presses, which ends the test.
+pub fn compare(on: &OnTheWire, (one, other): (&str, &str)) -> Compared {
+    let mut compared = Compared::default();
+    let recordings = [one, other].map(|run| on.recording(run));
+    compared.labels(&recordings);
+    let scores = [one, other].map(|run| {
+        let text = std::fs::read(on.results(run)).expect("results");
+        scores(&serde_json::from_slice(&text).expect("JSON"))
+    });
+    compared.scores(&scores);
+    compared
+}
+
+/// The scores of the first study, by metric and channel.
+fn scores(results: &Value) -> BTreeMap<String, f64> {
+    let metrics = results["studies"][0]["metrics"].as_object();
+    let mut found = BTreeMap::new();
+    for (metric, channels) in metrics.expect("metrics") {
+        for (channel, score) in channels.as_object().expect("channels") {
+            if let Some(value) = score["value"].as_f64() {
+                found.insert(format!("{metric} {channel}"), value);
+            }
+        }
+    }
+    found
+}
+
+impl Compared {
+    fn labels(&mut self, recordings: &[Dataset; 2]) {
+        let [rows, others] = recordings.each_ref().map(|recording| {
+            let samples = recording.table().samples().iter().cloned();
+            samples.zip(0..).collect::<BTreeMap<String, usize>>()
+        });
+        assert!(rows.keys().eq(others.keys()), "they are of one plan");
+        self.samples = rows.len();
+        for (sample, row) in &rows {
+            let at = [*row, others[sample]];
+            let truth = |name: &str| {
+                [0, 1].map(|which: usize| {
+                    let table = recordings[which].table();
+                    let channels = table.channels();
+                    let position = channels.position(name).expect("it is measured");
+                    table.truth(position).get(at[which]).expect("a label")
+                })
+            };
+            let apart = |name: &str| {
+                let [one, other] = truth(name);
+                (one - other).abs()
+            };
+            self.depth_mm = self.depth_mm.max(apart("Pz"));
+            for name in ["Fx", "Fy", "Fz"] {
+                self.force_n = self.force_n.max(apart(name));
+            }
+            let [one, other] = [0, 1].map(|which: usize| {
+                let frame = recordings[which].frame(at[which]);
+                frame.expect("it is whole").expect("every sample has one")
+            });
+            assert_eq!(one.info(), other.info());
+            for (one, other) in one.bytes().iter().zip(other.bytes()) {
+                self.shade = self.shade.max(one.abs_diff(*other));
+            }
+        }
+    }
+
+    fn scores(&mut self, [one, other]: &[BTreeMap<String, f64>; 2]) {
+        assert!(one.keys().eq(other.keys()), "they are of one study");
+        self.scores = one.len();
+        for (name, score) in one {
+            let other = other[name];
+            let is_share = name.starts_with("r2") || name.starts_with("skill");
+            let whole = if is_share { 1.0 - score } else { *score };
+            let part = (score - other).abs() / whole.abs();
+            if part > self.score_part {
+                self.score_part = part;
+                self.score.clone_from(name);
+            }
+        }
+    }
+}

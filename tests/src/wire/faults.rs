@@ -1,0 +1,330 @@
+//! What a study on emulated devices does when something goes wrong, again and again.
+
+use std::collections::BTreeSet;
+use std::time::Duration;
+
+use taceva_dataset::Dataset;
+use taceva_wire::{ArmFault, BenchOptions, Device, Fault, FaultKind, ServeOptions};
+
+use super::{OnTheWire, RUN, UnderWay, scene_of};
+use crate::random::Random;
+
+/// Something that goes wrong.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Wrong {
+    /// A link, for so long.
+    Link(Device, FaultKind, Duration),
+    /// The arm itself, until a person mends it.
+    Arm(ArmFault),
+}
+
+/// What must come of it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Outcome {
+    /// Nothing: the study goes on.
+    Unharmed,
+    /// The arm is stopped within so many ms, and the study goes on by itself.
+    Stopped(u64),
+    /// The study may end, and goes on where somebody asks it to; where the arm must be stopped, within so many ms.
+    MayEnd(Option<u64>),
+    /// The study ends, and nothing moves any more.
+    Left,
+}
+
+/// A fault that is played.
+#[derive(Clone, Copy, Debug)]
+pub struct Case {
+    /// How it is called.
+    pub name: &'static str,
+    /// What goes wrong.
+    pub wrong: Wrong,
+    /// What must come of it.
+    pub outcome: Outcome,
+}
+
+/// A reading that is older is stale, in ms.
+const STALE_MS: u64 = 50;
+/// What the machine and the arm may take beyond, in ms.
+const SLACK_MS: u64 = 25;
+/// From a signal that froze to an arm that stands, in ms of motion.
+const FROZEN_MS: u64 = 100;
+
+const fn link(device: Device, kind: FaultKind, lasts_ms: u64) -> Wrong {
+    Wrong::Link(device, kind, Duration::from_millis(lasts_ms))
+}
+
+const fn case(name: &'static str, wrong: Wrong, outcome: Outcome) -> Case {
+    Case {
+        name,
+        wrong,
+        outcome,
+    }
+}
+
+/// Everything that is played.
+pub const CASES: [Case; 24] = {
+    use Device::{Camera, Force, Robot};
+    use FaultKind::{
+        Drop, Foreign, Frozen, Gap, Hostile, Late, Merged, NotANumber, Saturated, Silent, Split,
+    };
+    use Outcome::{Left, MayEnd, Stopped, Unharmed};
+    const SILENCE: Outcome = Stopped(STALE_MS + SLACK_MS);
+    const BROKEN: Outcome = MayEnd(Some(STALE_MS + SLACK_MS));
+    [
+        case("force drop", link(Force, Drop, 30), Unharmed),
+        case("force late", link(Force, Late, 150), SILENCE),
+        case("force silent", link(Force, Silent, 150), SILENCE),
+        case(
+            "force frozen",
+            link(Force, Frozen, 400),
+            MayEnd(Some(FROZEN_MS)),
+        ),
+        case("force nan", link(Force, NotANumber, 150), BROKEN),
+        case("force saturated", link(Force, Saturated, 150), BROKEN),
+        case("force gap", link(Force, Gap, 150), Unharmed),
+        case("force split", link(Force, Split, 150), Unharmed),
+        case("force merged", link(Force, Merged, 150), Unharmed),
+        case("force foreign", link(Force, Foreign, 150), MayEnd(None)),
+        case("force hostile", link(Force, Hostile, 150), MayEnd(None)),
+        case("robot drop", link(Robot, Drop, 30), Unharmed),
+        case("robot late", link(Robot, Late, 150), SILENCE),
+        case("robot silent", link(Robot, Silent, 150), SILENCE),
+        case("robot nan", link(Robot, NotANumber, 150), BROKEN),
+        case("robot split", link(Robot, Split, 150), Unharmed),
+        case("robot merged", link(Robot, Merged, 150), Unharmed),
+        case("robot foreign", link(Robot, Foreign, 150), MayEnd(None)),
+        case("robot hostile", link(Robot, Hostile, 150), MayEnd(None)),
+        case("camera drop", link(Camera, Drop, 150), Unharmed),
+        case("camera late", link(Camera, Late, 150), Unharmed),
+        case("camera hostile", link(Camera, Hostile, 150), MayEnd(None)),
+        case("emergency stop", Wrong::Arm(ArmFault::EmergencyStop), Left),
+        case("collision", Wrong::Arm(ArmFault::Collision), Left),
+    ]
+};
+
+/// What came of a fault that was played some times.
+#[derive(Clone, Debug, Default)]
+pub struct Tally {
+    /// How often it was played.
+    pub times: usize,
+    /// From the fault to the last motion before it was over, time at rest not counted, in ms: in order.
+    pub stopped_ms: Vec<f64>,
+    /// Studies that were begun.
+    pub studies: usize,
+    /// Times that one ended early and was gone on with.
+    pub ended: usize,
+    /// What must not have been.
+    pub broken: Vec<String>,
+}
+
+impl Tally {
+    /// The greatest time to a stop, in ms; 0 of none.
+    pub fn most_ms(&self) -> f64 {
+        self.stopped_ms.last().copied().unwrap_or_default()
+    }
+
+    /// The time to a stop that half of them needed at most, in ms; 0 of none.
+    pub fn median_ms(&self) -> f64 {
+        let middle = self.stopped_ms.len() / 2;
+        self.stopped_ms.get(middle).copied().unwrap_or_default()
+    }
+}
+
+/// Presses of a study that is played with so many times: a fault now and then is enough for a short one.
+fn presses_of(times: usize) -> usize {
+    times.clamp(3, 12)
+}
+
+/// A study that is gone on with so often makes no progress.
+const MOST_ENDS: usize = 60;
+/// How long an arm that must not move is looked at.
+const LOOKED_AT: Duration = Duration::from_millis(300);
+
+/// Presses that follow each other fast, so that much can go wrong in little time.
+fn scene(presses: usize) -> String {
+    let text = scene_of(presses);
+    let quick = "speed_mm_s = 5.0\nclearance_mm = 0.6\nsettle_s = 0.02\n";
+    let changed = text.replace("speed_mm_s = 2.0\n", quick);
+    assert!(changed != text, "the scene has a speed");
+    changed
+}
+
+/// Plays `case` so many times, at moments drawn from `seed`.
+///
+/// # Panics
+/// If the devices or the program cannot be started, which ends the test.
+pub fn play(case: &Case, times: usize, seed: u64) -> Tally {
+    let mut tally = Tally::default();
+    let mut random = Random::new(seed);
+    while tally.times < times && tally.broken.is_empty() {
+        let options = ServeOptions::over(BenchOptions::noisy(seed + tally.studies as u64));
+        let on = OnTheWire::new(&options, &scene(presses_of(times)));
+        tally.studies += 1;
+        tally.play_study(case, times, &on, &mut random);
+    }
+    tally.stopped_ms.sort_by(f64::total_cmp);
+    tally
+}
+
+impl Tally {
+    /// Plays with one study until it has every press, or is left where it is.
+    fn play_study(&mut self, case: &Case, times: usize, on: &OnTheWire, random: &mut Random) {
+        let mut ends = 0;
+        loop {
+            let mut study = UnderWay::begin(on.study());
+            let mut is_left = false;
+            while study.ended().is_none() {
+                // With the study's own time between two faults it is not broken off three times in one press.
+                let pause = match case.outcome {
+                    Outcome::Unharmed => Duration::from_millis(200),
+                    _ => Duration::from_millis(2_500),
+                };
+                let pause = pause + Duration::from_millis(random.below(500) as u64);
+                if self.times >= times || is_left || !wait_for_motion(on, &mut study, pause) {
+                    std::thread::sleep(Duration::from_millis(5));
+                    continue;
+                }
+                is_left = self.strike(case, on);
+            }
+            let (is_well, said) = study.end();
+            if is_left {
+                self.is_still(on, is_well);
+                return;
+            }
+            if is_well {
+                self.broken
+                    .extend(lacks(&on.recording(RUN), presses_of(times)));
+                return;
+            }
+            ends += 1;
+            self.ended += 1;
+            if !matches!(case.outcome, Outcome::MayEnd(_)) || ends == MOST_ENDS {
+                self.broken.push(format!("{}: {said}", case.name));
+                return;
+            }
+        }
+    }
+
+    /// Does it, and sees when the arm last moved before it was over; whether nothing may move from now on.
+    fn strike(&mut self, case: &Case, on: &OnTheWire) -> bool {
+        let bench = on.served.bench();
+        self.times += 1;
+        let (device, kind, lasts) = match case.wrong {
+            Wrong::Link(device, kind, lasts) => (device, kind, lasts),
+            Wrong::Arm(fault) => {
+                on.served.arm().suffer(fault);
+                return true;
+            }
+        };
+        let before = bench.truth();
+        bench.inject(Fault {
+            device,
+            kind,
+            lasts,
+        });
+        std::thread::sleep(lasts);
+        let after = bench.truth();
+        let most_ms = match case.outcome {
+            Outcome::Stopped(most_ms) | Outcome::MayEnd(Some(most_ms)) => most_ms,
+            _ => return false,
+        };
+        let stopped_ms = (after.in_motion - before.in_motion).as_secs_f64() * 1e3;
+        self.stopped_ms.push(stopped_ms);
+        #[expect(clippy::cast_precision_loss, reason = "some ms")]
+        if stopped_ms > most_ms as f64 {
+            self.broken.push(format!(
+                "{}: in motion for {stopped_ms:.1} ms, expected at most {most_ms} ms",
+                case.name
+            ));
+        }
+        false
+    }
+
+    /// Nothing moves any more: neither while the study ends, nor where somebody goes on with it.
+    fn is_still(&mut self, on: &OnTheWire, is_well: bool) {
+        let bench = on.served.bench();
+        if is_well {
+            self.broken.push("a study that went on".to_owned());
+        }
+        let stood = bench.truth().way_mm;
+        let (is_well, _) = UnderWay::begin(on.study()).end();
+        std::thread::sleep(LOOKED_AT);
+        let way_mm = bench.truth().way_mm - stood;
+        if is_well || way_mm > 0.0 {
+            self.broken
+                .push(format!("it moved by {way_mm} mm after a fault of the arm"));
+        }
+    }
+}
+
+/// Kills a study so many times, as `kill -9` does, each time after a time that is drawn from `seed`, and goes on with it: how many presses
+/// were recorded in the end, or what they lack.
+///
+/// # Errors
+/// What the recording lacks or has twice, or what the last study said.
+///
+/// # Panics
+/// If the devices or the program cannot be started, which ends the test.
+pub fn play_kills(times: usize, seed: u64) -> Result<usize, String> {
+    let mut random = Random::new(seed);
+    let options = ServeOptions::over(BenchOptions::noisy(seed));
+    let presses = presses_of(times);
+    let on = OnTheWire::new(&options, &scene(presses));
+    let mut kills = 0;
+    while kills < times {
+        let mut study = UnderWay::begin(on.study());
+        std::thread::sleep(Duration::from_millis(300 + random.below(5_000) as u64));
+        if study.ended() == Some(true) {
+            // It was faster: what is recorded is judged, and begun anew.
+            lacks(&on.recording(RUN), presses).map_or(Ok(()), Err)?;
+            let folder = on.folder().join(RUN);
+            std::fs::remove_dir_all(folder).map_err(|error| error.to_string())?;
+            continue;
+        }
+        study.kill();
+        kills += 1;
+    }
+    let (is_well, said) = UnderWay::begin(on.study()).end();
+    match (
+        is_well,
+        is_well
+            .then(|| lacks(&on.recording(RUN), presses))
+            .flatten(),
+    ) {
+        (false, _) => Err(said),
+        (true, Some(lack)) => Err(lack),
+        (true, None) => Ok(presses),
+    }
+}
+
+/// Waits for `pause`, then until the tip moves; `false` if the study ended first.
+fn wait_for_motion(on: &OnTheWire, study: &mut UnderWay, pause: Duration) -> bool {
+    std::thread::sleep(pause);
+    while !on.served.bench().truth().is_moving {
+        if study.ended().is_some() {
+            return false;
+        }
+        std::thread::sleep(Duration::from_micros(500));
+    }
+    study.ended().is_none()
+}
+
+/// What a recording lacks of so many presses, or has twice.
+fn lacks(recording: &Dataset, expected: usize) -> Option<String> {
+    let samples = recording.table().samples();
+    let presses: BTreeSet<&str> = samples
+        .iter()
+        .filter_map(|sample| sample.split_once('/'))
+        .map(|(press, _)| press)
+        .collect();
+    let different: BTreeSet<&String> = samples.iter().collect();
+    let is_whole = presses.len() == expected && different.len() == samples.len();
+    (!is_whole).then(|| {
+        format!(
+            "{} samples, {} of them different, of {} presses, expected {expected}",
+            samples.len(),
+            different.len(),
+            presses.len()
+        )
+    })
+}

@@ -1,0 +1,35 @@
+//! A study over real sockets is the one that is simulated in the program. `TACEVA_WIRE_PRESSES=60` makes it the whole scene.
+
+use taceva_tests::wire::{OnTheWire, RUN, compare, finished, scene_of};
+use taceva_wire::{BenchOptions, ServeOptions};
+
+const SEED: u64 = 7;
+/// Presses of the usual test, which takes a minute and a half.
+const FEW: usize = 10;
+const DEPTH_APART_MM: f64 = 5e-5;
+const FORCE_APART_N: f64 = 2e-3;
+const SCORES_APART: f64 = 1e-3;
+
+#[test]
+#[expect(clippy::print_stderr, reason = "the differences are the result")]
+fn a_study_over_sockets_is_the_one_that_is_simulated_in_the_program() {
+    let presses = std::env::var("TACEVA_WIRE_PRESSES");
+    let presses = presses.map_or(FEW, |count| count.parse().expect("a number of presses"));
+    let options = ServeOptions::over(BenchOptions::quiet(SEED));
+    let on = OnTheWire::new(&options, &scene_of(presses));
+    finished(on.simulated()).expect("it is simulated");
+    let before = on.served.bench().truth();
+    let took = finished(on.study()).expect("over sockets");
+    let moving = on.served.bench().truth().in_motion - before.in_motion;
+    let compared = compare(&on, ("simulated", RUN));
+    eprintln!(
+        "{presses} presses in {:.1} s, {:.1} s of them in motion: {compared:?}",
+        took.as_secs_f64(),
+        moving.as_secs_f64()
+    );
+    assert_eq!(compared.samples, 2 * presses);
+    assert!(compared.scores > 10);
+    assert!(compared.depth_mm <= DEPTH_APART_MM, "{compared:?}");
+    assert!(compared.force_n <= FORCE_APART_N, "{compared:?}");
+    assert!(compared.score_part <= SCORES_APART, "{compared:?}");
+}

@@ -1,0 +1,160 @@
+//! The sending end of a stream of messages, where faults of the link act.
+
+use std::io;
+use std::time::Duration;
+
+use crate::bench::WallBench;
+use crate::fault::{Device, FaultKind};
+
+/// The sending end of the link of one device.
+#[derive(Debug)]
+pub(crate) struct Link {
+    device: Device,
+    /// How a message of this protocol begins that never ends, or that nobody can hold.
+    hostile: &'static [u8],
+    held: Vec<u8>,
+    held_count: usize,
+}
+
+/// What somebody says who speaks another protocol.
+const FOREIGN: &[u8] = b"HTTP/1.1 400 Bad Request\r\nContent-Length: 0\r\n\r\n";
+/// So many messages come at once where they are merged.
+const MERGED: usize = 4;
+/// In so many pieces comes a message that is split, with a pause between two of them.
+const PIECES: usize = 5;
+const BETWEEN_PIECES: Duration = Duration::from_micros(200);
+
+impl Link {
+    /// The link of `device`; `hostile` is how a message begins whose length is absurd.
+    pub(crate) fn new(device: Device, hostile: &'static [u8]) -> Link {
+        Link {
+            device,
+            hostile,
+            held: Vec::new(),
+            held_count: 0,
+        }
+    }
+
+    /// Sends `message` by `write`, as the faults that are on have it.
+    ///
+    /// # Errors
+    /// That of `write`.
+    pub(crate) fn send(
+        &mut self,
+        bench: &WallBench,
+        message: &[u8],
+        mut write: impl FnMut(&[u8]) -> io::Result<()>,
+    ) -> io::Result<()> {
+        let is_on = |kind| bench.is_faulty(self.device, kind);
+        if bench.withholds(self.device) {
+            return Ok(());
+        }
+        for (kind, before) in [
+            (FaultKind::Foreign, FOREIGN),
+            (FaultKind::Hostile, self.hostile),
+        ] {
+            if is_on(kind) {
+                self.held.extend_from_slice(before);
+            }
+        }
+        let is_split = is_on(FaultKind::Split);
+        let is_merged = is_on(FaultKind::Merged);
+        self.held.extend_from_slice(message);
+        self.held_count += 1;
+        if is_on(FaultKind::Late) || (is_merged && self.held_count < MERGED) {
+            return Ok(());
+        }
+        let bytes = std::mem::take(&mut self.held);
+        self.held_count = 0;
+        if !is_split {
+            return write(&bytes);
+        }
+        for piece in bytes.chunks(bytes.len().div_ceil(PIECES)) {
+            write(piece)?;
+            std::thread::sleep(BETWEEN_PIECES);
+        }
+        Ok(())
+    }
+
+    /// Forgets what was held: nobody wants it any more.
+    pub(crate) fn forget(&mut self) {
+        self.held.clear();
+        self.held_count = 0;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::fault::Fault;
+    use crate::options::BenchOptions;
+
+    /// What is written of eight messages of ten bytes under `kind`, write by write.
+    fn written(kind: Option<FaultKind>) -> Vec<Vec<u8>> {
+        let bench = WallBench::start(&BenchOptions::quiet(1)).expect("a bench");
+        if let Some(kind) = kind {
+            bench.inject(Fault {
+                device: Device::Force,
+                kind,
+                lasts: Duration::from_secs(100),
+            });
+        }
+        let mut link = Link::new(Device::Force, b"\xff\xff");
+        let mut writes = Vec::new();
+        for number in 0..8_u8 {
+            let write = |bytes: &[u8]| {
+                writes.push(bytes.to_vec());
+                Ok(())
+            };
+            link.send(&bench, &[number; 10], write).expect("written");
+        }
+        writes
+    }
+
+    #[test]
+    fn messages_are_left_out_held_cut_joined_or_preceded_and_never_changed() {
+        let whole: Vec<u8> = (0..8).flat_map(|number| [number; 10]).collect();
+        let counts = |kind| {
+            let writes = written(kind);
+            (writes.len(), writes.concat() == whole)
+        };
+        assert_eq!(counts(None), (8, true));
+        assert_eq!(counts(Some(FaultKind::Split)), (40, true));
+        assert_eq!(counts(Some(FaultKind::Merged)), (2, true));
+        for kind in [FaultKind::Drop, FaultKind::Silent, FaultKind::Late] {
+            assert_eq!(counts(Some(kind)).0, 0, "{kind}");
+        }
+        for (kind, before) in [
+            (FaultKind::Hostile, &b"\xff\xff"[..]),
+            (FaultKind::Foreign, FOREIGN),
+        ] {
+            let writes = written(Some(kind));
+            assert_eq!(writes.len(), 8, "{kind}");
+            for (number, write) in (0..8).zip(&writes) {
+                let (found, message) = write.split_at(before.len());
+                assert_eq!((found, message), (before, &[number; 10][..]), "{kind}");
+            }
+        }
+    }
+
+    #[test]
+    fn what_a_late_link_held_comes_at_once() {
+        let bench = WallBench::start(&BenchOptions::quiet(1)).expect("a bench");
+        bench.inject(Fault {
+            device: Device::Force,
+            kind: FaultKind::Late,
+            lasts: Duration::from_millis(20),
+        });
+        let mut link = Link::new(Device::Force, b"");
+        let mut writes: Vec<Vec<u8>> = Vec::new();
+        for number in 0..3_u8 {
+            let mut write = |bytes: &[u8]| {
+                writes.push(bytes.to_vec());
+                Ok(())
+            };
+            link.send(&bench, &[number], &mut write).expect("held");
+            std::thread::sleep(Duration::from_millis(12));
+        }
+        assert_eq!(writes, [[0, 1, 2]]);
+    }
+}

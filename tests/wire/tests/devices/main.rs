@@ -1,0 +1,11 @@
+//! Every driver of a robot and of a force transducer against its emulated device, through sockets and a pseudo-terminal.
+
+#[cfg(unix)]
+mod grbl;
+#[cfg(unix)]
+mod marlin;
+mod netft;
+mod sri;
+mod support;
+mod ur;
+mod xarm;

@@ -1,0 +1,55 @@
+//! What tests of all devices share: how long they wait, motions, faults of links.
+
+use std::time::{Duration, Instant};
+
+use taceva_core::{Deadline, DriverError, Millimetre, Pose, Robot, Speed};
+use taceva_wire::{Device, Fault, FaultKind, WallBench};
+
+/// For a motion.
+pub(crate) const PATIENCE: Deadline = Deadline::after(Duration::from_secs(10));
+/// For a reading.
+pub(crate) const MOMENT: Deadline = Deadline::after(Duration::from_secs(2));
+
+pub(crate) fn speed(mm_per_s: f64) -> Speed {
+    Speed::try_new(mm_per_s).expect("above 0")
+}
+
+/// `pose`, lower by `mm` in the base frame.
+pub(crate) fn lower(pose: Pose, mm: f64) -> Pose {
+    let mut lower = pose;
+    lower.position.z = Millimetre(pose.position.z.0 - mm);
+    lower
+}
+
+/// Puts a fault on the link of `device`.
+pub(crate) fn inject(bench: &WallBench, device: Device, kind: FaultKind, lasts_ms: u64) {
+    bench.inject(Fault {
+        device,
+        kind,
+        lasts: Duration::from_millis(lasts_ms),
+    });
+}
+
+/// What a motion of 15 mm at 10 mm/s gives if `happens` once it goes on, and how long after that it gave it.
+pub(crate) fn moved(
+    bench: &WallBench,
+    mut arm: Box<dyn Robot>,
+    happens: impl FnOnce() + Send,
+) -> (DriverError, Duration) {
+    let (home, _) = arm.pose(PATIENCE).expect("a pose");
+    std::thread::scope(|scope| {
+        let happening = scope.spawn(move || {
+            while !bench.truth().is_moving {
+                std::thread::yield_now();
+            }
+            happens();
+            Instant::now()
+        });
+        let error = arm
+            .move_to(lower(home, 15.0), speed(10.0), PATIENCE)
+            .expect_err("broken off");
+        let returned = Instant::now();
+        let happened = happening.join().expect("it happened");
+        (error, returned.saturating_duration_since(happened))
+    })
+}

@@ -1,0 +1,196 @@
+//! `ur/rtde` against the emulated controller, through sockets.
+
+use std::net::Ipv4Addr;
+use std::time::Duration;
+
+use taceva_core::{ErrorKind, Factory, Rig, Robot};
+use taceva_drivers::UrFactory;
+use taceva_drivers::conformance::{self, Trial};
+use taceva_wire::ur::Emulator;
+use taceva_wire::{Arm, ArmFault, BenchOptions, Device, Fault, FaultKind, WallBench};
+
+use crate::support::{PATIENCE, lower, moved, speed};
+
+struct Setup {
+    bench: WallBench,
+    arm: Emulator,
+}
+
+fn setup() -> Setup {
+    let bench = WallBench::start(&BenchOptions::quiet(7)).expect("a bench");
+    let arm = Emulator::start(&bench, Ipv4Addr::LOCALHOST, [0, 0]).expect("an arm");
+    Setup { bench, arm }
+}
+
+impl Setup {
+    fn arguments(&self) -> String {
+        let selector = self.arm.selector();
+        let (_, arguments) = selector.split_once(':').expect("a driver and arguments");
+        arguments.to_owned()
+    }
+
+    fn open(&self) -> Box<dyn Robot> {
+        let factory = UrFactory::new().expect("a factory");
+        let args = factory.descriptor().args(&self.arguments()).expect("good");
+        factory.open(&args, &mut Rig::new()).expect("an arm")
+    }
+}
+
+#[test]
+fn the_suite_passes() {
+    let setup = setup();
+    let factory = UrFactory::new().expect("a factory");
+    let trial = Trial::with_arguments(setup.arguments());
+    let report = conformance::robot(&factory, &trial);
+    assert!(report.passed(), "{report}");
+}
+
+#[test]
+fn a_press_reaches_the_gel_where_the_driver_sent_it() {
+    let setup = setup();
+    let mut arm = setup.open();
+    let (home, _) = arm.pose(PATIENCE).expect("a pose");
+    assert!((home.position.z.0 - 271.3).abs() < 1e-6, "{home:?}");
+    assert!((home.rotation.x.0.abs() - 180.0).abs() < 1e-6, "{home:?}");
+    arm.move_to(lower(home, 20.6), speed(60.0), PATIENCE)
+        .expect("it arrives");
+    let truth = setup.bench.truth();
+    assert!((truth.tip_mm[2] - 0.6).abs() < 2e-6, "{truth:?}");
+    assert!(truth.force_n[2] > 0.1, "{truth:?}");
+}
+
+#[test]
+fn a_halt_stops_the_arm_at_once_and_no_program_begins_after_it() {
+    let setup = setup();
+    let mut arm = setup.open();
+    let (home, _) = arm.pose(PATIENCE).expect("a pose");
+    for _ in 0..20 {
+        let handle = arm.halt_handle();
+        let halting = std::thread::spawn(move || handle.halt());
+        let moved = arm.move_to(lower(home, 1.0), speed(5.0), PATIENCE);
+        halting.join().expect("halted").expect("it is sent");
+        let moved = match moved {
+            Ok(_) => arm.move_to(home, speed(5.0), PATIENCE),
+            halted => halted,
+        };
+        assert_eq!(moved.expect_err("halted").kind(), ErrorKind::Interrupted);
+        std::thread::sleep(Duration::from_millis(30));
+        assert!(!setup.bench.truth().is_moving);
+        arm.clear_halt(PATIENCE).expect("nothing else is wrong");
+        arm.move_to(home, speed(50.0), PATIENCE)
+            .expect("it arrives");
+    }
+}
+
+#[test]
+fn an_emergency_stop_is_a_fault_that_nobody_but_a_person_ends() {
+    let setup = setup();
+    let (error, took) = moved(&setup.bench, setup.open(), || {
+        setup.arm.suffer(ArmFault::EmergencyStop)
+    });
+    assert_eq!(error.kind(), ErrorKind::DeviceFault);
+    assert!(
+        error.to_string().contains("the emergency stop was pressed"),
+        "{error}"
+    );
+    assert_eq!(error.fault(), Some(taceva_core::Fault::EmergencyStop));
+    assert!(took < Duration::from_millis(700), "{took:?}");
+    let mut arm = setup.open();
+    let (at, _) = arm.pose(PATIENCE).expect("a pose");
+    let moved = arm.move_to(lower(at, 1.0), speed(5.0), PATIENCE);
+    assert_eq!(moved.expect_err("a fault").kind(), ErrorKind::DeviceFault);
+    let cleared = arm.clear_halt(PATIENCE);
+    assert_eq!(cleared.expect_err("a fault").kind(), ErrorKind::DeviceFault);
+    assert!(!setup.bench.truth().is_moving);
+}
+
+#[test]
+fn a_collision_is_a_protective_stop() {
+    let setup = setup();
+    let (error, _) = moved(&setup.bench, setup.open(), || {
+        setup.arm.suffer(ArmFault::Collision)
+    });
+    assert_eq!(error.kind(), ErrorKind::DeviceFault);
+    assert!(error.to_string().contains("a protective stop"), "{error}");
+    assert_eq!(error.fault(), Some(taceva_core::Fault::Collision));
+}
+
+#[test]
+fn states_that_stop_stop_the_arm() {
+    let setup = setup();
+    let silence = Fault {
+        device: Device::Robot,
+        kind: FaultKind::Silent,
+        lasts: Duration::from_secs(1),
+    };
+    let (error, _) = moved(&setup.bench, setup.open(), || setup.bench.inject(silence));
+    assert_eq!(error.kind(), ErrorKind::Timeout, "{error}");
+    assert!(!setup.bench.truth().is_moving);
+}
+
+#[test]
+fn a_pose_that_is_no_number_is_a_fault() {
+    let setup = setup();
+    let mut arm = setup.open();
+    setup.bench.inject(Fault {
+        device: Device::Robot,
+        kind: FaultKind::NotANumber,
+        lasts: Duration::from_secs(2),
+    });
+    let fault = (0..100).find_map(|_| {
+        std::thread::sleep(Duration::from_millis(10));
+        arm.pose(PATIENCE).err()
+    });
+    assert_eq!(fault.expect("no number").kind(), ErrorKind::DeviceFault);
+}
+
+#[test]
+fn an_arm_that_goes_away_is_disconnected() {
+    let setup = setup();
+    let mut arm = setup.open();
+    drop(setup);
+    let posed = (0..100).find_map(|_| {
+        std::thread::sleep(Duration::from_millis(20));
+        arm.pose(PATIENCE).err()
+    });
+    assert_eq!(posed.expect("gone").kind(), ErrorKind::Disconnected);
+    let handle = arm.halt_handle();
+    let halted = (0..100).find_map(|_| {
+        std::thread::sleep(Duration::from_millis(20));
+        handle.halt().err()
+    });
+    assert_eq!(halted.expect("gone").kind(), ErrorKind::Disconnected);
+}
+
+#[test]
+fn another_thread_sees_the_arm_move_and_its_faults() {
+    let setup = setup();
+    let mut arm = setup.open();
+    let watch = arm.watch_handle().expect("an arm that reports");
+    let (home, _) = arm.pose(PATIENCE).expect("a pose");
+    let seen = std::thread::scope(|scope| {
+        let moving = scope.spawn(|| arm.move_to(lower(home, 10.0), speed(20.0), PATIENCE));
+        let mut seen = Vec::new();
+        while !moving.is_finished() {
+            let (pose, stamp) = watch.pose(PATIENCE).expect("a state");
+            seen.push((stamp.valid_s, pose.position.z.0));
+        }
+        moving.join().expect("no panic").expect("it arrives");
+        seen
+    });
+    assert!(seen.is_sorted_by(|one, other| one.0 < other.0), "{seen:?}");
+    let between =
+        |(_, z): &&(f64, f64)| *z < home.position.z.0 - 1.0 && *z > home.position.z.0 - 9.0;
+    assert!(seen.iter().filter(between).count() >= 5, "{seen:?}");
+    setup.arm.suffer(ArmFault::Collision);
+    let found = std::iter::repeat_with(|| watch.pose(PATIENCE)).find_map(Result::err);
+    let found = found.expect("the fault is reported");
+    assert_eq!(
+        found.fault(),
+        Some(taceva_core::Fault::Collision),
+        "{found}"
+    );
+    drop(arm);
+    let gone = watch.pose(PATIENCE).expect_err("the arm is gone");
+    assert_eq!(gone.kind(), ErrorKind::Disconnected);
+}

@@ -1,0 +1,185 @@
+//! Controllers that fail, and links that do.
+
+use std::io::{Read, Write};
+use std::net::{TcpListener, TcpStream};
+use std::time::{Duration, Instant};
+
+use taceva_core::{DriverError, ErrorKind, Factory, Pose, Rig};
+use taceva_drivers::XarmFactory;
+use taceva_wire::xarm::Ports;
+use taceva_wire::{Arm, ArmFault, Device, Fault, FaultKind};
+
+use super::setup::{Setup, setup};
+use crate::support::{PATIENCE, lower, moved, speed};
+
+#[test]
+fn an_emergency_stop_is_a_fault_that_nobody_but_a_person_ends() {
+    let setup = setup(Ports::ANY);
+    let (error, took) = moved(&setup.bench, setup.open(), || {
+        setup.arm.suffer(ArmFault::EmergencyStop)
+    });
+    assert_eq!(error.kind(), ErrorKind::DeviceFault);
+    assert!(
+        error
+            .to_string()
+            .contains("error 2: the emergency stop was pressed"),
+        "{error}"
+    );
+    assert_eq!(error.fault(), Some(taceva_core::Fault::EmergencyStop));
+    assert!(took < Duration::from_millis(100), "{took:?}");
+    let stood = setup.bench.truth().tip_mm;
+    let mut arm = setup.open();
+    let (at, _) = arm.pose(PATIENCE).expect("a pose");
+    for _ in 0..2 {
+        let moved = arm.move_to(lower(at, 1.0), speed(5.0), PATIENCE);
+        assert_eq!(moved.expect_err("a fault").kind(), ErrorKind::DeviceFault);
+        let cleared = arm.clear_halt(PATIENCE);
+        assert_eq!(cleared.expect_err("a fault").kind(), ErrorKind::DeviceFault);
+    }
+    let bits = |tip_mm: [f64; 3]| tip_mm.map(f64::to_bits);
+    let now = setup.bench.truth().tip_mm;
+    assert_eq!(bits(now), bits(stood), "nothing moved after it");
+}
+
+#[test]
+fn a_collision_is_a_fault_that_is_named() {
+    let setup = setup(Ports::ANY);
+    let (error, _) = moved(&setup.bench, setup.open(), || {
+        setup.arm.suffer(ArmFault::Collision)
+    });
+    assert_eq!(error.kind(), ErrorKind::DeviceFault);
+    assert!(
+        error.to_string().contains("error 31: a collision"),
+        "{error}"
+    );
+}
+
+#[test]
+fn reports_that_stop_stop_the_arm() {
+    let setup = setup(Ports::ANY);
+    let silence = Fault {
+        device: Device::Robot,
+        kind: FaultKind::Silent,
+        lasts: Duration::from_secs(1),
+    };
+    let (error, took) = moved(&setup.bench, setup.open(), || setup.bench.inject(silence));
+    assert_eq!(error.kind(), ErrorKind::Timeout, "{error}");
+    // A quarter of a second without a report, 40 ms for an answer that does not come, and looking whether it stands.
+    assert!(took < Duration::from_millis(1_200), "{took:?}");
+    assert!(!setup.bench.truth().is_moving);
+}
+
+#[test]
+fn a_pose_that_is_no_number_is_a_fault_and_ends_no_motion_as_arrived() {
+    let setup = setup(Ports::ANY);
+    let mut arm = setup.open();
+    arm.pose(PATIENCE).expect("a pose");
+    setup.bench.inject(Fault {
+        device: Device::Robot,
+        kind: FaultKind::NotANumber,
+        lasts: Duration::from_millis(300),
+    });
+    let until = Instant::now() + Duration::from_millis(250);
+    let mut faults = 0;
+    while Instant::now() < until {
+        if let Err(error) = arm.pose(PATIENCE) {
+            assert_eq!(error.kind(), ErrorKind::DeviceFault);
+            assert!(error.to_string().contains("`z` is NaN"), "{error}");
+            faults += 1;
+        }
+    }
+    assert!(faults > 0);
+}
+
+#[test]
+fn an_arm_that_goes_away_is_disconnected() {
+    let Setup { bench, arm } = setup(Ports::ANY);
+    let mut robot = Setup {
+        bench: bench.clone(),
+        arm,
+    }
+    .open();
+    let moved = robot.move_to(Pose::default(), speed(5.0), PATIENCE);
+    assert_eq!(moved.expect_err("outside").kind(), ErrorKind::OutOfRange);
+    // The emulator was dropped: its ports are closed.
+    let posed = (0..100).find_map(|_| {
+        std::thread::sleep(Duration::from_millis(20));
+        robot.pose(PATIENCE).err()
+    });
+    assert_eq!(posed.expect("gone").kind(), ErrorKind::Disconnected);
+    let handle = robot.halt_handle();
+    // The last client of the emulator is let go within a moment; until then a stop still arrives.
+    let halted = (0..100).find_map(|_| {
+        std::thread::sleep(Duration::from_millis(20));
+        handle.halt().err()
+    });
+    assert_eq!(halted.expect("gone").kind(), ErrorKind::Disconnected);
+    drop(robot);
+    assert!(handle.halt().is_ok(), "there is nothing left to stop");
+}
+
+/// What opening gives where `answer` is said to every client, whatever it asks.
+fn opened_against(answer: &'static [u8]) -> DriverError {
+    let listener = TcpListener::bind("127.0.0.1:0").expect("a port");
+    let port = listener.local_addr().expect("bound").port();
+    std::thread::spawn(move || {
+        let serve = |mut stream: TcpStream| {
+            let mut question = [0; 64];
+            let _ = stream.read(&mut question);
+            let _ = stream.write_all(answer);
+            let _ = stream.read(&mut question);
+        };
+        listener.incoming().flatten().for_each(serve);
+    });
+    let factory = XarmFactory::new().expect("a factory");
+    let arguments = format!("host=127.0.0.1;port={port};pose_port=1;status_port=1");
+    let args = factory.descriptor().args(&arguments).expect("good");
+    match factory.open(&args, &mut Rig::new()) {
+        Ok(_) => panic!("opened against {answer:?}"),
+        Err(error) => error,
+    }
+}
+
+#[test]
+fn whoever_is_no_controller_is_refused_by_what_it_said() {
+    for (answer, kind, words) in [
+        (
+            &b"HTTP/1.1 400 Bad Request\r\n\r\n"[..],
+            ErrorKind::Protocol,
+            "protocol 0x5450",
+        ),
+        (
+            b"\x00\x01\x00\x02\xff\xff\x01\x00",
+            ErrorKind::Protocol,
+            "65535 bytes",
+        ),
+        (
+            b"\x00\x01\x00\x02\x00\x08\x01\x00hello\x1b",
+            ErrorKind::Protocol,
+            "hello\\u{1b}",
+        ),
+        (b"", ErrorKind::Timeout, "the question for its version"),
+        (
+            b"\x00\x09\x00\x02\x00\x02\x01\x00",
+            ErrorKind::Timeout,
+            "no answer",
+        ),
+    ] {
+        let error = opened_against(answer);
+        assert_eq!(error.kind(), kind, "{error}");
+        assert!(error.to_string().contains(words), "{error}");
+    }
+}
+
+#[test]
+fn a_port_where_nobody_listens_is_not_found() {
+    let factory = XarmFactory::new().expect("a factory");
+    let args = factory
+        .descriptor()
+        .args("host=127.0.0.1;port=1")
+        .expect("good");
+    let Err(error) = factory.open(&args, &mut Rig::new()) else {
+        panic!("opened nothing")
+    };
+    assert_eq!(error.kind(), ErrorKind::NotFound);
+}

@@ -1,5 +1,0 @@
-//! `ufactory/xarm` against the emulated control box, through sockets.
-
-mod contract;
-mod faults;
-mod support;
