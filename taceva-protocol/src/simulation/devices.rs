@@ -32,7 +32,8 @@ impl Halt for SimulatedHalt {
     fn halt(&self) -> Result<(), DriverError> {
         let mut world = self.0.world();
         world.link();
-        if world.sabotage == Sabotage::SlowHalt {
+        // One that is halted already stands: a guard that halts again and again costs it no time.
+        if world.sabotage == Sabotage::SlowHalt && !world.halted {
             world.pass(0.06);
         }
         world.halted = true;
