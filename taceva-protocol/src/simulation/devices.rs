@@ -259,10 +259,7 @@ impl Sensor for SimulatedSensor {
     ) -> Result<Stamp, DriverError> {
         self.0.survive();
         self.0.look_on();
-        let (wait_s, exposed) = self
-            .0
-            .world()
-            .expose(deadline.remaining().as_secs_f64());
+        let (wait_s, exposed) = self.0.world().expose(deadline.remaining().as_secs_f64());
         self.0.elapse(wait_s);
         let mut world = self.0.world();
         let valid_s = exposed

@@ -37,7 +37,8 @@ pub enum Style {
 /// What stands between two parts.
 const BOUNDARY: &str = "taceva-frame";
 /// A part that is longer than any memory.
-const HOSTILE: &[u8] = b"--taceva-frame\r\nContent-type: image/jpeg\r\nContent-length: 18446744073709551615\r\n\r\n";
+const HOSTILE: &[u8] =
+    b"--taceva-frame\r\nContent-type: image/jpeg\r\nContent-length: 18446744073709551615\r\n\r\n";
 /// What the JPEG loses: little.
 const QUALITY: u8 = 95;
 /// A longer request is none.

@@ -157,7 +157,10 @@ fn stream_readings(session: &Session, bench: &WallBench, over: &End) {
             values[2] = -bench.force_range_n();
         }
         let frame = frame(number, values);
-        if link.send(bench, &frame, |bytes| session.send(bytes)).is_err() {
+        if link
+            .send(bench, &frame, |bytes| session.send(bytes))
+            .is_err()
+        {
             return;
         }
     }

@@ -2,7 +2,7 @@
 
 use std::time::{Duration, Instant};
 
-use taceva_core::{Deadline, DriverError, ErrorKind, Factory, Millimetre, Pose, Rig, Robot, Speed};
+use taceva_core::{DriverError, ErrorKind, Factory, Rig, Robot};
 use taceva_drivers::GrblFactory;
 use taceva_drivers::conformance::{self, Trial};
 use taceva_wire::grbl::Emulator;

@@ -4,9 +4,7 @@ use std::io::{Read, Write};
 use std::net::{Ipv4Addr, TcpListener};
 use std::time::{Duration, Instant};
 
-use taceva_core::{
-    Deadline, DriverError, ErrorKind, Factory, ForceTransducer, Millimetre, Rig,
-};
+use taceva_core::{Deadline, DriverError, ErrorKind, Factory, ForceTransducer, Millimetre, Rig};
 use taceva_drivers::conformance::{self, Trial};
 use taceva_drivers::{M8128Factory, XarmFactory};
 use taceva_wire::sri::Emulator;
@@ -103,7 +101,9 @@ fn a_press_is_felt_in_the_axes_of_the_transducer_and_zero_is_taken_off() {
     tare(&mut transducer);
     let mut pressed = robot.pose(MOMENT).expect("a pose").0;
     pressed.position.z = Millimetre(250.8);
-    robot.move_to(pressed, speed(100.0), MOMENT).expect("it arrives");
+    robot
+        .move_to(pressed, speed(100.0), MOMENT)
+        .expect("it arrives");
     // The first is the newest that came, which may be of the last moment of the motion; its stamp says so.
     transducer.read(MOMENT).expect("a reading");
     transducer.read(MOMENT).expect("a reading");

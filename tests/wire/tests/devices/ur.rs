@@ -1,9 +1,9 @@
 //! `ur/rtde` against the emulated controller, through sockets.
 
 use std::net::Ipv4Addr;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
-use taceva_core::{Deadline, DriverError, ErrorKind, Factory, Millimetre, Pose, Rig, Robot, Speed};
+use taceva_core::{ErrorKind, Factory, Rig, Robot};
 use taceva_drivers::UrFactory;
 use taceva_drivers::conformance::{self, Trial};
 use taceva_wire::ur::Emulator;
@@ -85,7 +85,9 @@ fn a_halt_stops_the_arm_at_once_and_no_program_begins_after_it() {
 #[test]
 fn an_emergency_stop_is_a_fault_that_nobody_but_a_person_ends() {
     let setup = setup();
-    let (error, took) = moved(&setup.bench, setup.open(), || setup.arm.suffer(ArmFault::EmergencyStop));
+    let (error, took) = moved(&setup.bench, setup.open(), || {
+        setup.arm.suffer(ArmFault::EmergencyStop)
+    });
     assert_eq!(error.kind(), ErrorKind::DeviceFault);
     assert!(
         error.to_string().contains("the emergency stop was pressed"),
@@ -105,7 +107,9 @@ fn an_emergency_stop_is_a_fault_that_nobody_but_a_person_ends() {
 #[test]
 fn a_collision_is_a_protective_stop() {
     let setup = setup();
-    let (error, _) = moved(&setup.bench, setup.open(), || setup.arm.suffer(ArmFault::Collision));
+    let (error, _) = moved(&setup.bench, setup.open(), || {
+        setup.arm.suffer(ArmFault::Collision)
+    });
     assert_eq!(error.kind(), ErrorKind::DeviceFault);
     assert!(error.to_string().contains("a protective stop"), "{error}");
     assert_eq!(error.fault(), Some(taceva_core::Fault::Collision));

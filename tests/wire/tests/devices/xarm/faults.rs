@@ -15,7 +15,9 @@ use crate::support::{PATIENCE, lower, moved, speed};
 #[test]
 fn an_emergency_stop_is_a_fault_that_nobody_but_a_person_ends() {
     let setup = setup(Ports::ANY);
-    let (error, took) = moved(&setup.bench, setup.open(), || setup.arm.suffer(ArmFault::EmergencyStop));
+    let (error, took) = moved(&setup.bench, setup.open(), || {
+        setup.arm.suffer(ArmFault::EmergencyStop)
+    });
     assert_eq!(error.kind(), ErrorKind::DeviceFault);
     assert!(
         error
@@ -42,7 +44,9 @@ fn an_emergency_stop_is_a_fault_that_nobody_but_a_person_ends() {
 #[test]
 fn a_collision_is_a_fault_that_is_named() {
     let setup = setup(Ports::ANY);
-    let (error, _) = moved(&setup.bench, setup.open(), || setup.arm.suffer(ArmFault::Collision));
+    let (error, _) = moved(&setup.bench, setup.open(), || {
+        setup.arm.suffer(ArmFault::Collision)
+    });
     assert_eq!(error.kind(), ErrorKind::DeviceFault);
     assert!(
         error.to_string().contains("error 31: a collision"),
